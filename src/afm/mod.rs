@@ -1,0 +1,1 @@
+//! Critical pushing force of a nanoparticle.
