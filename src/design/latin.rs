@@ -1,0 +1,136 @@
+//! Latin hypercube points, addressed by index: the permutations are computed, not stored.
+
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::random::RandomPoints;
+
+/// A Latin hypercube of `n` points: in every dimension each of the `n` cells of width 1/n holds exactly one point, at
+/// a random place in its cell (McKay, Beckman and Conover 1979, Technometrics 21, 239-245).
+#[derive(Debug, Clone)]
+pub struct LatinHypercube {
+    n: u64,
+    permutations: Vec<Permutation>,
+    jitter: RandomPoints,
+}
+
+impl LatinHypercube {
+    /// The hypercube of `replicate` under `seed`.
+    pub fn new(dimensions: usize, n: u64, seed: u64, replicate: u64) -> Self {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        // The upper half of the streams, so that permutations and jitter share no number.
+        rng.set_stream(replicate | 1 << 63);
+        let permutations = (0..dimensions).map(|_| Permutation::random(n, &mut rng)).collect();
+        Self { n, permutations, jitter: RandomPoints::new(dimensions, seed, replicate) }
+    }
+
+    /// The rows `first`, `first + 1`, ... (below `n`) into `columns` (one slice per dimension), in (0, 1).
+    pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
+        const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
+        self.jitter.fill(first, columns);
+        for (column, permutation) in columns.iter_mut().zip(&self.permutations) {
+            for (u, row) in column.iter_mut().zip(first..) {
+                // With very many cells the sum rounds up to n in the last one: the point must stay below 1.
+                *u = ((permutation.of(row) as f64 + *u) / self.n as f64).min(BELOW_ONE);
+            }
+        }
+    }
+}
+
+/// A pseudo-random permutation of 0 .. n: a Feistel network on the next even power of two, walked until it lands
+/// below n (Black and Rogaway 2002, "Ciphers with arbitrary finite domains": fewer than four steps on average).
+#[derive(Debug, Clone)]
+struct Permutation {
+    n: u64,
+    half_bits: u32,
+    keys: [u64; ROUNDS],
+}
+
+/// Four rounds make a Feistel network of random functions indistinguishable from a random permutation (Luby and
+/// Rackoff 1988); six leave room for the round function being a hash.
+const ROUNDS: usize = 6;
+
+impl Permutation {
+    fn random(n: u64, rng: &mut impl Rng) -> Self {
+        let bits = u64::BITS - n.saturating_sub(1).leading_zeros();
+        Self { n, half_bits: bits.div_ceil(2).max(1), keys: std::array::from_fn(|_| rng.next_u64()) }
+    }
+
+    fn of(&self, row: u64) -> u64 {
+        debug_assert!(row < self.n);
+        let mut value = self.step(row);
+        while value >= self.n {
+            value = self.step(value);
+        }
+        value
+    }
+
+    fn step(&self, value: u64) -> u64 {
+        let mask = (1 << self.half_bits) - 1;
+        let (mut left, mut right) = (value >> self.half_bits, value & mask);
+        for key in self.keys {
+            (left, right) = (right, left ^ (mix(right ^ key) & mask));
+        }
+        left << self.half_bits | right
+    }
+}
+
+/// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): every input bit reaches every output bit.
+fn mix(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_cell_holds_one_point_for_any_n() {
+        for n in [1, 2, 3, 7, 16, 1000, 1025] {
+            let mut columns = vec![vec![0.0; n]; 3];
+            let points = LatinHypercube::new(3, n as u64, 4, 1);
+            points.fill(0, &mut columns);
+            for column in &columns {
+                let mut cells: Vec<usize> = column.iter().map(|u| (u * n as f64) as usize).collect();
+                cells.sort_unstable();
+                assert_eq!(cells, (0..n).collect::<Vec<_>>());
+            }
+        }
+    }
+
+    #[test]
+    fn blocks_are_parts_of_the_whole() {
+        let points = LatinHypercube::new(2, 500, 4, 1);
+        let (mut whole, mut part) = (vec![vec![0.0; 500]; 2], vec![vec![0.0; 50]; 2]);
+        points.fill(0, &mut whole);
+        points.fill(123, &mut part);
+        assert_eq!(part[1][..], whole[1][123..173]);
+    }
+
+    #[test]
+    fn dimensions_are_uncorrelated() {
+        // The standard error of a correlation of n independent pairs is n^-1/2; five of them are never exceeded by
+        // chance in 45 pairs.
+        let n = 4096;
+        let mut columns = vec![vec![0.0; n]; 10];
+        LatinHypercube::new(10, n as u64, 0, 0).fill(0, &mut columns);
+        for i in 0..10 {
+            for j in 0..i {
+                let covariance: f64 =
+                    columns[i].iter().zip(&columns[j]).map(|(x, y)| (x - 0.5) * (y - 0.5)).sum::<f64>() / n as f64;
+                assert!((covariance * 12.0).abs() < 5.0 / (n as f64).sqrt());
+            }
+        }
+    }
+
+    #[test]
+    fn the_last_cell_of_the_largest_hypercube_stays_below_one() {
+        let points = LatinHypercube::new(1, 1 << 32, 0, 0);
+        let row = (0..).find(|&row| points.permutations[0].of(row) > (1 << 32) - (1 << 20)).unwrap_or(0);
+        let mut columns = vec![vec![0.0; 1]];
+        points.fill(row, &mut columns);
+        assert!(columns[0][0] < 1.0);
+    }
+}

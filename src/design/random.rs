@@ -1,0 +1,66 @@
+//! Plain random points, addressed by index.
+
+use rand::distr::{Distribution, Open01};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+/// Independent uniform points: one ChaCha stream per replicate, entered at any row.
+#[derive(Debug, Clone)]
+pub struct RandomPoints {
+    stream: ChaCha8Rng,
+    dimensions: usize,
+}
+
+/// A draw from [`Open01`] takes one `u64`, which is two words of the stream.
+const WORDS_PER_DRAW: u128 = 2;
+
+impl RandomPoints {
+    /// The stream of `replicate` under `seed`, for rows of `dimensions` coordinates.
+    pub fn new(dimensions: usize, seed: u64, replicate: u64) -> Self {
+        let mut stream = ChaCha8Rng::seed_from_u64(seed);
+        stream.set_stream(replicate);
+        Self { stream, dimensions }
+    }
+
+    /// The rows `first`, `first + 1`, ... into `columns` (one slice per dimension, all of one length), in (0, 1).
+    pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
+        let mut rng = self.stream.clone();
+        rng.set_word_pos(u128::from(first) * self.dimensions as u128 * WORDS_PER_DRAW);
+        let rows = columns.first().map_or(0, Vec::len);
+        for row in 0..rows {
+            for column in columns.iter_mut() {
+                column[row] = Open01.sample(&mut rng);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_row_is_the_row_of_the_whole_stream() {
+        let points = RandomPoints::new(3, 9, 2);
+        let mut whole = vec![vec![0.0; 100]; 3];
+        points.fill(0, &mut whole);
+        for first in [0, 1, 37, 99] {
+            let mut one = vec![vec![0.0; 1]; 3];
+            points.fill(first, &mut one);
+            for (column, expected) in one.iter().zip(&whole) {
+                assert_eq!(column[0], expected[first as usize]);
+            }
+        }
+    }
+
+    #[test]
+    fn replicates_and_seeds_differ() {
+        let first = |seed, replicate| {
+            let mut columns = vec![vec![0.0; 1]; 1];
+            RandomPoints::new(1, seed, replicate).fill(0, &mut columns);
+            columns[0][0]
+        };
+        assert_ne!(first(0, 0), first(0, 1));
+        assert_ne!(first(0, 0), first(1, 0));
+    }
+}

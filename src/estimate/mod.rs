@@ -1,0 +1,141 @@
+//! Sobol' indices from centred sums.
+//!
+//! [`Moments`] accumulate during the run; [`Indices::of`] reads them once it is over. Indices are what the formulas
+//! give, never clamped: a first-order index of -0.001 says that 0 is within its error.
+
+mod moments;
+
+use thiserror::Error;
+
+pub use moments::{BlockOutputs, Moments};
+
+/// Why an output has no indices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum Undefined {
+    /// Every base point lost at least one of its runs.
+    #[error("fewer than two base points have all of their runs: there is nothing to estimate from")]
+    NoRuns,
+    /// The output does not vary.
+    #[error("the output has zero variance over the sample: no factor changes it, and indices are undefined")]
+    ZeroVariance,
+    /// The variance is too large or too small for a double.
+    #[error("the variance of the output over- or underflows double precision: give the output in another unit")]
+    Unrepresentable,
+}
+
+/// Indices of one output: entry j of each list belongs to swap j of the design.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Indices {
+    /// Closed first-order index of the swapped columns: the first-order index if it is one factor.
+    pub first_order: Vec<f64>,
+    /// Total index of the swapped columns.
+    pub total: Vec<f64>,
+    /// First-order index by Janon and Monod's formula, to check the first list.
+    pub check: Vec<f64>,
+}
+
+impl Indices {
+    /// The default estimators on `moments`: Saltelli et al. 2010 (b), centred, and Jansen 1999, both over the pooled
+    /// variance of A and B.
+    ///
+    /// # Errors
+    /// [`Undefined`] if there are fewer than two base points or the output has no usable variance.
+    pub fn of(moments: &Moments) -> Result<Self, Undefined> {
+        if moments.count() < 2 {
+            return Err(Undefined::NoRuns);
+        }
+        let variance = usable_variance(moments)?;
+        let each = |estimate: &dyn Fn(usize) -> f64| (0..moments.swaps()).map(estimate).collect();
+        Ok(Self {
+            first_order: each(&|j| moments.first_order(j) / variance),
+            total: each(&|j| moments.total(j) / variance),
+            check: each(&|j| moments.janon_monod(j)),
+        })
+    }
+}
+
+/// The variance, unless it is zero to the rounding of the outputs themselves, or not a normal number.
+fn usable_variance(moments: &Moments) -> Result<f64, Undefined> {
+    let variance = moments.variance();
+    if !variance.is_finite() {
+        return Err(Undefined::Unrepresentable);
+    }
+    // A spread of a few units in the last place of the mean is rounding, not variation. This is relative: an output of
+    // 1e-30 with a spread of 1e-31 passes like one of 1 with a spread of 0.1.
+    let rounding = 4.0 * f64::EPSILON * moments.mean().abs();
+    if variance == 0.0 && rounding < f64::MIN_POSITIVE.sqrt() && moments.mean() != 0.0 {
+        return Err(Undefined::Unrepresentable);
+    }
+    if variance <= rounding * rounding {
+        return Err(Undefined::ZeroVariance);
+    }
+    if !variance.is_normal() {
+        return Err(Undefined::Unrepresentable);
+    }
+    Ok(variance)
+}
+
+/// Shares in percent, 100 x_i / sum x: how indices become the papers' percentages. `None` if the sum is not positive,
+/// when a share of it has no meaning.
+///
+/// ```
+/// use apportion::estimate::shares;
+/// assert_eq!(shares(&[0.3, 0.1]), Some(vec![75.0, 25.0]));
+/// assert_eq!(shares(&[0.0, 0.0]), None);
+/// ```
+pub fn shares(indices: &[f64]) -> Option<Vec<f64>> {
+    let sum: f64 = indices.iter().sum();
+    (sum > 0.0).then(|| indices.iter().map(|x| 100.0 * x / sum).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn indices(a: &[f64], b: &[f64], swapped: &[f64]) -> Result<Indices, Undefined> {
+        Indices::of(&Moments::of_block(BlockOutputs { a, b, swapped: &[swapped] }, &mut Vec::new()))
+    }
+
+    #[test]
+    fn a_factor_that_carries_everything_has_index_one() {
+        // Every value of A meets every value of B, so the sample is a full factorial and the identities are exact.
+        let (mut a, mut b) = (vec![], vec![]);
+        for i in 0..8 {
+            for j in 0..8 {
+                a.push(f64::from(i));
+                b.push(f64::from(j));
+            }
+        }
+        let got = indices(&a, &b, &b).unwrap();
+        assert!((got.first_order[0] - 1.0).abs() < 1e-14);
+        assert!((got.total[0] - 1.0).abs() < 1e-14);
+        assert!((got.check[0] - 1.0).abs() < 1e-14);
+        let inert = indices(&a, &b, &a).unwrap();
+        assert_eq!((inert.first_order[0], inert.total[0]), (0.0, 0.0));
+    }
+
+    #[test]
+    fn constant_outputs_have_a_name_at_any_size() {
+        for value in [0.0, 0.1, 1e300, 1.0 / 3.0] {
+            let y = vec![value; 100];
+            assert_eq!(indices(&y, &y, &y), Err(Undefined::ZeroVariance), "{value}");
+        }
+    }
+
+    #[test]
+    fn too_few_points_have_a_name() {
+        assert_eq!(indices(&[], &[], &[]), Err(Undefined::NoRuns));
+        assert_eq!(indices(&[1.0], &[2.0], &[3.0]), Err(Undefined::NoRuns));
+    }
+
+    #[test]
+    fn variances_beyond_double_precision_have_a_name() {
+        let y: Vec<f64> = (1..100).map(f64::from).collect();
+        let scaled = |scale: f64| y.iter().map(|y| y * scale).collect::<Vec<_>>();
+        for scale in [1e-170, 1e-200, 1e200] {
+            let y = scaled(scale);
+            assert_eq!(indices(&y, &y, &y), Err(Undefined::Unrepresentable), "{scale}");
+        }
+        assert!(indices(&scaled(1e-100), &scaled(1e-100), &scaled(1e-100)).is_ok());
+    }
+}

@@ -1,0 +1,142 @@
+//! The outputs of a block of rows, with the failures and validity flags among them.
+
+use thiserror::Error;
+
+/// Why a row has no value of an output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Error)]
+#[non_exhaustive]
+pub enum RowFailure {
+    /// The nanoparticle model has no answer.
+    #[error(transparent)]
+    Afm(#[from] crate::afm::Failure),
+    /// The model answered with an infinity or NaN without saying why.
+    #[error("the model returned a value that is not finite")]
+    NotFinite,
+}
+
+/// Outputs of a block of rows: one column per output, one entry per row.
+#[derive(Debug, Clone, Default)]
+pub struct Batch {
+    rows: usize,
+    columns: Vec<Vec<f64>>,
+    failures: Vec<(usize, usize, RowFailure)>,
+    flags: Vec<u64>,
+}
+
+impl Batch {
+    /// An empty batch for `outputs` outputs and `flags` kinds of validity flags.
+    pub fn new(outputs: usize, flags: usize) -> Self {
+        Self { columns: vec![Vec::new(); outputs], flags: vec![0; flags], ..Self::default() }
+    }
+
+    /// Forgets everything and makes room for `rows` rows.
+    pub fn reset(&mut self, rows: usize) {
+        self.rows = rows;
+        for column in &mut self.columns {
+            column.clear();
+            column.resize(rows, f64::NAN);
+        }
+        self.failures.clear();
+        self.flags.fill(0);
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Sets one value, in SI units.
+    pub fn set(&mut self, row: usize, output: usize, value: f64) {
+        self.columns[output][row] = value;
+    }
+
+    /// The column of one output, for models that fill it as a whole.
+    pub fn column_mut(&mut self, output: usize) -> &mut [f64] {
+        &mut self.columns[output]
+    }
+
+    /// Marks one output of a row as failed.
+    pub fn fail(&mut self, row: usize, output: usize, failure: impl Into<RowFailure>) {
+        self.columns[output][row] = f64::NAN;
+        self.failures.push((output, row, failure.into()));
+    }
+
+    /// Marks all outputs of a row as failed.
+    pub fn fail_row(&mut self, row: usize, failure: impl Into<RowFailure>) {
+        let failure = failure.into();
+        for output in 0..self.columns.len() {
+            self.fail(row, output, failure);
+        }
+    }
+
+    /// Counts one raised validity flag.
+    pub fn raise(&mut self, flag: usize) {
+        self.flags[flag] += 1;
+    }
+
+    /// Names every value that is not finite and has no failure yet [`RowFailure::NotFinite`], and puts the failures in
+    /// order. To be called once after the worker.
+    pub fn settle(&mut self) {
+        self.failures.sort_unstable();
+        let named = self.failures.len();
+        for (output, column) in self.columns.iter().enumerate() {
+            if column.iter().all(|value| value.is_finite()) {
+                continue;
+            }
+            for (row, value) in column.iter().enumerate() {
+                let is_named = || {
+                    let place = self.failures[..named].partition_point(|&(o, r, _)| (o, r) < (output, row));
+                    matches!(self.failures[..named].get(place), Some(&(o, r, _)) if (o, r) == (output, row))
+                };
+                if !value.is_finite() && !is_named() {
+                    self.failures.push((output, row, RowFailure::NotFinite));
+                }
+            }
+        }
+        self.failures.sort_unstable();
+    }
+
+    /// The values of one output; NaN or infinite where it failed.
+    pub fn column(&self, output: usize) -> &[f64] {
+        &self.columns[output]
+    }
+
+    /// All failures as (output, row, reason), in order once settled.
+    pub fn failures(&self) -> &[(usize, usize, RowFailure)] {
+        &self.failures
+    }
+
+    /// How often each validity flag was raised.
+    pub fn flags(&self) -> &[u64] {
+        &self.flags
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_that_are_not_finite_get_a_name_once() {
+        let mut batch = Batch::new(2, 0);
+        batch.reset(3);
+        batch.column_mut(0).copy_from_slice(&[1.0, f64::INFINITY, 2.0]);
+        batch.column_mut(1).copy_from_slice(&[1.0, 2.0, 3.0]);
+        batch.fail(2, 1, crate::afm::Failure::NoMotion);
+        batch.settle();
+        let expected =
+            [(0, 1, RowFailure::NotFinite), (1, 2, RowFailure::Afm(crate::afm::Failure::NoMotion))];
+        assert_eq!(batch.failures(), expected);
+    }
+
+    #[test]
+    fn a_row_that_was_never_set_is_a_failure() {
+        let mut batch = Batch::new(1, 0);
+        batch.reset(2);
+        batch.set(0, 0, 1.0);
+        batch.settle();
+        assert_eq!(batch.failures(), [(0, 1, RowFailure::NotFinite)]);
+        batch.reset(1);
+        assert!(batch.failures().is_empty());
+    }
+}

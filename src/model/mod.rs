@@ -1,0 +1,56 @@
+//! What is studied: a shared description that lends out workers.
+//!
+//! A [`Model`] says which outputs it has and makes [`Worker`]s; each thread owns one worker, which turns a block of
+//! rows (one slice of SI values per factor) into a [`Batch`] of outputs. A row may fail, wholly or in one output, with
+//! a [`RowFailure`]; it never panics and never answers with a number that only looks like a result.
+
+mod afm;
+mod batch;
+mod known;
+
+pub use afm::AfmModel;
+pub use batch::{Batch, RowFailure};
+pub use known::{KnownAnswer, KnownModel};
+
+use crate::quantity::Unit;
+
+/// One output of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output {
+    /// The name in study files and results.
+    pub name: &'static str,
+    /// The unit in which values are reported; workers deliver SI values.
+    pub unit: Unit,
+    /// One line for people.
+    pub description: &'static str,
+}
+
+/// A validity flag that a model may raise on a row: the result stands, but outside the theory's range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Flag {
+    /// The name in results, in kebab-case.
+    pub name: &'static str,
+    /// What it means, one line.
+    pub description: &'static str,
+}
+
+/// A model: shared between threads, immutable during a run.
+pub trait Model: Send + Sync {
+    /// The outputs, in the order of the columns of a [`Batch`].
+    fn outputs(&self) -> &[Output];
+
+    /// The validity flags it may raise, in the order of their numbers in a [`Batch`].
+    fn flags(&self) -> &[Flag] {
+        &[]
+    }
+
+    /// A worker for one thread.
+    fn worker(&self) -> Box<dyn Worker + '_>;
+}
+
+/// The part of a model that one thread owns.
+pub trait Worker: Send {
+    /// Evaluates a block of rows. `inputs` holds one slice of SI values per factor, in the order of the space, all of
+    /// the length [`Batch::rows`]; every output of every row is either set or failed in `batch`.
+    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch);
+}
