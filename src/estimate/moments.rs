@@ -78,7 +78,6 @@ impl Moments {
 
     /// Adds the base points of `other`, which has the same number of swaps.
     pub fn merge(&mut self, other: &Self) {
-        debug_assert_eq!(self.swaps.len(), other.swaps.len());
         if other.n == 0 {
             return;
         }
@@ -86,6 +85,7 @@ impl Moments {
             self.clone_from(other);
             return;
         }
+        debug_assert_eq!(self.swaps.len(), other.swaps.len());
         let (n, m) = (self.n as f64, other.n as f64);
         let (share, weight) = (m / (n + m), n * m / (n + m));
         let (da, db) = (other.mean_a - self.mean_a, other.mean_b - self.mean_b);

@@ -1,5 +1,9 @@
 //! Intervals from independent randomised replicates.
 
+mod replicated;
+
+pub use replicated::{EffectEstimates, ReplicatedIndices, ReplicatedMoments, replicated_indices, replicated_moments};
+
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Confidence level of every interval.

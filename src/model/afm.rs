@@ -1,0 +1,203 @@
+//! The critical pushing force of a nanoparticle as a model: the adapter between factors and [`crate::afm`].
+
+use super::{Batch, Flag, Model, Output, Worker};
+use crate::afm::{self, Critical, Failure, Options, Parameter, Scene, critical_force};
+use crate::quantity::Unit;
+
+/// An output of the critical-force computation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AfmOutput {
+    /// F_cr, the tip force at which the particle slips.
+    CriticalForce,
+    /// F_Y, the lateral part of it.
+    LateralForce,
+    /// F_Z, the normal part of it.
+    NormalForce,
+    /// t_cr, the time until it is reached.
+    CriticalTime,
+    /// ln F_cr, F_cr in newtons.
+    LogCriticalForce,
+    /// psi, the angle of the tip force from the vertical.
+    ForceAngle,
+    /// a, radius of the contact between particle and substrate.
+    ContactRadius,
+    /// d_s, indentation of that contact.
+    Indentation,
+}
+
+impl AfmOutput {
+    /// All outputs, the default one first.
+    pub const ALL: [Self; 8] = [
+        Self::CriticalForce,
+        Self::LateralForce,
+        Self::NormalForce,
+        Self::CriticalTime,
+        Self::LogCriticalForce,
+        Self::ForceAngle,
+        Self::ContactRadius,
+        Self::Indentation,
+    ];
+
+    /// The name in study files and results.
+    pub fn name(self) -> &'static str {
+        self.row().0
+    }
+
+    /// The unit in which it is reported.
+    pub fn unit(self) -> Unit {
+        edge(self.row().1)
+    }
+
+    /// One line for people.
+    pub fn description(self) -> &'static str {
+        self.row().2
+    }
+
+    fn row(self) -> (&'static str, &'static str, &'static str) {
+        match self {
+            Self::CriticalForce => ("critical_force", "nN", "tip force F_cr at which the particle slips"),
+            Self::LateralForce => ("lateral_force", "nN", "lateral part F_Y of the critical force"),
+            Self::NormalForce => ("normal_force", "nN", "normal part F_Z of the critical force"),
+            Self::CriticalTime => ("critical_time", "s", "time t_cr until the particle slips; none at velocity 0"),
+            Self::LogCriticalForce => ("log_critical_force", "1", "natural logarithm of the critical force in newtons"),
+            Self::ForceAngle => ("force_angle", "rad", "angle psi of the critical force from the vertical"),
+            Self::ContactRadius => ("contact_radius", "nm", "radius a of the contact between particle and substrate"),
+            Self::Indentation => ("indentation", "nm", "indentation d_s of the contact between particle and substrate"),
+        }
+    }
+
+    /// The value in SI units.
+    fn of(self, critical: &Critical) -> Result<f64, Failure> {
+        Ok(match self {
+            Self::CriticalForce => critical.critical_force,
+            Self::LateralForce => critical.lateral_force,
+            Self::NormalForce => critical.normal_force,
+            Self::CriticalTime => critical.critical_time?,
+            Self::LogCriticalForce => critical.critical_force.ln(),
+            Self::ForceAngle => critical.force_angle,
+            Self::ContactRadius => critical.contact_radius,
+            Self::Indentation => critical.indentation,
+        })
+    }
+}
+
+/// The unit in which people give a parameter of the scene.
+pub fn edge_unit(parameter: &Parameter) -> Unit {
+    edge(match parameter.name {
+        "length" | "width" | "thickness" | "height" | "tip_base_radius" => "um",
+        "particle_radius" | "tip_radius" | "burgers_vector" | "equilibrium_separation" => "nm",
+        "velocity" => "nm/s",
+        "stribeck_velocity" => "mm/s",
+        "contact_angle" | "preload_angle" => "deg",
+        "shear_strength" => "MPa",
+        _ if parameter.unit == "Pa" => "GPa",
+        _ => parameter.unit,
+    })
+}
+
+/// A unit written in this file, all of which are known: a test goes through them.
+fn edge(symbol: &str) -> Unit {
+    Unit::parse(symbol).unwrap_or_else(|_| Unit::dimensionless())
+}
+
+/// A study's version of the nanoparticle model.
+#[derive(Debug, Clone)]
+pub struct AfmModel {
+    scene: Scene,
+    options: Options,
+    factors: Vec<&'static Parameter>,
+    outputs: Vec<Output>,
+    which: Vec<AfmOutput>,
+    flags: Vec<Flag>,
+}
+
+impl AfmModel {
+    /// The model of `scene` under `options` whose factors are `factors`, in the order of the space.
+    pub fn new(scene: Scene, options: Options, factors: Vec<&'static Parameter>, which: Vec<AfmOutput>) -> Self {
+        let output = |o: &AfmOutput| Output { name: o.name(), unit: o.unit(), description: o.description() };
+        let outputs = which.iter().map(output).collect();
+        let flags = afm::Flag::ALL.iter().map(|f| Flag { name: f.name(), description: f.description() }).collect();
+        Self { scene, options, factors, outputs, which, flags }
+    }
+}
+
+impl Model for AfmModel {
+    fn outputs(&self) -> &[Output] {
+        &self.outputs
+    }
+
+    fn flags(&self) -> &[Flag] {
+        &self.flags
+    }
+
+    fn worker(&self) -> Box<dyn Worker + '_> {
+        Box::new(AfmWorker { model: self, scene: self.scene })
+    }
+}
+
+struct AfmWorker<'a> {
+    model: &'a AfmModel,
+    scene: Scene,
+}
+
+impl Worker for AfmWorker<'_> {
+    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
+        for row in 0..batch.rows() {
+            for (parameter, column) in self.model.factors.iter().zip(inputs) {
+                (parameter.set)(&mut self.scene, column[row]);
+            }
+            match critical_force(&self.scene, &self.model.options) {
+                Err(failure) => batch.fail_row(row, failure),
+                Ok(critical) => self.write(row, &critical, batch),
+            }
+        }
+    }
+}
+
+impl AfmWorker<'_> {
+    fn write(&self, row: usize, critical: &Critical, batch: &mut Batch) {
+        for (column, output) in self.model.which.iter().enumerate() {
+            match output.of(critical) {
+                Ok(value) => batch.set(row, column, value),
+                Err(failure) => batch.fail(row, column, failure),
+            }
+        }
+        if !critical.flags.is_empty() {
+            for (number, &flag) in afm::Flag::ALL.iter().enumerate() {
+                if critical.flags.contains(flag) {
+                    batch.raise(number);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_edge_unit_is_known_and_of_the_right_kind() {
+        for parameter in Parameter::ALL {
+            let si = Unit::parse(parameter.unit).unwrap();
+            assert!(edge_unit(parameter).compatible(&si), "{}", parameter.name);
+        }
+        for output in AfmOutput::ALL {
+            assert!(Unit::parse(output.row().1).is_ok());
+        }
+    }
+
+    #[test]
+    fn still_substrate_fails_in_time_alone() {
+        let outputs = vec![AfmOutput::CriticalForce, AfmOutput::CriticalTime];
+        let velocity = Parameter::from_name("velocity").unwrap();
+        let model = AfmModel::new(Scene::default(), Options::default(), vec![velocity], outputs);
+        let mut batch = Batch::new(2, model.flags().len());
+        batch.reset(2);
+        model.worker().run(&[&[100e-9, 0.0]], &mut batch);
+        batch.settle();
+        assert_eq!(batch.column(0)[0], batch.column(0)[1]);
+        assert!(batch.column(1)[0] > 0.0);
+        assert_eq!(batch.failures(), [(1, 1, Failure::VelocityZero.into())]);
+    }
+}

@@ -1,0 +1,221 @@
+//! The result file: JSON that other programs can rely on.
+//!
+//! Format `apportion-result`, version 1, described key by key in `docs/result-format.md`. Later versions of the program
+//! only add keys. Numbers are in the unit that stands beside them; a number that does not exist is `null`.
+
+use serde::{Deserialize, Serialize};
+
+/// A whole result.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ResultFile {
+    /// Always `apportion-result`.
+    pub format: String,
+    /// Version of the format.
+    pub version: u32,
+    /// What was asked.
+    pub study: StudyRecord,
+    /// How it was answered.
+    pub provenance: Provenance,
+    /// The factors in the order of the study.
+    pub factors: Vec<FactorRecord>,
+    /// The outputs in the order of the study.
+    pub outputs: Vec<OutputRecord>,
+    /// Rows on which the model's assumptions do not hold; the rows count all the same.
+    pub validity: Vec<ValidityRecord>,
+}
+
+/// What was asked.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StudyRecord {
+    /// Name of the study.
+    pub name: String,
+    /// Title, if the study has one.
+    pub title: Option<String>,
+    /// Name of the model.
+    pub model: String,
+    /// The model's choices in force, such as `friction`.
+    pub settings: serde_json::Map<String, serde_json::Value>,
+    /// The model's inputs that are fixed in the study, with their units.
+    pub constants: Vec<ConstantRecord>,
+    /// Changes made on the command line, as given.
+    pub overrides: Vec<String>,
+    /// The study file, word for word.
+    pub source: String,
+}
+
+/// An input fixed in the study.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ConstantRecord {
+    /// The input.
+    pub name: String,
+    /// Its value in `unit`.
+    pub value: f64,
+    /// The unit.
+    pub unit: String,
+}
+
+/// How the answer came about.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// Version of the program.
+    pub apportion_version: String,
+    /// Seed of the design.
+    pub seed: u64,
+    /// Sampler of the design.
+    pub sampler: String,
+    /// Base points in all.
+    pub base_samples: u64,
+    /// Independent randomisations that share them.
+    pub replicates: u64,
+    /// Runs of the model.
+    pub model_runs: u64,
+    /// Threads used.
+    pub threads: usize,
+    /// Seconds from the first run to the last.
+    pub wall_seconds: f64,
+    /// SHA-256 of the study file as it lies on disk, in hexadecimal.
+    pub study_sha256: String,
+    /// Formula of the first-order indices.
+    pub first_order_estimator: String,
+    /// Formula of the total indices.
+    pub total_estimator: String,
+    /// What the intervals are, in words; `null` if there are none.
+    pub interval: Option<String>,
+}
+
+/// A factor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FactorRecord {
+    /// Its name.
+    pub name: String,
+    /// The unit of its values.
+    pub unit: String,
+    /// Its group, if any.
+    pub group: Option<String>,
+    /// Its distribution by name, with the parameters in `unit`.
+    pub distribution: serde_json::Value,
+    /// Its nominal value in `unit`.
+    pub nominal: f64,
+}
+
+/// Everything about one output.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OutputRecord {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// Mean over the rows A and B, in `unit`.
+    pub mean: Option<f64>,
+    /// Variance over the rows A and B, in the square of `unit`.
+    pub variance: Option<f64>,
+    /// Interval of the mean.
+    pub mean_interval: Option<IntervalRecord>,
+    /// Interval of the variance.
+    pub variance_interval: Option<IntervalRecord>,
+    /// Runs with a value.
+    pub runs_ok: u64,
+    /// Runs without one.
+    pub runs_failed: u64,
+    /// Base points all of whose runs have a value: those the estimates rest on.
+    pub base_points_used: u64,
+    /// Why runs failed.
+    pub failures: Vec<FailureRecord>,
+    /// Sum of the first-order indices.
+    pub sum_first_order: Option<EstimateRecord>,
+    /// Sum of the total indices.
+    pub sum_total: Option<EstimateRecord>,
+    /// One entry per factor; `null` where indices are undefined.
+    pub indices: Option<Vec<IndexRecord>>,
+    /// One entry per group; `null` where indices are undefined.
+    pub groups: Option<Vec<GroupRecord>>,
+    /// Why there are no indices, where there are none.
+    pub reason: Option<String>,
+    /// What a careful reader should know.
+    pub warnings: Vec<String>,
+}
+
+/// An interval by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct IntervalRecord {
+    /// Lower bound.
+    pub low: f64,
+    /// Upper bound.
+    pub high: f64,
+}
+
+/// An estimate with its interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EstimateRecord {
+    /// The estimate.
+    pub estimate: f64,
+    /// Lower bound; `null` with a single replicate.
+    pub low: Option<f64>,
+    /// Upper bound; `null` with a single replicate.
+    pub high: Option<f64>,
+}
+
+/// The indices of one factor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct IndexRecord {
+    /// The factor.
+    pub factor: String,
+    /// The indices.
+    #[serde(flatten)]
+    pub effect: EffectRecord,
+}
+
+/// The indices of one group of factors.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GroupRecord {
+    /// The group.
+    pub group: String,
+    /// Its factors.
+    pub factors: Vec<String>,
+    /// The indices: the first-order one is closed, so it includes interactions inside the group.
+    #[serde(flatten)]
+    pub effect: EffectRecord,
+}
+
+/// First-order and total index, and what they are of the sum over all factors (or groups) in percent.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EffectRecord {
+    /// First-order index.
+    pub first_order: EstimateRecord,
+    /// Total index.
+    pub total: EstimateRecord,
+    /// 100 S_i / sum S_j; `null` where the sum is not positive.
+    pub share_first_order: Option<f64>,
+    /// 100 ST_i / sum ST_j.
+    pub share_total: Option<f64>,
+    /// Interval of `share_first_order`.
+    pub share_first_order_interval: Option<IntervalRecord>,
+    /// Interval of `share_total`.
+    pub share_total_interval: Option<IntervalRecord>,
+}
+
+/// A reason for which runs failed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FailureRecord {
+    /// The reason.
+    pub reason: String,
+    /// Number of runs.
+    pub runs: u64,
+    /// Row number of the first of them in the design.
+    pub first_row: u64,
+    /// The factor values of that row, in the units of the factors.
+    pub first_inputs: serde_json::Map<String, serde_json::Value>,
+}
+
+/// A validity flag.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ValidityRecord {
+    /// Its name.
+    pub flag: String,
+    /// What it means.
+    pub description: String,
+    /// Runs that raised it.
+    pub runs: u64,
+    /// Those runs as a share of all runs, 0 to 1.
+    pub share: f64,
+}

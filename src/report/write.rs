@@ -1,0 +1,117 @@
+//! Files that are either the old one or the new one, never half of one.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// Why a file could not be written.
+#[derive(Debug, Error)]
+#[error("cannot write {path}: {source}", path = path.display())]
+pub struct WriteError {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// What the operating system said.
+    pub source: std::io::Error,
+}
+
+/// Writes `bytes` to `path`: into a temporary file in the same folder, synced, then renamed over the target.
+///
+/// # Errors
+/// [`WriteError`]; the target is then what it was before.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    stream_atomically(path, |file| file.write_all(bytes))
+}
+
+/// Like [`write_atomically`], for content that `write` produces piece by piece.
+///
+/// # Errors
+/// [`WriteError`]; the target is then what it was before.
+pub fn stream_atomically(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<(), WriteError> {
+    let attempt = || {
+        let mut file = temporary_in(folder_of(path))?;
+        write(file.as_file_mut())?;
+        file.as_file().sync_all()?;
+        file.persist(path).map_err(|error| error.error)?;
+        Ok(())
+    };
+    attempt().map_err(|source| WriteError { path: path.to_owned(), source })
+}
+
+/// Makes the folder and checks that files can be created in it, so that a run fails in its first second and not in its
+/// last.
+///
+/// # Errors
+/// [`WriteError`] if the folder cannot be made or written to.
+pub fn prepare_folder(folder: &Path) -> Result<(), WriteError> {
+    let attempt = || {
+        std::fs::create_dir_all(folder)?;
+        temporary_in(folder)?.close()
+    };
+    attempt().map_err(|source| WriteError { path: folder.to_owned(), source })
+}
+
+/// Checks that a file can be created beside `path`, and that `path` is not a folder.
+///
+/// # Errors
+/// [`WriteError`] with the reason.
+pub fn prepare_file(path: &Path) -> Result<(), WriteError> {
+    if path.is_dir() {
+        let source = std::io::Error::from(std::io::ErrorKind::IsADirectory);
+        return Err(WriteError { path: path.to_owned(), source });
+    }
+    let attempt = || temporary_in(folder_of(path))?.close();
+    attempt().map_err(|source| WriteError { path: path.to_owned(), source })
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// A temporary file that becomes a result: readable by others as far as the user's mask allows, which the private
+/// files of `tempfile` are not by default.
+fn temporary_in(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".apportion-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_write_leaves_the_old_file_and_no_litter() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("result.json");
+        write_atomically(&path, b"old").unwrap();
+        let error = stream_atomically(&path, |file| {
+            file.write_all(b"half of the ne")?;
+            Err(std::io::Error::other("disk full"))
+        });
+        assert!(error.unwrap_err().to_string().ends_with("result.json: disk full"));
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn folders_are_made_and_tried() {
+        let folder = tempfile::tempdir().unwrap();
+        let deep = folder.path().join("a/b");
+        prepare_folder(&deep).unwrap();
+        assert_eq!(std::fs::read_dir(&deep).unwrap().count(), 0);
+        write_atomically(&deep.join("f"), b"").unwrap();
+        assert!(prepare_folder(&deep.join("f")).is_err());
+        assert!(prepare_file(&deep).is_err());
+        assert!(prepare_file(&deep.join("f")).is_ok());
+        assert!(prepare_file(&folder.path().join("none/f")).is_err());
+    }
+}

@@ -1,0 +1,57 @@
+//! What was typed: the study file as TOML sees it, every value with its place in the text.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A number, string or list with its byte range in the file.
+pub(super) type At<T> = Spanned<T>;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StudyFile {
+    pub name: Option<At<String>>,
+    pub title: Option<String>,
+    pub model: Option<At<String>>,
+    pub outputs: Option<At<Vec<At<String>>>>,
+    pub afm: Option<At<BTreeMap<At<String>, At<toml::Value>>>>,
+    #[serde(default)]
+    pub design: DesignSection,
+    #[serde(default)]
+    pub factor: Vec<At<FactorSection>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DesignSection {
+    pub sampler: Option<At<String>>,
+    pub base_samples: Option<At<u64>>,
+    pub replicates: Option<At<u64>>,
+    pub seed: Option<At<u64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FactorSection {
+    pub name: At<String>,
+    pub distribution: Option<At<String>>,
+    pub unit: Option<At<String>>,
+    pub group: Option<At<String>>,
+    pub nominal: Option<At<f64>>,
+    pub min: Option<At<f64>>,
+    pub max: Option<At<f64>>,
+    pub mean: Option<At<f64>>,
+    pub sd: Option<At<f64>>,
+    pub log_mean: Option<At<f64>>,
+    pub log_sd: Option<At<f64>>,
+    pub mode: Option<At<f64>>,
+    pub alpha: Option<At<f64>>,
+    pub beta: Option<At<f64>>,
+    pub shape: Option<At<f64>>,
+    pub scale: Option<At<f64>>,
+    pub location: Option<At<f64>>,
+    pub value: Option<At<f64>>,
+    pub values: Option<At<Vec<f64>>>,
+    pub weights: Option<At<Vec<f64>>>,
+}

@@ -1,0 +1,92 @@
+//! `--set KEY=VALUE`: changes to a study file from the command line, applied to its text before it is read.
+
+use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
+
+use super::error::{OverrideProblem, nearest};
+
+/// Applies `overrides` in order. A key is a path of names joined by dots; `factor.NAME.KEY` reaches the factor of that
+/// name. A value is TOML if it reads as TOML, else a string: `afm.friction=hk` needs no quotes.
+///
+/// Returns the text unchanged if it is not TOML: the reader will say so, with the place.
+pub(super) fn apply(text: &str, overrides: &[String]) -> Result<String, (String, OverrideProblem)> {
+    let Ok(mut document) = text.parse::<DocumentMut>() else {
+        return Ok(text.to_owned());
+    };
+    for text in overrides {
+        set(document.as_table_mut(), text).map_err(|problem| (text.clone(), problem))?;
+    }
+    Ok(document.to_string())
+}
+
+fn set(root: &mut Table, text: &str) -> Result<(), OverrideProblem> {
+    let (key, value) = text.split_once('=').ok_or(OverrideProblem::NoEquals)?;
+    let names: Vec<&str> = key.split('.').map(str::trim).collect();
+    if names.iter().any(|name| name.is_empty()) {
+        return Err(OverrideProblem::EmptyKey(key.trim().to_owned()));
+    }
+    let value = value.trim();
+    let value: Value = value.parse().unwrap_or_else(|_| Value::from(value));
+    match names[..] {
+        ["factor", factor, ref rest @ ..] if !rest.is_empty() => set_in(find_factor(root, factor)?, rest, value),
+        _ => set_in(root, &names, value),
+    }
+}
+
+fn find_factor<'a>(root: &'a mut Table, name: &str) -> Result<&'a mut dyn TableLike, OverrideProblem> {
+    fn factor_name(table: &dyn TableLike) -> Option<&str> {
+        table.get("name").and_then(Item::as_str)
+    }
+    let mut factors: Vec<&mut dyn TableLike> = match root.get_mut("factor") {
+        Some(Item::ArrayOfTables(tables)) => tables.iter_mut().map(|table| table as &mut dyn TableLike).collect(),
+        Some(Item::Value(Value::Array(values))) => values
+            .iter_mut()
+            .filter_map(|value| value.as_inline_table_mut().map(|table| table as &mut dyn TableLike))
+            .collect(),
+        _ => Vec::new(),
+    };
+    let Some(place) = factors.iter().position(|table| factor_name(*table) == Some(name)) else {
+        let nearest = nearest(name, factors.iter().filter_map(|table| factor_name(*table)));
+        return Err(OverrideProblem::NoFactor { name: name.to_owned(), nearest });
+    };
+    Ok(factors.swap_remove(place))
+}
+
+fn set_in(table: &mut dyn TableLike, names: &[&str], value: Value) -> Result<(), OverrideProblem> {
+    let Some((last, path)) = names.split_last() else { return Ok(()) };
+    let mut table = table;
+    for name in path {
+        let next = table.entry(name).or_insert_with(|| Item::Table(Table::new()));
+        table = next.as_table_like_mut().ok_or_else(|| OverrideProblem::NotATable((*name).to_owned()))?;
+    }
+    table.insert(last, Item::Value(value));
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STUDY: &str = "outputs = ['y'] # kept\n[afm]\nfriction = \"coulomb\"\n[[factor]]\nname = \"length\"\nmin = 1\n";
+
+    fn applied(text: &str) -> Result<String, OverrideProblem> {
+        apply(STUDY, &[text.to_owned()]).map_err(|(_, problem)| problem)
+    }
+
+    #[test]
+    fn values_are_replaced_in_place_and_new_ones_added() {
+        assert_eq!(applied("afm.friction=hk"), Ok(STUDY.replace("\"coulomb\"", "\"hk\"")));
+        assert_eq!(applied("factor.length.min=2.5"), Ok(STUDY.replace("min = 1", "min = 2.5")));
+        assert!(applied("design.base_samples = 64").unwrap().contains("[design]\nbase_samples = 64"));
+        assert!(applied("outputs=[\"a\", \"b\"]").unwrap().contains("[\"a\", \"b\"]"));
+        assert!(applied("afm.preload_angle=0.5 deg").unwrap().contains("preload_angle = \"0.5 deg\""));
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_named() {
+        assert_eq!(applied("afm.friction"), Err(OverrideProblem::NoEquals));
+        assert_eq!(applied("=3"), Err(OverrideProblem::EmptyKey(String::new())));
+        assert_eq!(applied("afm.friction.x=3"), Err(OverrideProblem::NotATable("friction".to_owned())));
+        let missing = OverrideProblem::NoFactor { name: "lenght".to_owned(), nearest: Some("length".to_owned()) };
+        assert_eq!(applied("factor.lenght.min=3"), Err(missing));
+    }
+}
