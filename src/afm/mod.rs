@@ -1,1 +1,44 @@
-//! Critical pushing force of a nanoparticle.
+//! Physics of pushing a nanoparticle with an atomic force microscope (AFM).
+//!
+//! A tip on a cantilever is lowered onto a particle lying on a substrate. The substrate moves
+//! sideways, the particle drags the tip along, and when the friction under the particle can hold no
+//! more, it slips. The tip force at that instant is the *critical force*.
+//!
+//! The map, in the order of the computation:
+//!
+//! - [`scene`]: [`Scene`], every constant of the problem in SI; [`parameter`]: the same constants
+//!   as a table with symbols, units and physical domains;
+//! - [`probe`]: stiffnesses and preload of the cantilever;
+//! - [`contact`]: contact radius, indentation and pull-off force of a sphere under a load, one
+//!   theory a file;
+//! - [`friction`]: the largest lateral force the substrate contact can hold, one law a file;
+//! - [`force`]: the critical force, one fidelity a file; [`critical_force`] is the entrance;
+//! - [`flags`]: what makes a result doubtful; [`failure`]: why there is no result.
+//!
+//! Plain functions on plain structs, all quantities in SI. Nothing here knows of sampling or
+//! sensitivity analysis.
+//!
+//! The papers behind the formulas, cited by author and year where a formula stands: Tafazzoli &
+//! Sitti 2004 (dynamics of particle sliding) and the two Sobol' studies of the critical force, of
+//! the Coulomb and Hurtado-Kim models and of the LuGre model. Where their printed equations
+//! disagree, the docstring says which reading was taken.
+
+mod named;
+
+pub mod contact;
+pub mod failure;
+pub mod flags;
+pub mod force;
+pub mod friction;
+pub mod parameter;
+pub mod probe;
+pub mod scene;
+
+pub use contact::ContactTheory;
+pub use failure::Failure;
+pub use flags::{Flag, Flags};
+pub use force::{Critical, Fidelity, Options, critical_force};
+pub use friction::FrictionLaw;
+pub use parameter::{Domain, Parameter};
+pub use probe::Torsion;
+pub use scene::Scene;

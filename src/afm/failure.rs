@@ -1,0 +1,35 @@
+//! Why a scene has no critical force.
+
+use super::Domain;
+
+/// The reason a quantity could not be computed. Carries no input values, so that equal reasons
+/// compare equal and can be counted over a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum Failure {
+    /// A parameter lies outside its physical domain, or is not a finite number.
+    #[error("{parameter} is outside its physical domain: it must be a finite number {domain}")]
+    OutOfDomain {
+        /// Name of the parameter, as in [`Parameter::ALL`](super::Parameter::ALL).
+        parameter: &'static str,
+        /// Where the parameter must lie.
+        domain: Domain,
+    },
+    /// The substrate stands still, so it never arrives at the critical travel.
+    #[error(
+        "velocity is zero: the critical force is never reached, so the critical time is infinite; it must be > 0"
+    )]
+    VelocityZero,
+    /// The load pulls harder than adhesion can hold, or pulls where there is no adhesion.
+    #[error(
+        "the normal load pulls the contact apart: it must be at least minus the pull-off force"
+    )]
+    BeyondPullOff,
+    /// A quantity left the range of floating-point numbers.
+    #[error(
+        "{quantity} is not a finite number: the parameters are too large or too small to compute with"
+    )]
+    NotFinite {
+        /// Name of the first field of [`Critical`](super::Critical) that overflowed.
+        quantity: &'static str,
+    },
+}

@@ -1,0 +1,125 @@
+//! The critical force, as a ladder of fidelities: every rung computes the same quantities, a higher
+//! rung drops assumptions.
+
+mod closed_form;
+#[cfg(test)]
+mod tests;
+
+use super::named::named;
+use super::{ContactTheory, Failure, Flags, FrictionLaw, Scene, Torsion};
+
+named! {
+    /// How much of the mechanics is kept.
+    pub enum Fidelity {
+        /// Small twist, no inertia: closed formulas.
+        ClosedForm = "closed-form",
+    }
+}
+
+/// Which of the competing formulas are used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Options {
+    /// Law of friction under the particle.
+    pub friction: FrictionLaw,
+    /// Theory of the particle's contacts.
+    pub contact: ContactTheory,
+    /// How much of the mechanics is kept.
+    pub fidelity: Fidelity,
+    /// Formula for the torsional stiffness.
+    pub torsion: Torsion,
+    /// Whether friction also feels the pull-off force of the contact, so that N = F_Z + F_ad.
+    /// Hurtado-Kim friction feels no load, and is not moved.
+    pub adhesion_in_load: bool,
+}
+
+/// As in the papers: Coulomb, JKR, closed form, thin strip, adhesion not in the load.
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            friction: FrictionLaw::Coulomb,
+            contact: ContactTheory::Jkr,
+            fidelity: Fidelity::ClosedForm,
+            torsion: Torsion::ThinStrip,
+            adhesion_in_load: false,
+        }
+    }
+}
+
+/// The scene at the instant when the particle slips.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Critical {
+    /// Normal force on the tip, F_Z (N).
+    pub normal_force: f64,
+    /// Lateral force on the tip, F_Y = F_Y* (N).
+    pub lateral_force: f64,
+    /// Critical force F_cr = hypot(F_Y, F_Z) (N).
+    pub critical_force: f64,
+    /// Angle of the tip force from the vertical, psi = atan2(F_Y, F_Z) (rad).
+    pub force_angle: f64,
+    /// Travel of the substrate until then, s (m).
+    pub travel: f64,
+    /// Time until then, t_cr = s/V (s); or why there is none, [`Failure::VelocityZero`] where V =
+    /// 0.
+    pub critical_time: Result<f64, Failure>,
+    /// Radius a of the contact between particle and substrate (m).
+    pub contact_radius: f64,
+    /// Indentation d_s of the contact between particle and substrate (m).
+    pub indentation: f64,
+    /// Twist of the cantilever, theta (rad).
+    pub twist: f64,
+    /// What makes the result doubtful.
+    pub flags: Flags,
+}
+
+/// The critical force of pushing the particle, and the state of the scene at that instant.
+///
+/// A substrate at rest, V = 0, leaves everything but the critical time well defined: the limit of
+/// ever slower pushing.
+///
+/// # Errors
+/// [`Failure::OutOfDomain`] if a parameter is not physical; [`Failure::NotFinite`] if a result
+/// overflows; [`Failure::BeyondPullOff`] if the load pulls the particle off the substrate.
+///
+/// # Example
+/// ```
+/// use apportion::afm::{FrictionLaw, Options, Scene, critical_force};
+///
+/// let scene = Scene::default();
+/// let coulomb = critical_force(&scene, &Options::default())?;
+/// assert_eq!(format!("{:.0} nN", coulomb.critical_force * 1e9), "631 nN");
+///
+/// let stiffer = Scene { thickness: 2e-6, ..scene };
+/// let options = Options { friction: FrictionLaw::HurtadoKim, ..Options::default() };
+/// let hurtado_kim = critical_force(&stiffer, &options)?;
+/// assert_eq!(format!("{:.2} uN", hurtado_kim.critical_force * 1e6), "3.94 uN");
+/// # Ok::<(), apportion::afm::Failure>(())
+/// ```
+#[inline]
+pub fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
+    scene.check()?;
+    let critical = match options.fidelity {
+        Fidelity::ClosedForm => closed_form::critical_force(scene, options)?,
+    };
+    critical.finite()
+}
+
+impl Critical {
+    /// This result, if every quantity is finite. Infinite or undefined ones arise only from
+    /// overflow or underflow, since the scene has been checked.
+    #[inline]
+    fn finite(self) -> Result<Self, Failure> {
+        let quantities = [
+            ("normal_force", self.normal_force),
+            ("lateral_force", self.lateral_force),
+            ("critical_force", self.critical_force),
+            ("travel", self.travel),
+            ("contact_radius", self.contact_radius),
+            ("indentation", self.indentation),
+            ("twist", self.twist),
+        ];
+        match quantities.iter().find(|(_, value)| !value.is_finite()) {
+            None => Ok(self),
+            Some(&(quantity, _)) => Err(Failure::NotFinite { quantity }),
+        }
+    }
+}

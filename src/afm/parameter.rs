@@ -1,0 +1,322 @@
+//! The fields of a [`Scene`] as a table, for whoever sets them by name.
+
+use std::f64::consts::FRAC_PI_2;
+use std::fmt;
+
+use super::Scene;
+
+/// Where a parameter is physical. Every domain holds finite numbers only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Domain {
+    /// Greater than zero.
+    Positive,
+    /// Zero or greater.
+    NonNegative,
+    /// From -1, excluded, to 1/2, included: the Poisson ratio of a stable isotropic solid.
+    PoissonRatio,
+    /// From 0 to a right angle, both included (rad).
+    AcuteAngle,
+}
+
+impl Domain {
+    /// Whether `value` is finite and lies in the domain.
+    #[inline]
+    pub fn contains(self, value: f64) -> bool {
+        match self {
+            Self::Positive => value > 0.0 && value < f64::INFINITY,
+            Self::NonNegative => (0.0..f64::INFINITY).contains(&value),
+            Self::PoissonRatio => value > -1.0 && value <= 0.5,
+            Self::AcuteAngle => (0.0..=FRAC_PI_2).contains(&value),
+        }
+    }
+}
+
+/// Reads after "must be": `> 0`, `>= 0`, `in (-1, 0.5]`, `in [0, pi/2]`.
+impl fmt::Display for Domain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Positive => "> 0",
+            Self::NonNegative => ">= 0",
+            Self::PoissonRatio => "in (-1, 0.5]",
+            Self::AcuteAngle => "in [0, pi/2]",
+        })
+    }
+}
+
+/// One parameter of a [`Scene`].
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Name of the field, as a study file writes it.
+    pub name: &'static str,
+    /// Symbol in the papers, in plain letters.
+    pub symbol: &'static str,
+    /// Symbol of the SI unit; `1` for a pure number.
+    pub unit: &'static str,
+    /// What it is, in a few words.
+    pub description: &'static str,
+    /// Where it is physical.
+    pub domain: Domain,
+    /// Reads it (SI). For `shear_modulus` the value in force, given or derived.
+    pub get: fn(&Scene) -> f64,
+    /// Sets it (SI), without looking at the domain. Setting `shear_modulus` cuts its tie to E and
+    /// nu.
+    pub set: fn(&mut Scene, f64),
+}
+
+macro_rules! parameter {
+    ($field:ident, $symbol:literal, $unit:literal, $domain:ident, $description:literal) => {
+        Parameter {
+            name: stringify!($field),
+            symbol: $symbol,
+            unit: $unit,
+            description: $description,
+            domain: Domain::$domain,
+            get: |scene| scene.$field,
+            set: |scene, value| scene.$field = value,
+        }
+    };
+}
+
+impl Parameter {
+    /// Every field of [`Scene`]: first the eight factors of the papers, then the constants.
+    pub const ALL: &'static [Self] = &[
+        parameter!(length, "L", "m", Positive, "cantilever length"),
+        parameter!(width, "w", "m", Positive, "cantilever width"),
+        parameter!(thickness, "t", "m", Positive, "cantilever thickness"),
+        parameter!(height, "H", "m", Positive, "tip height"),
+        parameter!(velocity, "V", "m/s", NonNegative, "substrate velocity"),
+        parameter!(
+            elastic_modulus,
+            "E",
+            "Pa",
+            Positive,
+            "Young's modulus of the cantilever"
+        ),
+        parameter!(
+            equivalent_modulus,
+            "K",
+            "Pa",
+            Positive,
+            "equivalent contact modulus"
+        ),
+        parameter!(adhesion, "omega", "J/m2", NonNegative, "work of adhesion"),
+        parameter!(
+            poisson_ratio,
+            "nu",
+            "1",
+            PoissonRatio,
+            "Poisson ratio of the cantilever"
+        ),
+        Self {
+            name: "shear_modulus",
+            symbol: "G",
+            unit: "Pa",
+            description: "shear modulus of the cantilever, E/(2 (1 + nu)) unless set",
+            domain: Domain::Positive,
+            get: Scene::effective_shear_modulus,
+            set: |scene, value| scene.shear_modulus = Some(value),
+        },
+        parameter!(
+            probe_density,
+            "rho",
+            "kg/m3",
+            Positive,
+            "density of cantilever and tip"
+        ),
+        parameter!(
+            tip_base_radius,
+            "r",
+            "m",
+            Positive,
+            "radius of the tip cone at its base"
+        ),
+        parameter!(particle_radius, "R_p", "m", Positive, "particle radius"),
+        parameter!(tip_radius, "R_t", "m", Positive, "radius of the tip apex"),
+        parameter!(
+            contact_angle,
+            "phi",
+            "rad",
+            AcuteAngle,
+            "tip-particle contact angle from the vertical"
+        ),
+        parameter!(preload_angle, "phi0", "rad", AcuteAngle, "preload angle"),
+        parameter!(
+            static_friction,
+            "mu_s",
+            "1",
+            NonNegative,
+            "coefficient of static friction"
+        ),
+        parameter!(
+            dynamic_friction,
+            "mu_d",
+            "1",
+            NonNegative,
+            "coefficient of dynamic friction"
+        ),
+        parameter!(
+            shear_strength,
+            "tau",
+            "Pa",
+            NonNegative,
+            "interfacial shear strength"
+        ),
+        parameter!(
+            particle_shear_modulus,
+            "G1",
+            "Pa",
+            Positive,
+            "shear modulus of the particle"
+        ),
+        parameter!(
+            substrate_shear_modulus,
+            "G2",
+            "Pa",
+            Positive,
+            "shear modulus of the substrate"
+        ),
+        parameter!(burgers_vector, "b", "m", Positive, "Burgers vector"),
+        parameter!(
+            particle_density,
+            "rho_p",
+            "kg/m3",
+            Positive,
+            "density of the particle"
+        ),
+        parameter!(
+            bristle_stiffness,
+            "sigma0",
+            "N/m",
+            Positive,
+            "LuGre bristle stiffness"
+        ),
+        parameter!(
+            bristle_damping,
+            "sigma1",
+            "N s/m",
+            NonNegative,
+            "LuGre bristle damping"
+        ),
+        parameter!(
+            viscous_friction,
+            "sigma2",
+            "N s/m",
+            NonNegative,
+            "LuGre viscous friction"
+        ),
+        parameter!(
+            stribeck_velocity,
+            "v_s",
+            "m/s",
+            Positive,
+            "Stribeck velocity"
+        ),
+        parameter!(
+            equilibrium_separation,
+            "z0",
+            "m",
+            Positive,
+            "equilibrium separation of the surfaces"
+        ),
+        parameter!(hardness, "p_Y", "Pa", Positive, "hardness of the particle"),
+    ];
+
+    /// The parameter of that name, if there is one.
+    pub fn from_name(name: &str) -> Option<&'static Self> {
+        Self::ALL.iter().find(|parameter| parameter.name == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn the_main_factors_come_first() {
+        let symbols: Vec<_> = Parameter::ALL[..8]
+            .iter()
+            .map(|parameter| parameter.symbol)
+            .collect();
+        assert_eq!(symbols, ["L", "w", "t", "H", "V", "E", "K", "omega"]);
+    }
+
+    #[test]
+    fn names_and_symbols_are_unique() {
+        let names: HashSet<_> = Parameter::ALL
+            .iter()
+            .map(|parameter| parameter.name)
+            .collect();
+        let symbols: HashSet<_> = Parameter::ALL
+            .iter()
+            .map(|parameter| parameter.symbol)
+            .collect();
+        assert_eq!(
+            (names.len(), symbols.len()),
+            (Parameter::ALL.len(), Parameter::ALL.len())
+        );
+    }
+
+    #[test]
+    fn set_then_get_gives_the_value_back_and_moves_nothing_else() {
+        // shear_modulus is fixed first, since unset it follows E and nu.
+        let before = Scene {
+            shear_modulus: Some(1.0),
+            ..Scene::default()
+        };
+        for parameter in Parameter::ALL {
+            let mut scene = before;
+            (parameter.set)(&mut scene, 0.123);
+            let moved: Vec<_> = Parameter::ALL
+                .iter()
+                .filter(|p| (p.get)(&scene) != (p.get)(&before))
+                .map(|p| p.name)
+                .collect();
+            assert_eq!(moved, [parameter.name]);
+            assert_eq!((parameter.get)(&scene), 0.123);
+        }
+    }
+
+    /// The table covers the struct: every field of `Scene` is eight bytes, but for the optional one
+    /// of sixteen.
+    #[test]
+    fn no_field_is_missing() {
+        assert_eq!(size_of::<Scene>(), 8 * (Parameter::ALL.len() + 1));
+    }
+
+    #[test]
+    fn defaults_are_physical() {
+        for parameter in Parameter::ALL {
+            assert!(
+                parameter
+                    .domain
+                    .contains((parameter.get)(&Scene::default())),
+                "{}",
+                parameter.name
+            );
+        }
+    }
+
+    #[test]
+    fn domains_hold_their_edges_and_no_infinities() {
+        let cases = [
+            (Domain::Positive, f64::MIN_POSITIVE, 0.0, "> 0"),
+            (Domain::NonNegative, 0.0, -f64::MIN_POSITIVE, ">= 0"),
+            (Domain::PoissonRatio, 0.5, -1.0, "in (-1, 0.5]"),
+            (
+                Domain::AcuteAngle,
+                FRAC_PI_2,
+                FRAC_PI_2.next_up(),
+                "in [0, pi/2]",
+            ),
+        ];
+        for (domain, inside, outside, text) in cases {
+            assert!(domain.contains(inside), "{domain}: {inside}");
+            for value in [outside, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                assert!(!domain.contains(value), "{domain}: {value}");
+            }
+            assert_eq!(domain.to_string(), text);
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! Every constant of the problem.
+
+use super::{Failure, Parameter};
+
+/// Everything the physics depends on, in SI. The default is the nominal scene: a silicon cantilever
+/// pushing a gold particle of 50 nm radius on silicon oxide.
+///
+/// [`Parameter::ALL`] lists the same fields with symbols, units and physical domains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scene {
+    /// Cantilever length L (m).
+    pub length: f64,
+    /// Cantilever width w (m).
+    pub width: f64,
+    /// Cantilever thickness t (m).
+    pub thickness: f64,
+    /// Tip height H (m).
+    pub height: f64,
+    /// Substrate velocity V (m/s).
+    pub velocity: f64,
+    /// Young's modulus of the cantilever, E (Pa).
+    pub elastic_modulus: f64,
+    /// Equivalent contact modulus K = (4/3) E*, of either contact (Pa).
+    pub equivalent_modulus: f64,
+    /// Work of adhesion omega, of either contact (J/m2).
+    pub adhesion: f64,
+    /// Poisson ratio of the cantilever, nu.
+    pub poisson_ratio: f64,
+    /// Shear modulus of the cantilever, G (Pa); `None` stands for E/(2 (1 + nu)). The papers print
+    /// 40.5 GPa.
+    pub shear_modulus: Option<f64>,
+    /// Density of cantilever and tip (kg/m3).
+    pub probe_density: f64,
+    /// Radius of the tip cone at its base (m).
+    pub tip_base_radius: f64,
+    /// Particle radius R_p (m).
+    pub particle_radius: f64,
+    /// Radius of the tip apex, R_t (m).
+    pub tip_radius: f64,
+    /// Angle of the tip-particle contact from the vertical, phi (rad).
+    pub contact_angle: f64,
+    /// Preload angle phi0; the preload deflection is L sin(phi0) (rad).
+    pub preload_angle: f64,
+    /// Coefficient of static friction, mu_s.
+    pub static_friction: f64,
+    /// Coefficient of dynamic friction, mu_d. May exceed mu_s (friction that rises with velocity).
+    pub dynamic_friction: f64,
+    /// Interfacial shear strength tau (Pa). Tafazzoli & Sitti 2004 print 28 N/m2 and mean N/mm2.
+    pub shear_strength: f64,
+    /// Shear modulus of the particle, G1 (Pa).
+    pub particle_shear_modulus: f64,
+    /// Shear modulus of the substrate, G2 (Pa).
+    pub substrate_shear_modulus: f64,
+    /// Burgers vector b (m).
+    pub burgers_vector: f64,
+    /// Density of the particle (kg/m3).
+    pub particle_density: f64,
+    /// LuGre bristle stiffness sigma0 (N/m).
+    pub bristle_stiffness: f64,
+    /// LuGre bristle damping sigma1 (N s/m).
+    pub bristle_damping: f64,
+    /// LuGre viscous friction sigma2 (N s/m).
+    pub viscous_friction: f64,
+    /// Stribeck velocity v_s (m/s).
+    pub stribeck_velocity: f64,
+    /// Equilibrium separation of the surfaces, z0 (m).
+    pub equilibrium_separation: f64,
+    /// Hardness of the particle (Pa).
+    pub hardness: f64,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            length: 225e-6,
+            width: 48e-6,
+            thickness: 1e-6,
+            height: 12e-6,
+            velocity: 100e-9,
+            elastic_modulus: 169e9,
+            equivalent_modulus: 60e9,
+            adhesion: 0.2,
+            poisson_ratio: 0.27,
+            shear_modulus: None,
+            probe_density: 2330.0,
+            tip_base_radius: 3e-6,
+            particle_radius: 50e-9,
+            tip_radius: 20e-9,
+            contact_angle: 60_f64.to_radians(),
+            preload_angle: 0.7_f64.to_radians(),
+            static_friction: 0.8,
+            dynamic_friction: 0.7,
+            shear_strength: 28e6,
+            particle_shear_modulus: 27e9,
+            substrate_shear_modulus: 31.2e9,
+            burgers_vector: 0.288e-9,
+            particle_density: 19300.0,
+            bristle_stiffness: 625.0,
+            bristle_damping: 1.6e-7,
+            viscous_friction: 1e-7,
+            stribeck_velocity: 1e-3,
+            equilibrium_separation: 0.2e-9,
+            hardness: 3.7e9,
+        }
+    }
+}
+
+impl Scene {
+    /// The shear modulus of the cantilever in force (Pa): the one given, else E/(2 (1 + nu)).
+    #[inline]
+    pub fn effective_shear_modulus(&self) -> f64 {
+        match self.shear_modulus {
+            Some(given) => given,
+            None => self.elastic_modulus / (2.0 * (1.0 + self.poisson_ratio)),
+        }
+    }
+
+    /// Whether every parameter lies in its physical domain.
+    ///
+    /// # Errors
+    /// [`Failure::OutOfDomain`] names the first parameter of [`Parameter::ALL`] that does not.
+    #[inline]
+    pub fn check(&self) -> Result<(), Failure> {
+        if self.looks_physical() {
+            Ok(())
+        } else {
+            self.look_closely()
+        }
+    }
+
+    /// A digest of the domains in [`Parameter::ALL`] without its indirect calls, for the hot path.
+    #[inline]
+    fn looks_physical(&self) -> bool {
+        let positive = [
+            self.length,
+            self.width,
+            self.thickness,
+            self.height,
+            self.elastic_modulus,
+            self.equivalent_modulus,
+            self.effective_shear_modulus(),
+            self.probe_density,
+            self.tip_base_radius,
+            self.particle_radius,
+            self.tip_radius,
+            self.particle_shear_modulus,
+            self.substrate_shear_modulus,
+            self.burgers_vector,
+            self.particle_density,
+            self.bristle_stiffness,
+            self.stribeck_velocity,
+            self.equilibrium_separation,
+            self.hardness,
+        ];
+        let not_negative = [
+            self.velocity,
+            self.adhesion,
+            self.static_friction,
+            self.dynamic_friction,
+            self.shear_strength,
+            self.bristle_damping,
+            self.viscous_friction,
+        ];
+        use super::Domain::{AcuteAngle, NonNegative, PoissonRatio, Positive};
+        positive
+            .iter()
+            .fold(true, |so_far, &value| so_far & Positive.contains(value))
+            & not_negative
+                .iter()
+                .fold(true, |so_far, &value| so_far & NonNegative.contains(value))
+            & AcuteAngle.contains(self.contact_angle)
+            & AcuteAngle.contains(self.preload_angle)
+            & PoissonRatio.contains(self.poisson_ratio)
+    }
+
+    #[cold]
+    fn look_closely(&self) -> Result<(), Failure> {
+        match Parameter::ALL
+            .iter()
+            .find(|parameter| !parameter.domain.contains((parameter.get)(self)))
+        {
+            Some(culprit) => Err(Failure::OutOfDomain {
+                parameter: culprit.name,
+                domain: culprit.domain,
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each parameter alone, set to each value outside its domain: this also proves that the digest
+    /// covers the table.
+    #[test]
+    fn every_parameter_is_checked_and_named() {
+        for parameter in Parameter::ALL {
+            let outside = [
+                f64::NAN,
+                f64::INFINITY,
+                f64::NEG_INFINITY,
+                -1.0,
+                0.0,
+                0.6,
+                2.0,
+            ];
+            for value in outside
+                .into_iter()
+                .filter(|&value| !parameter.domain.contains(value))
+            {
+                let mut scene = Scene::default();
+                (parameter.set)(&mut scene, value);
+                let expected = Failure::OutOfDomain {
+                    parameter: parameter.name,
+                    domain: parameter.domain,
+                };
+                assert_eq!(scene.check(), Err(expected), "{} = {value}", parameter.name);
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_inside_a_domain_is_refused() {
+        for parameter in Parameter::ALL {
+            for value in [0.0, 1e-300, 0.4, 0.5, 1.5, 1e300]
+                .into_iter()
+                .filter(|&v| parameter.domain.contains(v))
+            {
+                let mut scene = Scene {
+                    shear_modulus: Some(1.0),
+                    ..Scene::default()
+                };
+                (parameter.set)(&mut scene, value);
+                assert_eq!(scene.check(), Ok(()), "{} = {value}", parameter.name);
+            }
+        }
+    }
+
+    #[test]
+    fn shear_modulus_follows_young_unless_given() {
+        let scene = Scene::default();
+        // 169 GPa / 2.54, by hand.
+        assert!((scene.effective_shear_modulus() / 66.535_433e9 - 1.0).abs() < 1e-8);
+        let given = Scene {
+            shear_modulus: Some(40.5e9),
+            ..scene
+        };
+        assert_eq!(given.effective_shear_modulus(), 40.5e9);
+    }
+}
