@@ -1,1 +1,7 @@
-fn main() {}
+//! The command-line program: parse, call, exit code.
+
+mod cli;
+
+fn main() -> std::process::ExitCode {
+    cli::main()
+}

@@ -6,10 +6,12 @@
 
 mod afm;
 mod batch;
+mod catalogue;
 mod known;
 
-pub use afm::AfmModel;
+pub use afm::{AfmModel, AfmOutput, edge_unit};
 pub use batch::{Batch, RowFailure};
+pub use catalogue::{Input, ModelKind, OutputInfo};
 pub use known::{KnownAnswer, KnownModel};
 
 use crate::quantity::Unit;

@@ -61,6 +61,12 @@ pub fn build_result(study: &Study, model: &dyn Model, replicates: &[Totals], fac
     }
 }
 
+/// The result as JSON text, ending in a newline.
+pub fn result_json(result: &ResultFile) -> String {
+    // Serialising plain structs, lists and finite numbers cannot fail; an empty text would be caught by every reader.
+    serde_json::to_string_pretty(result).map(|text| text + "\n").unwrap_or_default()
+}
+
 fn study_record(study: &Study) -> StudyRecord {
     let constants = study.constants().into_iter().map(|(name, value, unit)| ConstantRecord { name, value, unit });
     StudyRecord {

@@ -1,1 +1,15 @@
-//! Exporters.
+//! Exporters turn a result into bytes; one writer puts them on disk.
+
+mod build;
+pub mod chart;
+mod result;
+mod shares_chart;
+mod tables;
+mod warnings;
+mod write;
+
+pub use build::{RunFacts, build_result, result_json};
+pub use result::*;
+pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
+pub use tables::{csv_field, indices_csv, share, significant, summary, table};
+pub use write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};

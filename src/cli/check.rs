@@ -1,0 +1,149 @@
+//! `apportion check`: what a study means and what it will cost, without running it.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use apportion::report::{significant, table};
+use apportion::run::{BLOCK, Job, run};
+use apportion::study::Study;
+
+use super::run::{default_folder, file_names};
+use super::{Failure, StudyArguments, print};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Folder for the results of a run [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub fn check(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load()?;
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    let mut text = subject(&study);
+    text.push_str(&factors(&study));
+    text.push_str(&design(&study)?);
+    let model = study.model();
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name).collect();
+    text.push_str(&format!("\nwill be written to {}:\n", folder.display()));
+    for (name, content) in file_names(&study.name, &outputs) {
+        text.push_str(&format!("  {name}  {content}\n"));
+    }
+    print(&text)
+}
+
+fn subject(study: &Study) -> String {
+    let mut text = format!("study {}", study.name);
+    if let Some(title) = &study.title {
+        text.push_str(&format!(": {title}"));
+    }
+    text.push_str(&format!("\nmodel {}: {}\n", study.subject.kind().name(), study.subject.kind().description()));
+    for (name, value) in study.settings() {
+        text.push_str(&format!("  {name} = {value}\n"));
+    }
+    let model = study.model();
+    let outputs: Vec<String> =
+        model.outputs().iter().map(|o| format!("{} [{}]", o.name, o.unit)).collect();
+    text.push_str(&format!("outputs: {}\n", outputs.join(", ")));
+    let constants: Vec<String> = study
+        .constants()
+        .into_iter()
+        .map(|(name, value, unit)| format!("{name} = {} {unit}", significant(value)).trim_end().to_owned())
+        .collect();
+    if !constants.is_empty() {
+        text.push_str(&format!("fixed: {}\n", constants.join(", ")));
+    }
+    text.push('\n');
+    text
+}
+
+fn factors(study: &Study) -> String {
+    let mut table =
+        table(&["factor", "distribution", "mean", "sd", "5 %", "median", "95 %", "nominal", "unit", "group"]);
+    for factor in study.space.factors() {
+        let law = &factor.distribution;
+        let quantile = |u| significant(law.quantile(u));
+        table.add_row([
+            factor.name.clone(),
+            law.name().to_owned(),
+            significant(law.mean()),
+            significant(law.sd()),
+            quantile(0.05),
+            quantile(0.5),
+            quantile(0.95),
+            significant(factor.nominal),
+            factor.unit.to_string(),
+            factor.group.clone().unwrap_or_default(),
+        ]);
+    }
+    format!("{table}\n")
+}
+
+fn design(study: &Study) -> Result<String, Failure> {
+    let design = &study.design;
+    let settings = design.settings();
+    let groups = study.space.groups().len();
+    let mut text = format!(
+        "\ndesign: {} points, {} base samples in {} replicates of {}, seed {}\n\
+         cost: {} base samples x (2 + {} factors{}) = {} model runs",
+        settings.sampler.name(),
+        settings.base_samples,
+        settings.replicates,
+        design.points_per_replicate(),
+        settings.seed,
+        settings.base_samples,
+        design.factors(),
+        if groups > 0 { format!(" + {groups} groups") } else { String::new() },
+        design.rows(),
+    );
+    let seconds = pilot(study)?;
+    text.push_str(&format!(", about {} on this machine\n", duration(seconds)));
+    text.push_str(&format!(
+        "memory: about {:.1} MB a thread, whatever the number of samples\n",
+        megabytes_per_thread(study)
+    ));
+    if !design.balanced() {
+        text.push_str(
+            "warning: the points of a replicate are not a power of two: Sobol' points lose much of their accuracy\n",
+        );
+    }
+    if settings.replicates == 1 {
+        text.push_str("warning: a single replicate says nothing about its error: there will be no intervals\n");
+    }
+    Ok(text)
+}
+
+/// Seconds that the whole design would take, from a run of its first part.
+fn pilot(study: &Study) -> Result<f64, Failure> {
+    const POINTS: u64 = 8 * BLOCK;
+    let points = study.design.settings().base_samples.min(POINTS);
+    let settings = apportion::design::DesignSettings {
+        base_samples: points.max(2),
+        replicates: 1,
+        ..study.design.settings().clone()
+    };
+    let design = apportion::design::Design::new(settings, study.design.factors(), study.design.swaps().to_vec())
+        .map_err(|error| Failure::Input(error.into()))?;
+    let model = study.model();
+    let start = Instant::now();
+    run(Job { design: &design, space: &study.space, model: model.as_ref() }, 0, &|_| ())?;
+    Ok(start.elapsed().as_secs_f64() * study.design.rows() as f64 / design.rows() as f64)
+}
+
+/// Columns of the factors (unit cube and SI, A and B) and of every output of every row kind.
+fn megabytes_per_thread(study: &Study) -> f64 {
+    let outputs = study.model().outputs().len() as u64;
+    let columns = 4 * study.design.factors() as u64 + study.design.rows_per_point() * (outputs + 1);
+    (columns * BLOCK * 8) as f64 / 1e6
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.1 => "0.1 s or less".to_owned(),
+        s if s < 120.0 => format!("{s:.1} s"),
+        s if s < 7200.0 => format!("{:.0} minutes", s / 60.0),
+        s => format!("{:.1} hours", s / 3600.0),
+    }
+}

@@ -1,0 +1,174 @@
+//! The command line: arguments, progress, messages and exit codes. Everything else is the library's.
+
+mod check;
+mod evaluate;
+mod models;
+mod progress;
+mod reproduce;
+mod run;
+
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+
+use apportion::report::WriteError;
+use apportion::run::RunError;
+use apportion::study::{Study, StudyError};
+
+/// Sobol' global sensitivity analysis: which factor decides an output, and by how many percent.
+///
+/// Exit codes: 0 done, 1 the run failed, 2 the input was wrong.
+#[derive(Parser)]
+#[command(version, about, long_about, max_term_width = 110)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run the papers' nine studies and set their percentages beside the published ones
+    Reproduce(reproduce::Arguments),
+    /// Run a study: design, model runs, indices, charts
+    Run(run::Arguments),
+    /// Evaluate a study's model at points from a CSV file
+    Evaluate(evaluate::Arguments),
+    /// Explain a study without running it: factors, cost, memory, files
+    Check(check::Arguments),
+    /// List what can be studied: models with their factors and outputs
+    Models,
+}
+
+/// A study file and the changes to it that the command line makes.
+#[derive(Args)]
+struct StudyArguments {
+    /// The study file (TOML)
+    study: PathBuf,
+    #[command(flatten)]
+    changes: Changes,
+}
+
+/// Changes to a study that the command line makes.
+#[derive(Args)]
+struct Changes {
+    /// Change a setting of the study: afm.friction=hk, factor.length.max=500, outputs='["critical_time"]'
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Base samples in all, over the replicates (the same as --set design.base_samples=N)
+    #[arg(long, value_name = "N")]
+    base_samples: Option<u64>,
+    /// Seed of the design (the same as --set design.seed=S)
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
+}
+
+impl Changes {
+    fn overrides(&self) -> Vec<String> {
+        let base_samples = self.base_samples.map(|n| format!("design.base_samples={n}"));
+        let seed = self.seed.map(|s| format!("design.seed={s}"));
+        self.set.iter().cloned().chain(base_samples).chain(seed).collect()
+    }
+}
+
+impl StudyArguments {
+    fn load(&self) -> Result<Study, Failure> {
+        let study = Study::load(&self.study, &self.changes.overrides())?;
+        for note in &study.notes {
+            say(&format!("note: {note}"));
+        }
+        Ok(study)
+    }
+}
+
+/// Number of worker threads.
+#[derive(Args)]
+struct Threads {
+    /// Worker threads; one per core if not given. The result does not depend on it
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = parse_threads, hide_default_value = true)]
+    threads: usize,
+}
+
+fn parse_threads(text: &str) -> Result<usize, String> {
+    const MOST: usize = 1024;
+    match text.parse() {
+        Ok(threads) if (1..=MOST).contains(&threads) => Ok(threads),
+        _ => Err(format!("expected a whole number from 1 to {MOST}")),
+    }
+}
+
+/// Why a command did not do what was asked, with its exit code.
+enum Failure {
+    /// The input was wrong: exit code 2.
+    Input(anyhow::Error),
+    /// The run failed: exit code 1.
+    Run(anyhow::Error),
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        Self::Run(error.into())
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        Self::Run(error.into())
+    }
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        Self::Run(error.into())
+    }
+}
+
+/// Runs the program and returns its exit code.
+pub fn main() -> ExitCode {
+    // Usage errors leave through clap, with exit code 2.
+    let outcome = match Cli::parse().command {
+        Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Models => models::models(),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        // A reader that closes the pipe early has seen what it wanted.
+        Err(Failure::Run(error)) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(Failure::Run(error)) => fail(&error, 1),
+        Err(Failure::Input(error)) => fail(&error, 2),
+    }
+}
+
+fn fail(error: &anyhow::Error, code: u8) -> ExitCode {
+    say(&format!("error: {error}"));
+    ExitCode::from(code)
+}
+
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error.downcast_ref::<std::io::Error>().is_some_and(|e| e.kind() == std::io::ErrorKind::BrokenPipe)
+}
+
+/// Writes `text` to standard output without panicking when nobody reads it.
+fn print(text: &str) -> Result<(), Failure> {
+    std::io::stdout().write_all(text.as_bytes())?;
+    Ok(())
+}
+
+/// Writes a line to standard error; there is nowhere to complain if that fails.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+fn stderr_is_terminal() -> bool {
+    std::io::stderr().is_terminal()
+}

@@ -1,0 +1,86 @@
+//! Progress: a bar with rate and time left on a terminal, a plain line every few seconds elsewhere.
+
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use apportion::run::Progress;
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Shows how far one run has come, on standard error.
+pub struct Meter {
+    label: String,
+    display: Display,
+}
+
+enum Display {
+    Bar(ProgressBar),
+    Lines(Mutex<Instant>),
+}
+
+/// Time between plain lines.
+const LINE_INTERVAL: Duration = Duration::from_secs(5);
+
+impl Meter {
+    /// A meter for a run of `total` model runs, named `label`.
+    pub fn new(label: &str, total: u64) -> Self {
+        let display = if super::stderr_is_terminal() {
+            let bar = ProgressBar::new(total);
+            let template = "{prefix} {bar:32} {percent:>3} %  {human_pos} of {human_len} runs  {per_sec}  {eta} left{msg}";
+            bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
+            bar.set_prefix(label.to_owned());
+            Display::Bar(bar)
+        } else {
+            Display::Lines(Mutex::new(Instant::now()))
+        };
+        Self { label: label.to_owned(), display }
+    }
+
+    /// Takes note of progress; may be called from any thread.
+    pub fn update(&self, progress: Progress) {
+        match &self.display {
+            Display::Bar(bar) => {
+                bar.set_position(progress.done);
+                if progress.failed > 0 {
+                    bar.set_message(format!("  {} failed", progress.failed));
+                }
+            }
+            Display::Lines(last) => {
+                // Another thread at the lock is about to write the line: this one need not wait.
+                let Ok(mut last) = last.try_lock() else { return };
+                if last.elapsed() >= LINE_INTERVAL {
+                    *last = Instant::now();
+                    super::say(&self.line(progress));
+                }
+            }
+        }
+    }
+
+    /// Ends the display with one line that stays.
+    pub fn finish(&self, runs: u64, seconds: f64) {
+        if let Display::Bar(bar) = &self.display {
+            bar.finish_and_clear();
+        }
+        let rate = rate(runs as f64 / seconds);
+        super::say(&format!("{}: {runs} model runs in {seconds:.2} s ({rate})", self.label));
+    }
+
+    fn line(&self, progress: Progress) -> String {
+        let Progress { done, total, failed, elapsed } = progress;
+        let seconds = elapsed.as_secs_f64();
+        let per_second = done as f64 / seconds;
+        let left = (total - done) as f64 / per_second;
+        let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
+        let percent = 100.0 * done as f64 / total as f64;
+        format!("{}: {percent:.0} %, {done} of {total} runs, {}, {left:.0} s left{failed}", self.label, rate(per_second))
+    }
+}
+
+/// Runs per second, readable.
+fn rate(per_second: f64) -> String {
+    match per_second {
+        r if !r.is_finite() => "-".to_owned(),
+        r if r >= 1e6 => format!("{:.1} million runs/s", r / 1e6),
+        r if r >= 1e4 => format!("{:.0} thousand runs/s", r / 1e3),
+        r => format!("{r:.0} runs/s"),
+    }
+}

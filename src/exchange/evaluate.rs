@@ -1,0 +1,99 @@
+//! A study's model at given points.
+
+use std::collections::BTreeMap;
+use std::io::{Read, Write};
+
+use thiserror::Error;
+
+use super::points::{PointsError, PointsReader};
+use crate::model::{Batch, Output, RowFailure};
+use crate::study::Study;
+
+/// Points evaluated at a time.
+const ROWS: usize = 1024;
+
+/// Why points could not be evaluated.
+#[derive(Debug, Error)]
+pub enum EvaluateError {
+    /// The points are wrong.
+    #[error(transparent)]
+    Points(#[from] PointsError),
+    /// The outputs cannot be written.
+    #[error("cannot write the outputs: {0}")]
+    Output(#[from] std::io::Error),
+}
+
+/// What became of the points.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Evaluated {
+    /// Number of points.
+    pub points: u64,
+    /// For each output that failed somewhere and each reason: how often, and the first point, counted from 1.
+    pub failures: BTreeMap<(String, RowFailure), (u64, u64)>,
+}
+
+/// Evaluates the model of `study` at the points of a CSV file and writes its outputs as CSV: a header of output names,
+/// then one line per point, in the outputs' units. An output that failed is an empty cell.
+///
+/// Runs in constant memory. Numbers are written with as many digits as it takes to read the same bits back.
+///
+/// # Errors
+/// [`EvaluateError`] if the points are wrong or the outputs cannot be written.
+pub fn evaluate(study: &Study, points: impl Read, outputs: &mut dyn Write) -> Result<Evaluated, EvaluateError> {
+    let mut reader = PointsReader::new(points, &study.space)?;
+    let model = study.model();
+    let factors = study.space.factors();
+    let mut worker = model.worker();
+    let mut batch = Batch::new(model.outputs().len(), model.flags().len());
+    let mut columns = vec![Vec::with_capacity(ROWS); factors.len()];
+    let mut evaluated = Evaluated::default();
+    let mut out = std::io::BufWriter::new(outputs);
+    let names: Vec<&str> = model.outputs().iter().map(|output| output.name).collect();
+    writeln!(out, "{}", names.join(","))?;
+    loop {
+        let rows = reader.read(factors, ROWS, &mut columns)?;
+        if rows == 0 {
+            break;
+        }
+        for (column, factor) in columns.iter_mut().zip(factors) {
+            for value in column {
+                *value = factor.unit.to_si(*value);
+            }
+        }
+        batch.reset(rows);
+        let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        worker.run(&inputs, &mut batch);
+        batch.settle();
+        evaluated.count(model.outputs(), &batch);
+        write_rows(&mut out, model.outputs(), &batch)?;
+    }
+    out.flush()?;
+    Ok(evaluated)
+}
+
+fn write_rows(out: &mut impl Write, outputs: &[Output], batch: &Batch) -> std::io::Result<()> {
+    for row in 0..batch.rows() {
+        for (number, output) in outputs.iter().enumerate() {
+            if number > 0 {
+                write!(out, ",")?;
+            }
+            let value = batch.column(number)[row];
+            if value.is_finite() {
+                write!(out, "{}", output.unit.from_si(value))?;
+            }
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+impl Evaluated {
+    fn count(&mut self, outputs: &[Output], batch: &Batch) {
+        for &(output, row, failure) in batch.failures() {
+            let point = self.points + row as u64 + 1;
+            let key = (outputs[output].name.to_owned(), failure);
+            self.failures.entry(key).and_modify(|(count, _)| *count += 1).or_insert((1, point));
+        }
+        self.points += batch.rows() as u64;
+    }
+}

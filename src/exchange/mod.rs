@@ -1,0 +1,7 @@
+//! Tables of points and outputs as files: what joins the steps of a study when other programs take part.
+
+mod evaluate;
+mod points;
+
+pub use evaluate::{EvaluateError, Evaluated, evaluate};
+pub use points::{PointsError, PointsReader};

@@ -1,0 +1,154 @@
+//! Points from a CSV file: a header of factor names, then values in the factors' units.
+
+use std::io::Read;
+
+use thiserror::Error;
+
+use crate::space::{Factor, Space};
+use crate::study::nearest;
+
+/// What is wrong with a file of points.
+#[derive(Debug, Error)]
+pub enum PointsError {
+    /// There is not even a header.
+    #[error("line 1: the file is empty: expected a header of factor names ({known})")]
+    Empty {
+        /// The factors of the study.
+        known: String,
+    },
+    /// A column that is no factor.
+    #[error("line 1: column {column}: `{name}` is no factor of the study{}; its factors are {known}", hint(.nearest))]
+    UnknownColumn {
+        /// Number of the column, from 1.
+        column: usize,
+        /// Its header.
+        name: String,
+        /// The nearest factor.
+        nearest: Option<String>,
+        /// The factors of the study.
+        known: String,
+    },
+    /// The same factor twice.
+    #[error("line 1: column {column}: `{name}` stands here twice")]
+    RepeatedColumn {
+        /// Number of the column, from 1.
+        column: usize,
+        /// Its header.
+        name: String,
+    },
+    /// A cell that is not a finite number.
+    #[error("line {line}: column {column} (`{name}`): expected a finite number in {unit}, not {found:?}")]
+    NotANumber {
+        /// Line of the file, from 1.
+        line: u64,
+        /// Number of the column, from 1.
+        column: usize,
+        /// Its header.
+        name: String,
+        /// The unit the number would be in.
+        unit: String,
+        /// The cell.
+        found: String,
+    },
+    /// A line with too many or too few cells.
+    #[error("line {line}: expected {expected} cells as in the header, not {found}")]
+    WrongLength {
+        /// Line of the file, from 1.
+        line: u64,
+        /// Cells in the header.
+        expected: u64,
+        /// Cells in this line.
+        found: u64,
+    },
+    /// The file cannot be read, or is not text in UTF-8.
+    #[error("{0}")]
+    Unreadable(csv::Error),
+}
+
+fn hint(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
+}
+
+/// Reads points block by block.
+pub struct PointsReader<R> {
+    csv: csv::Reader<R>,
+    /// For each column of the file: the number of its factor.
+    columns: Vec<usize>,
+    record: csv::StringRecord,
+}
+
+impl<R: Read> PointsReader<R> {
+    /// Reads the header and checks it against `space`. A byte-order mark and spaces around names are ignored.
+    ///
+    /// # Errors
+    /// [`PointsError`] if there is no header, or a name in it is unknown or repeated.
+    pub fn new(reader: R, space: &Space) -> Result<Self, PointsError> {
+        let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(reader);
+        let known = || space.factors().iter().map(|factor| factor.name.as_str());
+        let known_text = || known().collect::<Vec<_>>().join(", ");
+        let header = csv.headers().map_err(PointsError::Unreadable)?.clone();
+        if header.is_empty() || header.iter().all(str::is_empty) {
+            return Err(PointsError::Empty { known: known_text() });
+        }
+        let mut columns = Vec::with_capacity(header.len());
+        for (number, name) in header.iter().enumerate() {
+            let (column, name) = (number + 1, name.trim_start_matches('\u{feff}').to_owned());
+            let Some(factor) = known().position(|factor| factor == name) else {
+                let nearest = nearest(&name, known());
+                return Err(PointsError::UnknownColumn { column, name, nearest, known: known_text() });
+            };
+            if columns.contains(&factor) {
+                return Err(PointsError::RepeatedColumn { column, name });
+            }
+            columns.push(factor);
+        }
+        Ok(Self { csv, columns, record: csv::StringRecord::new() })
+    }
+
+    /// Numbers of the factors that the file has columns for, in the order of its columns.
+    pub fn factors(&self) -> &[usize] {
+        &self.columns
+    }
+
+    /// Reads up to `rows` points into `columns` (one per factor of the space, in its unit) and returns how many there
+    /// were; 0 at the end of the file. A factor without a column stands at its nominal value.
+    ///
+    /// # Errors
+    /// [`PointsError`] with the line of the first cell that is not a finite number.
+    pub fn read(&mut self, factors: &[Factor], rows: usize, columns: &mut [Vec<f64>]) -> Result<usize, PointsError> {
+        columns.iter_mut().for_each(Vec::clear);
+        for row in 0..rows {
+            if !self.csv.read_record(&mut self.record).map_err(wrong_record)? {
+                return Ok(row);
+            }
+            let line = self.record.position().map_or(0, csv::Position::line);
+            for (column, factor) in columns.iter_mut().zip(factors) {
+                column.push(factor.nominal);
+            }
+            for (number, (cell, &factor)) in self.record.iter().zip(&self.columns).enumerate() {
+                columns[factor][row] =
+                    cell.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
+                        PointsError::NotANumber {
+                            line,
+                            column: number + 1,
+                            name: factors[factor].name.clone(),
+                            unit: factors[factor].unit.to_string(),
+                            found: cell.to_owned(),
+                        }
+                    })?;
+            }
+        }
+        Ok(rows)
+    }
+}
+
+fn wrong_record(error: csv::Error) -> PointsError {
+    match error.kind() {
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => PointsError::WrongLength {
+            line: pos.as_ref().map_or(0, csv::Position::line),
+            expected: *expected_len,
+            found: *len,
+        },
+        _ => PointsError::Unreadable(error),
+    }
+}

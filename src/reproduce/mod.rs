@@ -1,0 +1,196 @@
+//! The papers' studies, run and set beside what the papers print.
+
+mod compare;
+mod published;
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+pub use compare::{comparison_table, shares_csv};
+pub use published::{Published, published};
+
+use crate::report::chart::{ChartError, PngError, png};
+use crate::report::{
+    ResultFile, SharesSeries, SharesWords, WriteError, friction_role, result_json, shares_chart, write_atomically,
+};
+use crate::run::RunError;
+use crate::study::{Study, StudyError};
+
+/// A friction model of the papers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Friction {
+    /// Its name in study files.
+    pub key: &'static str,
+    /// Its name for people.
+    pub name: &'static str,
+}
+
+/// The friction models, in the order of the papers' charts.
+pub const FRICTIONS: [Friction; 3] = [
+    Friction { key: "coulomb", name: "Coulomb" },
+    Friction { key: "hk", name: "Hurtado-Kim" },
+    Friction { key: "lugre", name: "LuGre" },
+];
+
+/// A group of studies: the same factors under each friction model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StudyGroup {
+    /// Its name in file names.
+    pub key: &'static str,
+    /// The figures of the papers that it reproduces.
+    pub figures: &'static str,
+}
+
+/// The groups, in the order of the papers.
+pub const GROUPS: [StudyGroup; 3] = [
+    StudyGroup { key: "dimensional", figures: "CHK fig. 10, LG fig. 4a" },
+    StudyGroup { key: "environmental", figures: "CHK fig. 15, LG fig. 4b" },
+    StudyGroup { key: "general", figures: "CHK fig. 16, LG fig. 4c" },
+];
+
+/// The study files, by name: part of the program, so that it reproduces the papers wherever it is installed.
+const STUDIES: [(&str, &str); 9] = [
+    ("coulomb-dimensional", include_str!("../../studies/coulomb-dimensional.toml")),
+    ("hk-dimensional", include_str!("../../studies/hk-dimensional.toml")),
+    ("lugre-dimensional", include_str!("../../studies/lugre-dimensional.toml")),
+    ("coulomb-environmental", include_str!("../../studies/coulomb-environmental.toml")),
+    ("hk-environmental", include_str!("../../studies/hk-environmental.toml")),
+    ("lugre-environmental", include_str!("../../studies/lugre-environmental.toml")),
+    ("coulomb-general", include_str!("../../studies/coulomb-general.toml")),
+    ("hk-general", include_str!("../../studies/hk-general.toml")),
+    ("lugre-general", include_str!("../../studies/lugre-general.toml")),
+];
+
+/// Why a reproduction failed.
+#[derive(Debug, Error)]
+pub enum ReproduceError {
+    /// A study cannot be read, for example because of an override.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// A study cannot be run.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A chart cannot be drawn.
+    #[error(transparent)]
+    Chart(#[from] ChartError),
+    /// A chart cannot be turned into a picture.
+    #[error(transparent)]
+    Png(#[from] PngError),
+}
+
+/// One study that has been run.
+#[derive(Debug, Clone)]
+pub struct Reproduced {
+    /// Its friction model.
+    pub friction: Friction,
+    /// Its group.
+    pub group: StudyGroup,
+    /// What came out.
+    pub result: ResultFile,
+}
+
+/// The nine studies, read and checked, after applying `overrides` to each; group by group.
+///
+/// # Errors
+/// [`StudyError`] if an override makes no sense.
+pub fn studies(overrides: &[String]) -> Result<Vec<(StudyGroup, Friction, Study)>, StudyError> {
+    let mut studies = Vec::with_capacity(STUDIES.len());
+    for group in GROUPS {
+        for friction in FRICTIONS {
+            let name = format!("{}-{}", friction.key, group.key);
+            if let Some((_, text)) = STUDIES.iter().find(|(study, _)| *study == name) {
+                let path = PathBuf::from(format!("studies/{name}.toml"));
+                studies.push((group, friction, Study::parse(text, &path, overrides)?));
+            }
+        }
+    }
+    Ok(studies)
+}
+
+/// Writes everything about the studies into `folder` and returns the files, in the order written.
+///
+/// # Errors
+/// [`ReproduceError`] if a chart cannot be drawn or a file cannot be written.
+pub fn write_all(folder: &Path, studies: &[Reproduced]) -> Result<Vec<PathBuf>, ReproduceError> {
+    let mut files = Vec::new();
+    let mut write = |name: String, bytes: &[u8]| -> Result<(), WriteError> {
+        let path = folder.join(name);
+        write_atomically(&path, bytes)?;
+        files.push(path);
+        Ok(())
+    };
+    for study in studies {
+        write(format!("{}.json", study.result.study.name), result_json(&study.result).as_bytes())?;
+    }
+    write("shares.csv".to_owned(), shares_csv(studies).as_bytes())?;
+    for group in GROUPS {
+        let members: Vec<&Reproduced> = studies.iter().filter(|study| study.group == group).collect();
+        let svg = group_chart(group, &members)?;
+        write(format!("{}.svg", group.key), svg.as_bytes())?;
+        write(format!("{}.png", group.key), &png(&svg)?.bytes)?;
+    }
+    Ok(files)
+}
+
+fn group_chart(group: StudyGroup, members: &[&Reproduced]) -> Result<String, ChartError> {
+    let factors: Vec<&str> =
+        members.first().map_or_else(Vec::new, |m| m.result.factors.iter().map(|f| f.name.as_str()).collect());
+    let series: Vec<SharesSeries<'_>> = members
+        .iter()
+        .map(|member| SharesSeries {
+            name: member.friction.name.to_owned(),
+            role: friction_role(member.friction.key),
+            output: &member.result.outputs[0],
+            published: published(group.key, member.friction.key).shares.to_vec(),
+        })
+        .collect();
+    let words = SharesWords {
+        title: format!("Which factor decides the critical force: {} study", group.key),
+        caption: caption(group, members),
+    };
+    shares_chart(words, &factors, &series)
+}
+
+/// What is seen in the chart of a group, in one sentence.
+fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
+    let leader = |member: &&Reproduced| {
+        let indices = member.result.outputs.first()?.indices.as_ref()?;
+        let first = indices.iter().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate))?;
+        let share = first.effect.share_total?;
+        Some(format!("{} under {} ({share:.0} %)", first.factor.replace('_', " "), member.friction.name))
+    };
+    let leaders: Vec<String> = members.iter().filter_map(leader).collect();
+    format!(
+        "Largest total share: {}; compare {}. Diamonds are the percentages printed for LuGre.",
+        leaders.join(", "),
+        group.figures
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_nine_studies_are_there_with_their_own_factors() {
+        let studies = studies(&[]).unwrap();
+        assert_eq!(studies.len(), 9);
+        for (group, friction, study) in &studies {
+            assert_eq!(study.name, format!("{}-{}", friction.key, group.key));
+            assert_eq!(study.design.settings().base_samples, 1 << 16);
+            let factors = study.space.factors().len();
+            assert_eq!(factors, if group.key == "general" { 8 } else { 4 });
+            assert_eq!(study.space.groups().len(), if group.key == "general" { 2 } else { 0 });
+        }
+    }
+
+    #[test]
+    fn overrides_reach_every_study() {
+        let studies = studies(&["design.base_samples=64".to_owned()]).unwrap();
+        assert!(studies.iter().all(|(_, _, study)| study.design.settings().base_samples == 64));
+    }
+}

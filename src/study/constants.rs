@@ -1,0 +1,119 @@
+//! The `[afm]` table: choices by name, and constants of the scene with their units.
+
+use std::collections::BTreeMap;
+
+use toml::Value;
+
+use super::error::{Problem, nearest};
+use super::file::At;
+use super::resolve::{Context, Fault};
+use crate::afm::{ContactTheory, Fidelity, FrictionLaw, Options, Parameter, Scene, Torsion};
+use crate::model::edge_unit;
+use crate::quantity::{Quantity, Unit};
+
+const CHOICES: [&str; 5] = ["friction", "contact", "fidelity", "torsion", "adhesion_in_load"];
+
+/// Reads the table into a scene and options, starting from the defaults. `is_factor` tells the names that must not be
+/// fixed.
+pub(super) fn afm(
+    context: &Context<'_>,
+    table: &BTreeMap<At<String>, At<Value>>,
+    is_factor: &dyn Fn(&str) -> bool,
+) -> Result<(Scene, Options), Fault> {
+    let (mut scene, mut options) = (Scene::default(), Options::default());
+    for (key, value) in table {
+        let name = key.get_ref().as_str();
+        let fault = |problem| context.fault(value.span(), problem);
+        match name {
+            "friction" => options.friction = choice(value, name, FrictionLaw::ALL, FrictionLaw::name).map_err(fault)?,
+            "contact" => options.contact = choice(value, name, ContactTheory::ALL, ContactTheory::name).map_err(fault)?,
+            "fidelity" => options.fidelity = choice(value, name, Fidelity::ALL, Fidelity::name).map_err(fault)?,
+            "torsion" => options.torsion = choice(value, name, Torsion::ALL, Torsion::name).map_err(fault)?,
+            "adhesion_in_load" => {
+                options.adhesion_in_load =
+                    value.get_ref().as_bool().ok_or_else(|| fault(wrong_type(name, "true or false", value)))?;
+            }
+            _ => {
+                let Some(parameter) = Parameter::from_name(name) else {
+                    return Err(context.fault(key.span(), unknown_key(name)));
+                };
+                if is_factor(name) {
+                    return Err(context.fault(key.span(), Problem::FixedFactor(name.to_owned())));
+                }
+                (parameter.set)(&mut scene, constant(parameter, value).map_err(fault)?);
+            }
+        }
+    }
+    Ok((scene, options))
+}
+
+fn unknown_key(name: &str) -> Problem {
+    let expected: Vec<&str> = CHOICES.into_iter().chain(Parameter::ALL.iter().map(|p| p.name)).collect();
+    Problem::UnknownKey {
+        name: name.to_owned(),
+        nearest: nearest(name, expected.iter().copied()),
+        expected: expected.into_iter().map(str::to_owned).collect(),
+    }
+}
+
+fn choice<T: Copy>(value: &At<Value>, key: &str, all: &[T], name: fn(T) -> &'static str) -> Result<T, Problem> {
+    let names = || all.iter().map(|&variant| name(variant));
+    let Some(text) = value.get_ref().as_str() else {
+        let expected = format!("one of {}", names().map(|n| format!("{n:?}")).collect::<Vec<_>>().join(", "));
+        return Err(wrong_type(key, &expected, value));
+    };
+    all.iter().copied().find(|&variant| name(variant) == text).ok_or_else(|| Problem::UnknownName {
+        what: match key {
+            "friction" => "friction law",
+            "contact" => "contact theory",
+            "fidelity" => "fidelity",
+            _ => "torsion formula",
+        },
+        name: text.to_owned(),
+        nearest: nearest(text, names()),
+        expected: names().map(str::to_owned).collect(),
+    })
+}
+
+/// The SI value of a constant given as `"0.7 deg"`, or as a bare number where the parameter has no dimension.
+fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
+    let unit = edge_unit(parameter);
+    let dimensionless = unit.compatible(&Unit::dimensionless());
+    let example = || match dimensionless {
+        true => format!("{} = {}", parameter.name, (parameter.get)(&Scene::default())),
+        false => format!("{} = \"{} {unit}\"", parameter.name, unit.from_si((parameter.get)(&Scene::default()))),
+    };
+    let quantity = match value.get_ref() {
+        Value::String(text) => Quantity::parse(text)?,
+        Value::Integer(number) => Quantity { value: *number as f64, unit: Unit::dimensionless() },
+        Value::Float(number) => Quantity { value: *number, unit: Unit::dimensionless() },
+        _ => return Err(wrong_type(parameter.name, &format!("a quantity, as in {}", example()), value)),
+    };
+    if !quantity.unit.compatible(&unit) {
+        let name = format!("`{}`", parameter.name);
+        let dimension = unit.dimension().to_string();
+        return Err(if quantity.unit.compatible(&Unit::dimensionless()) {
+            Problem::MissingUnit { name, dimension, example: example() }
+        } else {
+            let found = quantity.unit.dimension().to_string();
+            Problem::WrongUnit { name, expected: dimension, unit: quantity.unit.to_string(), found, example: example() }
+        });
+    }
+    let si = quantity.unit.to_si(quantity.value);
+    if !parameter.domain.contains(si) {
+        return Err(Problem::OutOfDomain {
+            name: format!("`{}`", parameter.name),
+            domain: parameter.domain.to_string(),
+            found: format!("it is {} {}", quantity.value, quantity.unit),
+        });
+    }
+    Ok(si)
+}
+
+fn wrong_type(key: &str, expected: &str, value: &At<Value>) -> Problem {
+    Problem::WrongType {
+        key: key.to_owned(),
+        expected: expected.to_owned(),
+        found: value.get_ref().type_str().to_owned(),
+    }
+}

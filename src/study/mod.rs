@@ -1,0 +1,111 @@
+//! Studies: what is asked, as typed (`StudyFile`) and as meant ([`Study`]).
+//!
+//! A study is read once and checked once; after that nothing re-validates. Everything wrong with a file is reported
+//! with its line and column.
+
+mod constants;
+mod distribution;
+mod error;
+mod file;
+mod overrides;
+mod resolve;
+mod subject;
+
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+pub use error::{Diagnostic, OverrideProblem, Problem, StudyError};
+pub(crate) use error::nearest;
+pub use subject::{AfmSubject, KnownSubject, Subject};
+
+use crate::design::Design;
+use crate::model::Model;
+use crate::space::Space;
+
+/// A checked study: a subject, the space of its factors, and the design that explores it.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// Name, by default the file's name without its ending. Result files are named after it.
+    pub name: String,
+    /// Title for people.
+    pub title: Option<String>,
+    /// What is studied.
+    pub subject: Subject,
+    /// The factors.
+    pub space: Space,
+    /// The points at which the model runs; its swaps are the factors, then the groups.
+    pub design: Design,
+    /// Changes made to the file on the command line, as given.
+    pub overrides: Vec<String>,
+    /// The file, word for word.
+    pub source: String,
+    /// SHA-256 of the file in hexadecimal.
+    pub sha256: String,
+    /// What was read otherwise than it was written, in sentences.
+    pub notes: Vec<String>,
+}
+
+impl Study {
+    /// Reads a study file, after applying `overrides` of the form `KEY=VALUE`.
+    ///
+    /// # Errors
+    /// [`StudyError`] with the place in the file and what would be right.
+    pub fn load(path: &Path, overrides: &[String]) -> Result<Self, StudyError> {
+        let unreadable = |source| StudyError::Unreadable { path: path.to_owned(), source };
+        let bytes = std::fs::read(path).map_err(unreadable)?;
+        let text = String::from_utf8(bytes)
+            .map_err(|error| unreadable(std::io::Error::new(std::io::ErrorKind::InvalidData, error)))?;
+        Self::parse(&text, path, overrides)
+    }
+
+    /// Reads a study from its text; `path` is for messages, and names the study unless the text does.
+    ///
+    /// ```
+    /// use std::path::Path;
+    /// use apportion::study::Study;
+    ///
+    /// let text = r#"
+    ///     model = "ishigami"
+    ///     [[factor]]
+    ///     name = "x1"
+    ///     min = -3.14
+    ///     max = 3.14
+    /// "#;
+    /// let study = Study::parse(text, Path::new("small.toml"), &["design.base_samples=256".to_owned()])?;
+    /// assert_eq!(study.name, "small");
+    /// assert_eq!(study.design.rows(), 3 * 256);
+    /// # Ok::<(), apportion::study::StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StudyError`] with the place in the text and what would be right.
+    pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Result<Self, StudyError> {
+        let effective =
+            overrides::apply(text, overrides).map_err(|(text, problem)| StudyError::Override { text, problem })?;
+        let context = resolve::Context { path: PathBuf::from(path), text: &effective };
+        let mut study = resolve::study(&context).map_err(|mut diagnostic| {
+            diagnostic.overrides = overrides.to_vec();
+            diagnostic
+        })?;
+        study.overrides = overrides.to_vec();
+        text.clone_into(&mut study.source);
+        study.sha256 = Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(study)
+    }
+
+    /// The model, ready to run on this study's factors.
+    pub fn model(&self) -> Box<dyn Model> {
+        self.subject.model(&self.space)
+    }
+
+    /// The choices in force, such as the friction law, in the terms of the study file.
+    pub fn settings(&self) -> Vec<(&'static str, serde_json::Value)> {
+        self.subject.settings()
+    }
+
+    /// The inputs that are not factors, as (name, value, unit).
+    pub fn constants(&self) -> Vec<(String, f64, String)> {
+        self.subject.constants(&self.space)
+    }
+}

@@ -1,0 +1,265 @@
+//! From what was typed to what is meant: every check a study file needs, once.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use super::error::{Diagnostic, Problem, nearest};
+use super::file::{At, DesignSection, FactorSection, StudyFile};
+use super::subject::{AfmSubject, KnownSubject, Subject};
+use super::{Study, constants, distribution};
+use crate::design::{Design, DesignError, DesignSettings, Sampler};
+use crate::model::{AfmOutput, Input, ModelKind};
+use crate::quantity::Unit;
+use crate::space::{Distribution, Factor, Space};
+
+/// A diagnostic on its way up.
+pub(super) type Fault = Box<Diagnostic>;
+
+/// The text being read.
+pub(super) struct Context<'a> {
+    pub path: PathBuf,
+    pub text: &'a str,
+}
+
+impl Context<'_> {
+    pub(super) fn fault(&self, span: Range<usize>, problem: Problem) -> Fault {
+        Box::new(Diagnostic::new(&self.path, self.text, span, problem))
+    }
+}
+
+/// The study that the text of `context` means.
+pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
+    let file: StudyFile = toml::from_str(context.text).map_err(|error| syntax(context, &error))?;
+    let kind = model_kind(context, file.model.as_ref())?;
+    let space = space(context, kind, &file.factor)?;
+    let subject = subject(context, kind, &file, &space)?;
+    let (design, notes) = design(context, &file.design, &space)?;
+    let name = name(context, file.name.as_ref())?;
+    let (overrides, source, sha256) = Default::default();
+    Ok(Study { name, title: file.title, subject, space, design, overrides, source, sha256, notes })
+}
+
+fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
+    let message = error.message();
+    let mut quoted = message.split('`').skip(1).step_by(2).map(str::to_owned);
+    let problem = match quoted.next() {
+        Some(name) if message.starts_with("unknown field") => {
+            let expected: Vec<String> = quoted.collect();
+            Problem::UnknownKey { nearest: nearest(&name, expected.iter().map(String::as_str)), name, expected }
+        }
+        _ => Problem::Syntax(in_words(message)),
+    };
+    context.fault(error.span().unwrap_or(0..0), problem)
+}
+
+/// The deserialiser's message without the names of Rust types.
+fn in_words(message: &str) -> String {
+    const WORDS: [(&str, &str); 7] = [
+        ("expected f64", "expected a number"),
+        ("expected u64", "expected a whole number from 0 to 18446744073709551615"),
+        ("expected struct DesignSection", "expected a table [design]"),
+        ("expected struct FactorSection", "expected a table [[factor]]"),
+        ("invalid type: map, expected a sequence", "expected a list: factors are written [[factor]], with two brackets"),
+        ("expected a map", "expected a table"),
+        ("floating point", "the number"),
+    ];
+    WORDS.iter().fold(message.to_owned(), |text, (from, to)| text.replace(from, to))
+}
+
+fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<ModelKind, Fault> {
+    let Some(model) = model else { return Ok(ModelKind::Afm) };
+    ModelKind::from_name(model.get_ref()).ok_or_else(|| {
+        let all = ModelKind::all();
+        context.fault(model.span(), unknown_name("model", model.get_ref(), all.iter().map(|kind| kind.name())))
+    })
+}
+
+fn unknown_name<'a>(what: &'static str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Problem {
+    Problem::UnknownName {
+        what,
+        name: name.to_owned(),
+        nearest: nearest(name, known.clone()),
+        expected: known.map(str::to_owned).collect(),
+    }
+}
+
+fn name(context: &Context<'_>, name: Option<&At<String>>) -> Result<String, Fault> {
+    let stem = || context.path.file_stem().map_or_else(|| "study".to_owned(), |s| s.to_string_lossy().into_owned());
+    let Some(name) = name else { return Ok(stem()) };
+    let fits = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
+    if name.get_ref().trim().is_empty() || name.get_ref().starts_with('.') || !name.get_ref().chars().all(fits) {
+        let problem = Problem::WrongType {
+            key: "name".to_owned(),
+            expected: "letters, digits, '-', '_', '.' and spaces, not starting with a dot (files are named after it)"
+                .to_owned(),
+            found: format!("{:?}", name.get_ref()),
+        };
+        return Err(context.fault(name.span(), problem));
+    }
+    Ok(name.get_ref().clone())
+}
+
+fn subject(context: &Context<'_>, kind: ModelKind, file: &StudyFile, space: &Space) -> Result<Subject, Fault> {
+    let outputs = outputs(context, kind, file.outputs.as_ref())?;
+    let is_factor = |name: &str| space.factors().iter().any(|factor| factor.name == name);
+    match (kind, &file.afm) {
+        (ModelKind::Afm, table) => {
+            let empty = Default::default();
+            let table = table.as_ref().map_or(&empty, At::get_ref);
+            let (scene, options) = constants::afm(context, table, &is_factor)?;
+            let outputs = outputs.into_iter().map(|number| AfmOutput::ALL[number]).collect();
+            Ok(Subject::Afm(AfmSubject { scene, options, outputs }))
+        }
+        (ModelKind::Known(function), None) => Ok(Subject::Known(KnownSubject { function })),
+        (ModelKind::Known(_), Some(table)) => {
+            let problem = Problem::UnknownKey { name: "afm".to_owned(), nearest: None, expected: top_level_keys() };
+            Err(context.fault(table.span(), problem))
+        }
+    }
+}
+
+fn top_level_keys() -> Vec<String> {
+    ["name", "title", "model", "outputs", "design", "factor"].map(str::to_owned).to_vec()
+}
+
+/// Numbers of the outputs in the catalogue, in the order asked for; the first one if nothing is asked.
+fn outputs(context: &Context<'_>, kind: ModelKind, asked: Option<&At<Vec<At<String>>>>) -> Result<Vec<usize>, Fault> {
+    let Some(asked) = asked else { return Ok(vec![0]) };
+    if asked.get_ref().is_empty() {
+        return Err(context.fault(asked.span(), Problem::NoOutputs));
+    }
+    let known = kind.outputs();
+    let mut numbers = Vec::new();
+    for output in asked.get_ref() {
+        let name = output.get_ref();
+        let Some(number) = known.iter().position(|info| info.name == name) else {
+            let problem = unknown_name("output", name, known.iter().map(|info| info.name));
+            return Err(context.fault(output.span(), problem));
+        };
+        if numbers.contains(&number) {
+            let problem = Problem::Repeated { what: "output", name: name.clone() };
+            return Err(context.fault(output.span(), problem));
+        }
+        numbers.push(number);
+    }
+    Ok(numbers)
+}
+
+fn space(context: &Context<'_>, kind: ModelKind, sections: &[At<FactorSection>]) -> Result<Space, Fault> {
+    if sections.is_empty() {
+        return Err(context.fault(0..0, Problem::NoFactors));
+    }
+    let inputs = kind.inputs();
+    let mut factors: Vec<Factor> = Vec::new();
+    for section in sections {
+        let name = &section.get_ref().name;
+        let Some(input) = inputs.iter().find(|input| input.name == name.get_ref()) else {
+            let problem = unknown_name("factor", name.get_ref(), inputs.iter().map(|input| input.name));
+            return Err(context.fault(name.span(), problem));
+        };
+        if factors.iter().any(|factor| factor.name == *name.get_ref()) {
+            let problem = Problem::Repeated { what: "factor", name: name.get_ref().clone() };
+            return Err(context.fault(name.span(), problem));
+        }
+        factors.push(factor(context, section, input)?);
+    }
+    Ok(Space::new(factors))
+}
+
+fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> Result<Factor, Fault> {
+    let place = section.get_ref().name.span();
+    let fields = section.get_ref();
+    let unit = unit(context, fields, input)?;
+    let distribution = distribution::of(context, section)?;
+    let in_domain = |value: f64| input.domain.is_none_or(|domain| domain.contains(unit.to_si(value)));
+    let outside = |span, found: String| {
+        let domain = input.domain.map_or_else(String::new, |domain| domain.to_string());
+        context.fault(span, Problem::OutOfDomain { name: format!("factor `{}`", input.name), domain, found })
+    };
+    let (low, high) = distribution.support();
+    for (bound, field) in [(low, &fields.min), (high, &fields.max)] {
+        // Unbounded distributions reach everywhere: their rare rows outside the domain fail by name and are counted.
+        if bound.is_finite() && !in_domain(bound) {
+            let span = field.as_ref().map_or(place.clone(), At::span);
+            return Err(outside(span, format!("its values reach {bound} {unit}")));
+        }
+    }
+    let nominal = match &fields.nominal {
+        Some(nominal) if !in_domain(*nominal.get_ref()) || !nominal.get_ref().is_finite() => {
+            return Err(outside(nominal.span(), format!("its nominal value is {} {unit}", nominal.get_ref())));
+        }
+        Some(nominal) => *nominal.get_ref(),
+        None => default_nominal(input, &unit, &distribution),
+    };
+    let group = fields.group.as_ref().map(|group| group.get_ref().clone());
+    Ok(Factor { name: input.name.to_owned(), unit, distribution, nominal, group })
+}
+
+/// The model's own nominal value, or the median where that lies outside the distribution's range.
+fn default_nominal(input: &Input, unit: &Unit, distribution: &Distribution) -> f64 {
+    let (low, high) = distribution.support();
+    let nominal = unit.from_si(input.unit.to_si(input.nominal));
+    if low <= nominal && nominal <= high { nominal } else { distribution.quantile(0.5) }
+}
+
+fn unit(context: &Context<'_>, fields: &FactorSection, input: &Input) -> Result<Unit, Fault> {
+    let dimension = || input.unit.dimension().to_string();
+    let (name, example) = (format!("factor `{}`", input.name), format!("unit = \"{}\"", input.unit));
+    let Some(typed) = &fields.unit else {
+        if input.unit.compatible(&Unit::dimensionless()) {
+            return Ok(Unit::dimensionless());
+        }
+        let problem = Problem::MissingUnit { name, dimension: dimension(), example };
+        return Err(context.fault(fields.name.span(), problem));
+    };
+    let unit = Unit::parse(typed.get_ref()).map_err(|error| context.fault(typed.span(), error.into()))?;
+    if !unit.compatible(&input.unit) {
+        let found = unit.dimension().to_string();
+        let problem = Problem::WrongUnit { name, expected: dimension(), unit: unit.to_string(), found, example };
+        return Err(context.fault(typed.span(), problem));
+    }
+    Ok(unit)
+}
+
+fn design(
+    context: &Context<'_>,
+    section: &DesignSection,
+    space: &Space,
+) -> Result<(Design, Vec<String>), Fault> {
+    let defaults = DesignSettings::default();
+    let sampler = match &section.sampler {
+        None => defaults.sampler,
+        Some(name) => {
+            let found = Sampler::ALL.into_iter().find(|sampler| sampler.name() == name.get_ref());
+            let names = Sampler::ALL.map(Sampler::name);
+            found.ok_or_else(|| {
+                context.fault(name.span(), unknown_name("sampler", name.get_ref(), names.iter().copied()))
+            })?
+        }
+    };
+    let or = |value: &Option<At<u64>>, default| value.as_ref().map_or(default, |value| *value.get_ref());
+    let settings = DesignSettings {
+        sampler,
+        base_samples: or(&section.base_samples, defaults.base_samples),
+        replicates: or(&section.replicates, defaults.replicates),
+        seed: or(&section.seed, defaults.seed),
+    };
+    let asked = settings.base_samples;
+    let single = (0..space.factors().len()).map(|number| vec![number]);
+    let swaps = single.chain(space.groups().into_iter().map(|group| group.factors)).collect();
+    let design = Design::new(settings, space.factors().len(), swaps).map_err(|error| {
+        let span = match error {
+            DesignError::NoReplicates => section.replicates.as_ref(),
+            _ => section.base_samples.as_ref().or(section.replicates.as_ref()),
+        };
+        context.fault(span.map_or(0..0, At::span), error.into())
+    })?;
+    let in_force = design.settings();
+    let rounded = (in_force.base_samples != asked).then(|| {
+        format!(
+            "base_samples = {asked} is not a multiple of {} replicates: {} are used",
+            in_force.replicates, in_force.base_samples
+        )
+    });
+    Ok((design, rounded.into_iter().collect()))
+}

@@ -1,0 +1,92 @@
+//! What a study is about: a model with its choices made.
+
+use serde_json::{Value, json};
+
+use crate::afm::{Options, Parameter, Scene};
+use crate::model::{AfmModel, AfmOutput, KnownAnswer, KnownModel, Model, ModelKind, edge_unit};
+use crate::space::Space;
+
+/// A model with its choices made.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Subject {
+    /// The nanoparticle model.
+    Afm(AfmSubject),
+    /// A function with exact indices.
+    Known(KnownSubject),
+}
+
+/// The nanoparticle model with its choices made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AfmSubject {
+    /// The constants; those of the factors are overwritten in every run.
+    pub scene: Scene,
+    /// Friction law, contact theory, fidelity and the like.
+    pub options: Options,
+    /// The outputs asked for.
+    pub outputs: Vec<AfmOutput>,
+}
+
+/// A known-answer function.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KnownSubject {
+    /// Which one.
+    pub function: KnownAnswer,
+}
+
+impl Subject {
+    /// The model's entry in the catalogue.
+    pub fn kind(&self) -> ModelKind {
+        match self {
+            Self::Afm(_) => ModelKind::Afm,
+            Self::Known(known) => ModelKind::Known(known.function),
+        }
+    }
+
+    pub(super) fn model(&self, space: &Space) -> Box<dyn Model> {
+        let names = || space.factors().iter().map(|factor| factor.name.as_str());
+        match self {
+            Self::Afm(afm) => {
+                let factors = names().filter_map(Parameter::from_name).collect();
+                Box::new(AfmModel::new(afm.scene, afm.options, factors, afm.outputs.clone()))
+            }
+            Self::Known(KnownSubject { function }) => {
+                let inputs = ModelKind::Known(*function).inputs();
+                let factors = names().filter_map(|name| inputs.iter().position(|i| i.name == name)).collect();
+                Box::new(KnownModel::new(*function, inputs.iter().map(|i| i.nominal).collect(), factors))
+            }
+        }
+    }
+
+    pub(super) fn settings(&self) -> Vec<(&'static str, Value)> {
+        match self {
+            Self::Afm(AfmSubject { options, .. }) => vec![
+                ("friction", json!(options.friction.name())),
+                ("contact", json!(options.contact.name())),
+                ("fidelity", json!(options.fidelity.name())),
+                ("torsion", json!(options.torsion.name())),
+                ("adhesion_in_load", json!(options.adhesion_in_load)),
+            ],
+            Self::Known(_) => Vec::new(),
+        }
+    }
+
+    pub(super) fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
+        let is_factor = |name: &str| space.factors().iter().any(|factor| factor.name == name);
+        let constant = |name: &str, value: f64, unit: String| (name.to_owned(), value, unit);
+        match self {
+            Self::Afm(AfmSubject { scene, .. }) => Parameter::ALL
+                .iter()
+                // A shear modulus that nobody set follows E and nu: it is no constant.
+                .filter(|p| !is_factor(p.name) && (p.name != "shear_modulus" || scene.shear_modulus.is_some()))
+                .map(|p| (p, edge_unit(p)))
+                .map(|(p, unit)| constant(p.name, unit.from_si((p.get)(scene)), unit.to_string()))
+                .collect(),
+            Self::Known(KnownSubject { function }) => ModelKind::Known(*function)
+                .inputs()
+                .iter()
+                .filter(|input| !is_factor(input.name))
+                .map(|input| constant(input.name, input.nominal, input.unit.to_string()))
+                .collect(),
+        }
+    }
+}
