@@ -1,1 +1,120 @@
-//! Units at the edges.
+//! Units of inputs and outputs: what people type at the edges, SI inside.
+
+mod dimension;
+mod error;
+mod unit;
+
+use std::fmt;
+
+pub use dimension::Dimension;
+pub use error::UnitError;
+pub use unit::Unit;
+
+/// A value with its unit, as typed.
+///
+/// ```
+/// use apportion::quantity::Quantity;
+///
+/// let tilt = Quantity::parse("0.7 deg")?;
+/// assert_eq!(tilt.to_si(), 0.7_f64.to_radians());
+/// assert_eq!(tilt.to_string(), "0.7 deg");
+/// # Ok::<(), apportion::quantity::UnitError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity {
+    /// The number, in `unit`.
+    pub value: f64,
+    /// The unit.
+    pub unit: Unit,
+}
+
+impl Quantity {
+    /// Reads a finite number and a unit, with or without a space between them; no unit is a pure number.
+    ///
+    /// # Errors
+    ///
+    /// [`UnitError::NotANumber`] if it does not begin with a finite number, else what [`Unit::parse`] says.
+    pub fn parse(text: &str) -> Result<Self, UnitError> {
+        let trimmed = text.trim();
+        let number = &trimmed[..number_length(trimmed)];
+        let value = number.parse().ok().filter(|value: &f64| value.is_finite());
+        let value = value.ok_or_else(|| UnitError::NotANumber {
+            text: text.to_owned(),
+        })?;
+        Ok(Self {
+            value,
+            unit: Unit::parse(&trimmed[number.len()..])?,
+        })
+    }
+
+    /// The value in SI.
+    pub fn to_si(&self) -> f64 {
+        self.unit.to_si(self.value)
+    }
+}
+
+/// Bytes of the decimal number that `text` begins with.
+fn number_length(text: &str) -> usize {
+    let digits = |from: usize| {
+        let rest = text.get(from..).unwrap_or_default();
+        from + rest.bytes().take_while(u8::is_ascii_digit).count()
+    };
+    let sign = |at: usize| usize::from(matches!(text.as_bytes().get(at), Some(b'+' | b'-')));
+    let mut end = digits(sign(0));
+    if text.as_bytes().get(end) == Some(&b'.') {
+        end = digits(end + 1);
+    }
+    if matches!(text.as_bytes().get(end), Some(b'e' | b'E')) {
+        let start = end + 1 + sign(end + 1);
+        let stop = digits(start);
+        // "3 eV" and "2e" hold no exponent.
+        if stop > start {
+            end = stop;
+        }
+    }
+    end
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.value.abs();
+        if size == 0.0 || (1e-4..1e15).contains(&size) {
+            write!(f, "{}", self.value)?;
+        } else {
+            write!(f, "{:e}", self.value)?;
+        }
+        if self.unit.symbol().is_empty() {
+            Ok(())
+        } else {
+            write!(f, " {}", self.unit)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantities_are_read_and_written() {
+        let read = |text: &str| Quantity::parse(text).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(read("225um").to_si(), 225e-6);
+        assert_eq!(read("-1.5e-3 GPa").to_si(), -1.5e6);
+        assert_eq!(read("+.5 %").to_si(), 0.005);
+        assert_eq!(read("3").unit.dimension(), Dimension::NUMBER);
+        assert_eq!(read("1e-7 m").to_string(), "1e-7 m");
+        assert_eq!(read(" 42 ").to_string(), "42");
+        for text in [
+            "", "um", "inf m", "nan", "1e999 m", "1,5 mm", "1 2", "- 1 m", "1_0", ".",
+        ] {
+            assert!(Quantity::parse(text).is_err(), "{text}");
+        }
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn no_text_panics(text in proptest::prelude::any::<String>(), near in "[-+.eE0-9]{0,8} ?[munpkMGNPaJradeg0-9 /*^.-]{0,12}") {
+            let _ = (Quantity::parse(&text), Quantity::parse(&near));
+        }
+    }
+}

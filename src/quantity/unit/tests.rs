@@ -1,0 +1,176 @@
+//! Tests of units.
+
+use super::*;
+use proptest::prelude::*;
+
+fn unit(text: &str) -> Unit {
+    Unit::parse(text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn every_usual_unit_has_its_factor_and_dimension() {
+    let expected = [
+        (Dimension::LENGTH, 1.0, "m"),
+        (Dimension::LENGTH, 1e-3, "mm"),
+        (Dimension::LENGTH, 1e-6, "um"),
+        (Dimension::LENGTH, 1e-6, "\u{b5}m"),
+        (Dimension::LENGTH, 1e-6, "\u{3bc}m"),
+        (Dimension::LENGTH, 1e-9, "nm"),
+        (Dimension::LENGTH, 1e-12, "pm"),
+        (Dimension::SPEED, 1e-9, "nm/s"),
+        (Dimension::SPEED, 1e-6, "um/s"),
+        (Dimension::SPEED, 1e-3, "mm/s"),
+        (Dimension::SPEED, 1.0, "m s^-1"),
+        (Dimension::PRESSURE, 1e9, "GPa"),
+        (Dimension::PRESSURE, 1e6, "MPa"),
+        (Dimension::PRESSURE, 1e3, "kPa"),
+        (Dimension::PRESSURE, 1.0, "Pa"),
+        (Dimension::PRESSURE, 1.0, "N/m2"),
+        (Dimension::PRESSURE, 1.0, "kg/m/s^2"),
+        (Dimension::STIFFNESS, 1.0, "J/m2"),
+        (Dimension::STIFFNESS, 1.0, "J/m^2"),
+        (Dimension::STIFFNESS, 1.0, "J/m**2"),
+        (Dimension::STIFFNESS, 1.0, "J/m\u{b2}"),
+        (Dimension::STIFFNESS, 1.0, "J m\u{207b}\u{b2}"),
+        (Dimension::STIFFNESS, 1e-3, "mJ/m2"),
+        (Dimension::STIFFNESS, 1.0, "N/m"),
+        (Dimension::STIFFNESS, 1e-3, "mN/m"),
+        (Dimension::STIFFNESS, 1.0, "nN/nm"),
+        (Dimension::FORCE, 1e-12, "pN"),
+        (Dimension::FORCE, 1e-9, " nN "),
+        (Dimension::FORCE, 1e-6, "uN"),
+        (Dimension::FORCE, 1.0, "N"),
+        (Dimension::DAMPING, 1.0, "N s/m"),
+        (Dimension::DAMPING, 1.0, "N*s/m"),
+        (Dimension::DAMPING, 1.0, "N \u{b7} s / m"),
+        (Dimension::DAMPING, 1.0, "N.s/m"),
+        (Dimension::DAMPING, 1.0, "Ns/m"),
+        (Dimension::DAMPING, 1e-9, "uN ms/m"),
+        (Dimension::VISCOSITY, 1e-3, "mPas"),
+        (Dimension::ENERGY, 1e-9, "nNm"),
+        (Dimension::ANGLE, 1.0, "rad"),
+        (Dimension::ANGLE, 1e-3, "mrad"),
+        (Dimension::ANGLE, std::f64::consts::PI / 180.0, "deg"),
+        (Dimension::ANGLE, std::f64::consts::PI / 180.0, "\u{b0}"),
+        (Dimension::DENSITY, 1.0, "kg/m3"),
+        (Dimension::DENSITY, 1.0, "kg/m^3"),
+        (Dimension::DENSITY, 1e3, "g/cm3"),
+        (Dimension::TIME, 1.0, "s"),
+        (Dimension::TIME, 1e-3, "ms"),
+        (Dimension::TIME, 1e-6, "us"),
+        (Dimension::FREQUENCY, 1.0, "1/s"),
+        (Dimension::FREQUENCY, 1e3, "kHz"),
+        (Dimension::NUMBER, 1.0, "1"),
+        (Dimension::NUMBER, 1.0, ""),
+        (Dimension::NUMBER, 1e-2, "%"),
+        (Dimension::NUMBER, 1e-6, "um/m"),
+    ];
+    for (dimension, factor, text) in expected {
+        assert_eq!(unit(text).dimension(), dimension, "{text}");
+        assert_eq!(unit(text).to_si(1.0), factor, "{text}");
+    }
+    assert!(!unit("deg").compatible(&unit("m")));
+    assert!(!unit("rad").compatible(&unit("1")));
+}
+
+#[test]
+fn what_is_no_unit_is_named_and_corrected() {
+    let text = |input: &str| Unit::parse(input).expect_err(input).to_string();
+    assert!(
+        text("gpa").contains("did you mean \"GPa\"?"),
+        "{}",
+        text("gpa")
+    );
+    assert!(
+        text("nm/sec").contains("\"sec\" is not understood;"),
+        "{}",
+        text("nm/sec")
+    );
+    assert!(
+        text("Mpa").contains("did you mean \"MPa\"?"),
+        "{}",
+        text("Mpa")
+    );
+    assert!(text("furlong/s").contains("units look like"));
+    assert!(text("N/m s").contains("two ways"));
+    let odd = [
+        "/",
+        "m/",
+        "/s",
+        "m//s",
+        "m^",
+        "m^x",
+        "m0",
+        "m^10",
+        "2m",
+        "10",
+        "^2",
+        "m\u{2075}",
+        "\u{1f41f}",
+        "nn",
+        "N%",
+        "mmm",
+    ];
+    for input in odd.into_iter().chain([
+        "km9 km9 km9",
+        "m-",
+        "-",
+        "1e3",
+        "m^2.5",
+        "m9*m9*m9*m9*m9*m9*m9*m9*m9*m9*m9*m9*m9*m9*m9",
+    ]) {
+        assert!(Unit::parse(input).is_err(), "{input}");
+    }
+}
+
+#[test]
+fn dimensions_name_themselves() {
+    assert_eq!(unit("nm").dimension().to_string(), "a length");
+    assert_eq!(
+        unit("mN/m").dimension().to_string(),
+        "a stiffness or surface energy"
+    );
+    assert_eq!(
+        unit("J s/m4").dimension().to_string(),
+        "a quantity in m^-2 kg s^-1"
+    );
+}
+
+#[test]
+fn a_unit_survives_json() {
+    let typed = unit("\u{b5}m");
+    let json = serde_json::to_string(&typed).expect("a string");
+    assert_eq!(json, "\"\u{b5}m\"");
+    assert_eq!(serde_json::from_str::<Unit>(&json).expect("a unit"), typed);
+    assert!(serde_json::from_str::<Unit>("\"parsec\"").is_err());
+}
+
+proptest! {
+    #[test]
+    fn decimal_prefixes_give_the_nearest_number(digits in 1u64..1_000_000_000, places in 0i32..6) {
+        // The decimal text with the prefix written as an exponent, rounded once by the parser, is the exact answer.
+        for (symbol, decade) in [("pm", -12), ("nm", -9), ("um", -6), ("mm", -3), ("GPa", 9), ("g/cm3", 3)] {
+            // Whole numbers are exact before the factor is applied.
+            let nearest: f64 = format!("{digits}e{decade}").parse().expect("a number");
+            prop_assert_eq!(unit(symbol).to_si(digits as f64), nearest);
+            // A fraction is rounded when it is read and again when it is scaled.
+            let value: f64 = format!("{digits}e-{places}").parse().expect("a number");
+            let nearest: f64 = format!("{digits}e{}", decade - places).parse().expect("a number");
+            prop_assert!((unit(symbol).to_si(value) - nearest).abs() <= 2.0 * f64::EPSILON * nearest);
+        }
+    }
+
+    #[test]
+    fn there_and_back(value in -1e12f64..1e12) {
+        for (symbol, ulps) in [("pm", 1.0), ("um", 1.0), ("GPa", 1.0), ("g/cm3", 1.0), ("%", 1.0), ("deg", 2.0)] {
+            let unit = unit(symbol);
+            let back = unit.from_si(unit.to_si(value));
+            prop_assert!((back - value).abs() <= ulps * f64::EPSILON * value.abs(), "{} {}", value, symbol);
+        }
+    }
+
+    #[test]
+    fn no_text_panics(text in any::<String>(), near in "[munpkMGNPaJradeg0-9 /*^.-]{0,12}") {
+        let _ = (Unit::parse(&text), Unit::parse(&near));
+    }
+}
