@@ -4,7 +4,7 @@ use super::Domain;
 
 /// The reason a quantity could not be computed. Carries no input values, so that equal reasons
 /// compare equal and can be counted over a sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, thiserror::Error)]
 pub enum Failure {
     /// A parameter lies outside its physical domain, or is not a finite number.
     #[error("{parameter} is outside its physical domain: it must be a finite number {domain}")]

@@ -6,7 +6,7 @@ use std::fmt;
 use super::Scene;
 
 /// Where a parameter is physical. Every domain holds finite numbers only.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Domain {
     /// Greater than zero.
     Positive,

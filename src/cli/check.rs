@@ -44,8 +44,7 @@ fn subject(study: &Study) -> String {
         text.push_str(&format!("  {name} = {value}\n"));
     }
     let model = study.model();
-    let outputs: Vec<String> =
-        model.outputs().iter().map(|o| format!("{} [{}]", o.name, o.unit)).collect();
+    let outputs: Vec<String> = model.outputs().iter().map(|o| format!("{} [{}]", o.name, o.unit)).collect();
     text.push_str(&format!("outputs: {}\n", outputs.join(", ")));
     let constants: Vec<String> = study
         .constants()

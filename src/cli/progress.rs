@@ -25,7 +25,8 @@ impl Meter {
     pub fn new(label: &str, total: u64) -> Self {
         let display = if super::stderr_is_terminal() {
             let bar = ProgressBar::new(total);
-            let template = "{prefix} {bar:32} {percent:>3} %  {human_pos} of {human_len} runs  {per_sec}  {eta} left{msg}";
+            let template =
+                "{prefix} {bar:32} {percent:>3} %  {human_pos} of {human_len} runs  {per_sec}  {eta} left{msg}";
             bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar.set_prefix(label.to_owned());
             Display::Bar(bar)
@@ -71,7 +72,11 @@ impl Meter {
         let left = (total - done) as f64 / per_second;
         let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
         let percent = 100.0 * done as f64 / total as f64;
-        format!("{}: {percent:.0} %, {done} of {total} runs, {}, {left:.0} s left{failed}", self.label, rate(per_second))
+        format!(
+            "{}: {percent:.0} %, {done} of {total} runs, {}, {left:.0} s left{failed}",
+            self.label,
+            rate(per_second)
+        )
     }
 }
 

@@ -4,9 +4,7 @@ use std::path::{Path, PathBuf};
 
 use apportion::analyse;
 use apportion::report::chart::png;
-use apportion::report::{
-    ResultFile, indices_csv, prepare_folder, result_json, study_chart, summary, write_atomically,
-};
+use apportion::report::{ResultFile, indices_csv, prepare_folder, result_json, study_chart, summary, write_atomically};
 
 use super::progress::Meter;
 use super::{Failure, StudyArguments, Threads, print, say};

@@ -122,10 +122,10 @@ mod tests {
         batch.reset(3);
         batch.column_mut(0).copy_from_slice(&[1.0, f64::INFINITY, 2.0]);
         batch.column_mut(1).copy_from_slice(&[1.0, 2.0, 3.0]);
-        batch.fail(2, 1, crate::afm::Failure::NoMotion);
+        batch.fail(2, 1, crate::afm::Failure::VelocityZero);
         batch.settle();
         let expected =
-            [(0, 1, RowFailure::NotFinite), (1, 2, RowFailure::Afm(crate::afm::Failure::NoMotion))];
+            [(0, 1, RowFailure::NotFinite), (1, 2, RowFailure::Afm(crate::afm::Failure::VelocityZero))];
         assert_eq!(batch.failures(), expected);
     }
 

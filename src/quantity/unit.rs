@@ -104,6 +104,11 @@ fn spellings() -> impl Iterator<Item = (String, &'static Symbol, i32)> {
 }
 
 impl Unit {
+    /// The unit of pure numbers, `1`.
+    pub fn dimensionless() -> Self {
+        Self { symbol: "1".to_owned(), decade: 0, degrees: 0, dimension: Dimension::NUMBER }
+    }
+
     /// Reads a unit: symbols with powers (`m2`, `m^2`, `m²`, `m-2`) joined by a space, `*`, `·` or `.`, and divided
     /// by `/`. `µ` and `u` are both micro; `Ns`, `Nm`, `Pas` and `Js` need no sign between them; the empty string
     /// and `1` are a pure number.

@@ -147,7 +147,7 @@ pub enum Problem {
         example: String,
     },
     /// A unit of the wrong kind.
-    #[error("{name} is {expected}, but `{unit}` is a unit of {found}")]
+    #[error("{name} is {expected}, but `{unit}` measures {found}")]
     WrongUnit {
         /// The factor or constant.
         name: String,
