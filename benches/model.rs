@@ -1,0 +1,50 @@
+//! How many critical forces per second, under each friction law, on one thread, over the papers' box?
+
+use std::hint::black_box;
+
+use apportion::design::{Design, DesignSettings};
+use apportion::model::Batch;
+use apportion::study::Study;
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+
+const ROWS: usize = 4096;
+
+/// SI columns of the general study's box.
+fn columns(study: &Study) -> Vec<Vec<f64>> {
+    let settings = DesignSettings { base_samples: ROWS as u64, replicates: 1, ..DesignSettings::default() };
+    let design = Design::new(settings, study.design.factors(), vec![]).expect("a plain design");
+    let mut unit = vec![vec![0.0; ROWS]; study.design.factors() * 2];
+    design.replicate(0).fill(0, &mut unit);
+    let mut values = vec![vec![0.0; ROWS]; study.design.factors()];
+    for ((factor, u), si) in study.space.factors().iter().zip(&unit).zip(&mut values) {
+        factor.fill_si(u, si);
+    }
+    values
+}
+
+fn closed_form(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("closed-form");
+    group.throughput(Throughput::Elements(ROWS as u64));
+    for (friction, text) in [
+        ("coulomb", include_str!("../studies/coulomb-general.toml")),
+        ("hk", include_str!("../studies/hk-general.toml")),
+        ("lugre", include_str!("../studies/lugre-general.toml")),
+    ] {
+        let study = Study::parse(text, friction.as_ref(), &[]).expect("a study of this repository");
+        let (model, columns) = (study.model(), columns(&study));
+        let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let mut worker = model.worker();
+        let mut batch = Batch::new(model.outputs().len(), model.flags().len());
+        group.bench_function(friction, |bencher| {
+            bencher.iter(|| {
+                batch.reset(ROWS);
+                worker.run(black_box(&inputs), &mut batch);
+                black_box(batch.column(0)[0])
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, closed_form);
+criterion_main!(benches);

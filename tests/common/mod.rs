@@ -1,0 +1,54 @@
+//! What several test files share.
+#![allow(dead_code)] // each test file uses its own part
+
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use apportion::report::{IndexRecord, OutputRecord, ResultFile};
+use apportion::study::Study;
+
+/// Runs the program and returns what it printed and how it ended.
+pub fn apportion(arguments: &[&str]) -> Output {
+    assert_cmd::Command::cargo_bin("apportion").unwrap().args(arguments).output().unwrap()
+}
+
+/// Standard error of a program run as text.
+pub fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Standard output of a program run as text.
+pub fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+/// A study of this repository.
+pub fn study_path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("studies").join(format!("{name}.toml"))
+}
+
+/// The result of a study of this repository under overrides.
+pub fn analysed(name: &str, overrides: &[&str]) -> ResultFile {
+    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    let study = Study::load(&study_path(name), &overrides).unwrap();
+    apportion::analyse(&study, 0, &|_| ()).unwrap()
+}
+
+/// The indices of the first output.
+pub fn indices(result: &ResultFile) -> &[IndexRecord] {
+    result.outputs[0].indices.as_deref().unwrap()
+}
+
+/// First-order and total indices of the first output as plain numbers.
+pub fn numbers(output: &OutputRecord) -> (Vec<f64>, Vec<f64>) {
+    let indices = output.indices.as_deref().unwrap();
+    let first = indices.iter().map(|index| index.effect.first_order.estimate).collect();
+    let total = indices.iter().map(|index| index.effect.total.estimate).collect();
+    (first, total)
+}
+
+/// Largest absolute difference between two lists.
+pub fn gap(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}

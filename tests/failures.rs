@@ -1,0 +1,243 @@
+//! Bad input through the program: each has its clear error, the place of the fault, and exit code 2.
+
+mod common;
+
+use std::path::{Path, PathBuf};
+
+use common::{apportion, stderr, study_path};
+
+/// A study that is right, to be spoilt line by line.
+const GOOD: &str = r#"outputs = ["critical_force"]
+[afm]
+friction = "coulomb"
+[design]
+base_samples = 64
+[[factor]]
+name = "length"
+min = 200
+max = 700
+unit = "um"
+[[factor]]
+name = "velocity"
+min = 0
+max = 800
+unit = "nm/s"
+"#;
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn with(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.path(name);
+        std::fs::write(&path, content).unwrap();
+        path
+    }
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// Runs `check` on a spoilt study and expects exit code 2 with every one of `expected` in the message.
+#[track_caller]
+fn assert_refused(study: &str, expected: &[&str]) {
+    let folder = Folder::new();
+    let path = folder.with("study.toml", study);
+    for command in ["check", "run"] {
+        let out = folder.path("out");
+        let mut arguments = vec![command, text(&path)];
+        if command == "run" {
+            arguments.extend(["--out", text(&out)]);
+        }
+        let output = apportion(&arguments);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{command}: {message}");
+        for part in expected {
+            assert!(message.contains(part), "{command}: no {part:?} in:\n{message}");
+        }
+        assert!(!out.exists(), "a refused study leaves nothing behind");
+    }
+}
+
+#[track_caller]
+fn assert_spoilt(from: &str, to: &str, expected: &[&str]) {
+    assert!(GOOD.contains(from));
+    assert_refused(&GOOD.replacen(from, to, 1), expected);
+}
+
+#[test]
+fn the_good_study_is_good() {
+    let folder = Folder::new();
+    let output = apportion(&["check", text(&folder.with("study.toml", GOOD))]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+#[test]
+fn a_missing_file() {
+    let output = apportion(&["run", "no-such-study.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("no-such-study.toml: cannot read the study file"));
+}
+
+#[test]
+fn a_folder_and_bytes_that_are_no_text() {
+    let folder = Folder::new();
+    for path in [folder.path("."), folder.with("binary.toml", [0xff, 0xfe, 0x00, 0x9f])] {
+        let output = apportion(&["check", text(&path)]);
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn not_toml_and_nothing_at_all() {
+    assert_refused("this is no study", &["study.toml:1:", "^"]);
+    assert_refused("", &["study.toml:1:1:", "no factor", "[[factor]]"]);
+    assert_refused("\u{0}", &["study.toml:1:1:"]);
+}
+
+#[test]
+fn unknown_keys_suggest_the_nearest() {
+    assert_spoilt("base_samples", "base_sample", &["study.toml:5:1:", "unknown key `base_sample`", "`base_samples`?"]);
+    assert_spoilt("min = 200", "mim = 200", &["study.toml:8:1:", "unknown key `mim`", "did you mean `min`?"]);
+    assert_spoilt("[afm]\nfriction", "[afm]\nfrictoin", &["study.toml:3:1:", "did you mean `friction`?"]);
+    assert_spoilt("outputs", "output", &["study.toml:1:1:", "did you mean `outputs`?"]);
+}
+
+#[test]
+fn unknown_names_suggest_the_nearest() {
+    assert_spoilt("\"length\"", "\"lenght\"", &["study.toml:7:8:", "unknown factor `lenght`: did you mean `length`?"]);
+    assert_spoilt("\"coulomb\"", "\"coulom\"", &["study.toml:3:12:", "friction law", "did you mean `coulomb`?"]);
+    assert_spoilt("\"critical_force\"", "\"critical\"", &["study.toml:1:12:", "unknown output `critical`", "lateral_force"]);
+    assert_spoilt("outputs", "model = \"abm\"\noutputs", &["study.toml:1:9:", "unknown model `abm`", "afm"]);
+    assert_spoilt("unit = \"um\"", "unit = \"um\"\ndistribution = \"normel\"", &["study.toml:11:16:", "`normal`?"]);
+}
+
+#[test]
+fn units_of_the_wrong_kind_and_no_unit() {
+    assert_spoilt("\"um\"", "\"GPa\"", &["study.toml:10:8:", "`length` is a length", "`GPa` measures a pressure", "unit = \"um\""]);
+    assert_spoilt("\"um\"", "\"furlong\"", &["study.toml:10:8:", "furlong"]);
+    assert_spoilt("unit = \"um\"\n", "", &["study.toml:7:8:", "needs a unit", "unit = \"um\""]);
+    assert_spoilt("friction =", "preload_angle = \"0.7 um\"\nfriction =", &["study.toml:3:17:", "an angle"]);
+    assert_spoilt("friction =", "preload_angle = 0.7\nfriction =", &["study.toml:3:17:", "needs a unit", "deg"]);
+}
+
+#[test]
+fn ranges_that_are_none() {
+    assert_spoilt("min = 200", "min = 700", &["study.toml:8:7:", "`length`", "min"]);
+    assert_spoilt("min = 200", "min = 900", &["study.toml:8:7:", "`length`"]);
+    assert_spoilt("min = 200", "min = -5", &["study.toml:8:7:", "must be > 0", "-5 um"]);
+    assert_spoilt("min = 200", "min = nan", &["study.toml:8:7:"]);
+    assert_spoilt("max = 700", "max = inf", &["study.toml:9:7:"]);
+    assert_spoilt("max = 700\n", "", &["study.toml:7:8:", "needs `max`", "min, max"]);
+    assert_spoilt("max = 700", "max = 700\nsd = 3", &["study.toml:10:6:", "has no `sd`", "min, max"]);
+}
+
+#[test]
+fn values_of_the_wrong_type() {
+    assert_spoilt("min = 200", "min = \"200\"", &["study.toml:8:7:", "expected a number"]);
+    assert_spoilt("base_samples = 64", "base_samples = -64", &["study.toml:5:16:", "whole number"]);
+    assert_spoilt("base_samples = 64", "base_samples = 64.5", &["study.toml:5:16:", "whole number"]);
+    assert_spoilt("\"coulomb\"", "3", &["study.toml:3:12:", "\"coulomb\""]);
+    assert_spoilt("[[factor]]\nname = \"length\"", "[factor]\nname = \"length\"", &["study.toml:"]);
+    assert_spoilt("outputs = [\"critical_force\"]", "outputs = \"critical_force\"", &["study.toml:1:11:"]);
+}
+
+#[test]
+fn impossible_designs() {
+    assert_spoilt("base_samples = 64", "base_samples = 0", &["study.toml:5:16:", "too few", "at least 32"]);
+    assert_spoilt("base_samples = 64", "replicates = 0", &["study.toml:5:14:", "replicates = 0"]);
+    assert_spoilt("base_samples = 64", "base_samples = 18446744073709551615", &["study.toml:5:16:", "2^32"]);
+    assert_spoilt("base_samples = 64", "sampler = \"sobel\"", &["study.toml:5:11:", "did you mean `sobol`?"]);
+}
+
+#[test]
+fn repeated_and_contradicting_names() {
+    assert_spoilt("\"velocity\"", "\"length\"", &["study.toml:12:8:", "twice"]);
+    assert_spoilt("[\"critical_force\"]", "[\"critical_force\", \"critical_force\"]", &["study.toml:1:30:", "twice"]);
+    assert_spoilt("[\"critical_force\"]", "[]", &["study.toml:1:11:", "empty"]);
+    assert_spoilt("friction =", "length = \"3 um\"\nfriction =", &["study.toml:3:1:", "is a factor of this study"]);
+}
+
+#[test]
+fn overrides_that_make_no_sense() {
+    let study = study_path("coulomb-dimensional");
+    let refused = |arguments: &[&str], expected: &str| {
+        let output = apportion(&[&["check", text(&study)], arguments].concat());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
+    };
+    refused(&["--set", "afm.friction"], "expected KEY=VALUE");
+    refused(&["--set", "afm.friction=hkk"], "unknown friction law `hkk`: did you mean `hk`?");
+    refused(&["--set", "factor.lenght.max=3"], "did you mean `length`?");
+    refused(&["--base-samples", "0"], "too few");
+    refused(&["--base-samples", "many"], "invalid value");
+    refused(&["--seed", "-1"], "-1");
+    let output = apportion(&["run", text(&study), "--threads", "0"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn results_that_cannot_be_written_are_found_before_the_run() {
+    let folder = Folder::new();
+    let file = folder.with("file", "");
+    let study = study_path("coulomb-dimensional");
+    let output = apportion(&["run", text(&study), "--out", text(&file.join("out"))]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("cannot write"));
+    assert!(!stderr(&output).contains("model runs"), "the run must not start");
+}
+
+/// Evaluates `points` at the good study and expects exit code 2 with every one of `expected` in the message.
+#[track_caller]
+fn assert_points_refused(points: impl AsRef<[u8]>, expected: &[&str]) {
+    let folder = Folder::new();
+    let (study, points) = (folder.with("study.toml", GOOD), folder.with("points.csv", points));
+    let target = folder.with("out.csv", "old");
+    let output = apportion(&["evaluate", text(&study), text(&points), "-o", text(&target)]);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for part in expected.iter().chain(&["points.csv"]) {
+        assert!(message.contains(part), "no {part:?} in: {message}");
+    }
+    assert_eq!(std::fs::read_to_string(&target).unwrap(), "old", "the target is what it was");
+}
+
+#[test]
+fn points_that_are_wrong() {
+    assert_points_refused("", &["line 1", "empty", "length, velocity"]);
+    assert_points_refused("lenght,velocity\n1,2\n", &["line 1: column 1", "`lenght`", "did you mean `length`?"]);
+    assert_points_refused("length,length\n1,2\n", &["line 1: column 2", "twice"]);
+    assert_points_refused("length,velocity\n300,100\n300,fast\n", &["line 3: column 2 (`velocity`)", "nm/s", "\"fast\""]);
+    assert_points_refused("length\n300\nNaN\n", &["line 3: column 1", "finite number"]);
+    assert_points_refused("length\n300\n\"\"\n", &["line 3: column 1", "finite number"]);
+    assert_points_refused("length,velocity\n300\n", &["line 2", "expected 2 cells", "not 1"]);
+    assert_points_refused([b'l', b'e', 0xff, b'\n'], &["UTF-8"]);
+    assert_points_refused("length\n300\n1e999\n", &["line 3"]);
+}
+
+#[test]
+fn missing_points_and_a_target_that_is_a_folder() {
+    let folder = Folder::new();
+    let study = folder.with("study.toml", GOOD);
+    let output = apportion(&["evaluate", text(&study), "no-such.csv", "-o", text(&folder.path("out.csv"))]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("no-such.csv: cannot read the points"));
+    let points = folder.with("points.csv", "length\n300\n");
+    let output = apportion(&["evaluate", text(&study), text(&points), "-o", text(&folder.path("."))]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+}
+
+#[test]
+fn usage_errors_exit_with_2() {
+    assert_eq!(apportion(&["frobnicate"]).status.code(), Some(2));
+    assert_eq!(apportion(&[]).status.code(), Some(2));
+    assert_eq!(apportion(&["run"]).status.code(), Some(2));
+}

@@ -1,0 +1,157 @@
+//! What must not matter: the output's offset and scale, the order of the factors, the number of threads.
+
+mod common;
+
+use apportion::design::{Design, DesignSettings};
+use apportion::model::{Batch, KnownAnswer, Model, Output, Worker};
+use apportion::quantity::Unit;
+use apportion::run::{Job, run};
+use apportion::space::{Distribution, Factor, Space};
+use apportion::uncertainty::{ReplicatedIndices, replicated_indices};
+use common::{analysed, apportion, gap, numbers, study_path};
+use proptest::prelude::*;
+
+/// Ishigami's function times `scale` plus `offset`, with its inputs in the order `order`.
+struct Changed {
+    scale: f64,
+    offset: f64,
+    order: [usize; 3],
+    outputs: [Output; 1],
+}
+
+impl Changed {
+    fn new(scale: f64, offset: f64, order: [usize; 3]) -> Self {
+        let outputs = [Output { name: "y", unit: Unit::dimensionless(), description: "" }];
+        Self { scale, offset, order, outputs }
+    }
+}
+
+impl Model for Changed {
+    fn outputs(&self) -> &[Output] {
+        &self.outputs
+    }
+
+    fn worker(&self) -> Box<dyn Worker + '_> {
+        Box::new(ChangedWorker(self))
+    }
+}
+
+struct ChangedWorker<'a>(&'a Changed);
+
+impl Worker for ChangedWorker<'_> {
+    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
+        for row in 0..batch.rows() {
+            let x = self.0.order.map(|column| inputs[column][row]);
+            batch.set(row, 0, KnownAnswer::Ishigami.value(&x) * self.0.scale + self.0.offset);
+        }
+    }
+}
+
+fn indices(model: &Changed, base_samples: u64) -> ReplicatedIndices {
+    let pi = std::f64::consts::PI;
+    let factor = |name: &str| Factor {
+        name: name.to_owned(),
+        unit: Unit::dimensionless(),
+        distribution: Distribution::uniform(-pi, pi).unwrap(),
+        nominal: 0.0,
+        group: None,
+    };
+    let space = Space::new(["x1", "x2", "x3"].map(factor).to_vec());
+    let settings = DesignSettings { base_samples, replicates: 4, ..DesignSettings::default() };
+    let design = Design::new(settings, 3, (0..3).map(|j| vec![j]).collect()).unwrap();
+    let totals = run(Job { design: &design, space: &space, model }, 0, &|_| ()).unwrap();
+    let moments: Vec<_> = totals.into_iter().map(|t| t.outputs[0].moments.clone()).collect();
+    replicated_indices(&moments, 3).unwrap()
+}
+
+fn flat(indices: &ReplicatedIndices) -> Vec<f64> {
+    let effects = indices.factors.iter();
+    effects
+        .flat_map(|e| [e.first_order, e.total, e.check_gap])
+        .flat_map(|e| [e.estimate, e.interval.unwrap().low, e.interval.unwrap().high])
+        .collect()
+}
+
+#[test]
+fn an_offset_of_1e9_changes_no_index_by_1e_9() {
+    let plain = flat(&indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 14));
+    for offset in [1e6, 1e9, -1e9] {
+        // Adding 1e9 rounds each output by up to 6e-8; over 2^14 points this leaves some 1e-10 in an index.
+        let shifted = flat(&indices(&Changed::new(1.0, offset, [0, 1, 2]), 1 << 14));
+        assert!(gap(&plain, &shifted) < 1e-9, "offset {offset}: {}", gap(&plain, &shifted));
+    }
+}
+
+#[test]
+fn a_scale_from_1e_minus_120_to_1e120_changes_nothing() {
+    let plain = flat(&indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 10));
+    for scale in [1e-120, 1e-30, -1.0, 1e30, 1e120] {
+        // Only the rounding of the scaled outputs differs: some 1e-16 each.
+        let scaled = flat(&indices(&Changed::new(scale, 0.0, [0, 1, 2]), 1 << 10));
+        let mut scaled = scaled;
+        if scale < 0.0 {
+            // Indices are quadratic in the output: the sign cancels.
+            scaled.truncate(plain.len());
+        }
+        assert!(gap(&plain, &scaled) < 1e-12, "scale {scale}: {}", gap(&plain, &scaled));
+    }
+    // Powers of two scale without rounding: the same bits.
+    assert_eq!(plain, flat(&indices(&Changed::new(2f64.powi(-100), 0.0, [0, 1, 2]), 1 << 10)));
+}
+
+#[test]
+fn the_order_of_the_factors_changes_their_coordinates_only() {
+    // Other coordinates of the sequence are another design of the same quality: equal within the error of 2^14 points.
+    let plain = indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 14);
+    let swapped = indices(&Changed::new(1.0, 0.0, [2, 0, 1]), 1 << 14);
+    for (j, k) in [(0, 2), (1, 0), (2, 1)] {
+        let (a, b) = (plain.factors[j], swapped.factors[k]);
+        assert!((a.first_order.estimate - b.first_order.estimate).abs() < 0.01);
+        assert!((a.total.estimate - b.total.estimate).abs() < 0.01);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn offsets_and_scales_of_any_size_leave_the_indices(exponent in -60i32..60, offset in -1e3f64..1e3) {
+        let scale = 2f64.powi(exponent);
+        let plain = flat(&indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 256));
+        let changed = flat(&indices(&Changed::new(scale, offset * scale, [0, 1, 2]), 256));
+        prop_assert!(gap(&plain, &changed) < 1e-10);
+    }
+}
+
+#[test]
+fn threads_and_repetition_give_the_same_file_apart_from_what_tells_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |threads: &str| {
+        let out = folder.path().join(threads);
+        let study = study_path("hk-general");
+        let arguments =
+            ["run", study.to_str().unwrap(), "--base-samples", "4096", "--threads", threads, "--out", out.to_str().unwrap()];
+        let output = apportion(&arguments);
+        assert!(output.status.success(), "{}", common::stderr(&output));
+        let text = std::fs::read_to_string(out.join("hk-general.json")).unwrap();
+        let telling = |line: &&str| !line.contains("\"threads\"") && !line.contains("\"wall_seconds\"");
+        let lines: Vec<String> = text.lines().filter(telling).map(str::to_owned).collect();
+        let chart = std::fs::read(out.join("hk-general.svg")).unwrap();
+        (lines, chart)
+    };
+    let one = run("1");
+    for threads in ["2", "7"] {
+        assert!(run(threads) == one, "{threads} threads");
+    }
+}
+
+#[test]
+fn the_seed_changes_the_points_and_zero_is_a_seed() {
+    let with = |seed: &str| {
+        let overrides = [&format!("design.seed={seed}")[..], "design.base_samples=256"];
+        numbers(&analysed("ishigami", &overrides).outputs[0])
+    };
+    assert_eq!(with("0"), with("0"));
+    assert_ne!(with("0"), with("1"));
+    assert_ne!(with("1"), with("18446744073709551615"));
+}
