@@ -1,1 +1,3 @@
 //! Exporters.
+
+pub mod chart;
