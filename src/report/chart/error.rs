@@ -1,0 +1,30 @@
+//! What is wrong with a chart's data.
+
+use thiserror::Error;
+
+/// Data that do not make a chart.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ChartError {
+    /// A figure without panels.
+    #[error("the chart {chart:?} has no panel, it needs at least one")]
+    NoPanels {
+        /// Title of the chart.
+        chart: String,
+    },
+    /// A series that does not match its panel's categories.
+    #[error(
+        "series {series:?} of panel {panel:?} has {found} {what}, but the panel has {expected} categories"
+    )]
+    Length {
+        /// Title of the panel.
+        panel: String,
+        /// Name of the series.
+        series: String,
+        /// Which of the series' lists.
+        what: &'static str,
+        /// Number of categories.
+        expected: usize,
+        /// Length of the list.
+        found: usize,
+    },
+}

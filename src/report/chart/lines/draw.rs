@@ -1,0 +1,224 @@
+//! Draws the panels of a line chart.
+
+use super::super::figure::Figure;
+use super::super::plot::{Plot, TICK_GAP, tick_room, title_room};
+use super::super::scale::{Scale, Wish};
+use super::super::style::{MARGIN, PANEL_TITLE, TICK, WIDTH};
+use super::super::svg::Canvas;
+use super::path::{closed, open, runs, thin};
+use super::{LineChart, LinePanel, LineSeries, flags};
+
+/// Height of the plot of a lone panel, px.
+const LONE: f64 = 320.0;
+/// Height of each plot among several, px.
+const STACKED: f64 = 170.0;
+/// Positive values whose ratio is below this are shown from zero on.
+const NEAR_ZERO: f64 = 0.4;
+/// Room above a plot without markers, px.
+const HEAD: f64 = 8.0;
+
+/// What all panels share.
+struct Common {
+    x: Scale,
+    left: f64,
+    width: f64,
+    height: f64,
+    /// Where the titles of the vertical axes have their baseline.
+    y_title: f64,
+}
+
+/// Draws all panels from the figure's free room on; gives the lower edge.
+pub(super) fn panels(figure: &mut Figure, chart: &LineChart) -> f64 {
+    let height = if chart.panels.len() == 1 {
+        LONE
+    } else {
+        STACKED
+    };
+    let x = x_scale(chart);
+    let scales: Vec<Scale> = chart
+        .panels
+        .iter()
+        .map(|panel| y_scale(panel, &x, height))
+        .collect();
+    let titled = || chart.panels.iter().zip(&scales);
+    let titles = titled()
+        .map(|(panel, y)| title_room(&panel.y.title(y.exponent), height))
+        .fold(0.0, f64::max);
+    let ticks = scales.iter().map(tick_room).fold(0.0, f64::max);
+    let left = MARGIN + titles + ticks;
+    // Half of the last tick label may reach beyond the plot.
+    let overhang = x
+        .ticks
+        .last()
+        .map_or(0.0, |tick| TICK.width(&tick.label) / 2.0 + 4.0);
+    let width = WIDTH - left - MARGIN.max(overhang);
+    let common = Common {
+        x,
+        left,
+        width,
+        height,
+        y_title: left - ticks - TICK_GAP,
+    };
+
+    let mut top = figure.top + 4.0;
+    let mut last = None;
+    for (panel, y) in titled() {
+        let plot = common.panel(&mut figure.canvas, (panel, y), top);
+        top = plot.bottom() + HEAD;
+        last = Some(plot);
+    }
+    match last {
+        Some(plot) => plot.x_labels(
+            &mut figure.canvas,
+            &common.x,
+            &chart.x.title(common.x.exponent),
+        ),
+        None => top,
+    }
+}
+
+fn x_scale(chart: &LineChart) -> Scale {
+    let mut series = chart.panels.iter().flat_map(|panel| &panel.series);
+    // Points need air at the ends; lines run from edge to edge.
+    let air = if series.any(|series| series.stroke.points()) {
+        0.02
+    } else {
+        0.0
+    };
+    let wish = Wish {
+        spacing: chart.x.spacing,
+        air,
+        steps: 7,
+    };
+    Scale::over(chart.panels.iter().flat_map(LinePanel::xs), wish)
+}
+
+fn y_scale(panel: &LinePanel, x: &Scale, height: f64) -> Scale {
+    let steps = if height == LONE { 6 } else { 4 };
+    let wish = Wish {
+        spacing: panel.y.spacing,
+        air: 0.05,
+        steps,
+    };
+    let (low, high) = panel
+        .ys(x)
+        .filter(|y| y.is_finite())
+        .fold((f64::INFINITY, 0.0_f64), |(l, h), y| (l.min(y), h.max(y)));
+    // Zero belongs to the picture unless it would take much of it. A logarithmic scale passes over it.
+    let zero = (low > 0.0 && low < NEAR_ZERO * high).then_some(0.0);
+    Scale::over(panel.ys(x).chain(zero), wish)
+}
+
+impl Common {
+    fn panel(&self, canvas: &mut Canvas, (panel, y): (&LinePanel, &Scale), top: f64) -> Plot {
+        let mut plot = Plot {
+            left: self.left,
+            top,
+            width: self.width,
+            height: self.height,
+        };
+        let flags = flags::place(&panel.markers, &self.x, &plot);
+        let above = flags::room(&flags).max(HEAD);
+        let title = !panel.title.trim().is_empty();
+        plot.top += above + if title { PANEL_TITLE.leading() } else { 0.0 };
+        canvas.open("g", &[("class", &"panel")]);
+        if title {
+            plot.title(canvas, &panel.title, above);
+        }
+        plot.x_grid(canvas, &self.x);
+        plot.y_axis(canvas, y);
+        plot.y_title(canvas, &panel.y.title(y.exponent), self.y_title);
+        plot.axis_lines(canvas);
+        flags::draw(canvas, &plot, &flags);
+        let sheet = Sheet {
+            plot,
+            x: &self.x,
+            y,
+        };
+        for series in &panel.series {
+            sheet.band(canvas, series);
+        }
+        for series in &panel.series {
+            sheet.series(canvas, series);
+        }
+        if !panel.series.iter().any(|series| sheet.shows(series)) {
+            plot.note(canvas, "no value");
+        }
+        canvas.close("g");
+        plot
+    }
+}
+
+/// A plot with both scales.
+struct Sheet<'a> {
+    plot: Plot,
+    x: &'a Scale,
+    y: &'a Scale,
+}
+
+impl Sheet<'_> {
+    fn at(&self, x: f64, y: f64) -> Option<(f64, f64)> {
+        Some((self.plot.x(self.x, x)?, self.plot.y(self.y, y)?))
+    }
+
+    /// Both edges of a band at a place.
+    fn edges(&self, &(x, low, high): &(f64, f64, f64)) -> Option<[(f64, f64); 2]> {
+        Some([self.at(x, low)?, self.at(x, high)?])
+    }
+
+    fn shows(&self, series: &LineSeries) -> bool {
+        series.points.iter().any(|&(x, y)| self.at(x, y).is_some())
+            || series.band.iter().any(|edges| self.edges(edges).is_some())
+    }
+
+    fn band(&self, canvas: &mut Canvas, series: &LineSeries) {
+        for run in runs(series.band.iter().map(|edges| self.edges(edges))) {
+            let lower: Vec<_> = run.iter().map(|edges| edges[0]).collect();
+            let upper: Vec<_> = run.iter().map(|edges| edges[1]).collect();
+            let d = closed(&thin(&lower), &thin(&upper));
+            let fill = series.role.colour();
+            canvas.leaf(
+                "path",
+                &[
+                    ("class", &"band"),
+                    ("d", &d),
+                    ("fill", &fill),
+                    ("fill-opacity", &"0.18"),
+                ],
+            );
+        }
+    }
+
+    fn series(&self, canvas: &mut Canvas, series: &LineSeries) {
+        let runs = runs(series.points.iter().map(|&(x, y)| self.at(x, y)));
+        canvas.open("g", &[("class", &"series")]);
+        canvas.content("title", &[], &series.name);
+        for run in &runs {
+            if series.stroke.line() && run.len() > 1 {
+                self.line(canvas, series, &open(&thin(run)));
+            }
+            // A point between two gaps would be invisible as a line.
+            if series.stroke.points() || run.len() == 1 {
+                for &point in run {
+                    canvas.point(point, series.role);
+                }
+            }
+        }
+        canvas.close("g");
+    }
+
+    fn line(&self, canvas: &mut Canvas, series: &LineSeries, d: &str) {
+        let width = if series.stroke.points() { "1.4" } else { "1.8" };
+        canvas.leaf(
+            "path",
+            &[
+                ("d", &d),
+                ("fill", &"none"),
+                ("stroke", &series.role.colour()),
+                ("stroke-width", &width),
+                ("stroke-linejoin", &"round"),
+                ("stroke-dasharray", &series.stroke.dash()),
+            ],
+        );
+    }
+}

@@ -1,0 +1,30 @@
+//! Charts as SVG text and PNG pictures, all in one style.
+//!
+//! A chart is plain data, [`GroupedBars`] or [`LineChart`]; its method `svg` draws it, and [`png()`] turns the
+//! SVG into a picture. Colours belong to a [`Role`], so a friction model looks the same in every chart.
+//! The same data give the same bytes. Text stays text, is escaped, and is laid out with the advances of
+//! the embedded faces, which are those of Arial. Numbers that cannot be drawn (not finite, or beyond
+//! 1e300) appear as missing values or gaps.
+
+mod bars;
+mod error;
+mod figure;
+mod font;
+mod lines;
+mod marks;
+mod plot;
+mod png;
+mod scale;
+mod style;
+mod svg;
+mod text;
+
+#[cfg(test)]
+mod reading;
+
+pub use bars::{Bar, GroupedBars, Panel, Series};
+pub use error::ChartError;
+pub use lines::{Axis, LineChart, LinePanel, LineSeries, Marker, Stroke};
+pub use png::{PNG_SCALE, Png, PngError, png};
+pub use scale::Spacing;
+pub use style::Role;

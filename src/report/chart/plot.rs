@@ -1,0 +1,181 @@
+//! A plotting rectangle: grid, tick labels and axis titles around it.
+
+use super::scale::{Scale, Tick};
+use super::style::{BODY, FINE_GRID, GRID, INK, MUTED, PANEL_TITLE, TICK};
+use super::svg::{Anchor, Canvas, Text};
+use super::text::{power_of_ten, shorten, wrap};
+
+/// Room between an axis and its tick labels, px.
+pub(super) const TICK_GAP: f64 = 6.0;
+
+/// A rectangle with a scale on each side, in px.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Plot {
+    pub left: f64,
+    pub top: f64,
+    pub width: f64,
+    pub height: f64,
+}
+
+impl Plot {
+    pub fn right(&self) -> f64 {
+        self.left + self.width
+    }
+
+    pub fn bottom(&self) -> f64 {
+        self.top + self.height
+    }
+
+    /// Horizontal place of a value.
+    pub fn x(&self, scale: &Scale, value: f64) -> Option<f64> {
+        scale
+            .place(value)
+            .map(|place| self.left + place * self.width)
+    }
+
+    /// Vertical place of a value.
+    pub fn y(&self, scale: &Scale, value: f64) -> Option<f64> {
+        scale
+            .place(value)
+            .map(|place| self.bottom() - place * self.height)
+    }
+
+    /// The panel's title over the upper left corner, `rise` px above the rectangle.
+    pub fn title(&self, canvas: &mut Canvas, title: &str, rise: f64) {
+        let line = shorten(title, self.width, PANEL_TITLE);
+        canvas.text(&Text::new(&line, (self.left, self.top - rise), PANEL_TITLE).whole(title));
+    }
+
+    /// Horizontal grid lines and the labels of the vertical axis.
+    pub fn y_axis(&self, canvas: &mut Canvas, scale: &Scale) {
+        canvas.open("g", &[("class", &"y-axis"), ("stroke-width", &"1")]);
+        grid(canvas, scale, |canvas, value| {
+            if let Some(y) = self.y(scale, value) {
+                canvas.line((self.left, y), (self.right(), y));
+            }
+        });
+        for Tick { value, label } in &scale.ticks {
+            if let Some(y) = self.y(scale, *value) {
+                let at = (self.left - TICK_GAP, y + TICK.cap_height() / 2.0);
+                canvas.text(&Text::new(label, at, TICK).anchor(Anchor::End));
+            }
+        }
+        canvas.close("g");
+    }
+
+    /// Vertical grid lines of the horizontal axis.
+    pub fn x_grid(&self, canvas: &mut Canvas, scale: &Scale) {
+        canvas.open("g", &[("class", &"x-grid"), ("stroke-width", &"1")]);
+        grid(canvas, scale, |canvas, value| {
+            if let Some(x) = self.x(scale, value) {
+                canvas.line((x, self.top), (x, self.bottom()));
+            }
+        });
+        canvas.close("g");
+    }
+
+    /// Labels of the horizontal axis and its title below; gives the lower edge.
+    pub fn x_labels(&self, canvas: &mut Canvas, scale: &Scale, title: &str) -> f64 {
+        canvas.open("g", &[("class", &"x-axis")]);
+        let baseline = self.bottom() + TICK_GAP + TICK.cap_height() + 1.0;
+        for Tick { value, label } in &scale.ticks {
+            if let Some(x) = self.x(scale, *value) {
+                canvas.text(&Text::new(label, (x, baseline), TICK).anchor(Anchor::Middle));
+            }
+        }
+        let mut bottom = baseline + 3.0;
+        for line in wrap(title, self.width, BODY) {
+            bottom += BODY.leading();
+            let at = (self.left + self.width / 2.0, bottom);
+            canvas.text(&Text::new(&line, at, BODY).anchor(Anchor::Middle));
+        }
+        canvas.close("g");
+        bottom + 4.0
+    }
+
+    /// The title of the vertical axis, turned, its last line's baseline at `x`.
+    pub fn y_title(&self, canvas: &mut Canvas, title: &str, x: f64) {
+        let lines = wrap(title, self.height, BODY);
+        let middle = self.top + self.height / 2.0;
+        for (back, line) in lines.iter().rev().enumerate() {
+            let at = (x - back as f64 * BODY.leading(), middle);
+            canvas.text(&Text::new(line, at, BODY).anchor(Anchor::Middle).turn(-90.0));
+        }
+    }
+
+    /// A note in the middle, for a plot that shows nothing.
+    pub fn note(&self, canvas: &mut Canvas, note: &str) {
+        let at = (self.left + self.width / 2.0, self.top + self.height / 2.0);
+        canvas.text(&Text::new(note, at, BODY).anchor(Anchor::Middle).fill(MUTED));
+    }
+
+    /// The two axis lines, left and below.
+    pub fn axis_lines(&self, canvas: &mut Canvas) {
+        canvas.open(
+            "g",
+            &[
+                ("class", &"axis-lines"),
+                ("stroke", &INK),
+                ("stroke-width", &"1"),
+            ],
+        );
+        canvas.line((self.left, self.top), (self.left, self.bottom()));
+        canvas.line((self.left, self.bottom()), (self.right(), self.bottom()));
+        canvas.close("g");
+    }
+}
+
+/// Width that tick labels and the gap to their axis take, px.
+pub(super) fn tick_room(scale: &Scale) -> f64 {
+    let widest = scale
+        .ticks
+        .iter()
+        .map(|tick| TICK.width(&tick.label))
+        .fold(0.0, f64::max);
+    widest + TICK_GAP
+}
+
+/// Width that a turned axis title takes beside a plot of this height, px.
+pub(super) fn title_room(title: &str, height: f64) -> f64 {
+    let lines = wrap(title, height, BODY).len() as f64;
+    if lines == 0.0 {
+        0.0
+    } else {
+        lines * BODY.leading() + 4.0
+    }
+}
+
+/// `label (unit)`, with the power of ten that the ticks are in.
+pub(super) fn axis_title(label: &str, unit: &str, exponent: i32) -> String {
+    match (unit.trim(), exponent) {
+        ("", 0) => label.to_owned(),
+        ("", _) => format!("{label} (×{})", power_of_ten(exponent)),
+        (unit, 0) => format!("{label} ({unit})"),
+        (unit, _) => format!("{label} ({} {unit})", power_of_ten(exponent)),
+    }
+}
+
+/// Fine lines first, then those of the ticks.
+fn grid(canvas: &mut Canvas, scale: &Scale, line: impl Fn(&mut Canvas, f64)) {
+    let ticks: Vec<f64> = scale.ticks.iter().map(|tick| tick.value).collect();
+    for (values, colour) in [(&scale.minor, FINE_GRID), (&ticks, GRID)] {
+        if !values.is_empty() {
+            canvas.open("g", &[("stroke", &colour)]);
+            values.iter().for_each(|&value| line(canvas, value));
+            canvas.close("g");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axis_titles_carry_unit_and_power() {
+        assert_eq!(axis_title("Time", "ms", 0), "Time (ms)");
+        assert_eq!(axis_title("Force", "N", -9), "Force (10⁻⁹ N)");
+        assert_eq!(axis_title("Rows", "", 6), "Rows (×10⁶)");
+        assert_eq!(axis_title("Rows", " ", 0), "Rows");
+    }
+}

@@ -1,0 +1,198 @@
+//! SVG to PNG with the embedded faces: the same picture on every machine.
+
+use std::sync::{Arc, LazyLock};
+
+use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb, roxmltree};
+use thiserror::Error;
+
+use super::font::{BOLD, FAMILY, REGULAR, covers};
+
+/// Pixels per px of the SVG: sharp on dense screens and in print.
+pub const PNG_SCALE: u32 = 2;
+/// Most pixels of a picture: 256 MB while it is drawn.
+const MOST_PIXELS: f64 = 64.0e6;
+
+/// A PNG picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Png {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Characters of the chart's texts that the embedded faces lack, each once, in order of appearance: they
+    /// show as empty boxes here, while the SVG shows them wherever a font has them.
+    pub missing: Vec<char>,
+}
+
+/// Why an SVG could not be made a PNG.
+#[derive(Debug, Error)]
+pub enum PngError {
+    /// Not well-formed XML.
+    #[error("the chart is not well-formed XML: {0}")]
+    Xml(#[from] roxmltree::Error),
+    /// Well-formed, but no SVG picture.
+    #[error("the chart is not a drawable SVG: {0}")]
+    Svg(#[from] resvg::usvg::Error),
+    /// More pixels than are allowed.
+    #[error(
+        "a picture of {width:.0} x {height:.0} pixels is too large, at most 64 million pixels can be drawn"
+    )]
+    TooLarge {
+        /// Width in pixels.
+        width: f64,
+        /// Height in pixels.
+        height: f64,
+    },
+    /// The encoder failed.
+    #[error("the picture could not be encoded as PNG")]
+    Encode(#[source] Box<dyn std::error::Error + Send + Sync>),
+}
+
+static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
+    let mut fonts = fontdb::Database::new();
+    fonts.load_font_data(REGULAR.to_vec());
+    fonts.load_font_data(BOLD.to_vec());
+    // Text whose family is unknown is dropped without a word, so every generic family has a face.
+    fonts.set_serif_family(FAMILY);
+    fonts.set_sans_serif_family(FAMILY);
+    fonts.set_cursive_family(FAMILY);
+    fonts.set_fantasy_family(FAMILY);
+    fonts.set_monospace_family(FAMILY);
+    Arc::new(fonts)
+});
+
+/// Draws an SVG chart of this crate as a PNG picture on white, [`PNG_SCALE`] pixels per px.
+///
+/// # Errors
+/// [`PngError`] if the text is no SVG or the picture would be too large.
+///
+/// # Example
+/// ```
+/// let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="30" height="20"/>"#;
+/// let png = apportion::report::chart::png(svg)?;
+/// assert_eq!((png.width, png.height), (60, 40));
+/// # Ok::<(), apportion::report::chart::PngError>(())
+/// ```
+pub fn png(svg: &str) -> Result<Png, PngError> {
+    let document = roxmltree::Document::parse(svg)?;
+    let missing = missing(&document);
+    let options = Options {
+        font_family: FAMILY.to_owned(),
+        fontdb: FONTS.clone(),
+        ..Options::default()
+    };
+    let tree = Tree::from_xmltree(&document, &options)?;
+    let scale = f64::from(PNG_SCALE);
+    let width = (f64::from(tree.size().width()) * scale).ceil();
+    let height = (f64::from(tree.size().height()) * scale).ceil();
+    let too_large = || PngError::TooLarge { width, height };
+    if width * height > MOST_PIXELS {
+        return Err(too_large());
+    }
+    let mut pixels = Pixmap::new(width as u32, height as u32).ok_or_else(too_large)?;
+    pixels.fill(Color::WHITE);
+    resvg::render(
+        &tree,
+        Transform::from_scale(PNG_SCALE as f32, PNG_SCALE as f32),
+        &mut pixels.as_mut(),
+    );
+    let bytes = pixels
+        .encode_png()
+        .map_err(|error| PngError::Encode(Box::new(error)))?;
+    Ok(Png {
+        bytes,
+        width: pixels.width(),
+        height: pixels.height(),
+        missing,
+    })
+}
+
+/// Characters of drawn text without a glyph.
+fn missing(document: &roxmltree::Document) -> Vec<char> {
+    let mut missing = Vec::new();
+    for node in document
+        .descendants()
+        .filter(|node| node.has_tag_name("text"))
+    {
+        for c in node.text().unwrap_or_default().chars() {
+            if !covers(c) && !c.is_whitespace() && !missing.contains(&c) {
+                missing.push(c);
+            }
+        }
+    }
+    missing
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(body: &str) -> Png {
+        let svg = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="40">{body}</svg>"#
+        );
+        png(&svg).expect("a valid SVG")
+    }
+
+    fn dark(png: &Png) -> usize {
+        let pixels = Pixmap::decode_png(&png.bytes).expect("a PNG");
+        assert_eq!((pixels.width(), pixels.height()), (png.width, png.height));
+        pixels
+            .pixels()
+            .iter()
+            .filter(|p| p.red() < 100 && p.alpha() == 255)
+            .count()
+    }
+
+    #[test]
+    fn text_of_every_family_and_weight_is_drawn() {
+        let families = [
+            "serif",
+            "sans-serif",
+            "monospace",
+            "cursive",
+            "fantasy",
+            "'No such family', sans-serif",
+            super::super::font::FAMILIES,
+        ];
+        let mut counts = Vec::new();
+        for family in families {
+            let text = format!(
+                r#"<text x="5" y="25" font-size="20" font-family="{family}">Hurtado</text>"#
+            );
+            counts.push(dark(&picture(&text)));
+        }
+        assert!(
+            counts[0] > 300 && counts.iter().all(|count| *count == counts[0]),
+            "{counts:?}"
+        );
+        let bold = dark(&picture(
+            r#"<text x="5" y="25" font-size="20" font-weight="bold">Hurtado</text>"#,
+        ));
+        assert!(bold > counts[0] * 6 / 5, "{bold} of {}", counts[0]);
+    }
+
+    #[test]
+    fn missing_glyphs_are_named_once() {
+        let png = picture(r#"<title>字</title><text x="5" y="25">粒子 force 粒</text>"#);
+        assert_eq!(png.missing, ['粒', '子']);
+        assert!(dark(&png) > 0);
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused() {
+        assert!(matches!(png("<svg"), Err(PngError::Xml(_))));
+        assert!(matches!(png("<html/>"), Err(PngError::Svg(_))));
+        let huge = r#"<svg xmlns="http://www.w3.org/2000/svg" width="9000" height="9000"/>"#;
+        assert!(matches!(
+            png(huge),
+            Err(PngError::TooLarge {
+                width: 18000.0,
+                height: 18000.0
+            })
+        ));
+    }
+}

@@ -1,0 +1,86 @@
+//! Reads a chart's SVG back, for tests.
+
+use resvg::tiny_skia::Pixmap;
+use resvg::usvg::roxmltree::{Document, Node};
+
+use super::png;
+
+/// The groups of a class, in order.
+pub(super) fn groups<'a, 'i>(document: &'a Document<'i>, class: &str) -> Vec<Node<'a, 'i>> {
+    document
+        .descendants()
+        .filter(|node| node.attribute("class") == Some(class))
+        .collect()
+}
+
+/// A numeric attribute.
+pub(super) fn number(node: &Node, name: &str) -> f64 {
+    node.attribute(name)
+        .and_then(|value| value.parse().ok())
+        .unwrap_or_else(|| panic!("no {name} in {node:?}"))
+}
+
+/// The numbers of path data, whatever its commands.
+pub(super) fn path_numbers(node: &Node) -> Vec<f64> {
+    let data = node.attribute("d").expect("a path");
+    data.split(|c: char| c.is_ascii_alphabetic() || c == ' ')
+        .filter_map(|part| part.parse().ok())
+        .collect()
+}
+
+/// All drawn texts below a node, or of the whole document.
+pub(super) fn texts<'a>(node: Node<'a, '_>) -> Vec<&'a str> {
+    node.descendants()
+        .filter(|n| n.has_tag_name("text"))
+        .filter_map(|n| n.text())
+        .collect()
+}
+
+/// The line through labelled ticks of a vertical axis: height of zero and px per unit.
+pub(super) fn y_axis(axis: &Node) -> (f64, f64) {
+    let ticks: Vec<(f64, f64)> = axis
+        .descendants()
+        .filter(|node| node.has_tag_name("text"))
+        .map(|node| {
+            let label = node.text().expect("a label").replace('\u{2212}', "-");
+            // The baseline lies a fixed length below the tick: it cancels in differences.
+            (label.parse().expect("a number"), number(&node, "y"))
+        })
+        .collect();
+    let (first, last) = (ticks[0], ticks[ticks.len() - 1]);
+    let scale = (first.1 - last.1) / (last.0 - first.0);
+    let zero = axis
+        .descendants()
+        .filter(|n| n.has_tag_name("line"))
+        .map(|n| number(&n, "y1"))
+        .next();
+    (zero.expect("a grid line") + first.0 * scale, scale)
+}
+
+/// Dark pixels of the PNG in a band of heights given in px of the SVG.
+pub(super) fn dark_pixels(svg: &str, from: f64, to: f64) -> usize {
+    let picture = png(svg).expect("a picture");
+    let pixels = Pixmap::decode_png(&picture.bytes).expect("a PNG");
+    let document = Document::parse(svg).expect("well-formed");
+    let root = document.root_element();
+    assert_eq!(f64::from(pixels.width()), 2.0 * number(&root, "width"));
+    assert_eq!(f64::from(pixels.height()), 2.0 * number(&root, "height"));
+    let rows = (2.0 * from) as u32..(2.0 * to) as u32;
+    let dark = |x: u32, y: u32| {
+        pixels
+            .pixel(x, y)
+            .is_some_and(|p| p.red().max(p.green()).max(p.blue()) < 90)
+    };
+    rows.map(|y| (0..pixels.width()).filter(|&x| dark(x, y)).count())
+        .sum()
+}
+
+/// Whether no attribute holds a number that is not finite.
+pub(super) fn only_finite(document: &Document) -> bool {
+    let mut attributes = document.descendants().flat_map(|node| node.attributes());
+    attributes.all(|attribute| {
+        !["NaN", "inf"]
+            .iter()
+            .any(|bad| attribute.value().contains(bad))
+    })
+}

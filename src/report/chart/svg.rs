@@ -1,0 +1,246 @@
+//! A writer of SVG elements: escapes text, writes coordinates with two decimals, the same bytes always.
+
+use std::fmt::{Display, Formatter, Result, Write};
+
+use super::font::{Face, Weight};
+use super::style::{INK, PAPER};
+
+/// A coordinate in px, written with at most two decimals.
+pub(super) struct Px(pub f64);
+
+impl Display for Px {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let text = format!("{:.2}", self.0);
+        let text = text.trim_end_matches('0').trim_end_matches('.');
+        f.write_str(if text == "-0" { "0" } else { text })
+    }
+}
+
+/// Attributes of an element, in the order they are written.
+pub(super) type Attributes<'a> = &'a [(&'a str, &'a dyn Display)];
+
+/// Where the given point lies in a line of text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// One line of text.
+pub(super) struct Text<'a> {
+    content: &'a str,
+    at: (f64, f64),
+    face: Face,
+    anchor: Anchor,
+    fill: &'static str,
+    turn: f64,
+    halo: bool,
+    whole: Option<&'a str>,
+}
+
+impl<'a> Text<'a> {
+    /// Dark text that starts at `at`, a point of its baseline.
+    pub fn new(content: &'a str, at: (f64, f64), face: Face) -> Self {
+        Self {
+            content,
+            at,
+            face,
+            anchor: Anchor::Start,
+            fill: INK,
+            turn: 0.0,
+            halo: false,
+            whole: None,
+        }
+    }
+
+    pub fn anchor(self, anchor: Anchor) -> Self {
+        Self { anchor, ..self }
+    }
+
+    pub fn fill(self, fill: &'static str) -> Self {
+        Self { fill, ..self }
+    }
+
+    /// Turned about its point, degrees clockwise.
+    pub fn turn(self, turn: f64) -> Self {
+        Self { turn, ..self }
+    }
+
+    /// With a white rim, for text above lines.
+    pub fn halo(self) -> Self {
+        Self { halo: true, ..self }
+    }
+
+    /// The unshortened text, shown when pointed at.
+    pub fn whole(self, whole: &'a str) -> Self {
+        Self {
+            whole: (whole != self.content).then_some(whole),
+            ..self
+        }
+    }
+}
+
+/// A growing piece of SVG.
+#[derive(Debug, Default)]
+pub(super) struct Canvas {
+    out: String,
+}
+
+impl Canvas {
+    /// The elements written so far.
+    pub fn into_string(self) -> String {
+        self.out
+    }
+
+    /// Adds the elements of another piece.
+    pub fn append(&mut self, other: Canvas) {
+        self.out.push_str(&other.out);
+    }
+
+    /// Opens an element that `close` ends.
+    pub fn open(&mut self, name: &str, attributes: Attributes) {
+        self.start(name, attributes);
+        self.out.push_str(">\n");
+    }
+
+    pub fn close(&mut self, name: &str) {
+        self.push(format_args!("</{name}>\n"));
+    }
+
+    /// An element without content.
+    pub fn leaf(&mut self, name: &str, attributes: Attributes) {
+        self.start(name, attributes);
+        self.out.push_str("/>\n");
+    }
+
+    /// An element with text as content.
+    pub fn content(&mut self, name: &str, attributes: Attributes, text: &str) {
+        self.start(name, attributes);
+        self.push(format_args!(">{}</{name}>\n", Escaped(text)));
+    }
+
+    /// An element that shows `tip` when pointed at.
+    pub fn tipped(&mut self, name: &str, attributes: Attributes, tip: &str) {
+        self.start(name, attributes);
+        self.push(format_args!("><title>{}</title></{name}>\n", Escaped(tip)));
+    }
+
+    pub fn line(&mut self, from: (f64, f64), to: (f64, f64)) {
+        self.leaf(
+            "line",
+            &[
+                ("x1", &Px(from.0)),
+                ("y1", &Px(from.1)),
+                ("x2", &Px(to.0)),
+                ("y2", &Px(to.1)),
+            ],
+        );
+    }
+
+    pub fn text(&mut self, text: &Text) {
+        let (x, y) = (Px(text.at.0), Px(text.at.1));
+        let size = Px(text.face.size);
+        let turn = format!("rotate({} {x} {y})", Px(text.turn));
+        let mut attributes: Vec<(&str, &dyn Display)> =
+            vec![("x", &x), ("y", &y), ("font-size", &size)];
+        if text.face.weight == Weight::Bold {
+            attributes.push(("font-weight", &"bold"));
+        }
+        match text.anchor {
+            Anchor::Start => {}
+            Anchor::Middle => attributes.push(("text-anchor", &"middle")),
+            Anchor::End => attributes.push(("text-anchor", &"end")),
+        }
+        if text.fill != INK {
+            attributes.push(("fill", &text.fill));
+        }
+        if text.turn != 0.0 {
+            attributes.push(("transform", &turn));
+        }
+        if text.halo {
+            let rim: Attributes = &[
+                ("paint-order", &"stroke"),
+                ("stroke", &PAPER),
+                ("stroke-width", &"2.4"),
+            ];
+            attributes.extend_from_slice(rim);
+            attributes.push(("stroke-linejoin", &"round"));
+        }
+        self.start("text", &attributes);
+        self.push(format_args!(">{}", Escaped(text.content)));
+        if let Some(whole) = text.whole {
+            self.push(format_args!("<title>{}</title>", Escaped(whole)));
+        }
+        self.out.push_str("</text>\n");
+    }
+
+    fn start(&mut self, name: &str, attributes: Attributes) {
+        self.push(format_args!("<{name}"));
+        for (key, value) in attributes {
+            let value = value.to_string();
+            self.push(format_args!(" {key}=\"{}\"", Escaped(&value)));
+        }
+    }
+
+    fn push(&mut self, text: std::fmt::Arguments) {
+        // Writing to a string fails only if a Display does, and those here do not.
+        let _ = self.out.write_fmt(text);
+    }
+}
+
+/// Text as XML content or attribute value; characters that XML forbids become U+FFFD.
+struct Escaped<'a>(&'a str);
+
+impl Display for Escaped<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        for c in self.0.chars() {
+            match c {
+                '&' => f.write_str("&amp;")?,
+                '<' => f.write_str("&lt;")?,
+                '>' => f.write_str("&gt;")?,
+                '"' => f.write_str("&quot;")?,
+                '\'' => f.write_str("&apos;")?,
+                '\t' | '\n' => f.write_char(c)?,
+                '\0'..'\u{20}' | '\u{fffe}' | '\u{ffff}' => f.write_char('\u{fffd}')?,
+                _ => f.write_char(c)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use resvg::usvg::roxmltree::Document;
+
+    #[test]
+    fn coordinates_are_short() {
+        let written: Vec<_> = [1.0, -0.001, 2.50, 1.006, 100.0, -3.25]
+            .iter()
+            .map(|&v| Px(v).to_string())
+            .collect();
+        assert_eq!(written, ["1", "0", "2.5", "1.01", "100", "-3.25"]);
+    }
+
+    proptest! {
+        #[test]
+        fn any_text_survives_as_text(text in any::<String>()) {
+            let mut canvas = Canvas::default();
+            canvas.open("g", &[("class", &text)]);
+            canvas.text(&Text::new(&text, (0.0, 1.0), Face::bold(9.0)).turn(-90.0).halo().whole("all"));
+            canvas.close("g");
+            let xml = canvas.into_string();
+            let document = Document::parse(&xml).expect("well-formed");
+            let read = document.descendants().find(|n| n.has_tag_name("text")).unwrap().text().unwrap_or("");
+            let expected: String = text
+                .chars()
+                .map(|c| if c.is_control() && c < ' ' && c != '\t' && c != '\n'
+                    || c == '\u{fffe}' || c == '\u{ffff}' { '\u{fffd}' } else { c })
+                .collect();
+            prop_assert_eq!(read, expected);
+        }
+    }
+}
