@@ -38,7 +38,8 @@ fn whole_study(study: &Study, threads: usize) -> f64 {
 fn overhead() {
     let study = study(1 << 18);
     let model = study.model();
-    let settings = apportion::design::DesignSettings { base_samples: 256, replicates: 1, ..study.design.settings().clone() };
+    let settings =
+        apportion::design::DesignSettings { base_samples: 256, replicates: 1, ..study.design.settings().clone() };
     let design = apportion::design::Design::new(settings, study.design.factors(), vec![]).expect("a plain design");
     let mut unit = vec![vec![0.0; 256]; study.design.factors() * 2];
     design.replicate(0).fill(0, &mut unit);

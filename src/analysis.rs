@@ -23,11 +23,7 @@ use crate::study::Study;
 ///
 /// # Errors
 /// [`RunError`] if the threads cannot be started. Rows that fail are part of the result.
-pub fn analyse(
-    study: &Study,
-    threads: usize,
-    on_progress: &(dyn Fn(Progress) + Sync),
-) -> Result<ResultFile, RunError> {
+pub fn analyse(study: &Study, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<ResultFile, RunError> {
     let model = study.model();
     let start = Instant::now();
     let job = Job { design: &study.design, space: &study.space, model: model.as_ref() };

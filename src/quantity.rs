@@ -38,13 +38,8 @@ impl Quantity {
         let trimmed = text.trim();
         let number = &trimmed[..number_length(trimmed)];
         let value = number.parse().ok().filter(|value: &f64| value.is_finite());
-        let value = value.ok_or_else(|| UnitError::NotANumber {
-            text: text.to_owned(),
-        })?;
-        Ok(Self {
-            value,
-            unit: Unit::parse(&trimmed[number.len()..])?,
-        })
+        let value = value.ok_or_else(|| UnitError::NotANumber { text: text.to_owned() })?;
+        Ok(Self { value, unit: Unit::parse(&trimmed[number.len()..])? })
     }
 
     /// The value in SI.
@@ -83,11 +78,7 @@ impl fmt::Display for Quantity {
         } else {
             write!(f, "{:e}", self.value)?;
         }
-        if self.unit.symbol().is_empty() {
-            Ok(())
-        } else {
-            write!(f, " {}", self.unit)
-        }
+        if self.unit.symbol().is_empty() { Ok(()) } else { write!(f, " {}", self.unit) }
     }
 }
 
@@ -104,9 +95,7 @@ mod tests {
         assert_eq!(read("3").unit.dimension(), Dimension::NUMBER);
         assert_eq!(read("1e-7 m").to_string(), "1e-7 m");
         assert_eq!(read(" 42 ").to_string(), "42");
-        for text in [
-            "", "um", "inf m", "nan", "1e999 m", "1,5 mm", "1 2", "- 1 m", "1_0", ".",
-        ] {
+        for text in ["", "um", "inf m", "nan", "1e999 m", "1,5 mm", "1 2", "- 1 m", "1_0", "."] {
             assert!(Quantity::parse(text).is_err(), "{text}");
         }
     }

@@ -59,17 +59,39 @@ fn the_product_form_in_one_replicate_is_within_2e_3() {
 }
 
 #[test]
-fn the_product_form_in_sixteen_replicates_is_within_5e_3_and_inside_its_intervals() {
+fn the_product_form_in_sixteen_replicates_is_within_5e_3_and_its_intervals_hold() {
     let result = analysed("coulomb-general", &[WITHOUT_SHEAR]);
     let (first, total) = numbers(&result.outputs[0]);
     let exact = product_form();
     let error = gap(&first, &exact.0).max(gap(&total, &exact.1));
     assert!(error < 5e-3, "{error}");
-    for (index, (first, total)) in indices(&result).iter().zip(exact.0.iter().zip(&exact.1)) {
-        for (estimate, exact) in [(index.effect.first_order, first), (index.effect.total, total)] {
-            assert!(estimate.low.unwrap() <= *exact && *exact <= estimate.high.unwrap(), "{index:?}");
+    // Eight intervals of active factors at 95 %: more than two misses have a probability below 1 %.
+    let effects = indices(&result).iter().map(|index| index.effect);
+    let missed = effects
+        .zip(exact.0.iter().zip(&exact.1))
+        .flat_map(|(effect, (first, total))| [(effect.first_order, first), (effect.total, total)])
+        .filter(|(estimate, exact)| !(estimate.low.unwrap()..=estimate.high.unwrap()).contains(exact))
+        .count();
+    assert!(missed <= 2, "{missed} of the intervals miss");
+}
+
+#[test]
+fn intervals_hold_about_as_often_as_they_say() {
+    // 60 seeds x 6 indices of Ishigami's function. Measured over 400 seeds: 93 to 97 %. A coverage of 95 % leaves fewer
+    // than 88 % here with a probability below 1e-4; intervals that are too wide hold always, so 100 % fails too.
+    let exact = KnownAnswer::Ishigami.exact_indices();
+    let (mut held, mut all) = (0, 0);
+    for seed in 0..60 {
+        let result = analysed("ishigami", &["design.base_samples=4096", &format!("design.seed={seed}")]);
+        for (index, (first, total)) in indices(&result).iter().zip(exact.0.iter().zip(&exact.1)) {
+            for (estimate, exact) in [(index.effect.first_order, first), (index.effect.total, total)] {
+                held += usize::from((estimate.low.unwrap()..=estimate.high.unwrap()).contains(exact));
+                all += 1;
+            }
         }
     }
+    let coverage = held as f64 / f64::from(all);
+    assert!((0.88..0.995).contains(&coverage), "{coverage}");
 }
 
 #[test]

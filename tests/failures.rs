@@ -115,14 +115,22 @@ fn unknown_keys_suggest_the_nearest() {
 fn unknown_names_suggest_the_nearest() {
     assert_spoilt("\"length\"", "\"lenght\"", &["study.toml:7:8:", "unknown factor `lenght`: did you mean `length`?"]);
     assert_spoilt("\"coulomb\"", "\"coulom\"", &["study.toml:3:12:", "friction law", "did you mean `coulomb`?"]);
-    assert_spoilt("\"critical_force\"", "\"critical\"", &["study.toml:1:12:", "unknown output `critical`", "lateral_force"]);
+    assert_spoilt(
+        "\"critical_force\"",
+        "\"critical\"",
+        &["study.toml:1:12:", "unknown output `critical`", "lateral_force"],
+    );
     assert_spoilt("outputs", "model = \"abm\"\noutputs", &["study.toml:1:9:", "unknown model `abm`", "afm"]);
     assert_spoilt("unit = \"um\"", "unit = \"um\"\ndistribution = \"normel\"", &["study.toml:11:16:", "`normal`?"]);
 }
 
 #[test]
 fn units_of_the_wrong_kind_and_no_unit() {
-    assert_spoilt("\"um\"", "\"GPa\"", &["study.toml:10:8:", "`length` is a length", "`GPa` measures a pressure", "unit = \"um\""]);
+    assert_spoilt(
+        "\"um\"",
+        "\"GPa\"",
+        &["study.toml:10:8:", "`length` is a length", "`GPa` measures a pressure", "unit = \"um\""],
+    );
     assert_spoilt("\"um\"", "\"furlong\"", &["study.toml:10:8:", "furlong"]);
     assert_spoilt("unit = \"um\"\n", "", &["study.toml:7:8:", "needs a unit", "unit = \"um\""]);
     assert_spoilt("friction =", "preload_angle = \"0.7 um\"\nfriction =", &["study.toml:3:17:", "an angle"]);
@@ -215,7 +223,10 @@ fn points_that_are_wrong() {
     assert_points_refused("", &["line 1", "empty", "length, velocity"]);
     assert_points_refused("lenght,velocity\n1,2\n", &["line 1: column 1", "`lenght`", "did you mean `length`?"]);
     assert_points_refused("length,length\n1,2\n", &["line 1: column 2", "twice"]);
-    assert_points_refused("length,velocity\n300,100\n300,fast\n", &["line 3: column 2 (`velocity`)", "nm/s", "\"fast\""]);
+    assert_points_refused(
+        "length,velocity\n300,100\n300,fast\n",
+        &["line 3: column 2 (`velocity`)", "nm/s", "\"fast\""],
+    );
     assert_points_refused("length\n300\nNaN\n", &["line 3: column 1", "finite number"]);
     assert_points_refused("length\n300\n\"\"\n", &["line 3: column 1", "finite number"]);
     assert_points_refused("length,velocity\n300\n", &["line 2", "expected 2 cells", "not 1"]);

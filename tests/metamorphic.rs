@@ -40,22 +40,17 @@ struct ChangedWorker<'a>(&'a Changed);
 
 impl Worker for ChangedWorker<'_> {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
-        for row in 0..batch.rows() {
+        for (row, y) in batch.column_mut(0).iter_mut().enumerate() {
             let x = self.0.order.map(|column| inputs[column][row]);
-            batch.set(row, 0, KnownAnswer::Ishigami.value(&x) * self.0.scale + self.0.offset);
+            *y = KnownAnswer::Ishigami.value(&x) * self.0.scale + self.0.offset;
         }
     }
 }
 
 fn indices(model: &Changed, base_samples: u64) -> ReplicatedIndices {
     let pi = std::f64::consts::PI;
-    let factor = |name: &str| Factor {
-        name: name.to_owned(),
-        unit: Unit::dimensionless(),
-        distribution: Distribution::uniform(-pi, pi).unwrap(),
-        nominal: 0.0,
-        group: None,
-    };
+    let range = || Distribution::uniform(-pi, pi).unwrap();
+    let factor = |name| Factor::new(name, Unit::dimensionless(), range()).unwrap();
     let space = Space::new(["x1", "x2", "x3"].map(factor).to_vec());
     let settings = DesignSettings { base_samples, replicates: 4, ..DesignSettings::default() };
     let design = Design::new(settings, 3, (0..3).map(|j| vec![j]).collect()).unwrap();
@@ -129,8 +124,16 @@ fn threads_and_repetition_give_the_same_file_apart_from_what_tells_of_them() {
     let run = |threads: &str| {
         let out = folder.path().join(threads);
         let study = study_path("hk-general");
-        let arguments =
-            ["run", study.to_str().unwrap(), "--base-samples", "4096", "--threads", threads, "--out", out.to_str().unwrap()];
+        let arguments = [
+            "run",
+            study.to_str().unwrap(),
+            "--base-samples",
+            "4096",
+            "--threads",
+            threads,
+            "--out",
+            out.to_str().unwrap(),
+        ];
         let output = apportion(&arguments);
         assert!(output.status.success(), "{}", common::stderr(&output));
         let text = std::fs::read_to_string(out.join("hk-general.json")).unwrap();

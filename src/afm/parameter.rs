@@ -85,28 +85,10 @@ impl Parameter {
         parameter!(thickness, "t", "m", Positive, "cantilever thickness"),
         parameter!(height, "H", "m", Positive, "tip height"),
         parameter!(velocity, "V", "m/s", NonNegative, "substrate velocity"),
-        parameter!(
-            elastic_modulus,
-            "E",
-            "Pa",
-            Positive,
-            "Young's modulus of the cantilever"
-        ),
-        parameter!(
-            equivalent_modulus,
-            "K",
-            "Pa",
-            Positive,
-            "equivalent contact modulus"
-        ),
+        parameter!(elastic_modulus, "E", "Pa", Positive, "Young's modulus of the cantilever"),
+        parameter!(equivalent_modulus, "K", "Pa", Positive, "equivalent contact modulus"),
         parameter!(adhesion, "omega", "J/m2", NonNegative, "work of adhesion"),
-        parameter!(
-            poisson_ratio,
-            "nu",
-            "1",
-            PoissonRatio,
-            "Poisson ratio of the cantilever"
-        ),
+        parameter!(poisson_ratio, "nu", "1", PoissonRatio, "Poisson ratio of the cantilever"),
         Self {
             name: "shear_modulus",
             symbol: "G",
@@ -116,108 +98,24 @@ impl Parameter {
             get: Scene::effective_shear_modulus,
             set: |scene, value| scene.shear_modulus = Some(value),
         },
-        parameter!(
-            probe_density,
-            "rho",
-            "kg/m3",
-            Positive,
-            "density of cantilever and tip"
-        ),
-        parameter!(
-            tip_base_radius,
-            "r",
-            "m",
-            Positive,
-            "radius of the tip cone at its base"
-        ),
+        parameter!(probe_density, "rho", "kg/m3", Positive, "density of cantilever and tip"),
+        parameter!(tip_base_radius, "r", "m", Positive, "radius of the tip cone at its base"),
         parameter!(particle_radius, "R_p", "m", Positive, "particle radius"),
         parameter!(tip_radius, "R_t", "m", Positive, "radius of the tip apex"),
-        parameter!(
-            contact_angle,
-            "phi",
-            "rad",
-            AcuteAngle,
-            "tip-particle contact angle from the vertical"
-        ),
+        parameter!(contact_angle, "phi", "rad", AcuteAngle, "tip-particle contact angle from the vertical"),
         parameter!(preload_angle, "phi0", "rad", AcuteAngle, "preload angle"),
-        parameter!(
-            static_friction,
-            "mu_s",
-            "1",
-            NonNegative,
-            "coefficient of static friction"
-        ),
-        parameter!(
-            dynamic_friction,
-            "mu_d",
-            "1",
-            NonNegative,
-            "coefficient of dynamic friction"
-        ),
-        parameter!(
-            shear_strength,
-            "tau",
-            "Pa",
-            NonNegative,
-            "interfacial shear strength"
-        ),
-        parameter!(
-            particle_shear_modulus,
-            "G1",
-            "Pa",
-            Positive,
-            "shear modulus of the particle"
-        ),
-        parameter!(
-            substrate_shear_modulus,
-            "G2",
-            "Pa",
-            Positive,
-            "shear modulus of the substrate"
-        ),
+        parameter!(static_friction, "mu_s", "1", NonNegative, "coefficient of static friction"),
+        parameter!(dynamic_friction, "mu_d", "1", NonNegative, "coefficient of dynamic friction"),
+        parameter!(shear_strength, "tau", "Pa", NonNegative, "interfacial shear strength"),
+        parameter!(particle_shear_modulus, "G1", "Pa", Positive, "shear modulus of the particle"),
+        parameter!(substrate_shear_modulus, "G2", "Pa", Positive, "shear modulus of the substrate"),
         parameter!(burgers_vector, "b", "m", Positive, "Burgers vector"),
-        parameter!(
-            particle_density,
-            "rho_p",
-            "kg/m3",
-            Positive,
-            "density of the particle"
-        ),
-        parameter!(
-            bristle_stiffness,
-            "sigma0",
-            "N/m",
-            Positive,
-            "LuGre bristle stiffness"
-        ),
-        parameter!(
-            bristle_damping,
-            "sigma1",
-            "N s/m",
-            NonNegative,
-            "LuGre bristle damping"
-        ),
-        parameter!(
-            viscous_friction,
-            "sigma2",
-            "N s/m",
-            NonNegative,
-            "LuGre viscous friction"
-        ),
-        parameter!(
-            stribeck_velocity,
-            "v_s",
-            "m/s",
-            Positive,
-            "Stribeck velocity"
-        ),
-        parameter!(
-            equilibrium_separation,
-            "z0",
-            "m",
-            Positive,
-            "equilibrium separation of the surfaces"
-        ),
+        parameter!(particle_density, "rho_p", "kg/m3", Positive, "density of the particle"),
+        parameter!(bristle_stiffness, "sigma0", "N/m", Positive, "LuGre bristle stiffness"),
+        parameter!(bristle_damping, "sigma1", "N s/m", NonNegative, "LuGre bristle damping"),
+        parameter!(viscous_friction, "sigma2", "N s/m", NonNegative, "LuGre viscous friction"),
+        parameter!(stribeck_velocity, "v_s", "m/s", Positive, "Stribeck velocity"),
+        parameter!(equilibrium_separation, "z0", "m", Positive, "equilibrium separation of the surfaces"),
         parameter!(hardness, "p_Y", "Pa", Positive, "hardness of the particle"),
     ];
 
@@ -235,44 +133,26 @@ mod tests {
 
     #[test]
     fn the_main_factors_come_first() {
-        let symbols: Vec<_> = Parameter::ALL[..8]
-            .iter()
-            .map(|parameter| parameter.symbol)
-            .collect();
+        let symbols: Vec<_> = Parameter::ALL[..8].iter().map(|parameter| parameter.symbol).collect();
         assert_eq!(symbols, ["L", "w", "t", "H", "V", "E", "K", "omega"]);
     }
 
     #[test]
     fn names_and_symbols_are_unique() {
-        let names: HashSet<_> = Parameter::ALL
-            .iter()
-            .map(|parameter| parameter.name)
-            .collect();
-        let symbols: HashSet<_> = Parameter::ALL
-            .iter()
-            .map(|parameter| parameter.symbol)
-            .collect();
-        assert_eq!(
-            (names.len(), symbols.len()),
-            (Parameter::ALL.len(), Parameter::ALL.len())
-        );
+        let names: HashSet<_> = Parameter::ALL.iter().map(|parameter| parameter.name).collect();
+        let symbols: HashSet<_> = Parameter::ALL.iter().map(|parameter| parameter.symbol).collect();
+        assert_eq!((names.len(), symbols.len()), (Parameter::ALL.len(), Parameter::ALL.len()));
     }
 
     #[test]
     fn set_then_get_gives_the_value_back_and_moves_nothing_else() {
         // shear_modulus is fixed first, since unset it follows E and nu.
-        let before = Scene {
-            shear_modulus: Some(1.0),
-            ..Scene::default()
-        };
+        let before = Scene { shear_modulus: Some(1.0), ..Scene::default() };
         for parameter in Parameter::ALL {
             let mut scene = before;
             (parameter.set)(&mut scene, 0.123);
-            let moved: Vec<_> = Parameter::ALL
-                .iter()
-                .filter(|p| (p.get)(&scene) != (p.get)(&before))
-                .map(|p| p.name)
-                .collect();
+            let moved: Vec<_> =
+                Parameter::ALL.iter().filter(|p| (p.get)(&scene) != (p.get)(&before)).map(|p| p.name).collect();
             assert_eq!(moved, [parameter.name]);
             assert_eq!((parameter.get)(&scene), 0.123);
         }
@@ -288,13 +168,7 @@ mod tests {
     #[test]
     fn defaults_are_physical() {
         for parameter in Parameter::ALL {
-            assert!(
-                parameter
-                    .domain
-                    .contains((parameter.get)(&Scene::default())),
-                "{}",
-                parameter.name
-            );
+            assert!(parameter.domain.contains((parameter.get)(&Scene::default())), "{}", parameter.name);
         }
     }
 
@@ -304,12 +178,7 @@ mod tests {
             (Domain::Positive, f64::MIN_POSITIVE, 0.0, "> 0"),
             (Domain::NonNegative, 0.0, -f64::MIN_POSITIVE, ">= 0"),
             (Domain::PoissonRatio, 0.5, -1.0, "in (-1, 0.5]"),
-            (
-                Domain::AcuteAngle,
-                FRAC_PI_2,
-                FRAC_PI_2.next_up(),
-                "in [0, pi/2]",
-            ),
+            (Domain::AcuteAngle, FRAC_PI_2, FRAC_PI_2.next_up(), "in [0, pi/2]"),
         ];
         for (domain, inside, outside, text) in cases {
             assert!(domain.contains(inside), "{domain}: {inside}");

@@ -121,11 +121,7 @@ impl Scene {
     /// [`Failure::OutOfDomain`] names the first parameter of [`Parameter::ALL`] that does not.
     #[inline]
     pub fn check(&self) -> Result<(), Failure> {
-        if self.looks_physical() {
-            Ok(())
-        } else {
-            self.look_closely()
-        }
+        if self.looks_physical() { Ok(()) } else { self.look_closely() }
     }
 
     /// A digest of the domains in [`Parameter::ALL`] without its indirect calls, for the hot path.
@@ -162,12 +158,8 @@ impl Scene {
             self.viscous_friction,
         ];
         use super::Domain::{AcuteAngle, NonNegative, PoissonRatio, Positive};
-        positive
-            .iter()
-            .fold(true, |so_far, &value| so_far & Positive.contains(value))
-            & not_negative
-                .iter()
-                .fold(true, |so_far, &value| so_far & NonNegative.contains(value))
+        positive.iter().fold(true, |so_far, &value| so_far & Positive.contains(value))
+            & not_negative.iter().fold(true, |so_far, &value| so_far & NonNegative.contains(value))
             & AcuteAngle.contains(self.contact_angle)
             & AcuteAngle.contains(self.preload_angle)
             & PoissonRatio.contains(self.poisson_ratio)
@@ -175,14 +167,8 @@ impl Scene {
 
     #[cold]
     fn look_closely(&self) -> Result<(), Failure> {
-        match Parameter::ALL
-            .iter()
-            .find(|parameter| !parameter.domain.contains((parameter.get)(self)))
-        {
-            Some(culprit) => Err(Failure::OutOfDomain {
-                parameter: culprit.name,
-                domain: culprit.domain,
-            }),
+        match Parameter::ALL.iter().find(|parameter| !parameter.domain.contains((parameter.get)(self))) {
+            Some(culprit) => Err(Failure::OutOfDomain { parameter: culprit.name, domain: culprit.domain }),
             None => Ok(()),
         }
     }
@@ -197,25 +183,11 @@ mod tests {
     #[test]
     fn every_parameter_is_checked_and_named() {
         for parameter in Parameter::ALL {
-            let outside = [
-                f64::NAN,
-                f64::INFINITY,
-                f64::NEG_INFINITY,
-                -1.0,
-                0.0,
-                0.6,
-                2.0,
-            ];
-            for value in outside
-                .into_iter()
-                .filter(|&value| !parameter.domain.contains(value))
-            {
+            let outside = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, 0.6, 2.0];
+            for value in outside.into_iter().filter(|&value| !parameter.domain.contains(value)) {
                 let mut scene = Scene::default();
                 (parameter.set)(&mut scene, value);
-                let expected = Failure::OutOfDomain {
-                    parameter: parameter.name,
-                    domain: parameter.domain,
-                };
+                let expected = Failure::OutOfDomain { parameter: parameter.name, domain: parameter.domain };
                 assert_eq!(scene.check(), Err(expected), "{} = {value}", parameter.name);
             }
         }
@@ -224,14 +196,8 @@ mod tests {
     #[test]
     fn nothing_inside_a_domain_is_refused() {
         for parameter in Parameter::ALL {
-            for value in [0.0, 1e-300, 0.4, 0.5, 1.5, 1e300]
-                .into_iter()
-                .filter(|&v| parameter.domain.contains(v))
-            {
-                let mut scene = Scene {
-                    shear_modulus: Some(1.0),
-                    ..Scene::default()
-                };
+            for value in [0.0, 1e-300, 0.4, 0.5, 1.5, 1e300].into_iter().filter(|&v| parameter.domain.contains(v)) {
+                let mut scene = Scene { shear_modulus: Some(1.0), ..Scene::default() };
                 (parameter.set)(&mut scene, value);
                 assert_eq!(scene.check(), Ok(()), "{} = {value}", parameter.name);
             }
@@ -243,10 +209,7 @@ mod tests {
         let scene = Scene::default();
         // 169 GPa / 2.54, by hand.
         assert!((scene.effective_shear_modulus() / 66.535_433e9 - 1.0).abs() < 1e-8);
-        let given = Scene {
-            shear_modulus: Some(40.5e9),
-            ..scene
-        };
+        let given = Scene { shear_modulus: Some(40.5e9), ..scene };
         assert_eq!(given.effective_shear_modulus(), 40.5e9);
     }
 }

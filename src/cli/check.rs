@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use apportion::report::{significant, table};
+use apportion::report::{significant, table, with_unit};
 use apportion::run::{BLOCK, Job, run};
 use apportion::study::Study;
 
@@ -49,7 +49,7 @@ fn subject(study: &Study) -> String {
     let constants: Vec<String> = study
         .constants()
         .into_iter()
-        .map(|(name, value, unit)| format!("{name} = {} {unit}", significant(value)).trim_end().to_owned())
+        .map(|(name, value, unit)| format!("{name} = {}", with_unit(value, &unit)))
         .collect();
     if !constants.is_empty() {
         text.push_str(&format!("fixed: {}\n", constants.join(", ")));
@@ -59,8 +59,10 @@ fn subject(study: &Study) -> String {
 }
 
 fn factors(study: &Study) -> String {
-    let mut table =
-        table(&["factor", "distribution", "mean", "sd", "5 %", "median", "95 %", "nominal", "unit", "group"]);
+    let mut table = table(
+        &["factor", "distribution", "mean", "sd", "5 %", "median", "95 %", "nominal", "unit", "group"],
+        &[0, 1, 8, 9],
+    );
     for factor in study.space.factors() {
         let law = &factor.distribution;
         let quantile = |u| significant(law.quantile(u));

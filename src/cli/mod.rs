@@ -86,8 +86,15 @@ impl StudyArguments {
 #[derive(Args)]
 struct Threads {
     /// Worker threads; one per core if not given. The result does not depend on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = parse_threads, hide_default_value = true)]
-    threads: usize,
+    #[arg(long, value_name = "T", value_parser = parse_threads)]
+    threads: Option<usize>,
+}
+
+impl Threads {
+    /// The number for the library, where 0 stands for one per core.
+    fn number(&self) -> usize {
+        self.threads.unwrap_or(0)
+    }
 }
 
 fn parse_threads(text: &str) -> Result<usize, String> {

@@ -27,7 +27,7 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
     let mut reproduced = Vec::with_capacity(count);
     for (number, (group, friction, study)) in studies.iter().enumerate() {
         let meter = Meter::new(&format!("{} of {count} {:<21}", number + 1, study.name), study.design.rows());
-        let result = analyse(study, arguments.threads.threads, &|progress| meter.update(progress))?;
+        let result = analyse(study, arguments.threads.number(), &|progress| meter.update(progress))?;
         meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
         reproduced.push(Reproduced { friction: *friction, group: *group, result });
     }

@@ -30,7 +30,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     prepare_folder(&folder)?;
     let meter = Meter::new(&study.name, study.design.rows());
-    let result = analyse(&study, arguments.threads.threads, &|progress| meter.update(progress))?;
+    let result = analyse(&study, arguments.threads.number(), &|progress| meter.update(progress))?;
     meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
     let files = write_files(&folder, &result)?;
     print(&summary(&result))?;

@@ -80,7 +80,9 @@ pub enum DesignError {
         replicates: u64,
     },
     /// A replicate would be longer than the sequence.
-    #[error("{base_samples} base samples in {replicates} replicates exceed {MAX_POINTS} (2^32) points a replicate, the length of the sequence")]
+    #[error(
+        "{base_samples} base samples in {replicates} replicates exceed {MAX_POINTS} (2^32) points a replicate, the length of the sequence"
+    )]
     TooManySamples {
         /// The number asked for.
         base_samples: u64,

@@ -1,7 +1,7 @@
 //! Plain random points, addressed by index.
 
-use rand::distr::{Distribution, Open01};
 use rand::SeedableRng;
+use rand::distr::{Distribution, Open01};
 use rand_chacha::ChaCha8Rng;
 
 /// Independent uniform points: one ChaCha stream per replicate, entered at any row.

@@ -126,16 +126,15 @@ impl<R: Read> PointsReader<R> {
                 column.push(factor.nominal);
             }
             for (number, (cell, &factor)) in self.record.iter().zip(&self.columns).enumerate() {
-                columns[factor][row] =
-                    cell.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
-                        PointsError::NotANumber {
-                            line,
-                            column: number + 1,
-                            name: factors[factor].name.clone(),
-                            unit: factors[factor].unit.to_string(),
-                            found: cell.to_owned(),
-                        }
-                    })?;
+                columns[factor][row] = cell.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
+                    PointsError::NotANumber {
+                        line,
+                        column: number + 1,
+                        name: factors[factor].name.clone(),
+                        unit: factors[factor].unit.to_string(),
+                        found: cell.to_owned(),
+                    }
+                })?;
             }
         }
         Ok(rows)

@@ -124,8 +124,7 @@ mod tests {
         batch.column_mut(1).copy_from_slice(&[1.0, 2.0, 3.0]);
         batch.fail(2, 1, crate::afm::Failure::VelocityZero);
         batch.settle();
-        let expected =
-            [(0, 1, RowFailure::NotFinite), (1, 2, RowFailure::Afm(crate::afm::Failure::VelocityZero))];
+        let expected = [(0, 1, RowFailure::NotFinite), (1, 2, RowFailure::Afm(crate::afm::Failure::VelocityZero))];
         assert_eq!(batch.failures(), expected);
     }
 

@@ -44,7 +44,9 @@ impl KnownAnswer {
     pub fn description(self) -> &'static str {
         match self {
             Self::Ishigami => "Ishigami function, sin x1 + 7 sin^2 x2 + 0.1 x3^4 sin x1: exact indices known",
-            Self::SobolG => "Sobol' G function, prod (|4 x - 2| + a)/(1 + a), a = 0, 1, 4.5, 9, 99 x 4: exact indices known",
+            Self::SobolG => {
+                "Sobol' G function, prod (|4 x - 2| + a)/(1 + a), a = 0, 1, 4.5, 9, 99 x 4: exact indices known"
+            }
         }
     }
 

@@ -48,10 +48,7 @@ impl Dimension {
     /// Pascal second.
     pub const VISCOSITY: Self = Self::of(-1, 1, -1);
     /// Radian.
-    pub const ANGLE: Self = Self {
-        angle: 1,
-        ..Self::NUMBER
-    };
+    pub const ANGLE: Self = Self { angle: 1, ..Self::NUMBER };
 
     const NAMES: [(Self, &'static str); 17] = [
         (Self::NUMBER, "a pure number"),
@@ -74,12 +71,7 @@ impl Dimension {
     ];
 
     const fn of(length: i8, mass: i8, time: i8) -> Self {
-        Self {
-            length,
-            mass,
-            time,
-            angle: 0,
-        }
+        Self { length, mass, time, angle: 0 }
     }
 
     /// `self * other^power`, `None` past the range of `i8`.
@@ -100,20 +92,9 @@ impl fmt::Display for Dimension {
             return f.write_str(name);
         }
         f.write_str("a quantity in")?;
-        [
-            (self.length, "m"),
-            (self.mass, "kg"),
-            (self.time, "s"),
-            (self.angle, "rad"),
-        ]
-        .into_iter()
-        .filter(|(power, _)| *power != 0)
-        .try_for_each(|(power, base)| {
-            if power == 1 {
-                write!(f, " {base}")
-            } else {
-                write!(f, " {base}^{power}")
-            }
-        })
+        [(self.length, "m"), (self.mass, "kg"), (self.time, "s"), (self.angle, "rad")]
+            .into_iter()
+            .filter(|(power, _)| *power != 0)
+            .try_for_each(|(power, base)| if power == 1 { write!(f, " {base}") } else { write!(f, " {base}^{power}") })
     }
 }

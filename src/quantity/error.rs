@@ -4,10 +4,7 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UnitError {
     /// A symbol that is no unit.
-    #[error(
-        "unit \"{unit}\": \"{symbol}\" is not understood{}; units look like {EXAMPLES}",
-        hint(nearest)
-    )]
+    #[error("unit \"{unit}\": \"{symbol}\" is not understood{}; units look like {EXAMPLES}", hint(nearest))]
     Unknown {
         /// The unit as typed.
         unit: String,
@@ -25,9 +22,7 @@ pub enum UnitError {
         reason: &'static str,
     },
     /// A quantity that does not begin with a finite number.
-    #[error(
-        "\"{text}\" is not a quantity: it must be a finite number and a unit, such as \"0.7 deg\" or \"225 um\""
-    )]
+    #[error("\"{text}\" is not a quantity: it must be a finite number and a unit, such as \"0.7 deg\" or \"225 um\"")]
     NotANumber {
         /// The quantity as typed.
         text: String,
@@ -37,8 +32,5 @@ pub enum UnitError {
 const EXAMPLES: &str = r#""um", "nm/s", "GPa", "mJ/m2", "nN", "N/m", "N s/m", "kg/m3", "deg", "mrad", "ms", "%" and "1" for a pure number"#;
 
 fn hint(nearest: &Option<String>) -> String {
-    nearest
-        .as_ref()
-        .map(|symbol| format!(", did you mean \"{symbol}\"?"))
-        .unwrap_or_default()
+    nearest.as_ref().map(|symbol| format!(", did you mean \"{symbol}\"?")).unwrap_or_default()
 }

@@ -11,5 +11,7 @@ mod write;
 pub use build::{RunFacts, build_result, result_json};
 pub use result::*;
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
-pub use tables::{csv_field, indices_csv, share, significant, summary, table};
+pub use tables::{
+    csv_field, estimate, fixed, indices_csv, share, significant, summary, table, validity_summary, with_unit,
+};
 pub use write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};

@@ -23,6 +23,8 @@ pub struct SharesWords {
     pub title: String,
     /// One sentence under the chart.
     pub caption: String,
+    /// What the legend calls the published percentages; of no account where there are none.
+    pub published: &'static str,
 }
 
 /// Draws the shares of `factors` in each of `series` as an SVG document: first order on the left, total on the right.
@@ -40,7 +42,7 @@ pub fn shares_chart(words: SharesWords, factors: &[&str], series: &[SharesSeries
         caption: words.caption,
         y_label: "share of the sum of indices (%)".to_owned(),
         interval_label: "95 % interval".to_owned(),
-        published_label: "published".to_owned(),
+        published_label: words.published.to_owned(),
         panels: vec![
             panel("First-order indices", |e| (e.share_first_order, e.share_first_order_interval)),
             panel("Total indices", |e| (e.share_total, e.share_total_interval)),
@@ -59,6 +61,7 @@ pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Result<String,
     let words = SharesWords {
         title: result.study.title.clone().unwrap_or_else(|| result.study.name.clone()),
         caption: caption(output),
+        published: "",
     };
     let name = output.name.replace('_', " ");
     let role = friction.map_or(Role::Other(0), friction_role);
@@ -68,7 +71,8 @@ pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Result<String,
 /// What is seen, in one sentence.
 fn caption(output: &OutputRecord) -> String {
     let name = output.name.replace('_', " ");
-    let largest = output.indices.iter().flatten().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate));
+    let largest =
+        output.indices.iter().flatten().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate));
     match (largest, &output.reason) {
         (Some(index), _) => format!(
             "Of all factors, {} has the largest total effect on the {name}: its total index is {:.3}.",

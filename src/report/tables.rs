@@ -1,29 +1,50 @@
 //! Results as text for a terminal and as CSV for a spreadsheet.
 
-use comfy_table::{CellAlignment, Table, presets};
+use comfy_table::{CellAlignment, ContentArrangement, ContentLineStyle, LineStyle, Table, TableStyle};
 
 use super::result::{EffectRecord, EstimateRecord, IntervalRecord, OutputRecord, ResultFile};
 
-/// An empty table in the program's one style: the first column to the left, the others to the right.
-pub fn table(header: &[&str]) -> Table {
+/// Rules above, under the header and below; nothing between the rows.
+const STYLE: TableStyle = TableStyle::new()
+    .top_border(LineStyle::new('─', '─', '─', '─'))
+    .header_lines(ContentLineStyle::new(' ', ' ', ' '))
+    .header_separator(LineStyle::new('─', '─', '─', '─'))
+    .content_lines(ContentLineStyle::new(' ', ' ', ' '))
+    .bottom_border(LineStyle::new('─', '─', '─', '─'));
+
+/// An empty table in the program's one style, as wide as the terminal allows. Columns stand to the right, as numbers
+/// do, but for those whose places are in `text`.
+pub fn table(header: &[&str], text: &[usize]) -> Table {
     let mut table = Table::new();
-    table.load_preset(presets::UTF8_HORIZONTAL_ONLY).set_header(header);
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
+    table.load_style(STYLE).set_content_arrangement(ContentArrangement::Dynamic).set_header(header);
+    for (place, column) in table.column_iter_mut().enumerate() {
+        if !text.contains(&place) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
     }
     table
 }
 
-/// A result as text: for every output its moments, a table of indices, and the warnings.
+/// A value with its unit, if it has one.
+pub fn with_unit(value: f64, unit: &str) -> String {
+    let value = significant(value);
+    if matches!(unit, "" | "1") { value } else { format!("{value} {unit}") }
+}
+
+/// A result as text: for every output its moments, a table of indices, and the warnings; then the validity flags.
 pub fn summary(result: &ResultFile) -> String {
-    let mut text = String::new();
-    for output in &result.outputs {
-        text.push_str(&output_summary(output));
-    }
-    for flag in result.validity.iter().filter(|flag| flag.runs > 0) {
-        text.push_str(&format!("validity: {} on {:.1} % of the runs. {}\n", flag.flag, 100.0 * flag.share, flag.description));
-    }
-    text
+    let outputs: Vec<String> = result.outputs.iter().map(output_summary).collect();
+    outputs.join("\n") + &validity_summary(result)
+}
+
+/// One line for each validity flag that was raised.
+pub fn validity_summary(result: &ResultFile) -> String {
+    let raised = result.validity.iter().filter(|flag| flag.runs > 0);
+    raised
+        .map(|flag| {
+            format!("validity: {} on {:.1} % of the runs: {}\n", flag.flag, 100.0 * flag.share, flag.description)
+        })
+        .collect()
 }
 
 fn output_summary(output: &OutputRecord) -> String {
@@ -33,7 +54,7 @@ fn output_summary(output: &OutputRecord) -> String {
     }
     text.push('\n');
     if let Some(indices) = &output.indices {
-        let mut table = table(&["factor", "first order", "total", "share S1 %", "share ST %"]);
+        let mut table = table(&["factor", "first order S1", "total ST", "share S1 %", "share ST %"], &[0]);
         for index in indices {
             table.add_row(effect_row(&index.factor, &index.effect));
         }
@@ -57,7 +78,8 @@ fn output_summary(output: &OutputRecord) -> String {
         text.push_str(&format!("warning: {warning}\n"));
     }
     for failure in &output.failures {
-        let inputs: Vec<String> = failure.first_inputs.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        let inputs: Vec<String> =
+            failure.first_inputs.iter().map(|(name, value)| format!("{name} = {value}")).collect();
         text.push_str(&format!(
             "failed: {} runs: {} (first at row {}: {})\n",
             failure.runs,
@@ -80,7 +102,7 @@ fn effect_row(name: &str, effect: &EffectRecord) -> [String; 5] {
 }
 
 /// `0.3374 [0.3350, 0.3398]`, or the estimate alone where there is no interval.
-fn estimate(record: EstimateRecord, digits: usize) -> String {
+pub fn estimate(record: EstimateRecord, digits: usize) -> String {
     match (record.low, record.high) {
         (Some(low), Some(high)) => {
             format!("{} [{}, {}]", fixed(record.estimate, digits), fixed(low, digits), fixed(high, digits))
@@ -99,7 +121,7 @@ pub fn share(share: Option<f64>, interval: Option<IntervalRecord>) -> String {
 }
 
 /// `value` with `digits` decimals, where a zero has no sign.
-fn fixed(value: f64, digits: usize) -> String {
+pub fn fixed(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
     if is_zero { text.trim_start_matches('-').to_owned() } else { text }

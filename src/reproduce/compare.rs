@@ -1,7 +1,7 @@
 //! Our shares beside the published ones: as a table for people, as CSV for programs.
 
 use super::{GROUPS, Published, Reproduced, published};
-use crate::report::{EffectRecord, IndexRecord, share, table};
+use crate::report::{EffectRecord, IndexRecord, estimate, fixed, share, table};
 
 /// A difference between our share and a published one that rounding to whole percents cannot explain.
 const CLOSE: f64 = 1.0;
@@ -15,7 +15,8 @@ pub fn comparison_table(studies: &[Reproduced]) -> String {
     let mut text = String::new();
     for group in GROUPS {
         text.push_str(&format!("\n{} studies ({})\n", capitalised(group.key), group.figures));
-        let mut table = table(&["friction", "factor", "share S1 %", "share ST %", "published %", "first order"]);
+        let header = ["friction", "factor", "S1", "ST", "share S1 %", "share ST %", "published %"];
+        let mut table = table(&header, &[0, 1]);
         let members = || studies.iter().filter(|study| study.group == group);
         for member in members() {
             add_rows(&mut table, member);
@@ -24,6 +25,8 @@ pub fn comparison_table(studies: &[Reproduced]) -> String {
         for member in members() {
             text.push_str(&verdict(member));
         }
+        text.extend(members().filter_map(outweighing));
+        text.extend(members().map(validity));
     }
     text
 }
@@ -36,21 +39,23 @@ fn add_rows(table: &mut comfy_table::Table, member: &Reproduced) {
         table.add_row([
             friction.to_owned(),
             index.factor.clone(),
+            fixed(effect.first_order.estimate, 4),
+            fixed(effect.total.estimate, 4),
             share(effect.share_first_order, effect.share_first_order_interval),
             share(effect.share_total, effect.share_total_interval),
             published_share(&print, index),
-            format!("{:.4}", effect.first_order.estimate),
         ]);
     }
     for group in member.result.outputs[0].groups.iter().flatten() {
-        let EffectRecord { first_order, total, .. } = group.effect;
+        let effect = &group.effect;
         table.add_row([
             String::new(),
             format!("group {}", group.group),
-            share(group.effect.share_first_order, group.effect.share_first_order_interval),
-            share(group.effect.share_total, group.effect.share_total_interval),
+            fixed(effect.first_order.estimate, 4),
+            fixed(effect.total.estimate, 4),
+            share(effect.share_first_order, effect.share_first_order_interval),
+            share(effect.share_total, effect.share_total_interval),
             String::new(),
-            format!("{:.4} closed, {:.4} total", first_order.estimate, total.estimate),
         ]);
     }
 }
@@ -84,42 +89,97 @@ fn ranking(member: &Reproduced) -> Vec<&str> {
     ranked.into_iter().map(|(factor, _)| factor).collect()
 }
 
-/// Whether the published order is ours. Published factors without a visible share of ours may only stand at the end,
-/// where the papers' bars have no visible height either.
-fn same_order(ours: &[&str], published: &[&str]) -> bool {
-    let common: Vec<&str> = published.iter().copied().filter(|factor| ours.contains(factor)).collect();
-    published.starts_with(&common) && ours.starts_with(&common)
+/// How our order of the factors stands to a published one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Order {
+    /// The same factors in the same order.
+    Same,
+    /// Ours is the beginning of the published one; the factors after it have no visible share of ours.
+    Beginning,
+    /// Neither.
+    Other,
 }
 
+fn compare_order(ours: &[&str], published: &[&str]) -> Order {
+    match published.strip_prefix(ours) {
+        Some([]) => Order::Same,
+        Some(_) => Order::Beginning,
+        None => Order::Other,
+    }
+}
+
+/// What is to be said about one study: the order of its factors and its printed percentages against ours.
 fn verdict(member: &Reproduced) -> String {
     let print = published(member.group.key, member.friction.key);
     let ours = ranking(member);
-    let agrees = if same_order(&ours, print.ranking) { "the same order as" } else { "NOT the order of" };
+    let order = match compare_order(&ours, print.ranking) {
+        Order::Same => "the published order of",
+        Order::Beginning => "the beginning of the published order of",
+        Order::Other => "NOT the published order of",
+    };
     let invisible: Vec<&str> = print.ranking.iter().copied().filter(|factor| !ours.contains(factor)).collect();
     let without = match invisible[..] {
         [] => String::new(),
-        _ => format!("; no share of ours reaches {VISIBLE} % for {}", invisible.join(", ")),
+        _ => format!("; no total share of ours reaches {VISIBLE} % for {}", invisible.join(", ")),
     };
+    format!(
+        "{}: {}: {order} {} ({}){without}.\n{}",
+        member.friction.name,
+        ours.join(" > "),
+        print.source,
+        print.ranking.join(" > "),
+        printed_against_ours(member, &print)
+    )
+}
+
+fn printed_against_ours(member: &Reproduced, print: &Published) -> String {
     let shares: Vec<String> = indices(member)
         .iter()
         .filter_map(|index| {
             let (_, value) = print.shares.iter().find(|(factor, _)| *factor == index.factor)?;
             let EffectRecord { share_first_order, share_total, .. } = index.effect;
-            Some(format!("{} {value} % (ours {:.1} / {:.1})", index.factor, share_first_order?, share_total?))
+            Some(format!(
+                "{} {value} % (ours {} and {})",
+                index.factor,
+                fixed(share_first_order?, 1),
+                fixed(share_total?, 1)
+            ))
         })
         .collect();
-    let shares = if shares.is_empty() {
+    match shares[..] {
+        [] => String::new(),
+        _ => format!("  The printed percentages against ours (share S1 and share ST): {}.\n", shares.join(", ")),
+    }
+}
+
+/// Claim 20: whether the dimensions outweigh the environment, by the groups of the general study.
+fn outweighing(member: &Reproduced) -> Option<String> {
+    let groups = member.result.outputs[0].groups.as_ref()?;
+    let total = |name: &str| groups.iter().find(|group| group.group == name).map(|group| group.effect.total);
+    let (dimensional, environmental) = (total("dimensional")?, total("environmental")?);
+    let outweigh = if dimensional.estimate > environmental.estimate { "outweigh" } else { "do NOT outweigh" };
+    Some(format!(
+        "{}: the dimensions {outweigh} the environment, as published: total indices {} against {}.\n",
+        member.friction.name,
+        estimate(dimensional, 4),
+        estimate(environmental, 4)
+    ))
+}
+
+/// On how many of the runs the model's assumptions do not hold.
+fn validity(member: &Reproduced) -> String {
+    let raised: Vec<String> = member
+        .result
+        .validity
+        .iter()
+        .filter(|flag| flag.runs > 0)
+        .map(|flag| format!("{} on {} %", flag.flag, fixed(100.0 * flag.share, 1)))
+        .collect();
+    if raised.is_empty() {
         String::new()
     } else {
-        format!("\n    printed against ours (S1 / ST): {}", shares.join(", "))
-    };
-    format!(
-        "  {}: {}: {agrees} {} ({}){without}{shares}\n",
-        member.friction.name,
-        ours.join(" > "),
-        print.source,
-        print.ranking.join(" > ")
-    )
+        format!("{}: validity of the runs: {}.\n", member.friction.name, raised.join(", "))
+    }
 }
 
 /// The percentages of all studies as CSV, the published ones in the last column; an empty cell where there is none.
@@ -159,13 +219,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn orders_agree_up_to_factors_without_a_share() {
+    fn orders_are_compared_without_mercy() {
         let published = ["thickness", "length", "width", "height"];
-        assert!(same_order(&["thickness", "length", "width"], &published));
-        assert!(same_order(&["thickness", "length", "width", "height"], &published));
-        assert!(!same_order(&["length", "thickness", "width"], &published));
-        assert!(!same_order(&["elastic_modulus", "adhesion"], &["elastic_modulus", "velocity", "adhesion"]));
-        assert!(!same_order(&["equivalent_modulus", "elastic_modulus"], &["elastic_modulus", "velocity"]));
-        assert!(same_order(&["elastic_modulus"], &["elastic_modulus", "velocity", "adhesion"]));
+        assert_eq!(compare_order(&published, &published), Order::Same);
+        assert_eq!(compare_order(&["thickness", "length"], &published), Order::Beginning);
+        assert_eq!(compare_order(&["length", "thickness"], &published), Order::Other);
+        assert_eq!(compare_order(&["thickness", "width"], &published), Order::Other);
     }
 }

@@ -151,6 +151,7 @@ fn group_chart(group: StudyGroup, members: &[&Reproduced]) -> Result<String, Cha
     let words = SharesWords {
         title: format!("Which factor decides the critical force: {} study", group.key),
         caption: caption(group, members),
+        published: "published (LuGre)",
     };
     shares_chart(words, &factors, &series)
 }
@@ -160,15 +161,22 @@ fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
     let leader = |member: &&Reproduced| {
         let indices = member.result.outputs.first()?.indices.as_ref()?;
         let first = indices.iter().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate))?;
-        let share = first.effect.share_total?;
-        Some(format!("{} under {} ({share:.0} %)", first.factor.replace('_', " "), member.friction.name))
+        Some((first.factor.replace('_', " "), first.effect.share_total?, member.friction.name))
     };
-    let leaders: Vec<String> = members.iter().filter_map(leader).collect();
-    format!(
-        "Largest total share: {}; compare {}. Diamonds are the percentages printed for LuGre.",
-        leaders.join(", "),
-        group.figures
-    )
+    let leaders: Vec<_> = members.iter().filter_map(leader).collect();
+    let seen = match &leaders[..] {
+        [] => "No factor has a share".to_owned(),
+        [(factor, ..), rest @ ..] if rest.iter().all(|(other, ..)| other == factor) => {
+            let shares: Vec<String> = leaders.iter().map(|(_, share, name)| format!("{share:.0} %, {name}")).collect();
+            format!("The {factor} has the largest total share under every friction model ({})", shares.join("; "))
+        }
+        _ => {
+            let each: Vec<String> =
+                leaders.iter().map(|(factor, share, name)| format!("{factor} under {name} ({share:.0} %)")).collect();
+            format!("The largest total share belongs to {}", each.join(", "))
+        }
+    };
+    format!("{seen}; to be compared with {}, diamonds being the percentages printed for LuGre.", group.figures)
 }
 
 #[cfg(test)]

@@ -21,12 +21,9 @@ pub fn published(group: &str, friction: &str) -> Published {
     let lugre = friction == "lugre";
     let (ranking, chk, lg, shares): (_, _, _, &[_]) = match group {
         "dimensional" => (DIMENSIONAL, "CHK fig. 10", "LG fig. 4a", &[("thickness", 76.0)]),
-        "environmental" => (
-            ENVIRONMENTAL,
-            "CHK fig. 15",
-            "LG fig. 4b",
-            &[("elastic_modulus", 74.0), ("velocity", 26.0)],
-        ),
+        "environmental" => {
+            (ENVIRONMENTAL, "CHK fig. 15", "LG fig. 4b", &[("elastic_modulus", 74.0), ("velocity", 26.0)])
+        }
         _ => (
             GENERAL,
             "CHK fig. 16",

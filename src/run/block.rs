@@ -90,8 +90,7 @@ impl<'a> Scratch<'a> {
 
     fn totals_of(&mut self, output: usize, rows: usize, first_row: u64) -> OutputTotals {
         let kinds = self.batches.len() as u64;
-        let mut totals =
-            OutputTotals { moments: Moments::empty(0), runs_failed: 0, failures: BTreeMap::new() };
+        let mut totals = OutputTotals { moments: Moments::empty(0), runs_failed: 0, failures: BTreeMap::new() };
         self.complete.clear();
         self.complete.resize(rows, true);
         for (kind, batch) in self.batches.iter().enumerate() {

@@ -34,21 +34,16 @@ struct SumWorker {
 
 impl Worker for SumWorker {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
-        for row in 0..batch.rows() {
-            let value = inputs[0][row] + 2.0 * inputs[1][row];
-            batch.set(row, 0, if self.fails && inputs[0][row] > 0.75 { f64::NAN } else { value });
+        for (row, (x0, x1)) in inputs[0].iter().zip(inputs[1]).enumerate() {
+            let value = x0 + 2.0 * x1;
+            batch.set(row, 0, if self.fails && *x0 > 0.75 { f64::NAN } else { value });
         }
     }
 }
 
 fn space() -> Space {
-    let factor = |name: &str| Factor {
-        name: name.to_owned(),
-        unit: Unit::dimensionless(),
-        distribution: Distribution::uniform(0.0, 1.0).unwrap(),
-        nominal: 0.5,
-        group: None,
-    };
+    let unit_interval = || Distribution::uniform(0.0, 1.0).unwrap();
+    let factor = |name| Factor::new(name, Unit::dimensionless(), unit_interval()).unwrap();
     Space::new(vec![factor("x0"), factor("x1")])
 }
 

@@ -21,16 +21,25 @@ pub struct Factor {
     pub nominal: f64,
     /// The group whose joint effect is asked for, if any.
     pub group: Option<String>,
+    /// The distribution in SI units, so that no value has to be converted during a run.
+    si: Distribution,
 }
 
 impl Factor {
+    /// A factor in no group that varies by `distribution`, in `unit`, around its median.
+    ///
+    /// # Errors
+    /// [`DistributionError`] if the distribution leaves the range of doubles when converted to SI units.
+    pub fn new(name: &str, unit: Unit, distribution: Distribution) -> Result<Self, DistributionError> {
+        let si = distribution.to_si(&unit)?;
+        let nominal = distribution.median();
+        Ok(Self { name: name.to_owned(), unit, distribution, nominal, group: None, si })
+    }
+
     /// Points of the unit interval to SI values, by the inverse of the distribution function. Both slices have one
     /// length; `u` lies strictly between 0 and 1.
     pub fn fill_si(&self, u: &[f64], si: &mut [f64]) {
-        self.distribution.fill(u, si);
-        for value in si {
-            *value = self.unit.to_si(*value);
-        }
+        self.si.fill(u, si);
     }
 }
 

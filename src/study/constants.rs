@@ -26,7 +26,9 @@ pub(super) fn afm(
         let fault = |problem| context.fault(value.span(), problem);
         match name {
             "friction" => options.friction = choice(value, name, FrictionLaw::ALL, FrictionLaw::name).map_err(fault)?,
-            "contact" => options.contact = choice(value, name, ContactTheory::ALL, ContactTheory::name).map_err(fault)?,
+            "contact" => {
+                options.contact = choice(value, name, ContactTheory::ALL, ContactTheory::name).map_err(fault)?
+            }
             "fidelity" => options.fidelity = choice(value, name, Fidelity::ALL, Fidelity::name).map_err(fault)?,
             "torsion" => options.torsion = choice(value, name, Torsion::ALL, Torsion::name).map_err(fault)?,
             "adhesion_in_load" => {

@@ -70,7 +70,7 @@ impl Keys<'_> {
                 Distribution::truncated_normal(mean, sd, self.number("min")?, self.number("max")?)
             }
             "log-normal" if self.fields.log_mean.is_some() || self.fields.log_sd.is_some() => {
-                Distribution::log_normal_from_log(self.number("log_mean")?, self.number("log_sd")?)
+                Distribution::log_normal_of_logs(self.number("log_mean")?, self.number("log_sd")?)
             }
             "log-normal" => Distribution::log_normal(self.number("mean")?, self.number("sd")?),
             "triangular" => Distribution::triangular(self.number("min")?, self.number("mode")?, self.number("max")?),
@@ -86,14 +86,15 @@ impl Keys<'_> {
             "discrete" => {
                 let values = self.list("values")?;
                 let weights = if self.fields.weights.is_some() { Some(self.list("weights")?) } else { None };
-                Distribution::discrete(values, weights)
+                Distribution::discrete(&values, weights.as_deref())
             }
             _ => Distribution::constant(self.number("value")?),
         })
     }
 
     fn number(&mut self, key: &'static str) -> Result<f64, Fault> {
-        let found = numbers(self.fields).into_iter().find(|(name, _)| *name == key).and_then(|(_, value)| value.as_ref());
+        let found =
+            numbers(self.fields).into_iter().find(|(name, _)| *name == key).and_then(|(_, value)| value.as_ref());
         let value = found.ok_or_else(|| self.missing(key))?;
         self.used.push((key, value.span()));
         Ok(*value.get_ref())
@@ -129,8 +130,25 @@ impl Keys<'_> {
 
     /// The place of the parameter that `error` names, or else of the first one.
     fn blamed(&self, error: &DistributionError) -> Range<usize> {
-        let named = self.used.iter().find(|(key, _)| *key == error.parameter());
+        let named = self.used.iter().find(|(key, _)| Some(*key) == blamed_key(error));
         named.or(self.used.first()).map_or_else(|| self.fields.name.span(), |(_, span)| span.clone())
+    }
+}
+
+/// The key that an error is about, where it is about one.
+fn blamed_key(error: &DistributionError) -> Option<&'static str> {
+    match error {
+        DistributionError::NotFinite { parameter, .. }
+        | DistributionError::NotPositive { parameter, .. }
+        | DistributionError::OutOfRange { parameter, .. } => Some(parameter),
+        DistributionError::Bounds { .. } | DistributionError::Truncation { .. } => Some("min"),
+        DistributionError::Mode { .. } => Some("mode"),
+        DistributionError::NoValues => Some("values"),
+        DistributionError::EntryNotFinite { list, .. } => Some(list),
+        DistributionError::Lengths { .. }
+        | DistributionError::NegativeWeight { .. }
+        | DistributionError::ZeroWeights => Some("weights"),
+        DistributionError::Overflow { .. } => None,
     }
 }
 

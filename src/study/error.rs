@@ -196,9 +196,7 @@ impl Problem {
             Self::UnknownKey { expected, .. } => Some(format!("keys that can stand here: {}", expected.join(", "))),
             Self::UnknownName { expected, .. } => Some(format!("known: {}", expected.join(", "))),
             Self::FixedFactor(name) => Some(format!("remove `{name}` here, or remove its [[factor]]")),
-            Self::NoFactors => {
-                Some("add one or more [[factor]] tables with name, min, max and unit".to_owned())
-            }
+            Self::NoFactors => Some("add one or more [[factor]] tables with name, min, max and unit".to_owned()),
             Self::NoOutputs => Some("name at least one output, or leave `outputs` out".to_owned()),
             Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => {
                 Some(format!("it takes {takes}"))
@@ -289,8 +287,7 @@ mod tests {
     fn a_place_is_shown_with_its_line_and_a_caret() {
         let text = "a = 1\nµ = 'x'\n";
         let start = text.find("'x'").unwrap_or(0);
-        let diagnostic =
-            Diagnostic::new(Path::new("s.toml"), text, start..start + 3, Problem::Syntax("no".to_owned()));
+        let diagnostic = Diagnostic::new(Path::new("s.toml"), text, start..start + 3, Problem::Syntax("no".to_owned()));
         assert_eq!(diagnostic.to_string(), "s.toml:2:5: no\n  |\n2 | µ = 'x'\n  |     ^^^");
     }
 

@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-pub use error::{Diagnostic, OverrideProblem, Problem, StudyError};
 pub(crate) use error::nearest;
+pub use error::{Diagnostic, OverrideProblem, Problem, StudyError};
 pub use subject::{AfmSubject, KnownSubject, Subject};
 
 use crate::design::Design;

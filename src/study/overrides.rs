@@ -66,7 +66,8 @@ fn set_in(table: &mut dyn TableLike, names: &[&str], value: Value) -> Result<(),
 mod tests {
     use super::*;
 
-    const STUDY: &str = "outputs = ['y'] # kept\n[afm]\nfriction = \"coulomb\"\n[[factor]]\nname = \"length\"\nmin = 1\n";
+    const STUDY: &str =
+        "outputs = ['y'] # kept\n[afm]\nfriction = \"coulomb\"\n[[factor]]\nname = \"length\"\nmin = 1\n";
 
     fn applied(text: &str) -> Result<String, OverrideProblem> {
         apply(STUDY, &[text.to_owned()]).map_err(|(_, problem)| problem)

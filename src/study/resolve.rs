@@ -59,7 +59,10 @@ fn in_words(message: &str) -> String {
         ("expected u64", "expected a whole number from 0 to 18446744073709551615"),
         ("expected struct DesignSection", "expected a table [design]"),
         ("expected struct FactorSection", "expected a table [[factor]]"),
-        ("invalid type: map, expected a sequence", "expected a list: factors are written [[factor]], with two brackets"),
+        (
+            "invalid type: map, expected a sequence",
+            "expected a list: factors are written [[factor]], with two brackets",
+        ),
         ("expected a map", "expected a table"),
         ("floating point", "the number"),
     ];
@@ -108,7 +111,7 @@ fn subject(context: &Context<'_>, kind: ModelKind, file: &StudyFile, space: &Spa
             let table = table.as_ref().map_or(&empty, At::get_ref);
             let (scene, options) = constants::afm(context, table, &is_factor)?;
             let outputs = outputs.into_iter().map(|number| AfmOutput::ALL[number]).collect();
-            Ok(Subject::Afm(AfmSubject { scene, options, outputs }))
+            Ok(Subject::Afm(Box::new(AfmSubject { scene, options, outputs })))
         }
         (ModelKind::Known(function), None) => Ok(Subject::Known(KnownSubject { function })),
         (ModelKind::Known(_), Some(table)) => {
@@ -191,8 +194,11 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
         Some(nominal) => *nominal.get_ref(),
         None => default_nominal(input, &unit, &distribution),
     };
-    let group = fields.group.as_ref().map(|group| group.get_ref().clone());
-    Ok(Factor { name: input.name.to_owned(), unit, distribution, nominal, group })
+    let mut factor = Factor::new(input.name, unit, distribution)
+        .map_err(|source| context.fault(place, Problem::Distribution { factor: input.name.to_owned(), source }))?;
+    factor.nominal = nominal;
+    factor.group = fields.group.as_ref().map(|group| group.get_ref().clone());
+    Ok(factor)
 }
 
 /// The model's own nominal value, or the median where that lies outside the distribution's range.
@@ -221,11 +227,7 @@ fn unit(context: &Context<'_>, fields: &FactorSection, input: &Input) -> Result<
     Ok(unit)
 }
 
-fn design(
-    context: &Context<'_>,
-    section: &DesignSection,
-    space: &Space,
-) -> Result<(Design, Vec<String>), Fault> {
+fn design(context: &Context<'_>, section: &DesignSection, space: &Space) -> Result<(Design, Vec<String>), Fault> {
     let defaults = DesignSettings::default();
     let sampler = match &section.sampler {
         None => defaults.sampler,

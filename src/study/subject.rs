@@ -10,7 +10,7 @@ use crate::space::Space;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Subject {
     /// The nanoparticle model.
-    Afm(AfmSubject),
+    Afm(Box<AfmSubject>),
     /// A function with exact indices.
     Known(KnownSubject),
 }
@@ -59,12 +59,12 @@ impl Subject {
 
     pub(super) fn settings(&self) -> Vec<(&'static str, Value)> {
         match self {
-            Self::Afm(AfmSubject { options, .. }) => vec![
-                ("friction", json!(options.friction.name())),
-                ("contact", json!(options.contact.name())),
-                ("fidelity", json!(options.fidelity.name())),
-                ("torsion", json!(options.torsion.name())),
-                ("adhesion_in_load", json!(options.adhesion_in_load)),
+            Self::Afm(afm) => vec![
+                ("friction", json!(afm.options.friction.name())),
+                ("contact", json!(afm.options.contact.name())),
+                ("fidelity", json!(afm.options.fidelity.name())),
+                ("torsion", json!(afm.options.torsion.name())),
+                ("adhesion_in_load", json!(afm.options.adhesion_in_load)),
             ],
             Self::Known(_) => Vec::new(),
         }
@@ -74,12 +74,12 @@ impl Subject {
         let is_factor = |name: &str| space.factors().iter().any(|factor| factor.name == name);
         let constant = |name: &str, value: f64, unit: String| (name.to_owned(), value, unit);
         match self {
-            Self::Afm(AfmSubject { scene, .. }) => Parameter::ALL
+            Self::Afm(afm) => Parameter::ALL
                 .iter()
                 // A shear modulus that nobody set follows E and nu: it is no constant.
-                .filter(|p| !is_factor(p.name) && (p.name != "shear_modulus" || scene.shear_modulus.is_some()))
+                .filter(|p| !is_factor(p.name) && (p.name != "shear_modulus" || afm.scene.shear_modulus.is_some()))
                 .map(|p| (p, edge_unit(p)))
-                .map(|(p, unit)| constant(p.name, unit.from_si((p.get)(scene)), unit.to_string()))
+                .map(|(p, unit)| constant(p.name, unit.from_si((p.get)(&afm.scene)), unit.to_string()))
                 .collect(),
             Self::Known(KnownSubject { function }) => ModelKind::Known(*function)
                 .inputs()

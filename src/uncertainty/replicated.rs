@@ -136,9 +136,8 @@ mod tests {
     #[test]
     fn shares_of_factors_and_of_groups_each_sum_to_100() {
         let got = replicated_indices(&[replicate(0.0), replicate(0.4), replicate(2.0)], 2).unwrap();
-        let sum = |effects: &[EffectEstimates]| -> f64 {
-            effects.iter().map(|e| e.share_total.unwrap().estimate).sum()
-        };
+        let sum =
+            |effects: &[EffectEstimates]| -> f64 { effects.iter().map(|e| e.share_total.unwrap().estimate).sum() };
         assert_eq!((got.factors.len(), got.groups.len()), (2, 1));
         assert!((sum(&got.factors) - 100.0).abs() < 1e-12);
         assert!((sum(&got.groups) - 100.0).abs() < 1e-12);

@@ -82,24 +82,14 @@ mod tests {
     /// (10/81)^(1/3).
     #[test]
     fn nominal_tabor_parameter() {
-        let pair = Pair {
-            radius: 50e-9,
-            modulus: 60e9,
-            adhesion: 0.2,
-            separation: 0.2e-9,
-        };
+        let pair = Pair { radius: 50e-9, modulus: 60e9, adhesion: 0.2, separation: 0.2e-9 };
         assert!((pair.tabor() - (10.0_f64 / 81.0).cbrt()).abs() < 1e-14);
         assert!(!ContactTheory::Jkr.suits(pair.tabor()));
     }
 
     #[test]
     fn a_soft_sticky_pair_suits_jkr() {
-        let pair = Pair {
-            radius: 1e-3,
-            modulus: 1e6,
-            adhesion: 0.05,
-            separation: 0.2e-9,
-        };
+        let pair = Pair { radius: 1e-3, modulus: 1e6, adhesion: 0.05, separation: 0.2e-9 };
         assert!(ContactTheory::Jkr.suits(pair.tabor()));
     }
 }

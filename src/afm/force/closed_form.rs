@@ -21,15 +21,8 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         separation: scene.equilibrium_separation,
     };
     let contact = options.contact.contact(&pair, normal_force)?;
-    let adhesive_load = if options.adhesion_in_load {
-        options.contact.pull_off(&pair)
-    } else {
-        0.0
-    };
-    let pressed = Pressed {
-        load: normal_force + adhesive_load,
-        radius: contact.radius,
-    };
+    let adhesive_load = if options.adhesion_in_load { options.contact.pull_off(&pair) } else { 0.0 };
+    let pressed = Pressed { load: normal_force + adhesive_load, radius: contact.radius };
     let lateral_force = options.friction.capacity(scene, pressed);
     let travel = lateral_force / probe.apex;
     let twist = lateral_force * scene.height / probe.torsional;
@@ -44,10 +37,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         indentation: contact.indentation,
         twist,
         flags: flags(scene, options, &pair, contact)
-            .with(
-                Flag::AboveHardness,
-                normal_force > scene.hardness * (PI * contact.radius * contact.radius),
-            )
+            .with(Flag::AboveHardness, normal_force > scene.hardness * (PI * contact.radius * contact.radius))
             .with(Flag::LargeTwist, twist > 0.1),
     })
 }
@@ -71,11 +61,5 @@ fn critical_time(travel: f64, velocity: f64) -> Result<f64, Failure> {
         return Err(Failure::VelocityZero);
     }
     let time = travel / velocity;
-    if time.is_finite() {
-        Ok(time)
-    } else {
-        Err(Failure::NotFinite {
-            quantity: "critical_time",
-        })
-    }
+    if time.is_finite() { Ok(time) } else { Err(Failure::NotFinite { quantity: "critical_time" }) }
 }

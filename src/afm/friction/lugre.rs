@@ -62,12 +62,8 @@ mod tests {
 
     use super::*;
 
-    const LAW: LuGre = LuGre {
-        static_friction: 0.8,
-        dynamic_friction: 0.7,
-        viscous_friction: 0.3,
-        stribeck_velocity: 1e-3,
-    };
+    const LAW: LuGre =
+        LuGre { static_friction: 0.8, dynamic_friction: 0.7, viscous_friction: 0.3, stribeck_velocity: 1e-3 };
 
     #[test]
     fn at_rest_it_is_static_friction_exactly() {

@@ -76,21 +76,9 @@ fn every_usual_unit_has_its_factor_and_dimension() {
 #[test]
 fn what_is_no_unit_is_named_and_corrected() {
     let text = |input: &str| Unit::parse(input).expect_err(input).to_string();
-    assert!(
-        text("gpa").contains("did you mean \"GPa\"?"),
-        "{}",
-        text("gpa")
-    );
-    assert!(
-        text("nm/sec").contains("\"sec\" is not understood;"),
-        "{}",
-        text("nm/sec")
-    );
-    assert!(
-        text("Mpa").contains("did you mean \"MPa\"?"),
-        "{}",
-        text("Mpa")
-    );
+    assert!(text("gpa").contains("did you mean \"GPa\"?"), "{}", text("gpa"));
+    assert!(text("nm/sec").contains("\"sec\" is not understood;"), "{}", text("nm/sec"));
+    assert!(text("Mpa").contains("did you mean \"MPa\"?"), "{}", text("Mpa"));
     assert!(text("furlong/s").contains("units look like"));
     assert!(text("N/m s").contains("two ways"));
     let odd = [
@@ -126,14 +114,8 @@ fn what_is_no_unit_is_named_and_corrected() {
 #[test]
 fn dimensions_name_themselves() {
     assert_eq!(unit("nm").dimension().to_string(), "a length");
-    assert_eq!(
-        unit("mN/m").dimension().to_string(),
-        "a stiffness or surface energy"
-    );
-    assert_eq!(
-        unit("J s/m4").dimension().to_string(),
-        "a quantity in m^-2 kg s^-1"
-    );
+    assert_eq!(unit("mN/m").dimension().to_string(), "a stiffness or surface energy");
+    assert_eq!(unit("J s/m4").dimension().to_string(), "a quantity in m^-2 kg s^-1");
 }
 
 #[test]

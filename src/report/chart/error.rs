@@ -12,9 +12,7 @@ pub enum ChartError {
         chart: String,
     },
     /// A series that does not match its panel's categories.
-    #[error(
-        "series {series:?} of panel {panel:?} has {found} {what}, but the panel has {expected} categories"
-    )]
+    #[error("series {series:?} of panel {panel:?} has {found} {what}, but the panel has {expected} categories")]
     Length {
         /// Title of the panel.
         panel: String,

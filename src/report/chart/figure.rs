@@ -17,12 +17,7 @@ const ROW: f64 = 17.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Key {
     Swatch(Role),
-    Line {
-        role: Role,
-        dash: &'static str,
-        line: bool,
-        points: bool,
-    },
+    Line { role: Role, dash: &'static str, line: bool, points: bool },
     Diamond,
     Whisker,
     Cross,
@@ -65,19 +60,12 @@ pub(super) struct Figure<'a> {
 impl<'a> Figure<'a> {
     /// Draws title and legend of a figure `width` px wide.
     pub fn begin(width: f64, words: Words<'a>, legend: &[Entry]) -> Self {
-        let mut figure = Self {
-            canvas: Canvas::default(),
-            top: MARGIN,
-            width,
-            words,
-        };
+        let mut figure = Self { canvas: Canvas::default(), top: MARGIN, width, words };
         figure.canvas.open("g", &[("class", &"title")]);
         for line in wrap(words.title, width - 2.0 * MARGIN, TITLE) {
             figure.top += TITLE.leading();
             let baseline = figure.top - 0.3 * TITLE.size;
-            figure
-                .canvas
-                .text(&Text::new(&line, (MARGIN, baseline), TITLE));
+            figure.canvas.text(&Text::new(&line, (MARGIN, baseline), TITLE));
         }
         figure.canvas.close("g");
         if !legend.is_empty() {
@@ -93,13 +81,8 @@ impl<'a> Figure<'a> {
         let caption = wrap(self.words.caption, self.width - 2.0 * MARGIN, BODY);
         self.canvas.open("g", &[("class", &"caption")]);
         for (row, line) in caption.iter().enumerate() {
-            y += if row == 0 {
-                8.0 + BODY.size
-            } else {
-                BODY.leading()
-            };
-            self.canvas
-                .text(&Text::new(line, (MARGIN, y), BODY).fill(MUTED));
+            y += if row == 0 { 8.0 + BODY.size } else { BODY.leading() };
+            self.canvas.text(&Text::new(line, (MARGIN, y), BODY).fill(MUTED));
         }
         self.canvas.close("g");
         let (width, height) = (self.width.ceil(), (y + MARGIN).ceil());
@@ -118,15 +101,8 @@ impl<'a> Figure<'a> {
             ],
         );
         page.content("title", &[], self.words.title);
-        page.content(
-            "desc",
-            &[],
-            &format!("{} {description}", self.words.caption),
-        );
-        page.leaf(
-            "rect",
-            &[("width", &width), ("height", &height), ("fill", &PAPER)],
-        );
+        page.content("desc", &[], &format!("{} {description}", self.words.caption));
+        page.leaf("rect", &[("width", &width), ("height", &height), ("fill", &PAPER)]);
         page.append(self.canvas);
         page.close("svg");
         page.into_string()
@@ -145,8 +121,7 @@ impl<'a> Figure<'a> {
             }
             self.key(entry.key, (x, y));
             let at = (x + key, y + BODY.cap_height() / 2.0);
-            self.canvas
-                .text(&Text::new(&name, at, BODY).whole(&entry.name));
+            self.canvas.text(&Text::new(&name, at, BODY).whole(&entry.name));
             x += length + ENTRY_GAP;
         }
         self.canvas.close("g");
@@ -161,33 +136,12 @@ impl<'a> Figure<'a> {
         match key {
             Key::Swatch(role) => {
                 let (left, top, fill) = (Px(x), Px(y - 5.0), role.colour());
-                canvas.leaf(
-                    "rect",
-                    &[
-                        ("x", &left),
-                        ("y", &top),
-                        ("width", &"12"),
-                        ("height", &"10"),
-                        ("fill", &fill),
-                    ],
-                );
+                canvas.leaf("rect", &[("x", &left), ("y", &top), ("width", &"12"), ("height", &"10"), ("fill", &fill)]);
             }
-            Key::Line {
-                role,
-                dash,
-                line,
-                points,
-            } => {
+            Key::Line { role, dash, line, points } => {
                 if line {
                     let stroke = role.colour();
-                    canvas.open(
-                        "g",
-                        &[
-                            ("stroke", &stroke),
-                            ("stroke-width", &"1.8"),
-                            ("stroke-dasharray", &dash),
-                        ],
-                    );
+                    canvas.open("g", &[("stroke", &stroke), ("stroke-width", &"1.8"), ("stroke-dasharray", &dash)]);
                     canvas.line((x, y), (right, y));
                     canvas.close("g");
                 }

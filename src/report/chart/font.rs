@@ -14,8 +14,7 @@ pub(super) const FAMILY: &str = "Apportion Sans";
 /// Families named in the SVG, all but the generic one of equal metrics.
 pub(super) const FAMILIES: &str = "Arial, 'Liberation Sans', Helvetica, sans-serif";
 /// Bytes of the regular face (TrueType).
-pub(super) static REGULAR: &[u8] =
-    include_bytes!("../../../assets/fonts/ApportionSans-Regular.ttf");
+pub(super) static REGULAR: &[u8] = include_bytes!("../../../assets/fonts/ApportionSans-Regular.ttf");
 /// Bytes of the bold face (TrueType).
 pub(super) static BOLD: &[u8] = include_bytes!("../../../assets/fonts/ApportionSans-Bold.ttf");
 
@@ -39,18 +38,12 @@ pub(super) struct Face {
 impl Face {
     /// The regular face.
     pub const fn regular(size: f64) -> Self {
-        Self {
-            size,
-            weight: Weight::Regular,
-        }
+        Self { size, weight: Weight::Regular }
     }
 
     /// The bold face.
     pub const fn bold(size: f64) -> Self {
-        Self {
-            size,
-            weight: Weight::Bold,
-        }
+        Self { size, weight: Weight::Bold }
     }
 
     /// Width of one line of text, px. Kerning, which only narrows it, is left out.
@@ -59,10 +52,7 @@ impl Face {
             Weight::Regular => &*REGULAR_ADVANCES,
             Weight::Bold => &*BOLD_ADVANCES,
         };
-        let em: f64 = text
-            .chars()
-            .map(|c| advances.get(&c).copied().unwrap_or(UNKNOWN_ADVANCE))
-            .sum();
+        let em: f64 = text.chars().map(|c| advances.get(&c).copied().unwrap_or(UNKNOWN_ADVANCE)).sum();
         em * self.size
     }
 
@@ -91,10 +81,7 @@ fn advances(font: &[u8]) -> HashMap<char, f64> {
         return HashMap::new();
     };
     let metrics = font.glyph_metrics(Size::unscaled(), LocationRef::default());
-    let em = f64::from(
-        font.metrics(Size::unscaled(), LocationRef::default())
-            .units_per_em,
-    );
+    let em = f64::from(font.metrics(Size::unscaled(), LocationRef::default()).units_per_em);
     font.charmap()
         .mappings()
         .filter_map(|(code, glyph)| {
@@ -120,12 +107,9 @@ mod tests {
 
     #[test]
     fn labels_and_units_of_the_field_are_covered() {
-        let needed = "µ·⋅×±−–—…°′″≤≥≠≈∞√∂∑∫→←₀₁₂₃₄₅₆₇₈₉₊₋⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺‘’“”•αβγδεθλμνπρσφωΓΔΘΛΣΦΩÅéöűñ\u{2011}\u{202f}\u{a0}";
-        let missing: String = needed
-            .chars()
-            .chain(' '..='~')
-            .filter(|&c| !covers(c))
-            .collect();
+        let needed =
+            "µ·⋅×±−–—…°′″≤≥≠≈∞√∂∑∫→←₀₁₂₃₄₅₆₇₈₉₊₋⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺‘’“”•αβγδεθλμνπρσφωΓΔΘΛΣΦΩÅéöűñ\u{2011}\u{202f}\u{a0}";
+        let missing: String = needed.chars().chain(' '..='~').filter(|&c| !covers(c)).collect();
         assert_eq!(missing, "");
         assert!(!covers('粒'));
     }

@@ -21,15 +21,7 @@ impl Canvas {
         let (x, y) = (Px(x), Px(y));
         let d = format!("M{x} {top}L{right} {y}L{x} {bottom}L{left} {y}Z");
         let width = Px((0.3 * r).min(1.2));
-        self.leaf(
-            "path",
-            &[
-                ("d", &d),
-                ("fill", &PAPER),
-                ("stroke", &INK),
-                ("stroke-width", &width),
-            ],
-        );
+        self.leaf("path", &[("d", &d), ("fill", &PAPER), ("stroke", &INK), ("stroke-width", &width)]);
     }
 
     /// An interval from one height to another, with caps `cap` px wide.
@@ -37,30 +29,14 @@ impl Canvas {
         let (left, right) = (Px(x - cap / 2.0), Px(x + cap / 2.0));
         let (x, from, to) = (Px(x), Px(from), Px(to));
         let d = format!("M{left} {from}H{right}M{x} {from}V{to}M{left} {to}H{right}");
-        self.leaf(
-            "path",
-            &[
-                ("d", &d),
-                ("fill", &"none"),
-                ("stroke", &INK),
-                ("stroke-width", &"1.2"),
-            ],
-        );
+        self.leaf("path", &[("d", &d), ("fill", &"none"), ("stroke", &INK), ("stroke-width", &"1.2")]);
     }
 
     /// A grey cross: no value.
     pub fn cross(&mut self, (x, y): (f64, f64)) {
         let (left, right, top, bottom) = (Px(x - 3.0), Px(x + 3.0), Px(y - 3.0), Px(y + 3.0));
         let d = format!("M{left} {top}L{right} {bottom}M{left} {bottom}L{right} {top}");
-        self.leaf(
-            "path",
-            &[
-                ("d", &d),
-                ("fill", &"none"),
-                ("stroke", &MUTED),
-                ("stroke-width", &"1.2"),
-            ],
-        );
+        self.leaf("path", &[("d", &d), ("fill", &"none"), ("stroke", &MUTED), ("stroke-width", &"1.2")]);
     }
 
     /// A filled point whose colour and, for print in grey, outline are the role's.
@@ -72,9 +48,6 @@ impl Canvas {
             Role::Other(n) => n % POINTS.len(),
         };
         let d = format!("M{} {}{}", Px(x), Px(y), POINTS[outline]);
-        self.leaf(
-            "path",
-            &[("class", &"point"), ("d", &d), ("fill", &role.colour())],
-        );
+        self.leaf("path", &[("class", &"point"), ("d", &d), ("fill", &role.colour())]);
     }
 }

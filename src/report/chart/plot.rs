@@ -28,16 +28,12 @@ impl Plot {
 
     /// Horizontal place of a value.
     pub fn x(&self, scale: &Scale, value: f64) -> Option<f64> {
-        scale
-            .place(value)
-            .map(|place| self.left + place * self.width)
+        scale.place(value).map(|place| self.left + place * self.width)
     }
 
     /// Vertical place of a value.
     pub fn y(&self, scale: &Scale, value: f64) -> Option<f64> {
-        scale
-            .place(value)
-            .map(|place| self.bottom() - place * self.height)
+        scale.place(value).map(|place| self.bottom() - place * self.height)
     }
 
     /// The panel's title over the upper left corner, `rise` px above the rectangle.
@@ -111,14 +107,7 @@ impl Plot {
 
     /// The two axis lines, left and below.
     pub fn axis_lines(&self, canvas: &mut Canvas) {
-        canvas.open(
-            "g",
-            &[
-                ("class", &"axis-lines"),
-                ("stroke", &INK),
-                ("stroke-width", &"1"),
-            ],
-        );
+        canvas.open("g", &[("class", &"axis-lines"), ("stroke", &INK), ("stroke-width", &"1")]);
         canvas.line((self.left, self.top), (self.left, self.bottom()));
         canvas.line((self.left, self.bottom()), (self.right(), self.bottom()));
         canvas.close("g");
@@ -127,22 +116,14 @@ impl Plot {
 
 /// Width that tick labels and the gap to their axis take, px.
 pub(super) fn tick_room(scale: &Scale) -> f64 {
-    let widest = scale
-        .ticks
-        .iter()
-        .map(|tick| TICK.width(&tick.label))
-        .fold(0.0, f64::max);
+    let widest = scale.ticks.iter().map(|tick| TICK.width(&tick.label)).fold(0.0, f64::max);
     widest + TICK_GAP
 }
 
 /// Width that a turned axis title takes beside a plot of this height, px.
 pub(super) fn title_room(title: &str, height: f64) -> f64 {
     let lines = wrap(title, height, BODY).len() as f64;
-    if lines == 0.0 {
-        0.0
-    } else {
-        lines * BODY.leading() + 4.0
-    }
+    if lines == 0.0 { 0.0 } else { lines * BODY.leading() + 4.0 }
 }
 
 /// `label (unit)`, with the power of ten that the ticks are in.

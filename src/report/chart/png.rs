@@ -37,9 +37,7 @@ pub enum PngError {
     #[error("the chart is not a drawable SVG: {0}")]
     Svg(#[from] resvg::usvg::Error),
     /// More pixels than are allowed.
-    #[error(
-        "a picture of {width:.0} x {height:.0} pixels is too large, at most 64 million pixels can be drawn"
-    )]
+    #[error("a picture of {width:.0} x {height:.0} pixels is too large, at most 64 million pixels can be drawn")]
     TooLarge {
         /// Width in pixels.
         width: f64,
@@ -79,11 +77,7 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
 pub fn png(svg: &str) -> Result<Png, PngError> {
     let document = roxmltree::Document::parse(svg)?;
     let missing = missing(&document);
-    let options = Options {
-        font_family: FAMILY.to_owned(),
-        fontdb: FONTS.clone(),
-        ..Options::default()
-    };
+    let options = Options { font_family: FAMILY.to_owned(), fontdb: FONTS.clone(), ..Options::default() };
     let tree = Tree::from_xmltree(&document, &options)?;
     let scale = f64::from(PNG_SCALE);
     let width = (f64::from(tree.size().width()) * scale).ceil();
@@ -94,29 +88,15 @@ pub fn png(svg: &str) -> Result<Png, PngError> {
     }
     let mut pixels = Pixmap::new(width as u32, height as u32).ok_or_else(too_large)?;
     pixels.fill(Color::WHITE);
-    resvg::render(
-        &tree,
-        Transform::from_scale(PNG_SCALE as f32, PNG_SCALE as f32),
-        &mut pixels.as_mut(),
-    );
-    let bytes = pixels
-        .encode_png()
-        .map_err(|error| PngError::Encode(Box::new(error)))?;
-    Ok(Png {
-        bytes,
-        width: pixels.width(),
-        height: pixels.height(),
-        missing,
-    })
+    resvg::render(&tree, Transform::from_scale(PNG_SCALE as f32, PNG_SCALE as f32), &mut pixels.as_mut());
+    let bytes = pixels.encode_png().map_err(|error| PngError::Encode(Box::new(error)))?;
+    Ok(Png { bytes, width: pixels.width(), height: pixels.height(), missing })
 }
 
 /// Characters of drawn text without a glyph.
 fn missing(document: &roxmltree::Document) -> Vec<char> {
     let mut missing = Vec::new();
-    for node in document
-        .descendants()
-        .filter(|node| node.has_tag_name("text"))
-    {
+    for node in document.descendants().filter(|node| node.has_tag_name("text")) {
         for c in node.text().unwrap_or_default().chars() {
             if !covers(c) && !c.is_whitespace() && !missing.contains(&c) {
                 missing.push(c);
@@ -131,20 +111,14 @@ mod tests {
     use super::*;
 
     fn picture(body: &str) -> Png {
-        let svg = format!(
-            r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="40">{body}</svg>"#
-        );
+        let svg = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="40">{body}</svg>"#);
         png(&svg).expect("a valid SVG")
     }
 
     fn dark(png: &Png) -> usize {
         let pixels = Pixmap::decode_png(&png.bytes).expect("a PNG");
         assert_eq!((pixels.width(), pixels.height()), (png.width, png.height));
-        pixels
-            .pixels()
-            .iter()
-            .filter(|p| p.red() < 100 && p.alpha() == 255)
-            .count()
+        pixels.pixels().iter().filter(|p| p.red() < 100 && p.alpha() == 255).count()
     }
 
     #[test]
@@ -160,18 +134,11 @@ mod tests {
         ];
         let mut counts = Vec::new();
         for family in families {
-            let text = format!(
-                r#"<text x="5" y="25" font-size="20" font-family="{family}">Hurtado</text>"#
-            );
+            let text = format!(r#"<text x="5" y="25" font-size="20" font-family="{family}">Hurtado</text>"#);
             counts.push(dark(&picture(&text)));
         }
-        assert!(
-            counts[0] > 300 && counts.iter().all(|count| *count == counts[0]),
-            "{counts:?}"
-        );
-        let bold = dark(&picture(
-            r#"<text x="5" y="25" font-size="20" font-weight="bold">Hurtado</text>"#,
-        ));
+        assert!(counts[0] > 300 && counts.iter().all(|count| *count == counts[0]), "{counts:?}");
+        let bold = dark(&picture(r#"<text x="5" y="25" font-size="20" font-weight="bold">Hurtado</text>"#));
         assert!(bold > counts[0] * 6 / 5, "{bold} of {}", counts[0]);
     }
 
@@ -187,12 +154,6 @@ mod tests {
         assert!(matches!(png("<svg"), Err(PngError::Xml(_))));
         assert!(matches!(png("<html/>"), Err(PngError::Svg(_))));
         let huge = r#"<svg xmlns="http://www.w3.org/2000/svg" width="9000" height="9000"/>"#;
-        assert!(matches!(
-            png(huge),
-            Err(PngError::TooLarge {
-                width: 18000.0,
-                height: 18000.0
-            })
-        ));
+        assert!(matches!(png(huge), Err(PngError::TooLarge { width: 18000.0, height: 18000.0 })));
     }
 }

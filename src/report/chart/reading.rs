@@ -7,33 +7,23 @@ use super::png;
 
 /// The groups of a class, in order.
 pub(super) fn groups<'a, 'i>(document: &'a Document<'i>, class: &str) -> Vec<Node<'a, 'i>> {
-    document
-        .descendants()
-        .filter(|node| node.attribute("class") == Some(class))
-        .collect()
+    document.descendants().filter(|node| node.attribute("class") == Some(class)).collect()
 }
 
 /// A numeric attribute.
 pub(super) fn number(node: &Node, name: &str) -> f64 {
-    node.attribute(name)
-        .and_then(|value| value.parse().ok())
-        .unwrap_or_else(|| panic!("no {name} in {node:?}"))
+    node.attribute(name).and_then(|value| value.parse().ok()).unwrap_or_else(|| panic!("no {name} in {node:?}"))
 }
 
 /// The numbers of path data, whatever its commands.
 pub(super) fn path_numbers(node: &Node) -> Vec<f64> {
     let data = node.attribute("d").expect("a path");
-    data.split(|c: char| c.is_ascii_alphabetic() || c == ' ')
-        .filter_map(|part| part.parse().ok())
-        .collect()
+    data.split(|c: char| c.is_ascii_alphabetic() || c == ' ').filter_map(|part| part.parse().ok()).collect()
 }
 
 /// All drawn texts below a node, or of the whole document.
 pub(super) fn texts<'a>(node: Node<'a, '_>) -> Vec<&'a str> {
-    node.descendants()
-        .filter(|n| n.has_tag_name("text"))
-        .filter_map(|n| n.text())
-        .collect()
+    node.descendants().filter(|n| n.has_tag_name("text")).filter_map(|n| n.text()).collect()
 }
 
 /// The line through labelled ticks of a vertical axis: height of zero and px per unit.
@@ -49,11 +39,7 @@ pub(super) fn y_axis(axis: &Node) -> (f64, f64) {
         .collect();
     let (first, last) = (ticks[0], ticks[ticks.len() - 1]);
     let scale = (first.1 - last.1) / (last.0 - first.0);
-    let zero = axis
-        .descendants()
-        .filter(|n| n.has_tag_name("line"))
-        .map(|n| number(&n, "y1"))
-        .next();
+    let zero = axis.descendants().filter(|n| n.has_tag_name("line")).map(|n| number(&n, "y1")).next();
     (zero.expect("a grid line") + first.0 * scale, scale)
 }
 
@@ -66,21 +52,12 @@ pub(super) fn dark_pixels(svg: &str, from: f64, to: f64) -> usize {
     assert_eq!(f64::from(pixels.width()), 2.0 * number(&root, "width"));
     assert_eq!(f64::from(pixels.height()), 2.0 * number(&root, "height"));
     let rows = (2.0 * from) as u32..(2.0 * to) as u32;
-    let dark = |x: u32, y: u32| {
-        pixels
-            .pixel(x, y)
-            .is_some_and(|p| p.red().max(p.green()).max(p.blue()) < 90)
-    };
-    rows.map(|y| (0..pixels.width()).filter(|&x| dark(x, y)).count())
-        .sum()
+    let dark = |x: u32, y: u32| pixels.pixel(x, y).is_some_and(|p| p.red().max(p.green()).max(p.blue()) < 90);
+    rows.map(|y| (0..pixels.width()).filter(|&x| dark(x, y)).count()).sum()
 }
 
 /// Whether no attribute holds a number that is not finite.
 pub(super) fn only_finite(document: &Document) -> bool {
     let mut attributes = document.descendants().flat_map(|node| node.attributes());
-    attributes.all(|attribute| {
-        !["NaN", "inf"]
-            .iter()
-            .any(|bad| attribute.value().contains(bad))
-    })
+    attributes.all(|attribute| !["NaN", "inf"].iter().any(|bad| attribute.value().contains(bad)))
 }

@@ -47,9 +47,7 @@ impl Scale {
     /// A scale that shows all of `values` that can be shown; 0 to 1 (1 to 10 if logarithmic) if none can.
     pub fn over(values: impl IntoIterator<Item = f64>, wish: Wish) -> Self {
         let shown = values.into_iter().filter(|&v| showable(wish.spacing, v));
-        let (low, high) = shown.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-            (l.min(v), h.max(v))
-        });
+        let (low, high) = shown.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         match wish.spacing {
             Spacing::Linear if low > high => Self::linear((0.0, 1.0), wish),
             Spacing::Linear => Self::linear((low, high), wish),
@@ -75,11 +73,7 @@ impl Scale {
     fn linear(range: (f64, f64), wish: Wish) -> Self {
         let (low, high) = widened(range);
         let aired = |end: f64, air: f64| {
-            if end == 0.0 {
-                end
-            } else {
-                end + air * (high - low)
-            }
+            if end == 0.0 { end } else { end + air * (high - low) }
         };
         let (low, high) = (aired(low, -wish.air), aired(high, wish.air));
         let step = Step::near((high - low) / wish.steps.max(1) as f64);
@@ -91,44 +85,23 @@ impl Scale {
             .map(|k| {
                 let value = step.times(k as f64);
                 let shown = k as f64 * step.mantissa * 10f64.powi(step.exponent - exponent);
-                Tick {
-                    value,
-                    label: minus(&format!("{shown:.decimals$}")),
-                }
+                Tick { value, label: minus(&format!("{shown:.decimals$}")) }
             })
             .collect();
-        Self {
-            spacing: Spacing::Linear,
-            low,
-            high,
-            ticks,
-            minor: Vec::new(),
-            exponent,
-        }
+        Self { spacing: Spacing::Linear, low, high, ticks, minor: Vec::new(), exponent }
     }
 
     fn logarithmic((low, high): (f64, f64)) -> Self {
         // A little air, and a third of a decade about a single value. The ratio itself could overflow.
         let span = high.log10() - low.log10();
-        let air = if span < 1e-3 {
-            0.33
-        } else {
-            (0.03 * span).clamp(0.01, 0.5)
-        };
+        let air = if span < 1e-3 { 0.33 } else { (0.03 * span).clamp(0.01, 0.5) };
         let (low, high) = (low / 10f64.powf(air), high * 10f64.powf(air));
         let (from, to) = (low.log10(), high.log10());
         if to - from < 0.8 {
             // Too short for powers of ten: the round steps of a linear axis, spaced by ratio.
-            let wish = Wish {
-                spacing: Spacing::Linear,
-                air: 0.0,
-                steps: 4,
-            };
+            let wish = Wish { spacing: Spacing::Linear, air: 0.0, steps: 4 };
             let linear = Self::linear((low, high), wish);
-            return Self {
-                spacing: Spacing::Logarithmic,
-                ..linear
-            };
+            return Self { spacing: Spacing::Logarithmic, ..linear };
         }
         let decades = from.floor() as i32..=to.floor() as i32;
         let inside = |v: f64| v >= low && v <= high;
@@ -141,27 +114,16 @@ impl Scale {
             .filter(|decade| decade.rem_euclid(every) == 0)
             .flat_map(|decade| labelled.iter().map(move |&digit| (decade, digit)))
             .filter(|&(decade, digit)| inside(at(decade, digit)))
-            .map(|(decade, digit)| Tick {
-                value: at(decade, digit),
-                label: decade_label(decade, digit, plain),
-            })
+            .map(|(decade, digit)| Tick { value: at(decade, digit), label: decade_label(decade, digit, plain) })
             .collect();
         // Finer lines only where they do not crowd.
         let minor = match every {
-            1 if to - from < 3.3 => decades
-                .flat_map(|d| (2..10).map(move |n| at(d, n)))
-                .filter(|&v| inside(v))
-                .collect(),
+            1 if to - from < 3.3 => {
+                decades.flat_map(|d| (2..10).map(move |n| at(d, n))).filter(|&v| inside(v)).collect()
+            }
             _ => Vec::new(),
         };
-        Self {
-            spacing: Spacing::Logarithmic,
-            low,
-            high,
-            ticks,
-            minor,
-            exponent: 0,
-        }
+        Self { spacing: Spacing::Logarithmic, low, high, ticks, minor, exponent: 0 }
     }
 }
 
@@ -218,11 +180,7 @@ fn widened((low, high): (f64, f64)) -> (f64, f64) {
 
 /// Zero for magnitudes that read well as they are, else the multiple of three that makes them so.
 fn common_exponent(magnitude: f64) -> i32 {
-    if (1e-2..1e5).contains(&magnitude) {
-        0
-    } else {
-        3 * ((magnitude.log10() + 1e-9) / 3.0).floor() as i32
-    }
+    if (1e-2..1e5).contains(&magnitude) { 0 } else { 3 * ((magnitude.log10() + 1e-9) / 3.0).floor() as i32 }
 }
 
 fn decade_label(decade: i32, digit: i32, plain: bool) -> String {
@@ -243,14 +201,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn scale(values: &[f64], spacing: Spacing, air: f64) -> Scale {
-        Scale::over(
-            values.iter().copied(),
-            Wish {
-                spacing,
-                air,
-                steps: 5,
-            },
-        )
+        Scale::over(values.iter().copied(), Wish { spacing, air, steps: 5 })
     }
 
     fn labels(scale: &Scale) -> Vec<&str> {
@@ -262,22 +213,13 @@ mod tests {
         let s = scale(&[0.0, 57.4], Linear, 0.0);
         assert_eq!(labels(&s), ["0", "10", "20", "30", "40", "50"]);
         assert_eq!((s.low, s.high, s.exponent), (0.0, 57.4, 0));
-        assert_eq!(
-            labels(&scale(&[-0.07, 0.31], Linear, 0.0)),
-            ["0.0", "0.1", "0.2", "0.3"]
-        );
+        assert_eq!(labels(&scale(&[-0.07, 0.31], Linear, 0.0)), ["0.0", "0.1", "0.2", "0.3"]);
         let s = scale(&[3.0e-9, 21.0e-9], Linear, 0.0);
         assert_eq!((labels(&s), s.exponent), (vec!["5", "10", "15", "20"], -9));
         let s = scale(&[-2.5e6, 1.0e6], Linear, 0.2);
-        assert_eq!(
-            (labels(&s), s.exponent),
-            (vec!["\u{2212}3", "\u{2212}2", "\u{2212}1", "0", "1"], 6)
-        );
+        assert_eq!((labels(&s), s.exponent), (vec!["\u{2212}3", "\u{2212}2", "\u{2212}1", "0", "1"], 6));
         let s = scale(&[0.1, 0.3], Linear, 0.0);
-        assert_eq!(
-            s.ticks.iter().map(|t| t.value).collect::<Vec<_>>(),
-            [0.1, 0.15, 0.2, 0.25, 0.3]
-        );
+        assert_eq!(s.ticks.iter().map(|t| t.value).collect::<Vec<_>>(), [0.1, 0.15, 0.2, 0.25, 0.3]);
     }
 
     #[test]
@@ -296,15 +238,10 @@ mod tests {
         assert_eq!(labels(&s), ["0.05", "0.1", "0.2", "0.5", "1", "2"]);
         let s = scale(&[1e-100, 1e100], Logarithmic, 0.0);
         assert!((5..=9).contains(&s.ticks.len()));
-        assert_eq!(
-            labels(&scale(&[40.0, 60.0], Logarithmic, 0.0)),
-            ["40", "45", "50", "55", "60"]
-        );
+        assert_eq!(labels(&scale(&[40.0, 60.0], Logarithmic, 0.0)), ["40", "45", "50", "55", "60"]);
         // Both ends of f64's usable range: the ratio overflows, the places do not.
         let s = scale(&[1e-289, 1e300], Logarithmic, 0.0);
-        assert!(
-            s.place(1e-289).is_some_and(|p| p < 1e-3) && s.place(1e300).is_some_and(|p| p > 0.999)
-        );
+        assert!(s.place(1e-289).is_some_and(|p| p < 1e-3) && s.place(1e300).is_some_and(|p| p > 0.999));
     }
 
     #[test]
@@ -315,10 +252,7 @@ mod tests {
         let s = scale(&[-1.0, 0.0, 5.0], Logarithmic, 0.0);
         assert_eq!((s.place(0.0), s.place(-1.0)), (None, None));
         // The axis is symmetric about a single value, up to rounding of the logarithms.
-        assert!(
-            s.place(5.0)
-                .is_some_and(|place| (place - 0.5).abs() < 1e-12)
-        );
+        assert!(s.place(5.0).is_some_and(|place| (place - 0.5).abs() < 1e-12));
     }
 
     proptest! {

@@ -47,9 +47,8 @@ impl Role {
     /// assert_ne!(Role::Other(0).colour(), Role::Other(1).colour());
     /// ```
     pub fn colour(self) -> &'static str {
-        const OTHERS: [&str; 8] = [
-            "#d55e00", "#cc79a7", "#56b4e9", "#7f7f7f", "#6f3000", "#6b2c53", "#f0e442", "#c4c4c4",
-        ];
+        const OTHERS: [&str; 8] =
+            ["#d55e00", "#cc79a7", "#56b4e9", "#7f7f7f", "#6f3000", "#6b2c53", "#f0e442", "#c4c4c4"];
         match self {
             Role::Coulomb => "#0072b2",
             Role::HurtadoKim => "#e69f00",
@@ -71,12 +70,7 @@ mod tests {
 
     #[test]
     fn roles_have_distinct_colours() {
-        let mut roles = vec![
-            Role::Coulomb,
-            Role::HurtadoKim,
-            Role::LuGre,
-            Role::Reference,
-        ];
+        let mut roles = vec![Role::Coulomb, Role::HurtadoKim, Role::LuGre, Role::Reference];
         roles.extend((0..8).map(Role::Other));
         let mut colours: Vec<_> = roles.iter().map(|role| role.colour()).collect();
         colours.sort_unstable();

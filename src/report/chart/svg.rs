@@ -42,16 +42,7 @@ pub(super) struct Text<'a> {
 impl<'a> Text<'a> {
     /// Dark text that starts at `at`, a point of its baseline.
     pub fn new(content: &'a str, at: (f64, f64), face: Face) -> Self {
-        Self {
-            content,
-            at,
-            face,
-            anchor: Anchor::Start,
-            fill: INK,
-            turn: 0.0,
-            halo: false,
-            whole: None,
-        }
+        Self { content, at, face, anchor: Anchor::Start, fill: INK, turn: 0.0, halo: false, whole: None }
     }
 
     pub fn anchor(self, anchor: Anchor) -> Self {
@@ -74,10 +65,7 @@ impl<'a> Text<'a> {
 
     /// The unshortened text, shown when pointed at.
     pub fn whole(self, whole: &'a str) -> Self {
-        Self {
-            whole: (whole != self.content).then_some(whole),
-            ..self
-        }
+        Self { whole: (whole != self.content).then_some(whole), ..self }
     }
 }
 
@@ -127,23 +115,14 @@ impl Canvas {
     }
 
     pub fn line(&mut self, from: (f64, f64), to: (f64, f64)) {
-        self.leaf(
-            "line",
-            &[
-                ("x1", &Px(from.0)),
-                ("y1", &Px(from.1)),
-                ("x2", &Px(to.0)),
-                ("y2", &Px(to.1)),
-            ],
-        );
+        self.leaf("line", &[("x1", &Px(from.0)), ("y1", &Px(from.1)), ("x2", &Px(to.0)), ("y2", &Px(to.1))]);
     }
 
     pub fn text(&mut self, text: &Text) {
         let (x, y) = (Px(text.at.0), Px(text.at.1));
         let size = Px(text.face.size);
         let turn = format!("rotate({} {x} {y})", Px(text.turn));
-        let mut attributes: Vec<(&str, &dyn Display)> =
-            vec![("x", &x), ("y", &y), ("font-size", &size)];
+        let mut attributes: Vec<(&str, &dyn Display)> = vec![("x", &x), ("y", &y), ("font-size", &size)];
         if text.face.weight == Weight::Bold {
             attributes.push(("font-weight", &"bold"));
         }
@@ -159,11 +138,7 @@ impl Canvas {
             attributes.push(("transform", &turn));
         }
         if text.halo {
-            let rim: Attributes = &[
-                ("paint-order", &"stroke"),
-                ("stroke", &PAPER),
-                ("stroke-width", &"2.4"),
-            ];
+            let rim: Attributes = &[("paint-order", &"stroke"), ("stroke", &PAPER), ("stroke-width", &"2.4")];
             attributes.extend_from_slice(rim);
             attributes.push(("stroke-linejoin", &"round"));
         }
@@ -218,10 +193,7 @@ mod tests {
 
     #[test]
     fn coordinates_are_short() {
-        let written: Vec<_> = [1.0, -0.001, 2.50, 1.006, 100.0, -3.25]
-            .iter()
-            .map(|&v| Px(v).to_string())
-            .collect();
+        let written: Vec<_> = [1.0, -0.001, 2.50, 1.006, 100.0, -3.25].iter().map(|&v| Px(v).to_string()).collect();
         assert_eq!(written, ["1", "0", "2.5", "1.01", "100", "-3.25"]);
     }
 

@@ -8,11 +8,7 @@ pub(super) fn wrap(text: &str, width: f64, face: Face) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
     for word in text.split_whitespace() {
-        let joined = if line.is_empty() {
-            word.to_owned()
-        } else {
-            format!("{line} {word}")
-        };
+        let joined = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
         if face.width(&joined) <= width {
             line = joined;
             continue;
@@ -36,9 +32,7 @@ pub(super) fn wrap(text: &str, width: f64, face: Face) -> Vec<String> {
 
 /// Width of the widest word, px: what `wrap` needs to break at white space only.
 pub(super) fn widest_word(text: &str, face: Face) -> f64 {
-    text.split_whitespace()
-        .map(|word| face.width(word))
-        .fold(0.0, f64::max)
+    text.split_whitespace().map(|word| face.width(word)).fold(0.0, f64::max)
 }
 
 /// One line no wider than `width` px; what does not fit is replaced by an ellipsis.
@@ -58,11 +52,7 @@ pub(super) fn shorten(text: &str, width: f64, face: Face) -> String {
 
 /// A share in percent with one decimal and a true minus sign; magnitudes from 1e5 as a power of ten.
 pub(super) fn percent(value: f64) -> String {
-    let text = if value.abs() < 1e5 {
-        format!("{value:.1}")
-    } else {
-        format!("{value:.1e}")
-    };
+    let text = if value.abs() < 1e5 { format!("{value:.1}") } else { format!("{value:.1e}") };
     minus(if text == "-0.0" { "0.0" } else { &text })
 }
 
@@ -91,10 +81,7 @@ mod tests {
     #[test]
     fn wraps_at_spaces_and_inside_long_words_only() {
         let width = FACE.width("surface energy");
-        assert_eq!(
-            wrap(" surface  energy\nof tip ", width, FACE),
-            ["surface energy", "of tip"]
-        );
+        assert_eq!(wrap(" surface  energy\nof tip ", width, FACE), ["surface energy", "of tip"]);
         assert_eq!(wrap("000000", FACE.width("0000"), FACE), ["0000", "00"]);
         assert!(wrap(" \n", 10.0, FACE).is_empty());
     }
@@ -102,16 +89,10 @@ mod tests {
     #[test]
     fn shortens_with_an_ellipsis() {
         assert_eq!(shorten("tip radius", 500.0, FACE), "tip radius");
-        assert_eq!(
-            shorten("tip radius", FACE.width("tip…") + 0.1, FACE),
-            "tip…"
-        );
+        assert_eq!(shorten("tip radius", FACE.width("tip…") + 0.1, FACE), "tip…");
         assert_eq!(shorten("tip", 0.0, FACE), "…");
         assert_eq!(shorten("", 0.0, FACE), "");
-        assert_eq!(
-            shorten(&"x".repeat(1_000_000), FACE.width("xx…"), FACE),
-            "xx…"
-        );
+        assert_eq!(shorten(&"x".repeat(1_000_000), FACE.width("xx…"), FACE), "xx…");
     }
 
     #[test]

@@ -9,35 +9,20 @@ use super::*;
 /// A point of the papers' ranges of the eight factors.
 fn within_ranges() -> impl Strategy<Value = Scene> {
     (
-        (
-            200e-6..700e-6_f64,
-            5e-6..80e-6_f64,
-            0.25e-6..2.5e-6_f64,
-            5e-6..20e-6_f64,
-        ),
-        (
-            0.0..800e-9_f64,
-            120e9..200e9_f64,
-            10e9..100e9_f64,
-            0.0..3.0_f64,
-        ),
+        (200e-6..700e-6_f64, 5e-6..80e-6_f64, 0.25e-6..2.5e-6_f64, 5e-6..20e-6_f64),
+        (0.0..800e-9_f64, 120e9..200e9_f64, 10e9..100e9_f64, 0.0..3.0_f64),
     )
         .prop_map(
-            |(
-                (length, width, thickness, height),
-                (velocity, elastic_modulus, equivalent_modulus, adhesion),
-            )| {
-                Scene {
-                    length,
-                    width,
-                    thickness,
-                    height,
-                    velocity,
-                    elastic_modulus,
-                    equivalent_modulus,
-                    adhesion,
-                    ..Scene::default()
-                }
+            |((length, width, thickness, height), (velocity, elastic_modulus, equivalent_modulus, adhesion))| Scene {
+                length,
+                width,
+                thickness,
+                height,
+                velocity,
+                elastic_modulus,
+                equivalent_modulus,
+                adhesion,
+                ..Scene::default()
             },
         )
 }

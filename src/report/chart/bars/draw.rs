@@ -46,10 +46,7 @@ impl Slot<'_> {
 
     /// Where the published value stands, and half its diagonal.
     fn diamond(&self) -> (f64, f64) {
-        (
-            self.at(if self.shared() { 0.71 } else { 0.5 }),
-            (0.42 * self.width).clamp(1.5, DIAMOND),
-        )
+        (self.at(if self.shared() { 0.71 } else { 0.5 }), (0.42 * self.width).clamp(1.5, DIAMOND))
     }
 }
 
@@ -73,13 +70,7 @@ pub(super) fn panels(figure: &mut Figure, chart: &GroupedBars, layout: &Layout) 
         }
         let plot = layout.plot(column, top);
         bottom = plot.bottom() + layout.names_room;
-        let sheet = Sheet {
-            chart,
-            panel,
-            layout,
-            plot,
-            slots: slots(panel, layout, &plot),
-        };
+        let sheet = Sheet { chart, panel, layout, plot, slots: slots(panel, layout, &plot) };
         figure.canvas.open("g", &[("class", &"panel")]);
         plot.title(&mut figure.canvas, &panel.title, TITLE_RISE);
         plot.y_axis(&mut figure.canvas, &layout.scale);
@@ -98,14 +89,7 @@ fn slots<'a>(panel: &'a Panel, layout: &Layout, plot: &Plot) -> Vec<Slot<'a>> {
     let place = |(i, (category, series)): (usize, (usize, &'a Series))| {
         let (left, width) = layout.bar(panel, plot, (category, i % count));
         let (bar, published) = (series.bar(category), series.published(category));
-        Slot {
-            series,
-            category,
-            left,
-            width,
-            bar,
-            published,
-        }
+        Slot { series, category, left, width, bar, published }
     };
     panel.slots().enumerate().map(place).collect()
 }
@@ -114,23 +98,12 @@ impl Sheet<'_> {
     fn draw(&self, canvas: &mut Canvas) {
         self.bars(canvas);
         let zero = self.y(0.0);
-        canvas.open(
-            "g",
-            &[
-                ("class", &"baseline"),
-                ("stroke", &INK),
-                ("stroke-width", &"1"),
-            ],
-        );
+        canvas.open("g", &[("class", &"baseline"), ("stroke", &INK), ("stroke-width", &"1")]);
         canvas.line((self.plot.left, zero), (self.plot.right(), zero));
         canvas.close("g");
         self.whiskers(canvas);
         self.published(canvas);
-        if self
-            .slots
-            .iter()
-            .all(|slot| slot.bar.is_none() && slot.published.is_none())
-        {
+        if self.slots.iter().all(|slot| slot.bar.is_none() && slot.published.is_none()) {
             self.plot.note(canvas, "no value");
         } else {
             self.missing(canvas);
@@ -143,9 +116,7 @@ impl Sheet<'_> {
 
     /// Vertical place of a drawable value; the scale is linear and covers all of them.
     fn y(&self, value: f64) -> f64 {
-        self.plot
-            .y(&self.layout.scale, value)
-            .unwrap_or(self.plot.bottom())
+        self.plot.y(&self.layout.scale, value).unwrap_or(self.plot.bottom())
     }
 
     fn bars(&self, canvas: &mut Canvas) {
@@ -209,27 +180,11 @@ impl Sheet<'_> {
             let Some(bar) = slot.bar else { continue };
             let (low, high) = bar.interval.unwrap_or((bar.value, bar.value));
             let middle = slot.at(0.5);
-            marks.push(Area::about(
-                middle,
-                slot.width / 2.0,
-                (self.y(0.0), self.y(bar.value)),
-            ));
-            marks.push(Area::about(
-                slot.whisker(),
-                slot.cap() / 2.0,
-                (self.y(low), self.y(high)),
-            ));
+            marks.push(Area::about(middle, slot.width / 2.0, (self.y(0.0), self.y(bar.value))));
+            marks.push(Area::about(slot.whisker(), slot.cap() / 2.0, (self.y(low), self.y(high))));
             let text = percent(bar.value);
-            let above = [0.0, bar.value, low, high]
-                .map(|v| self.y(v))
-                .into_iter()
-                .fold(f64::INFINITY, f64::min);
-            wanted.push(Wanted {
-                middle,
-                above,
-                width: VALUE.width(&text),
-                height: VALUE.cap_height(),
-            });
+            let above = [0.0, bar.value, low, high].map(|v| self.y(v)).into_iter().fold(f64::INFINITY, f64::min);
+            wanted.push(Wanted { middle, above, width: VALUE.width(&text), height: VALUE.cap_height() });
             texts.push(text);
         }
         canvas.open("g", &[("class", &"values")]);
@@ -252,9 +207,7 @@ impl Sheet<'_> {
                 Names::Level(_) => {
                     for (row, line) in wrap(name, pitch - 6.0, TICK).iter().enumerate() {
                         let baseline = top + TICK.cap_height() + row as f64 * TICK.leading();
-                        canvas.text(
-                            &Text::new(line, (middle, baseline), TICK).anchor(Anchor::Middle),
-                        );
+                        canvas.text(&Text::new(line, (middle, baseline), TICK).anchor(Anchor::Middle));
                     }
                 }
                 Names::Turned(degrees) => {
@@ -263,10 +216,7 @@ impl Sheet<'_> {
                     let half = TICK.cap_height() / 2.0;
                     let at = (middle + half * sin, top + half * cos);
                     let text = turned_name(name);
-                    let text = Text::new(&text, at, TICK)
-                        .anchor(Anchor::End)
-                        .turn(-degrees)
-                        .whole(name);
+                    let text = Text::new(&text, at, TICK).anchor(Anchor::End).turn(-degrees).whole(name);
                     canvas.text(&text);
                 }
             }

@@ -17,19 +17,11 @@ pub(super) struct Area {
 impl Area {
     /// Half a width to both sides of `x`, between two heights in any order.
     pub fn about(x: f64, half: f64, (from, to): (f64, f64)) -> Self {
-        Self {
-            left: x - half,
-            right: x + half,
-            top: from.min(to),
-            bottom: from.max(to),
-        }
+        Self { left: x - half, right: x + half, top: from.min(to), bottom: from.max(to) }
     }
 
     fn overlaps(&self, other: &Area) -> bool {
-        self.left < other.right
-            && other.left < self.right
-            && self.top < other.bottom
-            && other.top < self.bottom
+        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
     }
 }
 
@@ -56,12 +48,7 @@ pub(super) fn place(wanted: &[Wanted], marks: &[Area], ceiling: f64) -> Vec<Opti
             bottom: start,
         };
         // Each round rises over the obstacle that reaches highest, so it ends.
-        while let Some(top) = taken
-            .iter()
-            .filter(|a| a.overlaps(&area))
-            .map(|a| a.top)
-            .reduce(f64::min)
-        {
+        while let Some(top) = taken.iter().filter(|a| a.overlaps(&area)).map(|a| a.top).reduce(f64::min) {
             (area.top, area.bottom) = (top - GAP - label.height, top - GAP);
             if start - area.bottom > RISE {
                 break;
@@ -80,33 +67,15 @@ mod tests {
     use proptest::prelude::*;
 
     fn wanted(middle: f64, above: f64) -> Wanted {
-        Wanted {
-            middle,
-            above,
-            width: 20.0,
-            height: 8.0,
-        }
+        Wanted { middle, above, width: 20.0, height: 8.0 }
     }
 
     #[test]
     fn a_label_rises_over_a_mark_but_not_far() {
-        let mark = |top: f64| Area {
-            left: 5.0,
-            right: 15.0,
-            top,
-            bottom: 98.0,
-        };
+        let mark = |top: f64| Area { left: 5.0, right: 15.0, top, bottom: 98.0 };
         let free = place(&[wanted(10.0, 100.0)], &[], 0.0)[0].unwrap();
-        assert_eq!(
-            (free.top, free.bottom, free.left, free.right),
-            (89.0, 97.0, 0.0, 20.0)
-        );
-        assert_eq!(
-            place(&[wanted(10.0, 100.0)], &[mark(90.0)], 0.0)[0]
-                .unwrap()
-                .bottom,
-            87.0
-        );
+        assert_eq!((free.top, free.bottom, free.left, free.right), (89.0, 97.0, 0.0, 20.0));
+        assert_eq!(place(&[wanted(10.0, 100.0)], &[mark(90.0)], 0.0)[0].unwrap().bottom, 87.0);
         assert_eq!(place(&[wanted(10.0, 100.0)], &[mark(60.0)], 0.0), [None]);
         assert_eq!(place(&[wanted(10.0, 100.0)], &[], 90.0), [None]);
     }

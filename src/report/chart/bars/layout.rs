@@ -55,8 +55,7 @@ impl Layout {
         side_by_side
             .map(|columns| Self::with(chart, columns))
             .find(|layout| {
-                matches!(layout.names, Names::Level(_))
-                    && layout.slot(chart.busiest()) >= labelled_slot(chart)
+                matches!(layout.names, Names::Level(_)) && layout.slot(chart.busiest()) >= labelled_slot(chart)
             })
             .unwrap_or_else(|| Self::with(chart, 1))
     }
@@ -111,12 +110,7 @@ impl Layout {
     }
 
     /// The bars of a panel as (left edge, width) by category and series.
-    pub fn bar(
-        &self,
-        panel: &Panel,
-        plot: &Plot,
-        (category, series): (usize, usize),
-    ) -> (f64, f64) {
+    pub fn bar(&self, panel: &Panel, plot: &Plot, (category, series): (usize, usize)) -> (f64, f64) {
         let (groups, bars) = (panel.categories.len().max(1), panel.series.len().max(1));
         let slot = self.slot((groups, bars));
         let middle = self.group(panel, plot, category);
@@ -144,12 +138,8 @@ impl Layout {
 impl GroupedBars {
     /// Most categories and most series of any panel, at least one of each.
     fn busiest(&self) -> (usize, usize) {
-        let most =
-            |count: fn(&Panel) -> usize| self.panels.iter().map(count).max().unwrap_or(0).max(1);
-        (
-            most(|panel| panel.categories.len()),
-            most(|panel| panel.series.len()),
-        )
+        let most = |count: fn(&Panel) -> usize| self.panels.iter().map(count).max().unwrap_or(0).max(1);
+        (most(|panel| panel.categories.len()), most(|panel| panel.series.len()))
     }
 }
 
@@ -161,27 +151,17 @@ pub(super) fn turned_name(name: &str) -> String {
 /// The slot of a bar from which value labels are drawn: the mean label just fits.
 fn labelled_slot(chart: &GroupedBars) -> f64 {
     let slots = chart.panels.iter().flat_map(Panel::slots);
-    let widths: Vec<f64> = slots
-        .filter_map(|(i, series)| Some(VALUE.width(&percent(series.bar(i)?.value))))
-        .collect();
+    let widths: Vec<f64> = slots.filter_map(|(i, series)| Some(VALUE.width(&percent(series.bar(i)?.value)))).collect();
     widths.iter().sum::<f64>() / widths.len().max(1) as f64 + 1.0
 }
 
 fn all_names(chart: &GroupedBars) -> impl Iterator<Item = &str> {
-    chart
-        .panels
-        .iter()
-        .flat_map(|panel| &panel.categories)
-        .map(String::as_str)
+    chart.panels.iter().flat_map(|panel| &panel.categories).map(String::as_str)
 }
 
 fn name_style(chart: &GroupedBars, pitch: f64) -> Names {
     let room = pitch - 6.0;
-    let most = all_names(chart)
-        .map(|name| wrap(name, room, TICK).len())
-        .max()
-        .unwrap_or(1)
-        .max(1);
+    let most = all_names(chart).map(|name| wrap(name, room, TICK).len()).max().unwrap_or(1).max(1);
     if most <= 3 && all_names(chart).all(|name| widest_word(name, TICK) <= room) {
         Names::Level(most)
     } else if pitch >= 18.0 {
@@ -215,9 +195,7 @@ fn left_for_turned(chart: &GroupedBars, degrees: f64, width: f64) -> f64 {
         (MARGIN + reach - part * (width - MARGIN)) / (1.0 - part)
     };
     let panels = chart.panels.iter();
-    panels
-        .flat_map(|panel| (0..panel.categories.len()).map(move |i| name(panel, i)))
-        .fold(0.0, f64::max)
+    panels.flat_map(|panel| (0..panel.categories.len()).map(move |i| name(panel, i))).fold(0.0, f64::max)
 }
 
 /// One scale for all panels: zero, every value, bound and published value, and room for labels above.
@@ -238,17 +216,6 @@ fn shared_scale(chart: &GroupedBars, plot_height: f64) -> Scale {
     let high = values.iter().copied().fold(0.0, f64::max);
     let span = high - low;
     values = vec![high + span * HEADROOM / plot_height];
-    values.push(if low < 0.0 {
-        low - span * 6.0 / plot_height
-    } else {
-        0.0
-    });
-    Scale::over(
-        values,
-        Wish {
-            spacing: Spacing::Linear,
-            air: 0.0,
-            steps: 6,
-        },
-    )
+    values.push(if low < 0.0 { low - span * 6.0 / plot_height } else { 0.0 });
+    Scale::over(values, Wish { spacing: Spacing::Linear, air: 0.0, steps: 6 })
 }

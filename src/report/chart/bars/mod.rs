@@ -67,21 +67,14 @@ impl Bar {
     /// The bar if its value can be drawn, without an interval that cannot.
     fn drawable(self) -> Option<Self> {
         drawable(self.value)?;
-        let interval = self
-            .interval
-            .filter(|&(low, high)| drawable(low).and(drawable(high)).is_some());
+        let interval = self.interval.filter(|&(low, high)| drawable(low).and(drawable(high)).is_some());
         Some(Self { interval, ..self })
     }
 
     /// Value and interval in words.
     fn words(self) -> String {
         match self.interval {
-            Some((low, high)) => format!(
-                "{} ({} to {})",
-                percent(self.value),
-                percent(low),
-                percent(high)
-            ),
+            Some((low, high)) => format!("{} ({} to {})", percent(self.value), percent(low), percent(high)),
             None => percent(self.value),
         }
     }
@@ -89,27 +82,18 @@ impl Bar {
 
 impl Series {
     fn bar(&self, category: usize) -> Option<Bar> {
-        self.values
-            .get(category)
-            .copied()
-            .flatten()
-            .and_then(Bar::drawable)
+        self.values.get(category).copied().flatten().and_then(Bar::drawable)
     }
 
     fn published(&self, category: usize) -> Option<f64> {
-        self.published
-            .get(category)
-            .copied()
-            .flatten()
-            .and_then(drawable)
+        self.published.get(category).copied().flatten().and_then(drawable)
     }
 }
 
 impl Panel {
     /// All bars as (category, series), in the order they stand.
     fn slots(&self) -> impl Iterator<Item = (usize, &Series)> {
-        (0..self.categories.len())
-            .flat_map(|category| self.series.iter().map(move |series| (category, series)))
+        (0..self.categories.len()).flat_map(|category| self.series.iter().map(move |series| (category, series)))
     }
 }
 
@@ -149,10 +133,7 @@ impl GroupedBars {
     pub fn svg(&self) -> Result<String, ChartError> {
         self.check()?;
         let layout = Layout::of(self);
-        let words = Words {
-            title: &self.title,
-            caption: &self.caption,
-        };
+        let words = Words { title: &self.title, caption: &self.caption };
         let mut figure = Figure::begin(layout.width, words, &self.legend());
         let bottom = draw::panels(&mut figure, self, &layout);
         Ok(figure.finish(bottom, &self.description()))
@@ -160,29 +141,18 @@ impl GroupedBars {
 
     fn check(&self) -> Result<(), ChartError> {
         if self.panels.is_empty() {
-            return Err(ChartError::NoPanels {
-                chart: self.title.clone(),
-            });
+            return Err(ChartError::NoPanels { chart: self.title.clone() });
         }
         for panel in &self.panels {
             let expected = panel.categories.len();
             for series in &panel.series {
                 let published = series.published.len();
-                let wrong = [
-                    (series.values.len(), "values"),
-                    (published, "published values"),
-                ]
-                .into_iter()
-                .find(|&(found, what)| found != expected && (found > 0 || what == "values"));
+                let wrong = [(series.values.len(), "values"), (published, "published values")]
+                    .into_iter()
+                    .find(|&(found, what)| found != expected && (found > 0 || what == "values"));
                 if let Some((found, what)) = wrong {
                     let (panel, series) = (panel.title.clone(), series.name.clone());
-                    return Err(ChartError::Length {
-                        panel,
-                        series,
-                        what,
-                        expected,
-                        found,
-                    });
+                    return Err(ChartError::Length { panel, series, what, expected, found });
                 }
             }
         }
@@ -193,38 +163,20 @@ impl GroupedBars {
     fn legend(&self) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         for series in self.panels.iter().flat_map(|panel| &panel.series) {
-            let entry = Entry {
-                name: series.name.clone(),
-                key: Key::Swatch(series.role),
-            };
+            let entry = Entry { name: series.name.clone(), key: Key::Swatch(series.role) };
             if !entries.contains(&entry) {
                 entries.push(entry);
             }
         }
-        let any = |test: fn((usize, &Series)) -> bool| {
-            self.panels.iter().any(|panel| panel.slots().any(test))
-        };
-        if any(|(category, series)| {
-            series
-                .bar(category)
-                .is_some_and(|bar| bar.interval.is_some())
-        }) {
-            entries.push(Entry {
-                name: self.interval_label.clone(),
-                key: Key::Whisker,
-            });
+        let any = |test: fn((usize, &Series)) -> bool| self.panels.iter().any(|panel| panel.slots().any(test));
+        if any(|(category, series)| series.bar(category).is_some_and(|bar| bar.interval.is_some())) {
+            entries.push(Entry { name: self.interval_label.clone(), key: Key::Whisker });
         }
         if any(|(category, series)| series.published(category).is_some()) {
-            entries.push(Entry {
-                name: self.published_label.clone(),
-                key: Key::Diamond,
-            });
+            entries.push(Entry { name: self.published_label.clone(), key: Key::Diamond });
         }
         if any(|(category, series)| series.bar(category).is_none()) {
-            entries.push(Entry {
-                name: "no value".to_owned(),
-                key: Key::Cross,
-            });
+            entries.push(Entry { name: "no value".to_owned(), key: Key::Cross });
         }
         entries
     }
@@ -235,10 +187,7 @@ impl GroupedBars {
         for panel in &self.panels {
             words.push_str(&format!(" {}:", panel.title));
             for (category, series) in panel.slots() {
-                words.push_str(&format!(
-                    " {};",
-                    self.slot_words(&panel.categories[category], (category, series))
-                ));
+                words.push_str(&format!(" {};", self.slot_words(&panel.categories[category], (category, series))));
             }
         }
         words
@@ -246,16 +195,10 @@ impl GroupedBars {
 
     /// A bar in words: names, value, interval, published value.
     fn slot_words(&self, name: &str, (category, series): (usize, &Series)) -> String {
-        let value = series
-            .bar(category)
-            .map_or_else(|| "no value".to_owned(), Bar::words);
+        let value = series.bar(category).map_or_else(|| "no value".to_owned(), Bar::words);
         let mut words = format!("{name}, {}: {value}", series.name);
         if let Some(published) = series.published(category) {
-            words.push_str(&format!(
-                ", {} {}",
-                self.published_label,
-                percent(published)
-            ));
+            words.push_str(&format!(", {} {}", self.published_label, percent(published)));
         }
         words
     }

@@ -1,8 +1,6 @@
 use resvg::usvg::roxmltree::{Document, Node};
 
-use super::super::reading::{
-    dark_pixels, groups, number, only_finite, path_numbers, texts, y_axis,
-};
+use super::super::reading::{dark_pixels, groups, number, only_finite, path_numbers, texts, y_axis};
 use super::*;
 use proptest::prelude::*;
 
@@ -10,27 +8,15 @@ use proptest::prelude::*;
 const PX: f64 = 0.011;
 
 fn bar(value: f64, low: f64, high: f64) -> Option<Bar> {
-    Some(Bar {
-        value,
-        interval: Some((low, high)),
-    })
+    Some(Bar { value, interval: Some((low, high)) })
 }
 
 fn series(name: &str, role: Role, values: Vec<Option<Bar>>) -> Series {
-    Series {
-        name: name.to_owned(),
-        role,
-        values,
-        published: Vec::new(),
-    }
+    Series { name: name.to_owned(), role, values, published: Vec::new() }
 }
 
 fn panel(categories: &[&str], series: Vec<Series>) -> Panel {
-    Panel {
-        title: "Total".to_owned(),
-        categories: categories.iter().map(|&c| c.to_owned()).collect(),
-        series,
-    }
+    Panel { title: "Total".to_owned(), categories: categories.iter().map(|&c| c.to_owned()).collect(), series }
 }
 
 fn figure(panels: Vec<Panel>) -> GroupedBars {
@@ -45,11 +31,7 @@ fn figure(panels: Vec<Panel>) -> GroupedBars {
 }
 
 fn sample() -> GroupedBars {
-    let mut coulomb = series(
-        "Coulomb",
-        Role::Coulomb,
-        vec![bar(61.0, 59.0, 64.0), bar(24.5, 22.0, 26.0)],
-    );
+    let mut coulomb = series("Coulomb", Role::Coulomb, vec![bar(61.0, 59.0, 64.0), bar(24.5, 22.0, 26.0)]);
     coulomb.published = vec![Some(58.0), None];
     let lugre = series("LuGre", Role::LuGre, vec![bar(-1.5, -3.0, 0.5), None]);
     figure(vec![panel(&["thickness", "length"], vec![coulomb, lugre])])
@@ -61,19 +43,12 @@ fn one_panel_checks(chart: &GroupedBars, svg: &str) {
         let class = |name: &str| {
             node.descendants()
                 .find(|n| n.attribute("class") == Some(name))
-                .map_or(Vec::new(), |n| {
-                    n.children().filter(Node::is_element).collect::<Vec<_>>()
-                })
+                .map_or(Vec::new(), |n| n.children().filter(Node::is_element).collect::<Vec<_>>())
         };
-        let axis = node
-            .descendants()
-            .find(|n| n.attribute("class") == Some("y-axis"))
-            .expect("an axis");
+        let axis = node.descendants().find(|n| n.attribute("class") == Some("y-axis")).expect("an axis");
         let (zero, scale) = y_axis(&axis);
-        let bars: Vec<(usize, &Series, Bar)> = panel
-            .slots()
-            .filter_map(|(i, series)| Some((i, series, series.bar(i)?)))
-            .collect();
+        let bars: Vec<(usize, &Series, Bar)> =
+            panel.slots().filter_map(|(i, series)| Some((i, series, series.bar(i)?))).collect();
         let drawn = class("bars");
         assert_eq!(drawn.len(), bars.len());
         let tolerance = |value: f64| PX + 1e-3 * (value * scale).abs();
@@ -83,10 +58,7 @@ fn one_panel_checks(chart: &GroupedBars, svg: &str) {
             let end = if bar.value < 0.0 { top + height } else { top };
             assert!((zero - end - bar.value * scale).abs() <= tolerance(bar.value) + PX);
             assert_eq!(rect.attribute("fill"), Some(series.role.colour()));
-            let tip = rect
-                .first_element_child()
-                .and_then(|title| title.text())
-                .expect("a tip");
+            let tip = rect.first_element_child().and_then(|title| title.text()).expect("a tip");
             assert!(tip.contains(&panel.categories[i]) && tip.contains(&series.name));
         }
         let intervals: Vec<_> = bars.iter().filter_map(|(_, _, bar)| bar.interval).collect();
@@ -95,29 +67,16 @@ fn one_panel_checks(chart: &GroupedBars, svg: &str) {
         for (whisker, (low, high)) in whiskers.iter().zip(intervals) {
             // M left low H right M x low V high M left high H right
             let numbers = path_numbers(whisker);
-            for (y, bound) in [
-                (numbers[1], low),
-                (numbers[4], low),
-                (numbers[5], high),
-                (numbers[7], high),
-            ] {
-                assert!(
-                    (zero - y - bound * scale).abs() <= tolerance(bound) + PX,
-                    "{numbers:?}"
-                );
+            for (y, bound) in [(numbers[1], low), (numbers[4], low), (numbers[5], high), (numbers[7], high)] {
+                assert!((zero - y - bound * scale).abs() <= tolerance(bound) + PX, "{numbers:?}");
             }
         }
-        let published: Vec<f64> = panel
-            .slots()
-            .filter_map(|(i, series)| series.published(i))
-            .collect();
+        let published: Vec<f64> = panel.slots().filter_map(|(i, series)| series.published(i)).collect();
         let diamonds = class("published");
         assert_eq!(diamonds.len(), published.len());
         for (diamond, value) in diamonds.iter().zip(published) {
             // M x top L right y ...
-            assert!(
-                (zero - path_numbers(diamond)[3] - value * scale).abs() <= tolerance(value) + PX
-            );
+            assert!((zero - path_numbers(diamond)[3] - value * scale).abs() <= tolerance(value) + PX);
         }
     }
 }
@@ -128,28 +87,12 @@ fn bars_whiskers_and_diamonds_stand_at_their_values() {
     one_panel_checks(&sample(), &svg);
     let document = Document::parse(&svg).expect("well-formed");
     let rects = groups(&document, "bars")[0];
-    let heights: Vec<f64> = rects
-        .children()
-        .filter(Node::is_element)
-        .map(|rect| number(&rect, "height"))
-        .collect();
-    assert!(
-        (heights[0] / heights[1] - 61.0 / 1.5).abs() < 0.3,
-        "{heights:?}"
-    );
-    assert!(
-        (heights[0] / heights[2] - 61.0 / 24.5).abs() < 1e-3,
-        "{heights:?}"
-    );
+    let heights: Vec<f64> = rects.children().filter(Node::is_element).map(|rect| number(&rect, "height")).collect();
+    assert!((heights[0] / heights[1] - 61.0 / 1.5).abs() < 0.3, "{heights:?}");
+    assert!((heights[0] / heights[2] - 61.0 / 24.5).abs() < 1e-3, "{heights:?}");
     let legend = texts(groups(&document, "legend")[0]);
-    assert_eq!(
-        legend,
-        ["Coulomb", "LuGre", "95 % interval", "published", "no value"]
-    );
-    assert_eq!(
-        texts(groups(&document, "values")[0]),
-        ["61.0", "\u{2212}1.5", "24.5"]
-    );
+    assert_eq!(legend, ["Coulomb", "LuGre", "95 % interval", "published", "no value"]);
+    assert_eq!(texts(groups(&document, "values")[0]), ["61.0", "\u{2212}1.5", "24.5"]);
 }
 
 #[test]
@@ -168,11 +111,7 @@ fn title_and_caption_are_drawn_and_told() {
     let document = Document::parse(&svg).expect("well-formed");
     let root = document.root_element();
     assert_eq!(root.attribute("role"), Some("img"));
-    let child = |name: &str| {
-        root.children()
-            .find(|n| n.has_tag_name(name))
-            .and_then(|n| n.text())
-    };
+    let child = |name: &str| root.children().find(|n| n.has_tag_name(name)).and_then(|n| n.text());
     assert_eq!(child("title"), Some("Dimensional factors"));
     let told = child("desc").expect("a description");
     assert!(
@@ -180,11 +119,7 @@ fn title_and_caption_are_drawn_and_told() {
             && told.contains("thickness, Coulomb: 61.0 (59.0 to 64.0), published 58.0")
     );
     // The title's baseline is near 25 px, below it the legend; a bold title has thousands of dark pixels.
-    assert!(
-        dark_pixels(&svg, 10.0, 30.0) > 1500,
-        "{}",
-        dark_pixels(&svg, 10.0, 30.0)
-    );
+    assert!(dark_pixels(&svg, 10.0, 30.0) > 1500, "{}", dark_pixels(&svg, 10.0, 30.0));
     assert_eq!(dark_pixels(&svg, 0.0, 10.0), 0);
 }
 
@@ -201,42 +136,18 @@ fn text_of_users_is_escaped() {
     let svg = chart.svg().expect("a figure");
     let document = Document::parse(&svg).expect("well-formed");
     assert!(!svg.contains("<script") && !document.descendants().any(|n| n.has_tag_name("script")));
-    assert!(
-        texts(groups(&document, "legend")[0])[0]
-            .starts_with("</text><script>alert('\"&\")</script>")
-    );
+    assert!(texts(groups(&document, "legend")[0])[0].starts_with("</text><script>alert('\"&\")</script>"));
 }
 
 #[test]
 fn nothing_to_show_is_said() {
-    let none = series(
-        "Coulomb",
-        Role::Coulomb,
-        vec![
-            None,
-            Some(Bar {
-                value: f64::NAN,
-                interval: None,
-            }),
-        ],
-    );
-    let chart = figure(vec![
-        panel(&["a", "b"], vec![none.clone()]),
-        panel(&[], vec![]),
-        panel(&["a"], vec![]),
-    ]);
+    let none = series("Coulomb", Role::Coulomb, vec![None, Some(Bar { value: f64::NAN, interval: None })]);
+    let chart = figure(vec![panel(&["a", "b"], vec![none.clone()]), panel(&[], vec![]), panel(&["a"], vec![])]);
     let svg = chart.svg().expect("a figure");
     let document = Document::parse(&svg).expect("well-formed");
-    let notes: Vec<_> = groups(&document, "panel")
-        .into_iter()
-        .map(|p| texts(p).contains(&"no value"))
-        .collect();
+    let notes: Vec<_> = groups(&document, "panel").into_iter().map(|p| texts(p).contains(&"no value")).collect();
     assert_eq!(notes, [true, true, true]);
-    assert!(
-        groups(&document, "bars")
-            .iter()
-            .all(|bars| !bars.has_children() || bars.first_element_child().is_none())
-    );
+    assert!(groups(&document, "bars").iter().all(|bars| !bars.has_children() || bars.first_element_child().is_none()));
 }
 
 #[test]
@@ -245,12 +156,7 @@ fn panels_stand_side_by_side_only_with_room() {
         let values = vec![bar(10.0, 9.0, 11.0); n];
         let names = vec![name; n];
         let all = [Role::Coulomb, Role::HurtadoKim, Role::LuGre];
-        panel(
-            &names,
-            all.iter()
-                .map(|&role| series("s", role, values.clone()))
-                .collect(),
-        )
+        panel(&names, all.iter().map(|&role| series("s", role, values.clone())).collect())
     };
     let columns = |n: usize, name: &str| Layout::of(&figure(vec![full(n, name); 2])).columns;
     assert_eq!((columns(4, "tip radius"), columns(8, "tip radius")), (2, 1));
@@ -261,28 +167,14 @@ fn panels_stand_side_by_side_only_with_room() {
 
 #[test]
 fn lists_of_the_wrong_length_are_refused() {
-    assert!(matches!(
-        figure(vec![]).svg(),
-        Err(ChartError::NoPanels { .. })
-    ));
+    assert!(matches!(figure(vec![]).svg(), Err(ChartError::NoPanels { .. })));
     let mut chart = sample();
     chart.panels[0].series[1].values.pop();
     let error = chart.svg().expect_err("too short");
-    assert_eq!(
-        error.to_string(),
-        "series \"LuGre\" of panel \"Total\" has 1 values, but the panel has 2 categories"
-    );
+    assert_eq!(error.to_string(), "series \"LuGre\" of panel \"Total\" has 1 values, but the panel has 2 categories");
     let mut chart = sample();
     chart.panels[0].series[0].published.push(None);
-    assert!(matches!(
-        chart.svg(),
-        Err(ChartError::Length {
-            what: "published values",
-            found: 3,
-            expected: 2,
-            ..
-        })
-    ));
+    assert!(matches!(chart.svg(), Err(ChartError::Length { what: "published values", found: 3, expected: 2, .. })));
 }
 
 fn any_bar() -> impl Strategy<Value = Option<Bar>> {

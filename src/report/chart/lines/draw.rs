@@ -29,36 +29,17 @@ struct Common {
 
 /// Draws all panels from the figure's free room on; gives the lower edge.
 pub(super) fn panels(figure: &mut Figure, chart: &LineChart) -> f64 {
-    let height = if chart.panels.len() == 1 {
-        LONE
-    } else {
-        STACKED
-    };
+    let height = if chart.panels.len() == 1 { LONE } else { STACKED };
     let x = x_scale(chart);
-    let scales: Vec<Scale> = chart
-        .panels
-        .iter()
-        .map(|panel| y_scale(panel, &x, height))
-        .collect();
+    let scales: Vec<Scale> = chart.panels.iter().map(|panel| y_scale(panel, &x, height)).collect();
     let titled = || chart.panels.iter().zip(&scales);
-    let titles = titled()
-        .map(|(panel, y)| title_room(&panel.y.title(y.exponent), height))
-        .fold(0.0, f64::max);
+    let titles = titled().map(|(panel, y)| title_room(&panel.y.title(y.exponent), height)).fold(0.0, f64::max);
     let ticks = scales.iter().map(tick_room).fold(0.0, f64::max);
     let left = MARGIN + titles + ticks;
     // Half of the last tick label may reach beyond the plot.
-    let overhang = x
-        .ticks
-        .last()
-        .map_or(0.0, |tick| TICK.width(&tick.label) / 2.0 + 4.0);
+    let overhang = x.ticks.last().map_or(0.0, |tick| TICK.width(&tick.label) / 2.0 + 4.0);
     let width = WIDTH - left - MARGIN.max(overhang);
-    let common = Common {
-        x,
-        left,
-        width,
-        height,
-        y_title: left - ticks - TICK_GAP,
-    };
+    let common = Common { x, left, width, height, y_title: left - ticks - TICK_GAP };
 
     let mut top = figure.top + 4.0;
     let mut last = None;
@@ -68,11 +49,7 @@ pub(super) fn panels(figure: &mut Figure, chart: &LineChart) -> f64 {
         last = Some(plot);
     }
     match last {
-        Some(plot) => plot.x_labels(
-            &mut figure.canvas,
-            &common.x,
-            &chart.x.title(common.x.exponent),
-        ),
+        Some(plot) => plot.x_labels(&mut figure.canvas, &common.x, &chart.x.title(common.x.exponent)),
         None => top,
     }
 }
@@ -80,30 +57,16 @@ pub(super) fn panels(figure: &mut Figure, chart: &LineChart) -> f64 {
 fn x_scale(chart: &LineChart) -> Scale {
     let mut series = chart.panels.iter().flat_map(|panel| &panel.series);
     // Points need air at the ends; lines run from edge to edge.
-    let air = if series.any(|series| series.stroke.points()) {
-        0.02
-    } else {
-        0.0
-    };
-    let wish = Wish {
-        spacing: chart.x.spacing,
-        air,
-        steps: 7,
-    };
+    let air = if series.any(|series| series.stroke.points()) { 0.02 } else { 0.0 };
+    let wish = Wish { spacing: chart.x.spacing, air, steps: 7 };
     Scale::over(chart.panels.iter().flat_map(LinePanel::xs), wish)
 }
 
 fn y_scale(panel: &LinePanel, x: &Scale, height: f64) -> Scale {
     let steps = if height == LONE { 6 } else { 4 };
-    let wish = Wish {
-        spacing: panel.y.spacing,
-        air: 0.05,
-        steps,
-    };
-    let (low, high) = panel
-        .ys(x)
-        .filter(|y| y.is_finite())
-        .fold((f64::INFINITY, 0.0_f64), |(l, h), y| (l.min(y), h.max(y)));
+    let wish = Wish { spacing: panel.y.spacing, air: 0.05, steps };
+    let (low, high) =
+        panel.ys(x).filter(|y| y.is_finite()).fold((f64::INFINITY, 0.0_f64), |(l, h), y| (l.min(y), h.max(y)));
     // Zero belongs to the picture unless it would take much of it. A logarithmic scale passes over it.
     let zero = (low > 0.0 && low < NEAR_ZERO * high).then_some(0.0);
     Scale::over(panel.ys(x).chain(zero), wish)
@@ -111,12 +74,7 @@ fn y_scale(panel: &LinePanel, x: &Scale, height: f64) -> Scale {
 
 impl Common {
     fn panel(&self, canvas: &mut Canvas, (panel, y): (&LinePanel, &Scale), top: f64) -> Plot {
-        let mut plot = Plot {
-            left: self.left,
-            top,
-            width: self.width,
-            height: self.height,
-        };
+        let mut plot = Plot { left: self.left, top, width: self.width, height: self.height };
         let flags = flags::place(&panel.markers, &self.x, &plot);
         let above = flags::room(&flags).max(HEAD);
         let title = !panel.title.trim().is_empty();
@@ -130,11 +88,7 @@ impl Common {
         plot.y_title(canvas, &panel.y.title(y.exponent), self.y_title);
         plot.axis_lines(canvas);
         flags::draw(canvas, &plot, &flags);
-        let sheet = Sheet {
-            plot,
-            x: &self.x,
-            y,
-        };
+        let sheet = Sheet { plot, x: &self.x, y };
         for series in &panel.series {
             sheet.band(canvas, series);
         }
@@ -177,15 +131,7 @@ impl Sheet<'_> {
             let upper: Vec<_> = run.iter().map(|edges| edges[1]).collect();
             let d = closed(&thin(&lower), &thin(&upper));
             let fill = series.role.colour();
-            canvas.leaf(
-                "path",
-                &[
-                    ("class", &"band"),
-                    ("d", &d),
-                    ("fill", &fill),
-                    ("fill-opacity", &"0.18"),
-                ],
-            );
+            canvas.leaf("path", &[("class", &"band"), ("d", &d), ("fill", &fill), ("fill-opacity", &"0.18")]);
         }
     }
 

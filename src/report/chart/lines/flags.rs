@@ -31,11 +31,9 @@ pub(super) struct Flag<'a> {
 impl Flag<'_> {
     /// Whether one covers the other or is crossed by its pole.
     fn collides(&self, other: &Flag) -> bool {
-        let crossed = |flag: &Flag, by: &Flag| {
-            by.row >= flag.row && flag.from - GAP < by.pole && by.pole < flag.to + GAP
-        };
-        let covered =
-            self.row == other.row && self.from - GAP < other.to && other.from - GAP < self.to;
+        let crossed =
+            |flag: &Flag, by: &Flag| by.row >= flag.row && flag.from - GAP < by.pole && by.pole < flag.to + GAP;
+        let covered = self.row == other.row && self.from - GAP < other.to && other.from - GAP < self.to;
         covered || crossed(self, other) || crossed(other, self)
     }
 }
@@ -45,10 +43,8 @@ impl Flag<'_> {
 /// on the axis have no flag.
 pub(super) fn place<'a>(markers: &'a [Marker], x: &Scale, plot: &Plot) -> Vec<Flag<'a>> {
     let longest = LONGEST.min(plot.width / 3.0);
-    let mut shown: Vec<_> = markers
-        .iter()
-        .filter_map(|marker| Some((plot.x(x, marker.x)?, marker.label.as_str())))
-        .collect();
+    let mut shown: Vec<_> =
+        markers.iter().filter_map(|marker| Some((plot.x(x, marker.x)?, marker.label.as_str()))).collect();
     shown.sort_by(|a, b| b.0.total_cmp(&a.0));
     // From the right: where the next flag must end.
     let mut end = plot.right();
@@ -57,26 +53,12 @@ pub(super) fn place<'a>(markers: &'a [Marker], x: &Scale, plot: &Plot) -> Vec<Fl
         let text = shorten(whole, longest, TICK);
         let width = TICK.width(&text);
         if pole + GAP + width <= end {
-            right.push(Flag {
-                whole,
-                text,
-                pole,
-                from: pole + GAP,
-                to: pole + GAP + width,
-                row: 0,
-            });
+            right.push(Flag { whole, text, pole, from: pole + GAP, to: pole + GAP + width, row: 0 });
         } else {
             end = pole - GAP;
             let text = shorten(whole, longest.min(end - plot.left), TICK);
             let width = TICK.width(&text);
-            left.push(Flag {
-                whole,
-                text,
-                pole,
-                from: end - width,
-                to: end,
-                row: 0,
-            });
+            left.push(Flag { whole, text, pole, from: end - width, to: end, row: 0 });
         }
     }
     // In this order the pole of each flag stands clear of the flags before it.
@@ -93,10 +75,7 @@ pub(super) fn place<'a>(markers: &'a [Marker], x: &Scale, plot: &Plot) -> Vec<Fl
 
 /// Height the flags take above the plot, px.
 pub(super) fn room(flags: &[Flag]) -> f64 {
-    flags
-        .iter()
-        .map(|flag| (flag.row + 1) as f64 * ROW + 3.0)
-        .fold(0.0, f64::max)
+    flags.iter().map(|flag| (flag.row + 1) as f64 * ROW + 3.0).fold(0.0, f64::max)
 }
 
 /// Draws poles and flags.
@@ -105,19 +84,9 @@ pub(super) fn draw(canvas: &mut Canvas, plot: &Plot, flags: &[Flag]) {
         return;
     }
     canvas.open("g", &[("class", &"markers")]);
-    canvas.open(
-        "g",
-        &[
-            ("stroke", &MUTED),
-            ("stroke-width", &"1"),
-            ("stroke-dasharray", &"4 3"),
-        ],
-    );
+    canvas.open("g", &[("stroke", &MUTED), ("stroke-width", &"1"), ("stroke-dasharray", &"4 3")]);
     for flag in flags {
-        canvas.line(
-            (flag.pole, plot.bottom()),
-            (flag.pole, plot.top - room(std::slice::from_ref(flag)) + 3.0),
-        );
+        canvas.line((flag.pole, plot.bottom()), (flag.pole, plot.top - room(std::slice::from_ref(flag)) + 3.0));
     }
     canvas.close("g");
     for flag in flags {
@@ -134,40 +103,17 @@ mod tests {
     use proptest::prelude::*;
 
     fn flags(markers: &[Marker]) -> Vec<Flag<'_>> {
-        let x = Scale::over(
-            [0.0, 100.0],
-            Wish {
-                spacing: Spacing::Linear,
-                air: 0.0,
-                steps: 5,
-            },
-        );
-        place(
-            markers,
-            &x,
-            &Plot {
-                left: 0.0,
-                top: 100.0,
-                width: 600.0,
-                height: 50.0,
-            },
-        )
+        let x = Scale::over([0.0, 100.0], Wish { spacing: Spacing::Linear, air: 0.0, steps: 5 });
+        place(markers, &x, &Plot { left: 0.0, top: 100.0, width: 600.0, height: 50.0 })
     }
 
     fn marker(x: f64, label: &str) -> Marker {
-        Marker {
-            x,
-            label: label.to_owned(),
-        }
+        Marker { x, label: label.to_owned() }
     }
 
     #[test]
     fn neighbours_take_rows_and_the_last_turns_left() {
-        let markers = [
-            marker(10.0, "critical time"),
-            marker(12.0, "critical time"),
-            marker(99.0, "end of push"),
-        ];
+        let markers = [marker(10.0, "critical time"), marker(12.0, "critical time"), marker(99.0, "end of push")];
         let placed = flags(&markers);
         let rows: Vec<_> = placed.iter().map(|flag| (flag.pole, flag.row)).collect();
         assert_eq!(rows, [(72.0, 0), (60.0, 1), (594.0, 0)]);

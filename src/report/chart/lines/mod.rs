@@ -143,14 +143,9 @@ impl LineChart {
     /// ```
     pub fn svg(&self) -> Result<String, ChartError> {
         if self.panels.is_empty() {
-            return Err(ChartError::NoPanels {
-                chart: self.title.clone(),
-            });
+            return Err(ChartError::NoPanels { chart: self.title.clone() });
         }
-        let words = Words {
-            title: &self.title,
-            caption: &self.caption,
-        };
+        let words = Words { title: &self.title, caption: &self.caption };
         let mut figure = Figure::begin(super::style::WIDTH, words, &self.legend());
         let bottom = draw::panels(&mut figure, self);
         Ok(figure.finish(bottom, &self.description()))
@@ -162,16 +157,8 @@ impl LineChart {
         for series in self.panels.iter().flat_map(|panel| &panel.series) {
             let LineSeries { role, stroke, .. } = series;
             let (line, points) = (stroke.line(), stroke.points());
-            let key = Key::Line {
-                role: *role,
-                dash: stroke.dash(),
-                line,
-                points,
-            };
-            let entry = Entry {
-                name: series.name.clone(),
-                key,
-            };
+            let key = Key::Line { role: *role, dash: stroke.dash(), line, points };
+            let entry = Entry { name: series.name.clone(), key };
             if !series.name.trim().is_empty() && !entries.contains(&entry) {
                 entries.push(entry);
             }
@@ -183,17 +170,8 @@ impl LineChart {
     fn description(&self) -> String {
         let mut words = format!("Horizontal axis: {}.", self.x.title(0));
         for panel in &self.panels {
-            let names: Vec<_> = panel
-                .series
-                .iter()
-                .map(|series| series.name.as_str())
-                .collect();
-            words.push_str(&format!(
-                " {} {}: {}.",
-                panel.title,
-                panel.y.title(0),
-                names.join(", ")
-            ));
+            let names: Vec<_> = panel.series.iter().map(|series| series.name.as_str()).collect();
+            words.push_str(&format!(" {} {}: {}.", panel.title, panel.y.title(0), names.join(", ")));
             for marker in &panel.markers {
                 words.push_str(&format!(" {} at {}.", marker.label, marker.x));
             }
@@ -211,27 +189,15 @@ impl Axis {
 
 impl LinePanel {
     fn xs(&self) -> impl Iterator<Item = f64> {
-        let points = self.series.iter().flat_map(|s| {
-            s.points
-                .iter()
-                .map(|p| p.0)
-                .chain(s.band.iter().map(|b| b.0))
-        });
+        let points = self.series.iter().flat_map(|s| s.points.iter().map(|p| p.0).chain(s.band.iter().map(|b| b.0)));
         points.chain(self.markers.iter().map(|marker| marker.x))
     }
 
     /// The ordinates of the points that also have a place on the horizontal axis.
     fn ys(&self, x: &Scale) -> impl Iterator<Item = f64> {
         let points = self.series.iter().flat_map(|s| s.points.iter().copied());
-        let bands = self.series.iter().flat_map(|s| {
-            s.band
-                .iter()
-                .flat_map(|&(x, low, high)| [(x, low), (x, high)])
-        });
-        points
-            .chain(bands)
-            .filter(|p| x.place(p.0).is_some())
-            .map(|p| p.1)
+        let bands = self.series.iter().flat_map(|s| s.band.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]));
+        points.chain(bands).filter(|p| x.place(p.0).is_some()).map(|p| p.1)
     }
 }
 

@@ -43,12 +43,7 @@ fn uncrowd(run: &[Point]) -> Vec<Point> {
         let highest = (0..crowd.len()).max_by(by_y).unwrap_or(0);
         let mut at = [0, lowest, highest, crowd.len() - 1];
         at.sort_unstable();
-        kept.extend(
-            at.iter()
-                .enumerate()
-                .filter(|&(i, k)| i == 0 || at[i - 1] != *k)
-                .map(|(_, &k)| crowd[k]),
-        );
+        kept.extend(at.iter().enumerate().filter(|&(i, k)| i == 0 || at[i - 1] != *k).map(|(_, &k)| crowd[k]));
     }
     kept
 }
@@ -68,22 +63,14 @@ fn straighten(run: &[Point]) -> Vec<Point> {
             open.extend([(from, k), (k, to)]);
         }
     }
-    run.iter()
-        .zip(needed)
-        .filter(|(_, needed)| *needed)
-        .map(|(&point, _)| point)
-        .collect()
+    run.iter().zip(needed).filter(|(_, needed)| *needed).map(|(&point, _)| point).collect()
 }
 
 /// Distance of a point from a segment.
 fn distance(p: Point, (a, b): (Point, Point)) -> f64 {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let length = dx * dx + dy * dy;
-    let along = if length > 0.0 {
-        ((p.0 - a.0) * dx + (p.1 - a.1) * dy) / length
-    } else {
-        0.0
-    };
+    let along = if length > 0.0 { ((p.0 - a.0) * dx + (p.1 - a.1) * dy) / length } else { 0.0 };
     let along = along.clamp(0.0, 1.0);
     (p.0 - a.0 - along * dx).hypot(p.1 - a.1 - along * dy)
 }
@@ -92,12 +79,7 @@ fn distance(p: Point, (a, b): (Point, Point)) -> f64 {
 pub(super) fn open(run: &[Point]) -> String {
     let mut data = String::new();
     for (i, &(x, y)) in run.iter().enumerate() {
-        data.push_str(&format!(
-            "{}{} {}",
-            if i == 0 { "M" } else { "L" },
-            Px(x),
-            Px(y)
-        ));
+        data.push_str(&format!("{}{} {}", if i == 0 { "M" } else { "L" }, Px(x), Px(y)));
     }
     data
 }
@@ -119,10 +101,7 @@ mod tests {
         assert_eq!(runs(points), vec![vec![1], vec![2, 3]]);
         assert!(runs::<i32>([]).is_empty());
         assert_eq!(open(&[(1.0, 2.0), (3.0, 4.5)]), "M1 2L3 4.5");
-        assert_eq!(
-            closed(&[(0.0, 1.0), (2.0, 1.0)], &[(0.0, 0.0), (2.0, 0.0)]),
-            "M0 1L2 1L2 0L0 0Z"
-        );
+        assert_eq!(closed(&[(0.0, 1.0), (2.0, 1.0)], &[(0.0, 0.0), (2.0, 0.0)]), "M0 1L2 1L2 0L0 0Z");
     }
 
     #[test]

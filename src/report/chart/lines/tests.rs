@@ -5,30 +5,15 @@ use super::*;
 use proptest::prelude::*;
 
 fn axis(label: &str, unit: &str, spacing: Spacing) -> Axis {
-    Axis {
-        label: label.to_owned(),
-        unit: unit.to_owned(),
-        spacing,
-    }
+    Axis { label: label.to_owned(), unit: unit.to_owned(), spacing }
 }
 
 fn line(name: &str, role: Role, points: Vec<(f64, f64)>) -> LineSeries {
-    LineSeries {
-        name: name.to_owned(),
-        role,
-        stroke: Stroke::Solid,
-        points,
-        band: Vec::new(),
-    }
+    LineSeries { name: name.to_owned(), role, stroke: Stroke::Solid, points, band: Vec::new() }
 }
 
 fn panel(series: Vec<LineSeries>) -> LinePanel {
-    LinePanel {
-        title: "Force".to_owned(),
-        y: axis("Force", "nN", Spacing::Linear),
-        series,
-        markers: Vec::new(),
-    }
+    LinePanel { title: "Force".to_owned(), y: axis("Force", "nN", Spacing::Linear), series, markers: Vec::new() }
 }
 
 fn chart(panels: Vec<LinePanel>) -> LineChart {
@@ -46,26 +31,14 @@ fn paths(document: &Document, class: &str) -> Vec<Vec<f64>> {
         let paths = group.children().filter(|n| n.has_tag_name("path"));
         paths.map(|path| path_numbers(&path)).collect::<Vec<_>>()
     };
-    groups(document, class)
-        .into_iter()
-        .flat_map(inside)
-        .collect()
+    groups(document, class).into_iter().flat_map(inside).collect()
 }
 
 #[test]
 fn points_stand_at_their_values_and_gaps_stay_open() {
-    let points = vec![
-        (0.0, 10.0),
-        (1.0, 30.0),
-        (2.0, f64::NAN),
-        (3.0, 20.0),
-        (4.0, f64::INFINITY),
-        (5.0, 5.0),
-        (6.0, 40.0),
-    ];
-    let svg = chart(vec![panel(vec![line("Coulomb", Role::Coulomb, points)])])
-        .svg()
-        .expect("a figure");
+    let points =
+        vec![(0.0, 10.0), (1.0, 30.0), (2.0, f64::NAN), (3.0, 20.0), (4.0, f64::INFINITY), (5.0, 5.0), (6.0, 40.0)];
+    let svg = chart(vec![panel(vec![line("Coulomb", Role::Coulomb, points)])]).svg().expect("a figure");
     let document = Document::parse(&svg).expect("well-formed");
     let (zero, scale) = y_axis(&groups(&document, "y-axis")[0]);
     let drawn = paths(&document, "series");
@@ -87,19 +60,9 @@ fn panels_share_the_horizontal_axis_and_the_legend() {
     let short = line("Coulomb", Role::Coulomb, vec![(0.0, 1.0), (10.0, 2.0)]);
     let long = line("Coulomb", Role::Coulomb, vec![(0.0, 1.0), (20.0, 2.0)]);
     let mut upper = panel(vec![short]);
-    upper.markers = vec![
-        Marker {
-            x: 10.0,
-            label: "critical time".to_owned(),
-        },
-        Marker {
-            x: f64::NAN,
-            label: "never".to_owned(),
-        },
-    ];
-    let svg = chart(vec![upper, panel(vec![long])])
-        .svg()
-        .expect("a figure");
+    upper.markers =
+        vec![Marker { x: 10.0, label: "critical time".to_owned() }, Marker { x: f64::NAN, label: "never".to_owned() }];
+    let svg = chart(vec![upper, panel(vec![long])]).svg().expect("a figure");
     let document = Document::parse(&svg).expect("well-formed");
     assert_eq!(texts(groups(&document, "legend")[0]), ["Coulomb"]);
     let axes = groups(&document, "x-axis");
@@ -111,10 +74,7 @@ fn panels_share_the_horizontal_axis_and_the_legend() {
     assert!((drawn[0][2] - half).abs() < 0.02);
     let markers = groups(&document, "markers");
     assert_eq!(texts(markers[0]), ["critical time"]);
-    let pole = markers[0]
-        .descendants()
-        .find(|n| n.has_tag_name("line"))
-        .and_then(|n| n.attribute("x1")?.parse().ok());
+    let pole = markers[0].descendants().find(|n| n.has_tag_name("line")).and_then(|n| n.attribute("x1")?.parse().ok());
     assert_eq!(pole, Some(drawn[0][2]));
 }
 
@@ -131,67 +91,36 @@ fn logarithmic_axes_leave_out_what_has_no_logarithm() {
     figure.panels[0].series[0].band = vec![(1.0, 0.5, 2.0), (10.0, 0.0, 0.2), (1000.0, 5e-4, 2e-3)];
     let svg = figure.svg().expect("a figure");
     let document = Document::parse(&svg).expect("well-formed");
-    assert_eq!(
-        groups(&document, "point").len(),
-        3 + 1,
-        "three points and the legend's"
-    );
+    assert_eq!(groups(&document, "point").len(), 3 + 1, "three points and the legend's");
     assert_eq!(groups(&document, "band").len(), 2);
     // One decade in x, one in y: both steps from the first point to the second and on to the last.
     let drawn = paths(&document, "series");
-    let (first, second, last) = (
-        (drawn[0][0], drawn[0][1]),
-        (drawn[0][2], drawn[0][3]),
-        (drawn[3][0], drawn[3][1]),
-    );
+    let (first, second, last) = ((drawn[0][0], drawn[0][1]), (drawn[0][2], drawn[0][3]), (drawn[3][0], drawn[3][1]));
     assert!((last.0 - first.0 - 3.0 * (second.0 - first.0)).abs() < 0.05);
     assert!((last.1 - first.1 - 3.0 * (second.1 - first.1)).abs() < 0.05);
 }
 
 #[test]
 fn long_series_stay_small_files() {
-    let points = (0..200_000)
-        .map(|i| f64::from(i) * 1e-3)
-        .map(|t| (t, (7.0 * t).sin()))
-        .collect();
-    let svg = chart(vec![panel(vec![line("LuGre", Role::LuGre, points)])])
-        .svg()
-        .expect("a figure");
+    let points = (0..200_000).map(|i| f64::from(i) * 1e-3).map(|t| (t, (7.0 * t).sin())).collect();
+    let svg = chart(vec![panel(vec![line("LuGre", Role::LuGre, points)])]).svg().expect("a figure");
     // 640 px of plot, at most eight points in each.
     assert!(svg.len() < 100_000, "{}", svg.len());
 }
 
 #[test]
 fn nothing_to_show_is_said_and_no_panel_refused() {
-    let svg = chart(vec![panel(vec![line(
-        "Coulomb",
-        Role::Coulomb,
-        vec![(f64::NAN, 1.0)],
-    )])])
-    .svg()
-    .expect("a figure");
+    let svg = chart(vec![panel(vec![line("Coulomb", Role::Coulomb, vec![(f64::NAN, 1.0)])])]).svg().expect("a figure");
     let document = Document::parse(&svg).expect("well-formed");
     assert!(texts(document.root()).contains(&"no value"));
-    assert!(matches!(
-        chart(vec![]).svg(),
-        Err(ChartError::NoPanels { .. })
-    ));
+    assert!(matches!(chart(vec![]).svg(), Err(ChartError::NoPanels { .. })));
 }
 
 #[test]
 fn the_picture_shows_its_title() {
-    let svg = chart(vec![panel(vec![line(
-        "Coulomb",
-        Role::Coulomb,
-        vec![(0.0, 0.0), (1.0, 1.0)],
-    )])])
-    .svg()
-    .expect("a figure");
-    assert!(
-        dark_pixels(&svg, 10.0, 30.0) > 1000,
-        "{}",
-        dark_pixels(&svg, 10.0, 30.0)
-    );
+    let svg =
+        chart(vec![panel(vec![line("Coulomb", Role::Coulomb, vec![(0.0, 0.0), (1.0, 1.0)])])]).svg().expect("a figure");
+    assert!(dark_pixels(&svg, 10.0, 30.0) > 1000, "{}", dark_pixels(&svg, 10.0, 30.0));
 }
 
 fn any_number() -> impl Strategy<Value = f64> {
