@@ -39,7 +39,7 @@ mod tests {
             .iter()
             .map(|theory| theory.name())
             .collect();
-        assert_eq!(contact, ["jkr"]);
+        assert_eq!(contact, ["hertz", "jkr", "dmt", "maugis-dugdale", "cos", "auto"]);
         let fidelity: Vec<_> = Fidelity::ALL.iter().map(|rung| rung.name()).collect();
         assert_eq!(fidelity, ["closed-form"]);
         let torsion: Vec<_> = Torsion::ALL.iter().map(|formula| formula.name()).collect();

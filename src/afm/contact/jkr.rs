@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::{Contact, Pair};
 use crate::afm::Failure;
 
-/// a^3 = (R/K) [F + 3 pi w R + sqrt(6 pi w R F + (3 pi w R)^2)], d = a^2/R - (2/3) sqrt(6 pi w
-/// a/K).
+/// a^3 = (R/K) [F + 3 pi w R + sqrt(6 pi w R F + (3 pi w R)^2)], d = a^2/R - (2/3) sqrt(6 pi w a/K): the surface forces
+/// act inside the contact only. Valid for soft, large, sticky bodies: Tabor parameter above 5.
 ///
 /// Without adhesion this is Hertz, to the last bit.
 #[inline]
@@ -18,11 +18,13 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
         return Err(Failure::BeyondPullOff);
     }
     let radius = (pair.radius / pair.modulus * (load + pull + (pull * margin).sqrt())).cbrt();
-    let stretch = 2.0 / 3.0 * (6.0 * PI * pair.adhesion * radius / pair.modulus).sqrt();
-    Ok(Contact {
-        radius,
-        indentation: radius * radius / pair.radius - stretch,
-    })
+    Ok(Contact { radius, indentation: radius * radius / pair.radius - stretch(pair, radius) })
+}
+
+/// (2/3) sqrt(6 pi w a/K), by which adhesion reduces the indentation.
+#[inline]
+pub(super) fn stretch(pair: &Pair, radius: f64) -> f64 {
+    2.0 / 3.0 * (6.0 * PI * pair.adhesion * radius / pair.modulus).sqrt()
 }
 
 /// 1.5 pi w R.
@@ -38,20 +40,17 @@ mod tests {
     use super::*;
 
     fn pair() -> impl Strategy<Value = Pair> {
-        (-9.0..-5.0_f64, 7.0..13.0_f64, -3.0..1.0_f64).prop_map(|(radius, modulus, adhesion)| {
-            Pair {
-                radius: 10_f64.powf(radius),
-                modulus: 10_f64.powf(modulus),
-                adhesion: 10_f64.powf(adhesion),
-                separation: 0.2e-9,
-            }
+        (-9.0..-5.0_f64, 7.0..13.0_f64, -3.0..1.0_f64).prop_map(|(radius, modulus, adhesion)| Pair {
+            radius: 10_f64.powf(radius),
+            modulus: 10_f64.powf(modulus),
+            adhesion: 10_f64.powf(adhesion),
+            separation: 0.2e-9,
         })
     }
 
     /// The load that holds a contact of radius a: F = K a^3/R - sqrt(6 pi w K a^3).
     fn load_at(pair: &Pair, a: f64) -> f64 {
-        pair.modulus * a.powi(3) / pair.radius
-            - (6.0 * PI * pair.adhesion * pair.modulus * a.powi(3)).sqrt()
+        pair.modulus * a.powi(3) / pair.radius - (6.0 * PI * pair.adhesion * pair.modulus * a.powi(3)).sqrt()
     }
 
     /// Solves the load equation for a by bisection on its stable branch, which starts at the
@@ -64,46 +63,24 @@ mod tests {
         }
         for _ in 0..200 {
             let middle = 0.5 * (low + high);
-            if load_at(pair, middle) < load {
-                low = middle
-            } else {
-                high = middle
-            }
+            if load_at(pair, middle) < load { low = middle } else { high = middle }
         }
         0.5 * (low + high)
     }
 
     #[test]
     fn nominal_contact() {
-        let pair = Pair {
-            radius: 50e-9,
-            modulus: 60e9,
-            adhesion: 0.2,
-            separation: 0.2e-9,
-        };
+        let pair = Pair { radius: 50e-9, modulus: 60e9, adhesion: 0.2, separation: 0.2e-9 };
         let contact = contact(&pair, 489.4e-9).unwrap();
-        assert!(
-            (contact.radius - 9.09e-9).abs() < 0.005e-9,
-            "{}",
-            contact.radius
-        );
+        assert!((contact.radius - 9.09e-9).abs() < 0.005e-9, "{}", contact.radius);
         // By hand, at a = 9.09121 nm: a^2/R - (2/3) sqrt(6 pi w a/K) = 1.65300 - 0.50386 nm.
-        assert!(
-            (contact.indentation - 1.14914e-9).abs() < 1e-14,
-            "{}",
-            contact.indentation
-        );
+        assert!((contact.indentation - 1.14914e-9).abs() < 1e-14, "{}", contact.indentation);
     }
 
     /// Known exact points: a^3 = 6 pi w R^2/K without load, and 3 pi w R^2/(2 K) at pull-off.
     #[test]
     fn exact_points() {
-        let pair = Pair {
-            radius: 50e-9,
-            modulus: 60e9,
-            adhesion: 0.2,
-            separation: 0.2e-9,
-        };
+        let pair = Pair { radius: 50e-9, modulus: 60e9, adhesion: 0.2, separation: 0.2e-9 };
         let unit = PI * pair.adhesion * pair.radius.powi(2) / pair.modulus;
         let at_rest = contact(&pair, 0.0).unwrap().radius;
         assert!((at_rest / (6.0 * unit).cbrt() - 1.0).abs() < 1e-15);
@@ -113,28 +90,11 @@ mod tests {
 
     #[test]
     fn load_beyond_pull_off_is_named() {
-        let sticky = Pair {
-            radius: 50e-9,
-            modulus: 60e9,
-            adhesion: 0.2,
-            separation: 0.2e-9,
-        };
-        assert_eq!(
-            contact(&sticky, -pull_off(&sticky) * (1.0 + 1e-15)),
-            Err(Failure::BeyondPullOff)
-        );
-        let dry = Pair {
-            adhesion: 0.0,
-            ..sticky
-        };
+        let sticky = Pair { radius: 50e-9, modulus: 60e9, adhesion: 0.2, separation: 0.2e-9 };
+        assert_eq!(contact(&sticky, -pull_off(&sticky) * (1.0 + 1e-15)), Err(Failure::BeyondPullOff));
+        let dry = Pair { adhesion: 0.0, ..sticky };
         assert_eq!(contact(&dry, -1e-300), Err(Failure::BeyondPullOff));
-        assert_eq!(
-            contact(&dry, 0.0),
-            Ok(Contact {
-                radius: 0.0,
-                indentation: 0.0
-            })
-        );
+        assert_eq!(contact(&dry, 0.0), Ok(Contact { radius: 0.0, indentation: 0.0 }));
     }
 
     proptest! {
