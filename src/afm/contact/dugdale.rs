@@ -189,9 +189,9 @@ fn descend((start, limit): (f64, f64), function: impl Fn(f64) -> (f64, f64)) -> 
         let newton = s * step.exp();
         if newton > low && newton < high {
             s = newton;
-            // What is left of the error if it goes on shrinking as it did.
+            // What is left of the error if it goes on shrinking quadratically, with a reserve.
             let rate = step / last;
-            if step.abs() * rate * rate < 1e-16 {
+            if step.abs() * rate * rate < 1e-19 {
                 break;
             }
             last = step;

@@ -16,7 +16,7 @@ fn with_transition(lambda: f64) -> Pair {
 
 fn pair() -> impl Strategy<Value = Pair> {
     let adhesion =
-        prop_oneof![1 => Just(0.0), 1 => (-300.0..-10.0_f64).prop_map(|x| 10_f64.powf(x)), 8 => 0.0..10.0_f64];
+        prop_oneof![1 => Just(0.0), 1 => (-280.0..-10.0_f64).prop_map(|x| 10_f64.powf(x)), 8 => 0.0..10.0_f64];
     (-10.0..-4.0_f64, 6.0..14.0_f64, adhesion, -10.0..-9.0_f64).prop_map(|(radius, modulus, adhesion, separation)| {
         Pair {
             radius: 10_f64.powf(radius),
@@ -189,7 +189,8 @@ proptest! {
     /// Radii grow with the load, and so do indentations.
     #[test]
     fn radius_and_indentation_grow_with_the_load(theory in theory(), pair in pair(), multiple in -0.99..100.0_f64) {
-        prop_assume!(pair.adhesion > 0.0);
+        // Fainter adhesion would have loads that underflow.
+        let pair = Pair { adhesion: pair.adhesion.max(1e-200), ..pair };
         let unit = pair.unit_load();
         let load = if multiple < 0.0 { multiple * theory.pull_off(&pair) } else { multiple * unit };
         let lower = theory.contact(&pair, load).unwrap();
