@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 /// The state of a cohesive zone of the transition parameter `lambda`, at the extent s = sqrt(m^2 - 1).
 ///
 /// With s as the parameter of the load-radius curve nothing is left to solve for: the equation that ties a and m
-/// (Maugis 1992, eq. 6.19),
+/// (Maugis 1992),
 ///
 /// (lambda abar^2/2) f + (4 lambda^2 abar/3) g = 1, f = s + (s^2 - 1) atan s, g = s atan s - m + 1,
 ///
