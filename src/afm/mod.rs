@@ -13,6 +13,7 @@
 //!   theory a file;
 //! - [`friction`]: the largest lateral force the substrate contact can hold, one law a file;
 //! - [`force`]: the critical force, one fidelity a file; [`critical_force`] is the entrance;
+//! - [`modes`]: what else the particle may do: slip at the tip, roll, spin;
 //! - [`flags`]: what makes a result doubtful; [`failure`]: why there is no result.
 //!
 //! Plain functions on plain structs, all quantities in SI. Nothing here knows of sampling or
@@ -30,6 +31,7 @@ pub mod failure;
 pub mod flags;
 pub mod force;
 pub mod friction;
+pub mod modes;
 pub mod parameter;
 pub mod probe;
 pub mod scene;

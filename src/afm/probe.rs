@@ -40,8 +40,10 @@ impl Probe {
         let bending = elastic_modulus * width * thickness / (4.0 * length * length * length);
         let normal = bending * thickness * thickness;
         let lateral = bending * width * width;
-        let torsional = scene.effective_shear_modulus() * torsion_constant(width, thickness, torsion) / length;
-        let preload_deflection = length * scene.preload_angle.sin();
+        let torsional =
+            scene.effective_shear_modulus() * torsion_constant(width, thickness, torsion) / length;
+        // The angle may be minus zero, whose sign would turn the force angle of a scene without any force around.
+        let preload_deflection = length * scene.preload_angle.sin().abs();
         Self {
             normal,
             lateral,
@@ -111,6 +113,12 @@ mod tests {
         };
         assert!((deviation(48e-6, 1e-6) + 0.013).abs() < 5e-4);
         assert!((deviation(5e-6, 2.5e-6) + 0.31).abs() < 5e-3);
+    }
+
+    #[test]
+    fn a_preload_of_minus_zero_is_zero() {
+        let scene = Scene { preload_angle: -0.0, ..Scene::default() };
+        assert!(Probe::new(&scene, Torsion::ThinStrip).preload_force.is_sign_positive());
     }
 
     proptest! {

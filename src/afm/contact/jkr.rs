@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::{Contact, Pair};
 use crate::afm::Failure;
 
-/// a^3 = (R/K) [F + 3 pi w R + sqrt(6 pi w R F + (3 pi w R)^2)], d = a^2/R - (2/3) sqrt(6 pi w
-/// a/K).
+/// a^3 = (R/K) [F + 3 pi w R + sqrt(6 pi w R F + (3 pi w R)^2)], d = a^2/R - (2/3) sqrt(6 pi w a/K): the surface forces
+/// act inside the contact only. Valid for soft, large, sticky bodies: Tabor parameter above 5.
 ///
 /// Without adhesion this is Hertz, to the last bit.
 #[inline]
@@ -18,8 +18,13 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
         return Err(Failure::BeyondPullOff);
     }
     let radius = (pair.radius / pair.modulus * (load + pull + (pull * margin).sqrt())).cbrt();
-    let stretch = 2.0 / 3.0 * (6.0 * PI * pair.adhesion * radius / pair.modulus).sqrt();
-    Ok(Contact { radius, indentation: radius * radius / pair.radius - stretch })
+    Ok(Contact { radius, indentation: radius * radius / pair.radius - stretch(pair, radius) })
+}
+
+/// (2/3) sqrt(6 pi w a/K), by which adhesion reduces the indentation.
+#[inline]
+pub(super) fn stretch(pair: &Pair, radius: f64) -> f64 {
+    2.0 / 3.0 * (6.0 * PI * pair.adhesion * radius / pair.modulus).sqrt()
 }
 
 /// 1.5 pi w R.

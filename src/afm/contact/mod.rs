@@ -1,15 +1,38 @@
 //! Contact of a sphere with a flat, or of two spheres, under a normal load.
+//!
+//! [`ContactTheory`] chooses the theory, one a file; [`Pair`] is what touches, [`Contact`] what comes of it. The units of
+//! adhesion are the load pi w R and the radius (pi w R^2/K)^(1/3); where a theory needs to know whether surface forces
+//! act inside or outside the contact, the Tabor parameter says so.
 
+mod cos;
+mod dmt;
+mod dugdale;
+mod hertz;
 mod jkr;
+mod maugis_dugdale;
+#[cfg(test)]
+mod tests;
 
-use super::Failure;
+use std::f64::consts::PI;
+
 use super::named::named;
+use super::{Failure, Scene};
 
 named! {
-    /// Theory of adhesive elastic contact.
+    /// Theory of adhesive elastic contact. Without adhesion all are Hertz, to the last bit.
     pub enum ContactTheory {
+        /// Hertz 1881: no adhesion, whatever the work of adhesion.
+        Hertz = "hertz",
         /// Johnson, Kendall & Roberts 1971: soft, sticky, large; Tabor parameter above 5.
         Jkr = "jkr",
+        /// Derjaguin, Muller & Toporov 1975: stiff, weakly adhesive, small; Tabor parameter below 0.1.
+        Dmt = "dmt",
+        /// Maugis 1992, with Dugdale's constant cohesive stress: every Tabor parameter.
+        MaugisDugdale = "maugis-dugdale",
+        /// Carpick, Ogletree & Salmeron 1999, a closed form close to Maugis-Dugdale: every Tabor parameter.
+        Cos = "cos",
+        /// By the Tabor parameter: JKR from 5, DMT up to 0.1, Maugis-Dugdale between.
+        Auto = "auto",
     }
 }
 
@@ -27,12 +50,48 @@ pub struct Pair {
 }
 
 impl Pair {
+    /// The particle on the substrate: R = R_p.
+    #[inline]
+    pub fn substrate(scene: &Scene) -> Self {
+        Self {
+            radius: scene.particle_radius,
+            modulus: scene.equivalent_modulus,
+            adhesion: scene.adhesion,
+            separation: scene.equilibrium_separation,
+        }
+    }
+
+    /// The tip on the particle: R = R_p R_t/(R_p + R_t).
+    #[inline]
+    pub fn tip(scene: &Scene) -> Self {
+        let (particle, tip) = (scene.particle_radius, scene.tip_radius);
+        Self { radius: particle * (tip / (particle + tip)), ..Self::substrate(scene) }
+    }
+
     /// Tabor parameter mu_T = [16 R omega^2/(9 K^2 z0^3)]^(1/3): the elastic deformation at
     /// pull-off in units of the reach of the surface forces (Tabor 1977).
     #[inline]
     pub fn tabor(&self) -> f64 {
         let strain = self.adhesion / (self.modulus * self.separation);
         (16.0 / 9.0 * (self.radius / self.separation) * strain * strain).cbrt()
+    }
+
+    /// Maugis' parameter lambda = 1.157 mu_T: small for DMT, large for JKR (Maugis 1992).
+    #[inline]
+    pub fn transition(&self) -> f64 {
+        1.157 * self.tabor()
+    }
+
+    /// pi w R (N).
+    #[inline]
+    fn unit_load(&self) -> f64 {
+        PI * self.adhesion * self.radius
+    }
+
+    /// (pi w R^2/K)^(1/3) (m).
+    #[inline]
+    fn unit_radius(&self) -> f64 {
+        self.radius * (PI * self.adhesion / (self.modulus * self.radius)).cbrt()
     }
 }
 
@@ -45,15 +104,43 @@ pub struct Contact {
     pub indentation: f64,
 }
 
+impl Contact {
+    /// Area of contact, pi a^2 (m2).
+    #[inline]
+    pub fn area(&self) -> f64 {
+        PI * self.radius * self.radius
+    }
+}
+
 impl ContactTheory {
     /// The contact of `pair` under the normal load `load` (N), positive when pressing.
     ///
     /// # Errors
     /// [`Failure::BeyondPullOff`] if `load` is below minus the [pull-off force](Self::pull_off).
+    ///
+    /// # Example
+    /// ```
+    /// use apportion::afm::contact::Pair;
+    /// use apportion::afm::{ContactTheory, Failure, Scene};
+    ///
+    /// let pair = Pair::substrate(&Scene::default());
+    /// assert_eq!(format!("{:.2}", pair.tabor()), "0.50");
+    /// assert_eq!(ContactTheory::Auto.for_tabor(pair.tabor()), ContactTheory::MaugisDugdale);
+    ///
+    /// let pressed = ContactTheory::Auto.contact(&pair, 489e-9)?;
+    /// assert_eq!(format!("{:.2} nm", pressed.radius * 1e9), "8.38 nm");
+    /// assert_eq!(ContactTheory::Jkr.contact(&pair, -1e-6), Err(Failure::BeyondPullOff));
+    /// # Ok::<(), Failure>(())
+    /// ```
     #[inline]
     pub fn contact(self, pair: &Pair, load: f64) -> Result<Contact, Failure> {
         match self {
+            Self::Hertz => hertz::contact(pair, load),
             Self::Jkr => jkr::contact(pair, load),
+            Self::Dmt => dmt::contact(pair, load),
+            Self::MaugisDugdale => maugis_dugdale::contact(pair, load),
+            Self::Cos => cos::contact(pair, load),
+            Self::Auto => self.for_tabor(pair.tabor()).contact(pair, load),
         }
     }
 
@@ -61,35 +148,34 @@ impl ContactTheory {
     #[inline]
     pub fn pull_off(self, pair: &Pair) -> f64 {
         match self {
+            Self::Hertz => 0.0,
             Self::Jkr => jkr::pull_off(pair),
+            Self::Dmt => dmt::pull_off(pair),
+            Self::MaugisDugdale => maugis_dugdale::pull_off(pair),
+            Self::Cos => cos::pull_off(pair),
+            Self::Auto => self.for_tabor(pair.tabor()).pull_off(pair),
         }
     }
 
-    /// Whether the theory is meant for this Tabor parameter.
+    /// The theory in force at this Tabor parameter: for `Auto` the one it chooses, else `self`.
+    #[inline]
+    pub fn for_tabor(self, tabor: f64) -> Self {
+        match self {
+            Self::Auto if Self::Jkr.suits(tabor) => Self::Jkr,
+            Self::Auto if Self::Dmt.suits(tabor) => Self::Dmt,
+            Self::Auto => Self::MaugisDugdale,
+            chosen => chosen,
+        }
+    }
+
+    /// Whether the theory is meant for this Tabor parameter. Hertz suits no adhesion at all, where the parameter is 0.
     #[inline]
     pub fn suits(self, tabor: f64) -> bool {
         match self {
+            Self::Hertz => tabor == 0.0,
             Self::Jkr => tabor >= 5.0,
+            Self::Dmt => tabor <= 0.1,
+            Self::MaugisDugdale | Self::Cos | Self::Auto => true,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// By hand at the nominal scene: [16 * 50e-9 * 0.2^2/(9 * (60e9)^2 * (0.2e-9)^3)]^(1/3) =
-    /// (10/81)^(1/3).
-    #[test]
-    fn nominal_tabor_parameter() {
-        let pair = Pair { radius: 50e-9, modulus: 60e9, adhesion: 0.2, separation: 0.2e-9 };
-        assert!((pair.tabor() - (10.0_f64 / 81.0).cbrt()).abs() < 1e-14);
-        assert!(!ContactTheory::Jkr.suits(pair.tabor()));
-    }
-
-    #[test]
-    fn a_soft_sticky_pair_suits_jkr() {
-        let pair = Pair { radius: 1e-3, modulus: 1e6, adhesion: 0.05, separation: 0.2e-9 };
-        assert!(ContactTheory::Jkr.suits(pair.tabor()));
     }
 }

@@ -1,0 +1,294 @@
+//! The cohesive zone of Dugdale 1960 around a circular contact, as Maugis 1992 solved it.
+//!
+//! Dimensionless throughout: abar = a/(pi w R^2/K)^(1/3), Pbar = F/(pi w R); the constant stress sigma0 acts from the
+//! contact radius a to c = m a.
+
+use std::f64::consts::PI;
+
+/// The state of a cohesive zone of the transition parameter `lambda`, at the extent s = sqrt(m^2 - 1).
+///
+/// With s as the parameter of the load-radius curve nothing is left to solve for: the equation that ties a and m
+/// (Maugis 1992),
+///
+/// (lambda abar^2/2) f + (4 lambda^2 abar/3) g = 1, f = s + (s^2 - 1) atan s, g = s atan s - m + 1,
+///
+/// is quadratic in abar, and its positive root falls as s grows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Zone {
+    lambda: f64,
+    /// s = sqrt(m^2 - 1).
+    pub extent: f64,
+    /// abar.
+    pub radius: f64,
+    angle: f64,
+    f: f64,
+    /// 4 lambda^2 g/3.
+    b: f64,
+}
+
+/// f = s + (s^2 - 1) atan s; below 0.1 by its series sum (-1)^(k+1) 4k/(4k^2 - 1) s^(2k+1), since the terms cancel.
+#[inline]
+fn bulk(s: f64, angle: f64) -> f64 {
+    let x = s * s;
+    if s < 0.1 {
+        const C: [f64; 7] =
+            [4.0 / 3.0, -8.0 / 15.0, 12.0 / 35.0, -16.0 / 63.0, 20.0 / 99.0, -24.0 / 143.0, 28.0 / 195.0];
+        s * x * C.iter().rev().fold(0.0, |sum, c| sum * x + c)
+    } else {
+        s + (x - 1.0) * angle
+    }
+}
+
+/// g = s atan s - m + 1, written with m - 1 = s^2/(m + 1).
+#[inline]
+fn rim(s: f64, angle: f64) -> f64 {
+    s * (angle - s / (1.0 + (1.0 + s * s).sqrt()))
+}
+
+impl Zone {
+    /// The zone of extent `extent` > 0.
+    #[inline]
+    pub fn new(lambda: f64, extent: f64) -> Self {
+        let angle = extent.atan();
+        let f = bulk(extent, angle);
+        let b = 4.0 / 3.0 * lambda * lambda * rim(extent, angle);
+        Self { lambda, extent, radius: 2.0 / (b + (b * b + 2.0 * lambda * f).sqrt()), angle, f, b }
+    }
+
+    /// Pbar + 2, the load above the pull-off of DMT, which is positive.
+    ///
+    /// Pbar = abar^3 - lambda abar^2 (s + m^2 atan s); the equation of the radius turns this into
+    /// abar^3 + 2 abar (4 lambda^2 g/3 - lambda abar atan s) - 2, which keeps its digits where Pbar is near -2.
+    #[inline]
+    pub fn lift(&self) -> f64 {
+        let a = self.radius;
+        a * (a * a + 2.0 * (self.b - self.lambda * a * self.angle))
+    }
+
+    /// (4/3) lambda abar s, by which the zone reduces the indentation: dbar = abar^2 - this.
+    #[inline]
+    pub fn stretch(&self) -> f64 {
+        4.0 / 3.0 * self.lambda * self.radius * self.extent
+    }
+
+    /// e = -1 - d ln abar/d ln s, from 0 to 1.
+    #[inline]
+    fn excess(&self) -> f64 {
+        let Self { lambda, extent: s, radius: a, angle, f, b } = *self;
+        let x = s * s;
+        let square = 1.0 + x;
+        // s f'/2 - f, of the series sum (-1)^(k+1) 2k/(2k + 1) s^(2k+1).
+        let h = if s < 0.1 {
+            const C: [f64; 7] = [2.0 / 3.0, -4.0 / 5.0, 6.0 / 7.0, -8.0 / 9.0, 10.0 / 11.0, -12.0 / 13.0, 14.0 / 15.0];
+            s * x * C.iter().rev().fold(0.0, |sum, c| sum * x + c)
+        } else {
+            angle - s / square
+        };
+        // s g' - g = (m - 1)/m^2.
+        let k = x / ((1.0 + square.sqrt()) * square);
+        (lambda * a * h + 4.0 / 3.0 * lambda * lambda * k) / (lambda * f * a + b)
+    }
+
+    /// d Pbar/d ln s, divided by abar^2: negative on the stable branch, zero at pull-off.
+    ///
+    /// This is 2 lambda (atan s + e q) - 3 abar (1 + e), q = s + m^2 atan s, with e = -1 - d ln abar/d ln s: only the
+    /// two terms that balance at pull-off are subtracted.
+    #[inline]
+    pub fn slope(&self) -> f64 {
+        let e = self.excess();
+        2.0 * self.lambda * (self.angle + e * (self.f + 2.0 * self.angle)) - 3.0 * self.radius * (1.0 + e)
+    }
+
+    /// The zone at which the load is least, for `lambda` from 1e-36 to 1e9.
+    pub fn at_pull_off(lambda: f64) -> Self {
+        // s -> (3/2)^(1/3)/lambda for large lambda, 3/pi^(3/2) lambda^(-3/2) for small; the sum of the two is above s by
+        // at most a factor 1.8, and never below.
+        let scale = 1.144_714_242_553_331_9 / lambda + 0.538_761_366_375_499_7 / (lambda * lambda.sqrt());
+        let slope = |inverse: f64| Self::new(lambda, 1.0 / inverse).slope();
+        // Regula falsi with the weights of Anderson & Bjorck 1973, in 1/s, which runs like abar.
+        let (mut old, mut new) = (0.9 / scale, 2.0 / scale);
+        let (mut slope_old, mut slope_new) = (slope(old), slope(new));
+        for _ in 0..100 {
+            let next = new - (new - old) * (slope_new / (slope_new - slope_old));
+            let slope_next = slope(next);
+            if slope_next * slope_new < 0.0 {
+                (old, slope_old) = (new, slope_new);
+            } else {
+                let weight = 1.0 - slope_next / slope_new;
+                slope_old *= if weight > 0.0 { weight } else { 0.5 };
+            }
+            let step = (next - new).abs();
+            (new, slope_new) = (next, slope_next);
+            if slope_new == 0.0 || step <= 4.0 * f64::EPSILON * new {
+                break;
+            }
+        }
+        Self::new(lambda, 1.0 / new)
+    }
+
+    /// The zone on the stable branch with this [lift](Self::lift), inside `bound`, a zone known to be at or past pull-off
+    /// (at a lift above 1/2, that of JKR at pull-off, none is needed).
+    pub fn at_lift(lambda: f64, lift: f64, bound: Option<Self>) -> Self {
+        let limit = match bound {
+            Some(zone) if lift <= zone.lift() => return zone,
+            Some(zone) => zone.extent,
+            None => f64::INFINITY,
+        };
+        // A radius between DMT, abar^3 = lift, and JKR.
+        let share = lambda / (lambda + 0.6);
+        let radius = (lift + share * (1.0 + (6.0 * lift - 3.0).max(0.0).sqrt())).cbrt();
+        let start = approximate_extent(lambda, radius).min(0.9 * limit);
+        let extent = descend((start, limit), |s| {
+            let zone = Self::new(lambda, s);
+            let value = zone.lift();
+            ((value / lift).ln(), zone.slope() * (zone.radius * zone.radius) / value)
+        });
+        Self::new(lambda, extent)
+    }
+
+    /// The zone around a contact of this abar.
+    pub fn at_radius(lambda: f64, radius: f64) -> Self {
+        let extent = descend((approximate_extent(lambda, radius), f64::INFINITY), |s| {
+            let zone = Self::new(lambda, s);
+            ((zone.radius / radius).ln(), -1.0 - zone.excess())
+        });
+        Self::new(lambda, extent)
+    }
+}
+
+/// Roughly the extent of the zone around a contact of this abar, from the leading terms of f and g.
+#[inline]
+fn approximate_extent(lambda: f64, radius: f64) -> f64 {
+    let bulk = lambda * radius * radius;
+    let rim = lambda * lambda * radius;
+    let narrow = 1.0 / ((2.0 / 3.0 * bulk).cbrt() + (2.0 / 3.0 * rim).sqrt());
+    let wide = 1.0 / ((PI / 4.0 * bulk).sqrt() + 0.761 * rim);
+    narrow.max(wide)
+}
+
+/// The root, in 0 < s < limit, of a function that falls through it and may rise again after a minimum below zero.
+/// `function` gives its value and its derivative by ln s.
+///
+/// Newton's method in ln s, which the power laws at either end make all but exact, inside a bracket that halves
+/// whenever a step would leave it: it ends whatever the start.
+fn descend((start, limit): (f64, f64), function: impl Fn(f64) -> (f64, f64)) -> f64 {
+    const FACTOR: f64 = 16.0;
+    let (mut low, mut high, mut s) = (0.0, limit, start);
+    let mut last = f64::NAN;
+    for _ in 0..200 {
+        let (value, slope) = function(s);
+        let step = if slope < 0.0 { -value / slope } else { f64::NAN };
+        if step.abs() < 4.0 * f64::EPSILON {
+            break;
+        }
+        if step > 0.0 {
+            low = s;
+        } else {
+            high = s;
+        }
+        let newton = s * step.exp();
+        if newton > low && newton < high {
+            s = newton;
+            // What is left of the error if it goes on shrinking quadratically, with a reserve.
+            let rate = step / last;
+            if step.abs() * rate * rate < 1e-19 {
+                break;
+            }
+            last = step;
+        } else {
+            s = match (low > 0.0, high < f64::INFINITY) {
+                (true, true) => (low * high).sqrt(),
+                (true, false) => low * FACTOR,
+                (false, _) => high / FACTOR,
+            };
+            last = f64::NAN;
+        }
+    }
+    s
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// The two functions that switch to a series have no step where they do: 1e-13, a few hundred roundings of terms
+    /// that cancel to a hundredth.
+    #[test]
+    fn the_series_meet_the_closed_forms() {
+        for lambda in [1e-3, 1.0, 1e3] {
+            let (below, above) = (Zone::new(lambda, 0.1_f64.next_down()), Zone::new(lambda, 0.1));
+            assert!((below.f / above.f - 1.0).abs() < 1e-13);
+            assert!((below.excess() / above.excess() - 1.0).abs() < 1e-13);
+        }
+    }
+
+    /// Limits of the least load and of the radius there, for small and for large lambda, by expansion about s = infinity
+    /// and s = 0: lift (16/3) (pi/2 - 1) pi^(-1/2) lambda^(3/2), abar 2 pi lambda/3; and 1/2, (3/2)^(1/3).
+    /// The next terms are of relative order lambda^(3/2) and 1/lambda^2.
+    #[test]
+    fn pull_off_tends_to_dmt_and_jkr() {
+        for lambda in [1e-30, 1e-12, 1e-8] {
+            let zone = Zone::at_pull_off(lambda);
+            let lift = 16.0 / 3.0 * (PI / 2.0 - 1.0) / PI.sqrt() * lambda.powf(1.5);
+            assert!((zone.lift() / lift - 1.0).abs() < 1e-7, "{lambda}");
+            assert!((zone.radius / (2.0 * PI / 3.0 * lambda) - 1.0).abs() < 1e-7, "{lambda}");
+        }
+        for lambda in [1e4, 1e6, 1e8] {
+            let zone = Zone::at_pull_off(lambda);
+            assert!((zone.lift() - 0.5).abs() < 1.0 / lambda.powi(2) + 1e-14, "{lambda}");
+            assert!((zone.radius - 1.5_f64.cbrt()).abs() < 1.0 / lambda.powi(2) + 1e-14, "{lambda}");
+        }
+    }
+
+    /// A root that a Newton step overshoots into the region past the minimum, and one far from the start.
+    #[test]
+    fn descend_arrives_from_anywhere() {
+        for start in [1e-200, 1e-3, 0.5, 1.9, 3.0, 1e200] {
+            // (ln s)^2 - 1 falls through zero at 1/e and has its minimum at 1.
+            let root = descend((start, f64::INFINITY), |s| (s.ln().powi(2) - 1.0, 2.0 * s.ln()));
+            assert!((root * 1_f64.exp() - 1.0).abs() < 1e-14, "{start}: {root}");
+        }
+    }
+
+    proptest! {
+        /// The slope is the derivative of the lift: central differences of step 1e-4, good to 1e-8, and the rounding of the lift.
+        #[test]
+        fn slope_is_the_derivative(log_lambda in -3.0..3.0_f64, log_s in -4.0..4.0_f64) {
+            let (lambda, s) = (10_f64.powf(log_lambda), 10_f64.powf(log_s));
+            let at = |x: f64| Zone::new(lambda, s * x.exp());
+            let (up, here, down) = (at(1e-4), at(0.0), at(-1e-4));
+            let slope = (up.lift() - down.lift()) / 2e-4;
+            let scale = here.radius.powi(3) + lambda * here.radius.powi(2) * (1.0 + here.angle) + 1e-5 * here.lift().abs();
+            prop_assert!((slope - here.slope() * here.radius.powi(2)).abs() < 1e-6 * scale);
+            let excess = -1.0 - (up.radius / down.radius).ln() / 2e-4;
+            prop_assert!((excess - here.excess()).abs() < 1e-6);
+            prop_assert!((0.0..=1.0).contains(&here.excess()));
+        }
+
+        /// Roots give back what they were asked for, to a few roundings; the lift is asked for above pull-off by a
+        /// share that may be tiny.
+        #[test]
+        fn roots_are_roots(log_lambda in -36.0..9.0_f64, log_share in -14.0..34.0_f64) {
+            let lambda = 10_f64.powf(log_lambda);
+            let last = Zone::at_pull_off(lambda);
+            let lift = last.lift() * (1.0 + 10_f64.powf(log_share));
+            let zone = Zone::at_lift(lambda, lift, Some(last));
+            prop_assert!((zone.lift() / lift - 1.0).abs() < 1e-13, "{} {lift}", zone.lift());
+            prop_assert!(zone.radius >= last.radius * (1.0 - 1e-14));
+            let again = Zone::at_radius(lambda, zone.radius);
+            prop_assert!((again.extent / zone.extent - 1.0).abs() < 1e-13);
+        }
+
+        /// Past pull-off the load rises again, before it falls: the minimum is the only one.
+        #[test]
+        fn one_minimum(log_lambda in -6.0..6.0_f64, log_ratio in -3.0..3.0_f64) {
+            prop_assume!(log_ratio.abs() > 1e-6);
+            let lambda = 10_f64.powf(log_lambda);
+            let last = Zone::at_pull_off(lambda);
+            let zone = Zone::new(lambda, last.extent * 10_f64.powf(log_ratio));
+            prop_assert_eq!(zone.slope() > 0.0, log_ratio > 0.0);
+        }
+    }
+}
