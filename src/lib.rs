@@ -1,4 +1,63 @@
-//! Sobol' global sensitivity analysis.
+//! Sobol' global sensitivity analysis: which input of a model decides its output, and by how many percent.
+//!
+//! The flagship model answers a question of nanotechnology: of the cantilever's dimensions and the environment, which
+//! factor decides the force that the tip of an atomic force microscope needs to push a nanoparticle, under each
+//! friction model? The engine knows nothing of that model and serves any other.
+//!
+//! # The map
+//!
+//! The modules in the order of the data's way; each uses only those above it. [`analyse`] is the whole way in one
+//! function of a few lines.
+//!
+//! | module | what it is for |
+//! |---|---|
+//! | [`sum`] | sums of fixed shape: the same bits on any number of threads |
+//! | [`quantity`] | units, known at the edges only; inside everything is SI |
+//! | [`space`] | factors: names, distributions, units, nominal values, groups |
+//! | [`design`] | the Saltelli design as a pure function of the row number; Sobol', random and Latin hypercube points |
+//! | [`afm`] | the physics of pushing a nanoparticle: plain functions, no knowledge of the engine |
+//! | [`model`] | what can be studied: a shared description that lends out workers, one per thread |
+//! | [`estimate`] | centred sums of constant size, and the indices read from them |
+//! | [`run`] | a design through a model: fixed blocks on a thread pool, merged in a fixed tree |
+//! | [`uncertainty`] | intervals from independent replicates |
+//! | [`study`] | studies: the file as typed, and what it means |
+//! | [`report`] | results as JSON, CSV, text and charts; files written whole or not at all |
+//! | [`exchange`] | tables of points and outputs, for other programs |
+//! | [`reproduce`] | the papers' studies beside what the papers print |
+//!
+//! # An example
+//!
+//! The force on cantilevers of uncertain thickness and length:
+//!
+//! ```
+//! use apportion::study::Study;
+//!
+//! let text = r#"
+//!     outputs = ["critical_force"]
+//!
+//!     [afm]
+//!     friction = "hk"
+//!
+//!     [[factor]]
+//!     name = "thickness"
+//!     min = 0.8
+//!     max = 1.2
+//!     unit = "um"
+//!
+//!     [[factor]]
+//!     name = "length"
+//!     distribution = "normal"
+//!     mean = 225
+//!     sd = 5
+//!     unit = "um"
+//! "#;
+//! let study = Study::parse(text, "example.toml".as_ref(), &[])?;
+//! let result = apportion::analyse(&study, 0, &|_| ())?;
+//! let indices = result.outputs[0].indices.as_ref().ok_or("no indices")?;
+//! assert_eq!(indices[0].factor, "thickness");
+//! assert!(indices[0].effect.share_total.is_some_and(|percent| percent > 90.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod afm;
 mod analysis;
