@@ -35,10 +35,7 @@ mod tests {
     fn names_are_what_study_files_say() {
         let friction: Vec<_> = FrictionLaw::ALL.iter().map(|law| law.name()).collect();
         assert_eq!(friction, ["coulomb", "hk", "lugre"]);
-        let contact: Vec<_> = ContactTheory::ALL
-            .iter()
-            .map(|theory| theory.name())
-            .collect();
+        let contact: Vec<_> = ContactTheory::ALL.iter().map(|theory| theory.name()).collect();
         assert_eq!(contact, ["hertz", "jkr", "dmt", "maugis-dugdale", "cos", "auto"]);
         let fidelity: Vec<_> = Fidelity::ALL.iter().map(|rung| rung.name()).collect();
         assert_eq!(fidelity, ["closed-form"]);

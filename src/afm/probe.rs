@@ -40,8 +40,7 @@ impl Probe {
         let bending = elastic_modulus * width * thickness / (4.0 * length * length * length);
         let normal = bending * thickness * thickness;
         let lateral = bending * width * width;
-        let torsional =
-            scene.effective_shear_modulus() * torsion_constant(width, thickness, torsion) / length;
+        let torsional = scene.effective_shear_modulus() * torsion_constant(width, thickness, torsion) / length;
         // The angle may be minus zero, whose sign would turn the force angle of a scene without any force around.
         let preload_deflection = length * scene.preload_angle.sin().abs();
         Self {

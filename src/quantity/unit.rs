@@ -46,20 +46,12 @@ struct Symbol {
 }
 
 const fn symbol(name: &'static str, prefixes: &'static str, dimension: Dimension) -> Symbol {
-    Symbol {
-        name,
-        prefixes,
-        decade: 0,
-        dimension,
-    }
+    Symbol { name, prefixes, decade: 0, dimension }
 }
 
 const SYMBOLS: [Symbol; 12] = [
     symbol("m", "kcmunp", Dimension::LENGTH),
-    Symbol {
-        decade: -3,
-        ..symbol("g", "kmunp", Dimension::MASS)
-    },
+    Symbol { decade: -3, ..symbol("g", "kmunp", Dimension::MASS) },
     symbol("s", "munp", Dimension::TIME),
     symbol("Hz", "GMkm", Dimension::FREQUENCY),
     symbol("N", "GMkmunp", Dimension::FORCE),
@@ -68,23 +60,12 @@ const SYMBOLS: [Symbol; 12] = [
     symbol("rad", "munp", Dimension::ANGLE),
     symbol("deg", "m", Dimension::ANGLE),
     symbol("°", "", Dimension::ANGLE),
-    Symbol {
-        decade: -2,
-        ..symbol("%", "", Dimension::NUMBER)
-    },
+    Symbol { decade: -2, ..symbol("%", "", Dimension::NUMBER) },
     symbol("1", "", Dimension::NUMBER),
 ];
 
-const PREFIXES: [(char, i32); 8] = [
-    ('G', 9),
-    ('M', 6),
-    ('k', 3),
-    ('c', -2),
-    ('m', -3),
-    ('u', -6),
-    ('n', -9),
-    ('p', -12),
-];
+const PREFIXES: [(char, i32); 8] =
+    [('G', 9), ('M', 6), ('k', 3), ('c', -2), ('m', -3), ('u', -6), ('n', -9), ('p', -12)];
 
 /// Factors beyond this power of ten are refused: values would leave the range of `f64`.
 const MOST_DECADES: i32 = 100;
@@ -92,14 +73,9 @@ const MOST_DECADES: i32 = 100;
 /// Every spelling of every symbol with its prefix, and the decade that the prefix adds.
 fn spellings() -> impl Iterator<Item = (String, &'static Symbol, i32)> {
     SYMBOLS.iter().flat_map(|symbol| {
-        let prefixed = PREFIXES
-            .iter()
-            .filter(|(prefix, _)| symbol.prefixes.contains(*prefix));
+        let prefixed = PREFIXES.iter().filter(|(prefix, _)| symbol.prefixes.contains(*prefix));
         let bare = std::iter::once((symbol.name.to_owned(), symbol, 0));
-        bare.chain(
-            prefixed
-                .map(move |(prefix, decade)| (format!("{prefix}{}", symbol.name), symbol, *decade)),
-        )
+        bare.chain(prefixed.map(move |(prefix, decade)| (format!("{prefix}{}", symbol.name), symbol, *decade)))
     })
 }
 
@@ -118,25 +94,14 @@ impl Unit {
     /// [`UnitError`] says which part was not understood. A product after a division (`N/m s`) is refused as
     /// ambiguous; so is a factor to SI beyond 10^100.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
-        let malformed = |reason| UnitError::Malformed {
-            unit: text.to_owned(),
-            reason,
-        };
+        let malformed = |reason| UnitError::Malformed { unit: text.to_owned(), reason };
         let symbol = text.trim().to_owned();
-        let mut unit = Self {
-            symbol,
-            decade: 0,
-            degrees: 0,
-            dimension: Dimension::NUMBER,
-        };
+        let mut unit = Self { symbol, decade: 0, degrees: 0, dimension: Dimension::NUMBER };
         if unit.symbol.is_empty() {
             return Ok(unit);
         }
         for (place, part) in plain(&unit.symbol.clone()).split('/').enumerate() {
-            let mut factors = part
-                .split(['*', '.', ' '])
-                .filter(|factor| !factor.is_empty())
-                .peekable();
+            let mut factors = part.split(['*', '.', ' ']).filter(|factor| !factor.is_empty()).peekable();
             if factors.peek().is_none() {
                 return Err(malformed("something is missing beside the \"/\""));
             }
@@ -158,44 +123,28 @@ impl Unit {
 
     /// Multiplies by one factor, such as `mm^2`, to the power 1 or -1.
     fn multiply(&mut self, factor: &str, sign: i8, text: &str) -> Result<(), UnitError> {
-        let malformed = |reason| UnitError::Malformed {
-            unit: text.to_owned(),
-            reason,
-        };
-        let end = factor
-            .find(|c: char| c.is_ascii_digit() || "^+-".contains(c))
-            .filter(|end| *end > 0);
+        let malformed = |reason| UnitError::Malformed { unit: text.to_owned(), reason };
+        let end = factor.find(|c: char| c.is_ascii_digit() || "^+-".contains(c)).filter(|end| *end > 0);
         let (name, exponent) = factor.split_at(end.unwrap_or(factor.len()));
         let exponent = exponent.strip_prefix('^').unwrap_or(exponent);
         let power = match exponent {
             "" if name == factor => 1,
-            _ => exponent
-                .parse::<i8>()
-                .map_err(|_| malformed("a power must be a whole number, as in \"m2\""))?,
+            _ => exponent.parse::<i8>().map_err(|_| malformed("a power must be a whole number, as in \"m2\""))?,
         };
         if !(1..=9).contains(&power.unsigned_abs()) {
             return Err(malformed("a power must lie between 1 and 9, or -9 and -1"));
         }
-        let found =
-            lookup(name)
-                .or_else(|| juxtaposed(name))
-                .ok_or_else(|| UnitError::Unknown {
-                    unit: text.to_owned(),
-                    symbol: name.to_owned(),
-                    nearest: nearest(name),
-                })?;
+        let found = lookup(name).or_else(|| juxtaposed(name)).ok_or_else(|| UnitError::Unknown {
+            unit: text.to_owned(),
+            symbol: name.to_owned(),
+            nearest: nearest(name),
+        })?;
         for (symbol, prefix) in found {
             let too_high = || malformed("its powers are too high");
             self.decade += (symbol.decade + prefix) * i32::from(power * sign);
-            self.dimension = self
-                .dimension
-                .times(symbol.dimension, power * sign)
-                .ok_or_else(too_high)?;
+            self.dimension = self.dimension.times(symbol.dimension, power * sign).ok_or_else(too_high)?;
             if matches!(symbol.name, "deg" | "°") {
-                self.degrees = self
-                    .degrees
-                    .checked_add(power * sign)
-                    .ok_or_else(too_high)?;
+                self.degrees = self.degrees.checked_add(power * sign).ok_or_else(too_high)?;
             }
         }
         Ok(())
@@ -225,10 +174,7 @@ impl Unit {
     /// A value in SI, in this unit; `from_si(to_si(x))` is `x` for numbers of up to 15 digits and no
     /// degrees, else to within 2 ulp.
     pub fn from_si(&self, value: f64) -> f64 {
-        shift(
-            value / 1f64.to_radians().powi(self.degrees.into()),
-            -self.decade,
-        )
+        shift(value / 1f64.to_radians().powi(self.degrees.into()), -self.decade)
     }
 }
 
@@ -241,9 +187,8 @@ fn shift(value: f64, decade: i32) -> f64 {
     let decimal = format!("{value:e}");
     let parts = decimal.split_once('e');
     let exponent = parts.and_then(|(_, exponent)| exponent.parse::<i32>().ok());
-    let shifted = parts
-        .zip(exponent)
-        .and_then(|((digits, _), exponent)| format!("{digits}e{}", exponent + decade).parse().ok());
+    let shifted =
+        parts.zip(exponent).and_then(|((digits, _), exponent)| format!("{digits}e{}", exponent + decade).parse().ok());
     shifted.unwrap_or(arithmetic)
 }
 
@@ -265,21 +210,19 @@ fn plain(text: &str) -> String {
 }
 
 fn lookup(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
-    spellings()
-        .find(|(spelling, ..)| spelling == name)
-        .map(|(_, symbol, prefix)| vec![(symbol, prefix)])
+    spellings().find(|(spelling, ..)| spelling == name).map(|(_, symbol, prefix)| vec![(symbol, prefix)])
 }
 
 /// Two symbols without a sign between them, as in `Ns/m`; only after `N`, `Pa` and `J`, where nothing else is meant.
 fn juxtaposed(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
-    spellings()
-        .filter(|(_, symbol, _)| matches!(symbol.name, "N" | "Pa" | "J"))
-        .find_map(|(spelling, symbol, prefix)| {
+    spellings().filter(|(_, symbol, _)| matches!(symbol.name, "N" | "Pa" | "J")).find_map(
+        |(spelling, symbol, prefix)| {
             let rest = name.strip_prefix(spelling.as_str())?;
             let mut second = lookup(rest).filter(|_| rest.chars().all(char::is_alphabetic))?;
             second.insert(0, (symbol, prefix));
             Some(second)
-        })
+        },
+    )
 }
 
 /// The known spelling at most one edit away, a different case counting least.
@@ -289,9 +232,7 @@ fn nearest(name: &str) -> Option<String> {
         let folded = strsim::damerau_levenshtein(&name.to_lowercase(), &spelling.to_lowercase());
         (folded, exact)
     };
-    let all = spellings()
-        .map(|(spelling, ..)| spelling)
-        .filter(|spelling| spelling.chars().count() > 1);
+    let all = spellings().map(|(spelling, ..)| spelling).filter(|spelling| spelling.chars().count() > 1);
     all.map(|spelling| (distance(&spelling), spelling))
         .filter(|((folded, _), _)| *folded <= 1)
         .min_by_key(|(distance, _)| *distance)
