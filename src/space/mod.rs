@@ -1,1 +1,3 @@
 //! Factor spaces.
+
+pub mod distribution;

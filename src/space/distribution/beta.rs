@@ -1,0 +1,283 @@
+//! The beta distribution.
+//!
+//! The quantile is solved here rather than taken from statrs 0.19, whose `inv_beta_reg` stops at an absolute 1e-17
+//! (at alpha = 0.01, beta = 50 a quantile in the middle is off by 8 %) and takes up to 13 us.
+
+use super::error::{bounds, within};
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// Shapes beyond are refused: the continued fraction would need thousands of terms, or all values lie on a bound.
+const SHAPES: (f64, f64) = (1e-3, 1e5);
+
+/// The beta distribution between two bounds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beta {
+    alpha: f64,
+    beta: f64,
+    min: f64,
+    max: f64,
+    width: f64,
+    lower: Side,
+    upper: Side,
+}
+
+impl Distribution {
+    /// Beta with shapes `alpha` and `beta`, stretched from [0, 1] to [`min`, `max`].
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// quantile(u) = min + (max - min) x   where   I_x(alpha, beta) = u
+    /// mean = min + (max - min) alpha / (alpha + beta)
+    /// ```
+    ///
+    /// with `I` the regularised incomplete beta function.
+    ///
+    /// # Errors
+    ///
+    /// If a shape lies outside [1e-3, 1e5], a bound is not finite, `min >= max`, or their difference overflows.
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// let beta = Distribution::beta(2.0, 2.0, 10.0, 20.0)?;
+    /// assert!((beta.median() - 15.0).abs() < 1e-14);
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn beta(alpha: f64, beta: f64, min: f64, max: f64) -> Result<Self, DistributionError> {
+        within("alpha", alpha, SHAPES)?;
+        within("beta", beta, SHAPES)?;
+        let width = bounds(min, max, "beta")?;
+        let (lower, upper) = (Side::new(alpha, beta), Side::new(beta, alpha));
+        Self::Beta(Beta {
+            alpha,
+            beta,
+            min,
+            max,
+            width,
+            lower,
+            upper,
+        })
+        .finite()
+    }
+}
+
+impl Family for Beta {
+    fn name(&self) -> &'static str {
+        "beta"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        let value = if u <= 0.0 {
+            self.min
+        } else if u <= self.lower.mass {
+            let (x, y) = self.lower.solve(u);
+            if x < y {
+                self.min + self.width * x
+            } else {
+                self.max - self.width * y
+            }
+        } else if u < 1.0 {
+            let (y, x) = self.upper.solve(1.0 - u);
+            if x < y {
+                self.min + self.width * x
+            } else {
+                self.max - self.width * y
+            }
+        } else {
+            self.max
+        };
+        // Rounding may lead an ulp past a bound.
+        value.clamp(self.min, self.max)
+    }
+
+    fn mean(&self) -> f64 {
+        self.min + self.width * (self.alpha / (self.alpha + self.beta))
+    }
+
+    fn sd(&self) -> f64 {
+        let sum = self.alpha + self.beta;
+        self.width * (self.alpha * self.beta / (sum + 1.0)).sqrt() / sum
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (self.min, self.max)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        vec![
+            ("alpha", self.alpha.into()),
+            ("beta", self.beta.into()),
+            ("min", self.min.into()),
+            ("max", self.max.into()),
+        ]
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        Distribution::beta(
+            self.alpha,
+            self.beta,
+            unit.to_si(self.min),
+            unit.to_si(self.max),
+        )
+    }
+}
+
+/// The distribution function on one side of the split x_s = (a + 1) / (a + b + 2), where its continued fraction
+/// converges fast. The other side is the same with a and b exchanged.
+///
+/// ```text
+/// I_x(a, b) = x^a y^b c(x) / (a B(a, b)),   y = 1 - x,   c(x) the continued fraction
+/// ```
+///
+/// The two sides are 1 together at the split, which gives B(a, b) without gamma functions, and a distribution
+/// function without a step there. In terms of d, the distance from the split in the logit ln(x / y), the derivative
+/// of ln I is r = a / c, its logarithm has the derivative a y - b x - r, and ln I is concave: Halley's iteration
+/// for ln I = ln p converges from the left of the root, and is never led away from it for long.
+#[derive(Clone, Debug, PartialEq)]
+struct Side {
+    a: f64,
+    b: f64,
+    /// x at the split.
+    x: f64,
+    /// 1 - x at the split.
+    y: f64,
+    /// Probability on this side.
+    mass: f64,
+    ln_mass: f64,
+    /// Continued fraction at the split.
+    fraction: f64,
+}
+
+impl Side {
+    fn new(a: f64, b: f64) -> Self {
+        let sum = a + b + 2.0;
+        let (x, y) = ((a + 1.0) / sum, (b + 1.0) / sum);
+        let fraction = continued_fraction(a, b, x);
+        let (here, there) = (fraction / a, continued_fraction(b, a, y) / b);
+        let mass = here / (here + there);
+        Self {
+            a,
+            b,
+            x,
+            y,
+            mass,
+            ln_mass: mass.ln(),
+            fraction,
+        }
+    }
+
+    /// x and 1 - x at which the probability below x is `p`, at most that of this side.
+    fn solve(&self, p: f64) -> (f64, f64) {
+        let (d, _) = self.distance(p);
+        self.point(d)
+    }
+
+    /// The distance d of the solution, and the steps taken.
+    fn distance(&self, p: f64) -> (f64, u32) {
+        /// Residual of ln I and step of d from which one more step, of third order, leaves less than rounding.
+        const CLOSE: f64 = 1e-5;
+        /// Never reached.
+        const MOST_STEPS: u32 = 50;
+        let target = p.ln() - self.ln_mass;
+        let mut d = self.start(target);
+        let mut steps = 0;
+        while steps < MOST_STEPS {
+            let (x, y) = self.point(d);
+            let fraction = continued_fraction(self.a, self.b, x);
+            // ln(y_s / y)
+            let growth = (self.x * d.exp_m1()).ln_1p();
+            steps += 1;
+            let residual =
+                self.a * d - (self.a + self.b) * growth + (fraction / self.fraction).ln() - target;
+            let slope = self.a / fraction;
+            let step = residual / slope;
+            let bend = 0.5 * step * (self.a * y - self.b * x - slope);
+            d = (d - step / (1.0 - bend).max(0.5)).min(0.0);
+            if residual.abs().max(step.abs()) < CLOSE {
+                break;
+            }
+        }
+        (d, steps)
+    }
+
+    /// A first guess of d: the greater root of the tangent at minus infinity (which is left of the solution) and of the
+    /// parabola at the split.
+    fn start(&self, target: f64) -> f64 {
+        let slope = self.a / self.fraction;
+        let curvature = slope * (slope + self.b * self.x - self.a * self.y);
+        let parabola =
+            2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
+        let tangent = (target + self.fraction.ln() + (self.a + self.b) * self.y.ln()) / self.a;
+        tangent.max(parabola).min(0.0)
+    }
+
+    /// x and 1 - x at the distance d from the split.
+    fn point(&self, d: f64) -> (f64, f64) {
+        let ratio = d.exp();
+        let sum = self.y + self.x * ratio;
+        (self.x * ratio / sum, self.y / sum)
+    }
+}
+
+/// The continued fraction of the incomplete beta function (Abramowitz and Stegun 1964, 26.5.8), by the modified
+/// Lentz algorithm (Press et al. 2007, Numerical Recipes, section 6.4).
+fn continued_fraction(a: f64, b: f64, x: f64) -> f64 {
+    // Enough for shapes of 1e5 at the split, where it is slowest.
+    const TERMS: u32 = 5000;
+    const TINY: f64 = 1e-300;
+    let away = |value: f64| if value.abs() < TINY { TINY } else { value };
+    let mut c = 1.0;
+    let mut d = away(1.0 - (a + b) * x / (a + 1.0)).recip();
+    let mut fraction = d;
+    for m in (1..=TERMS).map(f64::from) {
+        let even = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
+        d = away(1.0 + even * d).recip();
+        c = away(1.0 + even / c);
+        fraction *= c * d;
+        let odd = -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
+        d = away(1.0 + odd * d).recip();
+        c = away(1.0 + odd / c);
+        let change = c * d;
+        fraction *= change;
+        if (change - 1.0).abs() < f64::EPSILON {
+            break;
+        }
+    }
+    fraction
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::distribution::{LARGEST_U, SMALLEST_U};
+
+    #[test]
+    fn a_handful_of_steps_is_enough() {
+        let shapes = [
+            1e-3, 0.01, 0.1, 0.5, 1.0, 1.5, 3.0, 10.0, 100.0, 1e3, 1e4, 1e5,
+        ];
+        let mut most = (0, 0.0, 0.0, 0.0);
+        for (a, b) in shapes
+            .iter()
+            .flat_map(|a| shapes.iter().map(move |b| (*a, *b)))
+        {
+            let side = Side::new(a, b);
+            let tail = (0..64).map(|power| 0.5f64.powi(power));
+            let body = (1..100).map(|step| f64::from(step) / 100.0);
+            for part in tail.chain(body).chain([LARGEST_U]) {
+                let p = part * side.mass;
+                if p < SMALLEST_U {
+                    continue;
+                }
+                let (_, steps) = side.distance(p);
+                if steps > most.0 {
+                    most = (steps, a, b, part);
+                }
+            }
+        }
+        assert!(most.0 <= 5, "{most:?}");
+    }
+}

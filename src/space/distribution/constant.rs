@@ -1,0 +1,62 @@
+//! The constant.
+
+use super::error::finite;
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// One value with certainty.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constant {
+    value: f64,
+}
+
+impl Distribution {
+    /// Always `value`.
+    ///
+    /// # Errors
+    ///
+    /// If `value` is not finite.
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// assert_eq!(Distribution::constant(3.0)?.sd(), 0.0);
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn constant(value: f64) -> Result<Self, DistributionError> {
+        Ok(Self::Constant(Constant {
+            value: finite("value", value)?,
+        }))
+    }
+}
+
+impl Family for Constant {
+    fn name(&self) -> &'static str {
+        "constant"
+    }
+
+    fn quantile(&self, _u: f64) -> f64 {
+        self.value
+    }
+
+    fn mean(&self) -> f64 {
+        self.value
+    }
+
+    fn sd(&self) -> f64 {
+        0.0
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (self.value, self.value)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        vec![("value", self.value.into())]
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        Distribution::constant(unit.to_si(self.value))
+    }
+}

@@ -1,0 +1,172 @@
+//! The discrete distribution on given values.
+
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// Finitely many values with their probabilities.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Discrete {
+    values: Vec<f64>,
+    weights: Option<Vec<f64>>,
+    /// The values of positive weight, in ascending order.
+    sorted: Vec<f64>,
+    /// The probability of each of these values.
+    probabilities: Vec<f64>,
+    /// The probability of each of these values or a lower one; the last is exactly 1.
+    cumulative: Vec<f64>,
+}
+
+impl Distribution {
+    /// Each of `values` with a probability proportional to its weight; equal probabilities without `weights`.
+    ///
+    /// The order of the values is immaterial; a value given twice counts twice, a value of weight 0 never occurs.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// quantile(u) = the smallest value x with P(X <= x) > u
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If there are no values, as many weights as values are not given, an entry is not finite, a weight is
+    /// negative, all weights are 0, or their sum or the moments overflow.
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// let grade = Distribution::discrete(&[2.0, 1.0, 5.0], Some(&[1.0, 2.0, 1.0]))?;
+    /// assert_eq!(grade.quantile(0.4), 1.0);
+    /// assert_eq!(grade.mean(), 2.25);
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn discrete(values: &[f64], weights: Option<&[f64]>) -> Result<Self, DistributionError> {
+        if values.is_empty() {
+            return Err(DistributionError::NoValues);
+        }
+        check("values", values)?;
+        let count = values.len();
+        if let Some(weights) = weights {
+            if weights.len() != count {
+                return Err(DistributionError::Lengths {
+                    values: count,
+                    weights: weights.len(),
+                });
+            }
+            check("weights", weights)?;
+            if let Some((index, &value)) = weights
+                .iter()
+                .enumerate()
+                .find(|(_, weight)| **weight < 0.0)
+            {
+                return Err(DistributionError::NegativeWeight { index, value });
+            }
+        }
+        let weight = |index: usize| {
+            weights
+                .and_then(|weights| weights.get(index))
+                .copied()
+                .unwrap_or(1.0)
+        };
+        let mut pairs: Vec<(f64, f64)> = values
+            .iter()
+            .enumerate()
+            .map(|(index, value)| (*value, weight(index)))
+            .collect();
+        pairs.retain(|(_, weight)| *weight > 0.0);
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut total = 0.0;
+        let partial: Vec<f64> = pairs
+            .iter()
+            .map(|(_, weight)| {
+                total += weight;
+                total
+            })
+            .collect();
+        if pairs.is_empty() {
+            return Err(DistributionError::ZeroWeights);
+        }
+        if total.is_infinite() {
+            return Err(DistributionError::Overflow {
+                distribution: "discrete",
+            });
+        }
+        Self::Discrete(Discrete {
+            values: values.to_vec(),
+            weights: weights.map(<[f64]>::to_vec),
+            sorted: pairs.iter().map(|(value, _)| *value).collect(),
+            probabilities: pairs.iter().map(|(_, weight)| weight / total).collect(),
+            cumulative: partial.iter().map(|sum| sum / total).collect(),
+        })
+        .finite()
+    }
+}
+
+fn check(list: &'static str, entries: &[f64]) -> Result<(), DistributionError> {
+    match entries
+        .iter()
+        .enumerate()
+        .find(|(_, value)| !value.is_finite())
+    {
+        Some((index, &value)) => Err(DistributionError::EntryNotFinite { list, index, value }),
+        None => Ok(()),
+    }
+}
+
+impl Discrete {
+    fn expectation(&self, function: impl Fn(f64) -> f64) -> f64 {
+        self.sorted
+            .iter()
+            .zip(&self.probabilities)
+            .map(|(&value, probability)| function(value) * probability)
+            .sum()
+    }
+}
+
+impl Family for Discrete {
+    fn name(&self) -> &'static str {
+        "discrete"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        let index = self
+            .cumulative
+            .partition_point(|&probability| probability <= u);
+        // The last entry is 1, which only a `u` out of range reaches.
+        self.sorted
+            .get(index)
+            .or(self.sorted.last())
+            .copied()
+            .unwrap_or(f64::NAN)
+    }
+
+    fn mean(&self) -> f64 {
+        self.expectation(|value| value)
+    }
+
+    fn sd(&self) -> f64 {
+        let mean = self.mean();
+        self.expectation(|value| (value - mean) * (value - mean))
+            .sqrt()
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (self.quantile(0.0), self.quantile(1.0))
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        let mut parameters = vec![("values", self.values.as_slice().into())];
+        parameters.extend(
+            self.weights
+                .as_deref()
+                .map(|weights| ("weights", weights.into())),
+        );
+        parameters
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        let values: Vec<f64> = self.values.iter().map(|&value| unit.to_si(value)).collect();
+        Distribution::discrete(&values, self.weights.as_deref())
+    }
+}

@@ -1,0 +1,159 @@
+//! What can be wrong with the parameters of a distribution.
+
+/// Why a distribution was refused; the text says what was wrong and what would be right.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DistributionError {
+    /// A parameter is infinite or not a number.
+    #[error("`{parameter}` is {value}, but must be a finite number")]
+    NotFinite {
+        /// Its name.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A parameter is zero or negative.
+    #[error("`{parameter}` is {value:?}, but must be greater than 0")]
+    NotPositive {
+        /// Its name.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A shape parameter is beyond what can be computed well.
+    #[error("`{parameter}` is {value:?}, but must lie between {min:?} and {max:?}")]
+    OutOfRange {
+        /// Its name.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+        /// The smallest value.
+        min: f64,
+        /// The largest value.
+        max: f64,
+    },
+    /// The bounds are equal or the wrong way round.
+    #[error("`min` is {min} and `max` is {max}, but `min` must be below `max`")]
+    Bounds {
+        /// The lower bound.
+        min: f64,
+        /// The upper bound.
+        max: f64,
+    },
+    /// The mode of a triangular distribution lies outside its bounds.
+    #[error("`mode` is {mode}, but must lie between `min` ({min}) and `max` ({max})")]
+    Mode {
+        /// The mode.
+        mode: f64,
+        /// The lower bound.
+        min: f64,
+        /// The upper bound.
+        max: f64,
+    },
+    /// A normal distribution has next to no probability between the bounds it is truncated to.
+    #[error(
+        "a normal distribution of mean {mean} and sd {sd} has no probability between `min` ({min}) and `max` ({max}): \
+         move the bounds within 35 sd of the mean"
+    )]
+    Truncation {
+        /// The mean before truncation.
+        mean: f64,
+        /// The standard deviation before truncation.
+        sd: f64,
+        /// The lower bound.
+        min: f64,
+        /// The upper bound.
+        max: f64,
+    },
+    /// A discrete distribution without values.
+    #[error("`values` is empty, but must hold at least one number")]
+    NoValues,
+    /// An entry of a list is infinite or not a number.
+    #[error("`{list}[{index}]` is {value}, but must be a finite number")]
+    EntryNotFinite {
+        /// The name of the list.
+        list: &'static str,
+        /// The entry, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A discrete distribution with more or fewer weights than values.
+    #[error(
+        "there are {weights} `weights` for {values} `values`, but there must be one weight for each value"
+    )]
+    Lengths {
+        /// How many values.
+        values: usize,
+        /// How many weights.
+        weights: usize,
+    },
+    /// A negative weight.
+    #[error("`weights[{index}]` is {value}, but must not be negative")]
+    NegativeWeight {
+        /// The entry, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// All weights are zero.
+    #[error("all `weights` are 0, but at least one must be greater")]
+    ZeroWeights,
+    /// The parameters are sound one by one, but lead beyond the range of `f64`.
+    #[error(
+        "a {distribution} distribution with these parameters has values, a mean or a standard deviation \
+         beyond 1.8e308: choose a narrower one, or a larger unit"
+    )]
+    Overflow {
+        /// The name of the family.
+        distribution: &'static str,
+    },
+}
+
+/// The value, if it is finite.
+pub(super) fn finite(parameter: &'static str, value: f64) -> Result<f64, DistributionError> {
+    match value.is_finite() {
+        true => Ok(value),
+        false => Err(DistributionError::NotFinite { parameter, value }),
+    }
+}
+
+/// The value, if it is finite and greater than 0.
+pub(super) fn positive(parameter: &'static str, value: f64) -> Result<f64, DistributionError> {
+    match finite(parameter, value)? > 0.0 {
+        true => Ok(value),
+        false => Err(DistributionError::NotPositive { parameter, value }),
+    }
+}
+
+/// Two finite bounds in order, and the finite width between them.
+pub(super) fn bounds(
+    min: f64,
+    max: f64,
+    distribution: &'static str,
+) -> Result<f64, DistributionError> {
+    finite("min", min)?;
+    finite("max", max)?;
+    match max - min {
+        width if width <= 0.0 => Err(DistributionError::Bounds { min, max }),
+        width if width.is_infinite() => Err(DistributionError::Overflow { distribution }),
+        width => Ok(width),
+    }
+}
+
+/// The value, if it is finite and within the range.
+pub(super) fn within(
+    parameter: &'static str,
+    value: f64,
+    range: (f64, f64),
+) -> Result<f64, DistributionError> {
+    let (min, max) = range;
+    match (min..=max).contains(&finite(parameter, value)?) {
+        true => Ok(value),
+        false => Err(DistributionError::OutOfRange {
+            parameter,
+            value,
+            min,
+            max,
+        }),
+    }
+}

@@ -1,0 +1,134 @@
+//! The log-normal distribution.
+
+use super::error::{finite, positive};
+use super::family::{Family, Parameter};
+use super::normal::standard_quantile;
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// The logarithm is normal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LogNormal {
+    log_mean: f64,
+    log_sd: f64,
+    /// Mean and standard deviation of the variable itself, if it was given by them.
+    moments: Option<(f64, f64)>,
+}
+
+impl Distribution {
+    /// Log-normal with mean `mean` and standard deviation `sd` of the variable itself.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// log_sd^2 = ln(1 + (sd / mean)^2),   log_mean = ln(mean) - log_sd^2 / 2
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If a parameter is not finite and positive, or values overflow.
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// let log_normal = Distribution::log_normal(5.0, 1.0)?;
+    /// assert_eq!((log_normal.mean(), log_normal.sd()), (5.0, 1.0));
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn log_normal(mean: f64, sd: f64) -> Result<Self, DistributionError> {
+        positive("mean", mean)?;
+        positive("sd", sd)?;
+        let variation = sd / mean;
+        // Below 1e-8 the logarithm is its argument, past 1e8 the 1 is lost; the square might leave the range.
+        let log_sd = match variation {
+            small if small < 1e-8 => small,
+            large if large > 1e8 => (2.0 * large.ln()).sqrt(),
+            other => (other * other).ln_1p().sqrt(),
+        };
+        let log_mean = mean.ln() - 0.5 * log_sd * log_sd;
+        Self::LogNormal(LogNormal {
+            log_mean,
+            log_sd,
+            moments: Some((mean, sd)),
+        })
+        .finite()
+    }
+
+    /// Log-normal whose natural logarithm has mean `log_mean` and standard deviation `log_sd`.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// quantile(u) = exp(log_mean + log_sd quantile_normal(u))
+    /// mean = exp(log_mean + log_sd^2 / 2),   sd = mean sqrt(exp(log_sd^2) - 1)
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If `log_mean` is not finite, `log_sd` is not finite and positive, or values or moments overflow.
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// let log_normal = Distribution::log_normal_of_logs(0.0, 0.5)?;
+    /// assert_eq!(log_normal.median(), 1.0);
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn log_normal_of_logs(log_mean: f64, log_sd: f64) -> Result<Self, DistributionError> {
+        finite("log_mean", log_mean)?;
+        positive("log_sd", log_sd)?;
+        Self::LogNormal(LogNormal {
+            log_mean,
+            log_sd,
+            moments: None,
+        })
+        .finite()
+    }
+}
+
+impl Family for LogNormal {
+    fn name(&self) -> &'static str {
+        "log-normal"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        (self.log_mean + self.log_sd * standard_quantile(u)).exp()
+    }
+
+    fn mean(&self) -> f64 {
+        match self.moments {
+            Some((mean, _)) => mean,
+            None => (self.log_mean + 0.5 * self.log_sd * self.log_sd).exp(),
+        }
+    }
+
+    fn sd(&self) -> f64 {
+        match self.moments {
+            Some((_, sd)) => sd,
+            None => self.mean() * (self.log_sd * self.log_sd).exp_m1().sqrt(),
+        }
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (0.0, f64::INFINITY)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        match self.moments {
+            Some((mean, sd)) => vec![("mean", mean.into()), ("sd", sd.into())],
+            None => vec![
+                ("log_mean", self.log_mean.into()),
+                ("log_sd", self.log_sd.into()),
+            ],
+        }
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        match self.moments {
+            Some((mean, sd)) => Distribution::log_normal(unit.to_si(mean), unit.to_si(sd)),
+            None => {
+                Distribution::log_normal_of_logs(self.log_mean + unit.to_si(1.0).ln(), self.log_sd)
+            }
+        }
+    }
+}

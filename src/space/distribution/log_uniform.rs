@@ -1,0 +1,102 @@
+//! The log-uniform (reciprocal) distribution.
+
+use super::error::{bounds, positive};
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// The logarithm is uniform between the logarithms of two positive bounds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LogUniform {
+    min: f64,
+    max: f64,
+    /// sqrt(min max)
+    centre: f64,
+    /// ln(max / min) / 2
+    half: f64,
+}
+
+impl Distribution {
+    /// Log-uniform on [`min`, `max`]: each decade between the bounds is equally likely.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// quantile(u) = min (max / min)^u = c exp((2 u - 1) h),   c = sqrt(min max), h = ln(max / min) / 2
+    /// mean = c sinh(h) / h
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If a bound is not finite, `min <= 0`, or `min >= max`.
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// assert_eq!(Distribution::log_uniform(1.0, 100.0)?.median(), 10.0);
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn log_uniform(min: f64, max: f64) -> Result<Self, DistributionError> {
+        positive("min", min)?;
+        let width = bounds(min, max, "log-uniform")?;
+        // The difference is exact up to a ratio of 2, the quotient of it then keeps all digits; past it the
+        // logarithm does, taken of the square roots since the quotient itself may overflow.
+        let half = match width < min {
+            true => 0.5 * (width / min).ln_1p(),
+            false => (max.sqrt() / min.sqrt()).ln(),
+        };
+        let centre = min.sqrt() * max.sqrt();
+        Self::LogUniform(LogUniform {
+            min,
+            max,
+            centre,
+            half,
+        })
+        .finite()
+    }
+}
+
+impl Family for LogUniform {
+    fn name(&self) -> &'static str {
+        "log-uniform"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        // From the centre, where the argument of exp stays within its range and rounds least.
+        (self.centre * ((2.0 * u - 1.0) * self.half).exp()).clamp(self.min, self.max)
+    }
+
+    fn mean(&self) -> f64 {
+        self.centre * (self.half.sinh() / self.half)
+    }
+
+    fn sd(&self) -> f64 {
+        // E[x^2] - mean^2 = c^2 (sinh h / h) (cosh h - sinh h / h)
+        let h = self.half;
+        let mean_ratio = h.sinh() / h;
+        let excess = match h < 1.0 {
+            // The difference cancels; its series is the sum of 2 k h^2k / (2 k + 1)!.
+            true => {
+                (1..=10).rev().fold(0.0, |sum, k| {
+                    let k = f64::from(k);
+                    (2.0 * k + h * h * sum) / (2.0 * k * (2.0 * k + 1.0))
+                }) * h
+                    * h
+            }
+            false => h.cosh() - mean_ratio,
+        };
+        (self.centre * mean_ratio).sqrt() * (self.centre * excess).sqrt()
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (self.min, self.max)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        vec![("min", self.min.into()), ("max", self.max.into())]
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        Distribution::log_uniform(unit.to_si(self.min), unit.to_si(self.max))
+    }
+}

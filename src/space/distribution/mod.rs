@@ -1,0 +1,215 @@
+//! Distributions of single factors, by their quantile functions.
+//!
+//! A design lives in the open unit cube; each coordinate becomes a value by the inverse of the factor's cumulative
+//! distribution function. Every distribution is checked when it is made: after that, every quantile for `u` in
+//! [[`SMALLEST_U`], [`LARGEST_U`]], the mean and the standard deviation are finite.
+//!
+//! To add a distribution: one file here with a struct, its constructor on [`Distribution`] and its `Family`; one
+//! variant below; one case in `tests/oracle/distributions.py`.
+
+mod beta;
+mod constant;
+mod discrete;
+mod error;
+mod family;
+mod gumbel;
+mod log_normal;
+mod log_uniform;
+mod normal;
+mod triangular;
+mod truncated_normal;
+mod uniform;
+mod weibull;
+
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+use crate::quantity::Unit;
+use family::Family;
+
+pub use beta::Beta;
+pub use constant::Constant;
+pub use discrete::Discrete;
+pub use error::DistributionError;
+pub use family::Parameter;
+pub use gumbel::Gumbel;
+pub use log_normal::LogNormal;
+pub use log_uniform::LogUniform;
+pub use normal::Normal;
+pub use triangular::Triangular;
+pub use truncated_normal::TruncatedNormal;
+pub use uniform::Uniform;
+pub use weibull::Weibull;
+
+/// The smallest `u` at which quantiles are promised to be finite, 2^-64.
+pub const SMALLEST_U: f64 = 1.0 / (1u128 << 64) as f64;
+/// The largest `u` below 1, 1 - 2^-53.
+pub const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
+
+/// A univariate distribution with its parameters, immutable and checked.
+///
+/// Made by the constructors named after the families; as JSON it is a map of `distribution` (its
+/// [`name`](Self::name)) and its [`parameters`](Self::parameters).
+///
+/// ```
+/// use apportion::space::distribution::Distribution;
+///
+/// let length = Distribution::uniform(1.0, 3.0)?;
+/// assert_eq!(length.quantile(0.25), 1.5);
+/// assert_eq!(length.mean(), 2.0);
+/// assert_eq!(
+///     Distribution::uniform(3.0, 1.0).unwrap_err().to_string(),
+///     "`min` is 3 and `max` is 1, but `min` must be below `max`"
+/// );
+/// # Ok::<(), apportion::space::distribution::DistributionError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub enum Distribution {
+    /// See [`Distribution::uniform`].
+    Uniform(Uniform),
+    /// See [`Distribution::log_uniform`].
+    LogUniform(LogUniform),
+    /// See [`Distribution::normal`].
+    Normal(Normal),
+    /// See [`Distribution::truncated_normal`].
+    TruncatedNormal(TruncatedNormal),
+    /// See [`Distribution::log_normal`] and [`Distribution::log_normal_of_logs`].
+    LogNormal(LogNormal),
+    /// See [`Distribution::triangular`].
+    Triangular(Triangular),
+    /// See [`Distribution::beta`].
+    Beta(Beta),
+    /// See [`Distribution::weibull`].
+    Weibull(Weibull),
+    /// See [`Distribution::gumbel`].
+    Gumbel(Gumbel),
+    /// See [`Distribution::discrete`].
+    Discrete(Discrete),
+    /// See [`Distribution::constant`].
+    Constant(Constant),
+}
+
+/// Evaluates `$body` with `$family` bound to the family inside.
+macro_rules! each {
+    ($distribution:expr, $family:ident => $body:expr) => {
+        match $distribution {
+            Distribution::Uniform($family) => $body,
+            Distribution::LogUniform($family) => $body,
+            Distribution::Normal($family) => $body,
+            Distribution::TruncatedNormal($family) => $body,
+            Distribution::LogNormal($family) => $body,
+            Distribution::Triangular($family) => $body,
+            Distribution::Beta($family) => $body,
+            Distribution::Weibull($family) => $body,
+            Distribution::Gumbel($family) => $body,
+            Distribution::Discrete($family) => $body,
+            Distribution::Constant($family) => $body,
+        }
+    };
+}
+
+impl Distribution {
+    /// The quantile function (inverse of the cumulative distribution function) at `u` in the open interval (0, 1).
+    ///
+    /// Finite from [`SMALLEST_U`] to [`LARGEST_U`], inside [`support`](Self::support), and non-decreasing: exactly
+    /// so for the uniform, triangular, discrete and constant distributions, else up to the last few bits of the
+    /// result. Outside (0, 1) it means nothing, but does not panic.
+    pub fn quantile(&self, u: f64) -> f64 {
+        each!(self, family => family.quantile(u))
+    }
+
+    /// The quantiles of a whole column: `out[i] = quantile(u[i])`, the very same bits.
+    ///
+    /// # Panics
+    ///
+    /// If the two slices are of different lengths.
+    pub fn fill(&self, u: &[f64], out: &mut [f64]) {
+        assert_eq!(
+            u.len(),
+            out.len(),
+            "a column and its quantiles are of one length"
+        );
+        each!(self, family => family.fill(u, out));
+    }
+
+    /// The mean.
+    pub fn mean(&self) -> f64 {
+        each!(self, family => family.mean())
+    }
+
+    /// The standard deviation.
+    pub fn sd(&self) -> f64 {
+        each!(self, family => family.sd())
+    }
+
+    /// The median.
+    pub fn median(&self) -> f64 {
+        self.quantile(0.5)
+    }
+
+    /// The smallest closed interval that holds every value; its ends may be infinite.
+    pub fn support(&self) -> (f64, f64) {
+        each!(self, family => family.support())
+    }
+
+    /// The name of the family, as in study files: `log-uniform`.
+    pub fn name(&self) -> &'static str {
+        each!(self, family => family.name())
+    }
+
+    /// The parameters by which it was made, with their names.
+    pub fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        each!(self, family => family.parameters())
+    }
+
+    /// The distribution of the same quantity in SI, this one being in `unit`.
+    ///
+    /// Parameters that are values are converted one by one, so that bounds and constants are the `f64` nearest to
+    /// what was typed (a constant of 225 um is 225e-6); a `log_mean` is shifted by the logarithm of the factor;
+    /// shapes stay.
+    ///
+    /// # Errors
+    ///
+    /// As the constructor, if a parameter leaves the range of `f64`.
+    ///
+    /// ```
+    /// use apportion::{quantity::Unit, space::distribution::Distribution};
+    ///
+    /// let length = Distribution::constant(225.0)?.to_si(&Unit::parse("um")?)?;
+    /// assert_eq!(length.quantile(0.5), 225e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn to_si(&self, unit: &Unit) -> Result<Self, DistributionError> {
+        each!(self, family => family.to_si(unit))
+    }
+
+    /// Refuses what overflows within the promised range of `u`.
+    fn finite(self) -> Result<Self, DistributionError> {
+        let figures = [
+            self.quantile(SMALLEST_U),
+            self.quantile(LARGEST_U),
+            self.mean(),
+            self.sd(),
+        ];
+        match figures.iter().all(|figure| figure.is_finite()) {
+            true => Ok(self),
+            false => Err(DistributionError::Overflow {
+                distribution: self.name(),
+            }),
+        }
+    }
+}
+
+impl Serialize for Distribution {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let parameters = self.parameters();
+        let mut map = serializer.serialize_map(Some(parameters.len() + 1))?;
+        map.serialize_entry("distribution", self.name())?;
+        for (name, value) in &parameters {
+            map.serialize_entry(name, value)?;
+        }
+        map.end()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,102 @@
+//! The triangular distribution.
+
+use super::error::{bounds, finite};
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// The density rises linearly from `min` to `mode` and falls linearly to `max`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Triangular {
+    min: f64,
+    mode: f64,
+    max: f64,
+    width: f64,
+    /// (mode - min) / width, the probability below the mode
+    below: f64,
+    /// (max - mode) / width
+    above: f64,
+}
+
+impl Distribution {
+    /// Triangular on [`min`, `max`] with its peak at `mode`.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// quantile(u) = min + sqrt(u (max - min) (mode - min))         where u <= (mode - min) / (max - min)
+    ///             = max - sqrt((1 - u) (max - min) (max - mode))   above
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If a parameter is not finite, `min >= max`, their difference overflows, or `mode` lies outside the bounds.
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// assert_eq!(Distribution::triangular(0.0, 1.0, 4.0)?.quantile(0.25), 1.0);
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn triangular(min: f64, mode: f64, max: f64) -> Result<Self, DistributionError> {
+        let width = bounds(min, max, "triangular")?;
+        finite("mode", mode)?;
+        if !(min..=max).contains(&mode) {
+            return Err(DistributionError::Mode { mode, min, max });
+        }
+        let (below, above) = ((mode - min) / width, (max - mode) / width);
+        Self::Triangular(Triangular {
+            min,
+            mode,
+            max,
+            width,
+            below,
+            above,
+        })
+        .finite()
+    }
+}
+
+impl Family for Triangular {
+    fn name(&self) -> &'static str {
+        "triangular"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        // The two branches meet at the mode, past which rounding must not lead either.
+        if u <= self.below {
+            (self.min + self.width * (u * self.below).sqrt()).min(self.mode)
+        } else {
+            (self.max - self.width * ((1.0 - u) * self.above).sqrt()).max(self.mode)
+        }
+    }
+
+    fn mean(&self) -> f64 {
+        self.min + self.width * ((1.0 + self.below) / 3.0)
+    }
+
+    fn sd(&self) -> f64 {
+        let (p, q) = (self.below, self.above);
+        self.width * ((p * p + p * q + q * q) / 18.0).sqrt()
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (self.min, self.max)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        vec![
+            ("min", self.min.into()),
+            ("mode", self.mode.into()),
+            ("max", self.max.into()),
+        ]
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        Distribution::triangular(
+            unit.to_si(self.min),
+            unit.to_si(self.mode),
+            unit.to_si(self.max),
+        )
+    }
+}

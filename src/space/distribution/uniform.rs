@@ -1,0 +1,70 @@
+//! The uniform distribution.
+
+use super::error::bounds;
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// Every value between two bounds is equally likely.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uniform {
+    min: f64,
+    max: f64,
+    width: f64,
+}
+
+impl Distribution {
+    /// Uniform on [`min`, `max`].
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// quantile(u) = min + (max - min) u
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If a bound is not finite, `min >= max`, or their difference overflows.
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// assert_eq!(Distribution::uniform(-1.0, 1.0)?.quantile(0.75), 0.5);
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn uniform(min: f64, max: f64) -> Result<Self, DistributionError> {
+        let width = bounds(min, max, "uniform")?;
+        Self::Uniform(Uniform { min, max, width }).finite()
+    }
+}
+
+impl Family for Uniform {
+    fn name(&self) -> &'static str {
+        "uniform"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        // Never past `max`: the width is rounded up by half an ulp at most, and u <= 1 - 2^-53 takes a whole one off.
+        self.min + self.width * u
+    }
+
+    fn mean(&self) -> f64 {
+        0.5 * self.min + 0.5 * self.max
+    }
+
+    fn sd(&self) -> f64 {
+        self.width / 12f64.sqrt()
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (self.min, self.max)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        vec![("min", self.min.into()), ("max", self.max.into())]
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        Distribution::uniform(unit.to_si(self.min), unit.to_si(self.max))
+    }
+}
