@@ -51,7 +51,16 @@ impl Distribution {
         within("beta", beta, SHAPES)?;
         let width = bounds(min, max, "beta")?;
         let (lower, upper) = (Side::new(alpha, beta), Side::new(beta, alpha));
-        Self::Beta(Beta { alpha, beta, min, max, width, lower, upper }).finite()
+        Self::Beta(Beta {
+            alpha,
+            beta,
+            min,
+            max,
+            width,
+            lower,
+            upper,
+        })
+        .finite()
     }
 }
 
@@ -65,10 +74,18 @@ impl Family for Beta {
             self.min
         } else if u <= self.lower.mass {
             let (x, y) = self.lower.solve(u);
-            if x < y { self.min + self.width * x } else { self.max - self.width * y }
+            if x < y {
+                self.min + self.width * x
+            } else {
+                self.max - self.width * y
+            }
         } else if u < 1.0 {
             let (y, x) = self.upper.solve(1.0 - u);
-            if x < y { self.min + self.width * x } else { self.max - self.width * y }
+            if x < y {
+                self.min + self.width * x
+            } else {
+                self.max - self.width * y
+            }
         } else {
             self.max
         };
@@ -99,7 +116,12 @@ impl Family for Beta {
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::beta(self.alpha, self.beta, unit.to_si(self.min), unit.to_si(self.max))
+        Distribution::beta(
+            self.alpha,
+            self.beta,
+            unit.to_si(self.min),
+            unit.to_si(self.max),
+        )
     }
 }
 
@@ -111,9 +133,9 @@ impl Family for Beta {
 /// ```
 ///
 /// The two sides are 1 together at the split, which gives B(a, b) without gamma functions, and a distribution
-/// function without a step there. In terms of d, the distance from the split in the logit ln(x / y), the derivative of ln I
-/// is r = a / c, its logarithm has the derivative a y - b x - r, and ln I is concave: Halley's iteration for
-/// ln I = ln p converges from the left of the root, and is never led away from it for long.
+/// function without a step there. In terms of d, the distance from the split in the logit ln(x / y), the derivative
+/// of ln I is r = a / c, its logarithm has the derivative a y - b x - r, and ln I is concave: Halley's iteration
+/// for ln I = ln p converges from the left of the root, and is never led away from it for long.
 #[derive(Clone, Debug, PartialEq)]
 struct Side {
     a: f64,
@@ -136,7 +158,15 @@ impl Side {
         let fraction = continued_fraction(a, b, x);
         let (here, there) = (fraction / a, continued_fraction(b, a, y) / b);
         let mass = here / (here + there);
-        Self { a, b, x, y, mass, ln_mass: mass.ln(), fraction }
+        Self {
+            a,
+            b,
+            x,
+            y,
+            mass,
+            ln_mass: mass.ln(),
+            fraction,
+        }
     }
 
     /// x and 1 - x at which the probability below x is `p`, at most that of this side.
@@ -157,14 +187,11 @@ impl Side {
         while steps < MOST_STEPS {
             let (x, y) = self.point(d);
             let fraction = continued_fraction(self.a, self.b, x);
-            // ln(y_s / y), from whichever keeps the digits of a value near 0.
-            let shrinkage = self.x * d.exp_m1();
-            let growth = match shrinkage < -0.5 {
-                true => (self.y / y).ln(),
-                false => shrinkage.ln_1p(),
-            };
+            // ln(y_s / y)
+            let growth = (self.x * d.exp_m1()).ln_1p();
             steps += 1;
-            let residual = self.a * d - (self.a + self.b) * growth + (fraction / self.fraction).ln() - target;
+            let residual =
+                self.a * d - (self.a + self.b) * growth + (fraction / self.fraction).ln() - target;
             let slope = self.a / fraction;
             let step = residual / slope;
             let bend = 0.5 * step * (self.a * y - self.b * x - slope);
@@ -181,7 +208,8 @@ impl Side {
     fn start(&self, target: f64) -> f64 {
         let slope = self.a / self.fraction;
         let curvature = slope * (slope + self.b * self.x - self.a * self.y);
-        let parabola = 2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
+        let parabola =
+            2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
         let tangent = (target + self.fraction.ln() + (self.a + self.b) * self.y.ln()) / self.a;
         tangent.max(parabola).min(0.0)
     }
@@ -228,9 +256,14 @@ mod tests {
 
     #[test]
     fn a_handful_of_steps_is_enough() {
-        let shapes = [1e-3, 0.01, 0.1, 0.5, 1.0, 1.5, 3.0, 10.0, 100.0, 1e3, 1e4, 1e5];
+        let shapes = [
+            1e-3, 0.01, 0.1, 0.5, 1.0, 1.5, 3.0, 10.0, 100.0, 1e3, 1e4, 1e5,
+        ];
         let mut most = (0, 0.0, 0.0, 0.0);
-        for (a, b) in shapes.iter().flat_map(|a| shapes.iter().map(move |b| (*a, *b))) {
+        for (a, b) in shapes
+            .iter()
+            .flat_map(|a| shapes.iter().map(move |b| (*a, *b)))
+        {
             let side = Side::new(a, b);
             let tail = (0..64).map(|power| 0.5f64.powi(power));
             let body = (1..100).map(|step| f64::from(step) / 100.0);

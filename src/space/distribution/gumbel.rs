@@ -1,11 +1,14 @@
 //! The Gumbel distribution of maxima.
 
-use std::f64::consts::{EULER_GAMMA, PI};
+use std::f64::consts::PI;
 
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
+
+/// Euler's constant.
+const EULER_GAMMA: f64 = 0.577_215_664_901_532_9;
 
 /// The limit of the largest of many values: long tail to the right.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,7 +67,10 @@ impl Family for Gumbel {
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        vec![("location", self.location.into()), ("scale", self.scale.into())]
+        vec![
+            ("location", self.location.into()),
+            ("scale", self.scale.into()),
+        ]
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {

@@ -46,7 +46,13 @@ impl Distribution {
             false => (max.sqrt() / min.sqrt()).ln(),
         };
         let centre = min.sqrt() * max.sqrt();
-        Self::LogUniform(LogUniform { min, max, centre, half }).finite()
+        Self::LogUniform(LogUniform {
+            min,
+            max,
+            centre,
+            half,
+        })
+        .finite()
     }
 }
 

@@ -123,7 +123,11 @@ impl Distribution {
     ///
     /// If the two slices are of different lengths.
     pub fn fill(&self, u: &[f64], out: &mut [f64]) {
-        assert_eq!(u.len(), out.len(), "a column and its quantiles are of one length");
+        assert_eq!(
+            u.len(),
+            out.len(),
+            "a column and its quantiles are of one length"
+        );
         each!(self, family => family.fill(u, out));
     }
 
@@ -180,10 +184,17 @@ impl Distribution {
 
     /// Refuses what overflows within the promised range of `u`.
     fn finite(self) -> Result<Self, DistributionError> {
-        let figures = [self.quantile(SMALLEST_U), self.quantile(LARGEST_U), self.mean(), self.sd()];
+        let figures = [
+            self.quantile(SMALLEST_U),
+            self.quantile(LARGEST_U),
+            self.mean(),
+            self.sd(),
+        ];
         match figures.iter().all(|figure| figure.is_finite()) {
             true => Ok(self),
-            false => Err(DistributionError::Overflow { distribution: self.name() }),
+            false => Err(DistributionError::Overflow {
+                distribution: self.name(),
+            }),
         }
     }
 }
