@@ -16,12 +16,8 @@ fn from_json(case: &Value) -> Distribution {
         "uniform" => Distribution::uniform(p("min"), p("max")),
         "log-uniform" => Distribution::log_uniform(p("min"), p("max")),
         "normal" => Distribution::normal(p("mean"), p("sd")),
-        "truncated-normal" => {
-            Distribution::truncated_normal(p("mean"), p("sd"), p("min"), p("max"))
-        }
-        "log-normal" if p("mean").is_nan() => {
-            Distribution::log_normal_of_logs(p("log_mean"), p("log_sd"))
-        }
+        "truncated-normal" => Distribution::truncated_normal(p("mean"), p("sd"), p("min"), p("max")),
+        "log-normal" if p("mean").is_nan() => Distribution::log_normal_of_logs(p("log_mean"), p("log_sd")),
         "log-normal" => Distribution::log_normal(p("mean"), p("sd")),
         "triangular" => Distribution::triangular(p("min"), p("mode"), p("max")),
         "beta" => Distribution::beta(p("alpha"), p("beta"), p("min"), p("max")),
@@ -32,45 +28,27 @@ fn from_json(case: &Value) -> Distribution {
 }
 
 fn numbers(list: &Value) -> Vec<f64> {
-    list.as_array()
-        .expect("a list")
-        .iter()
-        .map(|number| number.as_f64().expect("a number"))
-        .collect()
+    list.as_array().expect("a list").iter().map(|number| number.as_f64().expect("a number")).collect()
 }
 
 #[test]
 fn quantiles_and_moments_are_those_of_scipy_and_mpmath() {
-    let cases: Value =
-        serde_json::from_str(include_str!("oracle/distributions.json")).expect("json");
+    let cases: Value = serde_json::from_str(include_str!("oracle/distributions.json")).expect("json");
     let cases = cases.as_array().expect("a list");
     assert!(cases.len() > 50, "{}", cases.len());
     for case in cases {
         let distribution = from_json(case);
         let expected_sd = case["sd"].as_f64().expect("a number");
-        for (u, expected) in numbers(&case["u"])
-            .into_iter()
-            .zip(numbers(&case["quantile"]))
-        {
+        for (u, expected) in numbers(&case["u"]).into_iter().zip(numbers(&case["quantile"])) {
             let value = distribution.quantile(u);
             // A few ulp; far out in the tail of a beta of tiny shape a few hundred, and near 0 those of the sd.
             let tolerance = 2e-13 * expected.abs() + 2e-15 * expected_sd;
-            assert!(
-                (value - expected).abs() <= tolerance,
-                "{distribution:?} at {u:e}: {value:e}, not {expected:e}"
-            );
+            assert!((value - expected).abs() <= tolerance, "{distribution:?} at {u:e}: {value:e}, not {expected:e}");
         }
         let mean = case["mean"].as_f64().expect("a number");
         // A few ulp.
-        assert!(
-            (distribution.mean() - mean).abs() <= 2e-15 * mean.abs() + 2e-14 * expected_sd,
-            "{distribution:?}"
-        );
-        assert!(
-            (distribution.sd() / expected_sd - 1.0).abs() < 5e-15,
-            "{distribution:?} {}",
-            distribution.sd()
-        );
+        assert!((distribution.mean() - mean).abs() <= 2e-15 * mean.abs() + 2e-14 * expected_sd, "{distribution:?}");
+        assert!((distribution.sd() / expected_sd - 1.0).abs() < 5e-15, "{distribution:?} {}", distribution.sd());
     }
 }
 
@@ -78,30 +56,20 @@ fn quantiles_and_moments_are_those_of_scipy_and_mpmath() {
 type Tails = fn(f64) -> (f64, f64);
 
 fn normal_tails(z: f64) -> (f64, f64) {
-    (
-        0.5 * libm::erfc(-z / 2f64.sqrt()),
-        0.5 * libm::erfc(z / 2f64.sqrt()),
-    )
+    (0.5 * libm::erfc(-z / 2f64.sqrt()), 0.5 * libm::erfc(z / 2f64.sqrt()))
 }
 
 #[test]
 fn distribution_function_of_quantile_is_the_probability() {
     let cases: [(Result<Distribution, _>, Tails); 14] = [
         (Distribution::uniform(0.0, 1.0), |x| (x, 1.0 - x)),
-        (Distribution::log_uniform(1.0, 1e6), |x| {
-            (x.log10() / 6.0, 1.0 - x.log10() / 6.0)
-        }),
+        (Distribution::log_uniform(1.0, 1e6), |x| (x.log10() / 6.0, 1.0 - x.log10() / 6.0)),
         (Distribution::normal(0.0, 2.0), |x| normal_tails(x / 2.0)),
-        (Distribution::log_normal_of_logs(1.0, 0.5), |x| {
-            normal_tails((x.ln() - 1.0) / 0.5)
-        }),
+        (Distribution::log_normal_of_logs(1.0, 0.5), |x| normal_tails((x.ln() - 1.0) / 0.5)),
         (Distribution::truncated_normal(0.0, 1.0, 8.0, 9.0), |x| {
             let above = |x| normal_tails(x).1;
             let mass = above(8.0) - above(9.0);
-            (
-                (above(8.0) - above(x)) / mass,
-                (above(x) - above(9.0)) / mass,
-            )
+            ((above(8.0) - above(x)) / mass, (above(x) - above(9.0)) / mass)
         }),
         (Distribution::truncated_normal(1.0, 2.0, -3.0, 2.0), |x| {
             let erf = |x: f64| 0.5 * libm::erf((x - 1.0) / 8f64.sqrt());
@@ -109,52 +77,25 @@ fn distribution_function_of_quantile_is_the_probability() {
             ((erf(x) - erf(-3.0)) / mass, (erf(2.0) - erf(x)) / mass)
         }),
         (Distribution::triangular(0.0, 1.0, 4.0), |x| {
-            let below = if x < 1.0 {
-                x * x / 4.0
-            } else {
-                1.0 - (4.0 - x) * (4.0 - x) / 12.0
-            };
-            (
-                below,
-                if x < 1.0 {
-                    1.0 - below
-                } else {
-                    (4.0 - x) * (4.0 - x) / 12.0
-                },
-            )
+            let below = if x < 1.0 { x * x / 4.0 } else { 1.0 - (4.0 - x) * (4.0 - x) / 12.0 };
+            (below, if x < 1.0 { 1.0 - below } else { (4.0 - x) * (4.0 - x) / 12.0 })
         }),
         (Distribution::weibull(1.7, 3.0, 0.0), |x| {
             let hazard = (x / 3.0).powf(1.7);
             (-(-hazard).exp_m1(), (-hazard).exp())
         }),
-        (Distribution::gumbel(0.0, 1.0), |x| {
-            ((-(-x).exp()).exp(), -(-(-x).exp()).exp_m1())
-        }),
-        (Distribution::beta(2.0, 5.0, 0.0, 1.0), |x| {
-            (beta_reg(2.0, 5.0, x), beta_reg(5.0, 2.0, 1.0 - x))
-        }),
-        (Distribution::beta(0.5, 0.8, 0.0, 1.0), |x| {
-            (beta_reg(0.5, 0.8, x), beta_reg(0.8, 0.5, 1.0 - x))
-        }),
-        (Distribution::beta(30.0, 7.0, 0.0, 1.0), |x| {
-            (beta_reg(30.0, 7.0, x), beta_reg(7.0, 30.0, 1.0 - x))
-        }),
+        (Distribution::gumbel(0.0, 1.0), |x| ((-(-x).exp()).exp(), -(-(-x).exp()).exp_m1())),
+        (Distribution::beta(2.0, 5.0, 0.0, 1.0), |x| (beta_reg(2.0, 5.0, x), beta_reg(5.0, 2.0, 1.0 - x))),
+        (Distribution::beta(0.5, 0.8, 0.0, 1.0), |x| (beta_reg(0.5, 0.8, x), beta_reg(0.8, 0.5, 1.0 - x))),
+        (Distribution::beta(30.0, 7.0, 0.0, 1.0), |x| (beta_reg(30.0, 7.0, x), beta_reg(7.0, 30.0, 1.0 - x))),
         // The arcsine distribution and a power, by their closed forms.
         (Distribution::beta(0.5, 0.5, 0.0, 1.0), |x| {
             let angle = x.sqrt().asin() * std::f64::consts::FRAC_2_PI;
             (angle, 1.0 - angle)
         }),
-        (Distribution::beta(0.2, 1.0, 0.0, 1.0), |x| {
-            (x.powf(0.2), 1.0 - x.powf(0.2))
-        }),
+        (Distribution::beta(0.2, 1.0, 0.0, 1.0), |x| (x.powf(0.2), 1.0 - x.powf(0.2))),
     ];
-    let u = (1..200).map(|step| f64::from(step) / 200.0).chain([
-        SMALLEST_U,
-        1e-15,
-        1e-6,
-        1.0 - 1e-6,
-        1.0 - 1e-9,
-    ]);
+    let u = (1..200).map(|step| f64::from(step) / 200.0).chain([SMALLEST_U, 1e-15, 1e-6, 1.0 - 1e-6, 1.0 - 1e-9]);
     let u: Vec<f64> = u.collect();
     for (distribution, tails) in cases {
         let distribution = made(distribution);
@@ -167,22 +108,10 @@ fn distribution_function_of_quantile_is_the_probability() {
             let (below, above) = tails((value - slack).max(low));
             let (below_more, above_less) = tails((value + slack).min(high));
             let accuracy = 1e-12;
-            assert!(
-                below * (1.0 - accuracy) <= u,
-                "{distribution:?} at {u:e}: {value:e}, {below:e}"
-            );
-            assert!(
-                below_more * (1.0 + accuracy) >= u,
-                "{distribution:?} at {u:e}: {value:e}, {below_more:e}"
-            );
-            assert!(
-                above * (1.0 + accuracy) >= 1.0 - u,
-                "{distribution:?} at {u:e}: {value:e}, {above:e}"
-            );
-            assert!(
-                above_less * (1.0 - accuracy) <= 1.0 - u,
-                "{distribution:?} at {u:e}: {value:e}, {above_less:e}"
-            );
+            assert!(below * (1.0 - accuracy) <= u, "{distribution:?} at {u:e}: {value:e}, {below:e}");
+            assert!(below_more * (1.0 + accuracy) >= u, "{distribution:?} at {u:e}: {value:e}, {below_more:e}");
+            assert!(above * (1.0 + accuracy) >= 1.0 - u, "{distribution:?} at {u:e}: {value:e}, {above:e}");
+            assert!(above_less * (1.0 - accuracy) <= 1.0 - u, "{distribution:?} at {u:e}: {value:e}, {above_less:e}");
         }
     }
 }
@@ -190,39 +119,21 @@ fn distribution_function_of_quantile_is_the_probability() {
 #[test]
 fn symmetric_distributions_are_symmetric() {
     // Dyadic, so that 1 - u is exact.
-    for u in (1..=50)
-        .map(|power| 0.5f64.powi(power))
-        .chain((1..32).map(|step| f64::from(step) / 64.0))
-    {
+    for u in (1..=50).map(|power| 0.5f64.powi(power)).chain((1..32).map(|step| f64::from(step) / 64.0)) {
         let normal = made(Distribution::normal(0.0, 3.0));
         assert_eq!(normal.quantile(u), -normal.quantile(1.0 - u));
         let triangular = made(Distribution::triangular(-2.0, 0.0, 2.0));
         assert_eq!(triangular.quantile(u), -triangular.quantile(1.0 - u));
         let pairs = [
-            (
-                Distribution::truncated_normal(0.0, 1.0, 8.0, 9.0),
-                Distribution::truncated_normal(0.0, 1.0, -9.0, -8.0),
-            ),
-            (
-                Distribution::truncated_normal(0.5, 1.0, -1.0, 3.0),
-                Distribution::truncated_normal(-0.5, 1.0, -3.0, 1.0),
-            ),
-            (
-                Distribution::beta(0.3, 4.0, -1.0, 1.0),
-                Distribution::beta(4.0, 0.3, -1.0, 1.0),
-            ),
-            (
-                Distribution::beta(700.0, 900.0, -1.0, 1.0),
-                Distribution::beta(900.0, 700.0, -1.0, 1.0),
-            ),
+            (Distribution::truncated_normal(0.0, 1.0, 8.0, 9.0), Distribution::truncated_normal(0.0, 1.0, -9.0, -8.0)),
+            (Distribution::truncated_normal(0.5, 1.0, -1.0, 3.0), Distribution::truncated_normal(-0.5, 1.0, -3.0, 1.0)),
+            (Distribution::beta(0.3, 4.0, -1.0, 1.0), Distribution::beta(4.0, 0.3, -1.0, 1.0)),
+            (Distribution::beta(700.0, 900.0, -1.0, 1.0), Distribution::beta(900.0, 700.0, -1.0, 1.0)),
         ];
         for (one, other) in pairs {
             let (value, mirrored) = (made(one).quantile(u), -made(other).quantile(1.0 - u));
             // The branches may meet on different sides, and differ by the last bits there.
-            assert!(
-                (value - mirrored).abs() <= 4.0 * f64::EPSILON,
-                "{value:e} {mirrored:e} at {u:e}"
-            );
+            assert!((value - mirrored).abs() <= 4.0 * f64::EPSILON, "{value:e} {mirrored:e} at {u:e}");
         }
     }
 }
@@ -271,17 +182,9 @@ fn moments_are_those_of_the_quantile_function() {
         let deviation = integral(|u| distribution.quantile(u) - mean);
         let variance = integral(|u| (distribution.quantile(u) - mean).powi(2));
         // Values beyond 1 - 2^-53 are left out: a share of 1e-16, some 40 (log-normal: 300) sd away.
+        assert!(deviation.abs() <= 1e-13 * (mean.abs() + sd), "{distribution:?} {deviation:e}");
         assert!(
-            deviation.abs() <= 1e-13 * (mean.abs() + sd),
-            "{distribution:?} {deviation:e}"
-        );
-        assert!(
-            (variance / (sd * sd) - 1.0).abs()
-                <= if distribution.name() == "log-normal" {
-                    2e-11
-                } else {
-                    1e-12
-                },
+            (variance / (sd * sd) - 1.0).abs() <= if distribution.name() == "log-normal" { 2e-11 } else { 1e-12 },
             "{distribution:?} {variance} {}",
             sd * sd
         );
@@ -294,24 +197,10 @@ fn log_uniform_moments_hold_from_narrow_to_widest() {
     for (min, max, mean, sd) in LOG_UNIFORM_MOMENTS {
         let distribution = made(Distribution::log_uniform(min, max));
         // A few ulp, more where the exponential of +-700 amplifies the rounding of its argument.
-        assert!(
-            (distribution.mean() / mean - 1.0).abs() < 2e-13,
-            "{min} {max} {}",
-            distribution.mean()
-        );
-        assert!(
-            (distribution.sd() / sd - 1.0).abs() < 2e-13,
-            "{min} {max} {}",
-            distribution.sd()
-        );
-        assert!(
-            (distribution.quantile(SMALLEST_U) / min - 1.0).abs() < 2e-13,
-            "{min} {max}"
-        );
-        assert!(
-            (distribution.quantile(LARGEST_U) / max - 1.0).abs() < 2e-13,
-            "{min} {max}"
-        );
+        assert!((distribution.mean() / mean - 1.0).abs() < 2e-13, "{min} {max} {}", distribution.mean());
+        assert!((distribution.sd() / sd - 1.0).abs() < 2e-13, "{min} {max} {}", distribution.sd());
+        assert!((distribution.quantile(SMALLEST_U) / min - 1.0).abs() < 2e-13, "{min} {max}");
+        assert!((distribution.quantile(LARGEST_U) / max - 1.0).abs() < 2e-13, "{min} {max}");
     }
 }
 
@@ -321,38 +210,23 @@ const LOG_UNIFORM_MOMENTS: [(f64, f64, f64, f64); 6] = [
     (1.0, 3.0, 1.8204784532536749, 0.5716774507941147),
     (1.0, 7.5, 3.2259617131601077, 1.8175555854376395),
     (1e-09, 1000000000.0, 24127471.216847323, 107152231.61980279),
-    (
-        1e-300,
-        1e+300,
-        7.238241365054197e+296,
-        1.9010211647220607e+298,
-    ),
+    (1e-300, 1e+300, 7.238241365054197e+296, 1.9010211647220607e+298),
 ];
 
 /// A distribution of each continuous family over wide ranges of its parameters.
 fn any_distribution() -> impl Strategy<Value = Distribution> {
     let family = 0usize..10;
     let decades = |low: f64, high: f64| (low..high).prop_map(|decade: f64| 10f64.powf(decade));
-    (
-        family,
-        -1e3..1e3f64,
-        decades(-3.0, 3.0),
-        decades(-2.0, 4.0),
-        0.0..1.0f64,
-    )
-        .prop_filter_map("accepted", |(family, location, scale, shape, part)| {
+    (family, -1e3..1e3f64, decades(-3.0, 3.0), decades(-2.0, 4.0), 0.0..1.0f64).prop_filter_map(
+        "accepted",
+        |(family, location, scale, shape, part)| {
             let (min, max) = (location, location + scale);
             let mode = min + part * (max - min);
             match family {
                 0 => Distribution::uniform(min, max),
                 1 => Distribution::log_uniform(scale, scale * (1.0 + shape)),
                 2 => Distribution::normal(location, scale),
-                3 => Distribution::truncated_normal(
-                    location + 30.0 * (part - 0.5) * scale,
-                    scale,
-                    min,
-                    max,
-                ),
+                3 => Distribution::truncated_normal(location + 30.0 * (part - 0.5) * scale, scale, min, max),
                 4 => Distribution::log_normal(scale, shape),
                 5 => Distribution::log_normal_of_logs(location / 10.0, part + 1e-9),
                 6 => Distribution::triangular(min, mode.clamp(min, max), max),
@@ -361,7 +235,8 @@ fn any_distribution() -> impl Strategy<Value = Distribution> {
                 _ => Distribution::gumbel(location, scale),
             }
             .ok()
-        })
+        },
+    )
 }
 
 /// The whole range of `u`, its ends above all.

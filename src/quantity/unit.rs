@@ -187,9 +187,8 @@ fn shift(value: f64, decade: i32) -> f64 {
     let decimal = format!("{value:e}");
     let parts = decimal.split_once('e');
     let exponent = parts.and_then(|(_, exponent)| exponent.parse::<i32>().ok());
-    let shifted = parts
-        .zip(exponent)
-        .and_then(|((digits, _), exponent)| format!("{digits}e{}", exponent + decade).parse().ok());
+    let shifted =
+        parts.zip(exponent).and_then(|((digits, _), exponent)| format!("{digits}e{}", exponent + decade).parse().ok());
     shifted.unwrap_or(arithmetic)
 }
 

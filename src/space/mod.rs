@@ -1,3 +1,89 @@
-//! Factor spaces.
+//! Factor spaces: ordered, named factors, each a distribution with a unit, a nominal value and perhaps a group.
+//!
+//! The order is part of the meaning: factor j takes coordinate j of the unit cube.
 
 pub mod distribution;
+
+pub use distribution::{Distribution, DistributionError};
+
+use crate::quantity::Unit;
+
+/// One factor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factor {
+    /// The name, unique in its space.
+    pub name: String,
+    /// The unit of the distribution's parameters and of the nominal value.
+    pub unit: Unit,
+    /// How the factor varies, in `unit`.
+    pub distribution: Distribution,
+    /// Where it stands when it does not vary, in `unit`.
+    pub nominal: f64,
+    /// The group whose joint effect is asked for, if any.
+    pub group: Option<String>,
+    /// The distribution in SI units, so that no value has to be converted during a run.
+    si: Distribution,
+}
+
+impl Factor {
+    /// A factor in no group that varies by `distribution`, in `unit`, around its median.
+    ///
+    /// # Errors
+    /// [`DistributionError`] if the distribution leaves the range of doubles when converted to SI units.
+    pub fn new(name: &str, unit: Unit, distribution: Distribution) -> Result<Self, DistributionError> {
+        let si = distribution.to_si(&unit)?;
+        let nominal = distribution.median();
+        Ok(Self { name: name.to_owned(), unit, distribution, nominal, group: None, si })
+    }
+
+    /// Points of the unit interval to SI values, by the inverse of the distribution function. Both slices have one
+    /// length; `u` lies strictly between 0 and 1.
+    pub fn fill_si(&self, u: &[f64], si: &mut [f64]) {
+        self.si.fill(u, si);
+    }
+}
+
+/// A group of factors whose joint effect is asked for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Group {
+    /// The name.
+    pub name: String,
+    /// Numbers of its factors, ascending.
+    pub factors: Vec<usize>,
+}
+
+/// The factors of a study, in order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Space {
+    factors: Vec<Factor>,
+}
+
+impl Space {
+    /// A space of these factors. Names are expected to be distinct.
+    pub fn new(factors: Vec<Factor>) -> Self {
+        Self { factors }
+    }
+
+    /// The factors in order.
+    pub fn factors(&self) -> &[Factor] {
+        &self.factors
+    }
+
+    /// The groups in order of first appearance.
+    pub fn groups(&self) -> Vec<Group> {
+        let mut groups: Vec<Group> = Vec::new();
+        for (number, factor) in self.factors.iter().enumerate() {
+            let Some(name) = &factor.group else { continue };
+            match groups.iter_mut().find(|group| group.name == *name) {
+                Some(group) => group.factors.push(number),
+                None => groups.push(Group { name: name.clone(), factors: vec![number] }),
+            }
+        }
+        groups
+    }
+
+    /// A point of the unit cube as values in the factors' own units.
+    pub fn values_at(&self, u: &[f64]) -> Vec<f64> {
+        self.factors.iter().zip(u).map(|(factor, &u)| factor.distribution.quantile(u)).collect()
+    }
+}

@@ -51,16 +51,7 @@ impl Distribution {
         within("beta", beta, SHAPES)?;
         let width = bounds(min, max, "beta")?;
         let (lower, upper) = (Side::new(alpha, beta), Side::new(beta, alpha));
-        Self::Beta(Beta {
-            alpha,
-            beta,
-            min,
-            max,
-            width,
-            lower,
-            upper,
-        })
-        .finite()
+        Self::Beta(Beta { alpha, beta, min, max, width, lower, upper }).finite()
     }
 }
 
@@ -74,18 +65,10 @@ impl Family for Beta {
             self.min
         } else if u <= self.lower.mass {
             let (x, y) = self.lower.solve(u);
-            if x < y {
-                self.min + self.width * x
-            } else {
-                self.max - self.width * y
-            }
+            if x < y { self.min + self.width * x } else { self.max - self.width * y }
         } else if u < 1.0 {
             let (y, x) = self.upper.solve(1.0 - u);
-            if x < y {
-                self.min + self.width * x
-            } else {
-                self.max - self.width * y
-            }
+            if x < y { self.min + self.width * x } else { self.max - self.width * y }
         } else {
             self.max
         };
@@ -116,12 +99,7 @@ impl Family for Beta {
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::beta(
-            self.alpha,
-            self.beta,
-            unit.to_si(self.min),
-            unit.to_si(self.max),
-        )
+        Distribution::beta(self.alpha, self.beta, unit.to_si(self.min), unit.to_si(self.max))
     }
 }
 
@@ -158,15 +136,7 @@ impl Side {
         let fraction = continued_fraction(a, b, x);
         let (here, there) = (fraction / a, continued_fraction(b, a, y) / b);
         let mass = here / (here + there);
-        Self {
-            a,
-            b,
-            x,
-            y,
-            mass,
-            ln_mass: mass.ln(),
-            fraction,
-        }
+        Self { a, b, x, y, mass, ln_mass: mass.ln(), fraction }
     }
 
     /// x and 1 - x at which the probability below x is `p`, at most that of this side.
@@ -190,8 +160,7 @@ impl Side {
             // ln(y_s / y)
             let growth = (self.x * d.exp_m1()).ln_1p();
             steps += 1;
-            let residual =
-                self.a * d - (self.a + self.b) * growth + (fraction / self.fraction).ln() - target;
+            let residual = self.a * d - (self.a + self.b) * growth + (fraction / self.fraction).ln() - target;
             let slope = self.a / fraction;
             let step = residual / slope;
             let bend = 0.5 * step * (self.a * y - self.b * x - slope);
@@ -208,8 +177,7 @@ impl Side {
     fn start(&self, target: f64) -> f64 {
         let slope = self.a / self.fraction;
         let curvature = slope * (slope + self.b * self.x - self.a * self.y);
-        let parabola =
-            2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
+        let parabola = 2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
         let tangent = (target + self.fraction.ln() + (self.a + self.b) * self.y.ln()) / self.a;
         tangent.max(parabola).min(0.0)
     }
@@ -256,14 +224,9 @@ mod tests {
 
     #[test]
     fn a_handful_of_steps_is_enough() {
-        let shapes = [
-            1e-3, 0.01, 0.1, 0.5, 1.0, 1.5, 3.0, 10.0, 100.0, 1e3, 1e4, 1e5,
-        ];
+        let shapes = [1e-3, 0.01, 0.1, 0.5, 1.0, 1.5, 3.0, 10.0, 100.0, 1e3, 1e4, 1e5];
         let mut most = (0, 0.0, 0.0, 0.0);
-        for (a, b) in shapes
-            .iter()
-            .flat_map(|a| shapes.iter().map(move |b| (*a, *b)))
-        {
+        for (a, b) in shapes.iter().flat_map(|a| shapes.iter().map(move |b| (*a, *b))) {
             let side = Side::new(a, b);
             let tail = (0..64).map(|power| 0.5f64.powi(power));
             let body = (1..100).map(|step| f64::from(step) / 100.0);

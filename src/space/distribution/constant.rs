@@ -25,9 +25,7 @@ impl Distribution {
     /// # Ok::<(), apportion::space::distribution::DistributionError>(())
     /// ```
     pub fn constant(value: f64) -> Result<Self, DistributionError> {
-        Ok(Self::Constant(Constant {
-            value: finite("value", value)?,
-        }))
+        Ok(Self::Constant(Constant { value: finite("value", value)? }))
     }
 }
 

@@ -49,31 +49,16 @@ impl Distribution {
         let count = values.len();
         if let Some(weights) = weights {
             if weights.len() != count {
-                return Err(DistributionError::Lengths {
-                    values: count,
-                    weights: weights.len(),
-                });
+                return Err(DistributionError::Lengths { values: count, weights: weights.len() });
             }
             check("weights", weights)?;
-            if let Some((index, &value)) = weights
-                .iter()
-                .enumerate()
-                .find(|(_, weight)| **weight < 0.0)
-            {
+            if let Some((index, &value)) = weights.iter().enumerate().find(|(_, weight)| **weight < 0.0) {
                 return Err(DistributionError::NegativeWeight { index, value });
             }
         }
-        let weight = |index: usize| {
-            weights
-                .and_then(|weights| weights.get(index))
-                .copied()
-                .unwrap_or(1.0)
-        };
-        let mut pairs: Vec<(f64, f64)> = values
-            .iter()
-            .enumerate()
-            .map(|(index, value)| (*value, weight(index)))
-            .collect();
+        let weight = |index: usize| weights.and_then(|weights| weights.get(index)).copied().unwrap_or(1.0);
+        let mut pairs: Vec<(f64, f64)> =
+            values.iter().enumerate().map(|(index, value)| (*value, weight(index))).collect();
         pairs.retain(|(_, weight)| *weight > 0.0);
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut total = 0.0;
@@ -88,9 +73,7 @@ impl Distribution {
             return Err(DistributionError::ZeroWeights);
         }
         if total.is_infinite() {
-            return Err(DistributionError::Overflow {
-                distribution: "discrete",
-            });
+            return Err(DistributionError::Overflow { distribution: "discrete" });
         }
         Self::Discrete(Discrete {
             values: values.to_vec(),
@@ -104,11 +87,7 @@ impl Distribution {
 }
 
 fn check(list: &'static str, entries: &[f64]) -> Result<(), DistributionError> {
-    match entries
-        .iter()
-        .enumerate()
-        .find(|(_, value)| !value.is_finite())
-    {
+    match entries.iter().enumerate().find(|(_, value)| !value.is_finite()) {
         Some((index, &value)) => Err(DistributionError::EntryNotFinite { list, index, value }),
         None => Ok(()),
     }
@@ -116,11 +95,7 @@ fn check(list: &'static str, entries: &[f64]) -> Result<(), DistributionError> {
 
 impl Discrete {
     fn expectation(&self, function: impl Fn(f64) -> f64) -> f64 {
-        self.sorted
-            .iter()
-            .zip(&self.probabilities)
-            .map(|(&value, probability)| function(value) * probability)
-            .sum()
+        self.sorted.iter().zip(&self.probabilities).map(|(&value, probability)| function(value) * probability).sum()
     }
 }
 
@@ -130,15 +105,9 @@ impl Family for Discrete {
     }
 
     fn quantile(&self, u: f64) -> f64 {
-        let index = self
-            .cumulative
-            .partition_point(|&probability| probability <= u);
+        let index = self.cumulative.partition_point(|&probability| probability <= u);
         // The last entry is 1, which only a `u` out of range reaches.
-        self.sorted
-            .get(index)
-            .or(self.sorted.last())
-            .copied()
-            .unwrap_or(f64::NAN)
+        self.sorted.get(index).or(self.sorted.last()).copied().unwrap_or(f64::NAN)
     }
 
     fn mean(&self) -> f64 {
@@ -147,8 +116,7 @@ impl Family for Discrete {
 
     fn sd(&self) -> f64 {
         let mean = self.mean();
-        self.expectation(|value| (value - mean) * (value - mean))
-            .sqrt()
+        self.expectation(|value| (value - mean) * (value - mean)).sqrt()
     }
 
     fn support(&self) -> (f64, f64) {
@@ -157,11 +125,7 @@ impl Family for Discrete {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         let mut parameters = vec![("values", self.values.as_slice().into())];
-        parameters.extend(
-            self.weights
-                .as_deref()
-                .map(|weights| ("weights", weights.into())),
-        );
+        parameters.extend(self.weights.as_deref().map(|weights| ("weights", weights.into())));
         parameters
     }
 

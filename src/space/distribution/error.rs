@@ -78,9 +78,7 @@ pub enum DistributionError {
         value: f64,
     },
     /// A discrete distribution with more or fewer weights than values.
-    #[error(
-        "there are {weights} `weights` for {values} `values`, but there must be one weight for each value"
-    )]
+    #[error("there are {weights} `weights` for {values} `values`, but there must be one weight for each value")]
     Lengths {
         /// How many values.
         values: usize,
@@ -126,11 +124,7 @@ pub(super) fn positive(parameter: &'static str, value: f64) -> Result<f64, Distr
 }
 
 /// Two finite bounds in order, and the finite width between them.
-pub(super) fn bounds(
-    min: f64,
-    max: f64,
-    distribution: &'static str,
-) -> Result<f64, DistributionError> {
+pub(super) fn bounds(min: f64, max: f64, distribution: &'static str) -> Result<f64, DistributionError> {
     finite("min", min)?;
     finite("max", max)?;
     match max - min {
@@ -141,19 +135,10 @@ pub(super) fn bounds(
 }
 
 /// The value, if it is finite and within the range.
-pub(super) fn within(
-    parameter: &'static str,
-    value: f64,
-    range: (f64, f64),
-) -> Result<f64, DistributionError> {
+pub(super) fn within(parameter: &'static str, value: f64, range: (f64, f64)) -> Result<f64, DistributionError> {
     let (min, max) = range;
     match (min..=max).contains(&finite(parameter, value)?) {
         true => Ok(value),
-        false => Err(DistributionError::OutOfRange {
-            parameter,
-            value,
-            min,
-            max,
-        }),
+        false => Err(DistributionError::OutOfRange { parameter, value, min, max }),
     }
 }

@@ -67,10 +67,7 @@ impl Family for Gumbel {
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        vec![
-            ("location", self.location.into()),
-            ("scale", self.scale.into()),
-        ]
+        vec![("location", self.location.into()), ("scale", self.scale.into())]
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {

@@ -46,12 +46,7 @@ impl Distribution {
             other => (other * other).ln_1p().sqrt(),
         };
         let log_mean = mean.ln() - 0.5 * log_sd * log_sd;
-        Self::LogNormal(LogNormal {
-            log_mean,
-            log_sd,
-            moments: Some((mean, sd)),
-        })
-        .finite()
+        Self::LogNormal(LogNormal { log_mean, log_sd, moments: Some((mean, sd)) }).finite()
     }
 
     /// Log-normal whose natural logarithm has mean `log_mean` and standard deviation `log_sd`.
@@ -77,12 +72,7 @@ impl Distribution {
     pub fn log_normal_of_logs(log_mean: f64, log_sd: f64) -> Result<Self, DistributionError> {
         finite("log_mean", log_mean)?;
         positive("log_sd", log_sd)?;
-        Self::LogNormal(LogNormal {
-            log_mean,
-            log_sd,
-            moments: None,
-        })
-        .finite()
+        Self::LogNormal(LogNormal { log_mean, log_sd, moments: None }).finite()
     }
 }
 
@@ -116,19 +106,14 @@ impl Family for LogNormal {
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         match self.moments {
             Some((mean, sd)) => vec![("mean", mean.into()), ("sd", sd.into())],
-            None => vec![
-                ("log_mean", self.log_mean.into()),
-                ("log_sd", self.log_sd.into()),
-            ],
+            None => vec![("log_mean", self.log_mean.into()), ("log_sd", self.log_sd.into())],
         }
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
         match self.moments {
             Some((mean, sd)) => Distribution::log_normal(unit.to_si(mean), unit.to_si(sd)),
-            None => {
-                Distribution::log_normal_of_logs(self.log_mean + unit.to_si(1.0).ln(), self.log_sd)
-            }
+            None => Distribution::log_normal_of_logs(self.log_mean + unit.to_si(1.0).ln(), self.log_sd),
         }
     }
 }

@@ -46,13 +46,7 @@ impl Distribution {
             false => (max.sqrt() / min.sqrt()).ln(),
         };
         let centre = min.sqrt() * max.sqrt();
-        Self::LogUniform(LogUniform {
-            min,
-            max,
-            centre,
-            half,
-        })
-        .finite()
+        Self::LogUniform(LogUniform { min, max, centre, half }).finite()
     }
 }
 

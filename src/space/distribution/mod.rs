@@ -47,7 +47,7 @@ pub const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
 
 /// A univariate distribution with its parameters, immutable and checked.
 ///
-/// Made by the constructors named after the families; as JSON it is a map of `distribution` (its
+/// Made by the constructors named after the families; as JSON it is a map of `name` (its
 /// [`name`](Self::name)) and its [`parameters`](Self::parameters).
 ///
 /// ```
@@ -123,11 +123,7 @@ impl Distribution {
     ///
     /// If the two slices are of different lengths.
     pub fn fill(&self, u: &[f64], out: &mut [f64]) {
-        assert_eq!(
-            u.len(),
-            out.len(),
-            "a column and its quantiles are of one length"
-        );
+        assert_eq!(u.len(), out.len(), "a column and its quantiles are of one length");
         each!(self, family => family.fill(u, out));
     }
 
@@ -184,17 +180,10 @@ impl Distribution {
 
     /// Refuses what overflows within the promised range of `u`.
     fn finite(self) -> Result<Self, DistributionError> {
-        let figures = [
-            self.quantile(SMALLEST_U),
-            self.quantile(LARGEST_U),
-            self.mean(),
-            self.sd(),
-        ];
+        let figures = [self.quantile(SMALLEST_U), self.quantile(LARGEST_U), self.mean(), self.sd()];
         match figures.iter().all(|figure| figure.is_finite()) {
             true => Ok(self),
-            false => Err(DistributionError::Overflow {
-                distribution: self.name(),
-            }),
+            false => Err(DistributionError::Overflow { distribution: self.name() }),
         }
     }
 }
@@ -203,7 +192,7 @@ impl Serialize for Distribution {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let parameters = self.parameters();
         let mut map = serializer.serialize_map(Some(parameters.len() + 1))?;
-        map.serialize_entry("distribution", self.name())?;
+        map.serialize_entry("name", self.name())?;
         for (name, value) in &parameters {
             map.serialize_entry(name, value)?;
         }

@@ -36,262 +36,93 @@ fn what_cannot_be_is_refused_by_name() {
     let (nan, infinite) = (f64::NAN, f64::INFINITY);
     let refused = |result: Result<Distribution, Error>| result.expect_err("must be refused");
     let cases = [
-        (
-            Distribution::uniform(1.0, 1.0),
-            Error::Bounds { min: 1.0, max: 1.0 },
-        ),
-        (
-            Distribution::uniform(2.0, -1.0),
-            Error::Bounds {
-                min: 2.0,
-                max: -1.0,
-            },
-        ),
-        (
-            Distribution::uniform(0.0, infinite),
-            Error::NotFinite {
-                parameter: "max",
-                value: infinite,
-            },
-        ),
-        (
-            Distribution::uniform(-1e308, 1e308),
-            Error::Overflow {
-                distribution: "uniform",
-            },
-        ),
-        (
-            Distribution::log_uniform(0.0, 1.0),
-            Error::NotPositive {
-                parameter: "min",
-                value: 0.0,
-            },
-        ),
-        (
-            Distribution::log_uniform(3.0, 1.0),
-            Error::Bounds { min: 3.0, max: 1.0 },
-        ),
-        (
-            Distribution::normal(0.0, 0.0),
-            Error::NotPositive {
-                parameter: "sd",
-                value: 0.0,
-            },
-        ),
-        (
-            Distribution::normal(infinite, 1.0),
-            Error::NotFinite {
-                parameter: "mean",
-                value: infinite,
-            },
-        ),
-        (
-            Distribution::normal(0.0, 1e308),
-            Error::Overflow {
-                distribution: "normal",
-            },
-        ),
-        (
-            Distribution::log_normal(-1.0, 1.0),
-            Error::NotPositive {
-                parameter: "mean",
-                value: -1.0,
-            },
-        ),
-        (
-            Distribution::log_normal(1.0, -1.0),
-            Error::NotPositive {
-                parameter: "sd",
-                value: -1.0,
-            },
-        ),
-        (
-            Distribution::log_normal_of_logs(0.0, 0.0),
-            Error::NotPositive {
-                parameter: "log_sd",
-                value: 0.0,
-            },
-        ),
-        (
-            Distribution::log_normal_of_logs(0.0, 30.0),
-            Error::Overflow {
-                distribution: "log-normal",
-            },
-        ),
-        (
-            Distribution::triangular(0.0, 1.5, 1.0),
-            Error::Mode {
-                mode: 1.5,
-                min: 0.0,
-                max: 1.0,
-            },
-        ),
-        (
-            Distribution::triangular(0.0, 0.0, 0.0),
-            Error::Bounds { min: 0.0, max: 0.0 },
-        ),
-        (
-            Distribution::weibull(0.0, 1.0, 0.0),
-            Error::NotPositive {
-                parameter: "shape",
-                value: 0.0,
-            },
-        ),
-        (
-            Distribution::weibull(0.005, 1.0, 0.0),
-            Error::Overflow {
-                distribution: "weibull",
-            },
-        ),
-        (
-            Distribution::weibull(1.0, 1.0, -infinite),
-            Error::NotFinite {
-                parameter: "location",
-                value: -infinite,
-            },
-        ),
-        (
-            Distribution::gumbel(0.0, -2.0),
-            Error::NotPositive {
-                parameter: "scale",
-                value: -2.0,
-            },
-        ),
-        (
-            Distribution::gumbel(1e308, 1e307),
-            Error::Overflow {
-                distribution: "gumbel",
-            },
-        ),
+        (Distribution::uniform(1.0, 1.0), Error::Bounds { min: 1.0, max: 1.0 }),
+        (Distribution::uniform(2.0, -1.0), Error::Bounds { min: 2.0, max: -1.0 }),
+        (Distribution::uniform(0.0, infinite), Error::NotFinite { parameter: "max", value: infinite }),
+        (Distribution::uniform(-1e308, 1e308), Error::Overflow { distribution: "uniform" }),
+        (Distribution::log_uniform(0.0, 1.0), Error::NotPositive { parameter: "min", value: 0.0 }),
+        (Distribution::log_uniform(3.0, 1.0), Error::Bounds { min: 3.0, max: 1.0 }),
+        (Distribution::normal(0.0, 0.0), Error::NotPositive { parameter: "sd", value: 0.0 }),
+        (Distribution::normal(infinite, 1.0), Error::NotFinite { parameter: "mean", value: infinite }),
+        (Distribution::normal(0.0, 1e308), Error::Overflow { distribution: "normal" }),
+        (Distribution::log_normal(-1.0, 1.0), Error::NotPositive { parameter: "mean", value: -1.0 }),
+        (Distribution::log_normal(1.0, -1.0), Error::NotPositive { parameter: "sd", value: -1.0 }),
+        (Distribution::log_normal_of_logs(0.0, 0.0), Error::NotPositive { parameter: "log_sd", value: 0.0 }),
+        (Distribution::log_normal_of_logs(0.0, 30.0), Error::Overflow { distribution: "log-normal" }),
+        (Distribution::triangular(0.0, 1.5, 1.0), Error::Mode { mode: 1.5, min: 0.0, max: 1.0 }),
+        (Distribution::triangular(0.0, 0.0, 0.0), Error::Bounds { min: 0.0, max: 0.0 }),
+        (Distribution::weibull(0.0, 1.0, 0.0), Error::NotPositive { parameter: "shape", value: 0.0 }),
+        (Distribution::weibull(0.005, 1.0, 0.0), Error::Overflow { distribution: "weibull" }),
+        (Distribution::weibull(1.0, 1.0, -infinite), Error::NotFinite { parameter: "location", value: -infinite }),
+        (Distribution::gumbel(0.0, -2.0), Error::NotPositive { parameter: "scale", value: -2.0 }),
+        (Distribution::gumbel(1e308, 1e307), Error::Overflow { distribution: "gumbel" }),
         (Distribution::discrete(&[], None), Error::NoValues),
-        (
-            Distribution::discrete(&[1.0, 2.0], Some(&[1.0])),
-            Error::Lengths {
-                values: 2,
-                weights: 1,
-            },
-        ),
-        (
-            Distribution::discrete(&[1.0, 2.0], Some(&[1.0, -2.0])),
-            Error::NegativeWeight {
-                index: 1,
-                value: -2.0,
-            },
-        ),
-        (
-            Distribution::discrete(&[1.0, 2.0], Some(&[0.0, 0.0])),
-            Error::ZeroWeights,
-        ),
-        (
-            Distribution::discrete(&[1.0, 2.0], Some(&[1e308, 1e308])),
-            Error::Overflow {
-                distribution: "discrete",
-            },
-        ),
-        (
-            Distribution::discrete(&[-1e200, 1e200], None),
-            Error::Overflow {
-                distribution: "discrete",
-            },
-        ),
-        (
-            Distribution::constant(infinite),
-            Error::NotFinite {
-                parameter: "value",
-                value: infinite,
-            },
-        ),
+        (Distribution::discrete(&[1.0, 2.0], Some(&[1.0])), Error::Lengths { values: 2, weights: 1 }),
+        (Distribution::discrete(&[1.0, 2.0], Some(&[1.0, -2.0])), Error::NegativeWeight { index: 1, value: -2.0 }),
+        (Distribution::discrete(&[1.0, 2.0], Some(&[0.0, 0.0])), Error::ZeroWeights),
+        (Distribution::discrete(&[1.0, 2.0], Some(&[1e308, 1e308])), Error::Overflow { distribution: "discrete" }),
+        (Distribution::discrete(&[-1e200, 1e200], None), Error::Overflow { distribution: "discrete" }),
+        (Distribution::constant(infinite), Error::NotFinite { parameter: "value", value: infinite }),
     ];
     for (result, expected) in cases {
         assert_eq!(refused(result), expected);
     }
-    assert!(
-        refused(Distribution::normal(nan, 1.0))
-            .to_string()
-            .contains("`mean` is NaN, but must be a finite number")
-    );
+    assert!(refused(Distribution::normal(nan, 1.0)).to_string().contains("`mean` is NaN, but must be a finite number"));
     let entry = refused(Distribution::discrete(&[1.0, nan], None));
-    assert_eq!(
-        entry.to_string(),
-        "`values[1]` is NaN, but must be a finite number"
-    );
+    assert_eq!(entry.to_string(), "`values[1]` is NaN, but must be a finite number");
     let shape = refused(Distribution::beta(1e-4, 1.0, 0.0, 1.0));
-    assert_eq!(
-        shape.to_string(),
-        "`alpha` is 0.0001, but must lie between 0.001 and 100000.0"
-    );
+    assert_eq!(shape.to_string(), "`alpha` is 0.0001, but must lie between 0.001 and 100000.0");
     let swapped = refused(Distribution::beta(1.0, 1.0, 3.0, 2.0));
     assert_eq!(swapped, Error::Bounds { min: 3.0, max: 2.0 });
 }
 
 #[test]
 fn truncation_where_nothing_is_left_is_refused() {
-    let refused = |min, max| {
-        matches!(
-            Distribution::truncated_normal(0.0, 1.0, min, max),
-            Err(Error::Truncation { .. })
-        )
-    };
+    let refused =
+        |min, max| matches!(Distribution::truncated_normal(0.0, 1.0, min, max), Err(Error::Truncation { .. }));
     assert!(refused(36.0, 37.0) && refused(-50.0, -36.0) && refused(1e300, 1.5e300));
     assert!(!refused(35.0, 37.0) && !refused(-50.0, -35.0) && !refused(-1e300, 1e-300));
     // Bounds that are one number as seen from the mean.
-    assert!(matches!(
-        Distribution::truncated_normal(1e20, 1e20, 0.0, 1.0),
-        Err(Error::Truncation { .. })
-    ));
+    assert!(matches!(Distribution::truncated_normal(1e20, 1e20, 0.0, 1.0), Err(Error::Truncation { .. })));
 }
 
 #[test]
 fn names_are_those_of_study_files() {
     let mut names: Vec<_> = samples().iter().map(Distribution::name).collect();
     names.dedup();
-    let expected = "uniform log-uniform normal truncated-normal log-normal triangular beta weibull gumbel discrete constant";
+    let expected =
+        "uniform log-uniform normal truncated-normal log-normal triangular beta weibull gumbel discrete constant";
     assert_eq!(names.join(" "), expected);
 }
 
 #[test]
 fn json_holds_the_name_and_the_parameters_as_given() {
-    let json =
-        |distribution: &Distribution| serde_json::to_string(distribution).expect("finite numbers");
+    let json = |distribution: &Distribution| serde_json::to_string(distribution).expect("finite numbers");
     let texts: Vec<_> = samples().iter().map(json).collect();
     insta::assert_snapshot!(texts.join("\n"), @r#"
-    {"distribution":"uniform","min":-1.0,"max":2.5}
-    {"distribution":"log-uniform","min":0.5,"max":40.0}
-    {"distribution":"normal","mean":3.0,"sd":0.5}
-    {"distribution":"truncated-normal","mean":3.0,"sd":0.5,"min":2.0,"max":5.0}
-    {"distribution":"log-normal","mean":5.0,"sd":1.0}
-    {"distribution":"log-normal","log_mean":1.0,"log_sd":0.25}
-    {"distribution":"triangular","min":1.0,"mode":2.0,"max":4.0}
-    {"distribution":"beta","alpha":2.0,"beta":0.5,"min":1.0,"max":3.0}
-    {"distribution":"weibull","shape":1.5,"scale":2.0,"location":0.25}
-    {"distribution":"gumbel","location":1.0,"scale":2.0}
-    {"distribution":"discrete","values":[3.0,1.0,2.0],"weights":[1.0,0.0,3.0]}
-    {"distribution":"discrete","values":[3.0,1.0]}
-    {"distribution":"constant","value":225.0}
+    {"name":"uniform","min":-1.0,"max":2.5}
+    {"name":"log-uniform","min":0.5,"max":40.0}
+    {"name":"normal","mean":3.0,"sd":0.5}
+    {"name":"truncated-normal","mean":3.0,"sd":0.5,"min":2.0,"max":5.0}
+    {"name":"log-normal","mean":5.0,"sd":1.0}
+    {"name":"log-normal","log_mean":1.0,"log_sd":0.25}
+    {"name":"triangular","min":1.0,"mode":2.0,"max":4.0}
+    {"name":"beta","alpha":2.0,"beta":0.5,"min":1.0,"max":3.0}
+    {"name":"weibull","shape":1.5,"scale":2.0,"location":0.25}
+    {"name":"gumbel","location":1.0,"scale":2.0}
+    {"name":"discrete","values":[3.0,1.0,2.0],"weights":[1.0,0.0,3.0]}
+    {"name":"discrete","values":[3.0,1.0]}
+    {"name":"constant","value":225.0}
     "#);
 }
 
 #[test]
 fn discrete_values_have_their_exact_shares() {
-    let grades = made(Distribution::discrete(
-        &[3.0, 1.0, 2.0, 9.0],
-        Some(&[1.0, 2.0, 1.0, 0.0]),
-    ));
+    let grades = made(Distribution::discrete(&[3.0, 1.0, 2.0, 9.0], Some(&[1.0, 2.0, 1.0, 0.0])));
     let below_half = 0.5f64.next_down();
-    let at = [
-        SMALLEST_U,
-        below_half,
-        0.5,
-        0.75f64.next_down(),
-        0.75,
-        LARGEST_U,
-    ]
-    .map(|u| grades.quantile(u));
+    let at = [SMALLEST_U, below_half, 0.5, 0.75f64.next_down(), 0.75, LARGEST_U].map(|u| grades.quantile(u));
     assert_eq!(at, [1.0, 1.0, 2.0, 2.0, 3.0, 3.0]);
-    assert_eq!(
-        (grades.mean(), grades.sd(), grades.support()),
-        (1.75, 0.6875f64.sqrt(), (1.0, 3.0))
-    );
+    assert_eq!((grades.mean(), grades.sd(), grades.support()), (1.75, 0.6875f64.sqrt(), (1.0, 3.0)));
     let even = made(Distribution::discrete(&[5.0; 7], None));
     assert_eq!((even.quantile(LARGEST_U), even.sd()), (5.0, 0.0));
 }
@@ -299,24 +130,11 @@ fn discrete_values_have_their_exact_shares() {
 #[test]
 fn quantiles_outside_the_open_interval_do_not_panic() {
     for distribution in samples() {
-        for u in [
-            0.0,
-            1.0,
-            -1.0,
-            2.0,
-            f64::NAN,
-            f64::INFINITY,
-            f64::MIN_POSITIVE,
-        ] {
+        for u in [0.0, 1.0, -1.0, 2.0, f64::NAN, f64::INFINITY, f64::MIN_POSITIVE] {
             let _ = distribution.quantile(u);
         }
         let (low, high) = distribution.support();
-        assert_eq!(
-            (distribution.quantile(0.0), distribution.quantile(1.0)),
-            (low, high),
-            "{}",
-            distribution.name()
-        );
+        assert_eq!((distribution.quantile(0.0), distribution.quantile(1.0)), (low, high), "{}", distribution.name());
     }
 }
 
@@ -326,44 +144,23 @@ fn what_was_typed_in_a_unit_is_exact_in_si() {
     let si = |distribution: Distribution, symbol| made(distribution.to_si(&unit(symbol)));
     let length = si(made(Distribution::uniform(225.0, 230.3)), "um");
     assert_eq!(length, made(Distribution::uniform(225e-6, 230.3e-6)));
+    assert_eq!(si(made(Distribution::constant(225.0)), "um").quantile(0.3), 225e-6);
     assert_eq!(
-        si(made(Distribution::constant(225.0)), "um").quantile(0.3),
-        225e-6
-    );
-    assert_eq!(
-        si(
-            made(Distribution::discrete(&[0.1, 0.7], Some(&[1.0, 2.0]))),
-            "nm"
-        ),
+        si(made(Distribution::discrete(&[0.1, 0.7], Some(&[1.0, 2.0]))), "nm"),
         made(Distribution::discrete(&[0.1e-9, 0.7e-9], Some(&[1.0, 2.0])))
     );
     let too_large = made(Distribution::uniform(0.0, 1e300)).to_si(&unit("GPa"));
-    assert_eq!(
-        too_large,
-        Err(Error::NotFinite {
-            parameter: "max",
-            value: f64::INFINITY
-        })
-    );
+    assert_eq!(too_large, Err(Error::NotFinite { parameter: "max", value: f64::INFINITY }));
     for distribution in samples() {
         for symbol in ["um", "GPa", "deg"] {
             let converted = si(distribution.clone(), symbol);
             // Each parameter is rounded once or twice, the logarithm of the factor to its last digit.
             let close = |a: f64, b: f64| (a - b).abs() <= 1e-14 * (b.abs() + converted.sd());
-            assert!(
-                close(converted.mean(), unit(symbol).to_si(distribution.mean())),
-                "{converted:?}"
-            );
-            assert!(
-                close(converted.sd(), unit(symbol).to_si(distribution.sd())),
-                "{converted:?}"
-            );
+            assert!(close(converted.mean(), unit(symbol).to_si(distribution.mean())), "{converted:?}");
+            assert!(close(converted.sd(), unit(symbol).to_si(distribution.sd())), "{converted:?}");
             for u in [1e-9, 0.3, 0.5, 0.97] {
                 assert!(
-                    close(
-                        converted.quantile(u),
-                        unit(symbol).to_si(distribution.quantile(u))
-                    ),
+                    close(converted.quantile(u), unit(symbol).to_si(distribution.quantile(u))),
                     "{converted:?} {u}"
                 );
             }
@@ -373,10 +170,7 @@ fn what_was_typed_in_a_unit_is_exact_in_si() {
 
 #[test]
 fn a_column_has_the_bits_of_its_quantiles() {
-    let u: Vec<f64> = (0..257)
-        .map(|row| (f64::from(row) + 0.5) / 257.0)
-        .chain([SMALLEST_U, LARGEST_U])
-        .collect();
+    let u: Vec<f64> = (0..257).map(|row| (f64::from(row) + 0.5) / 257.0).chain([SMALLEST_U, LARGEST_U]).collect();
     for distribution in samples() {
         let mut column = vec![f64::NAN; u.len()];
         distribution.fill(&u, &mut column);
@@ -393,13 +187,7 @@ fn distributions_travel_between_threads() {
 }
 
 fn any_number() -> impl Strategy<Value = f64> {
-    prop_oneof![
-        any::<f64>(),
-        -1e3..1e3f64,
-        Just(0.0),
-        Just(1e308),
-        Just(5e-324)
-    ]
+    prop_oneof![any::<f64>(), -1e3..1e3f64, Just(0.0), Just(1e308), Just(5e-324)]
 }
 
 proptest! {

@@ -45,15 +45,7 @@ impl Distribution {
             return Err(DistributionError::Mode { mode, min, max });
         }
         let (below, above) = ((mode - min) / width, (max - mode) / width);
-        Self::Triangular(Triangular {
-            min,
-            mode,
-            max,
-            width,
-            below,
-            above,
-        })
-        .finite()
+        Self::Triangular(Triangular { min, mode, max, width, below, above }).finite()
     }
 }
 
@@ -85,18 +77,10 @@ impl Family for Triangular {
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        vec![
-            ("min", self.min.into()),
-            ("mode", self.mode.into()),
-            ("max", self.max.into()),
-        ]
+        vec![("min", self.min.into()), ("mode", self.mode.into()), ("max", self.max.into())]
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::triangular(
-            unit.to_si(self.min),
-            unit.to_si(self.mode),
-            unit.to_si(self.max),
-        )
+        Distribution::triangular(unit.to_si(self.min), unit.to_si(self.mode), unit.to_si(self.max))
     }
 }

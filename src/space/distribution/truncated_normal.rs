@@ -63,12 +63,7 @@ impl Distribution {
     /// assert!((tail.median() - 8.084888899018166).abs() < 1e-13);
     /// # Ok::<(), apportion::space::distribution::DistributionError>(())
     /// ```
-    pub fn truncated_normal(
-        mean: f64,
-        sd: f64,
-        min: f64,
-        max: f64,
-    ) -> Result<Self, DistributionError> {
+    pub fn truncated_normal(mean: f64, sd: f64, min: f64, max: f64) -> Result<Self, DistributionError> {
         finite("mean", mean)?;
         positive("sd", sd)?;
         bounds(min, max, "truncated-normal")?;
@@ -86,17 +81,8 @@ impl Distribution {
             return Err(DistributionError::Truncation { mean, sd, min, max });
         }
         let centre = erf(a * FRAC_1_SQRT_2);
-        Self::TruncatedNormal(TruncatedNormal {
-            mean,
-            sd,
-            min,
-            max,
-            below: below(a),
-            above: below(-b),
-            centre,
-            mass,
-        })
-        .finite()
+        Self::TruncatedNormal(TruncatedNormal { mean, sd, min, max, below: below(a), above: below(-b), centre, mass })
+            .finite()
     }
 }
 
@@ -147,11 +133,7 @@ fn integral(from: f64, to: f64, function: impl Fn(f64) -> f64) -> f64 {
         let pair = |(node, weight): (f64, f64)| {
             let sum = function(middle - half * node) + function(middle + half * node);
             // The middle node is counted twice by the pair.
-            if node == 0.0 {
-                0.5 * weight * sum
-            } else {
-                weight * sum
-            }
+            if node == 0.0 { 0.5 * weight * sum } else { weight * sum }
         };
         NODES.into_iter().map(pair).sum::<f64>()
     };
@@ -183,17 +165,11 @@ impl Family for TruncatedNormal {
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        vec![
-            ("mean", self.mean.into()),
-            ("sd", self.sd.into()),
-            ("min", self.min.into()),
-            ("max", self.max.into()),
-        ]
+        vec![("mean", self.mean.into()), ("sd", self.sd.into()), ("min", self.min.into()), ("max", self.max.into())]
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let [mean, sd, min, max] =
-            [self.mean, self.sd, self.min, self.max].map(|value| unit.to_si(value));
+        let [mean, sd, min, max] = [self.mean, self.sd, self.min, self.max].map(|value| unit.to_si(value));
         Distribution::truncated_normal(mean, sd, min, max)
     }
 }

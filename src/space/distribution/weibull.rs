@@ -40,12 +40,7 @@ impl Distribution {
         positive("shape", shape)?;
         positive("scale", scale)?;
         finite("location", location)?;
-        Self::Weibull(Weibull {
-            shape,
-            scale,
-            location,
-        })
-        .finite()
+        Self::Weibull(Weibull { shape, scale, location }).finite()
     }
 }
 
@@ -71,19 +66,11 @@ impl Family for Weibull {
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        vec![
-            ("shape", self.shape.into()),
-            ("scale", self.scale.into()),
-            ("location", self.location.into()),
-        ]
+        vec![("shape", self.shape.into()), ("scale", self.scale.into()), ("location", self.location.into())]
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::weibull(
-            self.shape,
-            unit.to_si(self.scale),
-            unit.to_si(self.location),
-        )
+        Distribution::weibull(self.shape, unit.to_si(self.scale), unit.to_si(self.location))
     }
 }
 
@@ -98,10 +85,7 @@ fn unit_sd(power: f64) -> f64 {
     // expm1 keeps the small deviations from 1.
     let expectation = |function: &dyn Fn(f64) -> f64| -> f64 {
         let density = |t: f64| 0.25 * (t - t.exp()).exp();
-        (-200..=16)
-            .map(|step| 0.25 * f64::from(step))
-            .map(|t| density(t) * function((power * t).exp_m1()))
-            .sum()
+        (-200..=16).map(|step| 0.25 * f64::from(step)).map(|t| density(t) * function((power * t).exp_m1())).sum()
     };
     let mean = expectation(&|deviation| deviation);
     expectation(&|deviation| (deviation - mean) * (deviation - mean)).sqrt()
