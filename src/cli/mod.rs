@@ -57,11 +57,16 @@ struct Changes {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Base samples in all, over the replicates (the same as --set design.base_samples=N)
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole_number())]
     base_samples: Option<u64>,
     /// Seed of the design (the same as --set design.seed=S)
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = whole_number())]
     seed: Option<u64>,
+}
+
+/// The whole numbers from 0 that TOML can hold.
+fn whole_number() -> clap::builder::RangedU64ValueParser {
+    clap::value_parser!(u64).range(0..=i64::MAX as u64)
 }
 
 impl Changes {

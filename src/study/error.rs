@@ -54,6 +54,9 @@ pub enum OverrideProblem {
     /// The key leads through something that is not a table.
     #[error("`{0}` is not a table of the study, so nothing can be set inside it")]
     NotATable(String),
+    /// The file can be read, but not changed.
+    #[error("the study cannot be changed, because it holds a whole number beyond 2^63 - 1, which is not TOML")]
+    NotEditable,
 }
 
 /// What is wrong at a place of a study file.
@@ -236,10 +239,15 @@ impl Diagnostic {
             column: text[line_start..start].chars().count() + 1,
             problem,
             overrides: Vec::new(),
-            source_line: text[line_start..line_end].trim_end_matches('\r').to_owned(),
+            source_line: printable(text[line_start..line_end].trim_end_matches('\r')),
             width: text[start..end].trim_end().chars().count().max(1),
         }
     }
+}
+
+/// The line without characters that would change the terminal.
+fn printable(line: &str) -> String {
+    line.chars().map(|c| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
 fn floor_char_boundary(text: &str, place: usize) -> usize {

@@ -81,13 +81,17 @@ impl Study {
     /// # Errors
     /// [`StudyError`] with the place in the text and what would be right.
     pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Result<Self, StudyError> {
-        let effective =
-            overrides::apply(text, overrides).map_err(|(text, problem)| StudyError::Override { text, problem })?;
-        let context = resolve::Context { path: PathBuf::from(path), text: &effective };
+        let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overridden(text, overrides)? };
+        let context = resolve::Context { path: PathBuf::from(path), text: effective.as_deref().unwrap_or(text) };
         let mut study = resolve::study(&context).map_err(|mut diagnostic| {
             diagnostic.overrides = overrides.to_vec();
             diagnostic
         })?;
+        if effective.is_none() {
+            // The reader takes whole numbers up to 2^64, the editor up to 2^63, as TOML has it.
+            let (text, problem) = (overrides.join(" "), OverrideProblem::NotEditable);
+            return Err(StudyError::Override { text, problem });
+        }
         study.overrides = overrides.to_vec();
         text.clone_into(&mut study.source);
         study.sha256 = Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
@@ -108,4 +112,8 @@ impl Study {
     pub fn constants(&self) -> Vec<(String, f64, String)> {
         self.subject.constants(&self.space)
     }
+}
+
+fn overridden(text: &str, overrides: &[String]) -> Result<Option<String>, StudyError> {
+    overrides::apply(text, overrides).map_err(|(text, problem)| StudyError::Override { text, problem })
 }

@@ -7,15 +7,13 @@ use super::error::{OverrideProblem, nearest};
 /// Applies `overrides` in order. A key is a path of names joined by dots; `factor.NAME.KEY` reaches the factor of that
 /// name. A value is TOML if it reads as TOML, else a string: `afm.friction=hk` needs no quotes.
 ///
-/// Returns the text unchanged if it is not TOML: the reader will say so, with the place.
-pub(super) fn apply(text: &str, overrides: &[String]) -> Result<String, (String, OverrideProblem)> {
-    let Ok(mut document) = text.parse::<DocumentMut>() else {
-        return Ok(text.to_owned());
-    };
+/// `None` if the text is not TOML: the reader will say so, with the place.
+pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, (String, OverrideProblem)> {
+    let Ok(mut document) = text.parse::<DocumentMut>() else { return Ok(None) };
     for text in overrides {
         set(document.as_table_mut(), text).map_err(|problem| (text.clone(), problem))?;
     }
-    Ok(document.to_string())
+    Ok(Some(document.to_string()))
 }
 
 fn set(root: &mut Table, text: &str) -> Result<(), OverrideProblem> {
@@ -70,7 +68,8 @@ mod tests {
         "outputs = ['y'] # kept\n[afm]\nfriction = \"coulomb\"\n[[factor]]\nname = \"length\"\nmin = 1\n";
 
     fn applied(text: &str) -> Result<String, OverrideProblem> {
-        apply(STUDY, &[text.to_owned()]).map_err(|(_, problem)| problem)
+        let applied = apply(STUDY, &[text.to_owned()]).map_err(|(_, problem)| problem);
+        applied.map(|text| text.expect("the study is TOML"))
     }
 
     #[test]

@@ -1,10 +1,8 @@
 //! Bad input through the program: each has its clear error, the place of the fault, and exit code 2.
 
-mod common;
-
 use std::path::{Path, PathBuf};
 
-use common::{apportion, stderr, study_path};
+use crate::common::{apportion, stderr, study_path};
 
 /// A study that is right, to be spoilt line by line.
 const GOOD: &str = r#"outputs = ["critical_force"]
@@ -100,7 +98,7 @@ fn a_folder_and_bytes_that_are_no_text() {
 fn not_toml_and_nothing_at_all() {
     assert_refused("this is no study", &["study.toml:1:", "^"]);
     assert_refused("", &["study.toml:1:1:", "no factor", "[[factor]]"]);
-    assert_refused("\u{0}", &["study.toml:1:1:"]);
+    assert_refused("\u{0}\u{1b}[31m", &["study.toml:1:", "\u{fffd}"]);
 }
 
 #[test]
@@ -188,6 +186,12 @@ fn overrides_that_make_no_sense() {
     refused(&["--base-samples", "0"], "too few");
     refused(&["--base-samples", "many"], "invalid value");
     refused(&["--seed", "-1"], "-1");
+    refused(&["--seed", "9223372036854775808"], "9223372036854775807");
+    let folder = Folder::new();
+    let large = folder.with("large.toml", GOOD.replace("base_samples = 64", "seed = 9223372036854775808"));
+    let output = apportion(&["check", text(&large), "--base-samples", "64"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("cannot be changed"), "an override must never be dropped: {}", stderr(&output));
     let output = apportion(&["run", text(&study), "--threads", "0"]);
     assert_eq!(output.status.code(), Some(2));
 }

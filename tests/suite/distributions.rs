@@ -1,5 +1,5 @@
 //! Quantile functions against frozen references, distribution functions written down independently, symmetries and
-//! numerical integration. `oracle/distributions.py` made the references.
+//! numerical integration. `tests/oracle/distributions.py` made the references.
 
 use apportion::space::distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
 use proptest::prelude::*;
@@ -33,7 +33,7 @@ fn numbers(list: &Value) -> Vec<f64> {
 
 #[test]
 fn quantiles_and_moments_are_those_of_scipy_and_mpmath() {
-    let cases: Value = serde_json::from_str(include_str!("oracle/distributions.json")).expect("json");
+    let cases: Value = serde_json::from_str(include_str!("../oracle/distributions.json")).expect("json");
     let cases = cases.as_array().expect("a list");
     assert!(cases.len() > 50, "{}", cases.len());
     for case in cases {

@@ -1,10 +1,8 @@
 //! Indices against exact answers. Seeds are fixed; the tolerances are those the project promises, and the errors
 //! measured at these seeds stand beside them.
 
-mod common;
-
+use crate::common::{analysed, gap, indices, numbers};
 use apportion::model::KnownAnswer;
-use common::{analysed, gap, indices, numbers};
 
 /// Mean of x^k and variance over mean squared of x^k for x uniform on (a, b), from the integral of x^k.
 fn relative_variance_of_power(a: f64, b: f64, k: i32) -> f64 {

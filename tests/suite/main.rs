@@ -1,0 +1,9 @@
+//! Tests of the whole: one program, so that it is linked once.
+
+mod afm_contact_oracle;
+mod analytic;
+mod common;
+mod distributions;
+mod failures;
+mod metamorphic;
+mod workflows;

@@ -1,0 +1,190 @@
+//! What a user does, through the program: run, evaluate, check, models, reproduce.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use apportion::report::ResultFile;
+
+use crate::common::{apportion, stderr, stdout, study_path};
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[track_caller]
+fn succeed(arguments: &[&str]) -> String {
+    let output = apportion(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+    stdout(&output)
+}
+
+fn files(folder: &Path) -> BTreeSet<String> {
+    std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+}
+
+#[test]
+fn run_writes_what_check_announces() {
+    let folder = tempfile::tempdir().unwrap();
+    let (study, out) = (study_path("soft-cantilever"), folder.path().join("out"));
+    let announced = succeed(&["check", text(&study), "--out", text(&out)]);
+    assert!(!out.exists(), "check writes nothing");
+    let table = succeed(&["run", text(&study), "--out", text(&out), "--base-samples", "1024"]);
+    for name in files(&out) {
+        assert!(announced.contains(&name), "{name} was not announced");
+    }
+    assert_eq!(files(&out).len(), 6);
+    assert!(table.contains("thickness") && table.contains("critical_time [s]"));
+}
+
+#[test]
+fn a_result_reads_back_as_it_was_and_carries_its_study() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study_path("coulomb-general");
+    let arguments =
+        ["run", text(&study), "--out", text(folder.path()), "--base-samples", "512", "--set", "afm.friction=hk"];
+    succeed(&arguments);
+    let json = std::fs::read_to_string(folder.path().join("coulomb-general.json")).unwrap();
+    let result: ResultFile = serde_json::from_str(&json).unwrap();
+    assert_eq!(apportion::report::result_json(&result), json);
+    assert_eq!((result.format.as_str(), result.version), ("apportion-result", 1));
+    assert_eq!(result.study.source, std::fs::read_to_string(&study).unwrap());
+    assert_eq!(result.study.settings["friction"], "hk");
+    assert_eq!(result.study.overrides, ["afm.friction=hk", "design.base_samples=512"]);
+    assert_eq!(result.provenance.model_runs, 512 * 12);
+    assert_eq!(result.provenance.study_sha256.len(), 64);
+    let output = &result.outputs[0];
+    assert_eq!((output.name.as_str(), output.unit.as_str()), ("critical_force", "nN"));
+    assert_eq!((output.runs_ok, output.runs_failed), (512 * 12, 0));
+    assert_eq!(output.groups.as_ref().unwrap()[0].factors, ["length", "width", "thickness", "height"]);
+    let tabor = result.validity.iter().find(|flag| flag.flag == "tabor-out-of-range").unwrap();
+    assert!(tabor.runs > 0 && tabor.share <= 1.0);
+}
+
+#[test]
+fn the_format_of_a_result_is_what_it_was() {
+    let overrides = ["design.base_samples=256", "outputs=['critical_force', 'critical_time']", "afm.velocity=0 nm/s"];
+    let mut result = crate::common::analysed("lugre-dimensional", &overrides);
+    result.provenance.apportion_version = "VERSION".to_owned();
+    result.provenance.threads = 0;
+    result.provenance.wall_seconds = 0.0;
+    result.provenance.study_sha256 = "SHA-256".to_owned();
+    result.study.source = "SOURCE".to_owned();
+    result.study.constants.truncate(2);
+    // Four digits: the format is at stake here, not the last bits of another processor's logarithm.
+    let text = apportion::report::result_json(&result);
+    let mut value: serde_json::Value = serde_json::from_str(&text).unwrap();
+    round(&mut value);
+    insta::assert_snapshot!(serde_json::to_string_pretty(&value).unwrap());
+}
+
+fn round(value: &mut serde_json::Value) {
+    match value {
+        serde_json::Value::Number(number) if number.is_f64() => {
+            let rounded: f64 = format!("{:.3e}", number.as_f64().unwrap()).parse().unwrap();
+            *value = rounded.into();
+        }
+        serde_json::Value::Array(values) => values.iter_mut().for_each(round),
+        serde_json::Value::Object(map) => map.values_mut().for_each(round),
+        _ => (),
+    }
+}
+
+#[test]
+fn evaluate_answers_in_the_units_of_the_study_and_names_what_fails() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = folder.path().join("study.toml");
+    let points = folder.path().join("points.csv");
+    let out = folder.path().join("out.csv");
+    let factors = "[[factor]]\nname='velocity'\nmin=0\nmax=800\nunit='nm/s'\n[[factor]]\nname='length'\nmin=200\nmax=700\nunit='um'\n";
+    std::fs::write(&study, format!("outputs=['critical_force','normal_force','critical_time']\n{factors}")).unwrap();
+    // A byte-order mark, spaces, a quoted cell and Windows line ends, as spreadsheets write them.
+    std::fs::write(&points, "\u{feff} velocity \r\n100\r\n\"0\"\r\n -5 \r\n").unwrap();
+    let output = apportion(&["evaluate", text(&study), text(&points), "-o", text(&out)]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let written = std::fs::read_to_string(&out).unwrap();
+    let lines: Vec<Vec<&str>> = written.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(lines[0], ["critical_force", "normal_force", "critical_time"]);
+    // The length has no column: it stands at the nominal 225 um, where the reference gives 631.3 and 489.404 nN.
+    let number = |row: usize, column: usize| lines[row][column].parse::<f64>().unwrap();
+    assert!((number(1, 0) - 631.3).abs() < 0.05 && (number(1, 1) - 489.404).abs() < 5e-4);
+    assert_eq!(lines[2][..2], lines[1][..2]);
+    assert_eq!((lines[2][2], &lines[3][..]), ("", &["", "", ""][..]));
+    let message = stderr(&output);
+    assert!(message.contains("critical_time is empty at 1 points: velocity is zero"), "{message}");
+    assert!(message.contains("first at point 3"), "{message}");
+}
+
+#[test]
+fn evaluate_takes_no_points_as_no_points_and_many_as_many() {
+    let folder = tempfile::tempdir().unwrap();
+    let (points, out) = (folder.path().join("points.csv"), folder.path().join("out.csv"));
+    let study = study_path("ishigami");
+    std::fs::write(&points, "x1,x2,x3\n").unwrap();
+    succeed(&["evaluate", text(&study), text(&points), "-o", text(&out)]);
+    assert_eq!(std::fs::read_to_string(&out).unwrap(), "y\n");
+    // More than two blocks, each value with all of its digits.
+    let rows: Vec<String> = (0..2500).map(|i| format!("{}", f64::from(i) / 1000.0)).collect();
+    std::fs::write(&points, format!("x3\n{}\n", rows.join("\n"))).unwrap();
+    succeed(&["evaluate", text(&study), text(&points), "-o", text(&out), "--set", "factor.x1.nominal=1.5"]);
+    let written = std::fs::read_to_string(&out).unwrap();
+    for (i, line) in written.lines().skip(1).enumerate() {
+        let x3 = i as f64 / 1000.0;
+        let expected = 1.5f64.sin() + 0.1 * x3.powi(4) * 1.5f64.sin();
+        let got: f64 = line.parse().unwrap();
+        assert!((got - expected).abs() <= 1e-15 * expected.abs(), "row {i}");
+    }
+    assert_eq!(written.lines().count(), 2501);
+}
+
+#[test]
+fn models_lists_every_factor_and_output() {
+    let listed = succeed(&["models"]);
+    for name in ["length", "equivalent_modulus", "stribeck_velocity", "log_critical_force", "ishigami", "sobol-g"] {
+        assert!(listed.contains(name), "{name}");
+    }
+}
+
+#[test]
+fn reproduce_writes_nine_results_three_charts_and_a_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = succeed(&["reproduce", "--base-samples", "1024", "--out", text(folder.path())]);
+    let names = files(folder.path());
+    assert_eq!(names.len(), 9 + 1 + 6);
+    for friction in ["coulomb", "hk", "lugre"] {
+        for group in ["dimensional", "environmental", "general"] {
+            assert!(names.contains(&format!("{friction}-{group}.json")));
+        }
+    }
+    let png = std::fs::read(folder.path().join("general.png")).unwrap();
+    assert!(png.starts_with(b"\x89PNG"));
+    assert_eq!(std::fs::read_to_string(folder.path().join("shares.csv")).unwrap().lines().count(), 1 + 3 * 16);
+    // The rankings of the papers' claims 17, 19 and 20 come out, that of 18 does not, and the table says so.
+    assert_eq!(table.matches("thickness > length > width: the beginning of the published order").count(), 3, "{table}");
+    assert_eq!(table.matches("the dimensions outweigh the environment, as published").count(), 3);
+    assert_eq!(table.matches("NOT the published order of CHK fig. 15").count(), 2);
+    assert!(table.contains("thickness 76 % (ours "), "{table}");
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    let binary = assert_cmd::cargo::cargo_bin!("apportion");
+    let mut child = std::process::Command::new(binary)
+        .arg("models")
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+#[test]
+fn round_sample_sizes_are_made_whole_and_said_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study_path("ishigami");
+    let output = apportion(&["run", text(&study), "--base-samples", "1000", "--out", text(folder.path())]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(stderr(&output).contains("1000 is not a multiple of 16 replicates: 1008 are used"));
+    assert!(stdout(&output).contains("not a power of two"));
+}
