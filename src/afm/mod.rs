@@ -13,6 +13,7 @@
 //!   theory a file;
 //! - [`friction`]: the largest lateral force the substrate contact can hold, one law a file;
 //! - [`force`]: the critical force, one fidelity a file; [`critical_force`] is the entrance;
+//! - [`ode`]: initial value problems with events, for the laws and rungs that march in time;
 //! - [`flags`]: what makes a result doubtful; [`failure`]: why there is no result.
 //!
 //! Plain functions on plain structs, all quantities in SI. Nothing here knows of sampling or
@@ -24,12 +25,14 @@
 //! disagree, the docstring says which reading was taken.
 
 mod named;
+mod root;
 
 pub mod contact;
 pub mod failure;
 pub mod flags;
 pub mod force;
 pub mod friction;
+pub mod ode;
 pub mod parameter;
 pub mod probe;
 pub mod scene;
