@@ -15,19 +15,13 @@ pub enum Failure {
         domain: Domain,
     },
     /// The substrate stands still, so it never arrives at the critical travel.
-    #[error(
-        "velocity is zero: the critical force is never reached, so the critical time is infinite; it must be > 0"
-    )]
+    #[error("velocity is zero: the critical force is never reached, so the critical time is infinite; it must be > 0")]
     VelocityZero,
     /// The load pulls harder than adhesion can hold, or pulls where there is no adhesion.
-    #[error(
-        "the normal load pulls the contact apart: it must be at least minus the pull-off force"
-    )]
+    #[error("the normal load pulls the contact apart: it must be at least minus the pull-off force")]
     BeyondPullOff,
     /// A quantity left the range of floating-point numbers.
-    #[error(
-        "{quantity} is not a finite number: the parameters are too large or too small to compute with"
-    )]
+    #[error("{quantity} is not a finite number: the parameters are too large or too small to compute with")]
     NotFinite {
         /// Name of the first field of [`Critical`](super::Critical) that overflowed.
         quantity: &'static str,

@@ -29,12 +29,8 @@ impl Flag {
             Self::AboveHardness => {
                 "The mean contact pressure exceeds the hardness: the particle would flow plastically."
             }
-            Self::LargeTwist => {
-                "The cantilever twists by more than 0.1 rad: the small-angle geometry no longer holds."
-            }
-            Self::TaborOutOfRange => {
-                "The Tabor parameter lies outside the range of the chosen contact theory."
-            }
+            Self::LargeTwist => "The cantilever twists by more than 0.1 rad: the small-angle geometry no longer holds.",
+            Self::TaborOutOfRange => "The Tabor parameter lies outside the range of the chosen contact theory.",
             Self::FastLuGreForm => {
                 "The fast form of the LuGre law was used although the velocity is above 1 % of the Stribeck velocity."
             }
@@ -77,10 +73,7 @@ impl Flags {
 
     /// The flags in the set, in the order of [`Flag::ALL`].
     pub fn iter(self) -> impl Iterator<Item = Flag> {
-        Flag::ALL
-            .iter()
-            .copied()
-            .filter(move |&flag| self.contains(flag))
+        Flag::ALL.iter().copied().filter(move |&flag| self.contains(flag))
     }
 }
 
@@ -98,18 +91,9 @@ mod tests {
 
     #[test]
     fn a_set_gives_back_what_was_put_in() {
-        let set = Flags::NONE
-            .with(Flag::TaborOutOfRange, true)
-            .with(Flag::LargeContact, true);
-        assert_eq!(
-            set.iter().collect::<Vec<_>>(),
-            [Flag::LargeContact, Flag::TaborOutOfRange]
-        );
-        assert_eq!(
-            set.with(Flag::LargeContact, false),
-            set,
-            "with adds, it never removes"
-        );
+        let set = Flags::NONE.with(Flag::TaborOutOfRange, true).with(Flag::LargeContact, true);
+        assert_eq!(set.iter().collect::<Vec<_>>(), [Flag::LargeContact, Flag::TaborOutOfRange]);
+        assert_eq!(set.with(Flag::LargeContact, false), set, "with adds, it never removes");
         assert!(!set.contains(Flag::LargeTwist));
     }
 }

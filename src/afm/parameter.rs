@@ -56,10 +56,9 @@ pub struct Parameter {
     pub description: &'static str,
     /// Where it is physical.
     pub domain: Domain,
-    /// Reads it (SI). For `shear_modulus` the value in force, given or derived.
+    /// Reads it (SI). For those with a derived value the one in force, given or derived.
     pub get: fn(&Scene) -> f64,
-    /// Sets it (SI), without looking at the domain. Setting `shear_modulus` cuts its tie to E and
-    /// nu.
+    /// Sets it (SI), without looking at the domain. Setting one with a derived value cuts its tie to the others.
     pub set: fn(&mut Scene, f64),
 }
 
@@ -85,28 +84,10 @@ impl Parameter {
         parameter!(thickness, "t", "m", Positive, "cantilever thickness"),
         parameter!(height, "H", "m", Positive, "tip height"),
         parameter!(velocity, "V", "m/s", NonNegative, "substrate velocity"),
-        parameter!(
-            elastic_modulus,
-            "E",
-            "Pa",
-            Positive,
-            "Young's modulus of the cantilever"
-        ),
-        parameter!(
-            equivalent_modulus,
-            "K",
-            "Pa",
-            Positive,
-            "equivalent contact modulus"
-        ),
+        parameter!(elastic_modulus, "E", "Pa", Positive, "Young's modulus of the cantilever"),
+        parameter!(equivalent_modulus, "K", "Pa", Positive, "equivalent contact modulus"),
         parameter!(adhesion, "omega", "J/m2", NonNegative, "work of adhesion"),
-        parameter!(
-            poisson_ratio,
-            "nu",
-            "1",
-            PoissonRatio,
-            "Poisson ratio of the cantilever"
-        ),
+        parameter!(poisson_ratio, "nu", "1", PoissonRatio, "Poisson ratio of the cantilever"),
         Self {
             name: "shear_modulus",
             symbol: "G",
@@ -116,109 +97,65 @@ impl Parameter {
             get: Scene::effective_shear_modulus,
             set: |scene, value| scene.shear_modulus = Some(value),
         },
-        parameter!(
-            probe_density,
-            "rho",
-            "kg/m3",
-            Positive,
-            "density of cantilever and tip"
-        ),
-        parameter!(
-            tip_base_radius,
-            "r",
-            "m",
-            Positive,
-            "radius of the tip cone at its base"
-        ),
+        parameter!(probe_density, "rho", "kg/m3", Positive, "density of cantilever and tip"),
+        parameter!(tip_base_radius, "r", "m", Positive, "radius of the tip cone at its base"),
         parameter!(particle_radius, "R_p", "m", Positive, "particle radius"),
         parameter!(tip_radius, "R_t", "m", Positive, "radius of the tip apex"),
-        parameter!(
-            contact_angle,
-            "phi",
-            "rad",
-            AcuteAngle,
-            "tip-particle contact angle from the vertical"
-        ),
+        parameter!(contact_angle, "phi", "rad", AcuteAngle, "tip-particle contact angle from the vertical"),
         parameter!(preload_angle, "phi0", "rad", AcuteAngle, "preload angle"),
-        parameter!(
-            static_friction,
-            "mu_s",
-            "1",
-            NonNegative,
-            "coefficient of static friction"
-        ),
-        parameter!(
-            dynamic_friction,
-            "mu_d",
-            "1",
-            NonNegative,
-            "coefficient of dynamic friction"
-        ),
-        parameter!(
-            shear_strength,
-            "tau",
-            "Pa",
-            NonNegative,
-            "interfacial shear strength"
-        ),
-        parameter!(
-            particle_shear_modulus,
-            "G1",
-            "Pa",
-            Positive,
-            "shear modulus of the particle"
-        ),
-        parameter!(
-            substrate_shear_modulus,
-            "G2",
-            "Pa",
-            Positive,
-            "shear modulus of the substrate"
-        ),
+        parameter!(static_friction, "mu_s", "1", NonNegative, "coefficient of static friction"),
+        parameter!(dynamic_friction, "mu_d", "1", NonNegative, "coefficient of dynamic friction"),
+        parameter!(shear_strength, "tau", "Pa", NonNegative, "interfacial shear strength"),
+        parameter!(particle_shear_modulus, "G1", "Pa", Positive, "shear modulus of the particle"),
+        parameter!(substrate_shear_modulus, "G2", "Pa", Positive, "shear modulus of the substrate"),
         parameter!(burgers_vector, "b", "m", Positive, "Burgers vector"),
-        parameter!(
-            particle_density,
-            "rho_p",
-            "kg/m3",
-            Positive,
-            "density of the particle"
-        ),
-        parameter!(
-            bristle_stiffness,
-            "sigma0",
-            "N/m",
-            Positive,
-            "LuGre bristle stiffness"
-        ),
-        parameter!(
-            bristle_damping,
-            "sigma1",
-            "N s/m",
-            NonNegative,
-            "LuGre bristle damping"
-        ),
-        parameter!(
-            viscous_friction,
-            "sigma2",
-            "N s/m",
-            NonNegative,
-            "LuGre viscous friction"
-        ),
-        parameter!(
-            stribeck_velocity,
-            "v_s",
-            "m/s",
-            Positive,
-            "Stribeck velocity"
-        ),
-        parameter!(
-            equilibrium_separation,
-            "z0",
-            "m",
-            Positive,
-            "equilibrium separation of the surfaces"
-        ),
+        parameter!(particle_density, "rho_p", "kg/m3", Positive, "density of the particle"),
+        parameter!(bristle_stiffness, "sigma0", "N/m", Positive, "LuGre bristle stiffness"),
+        parameter!(bristle_damping, "sigma1", "N s/m", NonNegative, "LuGre bristle damping"),
+        parameter!(viscous_friction, "sigma2", "N s/m", NonNegative, "LuGre viscous friction"),
+        parameter!(stribeck_velocity, "v_s", "m/s", Positive, "Stribeck velocity"),
+        parameter!(equilibrium_separation, "z0", "m", Positive, "equilibrium separation of the surfaces"),
         parameter!(hardness, "p_Y", "Pa", Positive, "hardness of the particle"),
+        parameter!(particle_poisson_ratio, "nu1", "1", PoissonRatio, "Poisson ratio of the particle"),
+        parameter!(substrate_poisson_ratio, "nu2", "1", PoissonRatio, "Poisson ratio of the substrate"),
+        parameter!(dahl_exponent, "alpha_D", "1", Positive, "exponent of Dahl's law"),
+        parameter!(stribeck_exponent, "d_s", "1", Positive, "exponent of the classical Stribeck curve"),
+        parameter!(
+            fresh_friction,
+            "mu_a",
+            "1",
+            NonNegative,
+            "coefficient of static friction just after coming to rest"
+        ),
+        parameter!(dwell_constant, "gamma", "s", Positive, "time in which static friction rises halfway (Armstrong)"),
+        parameter!(rest_time, "t_r", "s", NonNegative, "time at rest before the substrate moves (Armstrong)"),
+        parameter!(frictional_lag, "tau_l", "s", NonNegative, "frictional lag (Armstrong)"),
+        parameter!(layer_half_thickness, "h", "m", Positive, "half the layer thickness (Lemaitre-Carlson)"),
+        parameter!(layer_modulus, "mu", "Pa", Positive, "shear modulus of the layer (Lemaitre-Carlson)"),
+        parameter!(layer_stress, "mubar", "Pa", Positive, "stress scale of rearrangements (Lemaitre-Carlson)"),
+        parameter!(rearrangement_rate, "E0", "1/s", Positive, "rate of rearrangements (Lemaitre-Carlson)"),
+        parameter!(ageing_rate, "E1", "1/s", Positive, "rate of ageing (Lemaitre-Carlson)"),
+        parameter!(ageing_barrier, "kappa", "1", Positive, "barrier of ageing (Lemaitre-Carlson)"),
+        parameter!(disorder_gain, "alpha", "1/Pa", Positive, "disorder made by plastic work (Lemaitre-Carlson)"),
+        parameter!(initial_disorder, "chi0", "1", Positive, "disorder at the start (Lemaitre-Carlson)"),
+        Self {
+            name: "tip_mass",
+            symbol: "m",
+            unit: "kg",
+            description: "mass of the tip, that of a cone unless set",
+            domain: Domain::Positive,
+            get: Scene::effective_tip_mass,
+            set: |scene, value| scene.tip_mass = Some(value),
+        },
+        Self {
+            name: "tip_inertia",
+            symbol: "I_c",
+            unit: "kg m2",
+            description: "moment of inertia of the tip about its centre of mass, that of a cone unless set",
+            domain: Domain::Positive,
+            get: Scene::effective_tip_inertia,
+            set: |scene, value| scene.tip_inertia = Some(value),
+        },
     ];
 
     /// The parameter of that name, if there is one.
@@ -235,66 +172,43 @@ mod tests {
 
     #[test]
     fn the_main_factors_come_first() {
-        let symbols: Vec<_> = Parameter::ALL[..8]
-            .iter()
-            .map(|parameter| parameter.symbol)
-            .collect();
+        let symbols: Vec<_> = Parameter::ALL[..8].iter().map(|parameter| parameter.symbol).collect();
         assert_eq!(symbols, ["L", "w", "t", "H", "V", "E", "K", "omega"]);
     }
 
     #[test]
     fn names_and_symbols_are_unique() {
-        let names: HashSet<_> = Parameter::ALL
-            .iter()
-            .map(|parameter| parameter.name)
-            .collect();
-        let symbols: HashSet<_> = Parameter::ALL
-            .iter()
-            .map(|parameter| parameter.symbol)
-            .collect();
-        assert_eq!(
-            (names.len(), symbols.len()),
-            (Parameter::ALL.len(), Parameter::ALL.len())
-        );
+        let names: HashSet<_> = Parameter::ALL.iter().map(|parameter| parameter.name).collect();
+        let symbols: HashSet<_> = Parameter::ALL.iter().map(|parameter| parameter.symbol).collect();
+        assert_eq!((names.len(), symbols.len()), (Parameter::ALL.len(), Parameter::ALL.len()));
     }
 
     #[test]
     fn set_then_get_gives_the_value_back_and_moves_nothing_else() {
-        // shear_modulus is fixed first, since unset it follows E and nu.
-        let before = Scene {
-            shear_modulus: Some(1.0),
-            ..Scene::default()
-        };
+        // Those with a derived value are fixed first, since unset they follow others.
+        let before =
+            Scene { shear_modulus: Some(1.0), tip_mass: Some(1.0), tip_inertia: Some(1.0), ..Scene::default() };
         for parameter in Parameter::ALL {
             let mut scene = before;
             (parameter.set)(&mut scene, 0.123);
-            let moved: Vec<_> = Parameter::ALL
-                .iter()
-                .filter(|p| (p.get)(&scene) != (p.get)(&before))
-                .map(|p| p.name)
-                .collect();
+            let moved: Vec<_> =
+                Parameter::ALL.iter().filter(|p| (p.get)(&scene) != (p.get)(&before)).map(|p| p.name).collect();
             assert_eq!(moved, [parameter.name]);
             assert_eq!((parameter.get)(&scene), 0.123);
         }
     }
 
-    /// The table covers the struct: every field of `Scene` is eight bytes, but for the optional one
-    /// of sixteen.
+    /// The table covers the struct: every field of `Scene` is eight bytes, but for the three
+    /// optional ones of sixteen.
     #[test]
     fn no_field_is_missing() {
-        assert_eq!(size_of::<Scene>(), 8 * (Parameter::ALL.len() + 1));
+        assert_eq!(size_of::<Scene>(), 8 * (Parameter::ALL.len() + 3));
     }
 
     #[test]
     fn defaults_are_physical() {
         for parameter in Parameter::ALL {
-            assert!(
-                parameter
-                    .domain
-                    .contains((parameter.get)(&Scene::default())),
-                "{}",
-                parameter.name
-            );
+            assert!(parameter.domain.contains((parameter.get)(&Scene::default())), "{}", parameter.name);
         }
     }
 
@@ -304,12 +218,7 @@ mod tests {
             (Domain::Positive, f64::MIN_POSITIVE, 0.0, "> 0"),
             (Domain::NonNegative, 0.0, -f64::MIN_POSITIVE, ">= 0"),
             (Domain::PoissonRatio, 0.5, -1.0, "in (-1, 0.5]"),
-            (
-                Domain::AcuteAngle,
-                FRAC_PI_2,
-                FRAC_PI_2.next_up(),
-                "in [0, pi/2]",
-            ),
+            (Domain::AcuteAngle, FRAC_PI_2, FRAC_PI_2.next_up(), "in [0, pi/2]"),
         ];
         for (domain, inside, outside, text) in cases {
             assert!(domain.contains(inside), "{domain}: {inside}");

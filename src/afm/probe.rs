@@ -36,19 +36,11 @@ impl Probe {
     /// The probe of a scene that has been [checked](Scene::check).
     #[inline]
     pub fn new(scene: &Scene, torsion: Torsion) -> Self {
-        let &Scene {
-            length,
-            width,
-            thickness,
-            height,
-            elastic_modulus,
-            ..
-        } = scene;
+        let &Scene { length, width, thickness, height, elastic_modulus, .. } = scene;
         let bending = elastic_modulus * width * thickness / (4.0 * length * length * length);
         let normal = bending * thickness * thickness;
         let lateral = bending * width * width;
-        let torsional =
-            scene.effective_shear_modulus() * torsion_constant(width, thickness, torsion) / length;
+        let torsional = scene.effective_shear_modulus() * torsion_constant(width, thickness, torsion) / length;
         let preload_deflection = length * scene.preload_angle.sin();
         Self {
             normal,
@@ -67,11 +59,7 @@ fn torsion_constant(width: f64, thickness: f64, torsion: Torsion) -> f64 {
     match torsion {
         Torsion::ThinStrip => width * (thickness * thickness * thickness) / 3.0,
         Torsion::Rectangle => {
-            let (long, short) = if thickness > width {
-                (thickness, width)
-            } else {
-                (width, thickness)
-            };
+            let (long, short) = if thickness > width { (thickness, width) } else { (width, thickness) };
             let ratio = short / long;
             let factor = 1.0 / 3.0 - 0.21 * ratio * (1.0 - ratio * ratio * ratio * ratio / 12.0);
             long * (short * short * short) * factor
@@ -88,10 +76,7 @@ mod tests {
     use super::*;
 
     fn close(actual: f64, expected: f64, tolerance: f64) {
-        assert!(
-            (actual / expected - 1.0).abs() < tolerance,
-            "{actual} is not {expected}"
-        );
+        assert!((actual / expected - 1.0).abs() < tolerance, "{actual} is not {expected}");
     }
 
     /// By hand: 4 L^3 = 4.55625e-11 m^3, w t^3 = 4.8e-23 m^4, t w^3 = 1.10592e-19 m^4, G =
@@ -112,10 +97,8 @@ mod tests {
     /// sum tanh(...)/n^5].
     fn exact_torsion_constant(width: f64, thickness: f64) -> f64 {
         let (long, short) = (width.max(thickness), width.min(thickness));
-        let sum: f64 = (0..200)
-            .map(|k| f64::from(2 * k + 1))
-            .map(|n| (n * PI * long / (2.0 * short)).tanh() / n.powi(5))
-            .sum();
+        let sum: f64 =
+            (0..200).map(|k| f64::from(2 * k + 1)).map(|n| (n * PI * long / (2.0 * short)).tanh() / n.powi(5)).sum();
         long * short.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * (short / long) * sum)
     }
 

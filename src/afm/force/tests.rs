@@ -1,6 +1,9 @@
 //! Exact answers, edges and named failures.
 
+mod extended;
+mod extremes;
 mod properties;
+mod quasi_static;
 
 use std::f64::consts::PI;
 
@@ -8,10 +11,7 @@ use super::*;
 use crate::afm::{Flag, Parameter};
 
 fn by(friction: FrictionLaw) -> Options {
-    Options {
-        friction,
-        ..Options::default()
-    }
+    Options { friction, ..Options::default() }
 }
 
 fn force(scene: &Scene, options: &Options) -> f64 {
@@ -26,22 +26,18 @@ fn scaled(scene: &Scene, name: &str, factor: f64) -> Scene {
     scaled
 }
 
-/// Every combination of the options.
-fn all_options() -> Vec<Options> {
+/// The laws that hold the same whatever pulls: neither stiffness nor rest nor age act.
+const RIGID: [FrictionLaw; 5] =
+    [FrictionLaw::Coulomb, FrictionLaw::HurtadoKim, FrictionLaw::LuGre, FrictionLaw::Dahl, FrictionLaw::Stribeck];
+
+/// Every combination of these laws, and of the formulas, in closed form.
+fn closed_form_options(laws: &[FrictionLaw]) -> Vec<Options> {
     let mut all = Vec::new();
-    for &friction in FrictionLaw::ALL {
+    for &friction in laws {
         for &contact in ContactTheory::ALL {
-            for &fidelity in Fidelity::ALL {
-                for &torsion in Torsion::ALL {
-                    for adhesion_in_load in [false, true] {
-                        all.push(Options {
-                            friction,
-                            contact,
-                            fidelity,
-                            torsion,
-                            adhesion_in_load,
-                        });
-                    }
+            for &torsion in Torsion::ALL {
+                for adhesion_in_load in [false, true] {
+                    all.push(Options { friction, contact, torsion, adhesion_in_load, ..Options::default() });
                 }
             }
         }
@@ -56,10 +52,7 @@ fn nominal_values() {
     let coulomb = critical_force(&scene, &Options::default()).unwrap();
     assert_eq!(format!("{:.1}", coulomb.normal_force * 1e9), "489.4");
     assert_eq!(format!("{:.2}", coulomb.contact_radius * 1e9), "9.09");
-    let with_adhesion = Options {
-        adhesion_in_load: true,
-        ..Options::default()
-    };
+    let with_adhesion = Options { adhesion_in_load: true, ..Options::default() };
     let cases = [
         (Options::default(), "631"),
         (with_adhesion, "656"),
@@ -67,11 +60,7 @@ fn nominal_values() {
         (by(FrictionLaw::LuGre), "627"),
     ];
     for (options, printed) in cases {
-        assert_eq!(
-            format!("{:.0}", force(&scene, &options) * 1e9),
-            printed,
-            "{options:?}"
-        );
+        assert_eq!(format!("{:.0}", force(&scene, &options) * 1e9), printed, "{options:?}");
     }
 }
 
@@ -81,10 +70,7 @@ fn nominal_values() {
 fn nominal_state_at_the_slip() {
     let critical = critical_force(&Scene::default(), &Options::default()).unwrap();
     let close = |actual: f64, expected: f64| {
-        assert!(
-            (actual / expected - 1.0).abs() < 1e-6,
-            "{actual} {expected}"
-        );
+        assert!((actual / expected - 1.0).abs() < 1e-6, "{actual} {expected}");
     };
     close(critical.lateral_force, 398.7935e-9);
     close(critical.travel, 398.7935e-9 / 30.42037);
@@ -92,31 +78,14 @@ fn nominal_state_at_the_slip() {
     close(critical.twist, 398.7935e-9 * 2536.243);
     close(critical.force_angle, (398.7935_f64 / 489.4040).atan());
     close(critical.indentation, 1.149141e-9);
-    assert_eq!(
-        critical.flags.iter().collect::<Vec<_>>(),
-        [Flag::TaborOutOfRange]
-    );
+    assert_eq!(critical.flags.iter().collect::<Vec<_>>(), [Flag::TaborOutOfRange]);
 }
 
 #[test]
 fn a_substrate_at_rest_leaves_the_force_and_fails_only_the_time() {
-    for options in all_options() {
-        let moving = critical_force(
-            &Scene {
-                velocity: 1e-12,
-                ..Scene::default()
-            },
-            &options,
-        )
-        .unwrap();
-        let resting = critical_force(
-            &Scene {
-                velocity: 0.0,
-                ..Scene::default()
-            },
-            &options,
-        )
-        .unwrap();
+    for options in closed_form_options(&RIGID) {
+        let moving = critical_force(&Scene { velocity: 1e-12, ..Scene::default() }, &options).unwrap();
+        let resting = critical_force(&Scene { velocity: 0.0, ..Scene::default() }, &options).unwrap();
         assert_eq!(resting.critical_time, Err(Failure::VelocityZero));
         // sigma2 V and the Stribeck curve move LuGre by 1e-19 N of 4e-7 N at 1e-12 m/s.
         assert!((resting.critical_force / moving.critical_force - 1.0).abs() < 1e-11);
@@ -125,64 +94,29 @@ fn a_substrate_at_rest_leaves_the_force_and_fails_only_the_time() {
 
 #[test]
 fn a_time_too_long_for_a_number_is_named() {
-    let crawling = Scene {
-        velocity: f64::from_bits(1),
-        ..Scene::default()
-    };
+    let crawling = Scene { velocity: f64::from_bits(1), ..Scene::default() };
     let critical = critical_force(&crawling, &Options::default()).unwrap();
-    assert_eq!(
-        critical.critical_time,
-        Err(Failure::NotFinite {
-            quantity: "critical_time"
-        })
-    );
+    assert_eq!(critical.critical_time, Err(Failure::NotFinite { quantity: "critical_time" }));
 }
 
 /// w = 0: Hertz, so F_cr of Coulomb follows in one line.
 #[test]
 fn without_adhesion_the_contact_is_hertz() {
-    let scene = Scene {
-        adhesion: 0.0,
-        ..Scene::default()
-    };
-    let critical = critical_force(
-        &scene,
-        &Options {
-            adhesion_in_load: true,
-            ..Options::default()
-        },
-    )
-    .unwrap();
+    let scene = Scene { adhesion: 0.0, ..Scene::default() };
+    let critical = critical_force(&scene, &Options { adhesion_in_load: true, ..Options::default() }).unwrap();
     let normal = critical.normal_force;
     let area = PI * (50e-9 * normal / 60e9).powf(2.0 / 3.0);
-    assert!(
-        (critical.critical_force / normal.hypot(0.8 * normal + 28e6 * area) - 1.0).abs() < 1e-14
-    );
-    assert!(
-        critical.flags.is_empty(),
-        "without adhesion the Tabor parameter does not matter"
-    );
+    assert!((critical.critical_force / normal.hypot(0.8 * normal + 28e6 * area) - 1.0).abs() < 1e-14);
+    assert!(critical.flags.is_empty(), "without adhesion the Tabor parameter does not matter");
 }
 
 /// Nothing presses and nothing sticks: all forces are zero, nothing is undefined.
 #[test]
 fn no_load_and_no_adhesion_is_no_force() {
-    let scene = Scene {
-        adhesion: 0.0,
-        preload_angle: 0.0,
-        viscous_friction: 0.0,
-        ..Scene::default()
-    };
-    for options in all_options() {
+    let scene = Scene { adhesion: 0.0, preload_angle: 0.0, viscous_friction: 0.0, ..Scene::default() };
+    for options in closed_form_options(&RIGID) {
         let critical = critical_force(&scene, &options).unwrap();
-        assert_eq!(
-            (
-                critical.critical_force,
-                critical.force_angle,
-                critical.twist
-            ),
-            (0.0, 0.0, 0.0)
-        );
+        assert_eq!((critical.critical_force, critical.force_angle, critical.twist), (0.0, 0.0, 0.0));
         assert_eq!(critical.critical_time, Ok(0.0));
     }
 }
@@ -194,29 +128,11 @@ fn no_load_and_no_adhesion_is_no_force() {
 fn each_flag_has_its_threshold() {
     let coulomb = FrictionLaw::Coulomb;
     let cases = [
-        (
-            Flag::LargeContact,
-            coulomb,
-            "equivalent_modulus",
-            13.359e9,
-            13.357e9,
-        ),
+        (Flag::LargeContact, coulomb, "equivalent_modulus", 13.359e9, 13.357e9),
         (Flag::AboveHardness, coulomb, "hardness", 1.885e9, 1.8845e9),
         (Flag::LargeTwist, coulomb, "static_friction", 80.5, 80.6),
-        (
-            Flag::TaborOutOfRange,
-            coulomb,
-            "equivalent_modulus",
-            1.885e9,
-            1.886e9,
-        ),
-        (
-            Flag::FastLuGreForm,
-            FrictionLaw::LuGre,
-            "velocity",
-            1e-5,
-            1.001e-5,
-        ),
+        (Flag::TaborOutOfRange, coulomb, "equivalent_modulus", 1.885e9, 1.886e9),
+        (Flag::FastLuGreForm, FrictionLaw::LuGre, "velocity", 1e-5, 1.001e-5),
     ];
     assert_eq!(cases.len(), Flag::ALL.len());
     for (flag, friction, name, quiet, raising) in cases {
@@ -233,17 +149,9 @@ fn each_flag_has_its_threshold() {
 /// Only LuGre has a fast form.
 #[test]
 fn other_laws_may_be_as_fast_as_they_like() {
-    let fast = Scene {
-        velocity: 1.0,
-        ..Scene::default()
-    };
+    let fast = Scene { velocity: 1.0, ..Scene::default() };
     for friction in [FrictionLaw::Coulomb, FrictionLaw::HurtadoKim] {
-        assert!(
-            !critical_force(&fast, &by(friction))
-                .unwrap()
-                .flags
-                .contains(Flag::FastLuGreForm)
-        );
+        assert!(!critical_force(&fast, &by(friction)).unwrap().flags.contains(Flag::FastLuGreForm));
     }
 }
 
@@ -252,36 +160,9 @@ fn other_laws_may_be_as_fast_as_they_like() {
 #[test]
 fn parameters_a_law_does_not_know_do_not_act() {
     let deaf: [(FrictionLaw, &[&str]); 3] = [
-        (
-            FrictionLaw::Coulomb,
-            &[
-                "height",
-                "velocity",
-                "dynamic_friction",
-                "burgers_vector",
-                "poisson_ratio",
-            ],
-        ),
-        (
-            FrictionLaw::HurtadoKim,
-            &[
-                "height",
-                "velocity",
-                "static_friction",
-                "shear_strength",
-                "poisson_ratio",
-            ],
-        ),
-        (
-            FrictionLaw::LuGre,
-            &[
-                "height",
-                "equivalent_modulus",
-                "adhesion",
-                "shear_strength",
-                "particle_radius",
-            ],
-        ),
+        (FrictionLaw::Coulomb, &["height", "velocity", "dynamic_friction", "burgers_vector", "poisson_ratio"]),
+        (FrictionLaw::HurtadoKim, &["height", "velocity", "static_friction", "shear_strength", "poisson_ratio"]),
+        (FrictionLaw::LuGre, &["height", "equivalent_modulus", "adhesion", "shear_strength", "particle_radius"]),
     ];
     for (friction, names) in deaf {
         let nominal = force(&Scene::default(), &by(friction));
@@ -292,38 +173,30 @@ fn parameters_a_law_does_not_know_do_not_act() {
     }
 }
 
+/// Numbers among the options are checked too.
+#[test]
+fn an_unusable_option_is_named() {
+    for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let domain = crate::afm::Domain::Positive;
+        let tolerance = Options { tolerance: value, ..Options::default() };
+        let named = |parameter| Err(Failure::OutOfDomain { parameter, domain });
+        assert_eq!(critical_force(&Scene::default(), &tolerance), named("tolerance"));
+        let step = Options { step: value, ..Options::default() };
+        assert_eq!(critical_force(&Scene::default(), &step), named("step"));
+    }
+}
+
 #[test]
 fn an_unphysical_parameter_is_named() {
-    let scene = Scene {
-        length: -1.0,
-        ..Scene::default()
-    };
+    let scene = Scene { length: -1.0, ..Scene::default() };
     let failure = critical_force(&scene, &Options::default()).unwrap_err();
-    assert_eq!(
-        failure.to_string(),
-        "length is outside its physical domain: it must be a finite number > 0"
-    );
+    assert_eq!(failure.to_string(), "length is outside its physical domain: it must be a finite number > 0");
 }
 
 #[test]
 fn overflow_is_named() {
-    let huge = Scene {
-        elastic_modulus: 1e300,
-        width: 1e60,
-        ..Scene::default()
-    };
-    assert_eq!(
-        critical_force(&huge, &Options::default()),
-        Err(Failure::NotFinite {
-            quantity: "normal_force"
-        })
-    );
-    let thin = Scene {
-        thickness: 1e-120,
-        ..Scene::default()
-    };
-    assert_eq!(
-        critical_force(&thin, &Options::default()),
-        Err(Failure::NotFinite { quantity: "travel" })
-    );
+    let huge = Scene { elastic_modulus: 1e300, width: 1e60, ..Scene::default() };
+    assert_eq!(critical_force(&huge, &Options::default()), Err(Failure::NotFinite { quantity: "normal_force" }));
+    let thin = Scene { thickness: 1e-120, ..Scene::default() };
+    assert_eq!(critical_force(&thin, &Options::default()), Err(Failure::NotFinite { quantity: "travel" }));
 }

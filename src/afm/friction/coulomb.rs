@@ -18,17 +18,13 @@ impl Coulomb {
     /// The law with the constants of `scene`.
     #[inline]
     pub fn of(scene: &Scene) -> Self {
-        Self {
-            coefficient: scene.static_friction,
-            shear_strength: scene.shear_strength,
-        }
+        Self { coefficient: scene.static_friction, shear_strength: scene.shear_strength }
     }
 
     /// The largest lateral force (N).
     #[inline]
     pub fn capacity(&self, pressed: Pressed) -> f64 {
-        self.coefficient * pressed.load
-            + self.shear_strength * (PI * pressed.radius * pressed.radius)
+        self.coefficient * pressed.load + self.shear_strength * (PI * pressed.radius * pressed.radius)
     }
 }
 
@@ -38,28 +34,10 @@ mod tests {
 
     #[test]
     fn load_and_area_add() {
-        let law = Coulomb {
-            coefficient: 0.5,
-            shear_strength: 4e6,
-        };
-        assert_eq!(
-            law.capacity(Pressed {
-                load: 3e-7,
-                radius: 0.0
-            }),
-            1.5e-7
-        );
-        let of_area = law.capacity(Pressed {
-            load: 0.0,
-            radius: 1e-8,
-        });
+        let law = Coulomb { coefficient: 0.5, shear_strength: 4e6 };
+        assert_eq!(law.capacity(Pressed { load: 3e-7, radius: 0.0 }), 1.5e-7);
+        let of_area = law.capacity(Pressed { load: 0.0, radius: 1e-8 });
         assert!((of_area / (4e-10 * PI) - 1.0).abs() < 1e-15);
-        assert_eq!(
-            law.capacity(Pressed {
-                load: 3e-7,
-                radius: 1e-8
-            }),
-            1.5e-7 + of_area
-        );
+        assert_eq!(law.capacity(Pressed { load: 3e-7, radius: 1e-8 }), 1.5e-7 + of_area);
     }
 }

@@ -31,16 +31,8 @@ impl HurtadoKim {
     /// The law with the constants of `scene`.
     #[inline]
     pub fn of(scene: &Scene) -> Self {
-        let &Scene {
-            particle_shear_modulus: g1,
-            substrate_shear_modulus: g2,
-            burgers_vector,
-            ..
-        } = scene;
-        Self {
-            shear_modulus: 2.0 * g1 * g2 / (g1 + g2),
-            burgers_vector,
-        }
+        let &Scene { particle_shear_modulus: g1, substrate_shear_modulus: g2, burgers_vector, .. } = scene;
+        Self { shear_modulus: 2.0 * g1 * g2 / (g1 + g2), burgers_vector }
     }
 
     /// The largest lateral force (N) of a contact of radius `radius` (m).
@@ -76,10 +68,7 @@ mod tests {
         assert!((SLOPE - slope).abs() < 1e-15);
         for radius in [28.001, 31.57, 100.0, 1e3, 1e4, 7.99e4] {
             let published = 10_f64.powf(slope * f64::log10(radius) + intercept);
-            assert!(
-                (strength(radius) / published - 1.0).abs() < 1e-14,
-                "{radius}"
-            );
+            assert!((strength(radius) / published - 1.0).abs() < 1e-14, "{radius}");
         }
     }
 
@@ -105,13 +94,8 @@ mod tests {
 
     #[test]
     fn strength_never_rises_and_force_always_does() {
-        let law = HurtadoKim {
-            shear_modulus: 29e9,
-            burgers_vector: 0.288e-9,
-        };
-        let radii: Vec<f64> = (0..600)
-            .map(|i| 1e-10 * 10_f64.powf(f64::from(i) / 100.0))
-            .collect();
+        let law = HurtadoKim { shear_modulus: 29e9, burgers_vector: 0.288e-9 };
+        let radii: Vec<f64> = (0..600).map(|i| 1e-10 * 10_f64.powf(f64::from(i) / 100.0)).collect();
         for pair in radii.windows(2) {
             assert!(strength(pair[1] / 0.288e-9) <= strength(pair[0] / 0.288e-9));
             assert!(law.capacity(pair[1]) > law.capacity(pair[0]));
@@ -121,9 +105,6 @@ mod tests {
     /// By hand: G* = 2 * 27 * 31.2/58.2 GPa.
     #[test]
     fn effective_modulus_of_gold_on_oxide() {
-        assert!(
-            (HurtadoKim::of(&Scene::default()).shear_modulus / (1684.8e9 / 58.2) - 1.0).abs()
-                < 1e-15
-        );
+        assert!((HurtadoKim::of(&Scene::default()).shear_modulus / (1684.8e9 / 58.2) - 1.0).abs() < 1e-15);
     }
 }
