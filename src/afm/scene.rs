@@ -243,9 +243,13 @@ impl Scene {
             self.rest_time,
             self.frictional_lag,
         ];
-        use super::Domain::{AcuteAngle, NonNegative, PoissonRatio, Positive};
-        positive.iter().fold(true, |so_far, &value| so_far & Positive.contains(value))
-            & not_negative.iter().fold(true, |so_far, &value| so_far & NonNegative.contains(value))
+        use super::Domain::{AcuteAngle, PoissonRatio};
+        // As integers the positive finite numbers are one range, so that one comparison of the largest does for all.
+        let positive = positive.iter().fold(0, |largest, value| value.to_bits().wrapping_sub(1).max(largest));
+        // Adding zero makes minus zero zero.
+        let not_negative = not_negative.iter().fold(0, |largest, value| (value + 0.0).to_bits().max(largest));
+        (positive < f64::MAX.to_bits())
+            & (not_negative <= f64::MAX.to_bits())
             & AcuteAngle.contains(self.contact_angle)
             & AcuteAngle.contains(self.preload_angle)
             & PoissonRatio.contains(self.poisson_ratio)
