@@ -38,7 +38,7 @@ mod tests {
         let contact: Vec<_> = ContactTheory::ALL.iter().map(|theory| theory.name()).collect();
         assert_eq!(contact, ["jkr"]);
         let fidelity: Vec<_> = Fidelity::ALL.iter().map(|rung| rung.name()).collect();
-        assert_eq!(fidelity, ["closed-form", "quasi-static"]);
+        assert_eq!(fidelity, ["closed-form", "quasi-static", "dynamic", "fixed-step", "auto"]);
         let lugre: Vec<_> = LuGreParameters::ALL.iter().map(|source| source.name()).collect();
         assert_eq!(lugre, ["frozen", "contact"]);
         let torsion: Vec<_> = Torsion::ALL.iter().map(|formula| formula.name()).collect();

@@ -28,7 +28,7 @@ pub(super) fn between(a: Point, b: Point, mut f: impl FnMut(f64) -> Result<f64, 
         let width = (opposite.x - newest.x).abs();
         let limit = (2.0 * f64::EPSILON * best.x.abs() + f64::MIN_POSITIVE) / width;
         // Also ends where a value is not a number, or the width zero.
-        if best.y == 0.0 || !(limit <= 0.5) {
+        if best.y == 0.0 || limit > 0.5 || limit.is_nan() {
             return Ok(best.x);
         }
         let x = newest.x + fraction.clamp(limit, 1.0 - limit) * (opposite.x - newest.x);
@@ -77,7 +77,8 @@ mod tests {
     /// Roots known in closed form, to 4 units roundoff (the stopping width and the rounding of the function).
     #[test]
     fn known_roots() {
-        let cases: [(fn(f64) -> f64, f64, f64, f64); 5] = [
+        type Case = (fn(f64) -> f64, f64, f64, f64);
+        let cases: [Case; 5] = [
             (|x| x * x - 2.0, 0.0, 2.0, std::f64::consts::SQRT_2),
             (|x| x.cos(), 0.0, 3.0, std::f64::consts::FRAC_PI_2),
             (|x| x.exp() - 1e9, 0.0, 700.0, 9.0 * std::f64::consts::LN_10),

@@ -1,7 +1,12 @@
 //! The critical force, as a ladder of fidelities: every rung computes the same quantities, a higher
 //! rung drops assumptions.
 
+mod auto;
+mod bristles;
 mod closed_form;
+mod dynamic;
+mod fixed_step;
+mod motion;
 mod quasi_static;
 mod slip;
 mod substrate;
@@ -19,6 +24,14 @@ named! {
         ClosedForm = "closed-form",
         /// Exact geometry, no inertia; the massless ramp of LuGre friction.
         QuasiStatic = "quasi-static",
+        /// The equations of motion, marched by an adaptive stiff method, the slip located as an event; LuGre friction by
+        /// its bristles under a particle with mass.
+        Dynamic = "dynamic",
+        /// The equations of motion, marched in steps of [`Options::step`], the forces read at the first step past the
+        /// slip. It overshoots by up to k_lat V step, and exists to show what that distorts.
+        FixedStep = "fixed-step",
+        /// The lowest of the first three whose error estimate meets [`Options::tolerance`].
+        Auto = "auto",
     }
 }
 
@@ -156,6 +169,9 @@ pub fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Fail
     let critical = match options.fidelity {
         Fidelity::ClosedForm => closed_form::critical_force(scene, options)?,
         Fidelity::QuasiStatic => quasi_static::critical_force(scene, options)?,
+        Fidelity::Dynamic => dynamic::critical_force(scene, options)?,
+        Fidelity::FixedStep => fixed_step::critical_force(scene, options)?,
+        Fidelity::Auto => auto::critical_force(scene, options)?,
     };
     critical.finite()
 }

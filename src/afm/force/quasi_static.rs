@@ -3,9 +3,11 @@
 //! The tip stands in equilibrium at every twist theta: F_Z = K_z z_P with z_P = z_P0 - H (1 - cos theta), and
 //! F_Y cos theta = K_theta theta/H - F_Z sin theta. The particle slips at the first theta with F_Y = F_Y*(F_Z).
 //!
-//! There is one such theta at most. With c = K_theta/H, cos^2(theta) dF_Y/dtheta = c (cos theta + theta sin theta)
-//! - K_z (z_P0 - H) - K_z H cos^3 theta never falls on [0, pi/2], and starts at c - F_Z0. So where c > F_Z0, F_Y is convex
-//! and rises without bound towards pi/2, while F_Y* falls with F_Z. And F_Y >= (c - F_Z0) theta makes
+//! There is one such theta at most. With c = K_theta/H,
+//!
+//!   cos^2(theta) dF_Y/dtheta = c (cos theta + theta sin theta) - K_z (z_P0 - H) - K_z H cos^3 theta
+//!
+//! never falls on [0, pi/2], and starts at c - F_Z0. So where c > F_Z0, F_Y is convex and rises without bound towards pi/2, while F_Y* falls with F_Z. And F_Y >= (c - F_Z0) theta makes
 //! F_Y*(F_Z0)/(c - F_Z0) an upper bound of the root, too large by order theta^2 only.
 
 use std::f64::consts::FRAC_PI_2;
@@ -13,7 +15,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::slip::{Error, Slip};
 use super::substrate::{Hold, Substrate};
 use super::{Cost, Critical, Options};
-use crate::afm::friction::LuGreForm;
+use crate::afm::friction::{LuGre, LuGreForm};
 use crate::afm::probe::Probe;
 use crate::afm::root::{self, Point};
 use crate::afm::{Failure, Fidelity, FrictionLaw, Scene};
@@ -27,6 +29,11 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let mut error = statics.inertia(&slip, &substrate);
     if options.friction == FrictionLaw::LuGre || options.friction == FrictionLaw::LemaitreCarlson {
         error.lateral += substrate.drive.tolerance * slip.lateral_force;
+    }
+    if options.friction == FrictionLaw::LuGre {
+        // Bristles yield to the swing as well, and their dashpots feel its velocity, up to V.
+        let law = LuGre::with(scene, options.lugre, slip.contact.radius);
+        error.lateral += statics.swing() + 2.0 * (law.damping + law.viscous_friction) * scene.velocity;
     }
     let critical = slip.critical(&substrate, Fidelity::QuasiStatic);
     Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })
@@ -61,8 +68,14 @@ impl<'a> Statics<'a> {
     }
 
     /// F_Y cos theta (N) at the twist `theta`.
-    fn lateral_moment(&self, theta: f64) -> f64 {
+    pub fn lateral_moment(&self, theta: f64) -> f64 {
         self.restoring * theta - self.normal_force(theta) * theta.sin()
+    }
+
+    /// Its derivative by the twist (N).
+    pub fn lateral_moment_slope(&self, theta: f64) -> f64 {
+        let (sin, cos) = theta.sin_cos();
+        self.restoring - self.normal_force(theta) * cos + self.probe.normal * self.height * sin * sin
     }
 
     /// Travel of the apex (m): s = H sin theta + F_Y/K_y.

@@ -39,6 +39,15 @@ impl Error {
 }
 
 impl Slip {
+    /// This slip, if friction held the tip back.
+    ///
+    /// # Errors
+    /// [`Failure::StepTooSmall`] for a march that ended in rounding: far outside any laboratory one force may drown
+    /// another.
+    pub fn held_back(self) -> Result<Self, Failure> {
+        if self.lateral_force < 0.0 { Err(Failure::StepTooSmall) } else { Ok(self) }
+    }
+
     /// The result of a rung, with error and cost left to fill in.
     #[inline]
     pub fn critical(&self, substrate: &Substrate, rung: Fidelity) -> Critical {

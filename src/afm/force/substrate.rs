@@ -42,7 +42,7 @@ impl<'a> Substrate<'a> {
             lugre: options.lugre,
             form,
             // What the laws add to the error of a run is small beside its tolerance.
-            tolerance: 0.01 * options.tolerance,
+            tolerance: (0.01 * options.tolerance).max(1e-10),
             step_budget: options.step_budget,
         };
         Self { scene, options, pair, adhesive_load, drive }

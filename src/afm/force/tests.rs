@@ -1,5 +1,6 @@
 //! Exact answers, edges and named failures.
 
+mod dynamic;
 mod extended;
 mod extremes;
 mod properties;

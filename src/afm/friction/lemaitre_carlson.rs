@@ -234,9 +234,9 @@ mod tests {
         for j in 0..2 {
             let shifted = |step: f64| layer.rate(0.0, &std::array::from_fn(|k| y[k] + if k == j { step } else { 0.0 }));
             let (above, below) = (shifted(1e-6), shifted(-1e-6));
-            for i in 0..2 {
+            for (i, row) in jacobian.iter().enumerate() {
                 let difference = (above[i] - below[i]) / 2e-6;
-                assert!((jacobian[i][j] - difference).abs() < 1e-6 * difference.abs().max(1.0), "{i} {j}");
+                assert!((row[j] - difference).abs() < 1e-6 * difference.abs().max(1.0), "{i} {j}");
             }
         }
     }

@@ -244,9 +244,9 @@ mod tests {
         for j in 0..3 {
             let shifted = |step: f64| ramp.rate(0.0, &std::array::from_fn(|k| y[k] + if k == j { step } else { 0.0 }));
             let (above, below) = (shifted(1e-5), shifted(-1e-5));
-            for i in 0..3 {
+            for (i, row) in jacobian.iter().enumerate() {
                 let difference = (above[i] - below[i]) / 2e-5;
-                assert!((jacobian[i][j] - difference).abs() < 1e-6 * (1.0 + difference.abs()), "{i} {j}");
+                assert!((row[j] - difference).abs() < 1e-6 * (1.0 + difference.abs()), "{i} {j}");
             }
         }
     }

@@ -81,7 +81,8 @@ impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
             let left = horizon - self.state.t;
             let last = self.h >= left * (1.0 - 1e-12);
             let h = if last { left } else { self.h.min(self.control.longest_step) };
-            if !(self.state.t + h > self.state.t) {
+            let moves = self.state.t + h > self.state.t;
+            if !moves {
                 return Err(Failure::StepTooSmall);
             }
             if self.steps >= self.control.step_budget {

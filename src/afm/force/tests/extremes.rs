@@ -51,6 +51,7 @@ pub(super) fn corners() -> Vec<Scene> {
 #[test]
 fn every_corner_has_an_answer() {
     for options in every_run() {
+        let options = Options { step_budget: 100_000, ..options };
         for scene in corners() {
             match critical_force(&scene, &options) {
                 Err(Failure::VelocityZero) => {
