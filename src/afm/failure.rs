@@ -26,4 +26,13 @@ pub enum Failure {
         /// Name of the first field of [`Critical`](super::Critical) that overflowed.
         quantity: &'static str,
     },
+    /// The preload would twist the cantilever over without any lateral force: F_Z0 H >= K_theta.
+    #[error("the preload tips the probe over: normal force times tip height must be below the torsional stiffness")]
+    ProbeTips,
+    /// An integration took more steps than it was allowed.
+    #[error("the integration did not end within its step budget: allow more steps or a larger tolerance")]
+    StepBudget,
+    /// An integration could not go on with any step that still moves the time.
+    #[error("the integration came to a point that no step passes at the tolerance asked for: ask for a larger one")]
+    StepTooSmall,
 }

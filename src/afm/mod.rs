@@ -12,8 +12,9 @@
 //! - [`contact`]: contact radius, indentation and pull-off force of a sphere under a load, one
 //!   theory a file;
 //! - [`friction`]: the largest lateral force the substrate contact can hold, one law a file;
-//! - [`force`]: the critical force, one fidelity a file; [`critical_force`] is the entrance;
 //! - [`modes`]: what else the particle may do: slip at the tip, roll, spin;
+//! - [`force`]: the critical force, one fidelity a file; [`critical_force`] is the entrance;
+//! - [`ode`]: initial value problems with events, for the laws and rungs that march in time;
 //! - [`flags`]: what makes a result doubtful; [`failure`]: why there is no result.
 //!
 //! Plain functions on plain structs, all quantities in SI. Nothing here knows of sampling or
@@ -25,6 +26,7 @@
 //! disagree, the docstring says which reading was taken.
 
 mod named;
+mod root;
 
 pub mod contact;
 pub mod failure;
@@ -32,6 +34,7 @@ pub mod flags;
 pub mod force;
 pub mod friction;
 pub mod modes;
+pub mod ode;
 pub mod parameter;
 pub mod probe;
 pub mod scene;
@@ -39,8 +42,8 @@ pub mod scene;
 pub use contact::ContactTheory;
 pub use failure::Failure;
 pub use flags::{Flag, Flags};
-pub use force::{Critical, Fidelity, Options, critical_force};
-pub use friction::FrictionLaw;
+pub use force::{Cost, Critical, Fidelity, Options, critical_force};
+pub use friction::{FrictionLaw, LuGreParameters};
 pub use parameter::{Domain, Parameter};
 pub use probe::Torsion;
 pub use scene::Scene;

@@ -29,16 +29,18 @@ pub(crate) use named;
 
 #[cfg(test)]
 mod tests {
-    use crate::afm::{ContactTheory, Fidelity, Flag, FrictionLaw, Torsion};
+    use crate::afm::{ContactTheory, Fidelity, Flag, FrictionLaw, LuGreParameters, Torsion};
 
     #[test]
     fn names_are_what_study_files_say() {
         let friction: Vec<_> = FrictionLaw::ALL.iter().map(|law| law.name()).collect();
-        assert_eq!(friction, ["coulomb", "hk", "lugre"]);
+        assert_eq!(friction, ["coulomb", "hk", "lugre", "dahl", "stribeck", "armstrong", "lemaitre-carlson"]);
         let contact: Vec<_> = ContactTheory::ALL.iter().map(|theory| theory.name()).collect();
         assert_eq!(contact, ["hertz", "jkr", "dmt", "maugis-dugdale", "cos", "auto"]);
         let fidelity: Vec<_> = Fidelity::ALL.iter().map(|rung| rung.name()).collect();
-        assert_eq!(fidelity, ["closed-form"]);
+        assert_eq!(fidelity, ["closed-form", "quasi-static", "dynamic", "fixed-step", "auto"]);
+        let lugre: Vec<_> = LuGreParameters::ALL.iter().map(|source| source.name()).collect();
+        assert_eq!(lugre, ["frozen", "contact"]);
         let torsion: Vec<_> = Torsion::ALL.iter().map(|formula| formula.name()).collect();
         assert_eq!(torsion, ["thin-strip", "rectangle"]);
     }
@@ -51,7 +53,7 @@ mod tests {
         for &flag in Flag::ALL {
             assert_eq!(Flag::from_name(flag.name()), Some(flag));
         }
-        for name in ["", "Coulomb", "coulomb ", "dahl"] {
+        for name in ["", "Coulomb", "coulomb ", "stick"] {
             assert_eq!(FrictionLaw::from_name(name), None);
         }
     }

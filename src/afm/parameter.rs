@@ -56,10 +56,9 @@ pub struct Parameter {
     pub description: &'static str,
     /// Where it is physical.
     pub domain: Domain,
-    /// Reads it (SI). For `shear_modulus` the value in force, given or derived.
+    /// Reads it (SI). For those with a derived value the one in force, given or derived.
     pub get: fn(&Scene) -> f64,
-    /// Sets it (SI), without looking at the domain. Setting `shear_modulus` cuts its tie to E and
-    /// nu.
+    /// Sets it (SI), without looking at the domain. Setting one with a derived value cuts its tie to the others.
     pub set: fn(&mut Scene, f64),
 }
 
@@ -117,6 +116,46 @@ impl Parameter {
         parameter!(stribeck_velocity, "v_s", "m/s", Positive, "Stribeck velocity"),
         parameter!(equilibrium_separation, "z0", "m", Positive, "equilibrium separation of the surfaces"),
         parameter!(hardness, "p_Y", "Pa", Positive, "hardness of the particle"),
+        parameter!(particle_poisson_ratio, "nu1", "1", PoissonRatio, "Poisson ratio of the particle"),
+        parameter!(substrate_poisson_ratio, "nu2", "1", PoissonRatio, "Poisson ratio of the substrate"),
+        parameter!(dahl_exponent, "alpha_D", "1", Positive, "exponent of Dahl's law"),
+        parameter!(stribeck_exponent, "d_s", "1", Positive, "exponent of the classical Stribeck curve"),
+        parameter!(
+            fresh_friction,
+            "mu_a",
+            "1",
+            NonNegative,
+            "coefficient of static friction just after coming to rest"
+        ),
+        parameter!(dwell_constant, "gamma", "s", Positive, "time in which static friction rises halfway (Armstrong)"),
+        parameter!(rest_time, "t_r", "s", NonNegative, "time at rest before the substrate moves (Armstrong)"),
+        parameter!(frictional_lag, "tau_l", "s", NonNegative, "frictional lag (Armstrong)"),
+        parameter!(layer_half_thickness, "h", "m", Positive, "half the layer thickness (Lemaitre-Carlson)"),
+        parameter!(layer_modulus, "mu", "Pa", Positive, "shear modulus of the layer (Lemaitre-Carlson)"),
+        parameter!(layer_stress, "mubar", "Pa", Positive, "stress scale of rearrangements (Lemaitre-Carlson)"),
+        parameter!(rearrangement_rate, "E0", "1/s", Positive, "rate of rearrangements (Lemaitre-Carlson)"),
+        parameter!(ageing_rate, "E1", "1/s", Positive, "rate of ageing (Lemaitre-Carlson)"),
+        parameter!(ageing_barrier, "kappa", "1", Positive, "barrier of ageing (Lemaitre-Carlson)"),
+        parameter!(disorder_gain, "alpha", "1/Pa", Positive, "disorder made by plastic work (Lemaitre-Carlson)"),
+        parameter!(initial_disorder, "chi0", "1", Positive, "disorder at the start (Lemaitre-Carlson)"),
+        Self {
+            name: "tip_mass",
+            symbol: "m",
+            unit: "kg",
+            description: "mass of the tip, that of a cone unless set",
+            domain: Domain::Positive,
+            get: Scene::effective_tip_mass,
+            set: |scene, value| scene.tip_mass = Some(value),
+        },
+        Self {
+            name: "tip_inertia",
+            symbol: "I_c",
+            unit: "kg m2",
+            description: "moment of inertia of the tip about its centre of mass, that of a cone unless set",
+            domain: Domain::Positive,
+            get: Scene::effective_tip_inertia,
+            set: |scene, value| scene.tip_inertia = Some(value),
+        },
     ];
 
     /// The parameter of that name, if there is one.
@@ -146,8 +185,9 @@ mod tests {
 
     #[test]
     fn set_then_get_gives_the_value_back_and_moves_nothing_else() {
-        // shear_modulus is fixed first, since unset it follows E and nu.
-        let before = Scene { shear_modulus: Some(1.0), ..Scene::default() };
+        // Those with a derived value are fixed first, since unset they follow others.
+        let before =
+            Scene { shear_modulus: Some(1.0), tip_mass: Some(1.0), tip_inertia: Some(1.0), ..Scene::default() };
         for parameter in Parameter::ALL {
             let mut scene = before;
             (parameter.set)(&mut scene, 0.123);
@@ -158,11 +198,11 @@ mod tests {
         }
     }
 
-    /// The table covers the struct: every field of `Scene` is eight bytes, but for the optional one
-    /// of sixteen.
+    /// The table covers the struct: every field of `Scene` is eight bytes, but for the three
+    /// optional ones of sixteen.
     #[test]
     fn no_field_is_missing() {
-        assert_eq!(size_of::<Scene>(), 8 * (Parameter::ALL.len() + 1));
+        assert_eq!(size_of::<Scene>(), 8 * (Parameter::ALL.len() + 3));
     }
 
     #[test]

@@ -67,6 +67,46 @@ pub struct Scene {
     pub equilibrium_separation: f64,
     /// Hardness of the particle (Pa).
     pub hardness: f64,
+    /// Poisson ratio of the particle, nu1. For LuGre friction with the parameters of the contact. Gold: 0.42.
+    pub particle_poisson_ratio: f64,
+    /// Poisson ratio of the substrate, nu2, likewise. Fused silica: 0.17.
+    pub substrate_poisson_ratio: f64,
+    /// Exponent alpha of Dahl's law, 1 in most uses: LuGre friction without damping at constant strength.
+    pub dahl_exponent: f64,
+    /// Exponent d_s of the classical Stribeck curve. 2, as in LuGre friction.
+    pub stribeck_exponent: f64,
+    /// Coefficient of static friction of a contact that has just come to rest, of Armstrong's law: F_C + F_S,a = mu_a N.
+    /// No paper prints one for this contact: midway between mu_d and mu_s.
+    pub fresh_friction: f64,
+    /// Time gamma (s) in which Armstrong's static friction rises halfway from fresh to old. Chosen: the order of
+    /// magnitude of Armstrong-Helouvry, Dupont & Canudas de Wit 1994.
+    pub dwell_constant: f64,
+    /// Time at rest before the substrate moves (s), which Armstrong's static friction remembers.
+    pub rest_time: f64,
+    /// Frictional lag tau_l of Armstrong's law (s): sliding friction answers the velocity so much earlier.
+    pub frictional_lag: f64,
+    /// Half the thickness of the Lemaitre-Carlson layer, h (m). Chosen: two nanometres of lubricant in all.
+    pub layer_half_thickness: f64,
+    /// Shear modulus of that layer, mu (Pa). Chosen: a glassy molecular film.
+    pub layer_modulus: f64,
+    /// Stress scale of its rearrangements, mubar (Pa). Chosen with the four rates below so that the layer slides steadily
+    /// near the shear strength of 28 MPa at 100 nm/s, weakens with velocity and ages.
+    pub layer_stress: f64,
+    /// Rate E0 of its rearrangements (1/s).
+    pub rearrangement_rate: f64,
+    /// Rate E1 of its ageing (1/s).
+    pub ageing_rate: f64,
+    /// Barrier kappa of ageing, in units of that of rearrangements.
+    pub ageing_barrier: f64,
+    /// Disorder made by plastic work, alpha (1/Pa).
+    pub disorder_gain: f64,
+    /// Disorder chi at the start; smaller is older.
+    pub initial_disorder: f64,
+    /// Mass of the tip, m (kg); `None` stands for a cone, rho pi r^2 H/3.
+    pub tip_mass: Option<f64>,
+    /// Moment of inertia of the tip about an axis across it through its centre of mass, I_c (kg m2); `None` stands for
+    /// a cone of the mass in force, m (3/80) (4 r^2 + H^2).
+    pub tip_inertia: Option<f64>,
 }
 
 impl Default for Scene {
@@ -101,6 +141,24 @@ impl Default for Scene {
             stribeck_velocity: 1e-3,
             equilibrium_separation: 0.2e-9,
             hardness: 3.7e9,
+            particle_poisson_ratio: 0.42,
+            substrate_poisson_ratio: 0.17,
+            dahl_exponent: 1.0,
+            stribeck_exponent: 2.0,
+            fresh_friction: 0.75,
+            dwell_constant: 1.0,
+            rest_time: 0.0,
+            frictional_lag: 1e-3,
+            layer_half_thickness: 1e-9,
+            layer_modulus: 1e9,
+            layer_stress: 10e6,
+            rearrangement_rate: 1e5,
+            ageing_rate: 1.8e3,
+            ageing_barrier: 0.5,
+            disorder_gain: 1e-8,
+            initial_disorder: 0.06,
+            tip_mass: None,
+            tip_inertia: None,
         }
     }
 }
@@ -113,6 +171,18 @@ impl Scene {
             Some(given) => given,
             None => self.elastic_modulus / (2.0 * (1.0 + self.poisson_ratio)),
         }
+    }
+
+    /// The mass of the tip in force (kg): the one given, else that of a cone.
+    pub fn effective_tip_mass(&self) -> f64 {
+        let &Self { probe_density, tip_base_radius: r, height, .. } = self;
+        self.tip_mass.unwrap_or(probe_density * std::f64::consts::PI * r * r * height / 3.0)
+    }
+
+    /// The moment of inertia of the tip about its centre of mass in force (kg m2): the one given, else that of a cone.
+    pub fn effective_tip_inertia(&self) -> f64 {
+        let &Self { tip_base_radius: r, height, .. } = self;
+        self.tip_inertia.unwrap_or(self.effective_tip_mass() * (3.0 / 80.0) * (4.0 * r * r + height * height))
     }
 
     /// Whether every parameter lies in its physical domain.
@@ -147,6 +217,19 @@ impl Scene {
             self.stribeck_velocity,
             self.equilibrium_separation,
             self.hardness,
+            self.dahl_exponent,
+            self.stribeck_exponent,
+            self.dwell_constant,
+            self.layer_half_thickness,
+            self.layer_modulus,
+            self.layer_stress,
+            self.rearrangement_rate,
+            self.ageing_rate,
+            self.ageing_barrier,
+            self.disorder_gain,
+            self.initial_disorder,
+            self.tip_mass.unwrap_or(1.0),
+            self.tip_inertia.unwrap_or(1.0),
         ];
         let not_negative = [
             self.velocity,
@@ -156,13 +239,22 @@ impl Scene {
             self.shear_strength,
             self.bristle_damping,
             self.viscous_friction,
+            self.fresh_friction,
+            self.rest_time,
+            self.frictional_lag,
         ];
-        use super::Domain::{AcuteAngle, NonNegative, PoissonRatio, Positive};
-        positive.iter().fold(true, |so_far, &value| so_far & Positive.contains(value))
-            & not_negative.iter().fold(true, |so_far, &value| so_far & NonNegative.contains(value))
+        use super::Domain::{AcuteAngle, PoissonRatio};
+        // As integers the positive finite numbers are one range, so that one comparison of the largest does for all.
+        let positive = positive.iter().fold(0, |largest, value| value.to_bits().wrapping_sub(1).max(largest));
+        // Adding zero makes minus zero zero.
+        let not_negative = not_negative.iter().fold(0, |largest, value| (value + 0.0).to_bits().max(largest));
+        (positive < f64::MAX.to_bits())
+            & (not_negative <= f64::MAX.to_bits())
             & AcuteAngle.contains(self.contact_angle)
             & AcuteAngle.contains(self.preload_angle)
             & PoissonRatio.contains(self.poisson_ratio)
+            & PoissonRatio.contains(self.particle_poisson_ratio)
+            & PoissonRatio.contains(self.substrate_poisson_ratio)
     }
 
     #[cold]
@@ -197,7 +289,8 @@ mod tests {
     fn nothing_inside_a_domain_is_refused() {
         for parameter in Parameter::ALL {
             for value in [0.0, 1e-300, 0.4, 0.5, 1.5, 1e300].into_iter().filter(|&v| parameter.domain.contains(v)) {
-                let mut scene = Scene { shear_modulus: Some(1.0), ..Scene::default() };
+                let mut scene =
+                    Scene { shear_modulus: Some(1.0), tip_mass: Some(1.0), tip_inertia: Some(1.0), ..Scene::default() };
                 (parameter.set)(&mut scene, value);
                 assert_eq!(scene.check(), Ok(()), "{} = {value}", parameter.name);
             }

@@ -1,23 +1,42 @@
 //! The critical force, as a ladder of fidelities: every rung computes the same quantities, a higher
 //! rung drops assumptions.
 
+mod auto;
+mod bristles;
 mod closed_form;
+mod dynamic;
+mod fixed_step;
+mod motion;
+mod quasi_static;
+mod slip;
+mod substrate;
 #[cfg(test)]
 mod tests;
 
+use super::friction::LuGreParameters;
 use super::named::named;
-use super::{ContactTheory, Failure, Flags, FrictionLaw, Scene, Torsion};
+use super::{ContactTheory, Domain, Failure, Flags, FrictionLaw, Scene, Torsion};
 
 named! {
     /// How much of the mechanics is kept.
     pub enum Fidelity {
         /// Small twist, no inertia: closed formulas.
         ClosedForm = "closed-form",
+        /// Exact geometry, no inertia; the massless ramp of LuGre friction.
+        QuasiStatic = "quasi-static",
+        /// The equations of motion, marched by an adaptive stiff method, the slip located as an event; LuGre friction by
+        /// its bristles under a particle with mass.
+        Dynamic = "dynamic",
+        /// The equations of motion, marched in steps of [`Options::step`], the forces read at the first step past the
+        /// slip. It overshoots by up to k_lat V step, and exists to show what that distorts.
+        FixedStep = "fixed-step",
+        /// The lowest of the first three whose error estimate meets [`Options::tolerance`].
+        Auto = "auto",
     }
 }
 
-/// Which of the competing formulas are used.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+/// Which of the competing formulas are used, and how accurately.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Law of friction under the particle.
     pub friction: FrictionLaw,
@@ -28,11 +47,21 @@ pub struct Options {
     /// Formula for the torsional stiffness.
     pub torsion: Torsion,
     /// Whether friction also feels the pull-off force of the contact, so that N = F_Z + F_ad.
-    /// Hurtado-Kim friction feels no load, and is not moved.
+    /// Hurtado-Kim and Lemaitre-Carlson friction feel no load, and are not moved.
     pub adhesion_in_load: bool,
+    /// Where stiffness and damping of LuGre bristles come from.
+    pub lugre: LuGreParameters,
+    /// Relative error asked of the critical force, > 0: what the integrated rungs aim at, and what
+    /// `auto` compares the estimates with.
+    pub tolerance: f64,
+    /// Step of the `fixed-step` rung (s), > 0.
+    pub step: f64,
+    /// Most steps of any one integration.
+    pub step_budget: u64,
 }
 
-/// As in the papers: Coulomb, JKR, closed form, thin strip, adhesion not in the load.
+/// As in the papers: Coulomb, JKR, closed form, thin strip, adhesion not in the load, frozen LuGre
+/// parameters. Beyond them: tolerance 1e-6, fixed step 10 ms, a million steps.
 impl Default for Options {
     fn default() -> Self {
         Self {
@@ -41,8 +70,37 @@ impl Default for Options {
             fidelity: Fidelity::ClosedForm,
             torsion: Torsion::ThinStrip,
             adhesion_in_load: false,
+            lugre: LuGreParameters::Frozen,
+            tolerance: 1e-6,
+            step: 0.01,
+            step_budget: 1_000_000,
         }
     }
+}
+
+impl Options {
+    /// Whether the numbers among the options are usable.
+    ///
+    /// # Errors
+    /// [`Failure::OutOfDomain`] names the first that is not.
+    #[inline]
+    fn check(&self) -> Result<(), Failure> {
+        let domain = Domain::Positive;
+        if !domain.contains(self.tolerance) {
+            return Err(Failure::OutOfDomain { parameter: "tolerance", domain });
+        }
+        if !domain.contains(self.step) {
+            return Err(Failure::OutOfDomain { parameter: "step", domain });
+        }
+        Ok(())
+    }
+}
+
+/// Cost of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    /// Evaluations of the contact's friction and of rates of change.
+    pub evaluations: u64,
 }
 
 /// The scene at the instant when the particle slips.
@@ -56,7 +114,7 @@ pub struct Critical {
     pub critical_force: f64,
     /// Angle of the tip force from the vertical, psi = atan2(F_Y, F_Z) (rad).
     pub force_angle: f64,
-    /// Travel of the substrate until then, s (m).
+    /// Travel of the substrate until then, s (m), less what the particle crept on its bristles.
     pub travel: f64,
     /// Time until then, t_cr = s/V (s); or why there is none, [`Failure::VelocityZero`] where V =
     /// 0.
@@ -69,6 +127,13 @@ pub struct Critical {
     pub twist: f64,
     /// What makes the result doubtful.
     pub flags: Flags,
+    /// Estimated relative error of the critical force, from what the rung leaves out and from its
+    /// numerics; not of the laws themselves. At most 1, which claims nothing.
+    pub error_estimate: f64,
+    /// What it cost to find.
+    pub cost: Cost,
+    /// The rung that found it; never `auto`.
+    pub rung: Fidelity,
 }
 
 /// The critical force of pushing the particle, and the state of the scene at that instant.
@@ -78,7 +143,10 @@ pub struct Critical {
 ///
 /// # Errors
 /// [`Failure::OutOfDomain`] if a parameter is not physical; [`Failure::NotFinite`] if a result
-/// overflows; [`Failure::BeyondPullOff`] if the load pulls the particle off the substrate.
+/// overflows; [`Failure::BeyondPullOff`] if the load pulls the particle off the substrate;
+/// [`Failure::ProbeTips`] if the preload twists the cantilever over; [`Failure::StepBudget`] or
+/// [`Failure::StepTooSmall`] if an integration does not come through; [`Failure::VelocityZero`] for
+/// Lemaitre-Carlson friction at rest, which has no limit there.
 ///
 /// # Example
 /// ```
@@ -97,8 +165,13 @@ pub struct Critical {
 #[inline]
 pub fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
     scene.check()?;
+    options.check()?;
     let critical = match options.fidelity {
         Fidelity::ClosedForm => closed_form::critical_force(scene, options)?,
+        Fidelity::QuasiStatic => quasi_static::critical_force(scene, options)?,
+        Fidelity::Dynamic => dynamic::critical_force(scene, options)?,
+        Fidelity::FixedStep => fixed_step::critical_force(scene, options)?,
+        Fidelity::Auto => auto::critical_force(scene, options)?,
     };
     critical.finite()
 }

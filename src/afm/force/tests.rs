@@ -1,6 +1,10 @@
 //! Exact answers, edges and named failures.
 
+mod dynamic;
+mod extended;
+mod extremes;
 mod properties;
+mod quasi_static;
 
 use std::f64::consts::PI;
 
@@ -23,16 +27,18 @@ fn scaled(scene: &Scene, name: &str, factor: f64) -> Scene {
     scaled
 }
 
-/// Every combination of the options.
-fn all_options() -> Vec<Options> {
+/// The laws that hold the same whatever pulls: neither stiffness nor rest nor age act.
+const RIGID: [FrictionLaw; 5] =
+    [FrictionLaw::Coulomb, FrictionLaw::HurtadoKim, FrictionLaw::LuGre, FrictionLaw::Dahl, FrictionLaw::Stribeck];
+
+/// Every combination of these laws, and of the formulas, in closed form.
+fn closed_form_options(laws: &[FrictionLaw]) -> Vec<Options> {
     let mut all = Vec::new();
-    for &friction in FrictionLaw::ALL {
+    for &friction in laws {
         for &contact in ContactTheory::ALL {
-            for &fidelity in Fidelity::ALL {
-                for &torsion in Torsion::ALL {
-                    for adhesion_in_load in [false, true] {
-                        all.push(Options { friction, contact, fidelity, torsion, adhesion_in_load });
-                    }
+            for &torsion in Torsion::ALL {
+                for adhesion_in_load in [false, true] {
+                    all.push(Options { friction, contact, torsion, adhesion_in_load, ..Options::default() });
                 }
             }
         }
@@ -78,7 +84,7 @@ fn nominal_state_at_the_slip() {
 
 #[test]
 fn a_substrate_at_rest_leaves_the_force_and_fails_only_the_time() {
-    for options in all_options() {
+    for options in closed_form_options(&RIGID) {
         let moving = critical_force(&Scene { velocity: 1e-12, ..Scene::default() }, &options).unwrap();
         let resting = critical_force(&Scene { velocity: 0.0, ..Scene::default() }, &options).unwrap();
         assert_eq!(resting.critical_time, Err(Failure::VelocityZero));
@@ -109,7 +115,7 @@ fn without_adhesion_the_contact_is_hertz() {
 #[test]
 fn no_load_and_no_adhesion_is_no_force() {
     let scene = Scene { adhesion: 0.0, preload_angle: 0.0, viscous_friction: 0.0, ..Scene::default() };
-    for options in all_options() {
+    for options in closed_form_options(&RIGID) {
         let critical = critical_force(&scene, &options).unwrap();
         assert_eq!((critical.critical_force, critical.force_angle, critical.twist), (0.0, 0.0, 0.0));
         assert_eq!(critical.critical_time, Ok(0.0));
@@ -165,6 +171,19 @@ fn parameters_a_law_does_not_know_do_not_act() {
             let scene = scaled(&Scene::default(), name, 1.3);
             assert_eq!(force(&scene, &by(friction)), nominal, "{friction:?} {name}");
         }
+    }
+}
+
+/// Numbers among the options are checked too.
+#[test]
+fn an_unusable_option_is_named() {
+    for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let domain = crate::afm::Domain::Positive;
+        let tolerance = Options { tolerance: value, ..Options::default() };
+        let named = |parameter| Err(Failure::OutOfDomain { parameter, domain });
+        assert_eq!(critical_force(&Scene::default(), &tolerance), named("tolerance"));
+        let step = Options { step: value, ..Options::default() };
+        assert_eq!(critical_force(&Scene::default(), &step), named("step"));
     }
 }
 

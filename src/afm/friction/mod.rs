@@ -1,15 +1,31 @@
 //! The largest lateral force the substrate contact can hold before the particle slips, F_Y*.
+//!
+//! One law a file. Laws with a state (LuGre, Dahl, Armstrong, Lemaitre-Carlson) answer with the peak of the force when
+//! a spring pulls ever harder, the break-away force. [`probe`] shows each law by itself.
 
+mod armstrong;
 mod coulomb;
+mod dahl;
 mod hurtado_kim;
+mod lemaitre_carlson;
 mod lugre;
+pub mod probe;
+mod ramp;
+mod stribeck;
+#[cfg(test)]
+mod tests;
 
+pub use armstrong::{Armstrong, Loading};
 pub use coulomb::Coulomb;
+pub use dahl::Dahl;
 pub use hurtado_kim::HurtadoKim;
-pub use lugre::LuGre;
+pub use lemaitre_carlson::LemaitreCarlson;
+pub(crate) use lugre::particle_mass;
+pub use lugre::{LuGre, LuGreParameters};
+pub use stribeck::Stribeck;
 
-use super::Scene;
 use super::named::named;
+use super::{Failure, Scene};
 
 named! {
     /// Law of friction between particle and substrate.
@@ -18,28 +34,114 @@ named! {
         Coulomb = "coulomb",
         /// Hurtado & Kim 1999, strength of a single contact by its size: [`HurtadoKim`].
         HurtadoKim = "hk",
-        /// Canudas de Wit et al. 1995, bristles with a Stribeck curve, in the steady fast form: [`LuGre`].
+        /// Canudas de Wit et al. 1995, bristles with a Stribeck curve: [`LuGre`].
         LuGre = "lugre",
+        /// Dahl 1968, a spring that yields: [`Dahl`].
+        Dahl = "dahl",
+        /// Coulomb, Stribeck, viscous friction and stiction: [`Stribeck`].
+        Stribeck = "stribeck",
+        /// Armstrong's seven parameters, with lag and memory of rest: [`Armstrong`].
+        Armstrong = "armstrong",
+        /// Lemaitre & Carlson 2004, a glassy layer: [`LemaitreCarlson`].
+        LemaitreCarlson = "lemaitre-carlson",
     }
 }
 
 /// The substrate contact as friction feels it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pressed {
-    /// Normal load N, with the adhesive part where the options ask for it (N), >= 0.
+    /// Normal load N, with the adhesive part where the options ask for it (N), >= 0; below 0 for laws that live on
+    /// the contact area too.
     pub load: f64,
     /// Contact radius a (m), >= 0.
     pub radius: f64,
 }
 
+/// How the break-away force of LuGre friction is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LuGreForm {
+    /// As the force of steady sliding, Fss(V) + sigma2 V: good for V far below v_s.
+    Fast,
+    /// As the peak of the ramp dF/dt = k_lat (V - v) of a massless particle.
+    Ramp,
+}
+
+/// How the particle is pulled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// Velocity V of the far end of the spring (m/s), >= 0.
+    pub velocity: f64,
+    /// Stiffness k_lat of the spring (N/m), > 0.
+    pub stiffness: f64,
+    /// Mass of the particle (kg), > 0.
+    pub mass: f64,
+    /// Source of the LuGre parameters.
+    pub lugre: LuGreParameters,
+    /// Form of the LuGre law.
+    pub form: LuGreForm,
+    /// Relative tolerance of the laws that are integrated, > 0.
+    pub tolerance: f64,
+    /// Most steps of an integration.
+    pub step_budget: u64,
+}
+
+/// The largest force that friction holds, and what it cost to find.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    /// F_Y* (N).
+    pub force: f64,
+    /// Evaluations of rates of change.
+    pub evaluations: u64,
+}
+
+impl Drive {
+    /// Pulled at the velocity of `scene` through a spring of `stiffness` (N/m): frozen LuGre parameters, fast form, a
+    /// tolerance of 1e-8 and a million steps.
+    pub fn of(scene: &Scene, stiffness: f64) -> Self {
+        Self {
+            velocity: scene.velocity,
+            stiffness,
+            mass: particle_mass(scene),
+            lugre: LuGreParameters::Frozen,
+            form: LuGreForm::Fast,
+            tolerance: 1e-8,
+            step_budget: 1_000_000,
+        }
+    }
+}
+
 impl FrictionLaw {
     /// F_Y*: the largest lateral force (N) that the contact holds, with the constants of `scene`.
+    ///
+    /// # Errors
+    /// [`Failure::StepBudget`] and [`Failure::StepTooSmall`] of the laws that are integrated;
+    /// [`Failure::VelocityZero`] for Lemaitre-Carlson at rest, whose layer grows stronger for ever.
     #[inline]
-    pub fn capacity(self, scene: &Scene, pressed: Pressed) -> f64 {
-        match self {
+    pub fn capacity(self, scene: &Scene, pressed: Pressed, drive: &Drive) -> Result<Held, Failure> {
+        let load = pressed.load;
+        let force = match self {
             Self::Coulomb => Coulomb::of(scene).capacity(pressed),
             Self::HurtadoKim => HurtadoKim::of(scene).capacity(pressed.radius),
-            Self::LuGre => LuGre::of(scene).steady_force(pressed.load, scene.velocity),
-        }
+            Self::LuGre => match drive.form {
+                LuGreForm::Fast => LuGre::of(scene).steady_force(load, drive.velocity),
+                LuGreForm::Ramp => {
+                    return ramp::peak(&LuGre::with(scene, drive.lugre, pressed.radius), load, drive);
+                }
+            },
+            Self::Dahl => Dahl::of(scene).capacity(load),
+            Self::Stribeck => Stribeck::of(scene).capacity(load, drive.velocity)?,
+            Self::Armstrong => {
+                let law = Armstrong::of(scene);
+                let stiffness = 1.0 / (1.0 / drive.stiffness + 1.0 / law.stiffness);
+                law.break_away(load, Loading { rate: stiffness * drive.velocity, rest: scene.rest_time })
+            }
+            Self::LemaitreCarlson => return LemaitreCarlson::of(scene).capacity(pressed, drive),
+        };
+        Ok(Held { force, evaluations: 0 })
+    }
+
+    /// Whether friction still holds under a load below zero, by the area that adhesion keeps together.
+    pub fn lives_on_area(self) -> bool {
+        matches!(self, Self::Coulomb | Self::HurtadoKim | Self::LemaitreCarlson)
     }
 }

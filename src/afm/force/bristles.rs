@@ -1,0 +1,122 @@
+//! The tip pushing a particle with mass on LuGre bristles.
+
+use super::dynamic::local_tolerance;
+use super::motion::Motion;
+use super::slip::Slip;
+use super::substrate::Substrate;
+use crate::afm::Failure;
+use crate::afm::friction::{LuGre, particle_mass};
+use crate::afm::ode::{Control, March, Outcome, Problem, Rodas};
+
+/// The tip of [`Motion`] whose apex follows the particle, m_p x'' = F_Y - F, F = sigma0 z + sigma1 z' + sigma2 x', where
+/// x is what the particle crept back on the moving substrate. Unknowns, in the units of `Motion`: K_y y_P, theta', x, x'
+/// and sigma0 z.
+///
+/// The reaction of the tip's mass to x'' is left out, as in the tip's own equations, which let the apex move steadily.
+pub(super) struct Bristles<'a> {
+    motion: &'a Motion<'a>,
+    substrate: &'a Substrate<'a>,
+    law: LuGre,
+    velocity: f64,
+    /// Acceleration of the particle per unit of force, in units of V per unit of time.
+    agility: f64,
+    /// sigma0, sigma1 and sigma2 in units of force, length and velocity.
+    stiffness: f64,
+    damping: f64,
+    viscosity: f64,
+}
+
+impl<'a> Bristles<'a> {
+    /// Bristles of a contact of `radius` (m).
+    pub fn new(motion: &'a Motion<'a>, substrate: &'a Substrate<'a>, radius: f64) -> Self {
+        let scene = substrate.scene;
+        let law = LuGre::with(scene, substrate.options.lugre, radius);
+        let velocity = scene.velocity;
+        Self {
+            motion,
+            substrate,
+            law,
+            velocity,
+            agility: motion.time() * motion.force / (particle_mass(scene) * velocity),
+            stiffness: law.stiffness * motion.length / motion.force,
+            damping: law.damping * velocity / motion.force,
+            viscosity: law.viscous_friction * velocity / motion.force,
+        }
+    }
+
+    /// Marches until the bristles give way, or so near that what is left to rise is below the tolerance. The force is what
+    /// the particle feels then, the swing of the tip and all.
+    pub fn slip(&self) -> Result<(Slip, u64), Failure> {
+        let tolerance = local_tolerance(self.substrate.options);
+        // Of the particle on its bristles and the spring of the probe.
+        let swing = (self.agility * (1.0 + self.stiffness)).sqrt();
+        let control = Control {
+            tolerance,
+            scale: [1.0, self.motion.frequency().max(1.0), 1.0, swing.max(1.0), 1.0],
+            first_step: 1e-3,
+            longest_step: 0.1,
+            step_budget: self.substrate.options.step_budget,
+        };
+        let mut march = March::<Rodas, _, 5>::new(self, (0.0, [0.0, 1.0, 0.0, 0.0, 0.0]), control);
+        // At the peak the bristles give way, z' = 0; x' = V alone is no sign of it, since the swing of the tip takes x'
+        // past V for moments from the start.
+        let event = |t: f64, &[q, _, x, u, p]: &[f64; 5]| {
+            let yielding = p / self.strength(self.load(t - x, q), u) - 1.0 + tolerance;
+            Ok(if u > 0.0 { yielding } else { -1.0 })
+        };
+        let horizon = 10.0 + 100.0 / self.stiffness;
+        let (Outcome::Event(end) | Outcome::Horizon(end)) = march.until(horizon, event)?;
+        let [q, w, creep, _, _] = end.y;
+        let tip = self.motion.tip(end.t - creep, &[q, w]);
+        let slip = Slip {
+            normal_force: tip.normal_force,
+            // What the particle feels: the reaction of the tip's mass is left out here too.
+            lateral_force: q * self.motion.force,
+            travel: (end.t - creep) * self.motion.length,
+            twist: tip.twist,
+            contact: self.substrate.hold(tip.normal_force)?.contact,
+        };
+        Ok((slip, march.evaluations()))
+    }
+
+    /// The load that friction feels (N).
+    fn load(&self, s: f64, q: f64) -> f64 {
+        self.motion.normal_spring(self.motion.twist(s, q)) + self.substrate.adhesive_load
+    }
+
+    fn strength(&self, load: f64, u: f64) -> f64 {
+        self.law.stribeck(load, u * self.velocity) / self.motion.force
+    }
+}
+
+impl Problem<5> for Bristles<'_> {
+    fn rate(&self, t: f64, &[q, w, x, u, p]: &[f64; 5]) -> [f64; 5] {
+        let [rise, turn] = self.motion.rates([t - x, 1.0 - u], &[q, w]);
+        let sprung = u - u.abs() * p / self.strength(self.load(t - x, q), u);
+        let friction = p + self.damping * sprung + self.viscosity * u;
+        [rise, turn, u, self.agility * (q - friction), self.stiffness * sprung]
+    }
+
+    /// Without the change of the load by the twist, which is of second order; the error estimate watches over it.
+    fn jacobian(&self, t: f64, &[q, w, x, u, p]: &[f64; 5]) -> [[f64; 5]; 5] {
+        let [[rise_q, rise_w, rise_s], [turn_q, turn_w, turn_s]] = self.motion.slopes(t - x, &[q, w]);
+        let load = self.load(t - x, q);
+        let strength = self.strength(load, u);
+        let slope = self.law.stribeck_slope(load, u * self.velocity) * self.velocity / self.motion.force;
+        let by_p = -u.abs() / strength;
+        let by_u = 1.0 - u.signum() * p / strength + u.abs() * p * slope / (strength * strength);
+        let g = self.agility;
+        [
+            [rise_q, rise_w, -rise_s, -self.motion.stiffness(), 0.0],
+            [turn_q, turn_w, -turn_s, 0.0, 0.0],
+            [0.0, 0.0, 0.0, 1.0, 0.0],
+            [g, 0.0, 0.0, -g * (self.damping * by_u + self.viscosity), -g * (1.0 + self.damping * by_p)],
+            [0.0, 0.0, 0.0, self.stiffness * by_u, self.stiffness * by_p],
+        ]
+    }
+
+    fn time_rate(&self, t: f64, &[q, w, x, _, _]: &[f64; 5]) -> [f64; 5] {
+        let [[_, _, rise_s], [_, _, turn_s]] = self.motion.slopes(t - x, &[q, w]);
+        [rise_s, turn_s, 0.0, 0.0, 0.0]
+    }
+}

@@ -1,0 +1,168 @@
+//! Exact geometry, no inertia.
+//!
+//! The tip stands in equilibrium at every twist theta: F_Z = K_z z_P with z_P = z_P0 - H (1 - cos theta), and
+//! F_Y cos theta = K_theta theta/H - F_Z sin theta. The particle slips at the first theta with F_Y = F_Y*(F_Z).
+//!
+//! There is one such theta at most. With c = K_theta/H,
+//!
+//!   cos^2(theta) dF_Y/dtheta = c (cos theta + theta sin theta) - K_z (z_P0 - H) - K_z H cos^3 theta
+//!
+//! never falls on [0, pi/2], and starts at c - F_Z0. So where c > F_Z0, F_Y is convex and rises without bound towards pi/2, while F_Y* falls with F_Z. And F_Y >= (c - F_Z0) theta makes
+//! F_Y*(F_Z0)/(c - F_Z0) an upper bound of the root, too large by order theta^2 only.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::slip::{Error, Slip};
+use super::substrate::{Hold, Substrate};
+use super::{Cost, Critical, Options};
+use crate::afm::friction::{LuGre, LuGreForm};
+use crate::afm::probe::Probe;
+use crate::afm::root::{self, Point};
+use crate::afm::{Failure, Fidelity, FrictionLaw, Scene};
+
+/// The critical force, LuGre friction by the peak of its ramp.
+pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
+    let probe = Probe::new(scene, options.torsion);
+    let substrate = Substrate::new(scene, options, (&probe, LuGreForm::Ramp));
+    let statics = Statics::new(scene, &probe)?;
+    let (slip, evaluations) = statics.slip(&substrate)?;
+    let mut error = statics.inertia(&slip, &substrate);
+    if options.friction == FrictionLaw::LuGre || options.friction == FrictionLaw::LemaitreCarlson {
+        error.lateral += substrate.drive.tolerance * slip.lateral_force;
+    }
+    if options.friction == FrictionLaw::LuGre {
+        // Bristles yield to the swing as well, and their dashpots feel its velocity, up to V.
+        let law = LuGre::with(scene, options.lugre, slip.contact.radius);
+        error.lateral += statics.swing() + 2.0 * (law.damping + law.viscous_friction) * scene.velocity;
+    }
+    let critical = slip.critical(&substrate, Fidelity::QuasiStatic);
+    Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })
+}
+
+/// The probe in equilibrium.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Statics<'a> {
+    pub scene: &'a Scene,
+    pub probe: Probe,
+    /// Tip height H (m).
+    height: f64,
+    /// K_theta/H (N).
+    restoring: f64,
+}
+
+impl<'a> Statics<'a> {
+    /// # Errors
+    /// [`Failure::ProbeTips`] if the preload twists the cantilever over by itself.
+    pub fn new(scene: &'a Scene, probe: &Probe) -> Result<Self, Failure> {
+        let restoring = probe.torsional / scene.height;
+        if restoring <= probe.preload_force {
+            return Err(Failure::ProbeTips);
+        }
+        Ok(Self { scene, probe: *probe, height: scene.height, restoring })
+    }
+
+    /// F_Z (N) at the twist `theta`. 1 - cos theta as 2 sin^2(theta/2), which does not cancel.
+    pub fn normal_force(&self, theta: f64) -> f64 {
+        let half = (0.5 * theta).sin();
+        self.probe.normal * (self.probe.preload_deflection - 2.0 * self.height * half * half)
+    }
+
+    /// F_Y cos theta (N) at the twist `theta`.
+    pub fn lateral_moment(&self, theta: f64) -> f64 {
+        self.restoring * theta - self.normal_force(theta) * theta.sin()
+    }
+
+    /// Its derivative by the twist (N).
+    pub fn lateral_moment_slope(&self, theta: f64) -> f64 {
+        let (sin, cos) = theta.sin_cos();
+        self.restoring - self.normal_force(theta) * cos + self.probe.normal * self.height * sin * sin
+    }
+
+    /// Travel of the apex (m): s = H sin theta + F_Y/K_y.
+    pub fn travel(&self, theta: f64, lateral_force: f64) -> f64 {
+        self.height * theta.sin() + lateral_force / self.probe.lateral
+    }
+
+    /// The twist at which F_Z has fallen to `least`, or pi/2.
+    fn last_twist(&self, least: f64) -> f64 {
+        let drop = (self.probe.preload_force - least) / self.probe.normal / self.height;
+        if drop < 1.0 { 2.0 * (0.5 * drop).sqrt().asin() } else { FRAC_PI_2 }
+    }
+
+    /// The slip, and the evaluations of friction it took.
+    ///
+    /// # Errors
+    /// [`Failure::BeyondPullOff`] if the twist lifts the tip until nothing holds the particle down, before friction
+    /// gives way; those of the law of friction.
+    pub fn slip(&self, substrate: &Substrate) -> Result<(Slip, u64), Failure> {
+        let mut evaluations = 0;
+        let least = substrate.least_normal_force();
+        let rounding = 16.0 * f64::EPSILON * self.probe.preload_force;
+        let mut hold = |theta: f64| -> Result<(Hold, f64), Failure> {
+            let force = self.normal_force(theta);
+            // At the last twist itself rounding may go beyond the least force.
+            let force = if force < least && force > least - rounding { least } else { force };
+            let hold = substrate.hold(force)?;
+            evaluations += hold.evaluations;
+            Ok((hold, force))
+        };
+        // F_Y cos theta - F_Y* cos theta: of the sign of F_Y - F_Y*, and finite up to pi/2.
+        let mut residual = |theta: f64| -> Result<f64, Failure> {
+            Ok(self.lateral_moment(theta) - hold(theta)?.0.capacity * theta.cos())
+        };
+        let at_rest = residual(0.0)?;
+        let last = self.last_twist(least);
+        let slope = self.restoring - self.probe.preload_force;
+        let mut high = Point { x: (-at_rest / slope).min(last), y: 0.0 };
+        high.y = residual(high.x)?;
+        let theta = if at_rest >= 0.0 || high.y == 0.0 {
+            high.x
+        } else if high.y < 0.0 {
+            // Within rounding of the bound, if the bound is that of the root or pi/2.
+            if high.x == last && last < FRAC_PI_2 {
+                return Err(Failure::BeyondPullOff);
+            }
+            high.x
+        } else {
+            // The bound is too large by little: twice the step of Newton's method mostly passes the root.
+            let guess = high.x - 2.0 * high.y / slope;
+            let mut low = Point { x: 0.0, y: at_rest };
+            if guess > 0.0 {
+                let tried = Point { x: guess, y: residual(guess)? };
+                if tried.y < 0.0 { low = tried } else { high = tried }
+            }
+            root::between(low, high, residual)?
+        };
+        let (hold, normal_force) = hold(theta)?;
+        let lateral_force = hold.capacity;
+        let travel = self.travel(theta, lateral_force);
+        Ok((Slip { normal_force, lateral_force, travel, twist: theta, contact: hold.contact }, evaluations))
+    }
+
+    /// Lateral force of the swing at the start (N): the substrate takes the apex along at V at once, the probe yields
+    /// in the ratio of its stiffnesses, and so swings by V k_lat/omega about the equilibrium, undamped.
+    pub fn swing(&self) -> f64 {
+        self.scene.velocity * self.probe.apex / self.frequency()
+    }
+
+    /// The frequency omega of that swing (rad/s), the apex held: omega^2 = (K_theta + K_y H^2)/I_T.
+    pub fn frequency(&self) -> f64 {
+        ((self.probe.torsional + self.probe.lateral * self.height * self.height) / self.inertia_about_apex()).sqrt()
+    }
+
+    /// I_T = I_c + m H^2/4 (kg m2).
+    pub fn inertia_about_apex(&self) -> f64 {
+        self.scene.effective_tip_inertia() + 0.25 * self.scene.effective_tip_mass() * self.height * self.height
+    }
+
+    /// What inertia, which this rung leaves out, does to the forces: the swing and the centrifugal force act on F_Z
+    /// through the twist, and on the friction with it; the lateral force at the slip is the friction's.
+    fn inertia(&self, slip: &Slip, substrate: &Substrate) -> Error {
+        let swing = self.swing();
+        let spin = self.scene.velocity / self.height;
+        let centrifugal = 0.5 * self.scene.effective_tip_mass() * self.height * spin * spin;
+        let softer = self.probe.normal * self.height * self.height / self.probe.torsional;
+        let normal = centrifugal + slip.twist * swing * (1.0 + softer);
+        Error { normal, lateral: normal * substrate.slope(slip.lateral_force, slip.normal_force).abs() }
+    }
+}

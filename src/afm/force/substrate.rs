@@ -1,0 +1,84 @@
+//! What holds the particle down: contact and friction on the substrate under a normal force.
+
+use crate::afm::contact::{Contact, Pair};
+use crate::afm::friction::{Drive, LuGreForm, Pressed, particle_mass};
+use crate::afm::probe::Probe;
+use crate::afm::{Failure, FrictionLaw, Options, Scene};
+
+/// The substrate contact of a scene under any normal force.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Substrate<'a> {
+    pub scene: &'a Scene,
+    pub options: &'a Options,
+    pub pair: Pair,
+    /// What adhesion adds to the load that friction feels (N).
+    pub adhesive_load: f64,
+    pub drive: Drive,
+}
+
+/// The contact and its friction under one normal force.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hold {
+    pub contact: Contact,
+    /// F_Y* (N).
+    pub capacity: f64,
+    pub evaluations: u64,
+}
+
+impl<'a> Substrate<'a> {
+    #[inline]
+    pub fn new(scene: &'a Scene, options: &'a Options, (probe, form): (&Probe, LuGreForm)) -> Self {
+        let pair = Pair {
+            radius: scene.particle_radius,
+            modulus: scene.equivalent_modulus,
+            adhesion: scene.adhesion,
+            separation: scene.equilibrium_separation,
+        };
+        let adhesive_load = if options.adhesion_in_load { options.contact.pull_off(&pair) } else { 0.0 };
+        let drive = Drive {
+            velocity: scene.velocity,
+            stiffness: probe.apex,
+            mass: particle_mass(scene),
+            lugre: options.lugre,
+            form,
+            // What the laws add to the error of a run is small beside its tolerance.
+            tolerance: (0.01 * options.tolerance).max(1e-10),
+            step_budget: options.step_budget,
+        };
+        Self { scene, options, pair, adhesive_load, drive }
+    }
+
+    /// Contact and friction under `normal_force` (N).
+    #[inline]
+    pub fn hold(&self, normal_force: f64) -> Result<Hold, Failure> {
+        let contact = self.options.contact.contact(&self.pair, normal_force)?;
+        let pressed = Pressed { load: normal_force + self.adhesive_load, radius: contact.radius };
+        let held = self.options.friction.capacity(self.scene, pressed, &self.drive)?;
+        Ok(Hold { contact, capacity: held.force, evaluations: 1 + held.evaluations })
+    }
+
+    /// A bound of dF_Y*/dF_Z at a `normal_force` (N) where friction holds `capacity` (N), for estimates: in proportion
+    /// to the load that friction feels, or to that of the contact for what lives on its area (a^2 grows at most as
+    /// (F_Z + F_ad)^(2/3) by every theory of contact).
+    #[inline]
+    pub fn slope(&self, capacity: f64, normal_force: f64) -> f64 {
+        let of_load = if self.options.friction == FrictionLaw::Coulomb { self.scene.static_friction } else { 0.0 };
+        let support = if self.options.friction.lives_on_area() {
+            self.options.contact.pull_off(&self.pair)
+        } else {
+            self.adhesive_load
+        };
+        let of_area = (capacity - of_load * (normal_force + self.adhesive_load)).max(0.0);
+        of_load + if of_area > 0.0 { of_area / (normal_force + support) } else { 0.0 }
+    }
+
+    /// The least normal force (N) under which there is a contact that friction can hold: minus the pull-off force, or
+    /// where the load that friction feels vanishes for laws that live on it. At most zero.
+    pub fn least_normal_force(&self) -> f64 {
+        if self.options.friction.lives_on_area() {
+            -self.options.contact.pull_off(&self.pair)
+        } else {
+            -self.adhesive_load
+        }
+    }
+}

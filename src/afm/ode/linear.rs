@@ -1,0 +1,77 @@
+//! Small dense linear systems.
+
+/// A matrix split into triangular factors, with its row exchanges.
+pub(super) struct Factors<const N: usize> {
+    matrix: [[f64; N]; N],
+    rows: [usize; N],
+}
+
+impl<const N: usize> Factors<N> {
+    /// Gaussian elimination with partial pivoting, rows weighed by their largest entry, since rows carry different
+    /// units. A singular matrix gives solutions that are not finite.
+    pub fn new(mut matrix: [[f64; N]; N]) -> Self {
+        let mut weights: [f64; N] =
+            std::array::from_fn(|i| matrix[i].iter().fold(0.0_f64, |largest, value| largest.max(value.abs())));
+        let mut rows: [usize; N] = std::array::from_fn(|i| i);
+        for column in 0..N {
+            let weight = |row: usize| matrix[row][column].abs() / weights[row];
+            let mut pivot = column;
+            for row in column + 1..N {
+                if weight(row) > weight(pivot) {
+                    pivot = row;
+                }
+            }
+            matrix.swap(column, pivot);
+            rows.swap(column, pivot);
+            weights.swap(column, pivot);
+            let upper = matrix[column];
+            for lower in &mut matrix[column + 1..] {
+                let factor = lower[column] / upper[column];
+                lower[column] = factor;
+                for k in column + 1..N {
+                    lower[k] -= factor * upper[k];
+                }
+            }
+        }
+        Self { matrix, rows }
+    }
+
+    /// The solution for the right-hand side `b`.
+    pub fn solve(&self, b: &[f64; N]) -> [f64; N] {
+        let mut x: [f64; N] = std::array::from_fn(|i| b[self.rows[i]]);
+        for i in 0..N {
+            for k in 0..i {
+                x[i] -= self.matrix[i][k] * x[k];
+            }
+        }
+        for i in (0..N).rev() {
+            for k in i + 1..N {
+                x[i] -= self.matrix[i][k] * x[k];
+            }
+            x[i] /= self.matrix[i][i];
+        }
+        x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solves_with_row_exchanges_and_rows_of_all_sizes() {
+        let matrix = [[0.0, 2e-20, 1e-20], [1e15, 0.0, 3e15], [4.0, 1.0, 0.0]];
+        let x = [1.0, -2.0, 3.0];
+        let b = std::array::from_fn(|i| (0..3).map(|k| matrix[i][k] * x[k]).sum());
+        let solved = Factors::new(matrix).solve(&b);
+        for i in 0..3 {
+            assert!((solved[i] - x[i]).abs() < 1e-14, "{solved:?}");
+        }
+    }
+
+    #[test]
+    fn a_singular_matrix_is_noticed() {
+        let solved = Factors::new([[1.0, 2.0], [2.0, 4.0]]).solve(&[1.0, 1.0]);
+        assert!(solved.iter().any(|value| !value.is_finite()));
+    }
+}

@@ -1,0 +1,95 @@
+//! Initial value problems of a few unknowns: one explicit method, one for stiff problems, both with dense output and
+//! the location of events.
+//!
+//! [`March`] takes adaptive steps; [`March::until`] stops where an event function rises through zero. Every way to
+//! stop short has its own [`Failure`], and a budget bounds the work.
+
+mod dormand_prince;
+mod linear;
+mod march;
+mod rodas;
+#[cfg(test)]
+mod tests;
+
+pub use dormand_prince::DormandPrince;
+pub use march::{Control, End, March, Outcome};
+pub use rodas::Rodas;
+
+use super::Failure;
+
+/// M y' = f(t, y), with a diagonal mass matrix M.
+pub trait Problem<const N: usize> {
+    /// f(t, y).
+    fn rate(&self, t: f64, y: &[f64; N]) -> [f64; N];
+
+    /// The Jacobian df_i/dy_j, row by row. Needed by [`Rodas`] alone.
+    fn jacobian(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N];
+
+    /// df/dt at fixed y; zero unless the problem says otherwise.
+    fn time_rate(&self, _t: f64, _y: &[f64; N]) -> [f64; N] {
+        [0.0; N]
+    }
+
+    /// The diagonal of M. A zero makes its row an algebraic equation, f_i = 0; [`Rodas`] alone heeds it.
+    fn mass(&self) -> [f64; N] {
+        [1.0; N]
+    }
+}
+
+/// A one-step method with an embedded error estimate.
+pub trait Method {
+    /// Order of the embedded error estimate in the step, local: p of err = O(h^p).
+    const ERROR_ORDER: i32;
+
+    /// Steps from `start` by `h`.
+    fn step<const N: usize, P: Problem<N>>(problem: &P, start: &State<N>, h: f64) -> Attempt<N>;
+}
+
+/// Unknowns at a time, and f there where a method has use for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State<const N: usize> {
+    /// Time.
+    pub t: f64,
+    /// Unknowns.
+    pub y: [f64; N],
+    /// f(t, y).
+    pub rate: [f64; N],
+}
+
+/// A step, good or not.
+#[derive(Clone, Copy, Debug)]
+pub struct Attempt<const N: usize> {
+    /// Where it leads.
+    pub step: Step<N>,
+    /// f at the end.
+    pub rate: [f64; N],
+    /// Estimated local error.
+    pub error: [f64; N],
+    /// How often f was evaluated.
+    pub evaluations: u64,
+}
+
+/// One step as a polynomial in time.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<const N: usize> {
+    /// Time at the start.
+    pub t: f64,
+    /// Length in time.
+    pub h: f64,
+    /// c of y = c0 + s (c1 + (1 - s) (c2 + s (c3 + (1 - s) c4))), s from 0 to 1 (Hairer, Norsett & Wanner 1993, II.6).
+    pub coefficients: [[f64; N]; 5],
+}
+
+impl<const N: usize> Step<N> {
+    /// Time at the end.
+    pub fn end(&self) -> f64 {
+        self.t + self.h
+    }
+
+    /// The unknowns at the fraction `s` of the step, 0 to 1.
+    pub fn at(&self, s: f64) -> [f64; N] {
+        let [c0, c1, c2, c3, c4] = &self.coefficients;
+        let r = 1.0 - s;
+        std::array::from_fn(|i| c0[i] + s * (c1[i] + r * (c2[i] + s * (c3[i] + r * c4[i]))))
+    }
+}
