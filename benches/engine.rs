@@ -18,7 +18,7 @@ fn study(base_samples: u64) -> Study {
 fn bare_loop(model: &dyn Model, rows: u64, columns: &[Vec<f64>]) -> f64 {
     let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
     let mut worker = model.worker();
-    let mut batch = Batch::new(model.outputs().len(), model.flags().len());
+    let mut batch = Batch::of(model);
     let start = Instant::now();
     for _ in 0..rows / 256 {
         batch.reset(256);

@@ -34,7 +34,7 @@ fn closed_form(criterion: &mut Criterion) {
         let (model, columns) = (study.model(), columns(&study));
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let mut worker = model.worker();
-        let mut batch = Batch::new(model.outputs().len(), model.flags().len());
+        let mut batch = Batch::of(model.as_ref());
         group.bench_function(friction, |bencher| {
             bencher.iter(|| {
                 batch.reset(ROWS);

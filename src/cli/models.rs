@@ -9,6 +9,9 @@ pub fn models() -> Result<(), Failure> {
     let mut text = String::new();
     for kind in ModelKind::all() {
         text.push_str(&format!("{}: {}\n\n", kind.name(), kind.description()));
+        for (key, names) in kind.choices() {
+            text.push_str(&format!("  {key}: {}\n", names.join(", ")));
+        }
         let mut inputs = table(&["factor", "symbol", "nominal", "unit", "must be", "meaning"], &[0, 1, 3, 4, 5]);
         for input in kind.inputs() {
             let domain = input.domain.map_or_else(|| "any number".to_owned(), |domain| domain.to_string());

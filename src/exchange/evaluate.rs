@@ -44,7 +44,7 @@ pub fn evaluate(study: &Study, points: impl Read, outputs: &mut dyn Write) -> Re
     let model = study.model();
     let factors = study.space.factors();
     let mut worker = model.worker();
-    let mut batch = Batch::new(model.outputs().len(), model.flags().len());
+    let mut batch = Batch::of(model.as_ref());
     let mut columns = vec![Vec::with_capacity(ROWS); factors.len()];
     let mut evaluated = Evaluated::default();
     let mut out = std::io::BufWriter::new(outputs);

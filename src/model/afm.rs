@@ -1,7 +1,7 @@
 //! The critical pushing force of a nanoparticle as a model: the adapter between factors and [`crate::afm`].
 
 use super::{Batch, Flag, Model, Output, Worker};
-use crate::afm::{self, Critical, Failure, Options, Parameter, Scene, critical_force};
+use crate::afm::{self, Critical, Failure, Fidelity, Options, Parameter, Scene, critical_force};
 use crate::quantity::Unit;
 
 /// An output of the critical-force computation.
@@ -109,6 +109,7 @@ pub struct AfmModel {
     outputs: Vec<Output>,
     which: Vec<AfmOutput>,
     flags: Vec<Flag>,
+    rungs: Vec<&'static str>,
 }
 
 impl AfmModel {
@@ -117,7 +118,8 @@ impl AfmModel {
         let output = |o: &AfmOutput| Output { name: o.name(), unit: o.unit(), description: o.description() };
         let outputs = which.iter().map(output).collect();
         let flags = afm::Flag::ALL.iter().map(|f| Flag { name: f.name(), description: f.description() }).collect();
-        Self { scene, options, factors, outputs, which, flags }
+        let rungs = Fidelity::ALL.iter().map(|rung| rung.name()).collect();
+        Self { scene, options, factors, outputs, which, flags, rungs }
     }
 }
 
@@ -128,6 +130,10 @@ impl Model for AfmModel {
 
     fn flags(&self) -> &[Flag] {
         &self.flags
+    }
+
+    fn rungs(&self) -> &[&'static str] {
+        &self.rungs
     }
 
     fn worker(&self) -> Box<dyn Worker + '_> {
@@ -162,6 +168,8 @@ impl AfmWorker<'_> {
                 Err(failure) => batch.fail(row, column, failure),
             }
         }
+        // `Fidelity::ALL` is in the order of the declaration.
+        batch.spend(critical.rung as usize, critical.cost.evaluations, critical.error_estimate);
         if !critical.flags.is_empty() {
             for (number, &flag) in afm::Flag::ALL.iter().enumerate() {
                 if critical.flags.contains(flag) {
@@ -192,7 +200,7 @@ mod tests {
         let outputs = vec![AfmOutput::CriticalForce, AfmOutput::CriticalTime];
         let velocity = Parameter::from_name("velocity").unwrap();
         let model = AfmModel::new(Scene::default(), Options::default(), vec![velocity], outputs);
-        let mut batch = Batch::new(2, model.flags().len());
+        let mut batch = Batch::of(&model);
         batch.reset(2);
         model.worker().run(&[&[100e-9, 0.0]], &mut batch);
         batch.settle();

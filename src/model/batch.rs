@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::Model;
+
 /// Why a row has no value of an output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Error)]
 #[non_exhaustive]
@@ -14,6 +16,33 @@ pub enum RowFailure {
     NotFinite,
 }
 
+/// What a model with a ladder of fidelities spent on some rows, and what it says of its own error.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Effort {
+    /// Rows that each rung answered.
+    pub rungs: Vec<u64>,
+    /// Evaluations of the right-hand side, in all.
+    pub evaluations: u64,
+    /// Largest error estimate of any row, relative.
+    pub largest_error: f64,
+}
+
+impl Effort {
+    /// Nothing spent on a ladder of `rungs` rungs.
+    pub fn none(rungs: usize) -> Self {
+        Self { rungs: vec![0; rungs], ..Self::default() }
+    }
+
+    /// Adds what was spent on other rows. The order does not matter, in any bit.
+    pub fn merge(&mut self, other: &Self) {
+        for (mine, theirs) in self.rungs.iter_mut().zip(&other.rungs) {
+            *mine += theirs;
+        }
+        self.evaluations += other.evaluations;
+        self.largest_error = self.largest_error.max(other.largest_error);
+    }
+}
+
 /// Outputs of a block of rows: one column per output, one entry per row.
 #[derive(Debug, Clone, Default)]
 pub struct Batch {
@@ -21,12 +50,18 @@ pub struct Batch {
     columns: Vec<Vec<f64>>,
     failures: Vec<(usize, usize, RowFailure)>,
     flags: Vec<u64>,
+    effort: Effort,
 }
 
 impl Batch {
-    /// An empty batch for `outputs` outputs and `flags` kinds of validity flags.
-    pub fn new(outputs: usize, flags: usize) -> Self {
-        Self { columns: vec![Vec::new(); outputs], flags: vec![0; flags], ..Self::default() }
+    /// An empty batch for the outputs, validity flags and rungs of `model`.
+    pub fn of(model: &dyn Model) -> Self {
+        Self {
+            columns: vec![Vec::new(); model.outputs().len()],
+            flags: vec![0; model.flags().len()],
+            effort: Effort::none(model.rungs().len()),
+            ..Self::default()
+        }
     }
 
     /// Forgets everything and makes room for `rows` rows.
@@ -38,6 +73,7 @@ impl Batch {
         }
         self.failures.clear();
         self.flags.fill(0);
+        self.effort = Effort::none(self.effort.rungs.len());
     }
 
     /// Number of rows.
@@ -72,6 +108,13 @@ impl Batch {
     /// Counts one raised validity flag.
     pub fn raise(&mut self, flag: usize) {
         self.flags[flag] += 1;
+    }
+
+    /// Counts one row answered by `rung` after `evaluations`, with its relative error estimate.
+    pub fn spend(&mut self, rung: usize, evaluations: u64, error_estimate: f64) {
+        self.effort.rungs[rung] += 1;
+        self.effort.evaluations += evaluations;
+        self.effort.largest_error = self.effort.largest_error.max(error_estimate);
     }
 
     /// Names every value that is not finite and has no failure yet [`RowFailure::NotFinite`], and puts the failures in
@@ -110,6 +153,11 @@ impl Batch {
     pub fn flags(&self) -> &[u64] {
         &self.flags
     }
+
+    /// What was spent on the rows.
+    pub fn effort(&self) -> &Effort {
+        &self.effort
+    }
 }
 
 #[cfg(test)]
@@ -118,7 +166,7 @@ mod tests {
 
     #[test]
     fn values_that_are_not_finite_get_a_name_once() {
-        let mut batch = Batch::new(2, 0);
+        let mut batch = Batch { columns: vec![Vec::new(); 2], ..Batch::default() };
         batch.reset(3);
         batch.column_mut(0).copy_from_slice(&[1.0, f64::INFINITY, 2.0]);
         batch.column_mut(1).copy_from_slice(&[1.0, 2.0, 3.0]);
@@ -130,7 +178,7 @@ mod tests {
 
     #[test]
     fn a_row_that_was_never_set_is_a_failure() {
-        let mut batch = Batch::new(1, 0);
+        let mut batch = Batch { columns: vec![Vec::new()], ..Batch::default() };
         batch.reset(2);
         batch.set(0, 0, 1.0);
         batch.settle();

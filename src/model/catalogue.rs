@@ -2,7 +2,7 @@
 
 use super::afm::{AfmOutput, edge_unit};
 use super::known::KnownAnswer;
-use crate::afm::{Domain, Parameter, Scene};
+use crate::afm::{ContactTheory, Domain, Fidelity, FrictionLaw, LuGreParameters, Parameter, Scene, Torsion};
 use crate::quantity::Unit;
 
 /// A model that a study can name.
@@ -85,6 +85,23 @@ impl ModelKind {
                     description: format!("exact indices hold for the range {} to {}", input.min, input.max),
                 })
                 .collect(),
+        }
+    }
+
+    /// The choices a study can make by name, the default of each first: the key, and the names.
+    pub fn choices(self) -> Vec<(&'static str, Vec<&'static str>)> {
+        fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
+            all.iter().map(|&choice| name(choice)).collect()
+        }
+        match self {
+            Self::Afm => vec![
+                ("friction", names(FrictionLaw::ALL, FrictionLaw::name)),
+                ("contact", names(ContactTheory::ALL, ContactTheory::name)),
+                ("fidelity", names(Fidelity::ALL, Fidelity::name)),
+                ("torsion", names(Torsion::ALL, Torsion::name)),
+                ("lugre_parameters", names(LuGreParameters::ALL, LuGreParameters::name)),
+            ],
+            Self::Known(_) => Vec::new(),
         }
     }
 

@@ -10,7 +10,7 @@ mod catalogue;
 mod known;
 
 pub use afm::{AfmModel, AfmOutput, edge_unit};
-pub use batch::{Batch, RowFailure};
+pub use batch::{Batch, Effort, RowFailure};
 pub use catalogue::{Input, ModelKind, OutputInfo};
 pub use known::{KnownAnswer, KnownModel};
 
@@ -43,6 +43,12 @@ pub trait Model: Send + Sync {
 
     /// The validity flags it may raise, in the order of their numbers in a [`Batch`].
     fn flags(&self) -> &[Flag] {
+        &[]
+    }
+
+    /// The rungs of its ladder of fidelities, in the order of their numbers in a [`Batch`]; none for a model without a
+    /// ladder.
+    fn rungs(&self) -> &[&'static str] {
         &[]
     }
 

@@ -3,8 +3,8 @@
 use serde_json::{Map, Value};
 
 use super::result::{
-    ConstantRecord, EffectRecord, EstimateRecord, FactorRecord, FailureRecord, GroupRecord, IndexRecord,
-    IntervalRecord, OutputRecord, Provenance, ResultFile, StudyRecord, ValidityRecord,
+    ConstantRecord, EffectRecord, EffortRecord, EstimateRecord, FactorRecord, FailureRecord, GroupRecord, IndexRecord,
+    IntervalRecord, OutputRecord, Provenance, ResultFile, RungRecord, StudyRecord, ValidityRecord,
 };
 use super::warnings;
 use crate::estimate::Moments;
@@ -58,7 +58,18 @@ pub fn build_result(study: &Study, model: &dyn Model, replicates: &[Totals], fac
         factors: factor_records(study),
         outputs,
         validity,
+        effort: effort_record(model, &whole),
     }
+}
+
+fn effort_record(model: &dyn Model, whole: &Totals) -> Option<EffortRecord> {
+    let rungs = model.rungs().iter().zip(&whole.effort.rungs).filter(|(_, runs)| **runs > 0);
+    let rungs = rungs.map(|(rung, &runs)| RungRecord { rung: (*rung).to_owned(), runs });
+    (!model.rungs().is_empty()).then(|| EffortRecord {
+        rungs: rungs.collect(),
+        evaluations: whole.effort.evaluations,
+        largest_error_estimate: whole.effort.largest_error,
+    })
 }
 
 /// The result as JSON text, ending in a newline.

@@ -22,6 +22,9 @@ pub struct ResultFile {
     pub outputs: Vec<OutputRecord>,
     /// Rows on which the model's assumptions do not hold; the rows count all the same.
     pub validity: Vec<ValidityRecord>,
+    /// What a model with a ladder of fidelities spent; `null` for other models.
+    #[serde(default)]
+    pub effort: Option<EffortRecord>,
 }
 
 /// What was asked.
@@ -218,4 +221,24 @@ pub struct ValidityRecord {
     pub runs: u64,
     /// Those runs as a share of all runs, 0 to 1.
     pub share: f64,
+}
+
+/// What a model with a ladder of fidelities spent.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EffortRecord {
+    /// The rungs that answered, and how many runs each.
+    pub rungs: Vec<RungRecord>,
+    /// Evaluations of the right-hand side (of the friction law, in the closed form), in all.
+    pub evaluations: u64,
+    /// Largest relative error of any run, as its rung estimates it from what it leaves out.
+    pub largest_error_estimate: f64,
+}
+
+/// How many runs a rung answered.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RungRecord {
+    /// The rung.
+    pub rung: String,
+    /// Number of runs.
+    pub runs: u64,
 }

@@ -34,7 +34,22 @@ pub fn with_unit(value: f64, unit: &str) -> String {
 /// A result as text: for every output its moments, a table of indices, and the warnings; then the validity flags.
 pub fn summary(result: &ResultFile) -> String {
     let outputs: Vec<String> = result.outputs.iter().map(output_summary).collect();
-    outputs.join("\n") + &validity_summary(result)
+    outputs.join("\n") + &validity_summary(result) + &effort_summary(result)
+}
+
+/// Which rungs of a ladder of fidelities answered, where there was a choice or a cost.
+fn effort_summary(result: &ResultFile) -> String {
+    let Some(effort) = &result.effort else { return String::new() };
+    if matches!(&effort.rungs[..], [only] if only.rung == "closed-form") {
+        return String::new();
+    }
+    let rungs: Vec<String> = effort.rungs.iter().map(|rung| format!("{} {} runs", rung.rung, rung.runs)).collect();
+    format!(
+        "fidelity: {}; {} evaluations; largest error estimate {:.1e}\n",
+        rungs.join(", "),
+        effort.evaluations,
+        effort.largest_error_estimate
+    )
 }
 
 /// One line for each validity flag that was raised.

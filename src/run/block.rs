@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::Job;
 use super::totals::{OutputTotals, Tally, Totals};
 use crate::estimate::{BlockOutputs, Moments};
-use crate::model::{Batch, Worker};
+use crate::model::{Batch, Effort, Worker};
 
 /// What a thread needs to evaluate blocks, kept from block to block.
 pub(super) struct Scratch<'a> {
@@ -30,7 +30,7 @@ impl<'a> Scratch<'a> {
             worker: job.model.worker(),
             unit: vec![Vec::new(); factors * 2],
             values: vec![Vec::new(); factors * 2],
-            batches: vec![Batch::new(job.model.outputs().len(), job.model.flags().len()); kinds],
+            batches: vec![Batch::of(job.model); kinds],
             kept: vec![Vec::new(); kinds],
             complete: Vec::new(),
             differences: Vec::new(),
@@ -54,8 +54,10 @@ impl<'a> Scratch<'a> {
             failed_runs: self.batches.iter().map(failed_rows).sum(),
             outputs: Vec::with_capacity(job.model.outputs().len()),
             flags: vec![0; job.model.flags().len()],
+            effort: Effort::none(job.model.rungs().len()),
         };
         for batch in &self.batches {
+            totals.effort.merge(batch.effort());
             for (total, raised) in totals.flags.iter_mut().zip(batch.flags()) {
                 *total += raised;
             }

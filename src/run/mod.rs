@@ -146,7 +146,7 @@ impl Runner<'_> {
         let first_row = (replicate * design.points_per_replicate() + first) * design.rows_per_point();
         let totals = scratch.evaluate(self.job, first_row);
         idle().push(scratch);
-        self.report(rows as u64 * design.rows_per_point(), totals.failed_runs());
+        self.report(rows as u64 * design.rows_per_point(), totals.failed_runs);
         totals
     }
 

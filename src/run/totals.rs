@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::estimate::Moments;
-use crate::model::RowFailure;
+use crate::model::{Effort, RowFailure};
 
 /// How often something happened, and where first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,18 +37,16 @@ pub struct Totals {
     pub outputs: Vec<OutputTotals>,
     /// How many rows raised each validity flag of the model.
     pub flags: Vec<u64>,
+    /// What a model with a ladder of fidelities spent.
+    pub effort: Effort,
 }
 
 impl Totals {
-    /// Rows that failed in at least one output.
-    pub fn failed_runs(&self) -> u64 {
-        self.failed_runs
-    }
-
     /// Adds other rows of the same design.
     pub fn merge(&mut self, other: &Self) {
         self.runs += other.runs;
         self.failed_runs += other.failed_runs;
+        self.effort.merge(&other.effort);
         for (mine, theirs) in self.flags.iter_mut().zip(&other.flags) {
             *mine += theirs;
         }

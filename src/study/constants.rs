@@ -7,11 +7,21 @@ use toml::Value;
 use super::error::{Problem, nearest};
 use super::file::At;
 use super::resolve::{Context, Fault};
-use crate::afm::{ContactTheory, Fidelity, FrictionLaw, Options, Parameter, Scene, Torsion};
+use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion};
 use crate::model::edge_unit;
-use crate::quantity::{Quantity, Unit};
+use crate::quantity::{Dimension, Quantity, Unit};
 
-const CHOICES: [&str; 5] = ["friction", "contact", "fidelity", "torsion", "adhesion_in_load"];
+const CHOICES: [&str; 9] = [
+    "friction",
+    "contact",
+    "fidelity",
+    "torsion",
+    "adhesion_in_load",
+    "lugre_parameters",
+    "tolerance",
+    "step",
+    "step_budget",
+];
 
 /// Reads the table into a scene and options, starting from the defaults. `is_factor` tells the names that must not be
 /// fixed.
@@ -31,6 +41,16 @@ pub(super) fn afm(
             }
             "fidelity" => options.fidelity = choice(value, name, Fidelity::ALL, Fidelity::name).map_err(fault)?,
             "torsion" => options.torsion = choice(value, name, Torsion::ALL, Torsion::name).map_err(fault)?,
+            "lugre_parameters" => {
+                options.lugre = choice(value, name, LuGreParameters::ALL, LuGreParameters::name).map_err(fault)?;
+            }
+            "tolerance" => options.tolerance = positive(name, "1e-6", value).map_err(fault)?,
+            "step" => options.step = positive(name, "\"10 ms\"", value).map_err(fault)?,
+            "step_budget" => {
+                let budget = value.get_ref().as_integer().and_then(|steps| u64::try_from(steps).ok());
+                let budget = budget.filter(|&steps| steps > 0);
+                options.step_budget = budget.ok_or_else(|| fault(wrong_type(name, "a whole number from 1", value)))?;
+            }
             "adhesion_in_load" => {
                 options.adhesion_in_load =
                     value.get_ref().as_bool().ok_or_else(|| fault(wrong_type(name, "true or false", value)))?;
@@ -69,7 +89,8 @@ fn choice<T: Copy>(value: &At<Value>, key: &str, all: &[T], name: fn(T) -> &'sta
             "friction" => "friction law",
             "contact" => "contact theory",
             "fidelity" => "fidelity",
-            _ => "torsion formula",
+            "torsion" => "torsion formula",
+            _ => "source of LuGre parameters",
         },
         name: text.to_owned(),
         nearest: nearest(text, names()),
@@ -110,6 +131,26 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
         });
     }
     Ok(si)
+}
+
+/// A number greater than 0: bare where it has no dimension, as `example` shows, or a time with its unit.
+fn positive(key: &str, example: &str, value: &At<Value>) -> Result<f64, Problem> {
+    let is_time = example.starts_with('"');
+    let number = match value.get_ref() {
+        Value::String(text) if is_time => {
+            let quantity = Quantity::parse(text)?;
+            (quantity.unit.dimension() == Dimension::TIME).then(|| quantity.to_si())
+        }
+        Value::Integer(number) if !is_time => Some(*number as f64),
+        Value::Float(number) if !is_time => Some(*number),
+        _ => None,
+    };
+    let expected = || format!("greater than 0, as in {key} = {example}");
+    number.filter(|number| *number > 0.0 && number.is_finite()).ok_or_else(|| Problem::WrongType {
+        key: key.to_owned(),
+        expected: expected(),
+        found: value.get_ref().to_string(),
+    })
 }
 
 fn wrong_type(key: &str, expected: &str, value: &At<Value>) -> Problem {
