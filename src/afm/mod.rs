@@ -13,6 +13,7 @@
 //!   theory a file;
 //! - [`friction`]: the largest lateral force the substrate contact can hold, one law a file;
 //! - [`force`]: the critical force, one fidelity a file; [`critical_force`] is the entrance;
+//! - [`history`]: one scene in time, through sticking and slipping;
 //! - [`ode`]: initial value problems with events, for the laws and rungs that march in time;
 //! - [`flags`]: what makes a result doubtful; [`failure`]: why there is no result.
 //!
@@ -32,6 +33,7 @@ pub mod failure;
 pub mod flags;
 pub mod force;
 pub mod friction;
+pub mod history;
 pub mod ode;
 pub mod parameter;
 pub mod probe;
