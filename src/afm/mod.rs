@@ -14,6 +14,7 @@
 //! - [`friction`]: the largest lateral force the substrate contact can hold, one law a file;
 //! - [`modes`]: what else the particle may do: slip at the tip, roll, spin;
 //! - [`force`]: the critical force, one fidelity a file; [`critical_force`] is the entrance;
+//! - [`history`]: one scene in time, through sticking and slipping;
 //! - [`ode`]: initial value problems with events, for the laws and rungs that march in time;
 //! - [`flags`]: what makes a result doubtful; [`failure`]: why there is no result.
 //!
@@ -33,6 +34,7 @@ pub mod failure;
 pub mod flags;
 pub mod force;
 pub mod friction;
+pub mod history;
 pub mod modes;
 pub mod ode;
 pub mod parameter;

@@ -13,6 +13,8 @@ mod substrate;
 #[cfg(test)]
 mod tests;
 
+pub(super) use quasi_static::Statics;
+
 use super::friction::LuGreParameters;
 use super::named::named;
 use super::{ContactTheory, Domain, Failure, Flags, FrictionLaw, Scene, Torsion};

@@ -41,7 +41,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
 
 /// The probe in equilibrium.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Statics<'a> {
+pub(in crate::afm) struct Statics<'a> {
     pub scene: &'a Scene,
     pub probe: Probe,
     /// Tip height H (m).
@@ -94,7 +94,7 @@ impl<'a> Statics<'a> {
     /// # Errors
     /// [`Failure::BeyondPullOff`] if the twist lifts the tip until nothing holds the particle down, before friction
     /// gives way; those of the law of friction.
-    pub fn slip(&self, substrate: &Substrate) -> Result<(Slip, u64), Failure> {
+    pub(super) fn slip(&self, substrate: &Substrate) -> Result<(Slip, u64), Failure> {
         let mut evaluations = 0;
         let least = substrate.least_normal_force();
         let rounding = 16.0 * f64::EPSILON * self.probe.preload_force;
