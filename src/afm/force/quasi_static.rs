@@ -115,7 +115,10 @@ impl<'a> Statics<'a> {
         let slope = self.restoring - self.probe.preload_force;
         let mut high = Point { x: (-at_rest / slope).min(last), y: 0.0 };
         high.y = residual(high.x)?;
-        let theta = if at_rest >= 0.0 || high.y == 0.0 {
+        let theta = if at_rest >= 0.0 {
+            // Nothing to overcome.
+            0.0
+        } else if high.y == 0.0 {
             high.x
         } else if high.y < 0.0 {
             // Within rounding of the bound, if the bound is that of the root or pi/2.
@@ -134,7 +137,11 @@ impl<'a> Statics<'a> {
             root::between(low, high, residual)?
         };
         let (hold, normal_force) = hold(theta)?;
-        let lateral_force = hold.capacity;
+        // The two agree at the root, each to its own conditioning: the geometry's is poor near a right angle, the
+        // friction's where its coefficient is so large that one rounding of the twist moves it by itself.
+        let of_geometry = self.lateral_moment(theta) / theta.cos();
+        let agree = (hold.capacity - of_geometry).abs() < 1e-6 * of_geometry;
+        let lateral_force = if agree || theta.cos() < 1e-6 { hold.capacity } else { of_geometry };
         let travel = self.travel(theta, lateral_force);
         Ok((Slip { normal_force, lateral_force, travel, twist: theta, contact: hold.contact }, evaluations))
     }

@@ -45,7 +45,7 @@ impl Slip {
     /// [`Failure::StepTooSmall`] for a march that ended in rounding: far outside any laboratory one force may drown
     /// another.
     pub fn held_back(self) -> Result<Self, Failure> {
-        if self.lateral_force < 0.0 { Err(Failure::StepTooSmall) } else { Ok(self) }
+        if self.lateral_force < 0.0 || self.twist < 0.0 { Err(Failure::StepTooSmall) } else { Ok(self) }
     }
 
     /// The result of a rung, with error and cost left to fill in.
