@@ -4,7 +4,7 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use apportion::run::Progress;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 /// Shows how far one run has come, on standard error.
 pub struct Meter {
@@ -25,9 +25,12 @@ impl Meter {
     pub fn new(label: &str, total: u64) -> Self {
         let display = if super::stderr_is_terminal() {
             let bar = ProgressBar::new(total);
-            let template =
-                "{prefix} {bar:32} {percent:>3} %  {human_pos} of {human_len} runs  {per_sec}  {eta} left{msg}";
-            bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
+            let template = "{prefix} {bar:32} {percent:>3} %  {human_pos} of {human_len} runs  {rate}  {eta} left{msg}";
+            let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+            bar.set_style(style.with_key("rate", |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+                // A bar that cannot be drawn has nobody to tell.
+                let _ = out.write_str(&rate(state.per_sec()));
+            }));
             bar.set_prefix(label.to_owned());
             Display::Bar(bar)
         } else {
