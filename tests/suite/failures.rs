@@ -157,6 +157,19 @@ fn values_of_the_wrong_type() {
 }
 
 #[test]
+fn numbers_of_the_ladder() {
+    let with = |line: &str, expected: &[&str]| assert_spoilt("friction =", &format!("{line}\nfriction ="), expected);
+    with("fidelity = \"quasistatic\"", &["study.toml:3:12:", "did you mean `quasi-static`?"]);
+    with("contact = \"jkrs\"", &["study.toml:3:11:", "did you mean `jkr`?"]);
+    with("tolerance = 0", &["study.toml:3:13:", "greater than 0", "tolerance = 1e-6"]);
+    with("tolerance = \"1e-6\"", &["study.toml:3:13:", "tolerance = 1e-6"]);
+    with("step = 0.01", &["study.toml:3:8:", "step = \"10 ms\""]);
+    with("step = \"10 nm\"", &["study.toml:3:8:", "step = \"10 ms\""]);
+    with("step_budget = 0", &["study.toml:3:15:", "whole number from 1"]);
+    with("lugre_parameters = \"freezed\"", &["study.toml:3:20:", "frozen, contact"]);
+}
+
+#[test]
 fn impossible_designs() {
     assert_spoilt("base_samples = 64", "base_samples = 0", &["study.toml:5:16:", "too few", "at least 32"]);
     assert_spoilt("base_samples = 64", "replicates = 0", &["study.toml:5:14:", "replicates = 0"]);

@@ -4,6 +4,7 @@ mod afm_contact_oracle;
 mod analytic;
 mod common;
 mod distributions;
+mod extremes;
 mod failures;
 mod metamorphic;
 mod workflows;
