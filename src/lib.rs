@@ -22,6 +22,7 @@
 //! | [`uncertainty`] | intervals from independent replicates |
 //! | [`study`] | studies: the file as typed, and what it means |
 //! | [`report`] | results as JSON, CSV, text and charts; files written whole or not at all |
+//! | [`simulation`] | one scene of a study in time |
 //! | [`exchange`] | tables of points and outputs, for other programs |
 //! | [`reproduce`] | the papers' studies beside what the papers print |
 //!
@@ -69,6 +70,7 @@ pub mod quantity;
 pub mod report;
 pub mod reproduce;
 pub mod run;
+pub mod simulation;
 pub mod space;
 pub mod study;
 pub mod sum;

@@ -6,6 +6,7 @@ mod models;
 mod progress;
 mod reproduce;
 mod run;
+mod simulate;
 
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
@@ -37,6 +38,8 @@ enum Command {
     Evaluate(evaluate::Arguments),
     /// Explain a study without running it: factors, cost, memory, files
     Check(check::Arguments),
+    /// Follow one scene of a study in time, every factor at its nominal value: forces, positions, contacts
+    Simulate(simulate::Arguments),
     /// List what can be studied: models with their factors and outputs
     Models,
 }
@@ -150,6 +153,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
         Command::Check(arguments) => check::check(&arguments),
+        Command::Simulate(arguments) => simulate::simulate(&arguments),
         Command::Models => models::models(),
     };
     match outcome {

@@ -16,7 +16,11 @@ pub struct LatinHypercube {
 
 impl LatinHypercube {
     /// The hypercube of `replicate` under `seed`.
+    ///
+    /// # Panics
+    /// If `n` is 0.
     pub fn new(dimensions: usize, n: u64, seed: u64, replicate: u64) -> Self {
+        assert!(n > 0, "a hypercube has at least one point");
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         // The upper half of the streams, so that permutations and jitter share no number.
         rng.set_stream(replicate | 1 << 63);
@@ -26,15 +30,20 @@ impl LatinHypercube {
 
     /// The rows `first`, `first + 1`, ... (below `n`) into `columns` (one slice per dimension), in (0, 1).
     pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
-        const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
         self.jitter.fill(first, columns);
         for (column, permutation) in columns.iter_mut().zip(&self.permutations) {
             for (u, row) in column.iter_mut().zip(first..) {
-                // With very many cells the sum rounds up to n in the last one: the point must stay below 1.
-                *u = ((permutation.of(row) as f64 + *u) / self.n as f64).min(BELOW_ONE);
+                *u = place(permutation.of(row), *u, self.n);
             }
         }
     }
+}
+
+/// The place of a point at `jitter`, in (0, 1), of its cell, as a share of all `n` cells. With very many cells the sum
+/// rounds up to n in the last one: the point must stay below 1.
+fn place(cell: u64, jitter: f64, n: u64) -> f64 {
+    const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
+    ((cell as f64 + jitter) / n as f64).min(BELOW_ONE)
 }
 
 /// A pseudo-random permutation of 0 .. n: a Feistel network on the next even power of two, walked until it lands
@@ -126,11 +135,10 @@ mod tests {
     }
 
     #[test]
-    fn the_last_cell_of_the_largest_hypercube_stays_below_one() {
-        let points = LatinHypercube::new(1, 1 << 32, 0, 0);
-        let row = (0..).find(|&row| points.permutations[0].of(row) > (1 << 32) - (1 << 20)).unwrap_or(0);
-        let mut columns = vec![vec![0.0; 1]];
-        points.fill(row, &mut columns);
-        assert!(columns[0][0] < 1.0);
+    fn the_last_place_of_the_largest_hypercube_stays_below_one() {
+        let (n, last) = (1u64 << 32, 1.0 - f64::EPSILON / 2.0);
+        assert_eq!((n - 1) as f64 + last, n as f64, "the case is the one that rounds up");
+        assert!(place(n - 1, last, n) < 1.0);
+        assert!(place(0, f64::MIN_POSITIVE, n) > 0.0);
     }
 }

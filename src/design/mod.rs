@@ -22,6 +22,9 @@ pub use sobol::SobolSequence;
 /// Most base points one replicate can hold: the length of the 32-bit Sobol' sequence.
 pub const MAX_POINTS: u64 = 1 << 32;
 
+/// Most replicates of a design.
+pub const MAX_REPLICATES: u64 = 4096;
+
 /// Where the points of a design come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -78,6 +81,28 @@ pub enum DesignError {
         base_samples: u64,
         /// The number of replicates that share them.
         replicates: u64,
+    },
+    /// More replicates than anybody needs: each costs memory and a pass over the others.
+    #[error("replicates = {replicates}: at most {MAX_REPLICATES} are possible, and 4 to 32 are usual")]
+    TooManyReplicates {
+        /// The number asked for.
+        replicates: u64,
+    },
+    /// More model runs than can be counted.
+    #[error("{base_samples} base samples of {rows_per_point} runs each are more runs than can be counted")]
+    TooManyRuns {
+        /// The number asked for, rounded up to whole replicates.
+        base_samples: u128,
+        /// Model runs of each base sample.
+        rows_per_point: u64,
+    },
+    /// A swap names a column that does not exist.
+    #[error("a swap takes column {column}, but there are {factors} factors, counted from 0")]
+    NoSuchColumn {
+        /// The column.
+        column: usize,
+        /// Number of factors.
+        factors: usize,
     },
     /// A replicate would be longer than the sequence.
     #[error(
@@ -151,8 +176,9 @@ impl Design {
     /// `base_samples` is rounded up to a multiple of `replicates`; [`Design::settings`] tells the number in force.
     ///
     /// # Errors
-    /// [`DesignError`] if there is no factor, no replicate, fewer than two or more than 2^32 base points a replicate,
-    /// or more factors than the Sobol' sequence has dimensions for.
+    /// [`DesignError`] if there is no factor, no replicate or more than [`MAX_REPLICATES`], fewer than two or more than
+    /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for, or a swap of a column
+    /// that does not exist.
     pub fn new(mut settings: DesignSettings, factors: usize, swaps: Vec<Swap>) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
         if factors == 0 {
@@ -164,12 +190,23 @@ impl Design {
         if replicates == 0 {
             return Err(DesignError::NoReplicates);
         }
+        if replicates > MAX_REPLICATES {
+            return Err(DesignError::TooManyReplicates { replicates });
+        }
+        if let Some(&column) = swaps.iter().flatten().find(|&&column| column >= factors) {
+            return Err(DesignError::NoSuchColumn { column, factors });
+        }
         if base_samples / 2 < replicates {
             return Err(DesignError::TooFewSamples { base_samples, replicates });
         }
         let points = base_samples.div_ceil(replicates);
         if points > MAX_POINTS {
             return Err(DesignError::TooManySamples { base_samples, replicates });
+        }
+        let rows_per_point = 2 + swaps.len() as u64;
+        let all = u128::from(points) * u128::from(replicates);
+        if all * u128::from(rows_per_point) > u128::from(u64::MAX) {
+            return Err(DesignError::TooManyRuns { base_samples: all, rows_per_point });
         }
         settings.base_samples = points * replicates;
         Ok(Self { settings, factors, swaps })
@@ -321,6 +358,14 @@ mod tests {
             let error = of(DesignSettings { base_samples, ..settings() }, 1);
             assert_eq!(error, DesignError::TooFewSamples { base_samples, replicates: 16 });
         }
+        let error = of(DesignSettings { replicates: 5000, base_samples: 1 << 20, ..settings() }, 1);
+        assert_eq!(error, DesignError::TooManyReplicates { replicates: 5000 });
+        let swaps = vec![vec![0]; 1 << 21];
+        let full =
+            DesignSettings { base_samples: MAX_POINTS * MAX_REPLICATES, replicates: MAX_REPLICATES, ..settings() };
+        assert!(matches!(Design::new(full, 1, swaps), Err(DesignError::TooManyRuns { .. })));
+        let error = Design::new(settings(), 2, vec![vec![2]]).unwrap_err();
+        assert_eq!(error, DesignError::NoSuchColumn { column: 2, factors: 2 });
         let error = of(DesignSettings { base_samples: u64::MAX, replicates: 2, ..settings() }, 1);
         assert!(matches!(error, DesignError::TooManySamples { .. }));
     }

@@ -40,9 +40,10 @@ impl SobolSequence {
 
     /// Coordinate `dimension` of the points `first`, `first + 1`, ... into `out`.
     ///
-    /// The indices must stay below 2^32.
+    /// # Panics
+    /// If an index would reach 2^32, where the sequence would repeat itself.
     pub fn fill(&self, dimension: usize, first: u64, out: &mut [f64]) {
-        debug_assert!(first + out.len() as u64 <= 1 << BITS);
+        assert!(first + out.len() as u64 <= 1 << BITS, "the sequence ends at 2^32 points");
         let directions = &self.directions[dimension];
         let mut coordinate = at_index(directions, first);
         let scramble = self.scrambles.as_ref().map(|keys| keys[dimension]);

@@ -18,6 +18,11 @@ pub enum Undefined {
     /// The output does not vary.
     #[error("the output has zero variance over the sample: no factor changes it, and indices are undefined")]
     ZeroVariance,
+    /// The output varies by no more than its own rounding.
+    #[error(
+        "the output varies by no more than the rounding of its own size: subtract a constant from it before it is rounded"
+    )]
+    BelowRounding,
     /// The variance is too large or too small for a double.
     #[error("the variance of the output over- or underflows double precision: give the output in another unit")]
     Unrepresentable,
@@ -45,32 +50,35 @@ impl Indices {
             return Err(Undefined::NoRuns);
         }
         let variance = usable_variance(moments)?;
-        let each = |estimate: &dyn Fn(usize) -> f64| (0..moments.swaps()).map(estimate).collect();
-        Ok(Self {
+        let each = |estimate: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..moments.swaps()).map(estimate).collect() };
+        let indices = Self {
             first_order: each(&|j| moments.first_order(j) / variance),
             total: each(&|j| moments.total(j) / variance),
             check: each(&|j| moments.janon_monod(j)),
-        })
+        };
+        let Self { first_order, total, check } = &indices;
+        if first_order.iter().chain(total).chain(check).all(|index| index.is_finite()) {
+            Ok(indices)
+        } else {
+            Err(Undefined::Unrepresentable)
+        }
     }
 }
 
-/// The variance, unless it is zero to the rounding of the outputs themselves, or not a normal number.
+/// The variance, unless there is none, or none that doubles can tell.
 fn usable_variance(moments: &Moments) -> Result<f64, Undefined> {
+    if moments.constant() {
+        return Err(Undefined::ZeroVariance);
+    }
     let variance = moments.variance();
-    if !variance.is_finite() {
+    if !variance.is_normal() {
         return Err(Undefined::Unrepresentable);
     }
     // A spread of a few units in the last place of the mean is rounding, not variation. This is relative: an output of
     // 1e-30 with a spread of 1e-31 passes like one of 1 with a spread of 0.1.
     let rounding = 4.0 * f64::EPSILON * moments.mean().abs();
-    if variance == 0.0 && rounding < f64::MIN_POSITIVE.sqrt() && moments.mean() != 0.0 {
-        return Err(Undefined::Unrepresentable);
-    }
-    if variance <= rounding * rounding {
-        return Err(Undefined::ZeroVariance);
-    }
-    if !variance.is_normal() {
-        return Err(Undefined::Unrepresentable);
+    if variance.sqrt() <= rounding {
+        return Err(Undefined::BelowRounding);
     }
     Ok(variance)
 }
@@ -116,7 +124,7 @@ mod tests {
 
     #[test]
     fn constant_outputs_have_a_name_at_any_size() {
-        for value in [0.0, 0.1, 1e300, 1.0 / 3.0] {
+        for value in [0.0, 0.1, 1e300, 1.0 / 3.0, 1e-150, 1e-300, -5e-324] {
             let y = vec![value; 100];
             assert_eq!(indices(&y, &y, &y), Err(Undefined::ZeroVariance), "{value}");
         }
@@ -136,6 +144,13 @@ mod tests {
             let y = scaled(scale);
             assert_eq!(indices(&y, &y, &y), Err(Undefined::Unrepresentable), "{scale}");
         }
+        let signs: Vec<f64> = (0..100).map(|i| if i % 2 == 0 { 1e-170 } else { -1e-170 }).collect();
+        assert_eq!(indices(&signs, &signs, &signs), Err(Undefined::Unrepresentable));
+        let b: Vec<f64> = y.iter().rev().copied().collect();
+        let large: Vec<f64> = y.iter().map(|y| y * 1e160).collect();
+        assert_eq!(indices(&y, &b, &large), Err(Undefined::Unrepresentable));
+        let offset: Vec<f64> = y.iter().map(|y| 1e15 + y / 100.0).collect();
+        assert_eq!(indices(&offset, &offset, &offset), Err(Undefined::BelowRounding));
         assert!(indices(&scaled(1e-100), &scaled(1e-100), &scaled(1e-100)).is_ok());
     }
 }

@@ -18,6 +18,8 @@ pub struct Moments {
     aa: f64,
     bb: f64,
     ab: f64,
+    /// Smallest and largest output among the rows A and B; `None` without any.
+    range: Option<(f64, f64)>,
     swaps: Vec<SwapMoments>,
 }
 
@@ -72,6 +74,10 @@ impl Moments {
             aa: centred_product(ca, ca),
             bb: centred_product(cb, cb),
             ab: centred_product(ca, cb),
+            range: (!a.is_empty()).then(|| {
+                let both = || a.iter().chain(b).copied();
+                (both().fold(f64::INFINITY, f64::min), both().fold(f64::NEG_INFINITY, f64::max))
+            }),
             swaps,
         }
     }
@@ -86,6 +92,9 @@ impl Moments {
             return;
         }
         debug_assert_eq!(self.swaps.len(), other.swaps.len());
+        if let (Some((low, high)), Some((other_low, other_high))) = (self.range, other.range) {
+            self.range = Some((low.min(other_low), high.max(other_high)));
+        }
         let (n, m) = (self.n as f64, other.n as f64);
         let (share, weight) = (m / (n + m), n * m / (n + m));
         let (da, db) = (other.mean_a - self.mean_a, other.mean_b - self.mean_b);
@@ -112,6 +121,11 @@ impl Moments {
     /// Number of rows AB_j.
     pub fn swaps(&self) -> usize {
         self.swaps.len()
+    }
+
+    /// Whether every row A and B has the same output.
+    pub fn constant(&self) -> bool {
+        self.range.is_none_or(|(low, high)| low == high)
     }
 
     /// Mean of the output over the rows A and B.

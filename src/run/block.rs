@@ -45,9 +45,10 @@ impl<'a> Scratch<'a> {
         &mut self.unit
     }
 
-    /// Evaluates the base points in the unit columns; `first_row` is the row number of the first one's A.
-    pub(super) fn evaluate(&mut self, job: Job<'_>, first_row: u64) -> Totals {
-        self.run_rows(job);
+    /// Evaluates the base points in the unit columns; `first_row` is the row number of the first one's A. `report` is
+    /// told of every batch: its runs, and how many of them failed.
+    pub(super) fn evaluate(&mut self, job: Job<'_>, first_row: u64, report: &dyn Fn(u64, u64)) -> Totals {
+        self.run_rows(job, report);
         let rows = self.unit.first().map_or(0, Vec::len);
         let mut totals = Totals {
             runs: (rows * self.batches.len()) as u64,
@@ -68,7 +69,7 @@ impl<'a> Scratch<'a> {
         totals
     }
 
-    fn run_rows(&mut self, job: Job<'_>) {
+    fn run_rows(&mut self, job: Job<'_>, report: &dyn Fn(u64, u64)) {
         let factors = job.design.factors();
         for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
             values.resize(unit.len(), 0.0);
@@ -87,6 +88,7 @@ impl<'a> Scratch<'a> {
             batch.reset(inputs[0].len());
             self.worker.run(&inputs, batch);
             batch.settle();
+            report(batch.rows() as u64, failed_rows(batch));
         }
     }
 

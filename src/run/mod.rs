@@ -53,7 +53,7 @@ pub enum RunError {
     /// The operating system refused the threads.
     #[error("cannot start {threads} threads: {source}")]
     Threads {
-        /// The number asked for; 0 stands for one per core.
+        /// The number asked for.
         threads: usize,
         /// What rayon said.
         source: rayon::ThreadPoolBuildError,
@@ -62,16 +62,20 @@ pub enum RunError {
 
 /// Runs the whole job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
 ///
-/// `on_progress` is called after every block, from the thread that finished it. The result does not depend on the
+/// `on_progress` is called whenever a block has gone through one kind of row, from the thread that did it. The result does not depend on the
 /// number of threads, in any bit.
+///
+/// # Panics
+/// If the space has not as many factors as the design.
 ///
 /// # Errors
 /// [`RunError::Threads`] if the threads cannot be started. Rows that fail are part of the totals, not errors.
 pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<Vec<Totals>, RunError> {
+    assert_eq!(job.space.factors().len(), job.design.factors(), "space and design have the same factors");
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
+        .num_threads(threads_in_force(threads))
         .build()
-        .map_err(|source| RunError::Threads { threads, source })?;
+        .map_err(|source| RunError::Threads { threads: threads_in_force(threads), source })?;
     let runner = Runner {
         job,
         on_progress,
@@ -144,9 +148,8 @@ impl Runner<'_> {
         let mut scratch = taken.unwrap_or_else(|| Scratch::new(self.job));
         points.fill(first, scratch.unit_columns(rows));
         let first_row = (replicate * design.points_per_replicate() + first) * design.rows_per_point();
-        let totals = scratch.evaluate(self.job, first_row);
+        let totals = scratch.evaluate(self.job, first_row, &|runs, failed| self.report(runs, failed));
         idle().push(scratch);
-        self.report(rows as u64 * design.rows_per_point(), totals.failed_runs);
         totals
     }
 

@@ -105,8 +105,24 @@ fn with_intervals(
     whole: &[f64],
     quantities: &dyn Fn(&Moments) -> Option<Vec<f64>>,
 ) -> Vec<Estimate> {
-    let all_but = |r: usize| merged(replicates.iter().enumerate().filter(|(i, _)| *i != r).map(|(_, m)| m));
-    let without: Option<Vec<_>> = (0..replicates.len()).map(|r| quantities(&all_but(r))).collect();
+    // before[r] holds the replicates before r, `after` (from the back) those after it: two passes instead of R.
+    let mut before = vec![Moments::default()];
+    for moments in replicates {
+        let mut sum = before[before.len() - 1].clone();
+        sum.merge(moments);
+        before.push(sum);
+    }
+    let mut after = Moments::default();
+    let mut without = Vec::with_capacity(replicates.len());
+    for (moments, before) in replicates.iter().zip(&before).rev() {
+        let mut rest = before.clone();
+        rest.merge(&after);
+        without.push(quantities(&rest));
+        let mut sum = moments.clone();
+        sum.merge(&after);
+        after = sum;
+    }
+    let without: Option<Vec<_>> = without.into_iter().rev().collect();
     let mut estimates = jackknife(whole, &without.unwrap_or_default());
     for estimate in &mut estimates {
         estimate.interval = estimate.interval.filter(|i| i.low.is_finite() && i.high.is_finite());

@@ -166,6 +166,51 @@ fn reproduce_writes_nine_results_three_charts_and_a_table() {
 }
 
 #[test]
+fn simulate_tells_a_scene_from_sticking_to_slipping() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study_path("coulomb-general");
+    let out = ["--out", text(folder.path()), "--set", "afm.shear_modulus=40.5 GPa"];
+    let told = succeed(&[&["simulate", text(&study), "--duration", "0.4 s"], &out[..]].concat());
+    // The papers' claims 1 and 2 at the papers' shear modulus.
+    assert!(told.contains("slips after 0.2095") && told.contains("moved -19.04"), "{told}");
+    let csv = std::fs::read_to_string(folder.path().join("coulomb-general-scene.csv")).unwrap();
+    let mut reader = csv::Reader::from_reader(csv.as_bytes());
+    let header: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let place = |name: &str| header.iter().position(|column| column == name).unwrap();
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    let number = |row: usize, name: &str| rows[row][place(name)].parse::<f64>().unwrap();
+    let last = rows.len() - 1;
+    assert_eq!((number(0, "time_s"), number(last, "time_s")), (0.0, 0.4));
+    assert!(rows.windows(2).all(|pair| pair[0][0].parse::<f64>().unwrap() <= pair[1][0].parse::<f64>().unwrap()));
+    assert_eq!((&rows[0][place("slipping")], &rows[last][place("slipping")]), ("false", "true"));
+    assert!((number(last, "tip_force_nN") - 631.3).abs() < 0.05);
+    let json = std::fs::read_to_string(folder.path().join("coulomb-general-scene.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["format"], "apportion-scene");
+    let page = std::fs::read_to_string(folder.path().join("coulomb-general-scene.html")).unwrap();
+    assert!(page.contains("<svg") && !page.contains("src=\"http") && !page.contains("href=\"http"));
+    succeed(&[&["simulate", text(&study), "--mode-diagram"], &out[..]].concat());
+    let modes = std::fs::read_to_string(folder.path().join("coulomb-general-modes.csv")).unwrap();
+    assert!(modes.starts_with("angle_rad,slide_N,tip-slip_N,roll_N,spin_N\n"));
+}
+
+#[test]
+fn scenes_that_cannot_be_told_say_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |study: &str, arguments: &[&str], expected: &str| {
+        let path = study_path(study);
+        let output = apportion(&[&["simulate", text(&path), "--out", text(folder.path())], arguments].concat());
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+        assert!(files(folder.path()).is_empty());
+    };
+    refused("ishigami", &[], "only the nanoparticle model");
+    refused("coulomb-general", &["--set", "factor.velocity.nominal=0"], "velocity is zero");
+    refused("coulomb-general", &["--duration", "3"], "a time greater than 0 with its unit");
+    refused("coulomb-general", &["--duration", "-1 s"], "a time greater than 0");
+}
+
+#[test]
 fn every_friction_law_contact_theory_and_fidelity_runs_from_a_study_file() {
     use apportion::afm::{ContactTheory, Fidelity, FrictionLaw};
     let run = |key: &str, name: &str| {

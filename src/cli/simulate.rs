@@ -1,0 +1,119 @@
+//! `apportion simulate`: one scene of a study in time.
+
+use std::path::{Path, PathBuf};
+
+use apportion::quantity::{Dimension, Quantity};
+use apportion::report::chart::png;
+use apportion::report::scene::{PageParts, mode_diagram_chart, scene_charts, scene_csv, scene_json, scene_page};
+use apportion::report::{prepare_folder, with_unit, write_atomically};
+use apportion::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
+use apportion::study::Study;
+
+use super::run::default_folder;
+use super::{Failure, StudyArguments, print, say};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Folder for the results [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// How long to simulate, as in "0.4 s" [default: twice the critical time]
+    #[arg(long, value_name = "TIME", value_parser = parse_time, allow_hyphen_values = true)]
+    duration: Option<f64>,
+    /// Draw the mode diagram instead: the force at which the particle slides, slips at the tip, rolls or spins
+    #[arg(long)]
+    mode_diagram: bool,
+}
+
+fn parse_time(text: &str) -> Result<f64, String> {
+    let quantity = Quantity::parse(text).map_err(|error| error.to_string())?;
+    if quantity.unit.dimension() != Dimension::TIME || quantity.value <= 0.0 {
+        return Err("expected a time greater than 0 with its unit, as in \"0.4 s\"".to_owned());
+    }
+    Ok(quantity.to_si())
+}
+
+impl From<SimulationError> for Failure {
+    fn from(error: SimulationError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+/// Simulates the scene in which every factor stands at its nominal value.
+pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load()?;
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    prepare_folder(&folder)?;
+    let files = if arguments.mode_diagram { draw_modes(&study, &folder)? } else { tell(arguments, &study, &folder)? };
+    for file in files {
+        say(&format!("wrote {}", file.display()));
+    }
+    Ok(())
+}
+
+fn tell(arguments: &Arguments, study: &Study, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let story = simulate_scene(study, arguments.duration)?;
+    let charts = scene_charts(&story).map_err(|error| Failure::Run(error.into()))?;
+    let stem = format!("{}-scene", study.name);
+    let (csv, json) = (format!("{stem}.csv"), format!("{stem}.json"));
+    let parts = PageParts { charts: &charts, csv_file: &csv, json_file: &json };
+    let page = scene_page(&story, parts).map_err(|error| Failure::Run(error.into()))?;
+    let mut files = vec![
+        (format!("{stem}.html"), page.into_bytes()),
+        (csv, scene_csv(&story).into_bytes()),
+        (json, scene_json(&story).into_bytes()),
+    ];
+    for chart in &charts {
+        files.extend(pictures(&format!("{}-{}", study.name, chart.stem), &chart.svg)?);
+    }
+    let critical = &story.critical;
+    let nanonewtons = |force: f64| with_unit(force * 1e9, "nN");
+    let time = critical.time.map_or_else(|| "never".to_owned(), |time| format!("after {}", with_unit(time, "s")));
+    let state = story.samples.last().map_or_else(String::new, |end| {
+        let moved = with_unit(end.relative_position * 1e9, "nm");
+        format!("; after {} it has moved {moved} relative to the substrate", with_unit(end.time, "s"))
+    });
+    print(&format!(
+        "the particle slips {time}, at a tip force of {} (lateral {}, normal {}){state}\n",
+        nanonewtons(critical.critical_force),
+        nanonewtons(critical.lateral_force),
+        nanonewtons(critical.normal_force)
+    ))?;
+    write(folder, files)
+}
+
+fn draw_modes(study: &Study, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let diagram = mode_diagram(study)?;
+    let svg = mode_diagram_chart(&diagram).map_err(|error| Failure::Run(error.into()))?;
+    let mut csv = String::from("angle_rad");
+    for line in &diagram.forces {
+        csv.push_str(&format!(",{}_N", line.mode));
+    }
+    csv.push('\n');
+    for (row, angle) in diagram.angle.iter().enumerate() {
+        let forces = diagram.forces.iter().map(|line| line.force[row].map_or_else(String::new, |f| f.to_string()));
+        csv.push_str(&format!("{angle},{}\n", forces.collect::<Vec<_>>().join(",")));
+    }
+    let stem = format!("{}-modes", study.name);
+    let mut files = vec![(format!("{stem}.csv"), csv.into_bytes())];
+    files.extend(pictures(&stem, &svg)?);
+    write(folder, files)
+}
+
+/// A chart as its two files.
+fn pictures(stem: &str, svg: &str) -> Result<[(String, Vec<u8>); 2], Failure> {
+    let picture = png(svg).map_err(|error| Failure::Run(error.into()))?;
+    Ok([(format!("{stem}.svg"), svg.as_bytes().to_vec()), (format!("{stem}.png"), picture.bytes)])
+}
+
+fn write(folder: &Path, files: Vec<(String, Vec<u8>)>) -> Result<Vec<PathBuf>, Failure> {
+    let mut written = Vec::with_capacity(files.len());
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        write_atomically(&path, &bytes)?;
+        written.push(path);
+    }
+    Ok(written)
+}

@@ -1,0 +1,158 @@
+//! One scene of a study in time, and the diagram of what else the particle may do.
+
+use thiserror::Error;
+
+use crate::afm::history::{Sample, history};
+use crate::afm::modes::{Mode, Pushing, TipForce};
+use crate::afm::{Failure, Fidelity, Options, Parameter, Scene, critical_force};
+use crate::model::edge_unit;
+use crate::report::chart::Role;
+use crate::report::friction_role;
+use crate::report::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneGeometry, SceneSample, SceneStory};
+use crate::report::with_unit;
+use crate::study::{Study, Subject};
+
+/// Why a scene cannot be simulated.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SimulationError {
+    /// The study is about something else.
+    #[error("only the nanoparticle model (model = \"afm\") has a scene in time, and this study is about `{0}`")]
+    NoScene(&'static str),
+    /// The scene has no answer.
+    #[error("the scene cannot be simulated: {0}")]
+    Failed(#[from] Failure),
+}
+
+/// The scene of a study: its constants, with every factor at its nominal value.
+///
+/// # Errors
+/// [`SimulationError::NoScene`] if the study is not about the nanoparticle model.
+fn scene_of(study: &Study) -> Result<(Scene, Options), SimulationError> {
+    let Subject::Afm(afm) = &study.subject else {
+        return Err(SimulationError::NoScene(study.subject.kind().name()));
+    };
+    let mut scene = afm.scene;
+    for factor in study.space.factors() {
+        if let Some(parameter) = Parameter::from_name(&factor.name) {
+            (parameter.set)(&mut scene, factor.unit.to_si(factor.nominal));
+        }
+    }
+    Ok((scene, afm.options))
+}
+
+/// The scene of `study` in time, for `duration` seconds; by default for twice the critical time.
+///
+/// # Errors
+/// [`SimulationError`] if the study has no scene, or the scene no answer, as at velocity 0.
+pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, SimulationError> {
+    let (scene, options) = scene_of(study)?;
+    let duration = match duration {
+        Some(duration) => duration,
+        None => 2.0 * critical_force(&scene, &Options { fidelity: Fidelity::QuasiStatic, ..options })?.critical_time?,
+    };
+    let told = history(&scene, &options, duration)?;
+    let pushing = pushing(scene, &options);
+    let samples = told.samples.iter().map(|sample| scene_sample(sample, &pushing)).collect::<Result<_, _>>()?;
+    Ok(SceneStory {
+        title: study.title.clone().unwrap_or_else(|| study.name.clone()),
+        setting: setting(&scene, &options),
+        geometry: SceneGeometry {
+            particle_radius: scene.particle_radius,
+            tip_radius: scene.tip_radius,
+            height: scene.height,
+            contact_angle: scene.contact_angle,
+            length: scene.length,
+            width: scene.width,
+            thickness: scene.thickness,
+        },
+        critical: CriticalInstant {
+            time: told.critical.critical_time.ok(),
+            critical_force: told.critical.critical_force,
+            lateral_force: told.critical.lateral_force,
+            normal_force: told.critical.normal_force,
+        },
+        friction_role: friction_role(options.friction.name()),
+        samples,
+    })
+}
+
+fn pushing(scene: Scene, options: &Options) -> Pushing {
+    Pushing { theory: options.contact, adhesion_in_load: options.adhesion_in_load, ..Pushing::new(scene) }
+}
+
+fn scene_sample(sample: &Sample, pushing: &Pushing) -> Result<SceneSample, Failure> {
+    let force = TipForce { normal: sample.normal_force, lateral: sample.lateral_force };
+    // A force that pulls a contact apart leaves nothing to slip, roll or spin there.
+    let moves = |mode| match pushing.balance(mode, force) {
+        Ok(balance) => Ok(balance.moves()),
+        Err(Failure::BeyondPullOff) => Ok(false),
+        Err(failure) => Err(failure),
+    };
+    let tip =
+        |quantity: fn(&crate::afm::contact::Contact) -> f64| sample.tip_contact.as_ref().map_or(f64::NAN, quantity);
+    Ok(SceneSample {
+        time: sample.time,
+        lateral_force: sample.lateral_force,
+        normal_force: sample.normal_force,
+        tip_force: sample.tip_force,
+        force_angle: sample.force_angle,
+        twist: sample.twist,
+        base_lateral: sample.lateral_deflection,
+        deflection: sample.normal_deflection,
+        substrate_position: sample.substrate,
+        particle_position: sample.particle,
+        relative_position: sample.relative,
+        substrate_contact_radius: sample.substrate_contact.radius,
+        substrate_indentation: sample.substrate_contact.indentation,
+        tip_contact_radius: tip(|contact| contact.radius),
+        tip_indentation: tip(|contact| contact.indentation),
+        slipping: !sample.sticking,
+        tip_slip: moves(Mode::TipSlip)?,
+        rolling: moves(Mode::Roll)?,
+        spin: moves(Mode::Spin)?,
+    })
+}
+
+fn setting(scene: &Scene, options: &Options) -> Vec<(String, String)> {
+    let choices = [
+        ("friction", options.friction.name()),
+        ("contact", options.contact.name()),
+        ("torsion", options.torsion.name()),
+        ("adhesion in load", if options.adhesion_in_load { "yes" } else { "no" }),
+        // The history is quasi-static whatever the study's critical forces are computed by.
+        ("motion", Fidelity::QuasiStatic.name()),
+    ];
+    let value = |parameter: &Parameter| {
+        let unit = edge_unit(parameter);
+        let text = with_unit(unit.from_si((parameter.get)(scene)), unit.symbol());
+        (parameter.name.replace('_', " "), text)
+    };
+    let choices = choices.into_iter().map(|(label, choice)| (label.to_owned(), choice.to_owned()));
+    choices.chain(Parameter::ALL.iter().map(value)).collect()
+}
+
+/// Angles in the mode diagram.
+const ANGLES: usize = 180;
+
+/// For every way to give way, the tip force at which the particle of `study` begins to, against the force's angle from
+/// the vertical (Tafazzoli and Sitti 2004, fig. 12).
+///
+/// # Errors
+/// [`SimulationError`] if the study has no scene, or the scene no answer.
+pub fn mode_diagram(study: &Study) -> Result<ModeDiagram, SimulationError> {
+    let (scene, options) = scene_of(study)?;
+    let pushing = pushing(scene, &options);
+    let critical = critical_force(&scene, &options)?;
+    // The scene's own angle among them, so that its slip can be read off the steep curves.
+    let grid = (1..ANGLES).map(|i| std::f64::consts::FRAC_PI_2 * i as f64 / ANGLES as f64);
+    let mut angle: Vec<f64> = grid.chain([critical.force_angle]).collect();
+    angle.sort_by(f64::total_cmp);
+    let roles = [friction_role(options.friction.name()), Role::Other(0), Role::Other(1), Role::Other(2)];
+    let mut lines = Vec::new();
+    for (&mode, role) in Mode::ALL.iter().zip(roles) {
+        let sets_in = |&psi: &f64| pushing.critical_tip_force(mode, psi);
+        let force = angle.iter().map(sets_in).collect::<Result<Vec<_>, Failure>>()?;
+        lines.push(ModeLine { mode: mode.name().to_owned(), role, force });
+    }
+    Ok(ModeDiagram { angle, forces: lines, current: Some((critical.force_angle, critical.critical_force)) })
+}
