@@ -6,7 +6,8 @@ use crate::report::chart::{Axis, ChartError, LineChart, LinePanel, LineSeries, R
 /// The forces at which the modes set in, against the angle of the tip force (TS04 figure 12).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeDiagram {
-    /// Angles psi of the tip force from the vertical, rising (rad).
+    /// Angles psi of the tip force from the vertical, rising (rad). The caption names the modes at the angle nearest to
+    /// that of `current`, which had better be among them.
     pub angle: Vec<f64>,
     /// The modes.
     pub forces: Vec<ModeLine>,
@@ -98,10 +99,9 @@ fn caption(diagram: &ModeDiagram) -> String {
         modes.sort_by(|a, b| a.1.total_cmp(&b.1));
         let said: Vec<String> = modes.iter().map(|(mode, least)| format!("{mode} at {}", force(*least))).collect();
         let here = short(DEGREES * diagram.angle[place]);
-        return match said.is_empty() {
-            true => format!("At {here}° no force sets a mode in; the scene slips at {}.", force(scene_force)),
-            false => format!("At {here}° set in: {}; the scene slips at {}.", said.join(", "), force(scene_force)),
-        };
+        let modes = if said.is_empty() { "no mode".to_owned() } else { said.join(", ") };
+        let scene = format!("{}° and {}", short(DEGREES * angle), force(scene_force));
+        return format!("At {here}° set in: {modes}; the scene slips at {scene}.");
     }
     let least: Vec<Option<&str>> = (0..diagram.angle.len())
         .map(|place| {
@@ -165,7 +165,12 @@ mod tests {
         Document::parse(&svg).unwrap();
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         let said = caption(&diagram());
-        assert!(said.starts_with("At 39.0° set in: rolling at 100 nN, sliding at 960 nN"), "{said}");
+        assert!(
+            said.starts_with(
+                "At 39.0° set in: rolling at 100 nN, sliding at 960 nN; the scene slips at 39.2° and 631 nN."
+            ),
+            "{said}"
+        );
     }
 
     #[test]

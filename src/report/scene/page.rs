@@ -10,6 +10,14 @@ use super::view::View;
 use super::{SceneChart, SceneStory};
 use crate::report::chart::Role;
 
+/// The parts of the page's script, each using those before it.
+const SCRIPT: [&str; 4] = [
+    include_str!("../../../templates/scene/story.js"),
+    include_str!("../../../templates/scene/draw.js"),
+    include_str!("../../../templates/scene/pictures.js"),
+    include_str!("../../../templates/scene/player.js"),
+];
+
 /// Why a page could not be made.
 #[derive(Debug, Error)]
 #[error("cannot make the page: {0}")]
@@ -29,7 +37,7 @@ pub struct PageParts<'a> {
 /// The template escapes every text; what it takes as it is (`safe`) comes from this program: style, script, data made
 /// by [`script_json`] and charts, which escape their own texts.
 #[derive(Template)]
-#[template(path = "scene.html")]
+#[template(path = "scene/page.html")]
 struct Page<'a> {
     story: &'a SceneStory,
     parts: PageParts<'a>,
@@ -37,7 +45,7 @@ struct Page<'a> {
     exaggeration: String,
     colours: [(&'static str, &'static str); 5],
     style: &'static str,
-    script: &'static str,
+    script: [&'static str; 4],
     data: String,
     view: String,
     version: &'static str,
@@ -62,8 +70,8 @@ pub fn scene_page(story: &SceneStory, parts: PageParts<'_>) -> Result<String, Pa
             ("substrate", SUBSTRATE.colour()),
             ("slip", Role::Other(0).colour()),
         ],
-        style: include_str!("../../../templates/scene.css"),
-        script: include_str!("../../../templates/scene.js"),
+        style: include_str!("../../../templates/scene/page.css"),
+        script: SCRIPT,
         data: script_json(&scene_value(story)),
         view: script_json(&view.value()),
         version: env!("CARGO_PKG_VERSION"),
