@@ -3,6 +3,7 @@
 mod build;
 pub mod chart;
 mod result;
+pub mod scene;
 mod shares_chart;
 mod tables;
 mod warnings;

@@ -1,0 +1,319 @@
+//! The charts of a scene in time, after the figures of Tafazzoli & Sitti 2004.
+
+use super::words::{change, force, length, short, time};
+use super::{SceneSample, SceneStory};
+use crate::report::chart::{Axis, ChartError, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+
+/// A drawn chart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneChart {
+    /// Name of its files, without extension.
+    pub stem: &'static str,
+    /// The SVG document.
+    pub svg: String,
+}
+
+/// The colours of the quantities, the same in the animation: the pushing force has that of the friction law.
+pub(super) const LATERAL: Role = Role::Other(1);
+pub(super) const NORMAL: Role = Role::Other(3);
+pub(super) const SUBSTRATE: Role = Role::Other(3);
+const PARTICLE: Role = Role::Other(0);
+const RELATIVE: Role = Role::Other(1);
+const TIP: Role = Role::Other(2);
+
+/// From SI to nN and nm, to degrees, to mrad, to percent.
+const NANO: f64 = 1e9;
+const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+const MILLI: f64 = 1e3;
+
+/// Draws the story's charts: forces, pushing against critical force, positions, contacts, angles, each against time
+/// with the slip marked. The caption of each says in one sentence what came out.
+///
+/// # Errors
+/// [`ChartError`] if a chart cannot be drawn.
+pub fn scene_charts(story: &SceneStory) -> Result<Vec<SceneChart>, ChartError> {
+    let charts = [
+        ("scene-forces", forces(story)),
+        ("scene-pushing", pushing(story)),
+        ("scene-positions", positions(story)),
+        ("scene-contacts", contacts(story)),
+        ("scene-angles", angles(story)),
+    ];
+    charts.into_iter().map(|(stem, chart)| Ok(SceneChart { stem, svg: chart.svg()? })).collect()
+}
+
+/// A quantity in a chart: its name, colour, and how to read it in the chart's unit.
+struct Curve<'a> {
+    name: &'a str,
+    look: (Role, Stroke),
+    read: &'a dyn Fn(&SceneSample) -> f64,
+}
+
+fn axis(label: &str, unit: &str) -> Axis {
+    Axis { label: label.to_owned(), unit: unit.to_owned(), ..Axis::default() }
+}
+
+fn panel(story: &SceneStory, y: Axis, curves: &[Curve<'_>]) -> LinePanel {
+    let series = curves.iter().map(|curve| LineSeries {
+        name: curve.name.to_owned(),
+        role: curve.look.0,
+        stroke: curve.look.1,
+        points: story.samples.iter().map(|sample| (sample.time, (curve.read)(sample))).collect(),
+        band: Vec::new(),
+    });
+    let marker = story.slip().map(|t| Marker { x: t, label: format!("slip at {}", time(t)) });
+    LinePanel { title: String::new(), y, series: series.collect(), markers: marker.into_iter().collect() }
+}
+
+fn chart(title: &str, caption: String, panels: Vec<LinePanel>) -> LineChart {
+    LineChart { title: title.to_owned(), caption, x: axis("Time", "s"), panels }
+}
+
+/// TS04 figure 8, CHK figure 5.
+fn forces(story: &SceneStory) -> LineChart {
+    let curves = [
+        Curve { name: "tip force F_T", look: (story.friction_role, Stroke::Solid), read: &|s| NANO * s.tip_force },
+        Curve { name: "lateral force F_Y", look: (LATERAL, Stroke::Dashed), read: &|s| NANO * s.lateral_force },
+        Curve { name: "normal force F_Z", look: (NORMAL, Stroke::Dotted), read: &|s| NANO * s.normal_force },
+    ];
+    chart("Forces on the tip", forces_caption(story), vec![panel(story, axis("Force", "nN"), &curves)])
+}
+
+fn forces_caption(story: &SceneStory) -> String {
+    let (Some(first), Some(last)) = (story.samples.first(), story.samples.last()) else {
+        return NO_SAMPLES.to_owned();
+    };
+    let normal = spread(story.samples.iter().map(|s| s.normal_force / first.normal_force - 1.0));
+    let normal = normal.map(|spread| format!("; the normal force changes by {}", bound(spread))).unwrap_or_default();
+    match story.slip() {
+        Some(slip) => {
+            let critical = story.critical.critical_force;
+            let after = story.samples.iter().filter(|s| s.time > slip).map(|s| s.tip_force / critical - 1.0);
+            let after = spread(after)
+                .map(|spread| format!(", and then differs from it by {}", bound(spread)))
+                .unwrap_or_default();
+            format!(
+                "The tip force goes from {} to {}, at which the particle slips after {}{after}{normal}.",
+                force(first.tip_force),
+                force(critical),
+                time(slip)
+            )
+        }
+        None => format!(
+            "The tip force goes from {} to {} without a slip in the time shown{normal}.",
+            force(first.tip_force),
+            force(last.tip_force)
+        ),
+    }
+}
+
+/// TS04 figure 9.
+fn pushing(story: &SceneStory) -> LineChart {
+    let critical = NANO * story.critical.critical_force;
+    let curves = [
+        Curve { name: "pushing force F_T", look: (story.friction_role, Stroke::Solid), read: &|s| NANO * s.tip_force },
+        Curve { name: "critical force F_cr", look: (Role::Reference, Stroke::Dashed), read: &|_| critical },
+    ];
+    let largest = story.samples.iter().map(|s| s.tip_force).fold(f64::NAN, f64::max);
+    let caption = match story.slip() {
+        Some(slip) => format!(
+            "The pushing force reaches the critical force of {} after {}.",
+            force(story.critical.critical_force),
+            time(slip)
+        ),
+        None => format!(
+            "The pushing force is {} at most in the time shown; the critical force is {}.",
+            force(largest),
+            force(story.critical.critical_force)
+        ),
+    };
+    chart("Pushing force against critical force", caption, vec![panel(story, axis("Force", "nN"), &curves)])
+}
+
+/// TS04 figure 10.
+fn positions(story: &SceneStory) -> LineChart {
+    let curves = [
+        Curve { name: "substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| NANO * s.substrate_position },
+        Curve { name: "particle", look: (PARTICLE, Stroke::Solid), read: &|s| NANO * s.particle_position },
+        Curve {
+            name: "particle relative to substrate",
+            look: (RELATIVE, Stroke::Solid),
+            read: &|s| NANO * s.relative_position,
+        },
+        Curve { name: "tip base y_P", look: (TIP, Stroke::Dotted), read: &|s| NANO * s.base_lateral },
+    ];
+    chart("Positions", positions_caption(story), vec![panel(story, axis("Position", "nm"), &curves)])
+}
+
+fn positions_caption(story: &SceneStory) -> String {
+    let Some(last) = story.samples.last() else { return NO_SAMPLES.to_owned() };
+    let at_slip = story.slip().and_then(|slip| story.nearest(slip));
+    match at_slip {
+        Some(slip) => format!(
+            "Substrate and particle travel together for {}; at {} the particle stands {} from where it was on the \
+             substrate.",
+            length(slip.substrate_position),
+            time(last.time),
+            length(last.relative_position)
+        ),
+        None => format!(
+            "At {} the substrate has travelled {}, and the particle stands {} from where it was on it.",
+            time(last.time),
+            length(last.substrate_position),
+            length(last.relative_position)
+        ),
+    }
+}
+
+/// TS04 figure 13.
+fn contacts(story: &SceneStory) -> LineChart {
+    let tip = (story.friction_role, Stroke::Solid);
+    let substrate = (SUBSTRATE, Stroke::Dashed);
+    let absolute = |label: &str, tip_of: Read, substrate_of: Read| {
+        let curves = [
+            Curve { name: "at the tip", look: tip, read: &|s| NANO * tip_of(s) },
+            Curve { name: "at the substrate", look: substrate, read: &|s| NANO * substrate_of(s) },
+        ];
+        panel(story, axis(label, "nm"), &curves)
+    };
+    let relative = |label: &str, tip_of: Read, substrate_of: Read| {
+        let part = |read: Read| move |s: &SceneSample| 100.0 * change_since_start(story, s, read);
+        let curves = [
+            Curve { name: "at the tip", look: tip, read: &part(tip_of) },
+            Curve { name: "at the substrate", look: substrate, read: &part(substrate_of) },
+        ];
+        panel(story, axis(label, "%"), &curves)
+    };
+    let radii: (Read, Read) = (|s| s.tip_contact_radius, |s| s.substrate_contact_radius);
+    let depths: (Read, Read) = (|s| s.tip_indentation, |s| s.substrate_indentation);
+    let mut panels = vec![
+        absolute("Contact radius", radii.0, radii.1),
+        absolute("Indentation", depths.0, depths.1),
+        relative("Change of radius", radii.0, radii.1),
+        relative("Change of indentation", depths.0, depths.1),
+    ];
+    // One flag for the whole figure.
+    panels.iter_mut().skip(1).flat_map(|panel| &mut panel.markers).for_each(|marker| marker.label.clear());
+    chart("Contacts at tip and substrate", contacts_caption(story), panels)
+}
+
+type Read = fn(&SceneSample) -> f64;
+
+/// The change of a quantity since the first sample, as a part of it; NaN where it does not exist.
+fn change_since_start(story: &SceneStory, sample: &SceneSample, read: Read) -> f64 {
+    story.samples.first().map_or(f64::NAN, |first| read(sample) / read(first) - 1.0)
+}
+
+fn contacts_caption(story: &SceneStory) -> String {
+    let end = story.slip().and_then(|slip| story.nearest(slip)).or(story.samples.last());
+    let Some(end) = end else { return NO_SAMPLES.to_owned() };
+    let said = |read: Read| change(change_since_start(story, end, read)).unwrap_or_else(|| short(f64::NAN));
+    format!(
+        "From the start to {}, the contact radius changes by {} at the tip and {} at the substrate, the indentation by \
+         {} and {}.",
+        time(end.time),
+        said(|s| s.tip_contact_radius),
+        said(|s| s.substrate_contact_radius),
+        said(|s| s.tip_indentation),
+        said(|s| s.substrate_indentation)
+    )
+}
+
+fn angles(story: &SceneStory) -> LineChart {
+    let psi = [Curve {
+        name: "angle of the tip force from the vertical, ψ",
+        look: (story.friction_role, Stroke::Solid),
+        read: &|s| DEGREES * s.force_angle,
+    }];
+    let theta = [Curve { name: "twist of the cantilever, θ", look: (TIP, Stroke::Solid), read: &|s| MILLI * s.twist }];
+    let mut panels = vec![panel(story, axis("Force angle", "°"), &psi), panel(story, axis("Twist", "mrad"), &theta)];
+    panels.iter_mut().skip(1).flat_map(|panel| &mut panel.markers).for_each(|marker| marker.label.clear());
+    let caption = match (story.samples.first(), story.samples.last()) {
+        (Some(first), Some(last)) => format!(
+            "The tip force turns from {}° to {}° from the vertical, while the cantilever twists by {} mrad.",
+            short(DEGREES * first.force_angle),
+            short(DEGREES * last.force_angle),
+            short(MILLI * (last.twist - first.twist))
+        ),
+        _ => NO_SAMPLES.to_owned(),
+    };
+    chart("Force angle and twist", caption, panels)
+}
+
+const NO_SAMPLES: &str = "The story holds no sample.";
+
+/// A relative size in words.
+fn bound(spread: f64) -> String {
+    if spread < 1e-4 { "less than 0.01 %".to_owned() } else { format!("at most {} %", short(100.0 * spread)) }
+}
+
+/// The largest size of the finite values, if there are any.
+fn spread(values: impl Iterator<Item = f64>) -> Option<f64> {
+    values.map(f64::abs).filter(|size| size.is_finite()).reduce(f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture;
+    use super::*;
+    use resvg::usvg::roxmltree::Document;
+
+    #[test]
+    fn charts_are_sound_and_mark_the_slip() {
+        let charts = scene_charts(&fixture::story()).unwrap();
+        assert_eq!(charts.len(), 5);
+        for chart in &charts {
+            let document = Document::parse(&chart.svg).unwrap();
+            assert!(document.descendants().any(|node| node.text() == Some("slip at 0.131 s")), "{}", chart.stem);
+        }
+    }
+
+    #[test]
+    fn captions_are_computed() {
+        let story = fixture::story();
+        assert_eq!(
+            forces(&story).caption,
+            "The tip force goes from 489 nN to 631 nN, at which the particle slips after 0.131 s, and then differs from \
+             it by less than 0.01 %; the normal force changes by less than 0.01 %."
+        );
+        assert_eq!(
+            positions(&story).caption,
+            "Substrate and particle travel together for 13.1 nm; at 0.400 s the particle stands \u{2212}26.9 nm from \
+             where it was on the substrate."
+        );
+        assert!(contacts(&story).caption.contains("at the tip and 0 % at the substrate"));
+        let mut early = story;
+        early.samples.retain(|sample| sample.time < 0.1);
+        assert!(forces(&early).caption.contains("without a slip in the time shown"));
+        assert!(pushing(&early).caption.contains("the critical force is 631 nN"));
+        assert!(positions(&early).caption.starts_with("At 0.098"));
+    }
+
+    #[test]
+    fn degenerate_stories_have_charts() {
+        let whole = fixture::story();
+        for count in 0..3 {
+            for time in [None, Some(0.0), whole.critical.time, Some(f64::NAN)] {
+                let mut story = whole.clone();
+                story.samples.truncate(count);
+                story.critical.time = time;
+                for chart in scene_charts(&story).unwrap() {
+                    Document::parse(&chart.svg).unwrap();
+                    assert!(!chart.svg.contains("NaN") && !chart.svg.contains("inf"), "{}", chart.svg);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_that_do_not_exist_are_gaps() {
+        let mut story = fixture::story();
+        let broken: Vec<SceneSample> = story.samples.clone();
+        for (sample, whole) in story.samples.iter_mut().zip(broken).step_by(3) {
+            *sample = SceneSample { tip_force: f64::NAN, tip_indentation: f64::INFINITY, twist: f64::NAN, ..whole };
+        }
+        for chart in scene_charts(&story).unwrap() {
+            assert!(!chart.svg.contains("NaN") && !chart.svg.contains("inf"), "{}", chart.svg);
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! A scene in time as CSV, JSON, charts and one page with an animation.
+//!
+//! A [`SceneStory`] is plain data in SI; who computed it does not matter here. The exporters draw the figures of
+//! Tafazzoli & Sitti 2004 (8, 9, 10, 12, 13 and, moving, 14). A number that is not finite is an empty cell in CSV,
+//! `null` in JSON and a gap in a chart.
+
+mod charts;
+mod columns;
+#[cfg(test)]
+mod fixture;
+mod mode_diagram;
+mod page;
+mod view;
+mod words;
+
+pub use charts::{SceneChart, scene_charts};
+pub use columns::{scene_csv, scene_json};
+pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
+pub use page::{PageError, PageParts, scene_page};
+
+use super::chart::Role;
+
+/// One scene, from the start of the push through sticking and slipping.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneStory {
+    /// Headline.
+    pub title: String,
+    /// What was chosen, as label and value with unit, such as ("friction", "coulomb"): the page's table of settings.
+    pub setting: Vec<(String, String)>,
+    /// What is drawn to scale.
+    pub geometry: SceneGeometry,
+    /// When and at which forces the particle slips.
+    pub critical: CriticalInstant,
+    /// The colour of the friction law, see [`friction_role`](crate::report::friction_role).
+    pub friction_role: Role,
+    /// The states in the order of time; unevenly spaced, and as few as one or none.
+    pub samples: Vec<SceneSample>,
+}
+
+/// Lengths of probe and particle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SceneGeometry {
+    /// Particle radius R_p (m).
+    pub particle_radius: f64,
+    /// Radius of the tip apex, R_t (m).
+    pub tip_radius: f64,
+    /// Tip height H (m).
+    pub height: f64,
+    /// Angle of the tip-particle contact from the vertical, phi (rad).
+    pub contact_angle: f64,
+    /// Cantilever length L (m).
+    pub length: f64,
+    /// Cantilever width w (m).
+    pub width: f64,
+    /// Cantilever thickness t (m).
+    pub thickness: f64,
+}
+
+/// The instant at which the particle slips.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CriticalInstant {
+    /// Critical time t_cr (s); `None` if it does not exist, as at velocity 0.
+    pub time: Option<f64>,
+    /// Critical force F_cr, the tip force at that instant (N).
+    pub critical_force: f64,
+    /// Lateral force F_Y at that instant (N).
+    pub lateral_force: f64,
+    /// Normal force F_Z at that instant (N).
+    pub normal_force: f64,
+}
+
+/// The state at one time. Positions are along the motion of the substrate, from where each thing stood at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SceneSample {
+    /// Time t (s).
+    pub time: f64,
+    /// Lateral force on the tip, F_Y (N).
+    pub lateral_force: f64,
+    /// Normal force on the tip, F_Z (N).
+    pub normal_force: f64,
+    /// Tip force F_T = hypot(F_Y, F_Z) (N).
+    pub tip_force: f64,
+    /// Angle of the tip force from the vertical, psi (rad).
+    pub force_angle: f64,
+    /// Twist of the cantilever, theta (rad).
+    pub twist: f64,
+    /// Lateral displacement of the tip base, y_P (m).
+    pub base_lateral: f64,
+    /// Normal deflection of the cantilever, z_P (m).
+    pub deflection: f64,
+    /// Travel of the substrate, s = V t (m).
+    pub substrate_position: f64,
+    /// Travel of the particle (m).
+    pub particle_position: f64,
+    /// Travel of the particle relative to the substrate (m), negative once it has slipped.
+    pub relative_position: f64,
+    /// Contact radius on the substrate (m).
+    pub substrate_contact_radius: f64,
+    /// Indentation at the substrate (m).
+    pub substrate_indentation: f64,
+    /// Contact radius at the tip (m).
+    pub tip_contact_radius: f64,
+    /// Indentation at the tip (m).
+    pub tip_indentation: f64,
+    /// Whether the particle slips on the substrate.
+    pub slipping: bool,
+    /// Whether the tip would slip on the particle (a diagnostic).
+    pub tip_slip: bool,
+    /// Whether the particle would roll (a diagnostic).
+    pub rolling: bool,
+    /// Whether the particle would spin about the vertical (a diagnostic).
+    pub spin: bool,
+}
+
+impl SceneStory {
+    /// The critical time if the samples reach it: only then can it be drawn.
+    fn slip(&self) -> Option<f64> {
+        let time = self.critical.time?;
+        let (first, last) = (self.samples.first()?.time, self.samples.last()?.time);
+        (first <= time && time <= last).then_some(time)
+    }
+
+    /// The sample nearest to a time.
+    fn nearest(&self, time: f64) -> Option<&SceneSample> {
+        self.samples.iter().min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()))
+    }
+
+    /// The outcome in one sentence.
+    fn outcome(&self) -> String {
+        let force = words::force(self.critical.critical_force);
+        match (self.critical.time.filter(|time| time.is_finite()), self.slip()) {
+            (_, Some(time)) => format!("The particle slips after {}, at a tip force of {force}.", words::time(time)),
+            (Some(time), None) => format!(
+                "The particle slips at {}, outside the time shown, at a tip force of {force}.",
+                words::time(time)
+            ),
+            (None, None) => {
+                format!("The particle does not slip in a finite time; its critical force would be {force}.")
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_outcome_is_said_for_every_story() {
+        let story = fixture::story();
+        assert_eq!(story.outcome(), "The particle slips after 0.131 s, at a tip force of 631 nN.");
+        let mut early = story.clone();
+        early.samples.retain(|sample| sample.time < 0.1);
+        assert!(early.outcome().contains("0.131 s, outside the time shown"), "{}", early.outcome());
+        let mut never = story;
+        never.critical.time = None;
+        assert!(never.outcome().starts_with("The particle does not slip"), "{}", never.outcome());
+        never.critical.time = Some(f64::INFINITY);
+        assert!(never.outcome().starts_with("The particle does not slip"), "{}", never.outcome());
+    }
+}

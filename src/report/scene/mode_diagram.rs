@@ -1,0 +1,196 @@
+//! The mode diagram: which force moves the particle in which way, against the angle of the force.
+
+use super::words::{force, short};
+use crate::report::chart::{Axis, ChartError, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
+
+/// The forces at which the modes set in, against the angle of the tip force (TS04 figure 12).
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeDiagram {
+    /// Angles psi of the tip force from the vertical, rising (rad). The caption names the modes at the angle nearest to
+    /// that of `current`, which had better be among them.
+    pub angle: Vec<f64>,
+    /// The modes.
+    pub forces: Vec<ModeLine>,
+    /// Angle (rad) and tip force (N) of the scene when it slips, if it does.
+    pub current: Option<(f64, f64)>,
+}
+
+/// The force at which a mode sets in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeLine {
+    /// Name of the mode, such as "sliding".
+    pub mode: String,
+    /// Its colour.
+    pub role: Role,
+    /// One force (N) for each angle; `None` where no force sets it in.
+    pub force: Vec<Option<f64>>,
+}
+
+const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+
+/// Draws the diagram, forces on a logarithmic axis.
+///
+/// # Errors
+/// [`ChartError::Length`] if a mode has not as many forces as there are angles.
+///
+/// # Example
+/// ```
+/// use apportion::report::chart::Role;
+/// use apportion::report::scene::{ModeDiagram, ModeLine, mode_diagram_chart};
+///
+/// let sliding = ModeLine { mode: "sliding".into(), role: Role::Coulomb, force: vec![None, Some(80e-9), Some(9e-9)] };
+/// let diagram = ModeDiagram { angle: vec![0.5, 1.0, 1.5], forces: vec![sliding], current: Some((1.0, 50e-9)) };
+/// assert!(mode_diagram_chart(&diagram)?.contains("80.0 nN"));
+/// # Ok::<(), apportion::report::chart::ChartError>(())
+/// ```
+pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Result<String, ChartError> {
+    const TITLE: &str = "Modes of motion";
+    for line in &diagram.forces {
+        if line.force.len() != diagram.angle.len() {
+            return Err(ChartError::Length {
+                panel: TITLE.to_owned(),
+                series: line.mode.clone(),
+                what: "forces",
+                expected: diagram.angle.len(),
+                found: line.force.len(),
+            });
+        }
+    }
+    let mut series: Vec<LineSeries> = diagram.forces.iter().map(|line| mode_series(diagram, line)).collect();
+    series.extend(diagram.current.map(|(angle, force)| LineSeries {
+        name: "this scene at its slip".to_owned(),
+        role: Role::Reference,
+        stroke: Stroke::Points,
+        points: vec![(DEGREES * angle, 1e9 * force)],
+        band: Vec::new(),
+    }));
+    let axis = |label: &str, unit: &str, spacing| Axis { label: label.to_owned(), unit: unit.to_owned(), spacing };
+    let chart = LineChart {
+        title: TITLE.to_owned(),
+        caption: caption(diagram),
+        x: axis("Angle of the tip force from the vertical, ψ", "°", Spacing::Linear),
+        panels: vec![LinePanel {
+            title: String::new(),
+            y: axis("Force at which the mode sets in", "nN", Spacing::Logarithmic),
+            series,
+            markers: Vec::new(),
+        }],
+    };
+    chart.svg()
+}
+
+fn mode_series(diagram: &ModeDiagram, line: &ModeLine) -> LineSeries {
+    let forces = line.force.iter().map(|force| 1e9 * force.unwrap_or(f64::NAN));
+    LineSeries {
+        name: line.mode.clone(),
+        role: line.role,
+        stroke: Stroke::Solid,
+        points: diagram.angle.iter().map(|angle| DEGREES * angle).zip(forces).collect(),
+        band: Vec::new(),
+    }
+}
+
+/// Which mode needs the least force, at the scene's own angle or over the diagram.
+fn caption(diagram: &ModeDiagram) -> String {
+    if let Some((angle, scene_force)) = diagram.current
+        && let Some(place) = nearest(&diagram.angle, angle)
+    {
+        let mut modes: Vec<(&str, f64)> = diagram.forces.iter().filter_map(|line| at(line, place)).collect();
+        modes.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let said: Vec<String> = modes.iter().map(|(mode, least)| format!("{mode} at {}", force(*least))).collect();
+        let here = short(DEGREES * diagram.angle[place]);
+        let modes = if said.is_empty() { "no mode".to_owned() } else { said.join(", ") };
+        let scene = format!("{}° and {}", short(DEGREES * angle), force(scene_force));
+        return format!("At {here}° set in: {modes}; the scene slips at {scene}.");
+    }
+    let least: Vec<Option<&str>> = (0..diagram.angle.len())
+        .map(|place| {
+            let modes = diagram.forces.iter().filter_map(|line| at(line, place));
+            modes.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(mode, _)| mode)
+        })
+        .collect();
+    let ranges: Vec<String> = least
+        .chunk_by(|a, b| a == b)
+        .scan(0, |from, run| {
+            let (first, last) = (diagram.angle[*from], diagram.angle[*from + run.len() - 1]);
+            *from += run.len();
+            let mode = run[0].unwrap_or("no mode");
+            Some(format!("{mode} from {}° to {}°", short(DEGREES * first), short(DEGREES * last)))
+        })
+        .collect();
+    match ranges.is_empty() {
+        true => "The diagram holds no angle.".to_owned(),
+        false => format!("The least force sets in: {}.", ranges.join(", ")),
+    }
+}
+
+/// A mode with its force at a place, where it has one.
+fn at(line: &ModeLine, place: usize) -> Option<(&str, f64)> {
+    let force = line.force.get(place).copied().flatten().filter(|force| force.is_finite())?;
+    Some((&line.mode, force))
+}
+
+/// The place of the number nearest to `value`.
+fn nearest(numbers: &[f64], value: f64) -> Option<usize> {
+    (0..numbers.len()).min_by(|&a, &b| (numbers[a] - value).abs().total_cmp(&(numbers[b] - value).abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use resvg::usvg::roxmltree::Document;
+
+    fn diagram() -> ModeDiagram {
+        let angle: Vec<f64> = (0..=90).map(|degree| f64::from(degree).to_radians()).collect();
+        // TS04: F*_ss = tau A / (sin psi - mu cos psi), where tan psi > mu.
+        let sliding = |psi: &f64| {
+            let lever = psi.sin() - 0.8 * psi.cos();
+            (lever > 0.0).then(|| 7.3e-9 / lever)
+        };
+        let sliding = angle.iter().map(sliding).collect();
+        let rolling = angle.iter().map(|psi| Some(9e-16 / (50e-9 * (psi - 0.5).sin().abs()))).collect();
+        ModeDiagram {
+            forces: vec![
+                ModeLine { mode: "sliding".to_owned(), role: Role::Coulomb, force: sliding },
+                ModeLine { mode: "rolling".to_owned(), role: Role::Other(0), force: rolling },
+            ],
+            angle,
+            current: Some((39.2_f64.to_radians(), 631e-9)),
+        }
+    }
+
+    #[test]
+    fn the_diagram_is_drawn_and_says_what_it_shows() {
+        let svg = mode_diagram_chart(&diagram()).unwrap();
+        Document::parse(&svg).unwrap();
+        assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        let said = caption(&diagram());
+        assert!(
+            said.starts_with(
+                "At 39.0° set in: rolling at 100 nN, sliding at 960 nN; the scene slips at 39.2° and 631 nN."
+            ),
+            "{said}"
+        );
+    }
+
+    #[test]
+    fn without_a_scene_the_ranges_are_said() {
+        let mut diagram = diagram();
+        diagram.current = None;
+        let said = caption(&diagram);
+        assert!(said.contains("rolling from 0° to") && said.contains("sliding from"), "{said}");
+        diagram.forces.clear();
+        assert_eq!(caption(&diagram), "The least force sets in: no mode from 0° to 90.0°.");
+        mode_diagram_chart(&diagram).unwrap();
+    }
+
+    #[test]
+    fn an_empty_diagram_is_drawn_and_unequal_lengths_are_refused() {
+        let empty = ModeDiagram { angle: Vec::new(), forces: Vec::new(), current: Some((0.1, f64::NAN)) };
+        assert!(!mode_diagram_chart(&empty).unwrap().contains("NaN"));
+        let mut unequal = diagram();
+        unequal.forces[0].force.pop();
+        let error = mode_diagram_chart(&unequal).unwrap_err();
+        assert!(error.to_string().contains("has 90 forces"), "{error}");
+    }
+}
