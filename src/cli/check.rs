@@ -3,24 +3,27 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
+use apportion::design::{Design, DesignSettings};
 use apportion::report::{significant, table, with_unit};
 use apportion::run::{BLOCK, Job, run};
 use apportion::study::Study;
 
 use super::run::{default_folder, file_names};
-use super::{Failure, StudyArguments, print};
+use super::{DesignChanges, Failure, StudyArguments, print};
 
 #[derive(clap::Args)]
 pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
+    #[command(flatten)]
+    design: DesignChanges,
     /// Folder for the results of a run [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
 
 pub fn check(arguments: &Arguments) -> Result<(), Failure> {
-    let study = arguments.study.load()?;
+    let study = arguments.study.load_with(&arguments.design.overrides())?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     let mut text = subject(&study);
     text.push_str(&factors(&study));
@@ -99,10 +102,10 @@ fn design(study: &Study) -> Result<String, Failure> {
         if groups > 0 { format!(" + {groups} groups") } else { String::new() },
         design.rows(),
     );
-    let seconds = pilot(study)?;
-    text.push_str(&format!(", about {} on this machine\n", duration(seconds)));
+    let pilot = pilot(study)?;
+    text.push_str(&format!(", about {} on this machine (by {} runs of it)\n", duration(pilot.seconds), pilot.runs));
     text.push_str(&format!(
-        "memory: about {:.1} MB a thread, whatever the number of samples\n",
+        "memory: about {:.1} MB a thread for the columns of a block, whatever the number of samples\n",
         megabytes_per_thread(study)
     ));
     if !design.balanced() {
@@ -116,21 +119,30 @@ fn design(study: &Study) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// Seconds that the whole design would take, from a run of its first part.
-fn pilot(study: &Study) -> Result<f64, Failure> {
-    const POINTS: u64 = 8 * BLOCK;
-    let points = study.design.settings().base_samples.min(POINTS);
-    let settings = apportion::design::DesignSettings {
-        base_samples: points.max(2),
-        replicates: 1,
-        ..study.design.settings().clone()
-    };
-    let design = apportion::design::Design::new(settings, study.design.factors(), study.design.swaps().to_vec())
-        .map_err(|error| Failure::Input(error.into()))?;
+/// A few runs of the study's model, and how long the whole design would take by them.
+struct Pilot {
+    runs: u64,
+    seconds: f64,
+}
+
+/// Runs ever larger first parts of the design until they take long enough to be measured, or are all of it.
+fn pilot(study: &Study) -> Result<Pilot, Failure> {
+    const ENOUGH: f64 = 0.1;
     let model = study.model();
-    let start = Instant::now();
-    run(Job { design: &design, space: &study.space, model: model.as_ref() }, 0, &|_| ())?;
-    Ok(start.elapsed().as_secs_f64() * study.design.rows() as f64 / design.rows() as f64)
+    let mut points = 2;
+    loop {
+        let settings = DesignSettings { base_samples: points, replicates: 1, ..study.design.settings().clone() };
+        let design = Design::new(settings, study.design.factors(), study.design.swaps().to_vec())
+            .map_err(|error| Failure::Input(error.into()))?;
+        let start = Instant::now();
+        run(Job { design: &design, space: &study.space, model: model.as_ref() }, 0, &|_| ())?;
+        let seconds = start.elapsed().as_secs_f64();
+        if seconds >= ENOUGH || points >= study.design.settings().base_samples {
+            let share = study.design.rows() as f64 / design.rows() as f64;
+            return Ok(Pilot { runs: design.rows(), seconds: seconds * share });
+        }
+        points *= 4;
+    }
 }
 
 /// Columns of the factors (unit cube and SI, A and B) and of every output of every row kind.

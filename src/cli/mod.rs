@@ -36,7 +36,7 @@ enum Command {
     Run(run::Arguments),
     /// Evaluate a study's model at points from a CSV file
     Evaluate(evaluate::Arguments),
-    /// Explain a study without running it: factors, cost, memory, files
+    /// Explain a study before running it: factors, cost (by a short pilot), memory, files
     Check(check::Arguments),
     /// Follow one scene of a study in time, every factor at its nominal value: forces, positions, contacts
     Simulate(simulate::Arguments),
@@ -49,16 +49,14 @@ enum Command {
 struct StudyArguments {
     /// The study file (TOML)
     study: PathBuf,
-    #[command(flatten)]
-    changes: Changes,
-}
-
-/// Changes to a study that the command line makes.
-#[derive(Args)]
-struct Changes {
     /// Change a setting of the study: afm.friction=hk, factor.length.max=500, outputs='["critical_time"]'
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
+}
+
+/// Changes to the design of a study that the command line makes.
+#[derive(Args)]
+struct DesignChanges {
     /// Base samples in all, over the replicates (the same as --set design.base_samples=N)
     #[arg(long, value_name = "N", value_parser = whole_number())]
     base_samples: Option<u64>,
@@ -72,21 +70,31 @@ fn whole_number() -> clap::builder::RangedU64ValueParser {
     clap::value_parser!(u64).range(0..=i64::MAX as u64)
 }
 
-impl Changes {
+impl DesignChanges {
     fn overrides(&self) -> Vec<String> {
         let base_samples = self.base_samples.map(|n| format!("design.base_samples={n}"));
         let seed = self.seed.map(|s| format!("design.seed={s}"));
-        self.set.iter().cloned().chain(base_samples).chain(seed).collect()
+        base_samples.into_iter().chain(seed).collect()
     }
 }
 
 impl StudyArguments {
+    /// The study as it stands in its file, with the changes of `--set`.
     fn load(&self) -> Result<Study, Failure> {
-        let study = Study::load(&self.study, &self.changes.overrides())?;
-        for note in &study.notes {
-            say(&format!("note: {note}"));
-        }
+        self.load_with(&[])
+    }
+
+    /// The study with the changes of `--set`, then `more`.
+    fn load_with(&self, more: &[String]) -> Result<Study, Failure> {
+        let study = Study::load(&self.study, &[&self.set, more].concat())?;
+        say_notes(&study);
         Ok(study)
+    }
+}
+
+fn say_notes(study: &Study) {
+    for note in &study.notes {
+        say(&format!("note: {note}"));
     }
 }
 

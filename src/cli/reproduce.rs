@@ -7,7 +7,7 @@ use apportion::report::prepare_folder;
 use apportion::reproduce::{Reproduced, comparison_table, studies, write_all};
 
 use super::progress::Meter;
-use super::{Changes, Failure, Threads, print, say};
+use super::{DesignChanges, Failure, Threads, print, say, say_notes};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -15,15 +15,18 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR", default_value = "results/reproduce")]
     out: PathBuf,
     #[command(flatten)]
-    changes: Changes,
+    design: DesignChanges,
     #[command(flatten)]
     threads: Threads,
 }
 
 pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
-    let studies = studies(&arguments.changes.overrides())?;
+    let studies = studies(&arguments.design.overrides())?;
     prepare_folder(&arguments.out)?;
     let count = studies.len();
+    if let Some((_, _, study)) = studies.first() {
+        say_notes(study);
+    }
     let mut reproduced = Vec::with_capacity(count);
     for (number, (group, friction, study)) in studies.iter().enumerate() {
         let meter = Meter::new(&format!("{} of {count} {:<21}", number + 1, study.name), study.design.rows());

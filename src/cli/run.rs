@@ -7,12 +7,14 @@ use apportion::report::chart::png;
 use apportion::report::{ResultFile, indices_csv, prepare_folder, result_json, study_chart, summary, write_atomically};
 
 use super::progress::Meter;
-use super::{Failure, StudyArguments, Threads, print, say};
+use super::{DesignChanges, Failure, StudyArguments, Threads, print, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
+    #[command(flatten)]
+    design: DesignChanges,
     /// Folder for the results [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -26,7 +28,7 @@ pub fn default_folder(name: &str) -> PathBuf {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let study = arguments.study.load()?;
+    let study = arguments.study.load_with(&arguments.design.overrides())?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     prepare_folder(&folder)?;
     let meter = Meter::new(&study.name, study.design.rows());

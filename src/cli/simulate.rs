@@ -23,7 +23,7 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = parse_time, allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Draw the mode diagram instead: the force at which the particle slides, slips at the tip, rolls or spins
-    #[arg(long)]
+    #[arg(long, conflicts_with = "duration")]
     mode_diagram: bool,
 }
 
@@ -37,7 +37,10 @@ fn parse_time(text: &str) -> Result<f64, String> {
 
 impl From<SimulationError> for Failure {
     fn from(error: SimulationError) -> Self {
-        Self::Input(error.into())
+        match error {
+            SimulationError::NoScene(_) => Self::Input(error.into()),
+            SimulationError::Failed(_) => Self::Run(error.into()),
+        }
     }
 }
 

@@ -80,7 +80,8 @@ impl ModelKind {
                     name: input.name,
                     symbol: input.name,
                     unit: Unit::dimensionless(),
-                    nominal: (input.min + input.max) / 2.0,
+                    // Off the middle, where Sobol' G is 0 whatever the other inputs are.
+                    nominal: input.min + 0.75 * (input.max - input.min),
                     domain: None,
                     description: format!("exact indices hold for the range {} to {}", input.min, input.max),
                 })
@@ -88,7 +89,7 @@ impl ModelKind {
         }
     }
 
-    /// The choices a study can make by name, the default of each first: the key, and the names.
+    /// The choices of `[afm]`: the key, where it acts if not everywhere, and the names or the kind of value.
     pub fn choices(self) -> Vec<(&'static str, Vec<&'static str>)> {
         fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
             all.iter().map(|&choice| name(choice)).collect()
@@ -99,7 +100,14 @@ impl ModelKind {
                 ("contact", names(ContactTheory::ALL, ContactTheory::name)),
                 ("fidelity", names(Fidelity::ALL, Fidelity::name)),
                 ("torsion", names(Torsion::ALL, Torsion::name)),
-                ("lugre_parameters", names(LuGreParameters::ALL, LuGreParameters::name)),
+                ("adhesion_in_load", vec!["false", "true"]),
+                (
+                    "lugre_parameters (lugre at quasi-static and above)",
+                    names(LuGreParameters::ALL, LuGreParameters::name),
+                ),
+                ("tolerance (quasi-static and above)", vec!["a number, 1e-6"]),
+                ("step (fixed-step)", vec!["a time, \"10 ms\""]),
+                ("step_budget (marched rungs)", vec!["a whole number, 1000000"]),
             ],
             Self::Known(_) => Vec::new(),
         }

@@ -74,8 +74,8 @@ fn effort_record(model: &dyn Model, whole: &Totals) -> Option<EffortRecord> {
 
 /// The result as JSON text, ending in a newline.
 pub fn result_json(result: &ResultFile) -> String {
-    // Serialising plain structs, lists and finite numbers cannot fail; an empty text would be caught by every reader.
-    serde_json::to_string_pretty(result).map(|text| text + "\n").unwrap_or_default()
+    // Serialisation fails on maps without text keys only, of which there is none; a number that is not finite is null.
+    serde_json::to_string_pretty(result).expect("a result is plain data") + "\n"
 }
 
 fn study_record(study: &Study) -> StudyRecord {

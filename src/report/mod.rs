@@ -12,7 +12,5 @@ mod write;
 pub use build::{RunFacts, build_result, result_json};
 pub use result::*;
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
-pub use tables::{
-    csv_field, estimate, fixed, indices_csv, share, significant, summary, table, validity_summary, with_unit,
-};
+pub use tables::{estimate, fixed, indices_csv, share, share_of_runs, significant, summary, table, with_unit};
 pub use write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};

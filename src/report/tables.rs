@@ -37,12 +37,9 @@ pub fn summary(result: &ResultFile) -> String {
     outputs.join("\n") + &validity_summary(result) + &effort_summary(result)
 }
 
-/// Which rungs of a ladder of fidelities answered, where there was a choice or a cost.
+/// Which rungs of a ladder of fidelities answered, at what cost, and how wrong they may be.
 fn effort_summary(result: &ResultFile) -> String {
     let Some(effort) = &result.effort else { return String::new() };
-    if matches!(&effort.rungs[..], [only] if only.rung == "closed-form") {
-        return String::new();
-    }
     let rungs: Vec<String> = effort.rungs.iter().map(|rung| format!("{} {} runs", rung.rung, rung.runs)).collect();
     format!(
         "fidelity: {}; {} evaluations; largest error estimate {:.1e}\n",
@@ -52,12 +49,17 @@ fn effort_summary(result: &ResultFile) -> String {
     )
 }
 
+/// A share of the runs that is not zero, in percent.
+pub fn share_of_runs(share: f64) -> String {
+    if share < 0.001 { "less than 0.1 %".to_owned() } else { format!("{:.1} %", 100.0 * share) }
+}
+
 /// One line for each validity flag that was raised.
-pub fn validity_summary(result: &ResultFile) -> String {
+fn validity_summary(result: &ResultFile) -> String {
     let raised = result.validity.iter().filter(|flag| flag.runs > 0);
     raised
         .map(|flag| {
-            format!("validity: {} on {:.1} % of the runs: {}\n", flag.flag, 100.0 * flag.share, flag.description)
+            format!("validity: {} on {} of the runs: {}\n", flag.flag, share_of_runs(flag.share), flag.description)
         })
         .collect()
 }
@@ -189,7 +191,7 @@ fn csv_line(output: &str, (kind, name): (&str, &str), effect: &EffectRecord) -> 
 }
 
 /// A text as a CSV field, quoted where it must be (RFC 4180).
-pub fn csv_field(text: &str) -> String {
+fn csv_field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 

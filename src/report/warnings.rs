@@ -22,9 +22,9 @@ pub(super) fn of_runs(study: &Study, record: &OutputRecord) -> Vec<String> {
         let points = design.points_per_replicate();
         warnings.push(format!(
             "{points} base points in each replicate are not a power of two: Sobol' points lose much of their accuracy; \
-             {} or {} would be better",
-            points.next_power_of_two() / 2,
-            points.next_power_of_two()
+             base_samples = {} or {} would be better",
+            points.next_power_of_two() / 2 * design.settings().replicates,
+            points.next_power_of_two() * design.settings().replicates
         ));
     }
     if design.settings().replicates == 1 {
@@ -54,6 +54,13 @@ pub(super) fn of_indices(study: &Study, indices: &ReplicatedIndices) -> Vec<Stri
             ));
         }
     }
+    if indices.sum_first_order.interval.is_some_and(|interval| interval.low <= 0.0) {
+        warnings.push(
+            "the sum of the first-order indices may be 0: the output comes from interactions, and shares of the \
+             first-order indices mean nothing"
+                .to_owned(),
+        );
+    }
     if clearly_above(indices.sum_first_order, Some(1.0)) {
         warnings.push(format!(
             "the first-order indices sum to {:.4}, beyond 1 by more than their error: too few samples",
@@ -77,8 +84,8 @@ fn clearly_above(estimate: Estimate, bound: Option<f64>) -> bool {
     matches!((estimate.interval, bound), (Some(interval), Some(bound)) if interval.low > bound)
 }
 
-/// Zero lies outside twice the interval: some 1 in 2000 by chance with 16 replicates, where 1 in 20 would cry wolf in
-/// every study of eight factors.
+/// Zero lies outside an interval of twice the width: 1 in 1500 by chance with 16 replicates, where 1 in 20 would cry
+/// wolf in every study of eight factors.
 fn differs_clearly(gap: Estimate) -> bool {
     gap.interval.is_some_and(|interval| gap.estimate.abs() > interval.high - interval.low)
 }

@@ -1,13 +1,14 @@
 //! Our shares beside the published ones: as a table for people, as CSV for programs.
 
 use super::{GROUPS, Published, Reproduced, published};
-use crate::report::{EffectRecord, IndexRecord, estimate, fixed, share, table};
+use crate::report::{EffectRecord, IndexRecord, estimate, fixed, share, share_of_runs, table};
 
-/// A difference between our share and a published one that rounding to whole percents cannot explain.
+/// A published percentage counts as ours if it lies within one percentage point.
 const CLOSE: f64 = 1.0;
 
-/// A factor counts as having a share if it is above this many percent: the papers' bars show no less.
-const VISIBLE: f64 = 0.05;
+/// A factor counts as having a share from this many percent on: less would be printed as 0 in whole percents, which is
+/// how LG prints, and is hardly to be seen as a bar.
+const VISIBLE: f64 = 0.5;
 
 /// The table that `reproduce` prints: for each group of studies the shares of every factor under every friction model,
 /// then the order of the factors, ours and the published one, and whether they agree.
@@ -27,6 +28,7 @@ pub fn comparison_table(studies: &[Reproduced]) -> String {
         }
         text.extend(members().filter_map(outweighing));
         text.extend(members().map(validity));
+        text.extend(members().flat_map(warnings));
     }
     text
 }
@@ -157,13 +159,23 @@ fn outweighing(member: &Reproduced) -> Option<String> {
     let groups = member.result.outputs[0].groups.as_ref()?;
     let total = |name: &str| groups.iter().find(|group| group.group == name).map(|group| group.effect.total);
     let (dimensional, environmental) = (total("dimensional")?, total("environmental")?);
-    let outweigh = if dimensional.estimate > environmental.estimate { "outweigh" } else { "do NOT outweigh" };
+    let outweigh = if dimensional.estimate > environmental.estimate {
+        "outweigh the environment, as published"
+    } else {
+        "do NOT outweigh the environment, against what is published"
+    };
     Some(format!(
-        "{}: the dimensions {outweigh} the environment, as published: total indices {} against {}.\n",
+        "{}: the dimensions {outweigh}: total indices {} against {}.\n",
         member.friction.name,
         estimate(dimensional, 4),
         estimate(environmental, 4)
     ))
+}
+
+/// What a careful reader should know of the study's result.
+fn warnings(member: &Reproduced) -> Vec<String> {
+    let output = &member.result.outputs[0];
+    output.warnings.iter().map(|warning| format!("{}: warning: {warning}\n", member.friction.name)).collect()
 }
 
 /// On how many of the runs the model's assumptions do not hold.
@@ -173,7 +185,7 @@ fn validity(member: &Reproduced) -> String {
         .validity
         .iter()
         .filter(|flag| flag.runs > 0)
-        .map(|flag| format!("{} on {} %", flag.flag, fixed(100.0 * flag.share, 1)))
+        .map(|flag| format!("{} on {}", flag.flag, share_of_runs(flag.share)))
         .collect();
     if raised.is_empty() {
         String::new()

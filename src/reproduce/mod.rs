@@ -93,7 +93,8 @@ pub struct Reproduced {
     pub result: ResultFile,
 }
 
-/// The nine studies, read and checked, after applying `overrides` to each; group by group.
+/// The nine studies, read and checked, after applying `overrides` to each; group by group. Meant for overrides of the
+/// design: under others they are no longer the papers' studies.
 ///
 /// # Errors
 /// [`StudyError`] if an override makes no sense.
@@ -124,7 +125,7 @@ pub fn write_all(folder: &Path, studies: &[Reproduced]) -> Result<Vec<PathBuf>, 
         Ok(())
     };
     for study in studies {
-        write(format!("{}.json", study.result.study.name), result_json(&study.result).as_bytes())?;
+        write(format!("{}-{}.json", study.friction.key, study.group.key), result_json(&study.result).as_bytes())?;
     }
     write("shares.csv".to_owned(), shares_csv(studies).as_bytes())?;
     for group in GROUPS {

@@ -6,7 +6,7 @@ use toml::Value;
 
 use super::error::{Problem, nearest};
 use super::file::At;
-use super::resolve::{Context, Fault};
+use super::resolve::{Context, Fault, in_words_of_units, with_unit};
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion};
 use crate::model::edge_unit;
 use crate::quantity::{Dimension, Quantity, Unit};
@@ -126,8 +126,8 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
     if !parameter.domain.contains(si) {
         return Err(Problem::OutOfDomain {
             name: format!("`{}`", parameter.name),
-            domain: parameter.domain.to_string(),
-            found: format!("it is {} {}", quantity.value, quantity.unit),
+            domain: in_words_of_units(parameter.domain),
+            found: format!("it is {}", with_unit(quantity.value, quantity.unit.symbol())),
         });
     }
     Ok(si)

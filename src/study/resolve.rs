@@ -56,7 +56,7 @@ fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
 fn in_words(message: &str) -> String {
     const WORDS: [(&str, &str); 7] = [
         ("expected f64", "expected a number"),
-        ("expected u64", "expected a whole number from 0 to 18446744073709551615"),
+        ("expected u64", "expected a whole number from 0 to 9223372036854775807"),
         ("expected struct DesignSection", "expected a table [design]"),
         ("expected struct FactorSection", "expected a table [[factor]]"),
         (
@@ -176,7 +176,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
     let distribution = distribution::of(context, section)?;
     let in_domain = |value: f64| input.domain.is_none_or(|domain| domain.contains(unit.to_si(value)));
     let outside = |span, found: String| {
-        let domain = input.domain.map_or_else(String::new, |domain| domain.to_string());
+        let domain = input.domain.map_or_else(|| "a finite number".to_owned(), in_words_of_units);
         context.fault(span, Problem::OutOfDomain { name: format!("factor `{}`", input.name), domain, found })
     };
     let (low, high) = distribution.support();
@@ -184,12 +184,13 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
         // Unbounded distributions reach everywhere: their rare rows outside the domain fail by name and are counted.
         if bound.is_finite() && !in_domain(bound) {
             let span = field.as_ref().map_or(place.clone(), At::span);
-            return Err(outside(span, format!("its values reach {bound} {unit}")));
+            return Err(outside(span, format!("its values reach {}", with_unit(bound, unit.symbol()))));
         }
     }
     let nominal = match &fields.nominal {
         Some(nominal) if !in_domain(*nominal.get_ref()) || !nominal.get_ref().is_finite() => {
-            return Err(outside(nominal.span(), format!("its nominal value is {} {unit}", nominal.get_ref())));
+            let value = with_unit(*nominal.get_ref(), unit.symbol());
+            return Err(outside(nominal.span(), format!("its nominal value is {value}")));
         }
         Some(nominal) => *nominal.get_ref(),
         None => default_nominal(input, &unit, &distribution),
@@ -199,6 +200,19 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
     factor.nominal = nominal;
     factor.group = fields.group.as_ref().map(|group| group.get_ref().clone());
     Ok(factor)
+}
+
+/// A domain for people who may be thinking in degrees.
+pub(super) fn in_words_of_units(domain: crate::afm::Domain) -> String {
+    match domain {
+        crate::afm::Domain::AcuteAngle => "in [0, 90 deg]".to_owned(),
+        other => other.to_string(),
+    }
+}
+
+/// `value` as typed, with its unit if it has one.
+pub(super) fn with_unit(value: f64, unit: &str) -> String {
+    if matches!(unit, "" | "1") { value.to_string() } else { format!("{value} {unit}") }
 }
 
 /// The model's own nominal value, or the median where that lies outside the distribution's range.

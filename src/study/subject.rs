@@ -67,7 +67,7 @@ impl Subject {
                 ("adhesion_in_load", json!(afm.options.adhesion_in_load)),
                 ("lugre_parameters", json!(afm.options.lugre.name())),
                 ("tolerance", json!(afm.options.tolerance)),
-                ("step_seconds", json!(afm.options.step)),
+                ("step", json!(format!("{} s", afm.options.step))),
                 ("step_budget", json!(afm.options.step_budget)),
             ],
             Self::Known(_) => Vec::new(),
