@@ -34,7 +34,7 @@ fn scene_of(study: &Study) -> Result<(Scene, Options), SimulationError> {
     let mut scene = afm.scene;
     for factor in study.space.factors() {
         if let Some(parameter) = Parameter::from_name(&factor.name) {
-            (parameter.set)(&mut scene, factor.unit.to_si(factor.nominal));
+            (parameter.set)(&mut scene, factor.unit().to_si(factor.nominal));
         }
     }
     Ok((scene, afm.options))

@@ -67,7 +67,7 @@ fn factors(study: &Study) -> String {
         &[0, 1, 8, 9],
     );
     for factor in study.space.factors() {
-        let law = &factor.distribution;
+        let law = factor.distribution();
         let quantile = |u| significant(law.quantile(u));
         table.add_row([
             factor.name.clone(),
@@ -78,7 +78,7 @@ fn factors(study: &Study) -> String {
             quantile(0.5),
             quantile(0.95),
             significant(factor.nominal),
-            factor.unit.to_string(),
+            factor.unit().to_string(),
             factor.group.clone().unwrap_or_default(),
         ]);
     }

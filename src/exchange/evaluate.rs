@@ -57,7 +57,7 @@ pub fn evaluate(study: &Study, points: impl Read, outputs: &mut dyn Write) -> Re
         }
         for (column, factor) in columns.iter_mut().zip(factors) {
             for value in column {
-                *value = factor.unit.to_si(*value);
+                *value = factor.unit().to_si(*value);
             }
         }
         batch.reset(rows);
@@ -89,9 +89,9 @@ fn write_rows(out: &mut impl Write, outputs: &[Output], batch: &Batch) -> std::i
 
 impl Evaluated {
     fn count(&mut self, outputs: &[Output], batch: &Batch) {
-        for &(output, row, failure) in batch.failures() {
-            let point = self.points + row as u64 + 1;
-            let key = (outputs[output].name.to_owned(), failure);
+        for (output, row, failure) in batch.failures() {
+            let point = self.points + *row as u64 + 1;
+            let key = (outputs[*output].name.to_owned(), failure.clone());
             self.failures.entry(key).and_modify(|(count, _)| *count += 1).or_insert((1, point));
         }
         self.points += batch.rows() as u64;

@@ -105,11 +105,6 @@ impl<R: Read> PointsReader<R> {
         Ok(Self { csv, columns, record: csv::StringRecord::new() })
     }
 
-    /// Numbers of the factors that the file has columns for, in the order of its columns.
-    pub fn factors(&self) -> &[usize] {
-        &self.columns
-    }
-
     /// Reads up to `rows` points into `columns` (one per factor of the space, in its unit) and returns how many there
     /// were; 0 at the end of the file. A factor without a column stands at its nominal value.
     ///
@@ -131,7 +126,7 @@ impl<R: Read> PointsReader<R> {
                         line,
                         column: number + 1,
                         name: factors[factor].name.clone(),
-                        unit: factors[factor].unit.to_string(),
+                        unit: factors[factor].unit().to_string(),
                         found: cell.to_owned(),
                     }
                 })?;

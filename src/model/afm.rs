@@ -1,6 +1,6 @@
 //! The critical pushing force of a nanoparticle as a model: the adapter between factors and [`crate::afm`].
 
-use super::{Batch, Flag, Model, Output, Worker};
+use super::{Batch, Flag, Model, Output, RowFailure, Worker};
 use crate::afm::{self, Critical, Failure, Fidelity, Options, Parameter, Scene, critical_force};
 use crate::quantity::Unit;
 
@@ -137,13 +137,15 @@ impl Model for AfmModel {
     }
 
     fn worker(&self) -> Box<dyn Worker + '_> {
-        Box::new(AfmWorker { model: self, scene: self.scene })
+        Box::new(AfmWorker { model: self, scene: self.scene, reasons: Vec::new() })
     }
 }
 
 struct AfmWorker<'a> {
     model: &'a AfmModel,
     scene: Scene,
+    /// The failures met so far, in words: there are few, and each is put into words once.
+    reasons: Vec<(Failure, RowFailure)>,
 }
 
 impl Worker for AfmWorker<'_> {
@@ -153,7 +155,7 @@ impl Worker for AfmWorker<'_> {
                 (parameter.set)(&mut self.scene, column[row]);
             }
             match critical_force(&self.scene, &self.model.options) {
-                Err(failure) => batch.fail_row(row, failure),
+                Err(failure) => batch.fail_row(row, &self.reason(failure)),
                 Ok(critical) => self.write(row, &critical, batch),
             }
         }
@@ -161,11 +163,21 @@ impl Worker for AfmWorker<'_> {
 }
 
 impl AfmWorker<'_> {
-    fn write(&self, row: usize, critical: &Critical, batch: &mut Batch) {
-        for (column, output) in self.model.which.iter().enumerate() {
+    fn reason(&mut self, failure: Failure) -> RowFailure {
+        if let Some((_, reason)) = self.reasons.iter().find(|(known, _)| *known == failure) {
+            return reason.clone();
+        }
+        let reason = RowFailure::new(&failure.to_string());
+        self.reasons.push((failure, reason.clone()));
+        reason
+    }
+
+    fn write(&mut self, row: usize, critical: &Critical, batch: &mut Batch) {
+        let model = self.model;
+        for (column, output) in model.which.iter().enumerate() {
             match output.of(critical) {
                 Ok(value) => batch.set(row, column, value),
-                Err(failure) => batch.fail(row, column, failure),
+                Err(failure) => batch.fail(row, column, self.reason(failure)),
             }
         }
         // `Fidelity::ALL` is in the order of the declaration.
@@ -206,6 +218,6 @@ mod tests {
         batch.settle();
         assert_eq!(batch.column(0)[0], batch.column(0)[1]);
         assert!(batch.column(1)[0] > 0.0);
-        assert_eq!(batch.failures(), [(1, 1, Failure::VelocityZero.into())]);
+        assert_eq!(batch.failures(), [(1, 1, RowFailure::new(&Failure::VelocityZero.to_string()))]);
     }
 }

@@ -1,19 +1,31 @@
 //! The outputs of a block of rows, with the failures and validity flags among them.
 
-use thiserror::Error;
+use std::fmt;
+use std::sync::Arc;
 
 use super::Model;
 
-/// Why a row has no value of an output.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Error)]
-#[non_exhaustive]
-pub enum RowFailure {
-    /// The nanoparticle model has no answer.
-    #[error(transparent)]
-    Afm(#[from] crate::afm::Failure),
+/// Why a row has no value of an output, in the words of its model. Equal reasons are counted together, so that they
+/// name no values of the row; cheap to clone.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct RowFailure(Arc<str>);
+
+impl RowFailure {
+    /// The reason `text`, a sentence without a full stop.
+    pub fn new(text: &str) -> Self {
+        Self(text.into())
+    }
+
     /// The model answered with an infinity or NaN without saying why.
-    #[error("the model returned a value that is not finite")]
-    NotFinite,
+    pub fn not_finite() -> Self {
+        Self::new("the model returned a value that is not finite")
+    }
+}
+
+impl fmt::Display for RowFailure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
 }
 
 /// What a model with a ladder of fidelities spent on some rows, and what it says of its own error.
@@ -92,16 +104,15 @@ impl Batch {
     }
 
     /// Marks one output of a row as failed.
-    pub fn fail(&mut self, row: usize, output: usize, failure: impl Into<RowFailure>) {
+    pub fn fail(&mut self, row: usize, output: usize, failure: RowFailure) {
         self.columns[output][row] = f64::NAN;
-        self.failures.push((output, row, failure.into()));
+        self.failures.push((output, row, failure));
     }
 
     /// Marks all outputs of a row as failed.
-    pub fn fail_row(&mut self, row: usize, failure: impl Into<RowFailure>) {
-        let failure = failure.into();
+    pub fn fail_row(&mut self, row: usize, failure: &RowFailure) {
         for output in 0..self.columns.len() {
-            self.fail(row, output, failure);
+            self.fail(row, output, failure.clone());
         }
     }
 
@@ -117,7 +128,7 @@ impl Batch {
         self.effort.largest_error = self.effort.largest_error.max(error_estimate);
     }
 
-    /// Names every value that is not finite and has no failure yet [`RowFailure::NotFinite`], and puts the failures in
+    /// Names every value that is not finite and has no failure yet [`RowFailure::not_finite`], and puts the failures in
     /// order. To be called once after the worker.
     pub fn settle(&mut self) {
         self.failures.sort_unstable();
@@ -128,11 +139,11 @@ impl Batch {
             }
             for (row, value) in column.iter().enumerate() {
                 let is_named = || {
-                    let place = self.failures[..named].partition_point(|&(o, r, _)| (o, r) < (output, row));
-                    matches!(self.failures[..named].get(place), Some(&(o, r, _)) if (o, r) == (output, row))
+                    let place = self.failures[..named].partition_point(|(o, r, _)| (*o, *r) < (output, row));
+                    matches!(self.failures[..named].get(place), Some((o, r, _)) if (*o, *r) == (output, row))
                 };
                 if !value.is_finite() && !is_named() {
-                    self.failures.push((output, row, RowFailure::NotFinite));
+                    self.failures.push((output, row, RowFailure::not_finite()));
                 }
             }
         }
@@ -170,10 +181,10 @@ mod tests {
         batch.reset(3);
         batch.column_mut(0).copy_from_slice(&[1.0, f64::INFINITY, 2.0]);
         batch.column_mut(1).copy_from_slice(&[1.0, 2.0, 3.0]);
-        batch.fail(2, 1, crate::afm::Failure::VelocityZero);
+        let reason = RowFailure::new("no motion");
+        batch.fail(2, 1, reason.clone());
         batch.settle();
-        let expected = [(0, 1, RowFailure::NotFinite), (1, 2, RowFailure::Afm(crate::afm::Failure::VelocityZero))];
-        assert_eq!(batch.failures(), expected);
+        assert_eq!(batch.failures(), [(0, 1, RowFailure::not_finite()), (1, 2, reason)]);
     }
 
     #[test]
@@ -182,7 +193,7 @@ mod tests {
         batch.reset(2);
         batch.set(0, 0, 1.0);
         batch.settle();
-        assert_eq!(batch.failures(), [(0, 1, RowFailure::NotFinite)]);
+        assert_eq!(batch.failures(), [(0, 1, RowFailure::not_finite())]);
         batch.reset(1);
         assert!(batch.failures().is_empty());
     }

@@ -119,9 +119,9 @@ fn provenance(study: &Study, facts: RunFacts) -> Provenance {
 fn factor_records(study: &Study) -> Vec<FactorRecord> {
     let record = |factor: &crate::space::Factor| FactorRecord {
         name: factor.name.clone(),
-        unit: factor.unit.to_string(),
+        unit: factor.unit().to_string(),
         group: factor.group.clone(),
-        distribution: serde_json::to_value(&factor.distribution).unwrap_or(Value::Null),
+        distribution: serde_json::to_value(factor.distribution()).unwrap_or(Value::Null),
         nominal: factor.nominal,
     };
     study.space.factors().iter().map(record).collect()

@@ -98,10 +98,13 @@ impl<'a> Scratch<'a> {
         self.complete.clear();
         self.complete.resize(rows, true);
         for (kind, batch) in self.batches.iter().enumerate() {
-            for &(_, row, failure) in batch.failures().iter().filter(|(o, _, _)| *o == output) {
-                self.complete[row] = false;
+            for (_, row, failure) in batch.failures().iter().filter(|(o, _, _)| *o == output) {
+                self.complete[*row] = false;
                 totals.runs_failed += 1;
-                totals.count(failure, Tally { count: 1, first_row: first_row + row as u64 * kinds + kind as u64 });
+                totals.count(
+                    failure.clone(),
+                    Tally { count: 1, first_row: first_row + *row as u64 * kinds + kind as u64 },
+                );
             }
         }
         let columns: Vec<&[f64]> = if totals.runs_failed == 0 {

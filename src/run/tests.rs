@@ -102,7 +102,7 @@ fn failed_rows_are_counted_located_and_left_out_with_their_base_point() {
         incomplete += u64::from(any);
     }
     let output = &got.outputs[0];
-    let tally = output.failures[&RowFailure::NotFinite];
+    let tally = output.failures[&RowFailure::not_finite()];
     assert_eq!((output.runs_failed, got.failed_runs), (failed, failed));
     assert_eq!(output.moments.count(), 1024 - incomplete);
     assert_eq!((tally.count, Some(tally.first_row)), (failed, first));

@@ -53,8 +53,8 @@ impl Totals {
         for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
             mine.moments.merge(&theirs.moments);
             mine.runs_failed += theirs.runs_failed;
-            for (&failure, tally) in &theirs.failures {
-                mine.count(failure, *tally);
+            for (failure, tally) in &theirs.failures {
+                mine.count(failure.clone(), *tally);
             }
         }
     }

@@ -13,14 +13,12 @@ use crate::quantity::Unit;
 pub struct Factor {
     /// The name, unique in its space.
     pub name: String,
-    /// The unit of the distribution's parameters and of the nominal value.
-    pub unit: Unit,
-    /// How the factor varies, in `unit`.
-    pub distribution: Distribution,
-    /// Where it stands when it does not vary, in `unit`.
+    /// Where it stands when it does not vary, in its unit.
     pub nominal: f64,
     /// The group whose joint effect is asked for, if any.
     pub group: Option<String>,
+    unit: Unit,
+    distribution: Distribution,
     /// The distribution in SI units, so that no value has to be converted during a run.
     si: Distribution,
 }
@@ -33,7 +31,17 @@ impl Factor {
     pub fn new(name: &str, unit: Unit, distribution: Distribution) -> Result<Self, DistributionError> {
         let si = distribution.to_si(&unit)?;
         let nominal = distribution.median();
-        Ok(Self { name: name.to_owned(), unit, distribution, nominal, group: None, si })
+        Ok(Self { name: name.to_owned(), nominal, group: None, unit, distribution, si })
+    }
+
+    /// The unit of the distribution's parameters and of the nominal value.
+    pub fn unit(&self) -> &Unit {
+        &self.unit
+    }
+
+    /// How the factor varies, in its unit.
+    pub fn distribution(&self) -> &Distribution {
+        &self.distribution
     }
 
     /// Points of the unit interval to SI values, by the inverse of the distribution function. Both slices have one

@@ -69,6 +69,22 @@ pub(super) fn afm(
     Ok((scene, options))
 }
 
+/// Notes on keys of the table that are understood but cannot act under `options`.
+pub(super) fn idle(table: &BTreeMap<At<String>, At<Value>>, options: &Options) -> Vec<String> {
+    let marched = !matches!(options.fidelity, Fidelity::ClosedForm);
+    let acts = |name: &str| match name {
+        "step" => options.fidelity == Fidelity::FixedStep,
+        "tolerance" => marched && options.fidelity != Fidelity::FixedStep,
+        "step_budget" => marched,
+        "lugre_parameters" => marched && options.friction == FrictionLaw::LuGre,
+        _ => true,
+    };
+    let (friction, fidelity) = (options.friction.name(), options.fidelity.name());
+    let idle = table.keys().map(|key| key.get_ref().as_str()).filter(|name| !acts(name));
+    idle.map(|name| format!("`{name}` has no effect with friction = \"{friction}\" and fidelity = \"{fidelity}\""))
+        .collect()
+}
+
 fn unknown_key(name: &str) -> Problem {
     let expected: Vec<&str> = CHOICES.into_iter().chain(Parameter::ALL.iter().map(|p| p.name)).collect();
     Problem::UnknownKey {

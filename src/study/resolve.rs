@@ -33,7 +33,10 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let kind = model_kind(context, file.model.as_ref())?;
     let space = space(context, kind, &file.factor)?;
     let subject = subject(context, kind, &file, &space)?;
-    let (design, notes) = design(context, &file.design, &space)?;
+    let (design, mut notes) = design(context, &file.design, &space)?;
+    if let (Subject::Afm(afm), Some(table)) = (&subject, &file.afm) {
+        notes.extend(constants::idle(table.get_ref(), &afm.options));
+    }
     let name = name(context, file.name.as_ref())?;
     let (overrides, source, sha256) = Default::default();
     Ok(Study { name, title: file.title, subject, space, design, overrides, source, sha256, notes })

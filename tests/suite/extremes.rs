@@ -45,10 +45,16 @@ fn beyond() -> Vec<Scene> {
     scenes
 }
 
+/// Checks one answer and tells whether there was one.
 #[track_caller]
-fn assert_sound(scene: &Scene, options: &Options) {
+fn assert_sound(scene: &Scene, options: &Options) -> bool {
     match critical_force(scene, options) {
-        Err(failure) => assert!(!failure.to_string().is_empty()),
+        Err(failure) => {
+            // A glassy layer (Lemaitre-Carlson) has no limit at rest; nothing else in the box may be without an answer.
+            let at_rest = options.friction == FrictionLaw::LemaitreCarlson && scene.velocity == 0.0;
+            assert!(!at_rest || failure == Failure::VelocityZero, "{failure}");
+            false
+        }
         Ok(critical) => {
             let Critical { normal_force, lateral_force, critical_force, force_angle, .. } = critical;
             let Critical { contact_radius, indentation, error_estimate, .. } = critical;
@@ -60,6 +66,7 @@ fn assert_sound(scene: &Scene, options: &Options) {
                 Ok(time) => assert!(time.is_finite() && time >= 0.0),
                 Err(failure) => assert!(matches!(failure, Failure::VelocityZero | Failure::NotFinite { .. })),
             }
+            true
         }
     }
 }
@@ -82,6 +89,7 @@ fn all_options() -> impl Iterator<Item = Options> {
 
 #[test]
 fn the_corners_of_the_box_and_what_lies_beyond_end_in_an_answer_or_a_name() {
+    let (mut answers, mut asked) = (0, 0);
     for (number, options) in all_options().enumerate() {
         // Marched rungs cost a million times the closed form: each of their combinations takes its own few corners, so
         // that together they go round the box many times.
@@ -90,12 +98,14 @@ fn the_corners_of_the_box_and_what_lies_beyond_end_in_an_answer_or_a_name() {
         let corners: Vec<usize> =
             if marched { (0..4).map(|k| (number * 37 + k * 61) % 256).collect() } else { (0..256).collect() };
         for corner_number in corners {
-            assert_sound(&corner(corner_number), &options);
+            let scene = corner(corner_number);
+            let at_rest = options.friction == FrictionLaw::LemaitreCarlson && scene.velocity == 0.0;
+            assert!(assert_sound(&scene, &options) || at_rest, "no answer in the box: {scene:?}\n{options:?}");
         }
-        for scene in beyond() {
-            assert_sound(&scene, &options);
-        }
+        answers += beyond().iter().filter(|scene| assert_sound(scene, &options)).count();
+        asked += beyond().len();
     }
+    assert!(answers * 10 > asked * 8, "{answers} answers to {asked} scenes beyond the box");
 }
 
 #[test]

@@ -79,13 +79,8 @@ fn an_offset_of_1e9_changes_no_index_by_1e_9() {
 fn a_scale_from_1e_minus_120_to_1e120_changes_nothing() {
     let plain = flat(&indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 10));
     for scale in [1e-120, 1e-30, -1.0, 1e30, 1e120] {
-        // Only the rounding of the scaled outputs differs: some 1e-16 each.
+        // Only the rounding of the scaled outputs differs, some 1e-16 each; a sign cancels.
         let scaled = flat(&indices(&Changed::new(scale, 0.0, [0, 1, 2]), 1 << 10));
-        let mut scaled = scaled;
-        if scale < 0.0 {
-            // Indices are quadratic in the output: the sign cancels.
-            scaled.truncate(plain.len());
-        }
         assert!(gap(&plain, &scaled) < 1e-12, "scale {scale}: {}", gap(&plain, &scaled));
     }
     // Powers of two scale without rounding: the same bits.
@@ -112,6 +107,7 @@ proptest! {
         let scale = 2f64.powi(exponent);
         let plain = flat(&indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 256));
         let changed = flat(&indices(&Changed::new(scale, offset * scale, [0, 1, 2]), 256));
+        // An offset of up to 1e3 rounds outputs of size 10 to 1e-13, and little of it averages out over 256 points.
         prop_assert!(gap(&plain, &changed) < 1e-10);
     }
 }
