@@ -105,8 +105,8 @@ fn design(study: &Study) -> Result<String, Failure> {
     let pilot = pilot(study)?;
     text.push_str(&format!(", about {} on this machine (by {} runs of it)\n", duration(pilot.seconds), pilot.runs));
     text.push_str(&format!(
-        "memory: about {:.1} MB a thread for the columns of a block, whatever the number of samples\n",
-        megabytes_per_thread(study)
+        "memory: about {:.0} kB a thread for the columns of a block, whatever the number of samples\n",
+        kilobytes_per_thread(study)
     ));
     if !design.balanced() {
         text.push_str(
@@ -146,10 +146,10 @@ fn pilot(study: &Study) -> Result<Pilot, Failure> {
 }
 
 /// Columns of the factors (unit cube and SI, A and B) and of every output of every row kind.
-fn megabytes_per_thread(study: &Study) -> f64 {
+fn kilobytes_per_thread(study: &Study) -> f64 {
     let outputs = study.model().outputs().len() as u64;
     let columns = 4 * study.design.factors() as u64 + study.design.rows_per_point() * (outputs + 1);
-    (columns * BLOCK * 8) as f64 / 1e6
+    (columns * BLOCK * 8) as f64 / 1e3
 }
 
 fn duration(seconds: f64) -> String {

@@ -28,7 +28,7 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     prepare_file(&arguments.output)?;
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
-        let result = evaluate_points(&study, std::io::BufReader::new(file), out);
+        let result = evaluate_points(&study, file, out);
         let complete = result.is_ok();
         outcome = Some(result);
         // Whatever went wrong, half a file must not take the target's place.

@@ -184,13 +184,20 @@ fn is_broken_pipe(error: &anyhow::Error) -> bool {
 
 /// Writes `text` to standard output without panicking when nobody reads it.
 fn print(text: &str) -> Result<(), Failure> {
-    std::io::stdout().write_all(text.as_bytes())?;
+    std::io::stdout().write_all(printable(text).as_bytes())?;
     Ok(())
 }
 
 /// Writes a line to standard error; there is nowhere to complain if that fails.
 fn say(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", printable(line));
+}
+
+/// A text without characters that would change the terminal: names and titles are the user's, or somebody else's.
+fn printable(text: &str) -> String {
+    text.chars()
+        .map(|c| if c.is_control() && c != '\n' && c != '\t' { char::REPLACEMENT_CHARACTER } else { c })
+        .collect()
 }
 
 fn stderr_is_terminal() -> bool {

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use apportion::analyse;
 use apportion::report::chart::png;
-use apportion::report::{ResultFile, indices_csv, prepare_folder, result_json, study_chart, summary, write_atomically};
+use apportion::report::{
+    ResultFile, indices_csv, prepare_file, prepare_folder, result_json, study_chart, summary, write_atomically,
+};
 
 use super::progress::Meter;
 use super::{DesignChanges, Failure, StudyArguments, Threads, print, say};
@@ -31,6 +33,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load_with(&arguments.design.overrides())?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     prepare_folder(&folder)?;
+    let model = study.model();
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name).collect();
+    for (name, _) in file_names(&study.name, &outputs) {
+        prepare_file(&folder.join(name))?;
+    }
     let meter = Meter::new(&study.name, study.design.rows());
     let result = analyse(&study, arguments.threads.number(), &|progress| meter.update(progress))?;
     meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);

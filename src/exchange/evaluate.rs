@@ -80,6 +80,9 @@ fn write_rows(out: &mut impl Write, outputs: &[Output], batch: &Batch) -> std::i
             let value = batch.column(number)[row];
             if value.is_finite() {
                 write!(out, "{}", output.unit.from_si(value))?;
+            } else if outputs.len() == 1 {
+                // An empty cell by itself would be an empty line, which readers skip.
+                write!(out, "\"\"")?;
             }
         }
         writeln!(out)?;

@@ -69,9 +69,45 @@ fn hint(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
 }
 
+/// A text with `\n` for every end of line, also after the last one: what it takes for the reader of CSV to know which
+/// line it has come to.
+struct PlainLines<R: Read> {
+    bytes: std::iter::Peekable<std::io::Bytes<std::io::BufReader<R>>>,
+    last: u8,
+}
+
+impl<R: Read> PlainLines<R> {
+    fn new(reader: R) -> Self {
+        Self { bytes: std::io::BufReader::new(reader).bytes().peekable(), last: b'\n' }
+    }
+
+    fn next(&mut self) -> Option<std::io::Result<u8>> {
+        match self.bytes.next() {
+            Some(Ok(b'\r')) if matches!(self.bytes.peek(), Some(Ok(b'\n'))) => self.bytes.next(),
+            None if self.last != b'\n' => Some(Ok(b'\n')),
+            next => next,
+        }
+    }
+}
+
+impl<R: Read> Read for PlainLines<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        for (filled, slot) in buffer.iter_mut().enumerate() {
+            match self.next() {
+                Some(byte) => {
+                    *slot = byte?;
+                    self.last = *slot;
+                }
+                None => return Ok(filled),
+            }
+        }
+        Ok(buffer.len())
+    }
+}
+
 /// Reads points block by block.
-pub struct PointsReader<R> {
-    csv: csv::Reader<R>,
+pub struct PointsReader<R: Read> {
+    csv: csv::Reader<PlainLines<R>>,
     /// For each column of the file: the number of its factor.
     columns: Vec<usize>,
     record: csv::StringRecord,
@@ -83,7 +119,7 @@ impl<R: Read> PointsReader<R> {
     /// # Errors
     /// [`PointsError`] if there is no header, or a name in it is unknown or repeated.
     pub fn new(reader: R, space: &Space) -> Result<Self, PointsError> {
-        let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(reader);
+        let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(PlainLines::new(reader));
         let known = || space.factors().iter().map(|factor| factor.name.as_str());
         let known_text = || known().collect::<Vec<_>>().join(", ");
         let header = csv.headers().map_err(PointsError::Unreadable)?.clone();
@@ -113,10 +149,12 @@ impl<R: Read> PointsReader<R> {
     pub fn read(&mut self, factors: &[Factor], rows: usize, columns: &mut [Vec<f64>]) -> Result<usize, PointsError> {
         columns.iter_mut().for_each(Vec::clear);
         for row in 0..rows {
-            if !self.csv.read_record(&mut self.record).map_err(wrong_record)? {
+            let read = self.csv.read_record(&mut self.record);
+            // The reader stands at the start of the next line.
+            let line = self.csv.position().line() - 1;
+            if !read.map_err(|error| wrong_record(error, line))? {
                 return Ok(row);
             }
-            let line = self.record.position().map_or(0, csv::Position::line);
             for (column, factor) in columns.iter_mut().zip(factors) {
                 column.push(factor.nominal);
             }
@@ -136,13 +174,11 @@ impl<R: Read> PointsReader<R> {
     }
 }
 
-fn wrong_record(error: csv::Error) -> PointsError {
+fn wrong_record(error: csv::Error, line: u64) -> PointsError {
     match error.kind() {
-        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => PointsError::WrongLength {
-            line: pos.as_ref().map_or(0, csv::Position::line),
-            expected: *expected_len,
-            found: *len,
-        },
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            PointsError::WrongLength { line, expected: *expected_len, found: *len }
+        }
         _ => PointsError::Unreadable(error),
     }
 }

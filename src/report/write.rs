@@ -17,6 +17,9 @@ pub struct WriteError {
 
 /// Writes `bytes` to `path`: into a temporary file in the same folder, synced, then renamed over the target.
 ///
+/// A link is followed, so that it stays one; a file that exists keeps its permissions; and what is no file but a device
+/// or a pipe is written to as it is, since nothing must take its place.
+///
 /// # Errors
 /// [`WriteError`]; the target is then what it was before.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
@@ -32,10 +35,18 @@ pub fn stream_atomically(
     write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
 ) -> Result<(), WriteError> {
     let attempt = || {
-        let mut file = temporary_in(folder_of(path))?;
+        let target = followed(path)?;
+        let existing = std::fs::metadata(&target).ok();
+        if existing.as_ref().is_some_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
+            return write(&mut std::fs::OpenOptions::new().write(true).open(&target)?);
+        }
+        let mut file = temporary_in(folder_of(&target))?;
         write(file.as_file_mut())?;
+        if let Some(metadata) = existing {
+            file.as_file().set_permissions(metadata.permissions())?;
+        }
         file.as_file().sync_all()?;
-        file.persist(path).map_err(|error| error.error)?;
+        file.persist(&target).map_err(|error| error.error)?;
         Ok(())
     };
     attempt().map_err(|source| WriteError { path: path.to_owned(), source })
@@ -54,7 +65,8 @@ pub fn prepare_folder(folder: &Path) -> Result<(), WriteError> {
     attempt().map_err(|source| WriteError { path: folder.to_owned(), source })
 }
 
-/// Checks that a file can be created beside `path`, and that `path` is not a folder.
+/// Checks that `path` can be written: a file can be created beside it, its name is one the system takes, and it is no
+/// folder.
 ///
 /// # Errors
 /// [`WriteError`] with the reason.
@@ -63,8 +75,28 @@ pub fn prepare_file(path: &Path) -> Result<(), WriteError> {
         let source = std::io::Error::from(std::io::ErrorKind::IsADirectory);
         return Err(WriteError { path: path.to_owned(), source });
     }
-    let attempt = || temporary_in(folder_of(path))?.close();
+    let attempt = || {
+        let target = followed(path)?;
+        match std::fs::metadata(&target) {
+            Ok(metadata) if !metadata.is_file() => Ok(()),
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
+            _ => temporary_in(folder_of(&target))?.close(),
+        }
+    };
     attempt().map_err(|source| WriteError { path: path.to_owned(), source })
+}
+
+/// Where `path` leads: the end of a chain of links, or `path` itself.
+fn followed(path: &Path) -> std::io::Result<PathBuf> {
+    const MOST_LINKS: usize = 40;
+    let mut target = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match std::fs::read_link(&target) {
+            Ok(link) => target = folder_of(&target).join(link),
+            Err(_) => return Ok(target),
+        }
+    }
+    Err(std::io::Error::other("too many links follow one another"))
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -113,5 +145,40 @@ mod tests {
         assert!(prepare_file(&deep).is_err());
         assert!(prepare_file(&deep.join("f")).is_ok());
         assert!(prepare_file(&folder.path().join("none/f")).is_err());
+        assert!(prepare_file(&folder.path().join("n".repeat(300))).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_links_and_files_keep_their_permissions() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let (target, link) = (folder.path().join("target"), folder.path().join("link"));
+        std::fs::write(&target, "old").unwrap();
+        std::fs::set_permissions(&target, std::fs::Permissions::from_mode(0o600)).unwrap();
+        symlink("target", &link).unwrap();
+        write_atomically(&link, b"new").unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(std::fs::read(&target).unwrap(), b"new");
+        assert_eq!(std::fs::metadata(&target).unwrap().permissions().mode() & 0o777, 0o600);
+        symlink("loop", folder.path().join("loop")).unwrap();
+        assert!(write_atomically(&folder.path().join("loop"), b"").is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_written_to_and_stays_a_pipe() {
+        use std::os::unix::fs::FileTypeExt;
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || std::fs::read(pipe).unwrap()
+        });
+        prepare_file(&pipe).unwrap();
+        write_atomically(&pipe, b"through").unwrap();
+        assert_eq!(reader.join().unwrap(), b"through");
+        assert!(std::fs::metadata(&pipe).unwrap().file_type().is_fifo());
     }
 }

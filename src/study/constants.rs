@@ -139,7 +139,7 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
         });
     }
     let si = quantity.unit.to_si(quantity.value);
-    if !parameter.domain.contains(si) {
+    if !parameter.domain.contains(si) || !unit.from_si(si).is_finite() {
         return Err(Problem::OutOfDomain {
             name: format!("`{}`", parameter.name),
             domain: in_words_of_units(parameter.domain),

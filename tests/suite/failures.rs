@@ -249,6 +249,9 @@ fn points_that_are_wrong() {
     assert_points_refused("length,velocity\n300\n", &["line 2", "expected 2 cells", "not 1"]);
     assert_points_refused([b'l', b'e', 0xff, b'\n'], &["UTF-8"]);
     assert_points_refused("length\n300\n1e999\n", &["line 3"]);
+    assert_points_refused("length\n\n\nabc\n", &["line 4"]);
+    assert_points_refused("length\r\n1\r\n2\r\nabc", &["line 4"]);
+    assert_points_refused("length,velocity\n225,48\n\n225,48,3", &["line 4"]);
 }
 
 #[test]

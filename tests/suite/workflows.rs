@@ -115,6 +115,17 @@ fn evaluate_answers_in_the_units_of_the_study_and_names_what_fails() {
 }
 
 #[test]
+fn a_failed_point_of_a_single_output_keeps_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let (points, out) = (folder.path().join("points.csv"), folder.path().join("out.csv"));
+    std::fs::write(&points, "length\n225\n-1\n226\n").unwrap();
+    succeed(&["evaluate", text(&study_path("coulomb-dimensional")), text(&points), "-o", text(&out)]);
+    let written = std::fs::read_to_string(&out).unwrap();
+    let rows: Vec<_> = csv::Reader::from_reader(written.as_bytes()).into_records().map(Result::unwrap).collect();
+    assert_eq!((rows.len(), &rows[1][0]), (3, ""), "{written}");
+}
+
+#[test]
 fn evaluate_takes_no_points_as_no_points_and_many_as_many() {
     let folder = tempfile::tempdir().unwrap();
     let (points, out) = (folder.path().join("points.csv"), folder.path().join("out.csv"));
