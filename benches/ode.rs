@@ -1,13 +1,16 @@
 //! What does a run of each rung cost, and which method suits the equations of motion?
 //!
-//! The second question on an oscillator that follows a slow target, y'' = omega^2 (sin t - y), to an event at y = 1/2: the
-//! shape of the tip between its fast swing and its slow ramp. The explicit method pays for omega, the stiff one does not.
+//! The second question on the oscillator of `driven`: the explicit method pays for its frequency, the stiff one does not.
+//! `neighbours` sets both beside the methods of diffsol.
+
+mod driven;
 
 use std::hint::black_box;
 
-use apportion::afm::ode::{Control, DormandPrince, March, Method, Outcome, Problem, Rodas};
+use apportion::afm::ode::{DormandPrince, Rodas};
 use apportion::afm::{Fidelity, FrictionLaw, Options, Scene, critical_force};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use driven::crossing;
 
 fn rungs(c: &mut Criterion) {
     let mut group = c.benchmark_group("critical_force");
@@ -19,41 +22,6 @@ fn rungs(c: &mut Criterion) {
                 b.iter(|| critical_force(black_box(&scene), &options));
             });
         }
-    }
-}
-
-struct Driven {
-    omega: f64,
-}
-
-impl Problem<2> for Driven {
-    fn rate(&self, t: f64, y: &[f64; 2]) -> [f64; 2] {
-        [y[1], self.omega.powi(2) * (t.sin() - y[0])]
-    }
-
-    fn jacobian(&self, _: f64, _: &[f64; 2]) -> [[f64; 2]; 2] {
-        [[0.0, 1.0], [-self.omega.powi(2), 0.0]]
-    }
-
-    fn time_rate(&self, t: f64, _: &[f64; 2]) -> [f64; 2] {
-        [0.0, self.omega.powi(2) * t.cos()]
-    }
-}
-
-/// Time of the event; pi/6 where the oscillator follows its target.
-fn crossing<M: Method>(omega: f64) -> f64 {
-    let problem = Driven { omega };
-    let control = Control {
-        tolerance: 1e-6,
-        scale: [1.0, omega],
-        first_step: 1e-3 / omega,
-        longest_step: 0.1,
-        step_budget: 10_000_000,
-    };
-    let mut march = March::<M, _, 2>::new(&problem, (0.0, [0.0, 1.0]), control);
-    match march.until(1.0, |_, y| Ok(y[0] - 0.5)) {
-        Ok(Outcome::Event(end) | Outcome::Horizon(end)) => end.t,
-        Err(failure) => panic!("{failure}"),
     }
 }
 

@@ -1,51 +1,16 @@
 //! Which method suits the equations of motion: our stiff and explicit methods, or those of diffsol?
 //!
-//! The problem is an oscillator that follows a slow target, y'' = omega^2 (sin t - y), up to the event y = 1/2: the shape
-//! of the tip between its fast swing and its slow ramp. Its solution is known. Printed per method: time of one integration
+//! On the oscillator of `../driven`, whose solution is known. Printed per method: time of one integration
 //! (best of several), and the error of the event's time.
+
+#[path = "../../driven/mod.rs"]
+mod driven;
 
 use std::time::Instant;
 
-use apportion::afm::ode::{Control, DormandPrince, March, Method, Outcome, Problem, Rodas};
+use apportion::afm::ode::{DormandPrince, Rodas};
 use diffsol::{NalgebraLU, NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
-
-const TOLERANCE: f64 = 1e-6;
-/// More steps than this are no answer.
-const STEPS: u64 = 3_000_000;
-
-struct Driven {
-    omega: f64,
-}
-
-impl Problem<2> for Driven {
-    fn rate(&self, t: f64, y: &[f64; 2]) -> [f64; 2] {
-        [y[1], self.omega.powi(2) * (t.sin() - y[0])]
-    }
-
-    fn jacobian(&self, _: f64, _: &[f64; 2]) -> [[f64; 2]; 2] {
-        [[0.0, 1.0], [-self.omega.powi(2), 0.0]]
-    }
-
-    fn time_rate(&self, t: f64, _: &[f64; 2]) -> [f64; 2] {
-        [0.0, self.omega.powi(2) * t.cos()]
-    }
-}
-
-fn ours<M: Method>(omega: f64) -> Option<f64> {
-    let problem = Driven { omega };
-    let control = Control {
-        tolerance: TOLERANCE,
-        scale: [1.0, omega],
-        first_step: 1e-3 / omega,
-        longest_step: 0.1,
-        step_budget: STEPS,
-    };
-    let mut march = March::<M, _, 2>::new(&problem, (0.0, [0.0, 1.0]), control);
-    match march.until(1.0, |_, y| Ok(y[0] - 0.5)) {
-        Ok(Outcome::Event(end)) => Some(end.t),
-        Ok(Outcome::Horizon(_)) | Err(_) => None,
-    }
-}
+use driven::{STEPS, TOLERANCE, crossing};
 
 /// Time of the event, by bisection of the solution y = a sin t + b sin(omega t), a = omega^2/(omega^2 - 1), of the start
 /// at rest on the target with its speed 1.
@@ -81,8 +46,8 @@ fn report((name, omega): (&str, f64), integrate: impl Fn() -> Option<f64>) {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     for omega in [1e1f64, 1e3, 1e5] {
         println!("omega = {omega:.0e} rad/s, tolerance {TOLERANCE:.0e}");
-        report(("our Rodas", omega), || ours::<Rodas>(omega));
-        report(("our Dormand-Prince", omega), || ours::<DormandPrince>(omega));
+        report(("our Rodas", omega), || crossing::<Rodas>(omega));
+        report(("our Dormand-Prince", omega), || crossing::<DormandPrince>(omega));
         let squared = omega * omega;
         let problem = OdeBuilder::<NalgebraMat<f64>>::new()
             .rtol(TOLERANCE)
