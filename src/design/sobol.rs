@@ -23,8 +23,29 @@ pub struct SobolSequence {
 impl SobolSequence {
     /// The scrambled sequence of `dimensions` coordinates. Sequences of another `seed` or `replicate` are independent.
     pub fn scrambled(dimensions: usize, seed: u64, replicate: u64) -> Self {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        rng.set_stream(replicate);
+        Self::scrambled_in(&[dimensions], seed, replicate)
+    }
+
+    /// The scrambled sequence whose first `deals[0]` coordinates share out the first `deals[0]` dimensions among them, the
+    /// next `deals[1]` coordinates the next `deals[1]` dimensions, and so on: coordinates of an earlier deal do not depend
+    /// on how many follow.
+    pub fn scrambled_in(deals: &[usize], seed: u64, replicate: u64) -> Self {
+        let dimensions = deals.iter().sum();
+        let mut sequence = Self::in_order(dimensions, seed, replicate);
+        // Far behind the keys of the scrambles, which take one word each.
+        let mut rng = stream(seed, replicate);
+        rng.set_word_pos(1 << 40);
+        let mut first = 0;
+        for &deal in deals {
+            shuffle(&mut sequence.directions[first..first + deal], &mut rng);
+            first += deal;
+        }
+        sequence
+    }
+
+    /// The scrambled sequence whose coordinate j is dimension j of the Sobol' sequence.
+    pub fn in_order(dimensions: usize, seed: u64, replicate: u64) -> Self {
+        let mut rng = stream(seed, replicate);
         let scrambles = Some((0..dimensions).map(|_| rng.next_u32()).collect());
         Self { scrambles, ..Self::plain(dimensions) }
     }
@@ -52,6 +73,20 @@ impl SobolSequence {
             *slot = (f64::from(digits.reverse_bits()) + 0.5) * CELL;
             coordinate ^= directions[(next.trailing_zeros() as usize).min(BITS - 1)];
         }
+    }
+}
+
+fn stream(seed: u64, replicate: u64) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(replicate);
+    rng
+}
+
+/// Fisher and Yates' shuffle; 32 random bits a step, whose bias of 2^-20 at most (4096 dimensions) nobody will see.
+fn shuffle<T>(items: &mut [T], rng: &mut impl Rng) {
+    for last in (1..items.len()).rev() {
+        let other = (u64::from(rng.next_u32()) * (last as u64 + 1)) >> 32;
+        items.swap(last, other as usize);
     }
 }
 
@@ -107,6 +142,30 @@ mod tests {
         for (index, dimension, expected) in frozen {
             assert_eq!(columns[dimension][index], expected + 0.5 * CELL);
         }
+    }
+
+    #[test]
+    fn dimensions_are_dealt_out_within_their_deal() {
+        let dealt = SobolSequence::scrambled_in(&[40, 20], 3, 1);
+        let plain = SobolSequence::plain(60);
+        let place = |k: usize| plain.directions.iter().position(|d| *d == dealt.directions[k]).unwrap();
+        let mut places: Vec<usize> = (0..60).map(place).collect();
+        assert_ne!(places[..40], (0..40).collect::<Vec<_>>());
+        assert_eq!(dealt.directions[..40], SobolSequence::scrambled(40, 3, 1).directions[..]);
+        assert_eq!(dealt.scrambles.as_ref().unwrap()[..40], SobolSequence::scrambled(40, 3, 1).scrambles.unwrap()[..]);
+        places[..40].sort_unstable();
+        places[40..].sort_unstable();
+        assert_eq!(places, (0..60).collect::<Vec<_>>());
+        // Every coordinate meets every dimension in the long run: 600 deals of 6 leave each pair near 100, sd 9.
+        let mut counts = [[0; 6]; 6];
+        let six = SobolSequence::plain(6);
+        for replicate in 0..600 {
+            let dealt = SobolSequence::scrambled(6, 0, replicate);
+            for (k, row) in counts.iter_mut().enumerate() {
+                row[six.directions.iter().position(|d| *d == dealt.directions[k]).unwrap()] += 1;
+            }
+        }
+        assert!(counts.iter().flatten().all(|&count| (55..145).contains(&count)), "{counts:?}");
     }
 
     #[test]

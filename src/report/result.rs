@@ -25,6 +25,12 @@ pub struct ResultFile {
     /// What a model with a ladder of fidelities spent; `null` for other models.
     #[serde(default)]
     pub effort: Option<EffortRecord>,
+    /// Indices over all outputs together, if asked for.
+    #[serde(default)]
+    pub aggregate: Option<AggregateRecord>,
+    /// Why a growing run ended; `null` for one of fixed size.
+    #[serde(default)]
+    pub stopping: Option<StoppingRecord>,
 }
 
 /// What was asked.
@@ -84,6 +90,12 @@ pub struct Provenance {
     pub total_estimator: String,
     /// What the intervals are, in words; `null` if there are none.
     pub interval: Option<String>,
+    /// The kind of interval by its name in study files.
+    #[serde(default)]
+    pub interval_method: String,
+    /// The total index above which a factor counts as one that matters.
+    #[serde(default)]
+    pub threshold: f64,
 }
 
 /// A factor.
@@ -132,6 +144,24 @@ pub struct OutputRecord {
     pub indices: Option<Vec<IndexRecord>>,
     /// One entry per group; `null` where indices are undefined.
     pub groups: Option<Vec<GroupRecord>>,
+    /// One entry per subset that the study lists; `null` where indices are undefined.
+    #[serde(default)]
+    pub subsets: Option<Vec<SubsetRecord>>,
+    /// Indices of a factor that does nothing, if one was run along: the noise of the model.
+    #[serde(default)]
+    pub dummy: Option<EffectRecord>,
+    /// Second-order indices of all pairs of factors, if asked for.
+    #[serde(default)]
+    pub second_order: Option<Vec<PairRecord>>,
+    /// Indices by the other estimators that the study lists.
+    #[serde(default)]
+    pub estimators: Vec<EstimatorRecord>,
+    /// How the indices and their intervals changed as the run grew.
+    #[serde(default)]
+    pub convergence: Vec<StageRecord>,
+    /// How the output is distributed over the rows A and B.
+    #[serde(default)]
+    pub distribution: Option<OutputDistribution>,
     /// Why there are no indices, where there are none.
     pub reason: Option<String>,
     /// What a careful reader should know.
@@ -195,6 +225,121 @@ pub struct EffectRecord {
     pub share_first_order_interval: Option<IntervalRecord>,
     /// Interval of `share_total`.
     pub share_total_interval: Option<IntervalRecord>,
+    /// Total minus first-order index: what the factor does together with others.
+    #[serde(default)]
+    pub interaction: Option<EstimateRecord>,
+    /// Probability that its total index is the largest of all factors'; `null` for groups and subsets.
+    #[serde(default)]
+    pub probability_first: Option<f64>,
+    /// Probability that its total index exceeds the threshold in `provenance`.
+    #[serde(default)]
+    pub probability_above_threshold: Option<f64>,
+}
+
+/// The joint indices of a subset of the factors that the study lists.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SubsetRecord {
+    /// Its factors.
+    pub factors: Vec<String>,
+    /// The indices: the first-order one is closed, so it includes interactions inside the subset.
+    #[serde(flatten)]
+    pub effect: EffectRecord,
+}
+
+/// The second-order index of two factors.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PairRecord {
+    /// The two factors.
+    pub factors: [String; 2],
+    /// Their second-order index: what they do together beyond what each does alone.
+    pub index: EstimateRecord,
+}
+
+/// Indices by one estimator besides the default ones.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EstimatorRecord {
+    /// Its name in study files.
+    pub estimator: String,
+    /// Source of its first-order formula; `null` if it has none.
+    pub first_order_source: Option<String>,
+    /// Source of its total formula; `null` if it has none.
+    pub total_source: Option<String>,
+    /// One entry per factor, then per group, then per subset, in the order of the lists above.
+    pub indices: Vec<OtherIndexRecord>,
+}
+
+/// Indices of one factor, group or subset by an estimator besides the default ones.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OtherIndexRecord {
+    /// The factor, the group, or the factors of the subset joined by " + ".
+    pub name: String,
+    /// First-order index; `null` if the estimator has none.
+    pub first_order: Option<EstimateRecord>,
+    /// Total index; `null` if the estimator has none.
+    pub total: Option<EstimateRecord>,
+}
+
+/// The indices as they were when the run had so many base points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StageRecord {
+    /// Base points in all.
+    pub base_samples: u64,
+    /// Model runs in all.
+    pub model_runs: u64,
+    /// Largest half width of the first-order and total indices of the factors and groups; `null` without intervals.
+    pub largest_half_width: Option<f64>,
+    /// First-order and total index of every factor.
+    pub indices: Vec<StageIndexRecord>,
+}
+
+/// The indices of one factor at a stage.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StageIndexRecord {
+    /// The factor.
+    pub factor: String,
+    /// First-order index.
+    pub first_order: EstimateRecord,
+    /// Total index.
+    pub total: EstimateRecord,
+}
+
+/// Indices over several outputs together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AggregateRecord {
+    /// The outputs.
+    pub outputs: Vec<String>,
+    /// How outputs are weighed against each other, in words.
+    pub weighting: String,
+    /// One entry per factor; `null` where an output has no indices.
+    pub indices: Option<Vec<AggregateIndexRecord>>,
+    /// Why there are none.
+    pub reason: Option<String>,
+}
+
+/// The aggregated indices of one factor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AggregateIndexRecord {
+    /// The factor.
+    pub factor: String,
+    /// Aggregated first-order index.
+    pub first_order: EstimateRecord,
+    /// Aggregated total index.
+    pub total: EstimateRecord,
+}
+
+/// Why a growing run ended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StoppingRecord {
+    /// In words.
+    pub reason: String,
+    /// Whether every index met the target; `null` if there was none.
+    pub target_met: Option<bool>,
+    /// The half width that was asked for.
+    pub target_half_width: Option<f64>,
+    /// The time that it might take, in seconds.
+    pub budget_seconds: Option<f64>,
+    /// The model runs that it might take.
+    pub max_runs: Option<u64>,
 }
 
 /// A reason for which runs failed.

@@ -7,18 +7,20 @@
 mod block;
 mod totals;
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-pub use totals::{OutputTotals, Tally, Totals};
+pub use totals::{OutputTotals, Place, Tally, Totals};
 
-use crate::design::Design;
-use crate::model::Model;
+use crate::design::{BasePoints, Design};
+use crate::estimate::part_length;
+use crate::model::{Model, RowFailure};
 use crate::space::Space;
-use block::Scratch;
+use block::{BlockPlace, Scratch};
 
 /// Base points in a block: their columns stay in the cache, and a block takes long enough to be worth a task.
 pub const BLOCK: u64 = 256;
@@ -47,7 +49,7 @@ pub struct Progress {
     pub elapsed: Duration,
 }
 
-/// Why a run could not take place.
+/// Why a run could not take place, or was given up.
 #[derive(Debug, Error)]
 pub enum RunError {
     /// The operating system refused the threads.
@@ -58,12 +60,20 @@ pub enum RunError {
         /// What rayon said.
         source: rayon::ThreadPoolBuildError,
     },
+    /// A row failed, and the run was to stop at the first one.
+    #[error("a run failed, and the study says to stop then: {reason}")]
+    RowFailed {
+        /// The row.
+        row: Place,
+        /// Why.
+        reason: RowFailure,
+    },
 }
 
 /// Runs the whole job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
 ///
-/// `on_progress` is called whenever a block has gone through one kind of row, from the thread that did it. The result does not depend on the
-/// number of threads, in any bit.
+/// `on_progress` is called whenever a block has gone through one kind of row, from the thread that did it. The result
+/// does not depend on the number of threads, in any bit.
 ///
 /// # Panics
 /// If the space has not as many factors as the design.
@@ -71,40 +81,128 @@ pub enum RunError {
 /// # Errors
 /// [`RunError::Threads`] if the threads cannot be started. Rows that fail are part of the totals, not errors.
 pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<Vec<Totals>, RunError> {
-    assert_eq!(job.space.factors().len(), job.design.factors(), "space and design have the same factors");
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads_in_force(threads))
-        .build()
-        .map_err(|source| RunError::Threads { threads: threads_in_force(threads), source })?;
-    let runner = Runner {
-        job,
-        on_progress,
-        start: Instant::now(),
-        done: AtomicU64::new(0),
-        failed: AtomicU64::new(0),
-        idle: Mutex::new(Vec::new()),
-    };
-    let replicates = job.design.settings().replicates;
-    Ok(pool.install(|| runner.replicates(0..replicates)))
+    let mut run = Run::new(job, threads)?;
+    run.grow_to(job.design.points_per_replicate(), on_progress)?;
+    Ok(run.totals)
 }
 
-/// Number of threads that `run` uses when asked for `threads`.
+/// Number of threads that a run uses when asked for `threads`.
 pub fn threads_in_force(threads: usize) -> usize {
     if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads }
 }
 
-struct Runner<'a> {
+/// A run that can go on: every replicate holds the same number of base points, and can be given more.
+pub struct Run<'a> {
     job: Job<'a>,
-    on_progress: &'a (dyn Fn(Progress) + Sync),
+    pool: rayon::ThreadPool,
+    start: Instant,
+    stop_at_failure: bool,
+    /// Base points of every replicate that have been run.
+    points: u64,
+    totals: Vec<Totals>,
+    done: u64,
+    failed: u64,
+}
+
+impl<'a> Run<'a> {
+    /// A run of nothing yet, on `threads` threads (0: one per core).
+    ///
+    /// # Panics
+    /// If the space has not as many factors as the design.
+    ///
+    /// # Errors
+    /// [`RunError::Threads`] if the threads cannot be started.
+    pub fn new(job: Job<'a>, threads: usize) -> Result<Self, RunError> {
+        assert_eq!(job.space.factors().len(), job.design.factors(), "space and design have the same factors");
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads_in_force(threads))
+            .build()
+            .map_err(|source| RunError::Threads { threads: threads_in_force(threads), source })?;
+        let (totals, start) = (Vec::new(), Instant::now());
+        Ok(Self { job, pool, start, stop_at_failure: false, points: 0, totals, done: 0, failed: 0 })
+    }
+
+    /// The same run, which gives up at the first row that fails.
+    #[must_use]
+    pub fn stopping_at_failure(self, stop: bool) -> Self {
+        Self { stop_at_failure: stop, ..self }
+    }
+
+    /// Runs the base points that every replicate lacks to hold `points` of them, at most the design's. Those that have been
+    /// run are not run again. From one power of two to the next, the totals are the same bits as those of a run
+    /// that began with the larger number.
+    ///
+    /// # Errors
+    /// [`RunError::RowFailed`] if a row fails and the run is to stop at that; the run is then of no further use.
+    pub fn grow_to(&mut self, points: u64, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<(), RunError> {
+        let points = points.min(self.job.design.points_per_replicate());
+        if points <= self.points {
+            return Ok(());
+        }
+        let design = self.job.design;
+        let replicates = design.settings().replicates;
+        let growth = Growth {
+            job: self.job,
+            range: self.points..points,
+            total: points * replicates * design.rows_per_point(),
+            on_progress,
+            start: self.start,
+            done: AtomicU64::new(self.done),
+            failed: AtomicU64::new(self.failed),
+            stop_at_failure: self.stop_at_failure,
+            given_up: AtomicBool::new(false),
+            failure: Mutex::new(None),
+            idle: Mutex::new(Vec::new()),
+        };
+        let grown = self.pool.install(|| growth.replicates(0..replicates));
+        if let Some((row, reason)) = growth.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            return Err(RunError::RowFailed { row, reason });
+        }
+        if self.totals.is_empty() {
+            self.totals = grown;
+        } else {
+            self.totals.iter_mut().zip(&grown).for_each(|(totals, more)| totals.append(more));
+        }
+        (self.done, self.failed) = (growth.done.into_inner(), growth.failed.into_inner());
+        self.points = points;
+        Ok(())
+    }
+
+    /// Base points of every replicate that have been run.
+    pub fn points_per_replicate(&self) -> u64 {
+        self.points
+    }
+
+    /// Totals of each replicate, in order; empty before anything has been run.
+    pub fn totals(&self) -> &[Totals] {
+        &self.totals
+    }
+
+    /// Time since the run was made.
+    pub fn elapsed(&self) -> Duration {
+        self.start.elapsed()
+    }
+}
+
+/// The base points `range` of every replicate, on their way through the model.
+struct Growth<'a, 'p> {
+    job: Job<'a>,
+    range: Range<u64>,
+    /// Rows there will be in all.
+    total: u64,
+    on_progress: &'p (dyn Fn(Progress) + Sync),
     start: Instant,
     done: AtomicU64,
     failed: AtomicU64,
+    stop_at_failure: bool,
+    given_up: AtomicBool,
+    failure: Mutex<Option<(Place, RowFailure)>>,
     /// Scratch space and workers not in use: one per thread that has ever been busy at once.
     idle: Mutex<Vec<Scratch<'a>>>,
 }
 
-impl Runner<'_> {
-    fn replicates(&self, range: std::ops::Range<u64>) -> Vec<Totals> {
+impl Growth<'_, '_> {
+    fn replicates(&self, range: Range<u64>) -> Vec<Totals> {
         match range.end - range.start {
             1 => vec![self.replicate(range.start)],
             n => {
@@ -119,44 +217,59 @@ impl Runner<'_> {
 
     fn replicate(&self, replicate: u64) -> Totals {
         let points = self.job.design.replicate(replicate);
-        let blocks = self.job.design.points_per_replicate().div_ceil(BLOCK);
-        self.tree(&|block| self.block(&points, replicate, block), 0..blocks)
+        let blocks = self.range.start / BLOCK..self.range.end.div_ceil(BLOCK);
+        self.tree(&|block| self.block(&points, replicate, block), blocks)
     }
 
     /// Folds the blocks of `range`: the left branch holds the largest power of two below their number, so a design
     /// that is doubled has the tree of the shorter one as its left branch.
-    fn tree(&self, leaf: &(dyn Fn(u64) -> Totals + Sync), range: std::ops::Range<u64>) -> Totals {
+    fn tree(&self, leaf: &(dyn Fn(u64) -> Totals + Sync), range: Range<u64>) -> Totals {
         match range.end - range.start {
             1 => leaf(range.start),
             n => {
                 let middle = range.start + n.next_power_of_two() / 2;
                 let (mut left, right) =
                     rayon::join(|| self.tree(leaf, range.start..middle), || self.tree(leaf, middle..range.end));
-                left.merge(&right);
+                left.append(&right);
                 left
             }
         }
     }
 
-    fn block(&self, points: &crate::design::BasePoints, replicate: u64, block: u64) -> Totals {
-        let design = self.job.design;
-        let first = block * BLOCK;
-        let rows = BLOCK.min(design.points_per_replicate() - first) as usize;
+    fn block(&self, points: &BasePoints, replicate: u64, block: u64) -> Totals {
+        let first = (block * BLOCK).max(self.range.start);
+        let rows = ((block + 1) * BLOCK).min(self.range.end) - first;
         // A thread that panicked holding the lock has ended the run already; its scratch space is as good as any.
-        let idle = || self.idle.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let taken = idle().pop();
         let mut scratch = taken.unwrap_or_else(|| Scratch::new(self.job));
-        points.fill(first, scratch.unit_columns(rows));
-        let first_row = (replicate * design.points_per_replicate() + first) * design.rows_per_point();
-        let totals = scratch.evaluate(self.job, first_row, &|runs, failed| self.report(runs, failed));
+        if self.given_up.load(Ordering::Relaxed) {
+            return scratch.nothing(self.job);
+        }
+        points.fill(first, scratch.unit_columns(rows as usize));
+        let place = BlockPlace { replicate, point: first, part_length: part_length(block, BLOCK) };
+        let totals = scratch.evaluate(self.job, place, &|runs, failed| self.report(runs, failed));
         idle().push(scratch);
+        if self.stop_at_failure {
+            self.note_failure(&totals);
+        }
         totals
+    }
+
+    fn note_failure(&self, totals: &Totals) {
+        let failures = totals.outputs.iter().flat_map(|output| &output.failures);
+        let Some((reason, tally)) = failures.min_by_key(|(_, tally)| tally.first) else { return };
+        self.given_up.store(true, Ordering::Relaxed);
+        let mut noted = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
+        if noted.as_ref().is_none_or(|(place, _)| tally.first < *place) {
+            *noted = Some((tally.first, reason.clone()));
+        }
     }
 
     fn report(&self, runs: u64, failed: u64) {
         let done = self.done.fetch_add(runs, Ordering::Relaxed) + runs;
         let failed = self.failed.fetch_add(failed, Ordering::Relaxed) + failed;
-        (self.on_progress)(Progress { done, total: self.job.design.rows(), failed, elapsed: self.start.elapsed() });
+        (self.on_progress)(Progress { done, total: self.total, failed, elapsed: self.start.elapsed() });
     }
 }
 

@@ -19,6 +19,8 @@ pub(super) struct StudyFile {
     #[serde(default)]
     pub design: DesignSection,
     #[serde(default)]
+    pub analysis: AnalysisSection,
+    #[serde(default)]
     pub factor: Vec<At<FactorSection>>,
 }
 
@@ -29,6 +31,30 @@ pub(super) struct DesignSection {
     pub base_samples: Option<At<u64>>,
     pub replicates: Option<At<u64>>,
     pub seed: Option<At<u64>>,
+    pub target: Option<At<TargetSection>>,
+    pub budget: Option<At<String>>,
+    pub max_runs: Option<At<u64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TargetSection {
+    pub half_width: At<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AnalysisSection {
+    pub estimators: Option<At<Vec<At<String>>>>,
+    pub second_order: Option<At<bool>>,
+    pub subsets: Option<At<Vec<At<Vec<At<String>>>>>>,
+    pub aggregate: Option<At<bool>>,
+    pub dummy: Option<At<bool>>,
+    pub intervals: Option<At<String>>,
+    pub resamples: Option<At<u64>>,
+    pub threshold: Option<At<f64>>,
+    pub failures: Option<At<String>>,
+    pub max_failed: Option<At<f64>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,7 +1,10 @@
 //! Intervals from independent randomised replicates.
 
+mod net_decay;
 mod replicated;
+mod special;
 
+pub use net_decay::{PartInfluences, StandardError, net_errors};
 pub use replicated::{EffectEstimates, ReplicatedIndices, ReplicatedMoments, replicated_indices, replicated_moments};
 
 use statrs::distribution::{ContinuousCDF, StudentsT};

@@ -1,0 +1,106 @@
+//! The moments of nested parts of a run of base points: what shows how the error falls as the run grows.
+
+use super::Moments;
+
+/// Most parts that are kept.
+pub const MAX_PARTS: usize = 64;
+
+/// Most numbers that the parts of one output may hold together: with very many factors there are fewer parts.
+const MAX_NUMBERS: usize = 1 << 17;
+
+/// Moments of consecutive base points, kept as those of up to [`MAX_PARTS`] consecutive parts of equal length, a power
+/// of two; the last part may be shorter.
+///
+/// Neighbouring parts are merged in pairs whenever there are too many, in the tree in which the whole is merged in the
+/// end: the bits of the whole do not depend on when that happened.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MomentParts {
+    /// Base points in a part, complete or not.
+    length: u64,
+    parts: Vec<Moments>,
+}
+
+impl MomentParts {
+    /// No base points.
+    pub fn empty() -> Self {
+        Self { length: 1, parts: Vec::new() }
+    }
+
+    /// One part per `length` base points, a power of two.
+    pub fn new(length: u64, parts: Vec<Moments>) -> Self {
+        debug_assert!(length.is_power_of_two());
+        let mut new = Self { length, parts };
+        new.shrink();
+        new
+    }
+
+    /// The parts, in the order of their base points.
+    pub fn parts(&self) -> &[Moments] {
+        &self.parts
+    }
+
+    /// Base points of a complete part, whether or not all of them have outputs.
+    pub fn length(&self) -> u64 {
+        self.length
+    }
+
+    /// Appends the base points that follow. All parts of `self` must be complete.
+    pub fn append(&mut self, following: &Self) {
+        let mut following = following.clone();
+        let length = self.length.max(following.length);
+        self.lengthen(length);
+        following.lengthen(length);
+        self.parts.append(&mut following.parts);
+        self.shrink();
+    }
+
+    /// The moments of all base points together.
+    pub fn whole(&self) -> Moments {
+        merged(&self.parts)
+    }
+
+    fn lengthen(&mut self, length: u64) {
+        while self.length < length {
+            self.pair_up();
+        }
+    }
+
+    fn shrink(&mut self) {
+        while self.parts.len() > self.most() {
+            self.pair_up();
+        }
+    }
+
+    fn most(&self) -> usize {
+        let numbers = self.parts.first().map_or(1, Moments::numbers).max(1);
+        let most = (MAX_NUMBERS / numbers).clamp(4, MAX_PARTS);
+        1 << most.ilog2()
+    }
+
+    fn pair_up(&mut self) {
+        self.parts = self.parts.chunks(2).map(merged).collect();
+        self.length *= 2;
+    }
+}
+
+/// The moments of `parts` together, merged in the tree of the run: the left branch holds the largest power of two below
+/// their number.
+pub fn merged(parts: &[Moments]) -> Moments {
+    match parts {
+        [] => Moments::empty(0),
+        [one] => one.clone(),
+        many => {
+            let (left, right) = many.split_at(many.len().next_power_of_two() / 2);
+            let mut whole = merged(left);
+            whole.merge(&merged(right));
+            whole
+        }
+    }
+}
+
+/// Length of the parts in which the block number `block` (of `size` base points) is summed up: as long as the parts of
+/// the shortest run that holds the block may be. Later blocks, which only long runs reach, need no parts at all.
+pub fn part_length(block: u64, size: u64) -> u64 {
+    let points = (block + 1).next_power_of_two() * size;
+    (points / MAX_PARTS as u64 / 2).clamp(1, size)
+}

@@ -1,0 +1,100 @@
+//! Everything that is reported about one output, in one flat list, and its intervals.
+//!
+//! Intervals work on lists of numbers: [`quantities`] lays the list out, [`Layout`] knows the places in it.
+
+use crate::estimate::{Estimator, Indices, Moments, shares};
+
+/// What is estimated from the swaps of a design, which come in this order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Layout {
+    /// Number of factors.
+    pub factors: usize,
+    /// Number of groups.
+    pub groups: usize,
+    /// Number of subsets that the study lists.
+    pub subsets: usize,
+    /// Whether the last swap is a dummy factor.
+    pub dummy: bool,
+    /// Estimators whose indices stand beside the default ones.
+    pub estimators: Vec<Estimator>,
+    /// Whether there are second-order indices of the factors.
+    pub second_order: bool,
+}
+
+/// Numbers of one swap: first order, total; its two shares, the gap to the check of the first order, and total minus first
+/// order.
+const PER_SWAP: usize = 6;
+
+/// Numbers of one swap under one other estimator: first order and total, and how far they are from the default ones.
+const PER_ESTIMATOR: usize = 4;
+
+impl Layout {
+    /// Factors only.
+    pub fn plain(factors: usize) -> Self {
+        Self { factors, groups: 0, subsets: 0, dummy: false, estimators: Vec::new(), second_order: false }
+    }
+
+    /// Number of swaps.
+    pub fn swaps(&self) -> usize {
+        self.factors + self.groups + self.subsets + usize::from(self.dummy)
+    }
+
+    /// Place of the numbers of swap `swap`.
+    pub(super) fn swap(&self, swap: usize) -> usize {
+        2 + swap * PER_SWAP
+    }
+
+    /// Place of the numbers of swap `swap` under the estimator number `estimator`.
+    pub(super) fn other(&self, estimator: usize, swap: usize) -> usize {
+        self.swap(self.swaps()) + (estimator * self.swaps() + swap) * PER_ESTIMATOR
+    }
+
+    /// Place of the second-order index of the first pair.
+    pub(super) fn pairs(&self) -> usize {
+        self.other(self.estimators.len(), 0)
+    }
+
+    /// The pairs of factors, in the order of their second-order indices.
+    pub fn pair_list(&self) -> Vec<(usize, usize)> {
+        (0..self.factors).flat_map(|j| (j + 1..self.factors).map(move |k| (j, k))).collect()
+    }
+
+    /// Which quantities tell how errors decay: the default first-order and total indices of everything but the dummy.
+    pub(super) fn pooled(&self, length: usize) -> Vec<bool> {
+        let real = self.swap(self.swaps() - usize::from(self.dummy));
+        (0..length).map(|place| (2..real).contains(&place) && (place - 2) % PER_SWAP < 2).collect()
+    }
+}
+
+/// Everything reported about an output with `moments`, NaN for what does not exist. `None` if there are no indices.
+pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>> {
+    let Indices { first_order, total, check } = Indices::of(moments).ok()?;
+    let share_first_order = all_shares(layout, &first_order);
+    let share_total = all_shares(layout, &total);
+    let factors = 0..layout.factors;
+    let mut list = vec![first_order[factors.clone()].iter().sum(), total[factors].iter().sum()];
+    for s in 0..layout.swaps() {
+        let (first, total) = (first_order[s], total[s]);
+        list.extend([first, total, share_first_order[s], share_total[s], first - check[s], total - first]);
+    }
+    for estimator in &layout.estimators {
+        let (first_formula, total_formula) = estimator.formulas();
+        for s in 0..layout.swaps() {
+            let first = first_formula.map_or(f64::NAN, |formula| formula.estimate(moments, s));
+            let other = total_formula.map_or(f64::NAN, |formula| formula.estimate(moments, s));
+            list.extend([first, other, first - first_order[s], other - total[s]]);
+        }
+    }
+    if layout.second_order {
+        list.extend(layout.pair_list().into_iter().map(|(j, k)| moments.second_order(j, k).unwrap_or(f64::NAN)));
+    }
+    Some(list)
+}
+
+/// Shares in percent among the factors, and among the groups; NaN for subsets, which may overlap, and for the dummy.
+fn all_shares(layout: &Layout, indices: &[f64]) -> Vec<f64> {
+    let (factors, rest) = indices.split_at(layout.factors);
+    let (groups, others) = rest.split_at(layout.groups);
+    let of = |list: &[f64]| shares(list).unwrap_or_else(|| vec![f64::NAN; list.len()]);
+    [of(factors), of(groups), vec![f64::NAN; others.len()]].concat()
+}

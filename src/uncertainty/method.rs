@@ -1,0 +1,135 @@
+//! The kinds of interval, and what each of them says.
+
+use super::net_decay::{PartInfluences, StandardError, net_errors};
+use crate::design::Sampler;
+
+/// How the error of an estimate is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum IntervalMethod {
+    /// From few long scrambled nets: their spread, and how the error falls inside them ([`net_errors`]).
+    Nets,
+    /// Student's t on independent replicates.
+    Replicates,
+    /// Student's t on parts of a random design, which are as good as independent.
+    Batches,
+    /// The delta method: the variance of the influence of every point of a random design.
+    Delta,
+    /// The percentile bootstrap over the points of a random design.
+    Percentile,
+    /// The bias-corrected and accelerated bootstrap over the points of a random design.
+    Bca,
+}
+
+impl IntervalMethod {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Nets, Self::Replicates, Self::Batches, Self::Delta, Self::Percentile, Self::Bca];
+
+    /// The name in study files and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Nets => "nets",
+            Self::Replicates => "replicates",
+            Self::Batches => "batches",
+            Self::Delta => "delta",
+            Self::Percentile => "percentile",
+            Self::Bca => "bca",
+        }
+    }
+
+    /// The one that serves points of `sampler` best.
+    pub fn default_for(sampler: Sampler) -> Self {
+        match sampler {
+            Sampler::Sobol => Self::Nets,
+            Sampler::Random => Self::Batches,
+            Sampler::LatinHypercube => Self::Replicates,
+        }
+    }
+
+    /// Whether it is honest for points of `sampler`: a bootstrap over Sobol' points, for one, is 3 to 30 times too wide.
+    pub fn serves(self, sampler: Sampler) -> bool {
+        match self {
+            Self::Nets => sampler == Sampler::Sobol,
+            Self::Replicates => true,
+            Self::Batches | Self::Delta | Self::Percentile | Self::Bca => sampler == Sampler::Random,
+        }
+    }
+
+    /// How many replicates it works best with.
+    pub fn default_replicates(self) -> u64 {
+        match self {
+            Self::Nets => 2,
+            Self::Replicates => 16,
+            Self::Batches | Self::Delta | Self::Percentile | Self::Bca => 1,
+        }
+    }
+
+    /// Whether it needs the outputs of every run, and so memory that grows with their number.
+    pub fn keeps_outputs(self) -> bool {
+        matches!(self, Self::Delta | Self::Percentile | Self::Bca)
+    }
+
+    /// What an interval of this kind is, in a sentence.
+    pub fn words(self, replicates: u64, resamples: usize) -> String {
+        let nets = if replicates == 1 {
+            "one scrambled net".to_owned()
+        } else {
+            format!("{replicates} independently scrambled nets")
+        };
+        match self {
+            Self::Nets if replicates == 1 => format!(
+                "95 % t-interval around the estimate from {nets}; its standard error is extrapolated from how nested parts of the net \
+                 differ, and rests on that trend alone"
+            ),
+            Self::Nets => format!(
+                "95 % t-interval around the estimate from {nets} together; its standard error combines the spread of the nets with how \
+                 nested parts of each differ (moderated t)"
+            ),
+            Self::Replicates => format!(
+                "95 % t-interval (delete-one jackknife) from {replicates} independent randomisations of the design; the estimate \
+                 rests on all of them together"
+            ),
+            Self::Batches => "95 % t-interval from the spread of batches of independent random points".to_owned(),
+            Self::Delta => "95 % asymptotic (delta-method) interval from the influence of every random point".to_owned(),
+            Self::Percentile => format!("95 % percentile bootstrap interval, {resamples} resamples of the random points"),
+            Self::Bca => format!("95 % BCa bootstrap interval, {resamples} resamples of the random points"),
+        }
+    }
+
+    /// Standard errors from the parts of every replicate; for methods that keep outputs, an approximation by batches.
+    pub fn errors(self, quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
+        match self {
+            Self::Nets => net_errors(quantities, pooled),
+            Self::Replicates => quantities.iter().map(|parts| spread(&means(parts))).collect(),
+            Self::Batches | Self::Delta | Self::Percentile | Self::Bca => {
+                quantities.iter().map(|parts| spread(&complete(parts))).collect()
+            }
+        }
+    }
+}
+
+/// Mean influence of each replicate.
+fn means(parts: &PartInfluences) -> Vec<f64> {
+    parts.iter().map(|replicate| replicate.iter().sum::<f64>() / replicate.len().max(1) as f64).collect()
+}
+
+/// The parts of all replicates but those that may be incomplete, unless there is nothing else.
+fn complete(parts: &PartInfluences) -> Vec<f64> {
+    let whole = |replicate: &Vec<f64>| replicate[..replicate.len().saturating_sub(1).max(1)].to_vec();
+    parts.iter().flat_map(whole).collect()
+}
+
+/// Standard error of the mean of independent values of one distribution.
+fn spread(values: &[f64]) -> StandardError {
+    let n = values.len() as f64;
+    if values.len() < 2 {
+        return StandardError { error: f64::NAN, freedom: 0.0 };
+    }
+    let size = values.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    if size == 0.0 {
+        return StandardError { error: 0.0, freedom: n - 1.0 };
+    }
+    let mean = values.iter().map(|x| x / size).sum::<f64>() / n;
+    let squares: f64 = values.iter().map(|x| (x / size - mean).powi(2)).sum();
+    StandardError { error: size * (squares / (n - 1.0) / n).sqrt(), freedom: n - 1.0 }
+}

@@ -1,0 +1,308 @@
+//! Standard errors of estimates from a few scrambled nets.
+//!
+//! Few long nets are accurate, but their spread says little about their error: two of them leave one degree of freedom,
+//! and a t-interval on it is six times too wide. Yet every net shows how its error falls as it grows, because its points
+//! are nested: halves, quarters, ... 64ths of a Sobol' net are nets of their own (Owen 1997). With sigma_l^2 the variance
+//! of an estimate from 2^l points, the mean square of half the difference between neighbouring parts of 2^l points is
+//! D_l = sigma_l^2 - sigma_(l+1)^2: many degrees of freedom at small l, one per net at the last. If D_l falls by a factor
+//! rho per level, what is left of the whole net of 2^m points is
+//!
+//! sigma_m^2 = sum_(l >= m) D_l = D_(m-1) rho/(1 - rho).
+//!
+//! The rate rho belongs to the function and the sampler rather than to one index: it is fitted to all indices of an
+//! output together. This extrapolation is a *prior*, because a net can be luckier or unluckier than the trend. The nets'
+//! own spread corrects it twice: on average over the indices (a common factor, as far as that is known), and index by
+//! index, as in the moderated t-statistic of Smyth (2004, Stat. Appl. Genet. Mol. Biol. 3, article 3): the variance is
+//! the mean of prior and spread, weighted by their degrees of freedom, and the interval is Student's t with the sum of
+//! both. How far the trend can be trusted was measured over fifteen functions (`benches/coverage.rs`).
+
+use super::special::{freedom_of_log_variance, log_bias, log_variance};
+
+/// Most levels of nested parts that the trend is fitted to.
+const LEVELS: usize = 6;
+
+/// Fastest and slowest decay of D_l per level that the trend may have: eightfold is the rate of the variance of smooth
+/// functions (Owen 1997: N^-3), with some room; twofold is that of random points, below which scrambled nets do not fall.
+const FASTEST: f64 = 0.05;
+const SLOWEST: f64 = 0.5;
+
+/// Variance of the logarithm of sigma_m^2 about the trend, from index to index of one output. Measured 0.3 to 0.5.
+const SCATTER_OF_INDICES: f64 = 0.35;
+
+/// The same of the average over the indices of an output, from function to function. Measured 0.2 to 0.3.
+const SCATTER_OF_OUTPUTS: f64 = 0.25;
+
+/// Number of levels' worth of scatter that a level has besides its sampling error, in degrees of freedom: keeps the many
+/// small parts from outweighing the few large ones that the trend is about.
+const DAMPING: f64 = 4.0;
+
+/// Indices of one output come from the same points: so many of them count as one independent one.
+const DEPENDENCE: f64 = 2.0;
+
+/// A standard error with the degrees of freedom of Student's t that go with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StandardError {
+    /// The standard error, in the unit of the estimate.
+    pub error: f64,
+    /// Degrees of freedom.
+    pub freedom: f64,
+}
+
+/// Mean influences of the parts of every net on one quantity: `[net][part]`, all nets with the same parts, which have
+/// equal numbers of points but for the last. Their mean over everything is 0.
+pub type PartInfluences = Vec<Vec<f64>>;
+
+/// Standard errors of quantities estimated from all nets together. The quantities for which `pooled` is true (the
+/// indices) determine the common rate and factor; the others only use them.
+///
+/// All quantities have the same nets and parts. A quantity that no part influences has error 0.
+pub fn net_errors(quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
+    let Some(first) = quantities.first() else { return Vec::new() };
+    let shape = Shape::of(first);
+    let levels: Vec<Option<Levels>> = quantities.iter().map(|q| Levels::of(q, &shape)).collect();
+    let is_pooled = |(k, _): &(usize, &Option<Levels>)| pooled.get(*k).copied().unwrap_or(false);
+    let pool: Vec<&Levels> = levels.iter().enumerate().filter(is_pooled).filter_map(|(_, l)| l.as_ref()).collect();
+    // Without any quantity to pool, all of them are.
+    let pool = if pool.is_empty() { levels.iter().flatten().collect() } else { pool };
+    let trend = Trend::fit(&pool, &shape);
+    levels.iter().map(|level| level.as_ref().map_or(shape.nothing(), |level| trend.error(level, &shape))).collect()
+}
+
+/// What all quantities of an output have in common.
+struct Shape {
+    nets: usize,
+    /// Parts of each net, counting an incomplete last one.
+    parts: usize,
+    /// Levels of nested parts below the whole: log2 of the largest power of two of parts.
+    depth: usize,
+}
+
+impl Shape {
+    fn of(quantity: &PartInfluences) -> Self {
+        let parts = quantity.first().map_or(0, Vec::len);
+        Self { nets: quantity.len(), parts, depth: parts.checked_ilog2().unwrap_or(0) as usize }
+    }
+
+    /// Degrees of freedom of the differences `below` levels under the top one.
+    fn freedom(&self, below: usize) -> f64 {
+        self.nets as f64 * (1u64 << below) as f64
+    }
+
+    /// Degrees of freedom of the spread between the nets.
+    fn direct_freedom(&self) -> f64 {
+        self.nets as f64 - 1.0
+    }
+
+    fn nothing(&self) -> StandardError {
+        StandardError { error: 0.0, freedom: self.direct_freedom().max(1.0) }
+    }
+}
+
+/// What the parts say about one quantity.
+struct Levels {
+    /// Weighted mean of ln D over the levels, where the sampling bias of each logarithm has been taken off.
+    height: f64,
+    /// Slope of ln D per level, towards larger parts.
+    slope: f64,
+    /// Variance between the means of the nets.
+    spread: f64,
+}
+
+impl Levels {
+    /// `None` if no part has any influence.
+    fn of(quantity: &PartInfluences, shape: &Shape) -> Option<Self> {
+        let size = quantity.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        if size == 0.0 || !size.is_finite() {
+            return None;
+        }
+        // In units of the largest influence, so that nothing under- or overflows when squared.
+        let means: Vec<f64> =
+            quantity.iter().map(|net| net.iter().map(|x| x / size).sum::<f64>() / net.len() as f64).collect();
+        let centre = means.iter().sum::<f64>() / means.len() as f64;
+        let spread = means.iter().map(|mean| (mean - centre).powi(2)).sum::<f64>() / shape.direct_freedom().max(1.0);
+        let logs = decay(quantity, shape, size);
+        let (height, slope) = line(&logs, shape);
+        let scale = 2.0 * size.ln();
+        Some(Self { height: height + scale, slope, spread: spread * size * size })
+    }
+}
+
+/// ln D of the levels of nested parts, the top one (halves) first, free of the bias of the logarithm.
+fn decay(quantity: &PartInfluences, shape: &Shape, size: f64) -> Vec<f64> {
+    let mut parts: Vec<Vec<f64>> =
+        quantity.iter().map(|net| net[..1 << shape.depth].iter().map(|x| x / size).collect()).collect();
+    let mut logs = Vec::new();
+    while parts[0].len() > 1 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for net in &mut parts {
+            for pair in net.chunks_exact(2) {
+                sum += (pair[0] - pair[1]).powi(2) / 4.0;
+                count += 1.0;
+            }
+            *net = net.chunks_exact(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
+        }
+        // A level without any difference is one of rounding.
+        logs.push((sum / count).max(f64::EPSILON * f64::EPSILON).ln());
+    }
+    logs.reverse();
+    logs.truncate(LEVELS);
+    logs.iter().enumerate().map(|(below, log)| log - log_bias(shape.freedom(below))).collect()
+}
+
+/// Weights of the levels in the fit, the top one first, and their weighted mean place (0 the top, -1 below it, ...).
+fn weights(shape: &Shape, levels: usize) -> (Vec<f64>, f64) {
+    let weights: Vec<f64> = (0..levels).map(|below| shape.freedom(below) / (shape.freedom(below) + DAMPING)).collect();
+    let sum: f64 = weights.iter().sum();
+    let mean = weights.iter().enumerate().map(|(below, w)| -(below as f64) * w).sum::<f64>() / sum;
+    (weights, mean)
+}
+
+/// Weighted mean of `logs` and slope of the line through them.
+fn line(logs: &[f64], shape: &Shape) -> (f64, f64) {
+    if logs.is_empty() {
+        return (f64::NEG_INFINITY, SLOWEST.ln());
+    }
+    let (weights, centre) = weights(shape, logs.len());
+    let sum: f64 = weights.iter().sum();
+    let height = logs.iter().zip(&weights).map(|(log, w)| log * w).sum::<f64>() / sum;
+    let place = |below: usize| -(below as f64) - centre;
+    let square: f64 = weights.iter().enumerate().map(|(below, w)| w * place(below).powi(2)).sum();
+    let product: f64 = logs.iter().zip(&weights).enumerate().map(|(below, (log, w))| w * log * place(below)).sum();
+    // Three levels are the least that tell a slope from chance; fewer are taken to fall like random points.
+    (height, if logs.len() < 3 { SLOWEST.ln() } else { product / square })
+}
+
+/// The trend of an output's indices.
+struct Trend {
+    /// ln of the variance of a whole net over exp(height), by extrapolation and common correction.
+    rise: f64,
+    /// Degrees of freedom that this prior is worth.
+    freedom: f64,
+}
+
+impl Trend {
+    fn fit(pool: &[&Levels], shape: &Shape) -> Self {
+        if pool.is_empty() || shape.depth == 0 {
+            return Self { rise: f64::NEG_INFINITY, freedom: 0.0 };
+        }
+        let count = pool.len() as f64;
+        let slope = pool.iter().map(|levels| levels.slope).sum::<f64>() / count;
+        let rho = slope.exp().clamp(FASTEST, SLOWEST);
+        let (_, centre) = weights(shape, shape.depth.min(LEVELS));
+        let rise = -centre * rho.ln() + (rho / (1.0 - rho)).ln() + incomplete(shape, rho).ln();
+        let direct = shape.direct_freedom();
+        if direct <= 0.0 {
+            return Self { rise, freedom: freedom_of_log_variance(SCATTER_OF_INDICES + SCATTER_OF_OUTPUTS) };
+        }
+        let gaps = pool.iter().filter(|levels| levels.spread > 0.0).map(|levels| {
+            levels.spread.ln() - log_bias(direct) - levels.height - rise
+        });
+        let gaps: Vec<f64> = gaps.collect();
+        let independent = (gaps.len() as f64 / DEPENDENCE).max(0.5);
+        let noise = (log_variance(direct) + SCATTER_OF_INDICES) / independent;
+        let trust = if gaps.is_empty() { 0.0 } else { SCATTER_OF_OUTPUTS / (SCATTER_OF_OUTPUTS + noise) };
+        let gap = gaps.iter().sum::<f64>() / gaps.len().max(1) as f64;
+        let left = SCATTER_OF_OUTPUTS * (1.0 - trust);
+        Self { rise: rise + trust * gap, freedom: freedom_of_log_variance(SCATTER_OF_INDICES + left) }
+    }
+
+    /// The standard error of the mean over the nets.
+    fn error(&self, levels: &Levels, shape: &Shape) -> StandardError {
+        let direct = shape.direct_freedom();
+        let prior = if self.freedom > 0.0 {
+            (levels.height + self.rise + log_bias(self.freedom)).exp()
+        } else {
+            0.0
+        };
+        let freedom = self.freedom + direct;
+        if freedom <= 0.0 {
+            return StandardError { error: f64::NAN, freedom: 0.0 };
+        }
+        let variance = (self.freedom * prior + direct * levels.spread) / freedom;
+        StandardError { error: (variance / shape.nets as f64).sqrt(), freedom }
+    }
+}
+
+/// Variance of a net of `shape.parts` parts over that of its largest nested net of 2^depth parts: a number of points
+/// that is no power of two is a chain of shrinking nets, each with the error of its own size.
+fn incomplete(shape: &Shape, rho: f64) -> f64 {
+    let parts = shape.parts as f64;
+    (0..=shape.depth)
+        .filter(|level| shape.parts >> level & 1 == 1)
+        .map(|level| ((1u64 << level) as f64 / parts).powi(2) * rho.powi(-((shape.depth - level) as i32)))
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers without structure, about 0 with variance 1/12.
+    fn noise(n: usize, salt: u64) -> Vec<f64> {
+        let mut x = salt.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+        let mut next = || {
+            x ^= x << 13;
+            x ^= x >> 7;
+            x ^= x << 17;
+            (x >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        (0..16).for_each(|_| {
+            next();
+        });
+        (0..n).map(|_| next()).collect()
+    }
+
+    #[test]
+    fn independent_parts_have_the_error_of_their_mean() {
+        // 40 quantities, 2 nets, 64 independent parts each: the error of a mean of 128 is sd/sqrt(128). The average of
+        // the estimated variances must come within its own error; the slope is noisy and capped at that of random points,
+        // so that it errs to the low side by up to some 15 %.
+        let quantities: Vec<PartInfluences> =
+            (0..40).map(|q| vec![noise(64, 2 * q + 1), noise(64, 2 * q + 2)]).collect();
+        let errors = net_errors(&quantities, &[true; 40]);
+        let mean = errors.iter().map(|e| e.error.powi(2)).sum::<f64>() / 40.0;
+        let exact = 1.0 / 12.0 / 128.0;
+        assert!((0.6..1.3).contains(&(mean / exact)), "{}", mean / exact);
+        assert!(errors.iter().all(|e| e.freedom > 4.0 && e.freedom < 10.0));
+    }
+
+    #[test]
+    fn a_quantity_without_influence_has_no_error() {
+        let errors = net_errors(&[vec![vec![0.0; 8]; 2], vec![noise(8, 1), noise(8, 2)]], &[true, true]);
+        assert_eq!(errors[0].error, 0.0);
+        assert!(errors[1].error > 0.0);
+    }
+
+    #[test]
+    fn errors_scale_with_the_quantity_at_any_size() {
+        let base = [vec![noise(64, 5), noise(64, 6)], vec![noise(64, 7), noise(64, 8)]];
+        let expected = net_errors(&base, &[true, true]);
+        for scale in [1e-150, 1e-30, 1e150] {
+            let scaled: Vec<PartInfluences> =
+                base.iter().map(|q| q.iter().map(|net| net.iter().map(|x| x * scale).collect()).collect()).collect();
+            for (got, expected) in net_errors(&scaled, &[true, true]).iter().zip(&expected) {
+                assert!((got.error / scale / expected.error - 1.0).abs() < 1e-9);
+                assert!((got.freedom / expected.freedom - 1.0).abs() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn one_net_rests_on_the_trend_alone_and_one_part_on_the_spread_alone() {
+        let single = net_errors(&[vec![noise(64, 3)]], &[true])[0];
+        assert!(single.error > 0.0 && single.freedom > 1.0 && single.freedom < 8.0);
+        let spread = net_errors(&[vec![vec![-1.0], vec![1.0]]], &[true])[0];
+        assert_eq!(spread, StandardError { error: 1.0, freedom: 1.0 });
+        assert!(net_errors(&[vec![vec![1.0]]], &[true])[0].error.is_nan());
+    }
+
+    #[test]
+    fn an_incomplete_net_counts_its_chain_of_nets() {
+        let shape = |parts: usize| Shape { nets: 1, parts, depth: parts.ilog2() as usize };
+        assert_eq!(incomplete(&shape(64), 0.25), 1.0);
+        // Random points: variance goes with 1/points whatever the chain.
+        assert!((incomplete(&shape(96), 0.5) - 64.0 / 96.0).abs() < 1e-15);
+        // 96 = 64 + 32 parts at rho = 1/4, where the variance goes with points^-2: (4/9) 1 + (1/9) 4.
+        assert!((incomplete(&shape(96), 0.25) - 8.0 / 9.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,184 @@
+//! Indices of one output with their intervals, probabilities and checks.
+
+use super::estimates::{Layout, quantities};
+use super::influence::Influences;
+use super::method::IntervalMethod;
+use super::net_decay::{PartInfluences, StandardError};
+use super::ranks::{probability_above, probability_first};
+use super::{Estimate, Interval, t_interval};
+use crate::estimate::{Indices, MomentParts, Moments, Undefined, merged};
+
+/// How intervals and probabilities are found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Judgement {
+    /// The kind of interval.
+    pub method: IntervalMethod,
+    /// The total index above which a factor counts as one that matters.
+    pub threshold: f64,
+    /// Seed of the draws behind the probabilities.
+    pub seed: u64,
+}
+
+/// Indices of one output.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutputIndices {
+    /// Indices of the factors.
+    pub factors: Vec<EffectEstimates>,
+    /// Closed first-order and total indices of the groups.
+    pub groups: Vec<EffectEstimates>,
+    /// Likewise of the subsets that the study lists.
+    pub subsets: Vec<EffectEstimates>,
+    /// Of the dummy factor, if one was asked for.
+    pub dummy: Option<EffectEstimates>,
+    /// Sum of the first-order indices of the factors: 1 for an additive output, less where factors interact.
+    pub sum_first_order: Estimate,
+    /// Sum of the total indices of the factors: 1 for an additive output, more where factors interact.
+    pub sum_total: Estimate,
+    /// Second-order indices, in the order of [`Layout::pair_list`]; empty if not asked for.
+    pub second_order: Vec<Estimate>,
+}
+
+/// The indices of one factor, group or subset.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EffectEstimates {
+    /// First-order index (of several factors: closed first-order index).
+    pub first_order: Estimate,
+    /// Total index.
+    pub total: Estimate,
+    /// 100 S_i / sum S_j over the factors (of a group: over the groups); `None` where the sum is not positive.
+    pub share_first_order: Option<Estimate>,
+    /// 100 ST_i / sum ST_j, likewise.
+    pub share_total: Option<Estimate>,
+    /// First-order index minus its check by Janon and Monod's formula: 0 within the interval if all is well.
+    pub check_gap: Estimate,
+    /// Total minus first-order index: not negative, within the interval, if all is well.
+    pub interaction: Estimate,
+    /// Probability that the total index is the largest of all factors'; `None` for others than factors, and where errors are
+    /// unknown.
+    pub probability_first: Option<f64>,
+    /// Probability that the total index is above the threshold.
+    pub probability_above: Option<f64>,
+    /// The indices by each of the other estimators asked for.
+    pub others: Vec<OtherEstimates>,
+}
+
+/// Indices by another estimator than the default one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherEstimates {
+    /// First-order index, if it estimates one.
+    pub first_order: Option<Estimate>,
+    /// Total index, if it estimates one.
+    pub total: Option<Estimate>,
+    /// How much larger than the default first-order index.
+    pub first_order_gap: Option<Estimate>,
+    /// How much larger than the default total index.
+    pub total_gap: Option<Estimate>,
+}
+
+/// Mean and variance of one output, each with its interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OutputMoments {
+    /// Mean over the rows A and B.
+    pub mean: Estimate,
+    /// Variance over the rows A and B.
+    pub variance: Estimate,
+}
+
+/// Mean and variance of one output from the parts of its replicates; `None` without any base point.
+pub fn output_moments(replicates: &[MomentParts], method: IntervalMethod) -> Option<OutputMoments> {
+    let of = |m: &Moments| (m.count() > 0).then(|| vec![m.mean(), m.variance()]);
+    let influences = Influences::of(&[replicates], &|outputs| of(&outputs[0]))?;
+    let estimates = Judged::of(influences, method, &[true, true]).estimates;
+    Some(OutputMoments { mean: estimates[0], variance: estimates[1] })
+}
+
+/// Indices of one output from the parts of its replicates.
+///
+/// # Errors
+/// [`Undefined`] if the replicates together give no indices.
+pub fn output_indices(
+    replicates: &[MomentParts],
+    layout: &Layout,
+    judgement: &Judgement,
+) -> Result<OutputIndices, Undefined> {
+    let whole: Vec<Moments> = replicates.iter().map(MomentParts::whole).collect();
+    Indices::of(&merged(&whole))?;
+    let influences = Influences::of(&[replicates], &|outputs| quantities(layout, &outputs[0])).ok_or(Undefined::NoRuns)?;
+    let pooled = layout.pooled(influences.whole.len());
+    let judged = Judged::of(influences, judgement.method, &pooled);
+    let first = judged.first(layout, judgement.seed);
+    let mut effects: Vec<EffectEstimates> = (0..layout.swaps())
+        .map(|swap| {
+            let mut effect = judged.effect(layout, swap, judgement.threshold);
+            effect.probability_first = first.as_ref().and_then(|first| first.get(swap).copied());
+            effect
+        })
+        .collect();
+    let dummy = if layout.dummy { effects.pop() } else { None };
+    let subsets = effects.split_off(layout.factors + layout.groups);
+    let groups = effects.split_off(layout.factors);
+    let [sum_first_order, sum_total, ..] = judged.estimates[..] else { return Err(Undefined::NoRuns) };
+    let second_order = judged.estimates[layout.pairs()..].to_vec();
+    Ok(OutputIndices { factors: effects, groups, subsets, dummy, sum_first_order, sum_total, second_order })
+}
+
+/// A list of quantities with all that is known of their errors.
+pub(super) struct Judged {
+    pub estimates: Vec<Estimate>,
+    errors: Vec<StandardError>,
+    parts: Vec<PartInfluences>,
+}
+
+impl Judged {
+    pub fn of(influences: Influences, method: IntervalMethod, pooled: &[bool]) -> Self {
+        let Influences { whole, parts } = influences;
+        let errors = method.errors(&parts, pooled);
+        let estimates = whole
+            .iter()
+            .zip(&errors)
+            .map(|(&estimate, error)| Estimate { estimate, interval: t_interval(estimate, *error) })
+            .collect();
+        Self { estimates, errors, parts }
+    }
+
+    fn first(&self, layout: &Layout, seed: u64) -> Option<Vec<f64>> {
+        let places: Vec<usize> = (0..layout.factors).map(|swap| layout.swap(swap) + 1).collect();
+        let estimates: Vec<f64> = places.iter().map(|&place| self.estimates[place].estimate).collect();
+        let errors: Vec<StandardError> = places.iter().map(|&place| self.errors[place]).collect();
+        let parts: Vec<&PartInfluences> = places.iter().map(|&place| &self.parts[place]).collect();
+        probability_first(&estimates, &errors, &parts, seed)
+    }
+
+    fn effect(&self, layout: &Layout, swap: usize, threshold: f64) -> EffectEstimates {
+        let place = layout.swap(swap);
+        let [first_order, total, share_first_order, share_total, check_gap, interaction] =
+            std::array::from_fn(|k| self.estimates[place + k]);
+        let others = (0..layout.estimators.len()).map(|estimator| {
+            let place = layout.other(estimator, swap);
+            let [first_order, total, first_order_gap, total_gap] =
+                std::array::from_fn(|k| defined(self.estimates[place + k]));
+            OtherEstimates { first_order, total, first_order_gap, total_gap }
+        });
+        EffectEstimates {
+            first_order,
+            total,
+            share_first_order: defined(share_first_order),
+            share_total: defined(share_total),
+            check_gap,
+            interaction,
+            probability_first: None,
+            probability_above: probability_above(total.estimate, self.errors[place + 1], threshold),
+            others: others.collect(),
+        }
+    }
+}
+
+fn defined(estimate: Estimate) -> Option<Estimate> {
+    Some(estimate).filter(|e| e.estimate.is_finite())
+}
+
+/// Whether an interval excludes 0 by more than its own width: 1 in 1000 by chance or rarer, where 1 in 20 would cry
+/// wolf in every study of eight factors.
+pub fn differs_clearly(gap: Estimate) -> bool {
+    gap.interval.is_some_and(|Interval { low, high }| gap.estimate.abs() > high - low)
+}

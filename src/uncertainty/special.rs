@@ -1,0 +1,77 @@
+//! The few special functions that variance components need.
+
+use statrs::function::gamma::digamma;
+
+/// Bias of the logarithm of a mean square with `freedom` degrees of freedom: E ln(chi^2_f / f) = psi(f/2) - ln(f/2).
+pub(super) fn log_bias(freedom: f64) -> f64 {
+    digamma(freedom / 2.0) - (freedom / 2.0).ln()
+}
+
+/// Variance of the logarithm of a mean square with `freedom` degrees of freedom: psi'(f/2).
+pub(super) fn log_variance(freedom: f64) -> f64 {
+    trigamma(freedom / 2.0)
+}
+
+/// Degrees of freedom of the mean square whose logarithm has the variance `variance` > 0.
+pub(super) fn freedom_of_log_variance(variance: f64) -> f64 {
+    // Newton on 1/psi', which is nearly a line and convex (Smyth 2004, Stat. Appl. Genet. Mol. Biol. 3, appendix):
+    // from 1/2 + 1/v it converges from one side in a handful of steps.
+    let mut x = 0.5 + 1.0 / variance;
+    for _ in 0..50 {
+        let tri = trigamma(x);
+        let step = tri * (1.0 - tri / variance) / tetragamma(x);
+        x += step;
+        if -step / x < 1e-10 {
+            break;
+        }
+    }
+    2.0 * x
+}
+
+/// psi'(x) for x > 0: the recurrence psi'(x) = psi'(x + 1) + 1/x^2 up to 10, then the asymptotic series (Abramowitz and
+/// Stegun 1964, 6.4.12), whose first term left out is below 1e-14 there.
+fn trigamma(x: f64) -> f64 {
+    let (mut sum, mut x) = (0.0, x);
+    while x < 10.0 {
+        sum += 1.0 / (x * x);
+        x += 1.0;
+    }
+    let y = 1.0 / (x * x);
+    let series = y * (1.0 / 6.0 - y * (1.0 / 30.0 - y * (1.0 / 42.0 - y * (1.0 / 30.0 - y * (5.0 / 66.0)))));
+    sum + 1.0 / x + y / 2.0 + series / x
+}
+
+/// psi''(x) for x > 0, likewise (6.4.13).
+fn tetragamma(x: f64) -> f64 {
+    let (mut sum, mut x) = (0.0, x);
+    while x < 10.0 {
+        sum -= 2.0 / (x * x * x);
+        x += 1.0;
+    }
+    let y = 1.0 / (x * x);
+    sum - y - y / x - y * y * (0.5 - y * (1.0 / 6.0 - y * (1.0 / 6.0 - y * (3.0 / 10.0))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn values_in_closed_form() {
+        // psi'(1) = pi^2/6, psi'(1/2) = pi^2/2, psi''(1) = -2 zeta(3).
+        assert!((trigamma(1.0) - PI * PI / 6.0).abs() < 1e-13);
+        assert!((trigamma(0.5) - PI * PI / 2.0).abs() < 1e-13);
+        assert!((tetragamma(1.0) + 2.0 * 1.202_056_903_159_594_2).abs() < 1e-12);
+        // E ln chi^2_2 - ln 2 = -Euler's constant.
+        assert!((log_bias(2.0) + 0.577_215_664_901_532_9).abs() < 1e-12);
+    }
+
+    #[test]
+    fn freedom_inverts_the_variance_at_every_size() {
+        for freedom in [0.05, 0.5, 1.0, 2.0, 5.0, 30.0, 1e3, 1e6] {
+            let back = freedom_of_log_variance(log_variance(freedom));
+            assert!((back / freedom - 1.0).abs() < 1e-8, "{freedom}: {back}");
+        }
+    }
+}
