@@ -142,7 +142,7 @@ fn output_record(study: &Study, output: &Output, totals: &OutputTotals, replicat
         variance_interval: moments.and_then(|m| interval_record(m.variance.interval, &squared)),
         runs_ok: study.design.rows() - totals.runs_failed,
         runs_failed: totals.runs_failed,
-        base_points_used: totals.moments.count(),
+        base_points_used: totals.moments.fewest(),
         failures: totals.failures.iter().map(|(failure, tally)| failure_record(study, failure, *tally)).collect(),
         sum_first_order: None,
         sum_total: None,

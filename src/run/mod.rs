@@ -13,12 +13,12 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-pub use totals::{OutputTotals, Tally, Totals};
+pub use totals::{OutputTotals, SAMPLE, Tally, Totals};
 
 use crate::design::Design;
 use crate::model::Model;
 use crate::space::Space;
-use block::Scratch;
+use block::{Place, Scratch};
 
 /// Base points in a block: their columns stay in the cache, and a block takes long enough to be worth a task.
 pub const BLOCK: u64 = 256;
@@ -147,8 +147,11 @@ impl Runner<'_> {
         let taken = idle().pop();
         let mut scratch = taken.unwrap_or_else(|| Scratch::new(self.job));
         points.fill(first, scratch.unit_columns(rows));
-        let first_row = (replicate * design.points_per_replicate() + first) * design.rows_per_point();
-        let totals = scratch.evaluate(self.job, first_row, &|runs, failed| self.report(runs, failed));
+        let place = Place {
+            first_row: (replicate * design.points_per_replicate() + first) * design.rows_per_point(),
+            sampled: (SAMPLE / design.settings().replicates).max(1).saturating_sub(first) as usize,
+        };
+        let totals = scratch.evaluate(self.job, place, &|runs, failed| self.report(runs, failed));
         idle().push(scratch);
         totals
     }

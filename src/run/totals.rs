@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::estimate::Moments;
+use crate::estimate::{CentralMoments, Moments};
 use crate::model::{Effort, RowFailure};
 
 /// How often something happened, and where first.
@@ -14,16 +14,36 @@ pub struct Tally {
     pub first_row: u64,
 }
 
+/// Base points of a design, over all replicates, whose outputs are kept in [`OutputTotals::sample`].
+pub const SAMPLE: u64 = 1 << 15;
+
 /// Totals of one output.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct OutputTotals {
-    /// Moments of the base points whose rows all have a value: an incomplete base point is left out whole, so that
-    /// every index is estimated from the same points.
+    /// What the indices are read from: each from every base point at which its own rows have a value.
     pub moments: Moments,
+    /// Moments of every value of the rows A and B.
+    pub values: CentralMoments,
+    /// Outputs of the rows A and B of the first [`SAMPLE`]/replicates base points of each replicate (at least one), in
+    /// the order of the points: A, B, A, B, ...; NaN where a run failed.
+    pub sample: Vec<f64>,
     /// Rows without a value.
     pub runs_failed: u64,
     /// Why, and how often each.
     pub failures: BTreeMap<RowFailure, Tally>,
+}
+
+/// Equal in every bit; the NaNs of failed runs in the sample are equal to each other.
+impl PartialEq for OutputTotals {
+    fn eq(&self, other: &Self) -> bool {
+        let Self { moments, values, sample, runs_failed, failures } = other;
+        let bits = |sample: &[f64]| sample.iter().map(|y| y.to_bits()).collect::<Vec<_>>();
+        self.moments == *moments
+            && self.values == *values
+            && bits(&self.sample) == bits(sample)
+            && self.runs_failed == *runs_failed
+            && self.failures == *failures
+    }
 }
 
 /// Totals of some rows of a design.
@@ -42,7 +62,7 @@ pub struct Totals {
 }
 
 impl Totals {
-    /// Adds other rows of the same design.
+    /// Adds the rows that follow in the same design.
     pub fn merge(&mut self, other: &Self) {
         self.runs += other.runs;
         self.failed_runs += other.failed_runs;
@@ -51,16 +71,23 @@ impl Totals {
             *mine += theirs;
         }
         for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
-            mine.moments.merge(&theirs.moments);
-            mine.runs_failed += theirs.runs_failed;
-            for (failure, tally) in &theirs.failures {
-                mine.count(failure.clone(), *tally);
-            }
+            mine.merge(theirs);
         }
     }
 }
 
 impl OutputTotals {
+    /// Adds the rows that follow in the same design.
+    pub fn merge(&mut self, other: &Self) {
+        self.moments.merge(&other.moments);
+        self.values.merge(&other.values);
+        self.sample.extend_from_slice(&other.sample);
+        self.runs_failed += other.runs_failed;
+        for (failure, tally) in &other.failures {
+            self.count(failure.clone(), *tally);
+        }
+    }
+
     /// Adds `tally` to the count of `failure`.
     pub fn count(&mut self, failure: RowFailure, tally: Tally) {
         self.failures

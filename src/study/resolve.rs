@@ -7,7 +7,7 @@ use super::error::{Diagnostic, Problem, nearest};
 use super::file::{At, DesignSection, FactorSection, StudyFile};
 use super::subject::{AfmSubject, KnownSubject, Subject};
 use super::{Study, constants, distribution};
-use crate::design::{Design, DesignError, DesignSettings, Sampler};
+use crate::design::{Design, DesignError, DesignSettings, Rows, Sampler};
 use crate::model::{AfmOutput, Input, ModelKind};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor, Space};
@@ -266,7 +266,7 @@ fn design(context: &Context<'_>, section: &DesignSection, space: &Space) -> Resu
     let asked = settings.base_samples;
     let single = (0..space.factors().len()).map(|number| vec![number]);
     let swaps = single.chain(space.groups().into_iter().map(|group| group.factors)).collect();
-    let design = Design::new(settings, space.factors().len(), swaps).map_err(|error| {
+    let design = Design::new(settings, space.factors().len(), Rows::plain(swaps)).map_err(|error| {
         let span = match error {
             DesignError::NoReplicates => section.replicates.as_ref(),
             _ => section.base_samples.as_ref().or(section.replicates.as_ref()),

@@ -140,13 +140,14 @@ fn merged<'a>(replicates: impl Iterator<Item = &'a Moments>) -> Moments {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::estimate::BlockOutputs;
+    use crate::estimate::{BlockOutputs, Workspace};
 
     fn replicate(salt: f64) -> Moments {
         let column = |k: f64| (0..64).map(|i| (f64::from(i) * 0.7 + k + salt).sin()).collect::<Vec<f64>>();
         let (a, b) = (column(0.0), column(1.3));
         let ab: Vec<f64> = b.iter().zip(&a).map(|(b, a)| 0.8 * b + 0.1 * a).collect();
-        Moments::of_block(BlockOutputs { a: &a, b: &b, swapped: &[&ab, &a, &ab] }, &mut Vec::new())
+        let ab: [&[f64]; 3] = [&ab, &a, &ab];
+        Moments::of_block(BlockOutputs { a: &a, b: &b, ab: &ab, ..BlockOutputs::default() }, &mut Workspace::default())
     }
 
     #[test]
