@@ -5,6 +5,7 @@
 
 use std::time::Instant;
 
+use apportion::design::{Design, DesignSettings, Rows};
 use apportion::model::{Batch, Model};
 use apportion::study::Study;
 
@@ -38,9 +39,8 @@ fn whole_study(study: &Study, threads: usize) -> f64 {
 fn overhead() {
     let study = study(1 << 18);
     let model = study.model();
-    let settings =
-        apportion::design::DesignSettings { base_samples: 256, replicates: 1, ..study.design.settings().clone() };
-    let design = apportion::design::Design::new(settings, study.design.factors(), vec![]).expect("a plain design");
+    let settings = DesignSettings { base_samples: 256, replicates: 1, ..study.design.settings().clone() };
+    let design = Design::new(settings, study.design.factors(), Rows::default()).expect("a plain design");
     let mut unit = vec![vec![0.0; 256]; study.design.factors() * 2];
     design.replicate(0).fill(0, &mut unit);
     let mut columns = vec![vec![0.0; 256]; study.design.factors()];

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use apportion::design::{Design, DesignSettings};
+use apportion::design::{Design, DesignSettings, Rows};
 use apportion::model::Batch;
 use apportion::study::Study;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -12,7 +12,7 @@ const ROWS: usize = 4096;
 /// SI columns of the general study's box.
 fn columns(study: &Study) -> Vec<Vec<f64>> {
     let settings = DesignSettings { base_samples: ROWS as u64, replicates: 1, ..DesignSettings::default() };
-    let design = Design::new(settings, study.design.factors(), vec![]).expect("a plain design");
+    let design = Design::new(settings, study.design.factors(), Rows::default()).expect("a plain design");
     let mut unit = vec![vec![0.0; ROWS]; study.design.factors() * 2];
     design.replicate(0).fill(0, &mut unit);
     let mut values = vec![vec![0.0; ROWS]; study.design.factors()];

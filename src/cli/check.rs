@@ -132,7 +132,7 @@ fn pilot(study: &Study) -> Result<Pilot, Failure> {
     let mut points = 2;
     loop {
         let settings = DesignSettings { base_samples: points, replicates: 1, ..study.design.settings().clone() };
-        let design = Design::new(settings, study.design.factors(), study.design.swaps().to_vec())
+        let design = Design::new(settings, study.design.factors(), study.design.asked().clone())
             .map_err(|error| Failure::Input(error.into()))?;
         let start = Instant::now();
         run(Job { design: &design, space: &study.space, model: model.as_ref() }, 0, &|_| ())?;

@@ -3,27 +3,39 @@
 //! A design has `replicates` independent randomisations of `base_samples / replicates` base points each. A base point
 //! is one point of a 2d-dimensional sequence: its first d coordinates are the row of A, its last d the row of B. (Two
 //! sequences of d dimensions each would look alike, but the indices then never converge.) Every base point stands
-//! for `2 + k` rows: A, B, and one row AB_j for each of the k [`Swap`]s, which is A with some columns taken from B
-//! (Saltelli et al. 2010, Comput. Phys. Commun. 181, 259-270, "radial" scheme of its table 2).
+//! for `2 + k` rows: A, B, and one row AB_s for each of the k [`Swap`]s, which is A with some columns taken from B
+//! (Saltelli et al. 2010, Comput. Phys. Commun. 181, 259-270, "radial" scheme of its table 2). [`Companions`] add rows
+//! BA_s, BC_s and CB_s for the estimators that need them; C is then the coordinates 2d to 3d. Rows that are the same
+//! point are one row: they are run once.
 
+mod base;
+mod error;
 mod joe_kuo;
 mod latin;
 mod random;
+mod rows;
 mod sobol;
 
 use serde::Serialize;
-use thiserror::Error;
 
+pub use base::BasePoints;
+pub use error::DesignError;
 pub use joe_kuo::MAX_DIMENSIONS;
 pub use latin::LatinHypercube;
 pub use random::RandomPoints;
+pub use rows::{Companions, Matrix, RowKind, Rows, Run, Swap};
 pub use sobol::SobolSequence;
+
+use rows::Runs;
 
 /// Most base points one replicate can hold: the length of the 32-bit Sobol' sequence.
 pub const MAX_POINTS: u64 = 1 << 32;
 
 /// Most replicates of a design.
 pub const MAX_REPLICATES: u64 = 4096;
+
+/// Most factors of a design with second-order indices: their sums take d (d - 1) numbers for every output.
+pub const MAX_PAIRED_FACTORS: usize = 256;
 
 /// Where the points of a design come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -51,71 +63,6 @@ impl Sampler {
     }
 }
 
-/// Why a design cannot be made.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum DesignError {
-    /// There is nothing to vary.
-    #[error("a design needs at least one factor")]
-    NoFactors,
-    /// More factors than the direction numbers serve.
-    #[error(
-        "{factors} factors need {} dimensions of the Sobol' sequence, which has {MAX_DIMENSIONS}: at most {} factors, or another sampler",
-        factors * 2,
-        MAX_DIMENSIONS / 2
-    )]
-    TooManyFactors {
-        /// The number asked for.
-        factors: usize,
-    },
-    /// No replicate at all.
-    #[error("replicates = 0: at least 1 is needed, and at least 2 for intervals")]
-    NoReplicates,
-    /// A replicate would hold fewer than two base points, which have no variance.
-    #[error(
-        "base_samples = {base_samples} is too few for {replicates} replicate{}: at least {} base samples are needed (2 in each replicate)",
-        if *replicates == 1 { "" } else { "s" },
-        u128::from(*replicates) * 2
-    )]
-    TooFewSamples {
-        /// The number asked for.
-        base_samples: u64,
-        /// The number of replicates that share them.
-        replicates: u64,
-    },
-    /// More replicates than anybody needs: each costs memory and a pass over the others.
-    #[error("replicates = {replicates}: at most {MAX_REPLICATES} are possible, and 4 to 32 are usual")]
-    TooManyReplicates {
-        /// The number asked for.
-        replicates: u64,
-    },
-    /// More model runs than can be counted.
-    #[error("{base_samples} base samples of {rows_per_point} runs each are more runs than can be counted")]
-    TooManyRuns {
-        /// The number asked for, rounded up to whole replicates.
-        base_samples: u128,
-        /// Model runs of each base sample.
-        rows_per_point: u64,
-    },
-    /// A swap names a column that does not exist.
-    #[error("a swap takes column {column}, but there are {factors} factors, counted from 0")]
-    NoSuchColumn {
-        /// The column.
-        column: usize,
-        /// Number of factors.
-        factors: usize,
-    },
-    /// A replicate would be longer than the sequence.
-    #[error(
-        "{base_samples} base samples in {replicates} replicates exceed {MAX_POINTS} (2^32) points a replicate, the length of the sequence"
-    )]
-    TooManySamples {
-        /// The number asked for.
-        base_samples: u64,
-        /// The number of replicates that share them.
-        replicates: u64,
-    },
-}
-
 /// What a design is asked to be; [`Design::new`] checks it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DesignSettings {
@@ -130,22 +77,19 @@ pub struct DesignSettings {
 }
 
 impl Default for DesignSettings {
-    /// 2^14 base points of the scrambled Sobol' sequence in 16 replicates, seed 0.
+    /// 2^14 base points of the scrambled Sobol' sequence in 2 replicates, seed 0.
     fn default() -> Self {
-        Self { sampler: Sampler::Sobol, base_samples: 1 << 14, replicates: 16, seed: 0 }
+        Self { sampler: Sampler::Sobol, base_samples: 1 << 14, replicates: 2, seed: 0 }
     }
 }
-
-/// The columns that one row AB_j takes from B: those of one factor, or of a group of factors.
-pub type Swap = Vec<usize>;
 
 /// A checked Saltelli design.
 ///
 /// ```
-/// use apportion::design::{Design, DesignSettings};
+/// use apportion::design::{Design, DesignSettings, Rows};
 ///
 /// let settings = DesignSettings { base_samples: 1024, ..DesignSettings::default() };
-/// let design = Design::new(settings, 3, vec![vec![0], vec![1], vec![2]])?;
+/// let design = Design::new(settings, 3, Rows::plain(vec![vec![0], vec![1], vec![2]]))?;
 /// assert_eq!(design.rows(), 1024 * 5);
 /// let mut u = [0.0; 3];
 /// design.point(4711, &mut u);
@@ -156,36 +100,29 @@ pub type Swap = Vec<usize>;
 pub struct Design {
     settings: DesignSettings,
     factors: usize,
-    swaps: Vec<Swap>,
-}
-
-/// What one row of a design is made of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RowKind {
-    /// The base point's first half.
-    A,
-    /// The base point's second half.
-    B,
-    /// A with the columns of swap number `.0` from B.
-    Swapped(usize),
+    asked: Rows,
+    runs: Runs,
+    /// The swaps that are one factor each.
+    single: Vec<usize>,
 }
 
 impl Design {
-    /// A design over `factors` factors with one row AB_j for each entry of `swaps` (column numbers below `factors`).
+    /// A design over `factors` factors with the rows `rows` (column numbers below `factors`) beside A and B.
     ///
     /// `base_samples` is rounded up to a multiple of `replicates`; [`Design::settings`] tells the number in force.
     ///
     /// # Errors
     /// [`DesignError`] if there is no factor, no replicate or more than [`MAX_REPLICATES`], fewer than two or more than
-    /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for, or a swap of a column
-    /// that does not exist.
-    pub fn new(mut settings: DesignSettings, factors: usize, swaps: Vec<Swap>) -> Result<Self, DesignError> {
+    /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for, a swap of a column that
+    /// does not exist, or second-order indices without the rows BA or of more than [`MAX_PAIRED_FACTORS`] factors.
+    pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
+        let matrices = rows.companions.matrices();
         if factors == 0 {
             return Err(DesignError::NoFactors);
         }
-        if sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / 2 {
-            return Err(DesignError::TooManyFactors { factors });
+        if sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / matrices {
+            return Err(DesignError::TooManyFactors { factors, matrices });
         }
         if replicates == 0 {
             return Err(DesignError::NoReplicates);
@@ -193,7 +130,7 @@ impl Design {
         if replicates > MAX_REPLICATES {
             return Err(DesignError::TooManyReplicates { replicates });
         }
-        if let Some(&column) = swaps.iter().flatten().find(|&&column| column >= factors) {
+        if let Some(&column) = rows.swaps.iter().flatten().find(|&&column| column >= factors) {
             return Err(DesignError::NoSuchColumn { column, factors });
         }
         if base_samples / 2 < replicates {
@@ -203,13 +140,21 @@ impl Design {
         if points > MAX_POINTS {
             return Err(DesignError::TooManySamples { base_samples, replicates });
         }
-        let rows_per_point = 2 + swaps.len() as u64;
+        let single = single_factors(&rows.swaps, factors);
+        if rows.second_order && !rows.companions.ba {
+            return Err(DesignError::SecondOrderWithoutBa);
+        }
+        if rows.second_order && single.len() > MAX_PAIRED_FACTORS {
+            return Err(DesignError::TooManyPairs { factors: single.len() });
+        }
+        let runs = Runs::of(&rows, factors);
+        let rows_per_point = runs.runs.len() as u64;
         let all = u128::from(points) * u128::from(replicates);
         if all * u128::from(rows_per_point) > u128::from(u64::MAX) {
             return Err(DesignError::TooManyRuns { base_samples: all, rows_per_point });
         }
         settings.base_samples = points * replicates;
-        Ok(Self { settings, factors, swaps })
+        Ok(Self { settings, factors, asked: rows, runs, single })
     }
 
     /// The settings in force, with `base_samples` rounded up.
@@ -222,19 +167,75 @@ impl Design {
         self.settings.base_samples / self.settings.replicates
     }
 
+    /// The same design with `points` base points in each replicate: longer or shorter, but for Latin hypercubes made of
+    /// the same points.
+    ///
+    /// # Errors
+    /// [`DesignError`] if that is too many or too few.
+    pub fn with_points(&self, points: u64) -> Result<Self, DesignError> {
+        let base_samples = points.saturating_mul(self.settings.replicates);
+        Self::new(DesignSettings { base_samples, ..self.settings.clone() }, self.factors, self.asked.clone())
+    }
+
     /// Number of factors d.
     pub fn factors(&self) -> usize {
         self.factors
     }
 
-    /// The columns each AB_j takes from B.
-    pub fn swaps(&self) -> &[Swap] {
-        &self.swaps
+    /// The rows that were asked for, repetitions and all.
+    pub fn asked(&self) -> &Rows {
+        &self.asked
     }
 
-    /// Rows of one base point: A, B and one for each swap.
+    /// The columns each AB_s takes from B.
+    pub fn swaps(&self) -> &[Swap] {
+        &self.asked.swaps
+    }
+
+    /// The companions of every AB_s.
+    pub fn companions(&self) -> Companions {
+        self.asked.companions
+    }
+
+    /// The swaps whose pairs have second-order indices: those of one factor each, the first one of every factor. Empty
+    /// if second-order indices were not asked for.
+    pub fn paired(&self) -> &[usize] {
+        if self.asked.second_order { &self.single } else { &[] }
+    }
+
+    /// Columns of the base points: d for each of the matrices A, B and, if there are rows of it, C.
+    pub fn columns(&self) -> usize {
+        self.factors * self.asked.companions.matrices()
+    }
+
+    /// The rows of one base point that are run, in the order in which rows are counted.
+    pub fn runs(&self) -> &[Run] {
+        &self.runs.runs
+    }
+
+    /// For each swap: which of [`Design::runs`] is its row AB_s.
+    pub fn ab_runs(&self) -> &[usize] {
+        &self.runs.ab
+    }
+
+    /// For each swap: which of [`Design::runs`] is its row BA_s; empty without these companions.
+    pub fn ba_runs(&self) -> &[usize] {
+        &self.runs.ba
+    }
+
+    /// For each swap: which of [`Design::runs`] is its row BC_s; empty without these companions.
+    pub fn bc_runs(&self) -> &[usize] {
+        &self.runs.bc
+    }
+
+    /// For each swap: which of [`Design::runs`] is its row CB_s; empty without these companions.
+    pub fn cb_runs(&self) -> &[usize] {
+        &self.runs.cb
+    }
+
+    /// Rows of one base point: A, B and those asked for, each point once.
     pub fn rows_per_point(&self) -> u64 {
-        2 + self.swaps.len() as u64
+        self.runs.runs.len() as u64
     }
 
     /// Rows in all, which is the number of model runs.
@@ -247,69 +248,39 @@ impl Design {
         self.settings.sampler != Sampler::Sobol || self.points_per_replicate().is_power_of_two()
     }
 
-    /// The base points of one replicate.
+    /// The base points of one replicate, in [`Design::columns`] columns.
     pub fn replicate(&self, replicate: u64) -> BasePoints {
-        let (dimensions, seed) = (self.factors * 2, self.settings.seed);
-        match self.settings.sampler {
-            Sampler::Sobol => BasePoints::Sobol(SobolSequence::scrambled(dimensions, seed, replicate)),
-            Sampler::Random => BasePoints::Random(RandomPoints::new(dimensions, seed, replicate)),
-            Sampler::LatinHypercube => {
-                BasePoints::Latin(LatinHypercube::new(dimensions, self.points_per_replicate(), seed, replicate))
-            }
-        }
+        BasePoints::new(&self.settings, replicate, self.factors, self.asked.companions.matrices())
     }
 
-    /// Replicate, base point within it, and kind of a row, in the order in which rows are counted.
+    /// Replicate, base point within it, and kind of a row, in the order in which rows are counted. A row that is
+    /// several kinds at once has the first of them.
     pub fn locate(&self, row: u64) -> (u64, u64, RowKind) {
-        let (base, kind) = (row / self.rows_per_point(), row % self.rows_per_point());
-        let kind = match kind {
-            0 => RowKind::A,
-            1 => RowKind::B,
-            j => RowKind::Swapped(j as usize - 2),
-        };
-        (base / self.points_per_replicate(), base % self.points_per_replicate(), kind)
+        let (base, run) = (row / self.rows_per_point(), row % self.rows_per_point());
+        (base / self.points_per_replicate(), base % self.points_per_replicate(), self.runs.runs[run as usize].kind)
     }
 
     /// Row number `row` of the design as a point of the unit cube: `u` has one entry per factor.
     pub fn point(&self, row: u64, u: &mut [f64]) {
-        let (replicate, point, kind) = self.locate(row);
-        let mut columns = vec![vec![0.0; 1]; self.factors * 2];
+        let (replicate, point, _) = self.locate(row);
+        let run = &self.runs.runs[(row % self.rows_per_point()) as usize];
+        let mut columns = vec![vec![0.0; 1]; self.columns()];
         self.replicate(replicate).fill(point, &mut columns);
         for (column, u) in u.iter_mut().enumerate() {
-            let from_b = match kind {
-                RowKind::A => false,
-                RowKind::B => true,
-                RowKind::Swapped(j) => self.swaps[j].contains(&column),
-            };
-            *u = columns[if from_b { self.factors + column } else { column }][0];
+            let matrix = if run.columns.binary_search(&column).is_ok() { run.from } else { run.base };
+            *u = columns[matrix as usize * self.factors + column][0];
         }
     }
 }
 
-/// The base points of one replicate: 2d columns, of which the first d belong to A and the last d to B.
-#[derive(Debug, Clone)]
-pub enum BasePoints {
-    /// Scrambled Sobol' points.
-    Sobol(SobolSequence),
-    /// Random points.
-    Random(RandomPoints),
-    /// Latin hypercube points.
-    Latin(LatinHypercube),
-}
-
-impl BasePoints {
-    /// The points `first`, `first + 1`, ... into `columns`: one per dimension, all of one length.
-    pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
-        match self {
-            Self::Sobol(sequence) => {
-                for (dimension, column) in columns.iter_mut().enumerate() {
-                    sequence.fill(dimension, first, column);
-                }
-            }
-            Self::Random(points) => points.fill(first, columns),
-            Self::Latin(points) => points.fill(first, columns),
-        }
-    }
+/// The numbers of the swaps that are one factor, the first of every factor, in the order of the swaps.
+fn single_factors(swaps: &[Swap], factors: usize) -> Vec<usize> {
+    let mut seen = vec![false; factors];
+    let first = |swap: &Swap| match swap[..] {
+        [column] => !std::mem::replace(&mut seen[column], true),
+        _ => false,
+    };
+    swaps.iter().map(first).enumerate().filter(|(_, single)| *single).map(|(number, _)| number).collect()
 }
 
 #[cfg(test)]
@@ -318,7 +289,7 @@ mod tests {
 
     fn design(sampler: Sampler) -> Design {
         let settings = DesignSettings { sampler, base_samples: 64, replicates: 4, seed: 3 };
-        Design::new(settings, 3, vec![vec![0], vec![1], vec![2], vec![0, 2]]).unwrap()
+        Design::new(settings, 3, Rows::plain(vec![vec![0], vec![1], vec![2], vec![0, 2]])).unwrap()
     }
 
     #[test]
@@ -344,15 +315,15 @@ mod tests {
         assert_eq!(design.rows(), 64 * 6);
         assert_eq!(design.locate(0), (0, 0, RowKind::A));
         assert_eq!(design.locate(6 * 16 + 1), (1, 0, RowKind::B));
-        assert_eq!(design.locate(64 * 6 - 1), (3, 15, RowKind::Swapped(3)));
+        assert_eq!(design.locate(64 * 6 - 1), (3, 15, RowKind::Ab(3)));
     }
 
     #[test]
     fn impossible_designs_are_refused_with_the_reason() {
         let settings = DesignSettings::default;
-        let of = |settings, factors| Design::new(settings, factors, vec![]).unwrap_err();
+        let of = |settings, factors| Design::new(settings, factors, Rows::default()).unwrap_err();
         assert_eq!(of(settings(), 0), DesignError::NoFactors);
-        assert_eq!(of(settings(), 3000), DesignError::TooManyFactors { factors: 3000 });
+        assert_eq!(of(settings(), 3000), DesignError::TooManyFactors { factors: 3000, matrices: 2 });
         assert_eq!(of(DesignSettings { replicates: 0, ..settings() }, 1), DesignError::NoReplicates);
         for base_samples in [0, 1, 31] {
             let error = of(DesignSettings { base_samples, ..settings() }, 1);
@@ -360,11 +331,12 @@ mod tests {
         }
         let error = of(DesignSettings { replicates: 5000, base_samples: 1 << 20, ..settings() }, 1);
         assert_eq!(error, DesignError::TooManyReplicates { replicates: 5000 });
-        let swaps = vec![vec![0]; 1 << 21];
+        // Dummies, since equal rows are run once.
+        let rows = Rows::plain(vec![vec![]; 1 << 21]);
         let full =
             DesignSettings { base_samples: MAX_POINTS * MAX_REPLICATES, replicates: MAX_REPLICATES, ..settings() };
-        assert!(matches!(Design::new(full, 1, swaps), Err(DesignError::TooManyRuns { .. })));
-        let error = Design::new(settings(), 2, vec![vec![2]]).unwrap_err();
+        assert!(matches!(Design::new(full, 1, rows), Err(DesignError::TooManyRuns { .. })));
+        let error = Design::new(settings(), 2, Rows::plain(vec![vec![2]])).unwrap_err();
         assert_eq!(error, DesignError::NoSuchColumn { column: 2, factors: 2 });
         let error = of(DesignSettings { base_samples: u64::MAX, replicates: 2, ..settings() }, 1);
         assert!(matches!(error, DesignError::TooManySamples { .. }));
@@ -373,7 +345,7 @@ mod tests {
     #[test]
     fn samples_are_rounded_up_to_whole_replicates() {
         let settings = DesignSettings { base_samples: 1000, ..DesignSettings::default() };
-        let design = Design::new(settings, 2, vec![]).unwrap();
+        let design = Design::new(settings, 2, Rows::default()).unwrap();
         assert_eq!(design.settings().base_samples, 1008);
         assert!(!design.balanced());
     }

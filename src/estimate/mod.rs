@@ -1,13 +1,35 @@
 //! Sobol' indices from centred sums.
 //!
-//! [`Moments`] accumulate during the run; [`Indices::of`] reads them once it is over. Indices are what the formulas
-//! give, never clamped: a first-order index of -0.001 says that 0 is within its error.
+//! [`Moments`] accumulate during the run; [`Indices::of`] reads them once it is over, and [`FirstOrder`], [`Total`] and
+//! [`SecondOrder`] name the other formulas that can be read from the same sums. Indices are what the formulas give,
+//! never clamped: a first-order index of -0.001 says that 0 is within its error.
 
+mod aggregate;
+mod base_moments;
+mod central;
+mod estimator;
+mod formula;
+mod indices;
 mod moments;
+mod pair_moments;
+mod parts;
+mod second_order;
+mod swap_moments;
+mod workspace;
 
 use thiserror::Error;
 
+pub use aggregate::{Scaling, aggregated};
+pub use base_moments::BaseMoments;
+pub use central::CentralMoments;
+pub use estimator::{Estimator, FirstOrder, Total};
+pub use indices::Indices;
 pub use moments::{BlockOutputs, Moments};
+pub use pair_moments::PairMoments;
+pub use parts::{MAX_PARTS, MomentParts, merged, part_length};
+pub use second_order::{PairIndex, SecondOrder};
+pub use swap_moments::{BaMoments, BcMoments, CbMoments, SwapMoments};
+pub use workspace::Workspace;
 
 /// Why an output has no indices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -26,61 +48,12 @@ pub enum Undefined {
     /// The variance is too large or too small for a double.
     #[error("the variance of the output over- or underflows double precision: give the output in another unit")]
     Unrepresentable,
-}
-
-/// Indices of one output: entry j of each list belongs to swap j of the design.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Indices {
-    /// Closed first-order index of the swapped columns: the first-order index if it is one factor.
-    pub first_order: Vec<f64>,
-    /// Total index of the swapped columns.
-    pub total: Vec<f64>,
-    /// First-order index by Janon and Monod's formula, to check the first list.
-    pub check: Vec<f64>,
-}
-
-impl Indices {
-    /// The default estimators on `moments`: Saltelli et al. 2010 (b), centred, and Jansen 1999, both over the pooled
-    /// variance of A and B.
-    ///
-    /// # Errors
-    /// [`Undefined`] if there are fewer than two base points or the output has no usable variance.
-    pub fn of(moments: &Moments) -> Result<Self, Undefined> {
-        if moments.count() < 2 {
-            return Err(Undefined::NoRuns);
-        }
-        let variance = usable_variance(moments)?;
-        let each = |estimate: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..moments.swaps()).map(estimate).collect() };
-        let indices = Self {
-            first_order: each(&|j| moments.first_order(j) / variance),
-            total: each(&|j| moments.total(j) / variance),
-            check: each(&|j| moments.janon_monod(j)),
-        };
-        let Self { first_order, total, check } = &indices;
-        if first_order.iter().chain(total).chain(check).all(|index| index.is_finite()) {
-            Ok(indices)
-        } else {
-            Err(Undefined::Unrepresentable)
-        }
-    }
-}
-
-/// The variance, unless there is none, or none that doubles can tell.
-fn usable_variance(moments: &Moments) -> Result<f64, Undefined> {
-    if moments.constant() {
-        return Err(Undefined::ZeroVariance);
-    }
-    let variance = moments.variance();
-    if !variance.is_normal() {
-        return Err(Undefined::Unrepresentable);
-    }
-    // A spread of a few units in the last place of the mean is rounding, not variation. This is relative: an output of
-    // 1e-30 with a spread of 1e-31 passes like one of 1 with a spread of 0.1.
-    let rounding = 4.0 * f64::EPSILON * moments.mean().abs();
-    if variance.sqrt() <= rounding {
-        return Err(Undefined::BelowRounding);
-    }
-    Ok(variance)
+    /// An estimator needs rows that the design does not have.
+    #[error("the estimator {estimator} needs companion rows that the design does not have")]
+    NoCompanions {
+        /// Name of the estimator.
+        estimator: &'static str,
+    },
 }
 
 /// Shares in percent, 100 x_i / sum x: how indices become the papers' percentages. `None` if the sum is not positive,
@@ -94,63 +67,4 @@ fn usable_variance(moments: &Moments) -> Result<f64, Undefined> {
 pub fn shares(indices: &[f64]) -> Option<Vec<f64>> {
     let sum: f64 = indices.iter().sum();
     (sum > 0.0).then(|| indices.iter().map(|x| 100.0 * x / sum).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn indices(a: &[f64], b: &[f64], swapped: &[f64]) -> Result<Indices, Undefined> {
-        Indices::of(&Moments::of_block(BlockOutputs { a, b, swapped: &[swapped] }, &mut Vec::new()))
-    }
-
-    #[test]
-    fn a_factor_that_carries_everything_has_index_one() {
-        // Every value of A meets every value of B, so the sample is a full factorial and the identities are exact.
-        let (mut a, mut b) = (vec![], vec![]);
-        for i in 0..8 {
-            for j in 0..8 {
-                a.push(f64::from(i));
-                b.push(f64::from(j));
-            }
-        }
-        let got = indices(&a, &b, &b).unwrap();
-        assert!((got.first_order[0] - 1.0).abs() < 1e-14);
-        assert!((got.total[0] - 1.0).abs() < 1e-14);
-        assert!((got.check[0] - 1.0).abs() < 1e-14);
-        let inert = indices(&a, &b, &a).unwrap();
-        assert_eq!((inert.first_order[0], inert.total[0]), (0.0, 0.0));
-    }
-
-    #[test]
-    fn constant_outputs_have_a_name_at_any_size() {
-        for value in [0.0, 0.1, 1e300, 1.0 / 3.0, 1e-150, 1e-300, -5e-324] {
-            let y = vec![value; 100];
-            assert_eq!(indices(&y, &y, &y), Err(Undefined::ZeroVariance), "{value}");
-        }
-    }
-
-    #[test]
-    fn too_few_points_have_a_name() {
-        assert_eq!(indices(&[], &[], &[]), Err(Undefined::NoRuns));
-        assert_eq!(indices(&[1.0], &[2.0], &[3.0]), Err(Undefined::NoRuns));
-    }
-
-    #[test]
-    fn variances_beyond_double_precision_have_a_name() {
-        let y: Vec<f64> = (1..100).map(f64::from).collect();
-        let scaled = |scale: f64| y.iter().map(|y| y * scale).collect::<Vec<_>>();
-        for scale in [1e-170, 1e-200, 1e200] {
-            let y = scaled(scale);
-            assert_eq!(indices(&y, &y, &y), Err(Undefined::Unrepresentable), "{scale}");
-        }
-        let signs: Vec<f64> = (0..100).map(|i| if i % 2 == 0 { 1e-170 } else { -1e-170 }).collect();
-        assert_eq!(indices(&signs, &signs, &signs), Err(Undefined::Unrepresentable));
-        let b: Vec<f64> = y.iter().rev().copied().collect();
-        let large: Vec<f64> = y.iter().map(|y| y * 1e160).collect();
-        assert_eq!(indices(&y, &b, &large), Err(Undefined::Unrepresentable));
-        let offset: Vec<f64> = y.iter().map(|y| 1e15 + y / 100.0).collect();
-        assert_eq!(indices(&offset, &offset, &offset), Err(Undefined::BelowRounding));
-        assert!(indices(&scaled(1e-100), &scaled(1e-100), &scaled(1e-100)).is_ok());
-    }
 }

@@ -1,93 +1,94 @@
 //! The centred sums from which every estimator reads: constant in size, mergeable in any fixed tree.
 
-use crate::sum::{centred_product, mean};
+use super::base_moments::BaseMoments;
+use super::pair_moments::PairMoments;
+use super::swap_moments::{Columns, SwapMoments};
+use super::workspace::Workspace;
+use crate::design::Companions;
 
 /// First and second moments of the outputs of a Saltelli design, all centred on their own means.
 ///
-/// With y_A, y_B the outputs of the rows A and B, and D_j = y_ABj - y_A, it holds the means of y_A, y_B and every D_j,
-/// and the sums of centred products among y_A, y_B and with each D_j. The differences D_j are kept instead of y_ABj
-/// because a factor of little effect has a D_j near 0: forming it from sums of y_ABj would cancel.
-///
-/// Blocks are summed about their own means and merged by the update of Chan, Golub and LeVeque (1983, Am. Stat. 37,
-/// 242-247), so that no offset of the output, however large, costs digits.
+/// Every swap has sums of its own over the base points at which its rows, A, B, AB_s and its companions, all have an
+/// output: a row that fails costs its own swap a base point, and the others none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Moments {
-    n: u64,
-    mean_a: f64,
-    mean_b: f64,
-    aa: f64,
-    bb: f64,
-    ab: f64,
+    base: BaseMoments,
     /// Smallest and largest output among the rows A and B; `None` without any.
     range: Option<(f64, f64)>,
     swaps: Vec<SwapMoments>,
+    pairs: Option<PairMoments>,
 }
 
-/// The part of [`Moments`] that belongs to one row AB_j.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct SwapMoments {
-    mean: f64,
-    dd: f64,
-    ad: f64,
-    bd: f64,
-}
-
-/// The outputs of a block of base points.
-#[derive(Debug, Clone, Copy)]
+/// The outputs of a block of base points, columns of one length. An output that is not finite is a failed run.
+#[derive(Debug, Clone, Copy, Default)]
 pub struct BlockOutputs<'a> {
     /// Outputs of the rows A.
     pub a: &'a [f64],
     /// Outputs of the rows B.
     pub b: &'a [f64],
-    /// Outputs of the rows AB_j, one slice per swap.
-    pub swapped: &'a [&'a [f64]],
+    /// Outputs of the rows AB_s, one slice per swap.
+    pub ab: &'a [&'a [f64]],
+    /// Outputs of the rows BA_s, one slice per swap, or empty without these rows.
+    pub ba: &'a [&'a [f64]],
+    /// Outputs of the rows BC_s, likewise.
+    pub bc: &'a [&'a [f64]],
+    /// Outputs of the rows CB_s, likewise.
+    pub cb: &'a [&'a [f64]],
+    /// The swaps whose pairs are counted for second-order indices, in rising order; none without `ba`.
+    pub paired: &'a [usize],
 }
 
 impl Moments {
-    /// No base points, for `swaps` rows AB_j.
+    /// No base points, for `swaps` rows AB_s.
     pub fn empty(swaps: usize) -> Self {
         Self { swaps: vec![SwapMoments::default(); swaps], ..Self::default() }
     }
 
-    /// The moments of one block; `scratch` is reused between calls to hold the differences.
-    pub fn of_block(outputs: BlockOutputs<'_>, scratch: &mut Vec<f64>) -> Self {
-        let BlockOutputs { a, b, swapped } = outputs;
-        let (ca, cb) = ((a, mean(a)), (b, mean(b)));
-        let swaps = swapped
-            .iter()
-            .map(|y| {
-                scratch.clear();
-                scratch.extend(y.iter().zip(a).map(|(y, a)| y - a));
-                let cd = (&scratch[..], mean(scratch));
-                SwapMoments {
-                    mean: cd.1,
-                    dd: centred_product(cd, cd),
-                    ad: centred_product(ca, cd),
-                    bd: centred_product(cb, cd),
-                }
+    /// The moments of one block; `work` is reused between calls.
+    ///
+    /// ```
+    /// use apportion::estimate::{BlockOutputs, Indices, Moments, Workspace};
+    ///
+    /// // y = x, sampled at every pair of 0, 1 and 0, 1: AB, which takes x from B, has the outputs of B.
+    /// let (a, b) = ([0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 0.0, 1.0]);
+    /// let block = BlockOutputs { a: &a, b: &b, ab: &[&b], ..BlockOutputs::default() };
+    /// let moments = Moments::of_block(block, &mut Workspace::default());
+    /// assert_eq!(Indices::of(&moments)?.total, [1.0]);
+    /// # Ok::<(), apportion::estimate::Undefined>(())
+    /// ```
+    pub fn of_block(outputs: BlockOutputs<'_>, work: &mut Workspace) -> Self {
+        let BlockOutputs { a, b, ab, ba, bc, cb, paired } = outputs;
+        let all = BaseMoments::of(a, b);
+        let complete = Some(all).filter(|all| all.mean_a.is_finite() && all.mean_b.is_finite());
+        let swaps = (0..ab.len())
+            .map(|swap| {
+                let columns = Columns {
+                    a,
+                    b,
+                    ab: ab[swap],
+                    ba: ba.get(swap).copied(),
+                    bc: bc.get(swap).copied(),
+                    cb: cb.get(swap).copied(),
+                };
+                SwapMoments::of(complete, columns, work)
             })
             .collect();
-        Self {
-            n: a.len() as u64,
-            mean_a: ca.1,
-            mean_b: cb.1,
-            aa: centred_product(ca, ca),
-            bb: centred_product(cb, cb),
-            ab: centred_product(ca, cb),
-            range: (!a.is_empty()).then(|| {
-                let both = || a.iter().chain(b).copied();
-                (both().fold(f64::INFINITY, f64::min), both().fold(f64::NEG_INFINITY, f64::max))
-            }),
-            swaps,
+        let pairs = (!paired.is_empty()).then(|| PairMoments::of(paired, (a, b), (ab, ba), work));
+        match complete {
+            Some(base) => Self { base, range: range(a, b), swaps, pairs },
+            None => {
+                let (a, b) = work.without_failures(a, b);
+                Self { base: BaseMoments::of(a, b), range: range(a, b), swaps, pairs }
+            }
         }
     }
 
-    /// Adds the base points of `other`, which has the same number of swaps.
+    /// Adds the base points of `other`, which has the same swaps.
     pub fn merge(&mut self, other: &Self) {
-        if other.n == 0 {
+        if other.base.n == 0 {
             return;
         }
-        if self.n == 0 {
+        if self.base.n == 0 {
             self.clone_from(other);
             return;
         }
@@ -95,32 +96,58 @@ impl Moments {
         if let (Some((low, high)), Some((other_low, other_high))) = (self.range, other.range) {
             self.range = Some((low.min(other_low), high.max(other_high)));
         }
-        let (n, m) = (self.n as f64, other.n as f64);
-        let (share, weight) = (m / (n + m), n * m / (n + m));
-        let (da, db) = (other.mean_a - self.mean_a, other.mean_b - self.mean_b);
-        self.aa += other.aa + da * da * weight;
-        self.bb += other.bb + db * db * weight;
-        self.ab += other.ab + da * db * weight;
-        self.mean_a += da * share;
-        self.mean_b += db * share;
+        self.base.merge(&other.base);
         for (mine, theirs) in self.swaps.iter_mut().zip(&other.swaps) {
-            let dd = theirs.mean - mine.mean;
-            mine.dd += theirs.dd + dd * dd * weight;
-            mine.ad += theirs.ad + da * dd * weight;
-            mine.bd += theirs.bd + db * dd * weight;
-            mine.mean += dd * share;
+            mine.merge(theirs);
         }
-        self.n += other.n;
+        if let (Some(mine), Some(theirs)) = (&mut self.pairs, &other.pairs) {
+            mine.merge(theirs);
+        }
     }
 
-    /// Base points counted.
+    /// Base points at which A and B have an output.
     pub fn count(&self) -> u64 {
-        self.n
+        self.base.n
     }
 
-    /// Number of rows AB_j.
+    /// Base points from which the index with the fewest of them is estimated.
+    pub fn fewest(&self) -> u64 {
+        self.swaps.iter().map(|swap| swap.base.n).fold(self.base.n, u64::min)
+    }
+
+    /// About how many numbers are held.
+    pub(super) fn numbers(&self) -> usize {
+        let pairs = self.pairs.as_ref().map_or(0, |pairs| 2 * pairs.swaps().len().pow(2));
+        self.swaps.len() * (size_of::<SwapMoments>() / size_of::<f64>()) + pairs
+    }
+
+    /// Number of rows AB_s.
     pub fn swaps(&self) -> usize {
         self.swaps.len()
+    }
+
+    /// The sums of one swap.
+    ///
+    /// # Panics
+    /// If there is no such swap.
+    pub fn swap(&self, swap: usize) -> &SwapMoments {
+        &self.swaps[swap]
+    }
+
+    /// The rows beside A, B and AB that the swaps have sums of.
+    pub fn companions(&self) -> Companions {
+        let has = |row: fn(&SwapMoments) -> bool| !self.swaps.is_empty() && self.swaps.iter().all(row);
+        Companions { ba: has(|s| s.ba.is_some()), bc: has(|s| s.bc.is_some()), cb: has(|s| s.cb.is_some()) }
+    }
+
+    /// The sums of y_A and y_B.
+    pub fn base(&self) -> &BaseMoments {
+        &self.base
+    }
+
+    /// What second-order indices are read from, if it was asked for.
+    pub fn pairs(&self) -> Option<&PairMoments> {
+        self.pairs.as_ref()
     }
 
     /// Whether every row A and B has the same output.
@@ -130,128 +157,17 @@ impl Moments {
 
     /// Mean of the output over the rows A and B.
     pub fn mean(&self) -> f64 {
-        self.mean_a + (self.mean_b - self.mean_a) / 2.0
+        self.base.mean()
     }
 
     /// Variance of the output over the rows A and B pooled (two-pass; divided by the number of rows 2n).
     pub fn variance(&self) -> f64 {
-        let half_gap = (self.mean_b - self.mean_a) / 2.0;
-        (self.aa + self.bb) / (2.0 * self.n as f64) + half_gap * half_gap
-    }
-
-    /// Partial variance V_j of the swapped columns, centred on the pooled mean f0.
-    ///
-    /// Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (b): the mean of y_B (y_ABj - y_A), here
-    /// (y_B - f0)(y_ABj - y_A).
-    pub fn first_order(&self, swap: usize) -> f64 {
-        let SwapMoments { mean, bd, .. } = self.swaps[swap];
-        bd / self.n as f64 + (self.mean_b - self.mean_a) / 2.0 * mean
-    }
-
-    /// Total variance of the swapped columns: half the mean of (y_A - y_ABj)^2, never negative.
-    ///
-    /// Jansen (1999), Comput. Phys. Commun. 117, 35-43, eq. 14; Saltelli et al. (2010), table 2 (f).
-    pub fn total(&self, swap: usize) -> f64 {
-        let SwapMoments { mean, dd, .. } = self.swaps[swap];
-        (dd / self.n as f64 + mean * mean) / 2.0
-    }
-
-    /// First-order index of the swapped columns by another formula, as a check on [`Moments::first_order`].
-    ///
-    /// Janon, Klein, Lagnoux, Nodet and Prieur (2014), ESAIM: PS 18, 342-364, eq. 6 (after Monod 2006), on the pairs
-    /// (y_B, y_ABj), which share the swapped columns.
-    pub fn janon_monod(&self, swap: usize) -> f64 {
-        let SwapMoments { mean, dd, ad, bd } = self.swaps[swap];
-        let n = self.n as f64;
-        let half_gap = (self.mean_b - self.mean_a - mean) / 2.0;
-        let covariance = (self.ab + bd) / n - half_gap * half_gap;
-        let variance = (self.bb + self.aa + 2.0 * ad + dd) / (2.0 * n) + half_gap * half_gap;
-        covariance / variance
+        self.base.variance()
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Deterministic numbers without structure, about 0 with spread 1.
-    fn noise(n: usize, salt: u64) -> Vec<f64> {
-        let mut x = salt.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-        (0..n)
-            .map(|_| {
-                x ^= x << 13;
-                x ^= x >> 7;
-                x ^= x << 17;
-                (x >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-            })
-            .collect()
-    }
-
-    fn columns(n: usize, offset: f64) -> [Vec<f64>; 3] {
-        [1, 2, 3].map(|salt| noise(n, salt).iter().map(|y| y + offset).collect())
-    }
-
-    fn moments([a, b, c]: &[Vec<f64>; 3]) -> Moments {
-        Moments::of_block(BlockOutputs { a, b, swapped: &[c] }, &mut Vec::new())
-    }
-
-    /// The textbook formulas, term by term.
-    fn textbook([a, b, c]: &[Vec<f64>; 3]) -> [f64; 5] {
-        let n = a.len() as f64;
-        let f0 = a.iter().chain(b).sum::<f64>() / (2.0 * n);
-        let variance = a.iter().chain(b).map(|y| (y - f0).powi(2)).sum::<f64>() / (2.0 * n);
-        let first = (0..a.len()).map(|i| (b[i] - f0) * (c[i] - a[i])).sum::<f64>() / n;
-        let total = (0..a.len()).map(|i| (a[i] - c[i]).powi(2)).sum::<f64>() / (2.0 * n);
-        let m = (0..a.len()).map(|i| (b[i] + c[i]) / 2.0).sum::<f64>() / n;
-        let covariance = (0..a.len()).map(|i| (b[i] - m) * (c[i] - m)).sum::<f64>() / n;
-        let spread = (0..a.len()).map(|i| ((b[i] - m).powi(2) + (c[i] - m).powi(2)) / 2.0).sum::<f64>() / n;
-        [f0, variance, first, total, covariance / spread]
-    }
-
-    fn read(m: &Moments) -> [f64; 5] {
-        [m.mean(), m.variance(), m.first_order(0), m.total(0), m.janon_monod(0)]
-    }
-
-    #[track_caller]
-    fn assert_close(got: [f64; 5], expected: [f64; 5], tolerance: f64) {
-        for (g, e) in got.iter().zip(expected) {
-            assert!((g - e).abs() <= tolerance, "{got:?} is not {expected:?}");
-        }
-    }
-
-    #[test]
-    fn reads_the_textbook_formulas() {
-        // Both sides sum 1000 numbers of size 1: rounding of some 1e-16 sqrt(1000).
-        assert_close(read(&moments(&columns(1000, 0.0))), textbook(&columns(1000, 0.0)), 1e-14);
-    }
-
-    #[test]
-    fn merged_blocks_equal_one_block_wherever_they_are_cut() {
-        let whole = columns(1000, 3.0);
-        for cut in [1, 3, 500, 999] {
-            let mut left = moments(&whole.each_ref().map(|c| c[..cut].to_vec()));
-            left.merge(&moments(&whole.each_ref().map(|c| c[cut..].to_vec())));
-            assert_eq!(left.count(), 1000);
-            assert_close(read(&left), textbook(&whole), 1e-14);
-        }
-    }
-
-    #[test]
-    fn merging_nothing_changes_nothing() {
-        let block = moments(&columns(10, 0.0));
-        let (mut left, mut right) = (block.clone(), Moments::empty(1));
-        left.merge(&Moments::empty(1));
-        right.merge(&block);
-        assert_eq!(left, block);
-        assert_eq!(right, block);
-    }
-
-    #[test]
-    fn an_inert_factor_has_exactly_no_effect_at_any_offset() {
-        for offset in [0.0, 1e9, -1e15] {
-            let [a, b, _] = columns(300, offset);
-            let m = Moments::of_block(BlockOutputs { a: &a, b: &b, swapped: &[&a] }, &mut Vec::new());
-            assert_eq!((m.first_order(0), m.total(0)), (0.0, 0.0));
-        }
-    }
+/// Smallest and largest of both columns; `None` without any.
+fn range(a: &[f64], b: &[f64]) -> Option<(f64, f64)> {
+    let both = || a.iter().chain(b).copied();
+    (!a.is_empty()).then(|| (both().fold(f64::INFINITY, f64::min), both().fold(f64::NEG_INFINITY, f64::max)))
 }

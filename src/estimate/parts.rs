@@ -6,30 +6,27 @@ use super::Moments;
 pub const MAX_PARTS: usize = 64;
 
 /// Most numbers that the parts of one output may hold together: with very many factors there are fewer parts.
-const MAX_NUMBERS: usize = 1 << 17;
+const MAX_NUMBERS: usize = 1 << 19;
 
 /// Moments of consecutive base points, kept as those of up to [`MAX_PARTS`] consecutive parts of equal length, a power
 /// of two; the last part may be shorter.
 ///
 /// Neighbouring parts are merged in pairs whenever there are too many, in the tree in which the whole is merged in the
 /// end: the bits of the whole do not depend on when that happened.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct MomentParts {
     /// Base points in a part, complete or not.
     length: u64,
+    /// Base points in all.
+    points: u64,
     parts: Vec<Moments>,
 }
 
 impl MomentParts {
-    /// No base points.
-    pub fn empty() -> Self {
-        Self { length: 1, parts: Vec::new() }
-    }
-
-    /// One part per `length` base points, a power of two.
-    pub fn new(length: u64, parts: Vec<Moments>) -> Self {
-        debug_assert!(length.is_power_of_two());
-        let mut new = Self { length, parts };
+    /// One part per `length` base points, a power of two, of `points` in all.
+    pub fn new(length: u64, points: u64, parts: Vec<Moments>) -> Self {
+        debug_assert!(length.is_power_of_two() && points.div_ceil(length) == parts.len() as u64);
+        let mut new = Self { length, points, parts };
         new.shrink();
         new
     }
@@ -39,18 +36,31 @@ impl MomentParts {
         &self.parts
     }
 
-    /// Base points of a complete part, whether or not all of them have outputs.
-    pub fn length(&self) -> u64 {
-        self.length
+    /// Base points in all, whether or not they have outputs.
+    pub fn points(&self) -> u64 {
+        self.points
+    }
+
+    /// The first `parts` parts alone.
+    #[must_use]
+    pub fn prefix(&self, parts: usize) -> Self {
+        let parts = parts.min(self.parts.len());
+        let points = self.points.min(parts as u64 * self.length);
+        Self { length: self.length, points, parts: self.parts[..parts].to_vec() }
     }
 
     /// Appends the base points that follow. All parts of `self` must be complete.
     pub fn append(&mut self, following: &Self) {
+        if self.parts.is_empty() {
+            self.clone_from(following);
+            return;
+        }
         let mut following = following.clone();
         let length = self.length.max(following.length);
         self.lengthen(length);
         following.lengthen(length);
         self.parts.append(&mut following.parts);
+        self.points += following.points;
         self.shrink();
     }
 
@@ -60,7 +70,7 @@ impl MomentParts {
     }
 
     fn lengthen(&mut self, length: u64) {
-        while self.length < length {
+        while self.length < length && !self.parts.is_empty() {
             self.pair_up();
         }
     }
@@ -72,8 +82,8 @@ impl MomentParts {
     }
 
     fn most(&self) -> usize {
-        let numbers = self.parts.first().map_or(1, Moments::numbers).max(1);
-        let most = (MAX_NUMBERS / numbers).clamp(4, MAX_PARTS);
+        let numbers = self.parts.first().map_or(1, Moments::numbers);
+        let most = (MAX_NUMBERS / numbers.max(1)).clamp(4, MAX_PARTS);
         1 << most.ilog2()
     }
 

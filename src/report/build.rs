@@ -1,44 +1,43 @@
 //! From a study and its totals to the result file.
 
-use serde_json::{Map, Value};
+use serde_json::Value;
 
+use super::build_output::{estimate_record, output_record};
 use super::result::{
-    ConstantRecord, EffectRecord, EffortRecord, EstimateRecord, FactorRecord, FailureRecord, GroupRecord, IndexRecord,
-    IntervalRecord, OutputRecord, Provenance, ResultFile, RungRecord, StudyRecord, ValidityRecord,
+    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, Provenance, ResultFile,
+    RungRecord, StoppingRecord, StudyRecord, ValidityRecord,
 };
-use super::warnings;
-use crate::estimate::Moments;
-use crate::model::{Model, Output};
-use crate::run::{OutputTotals, Tally, Totals};
+use crate::design::Design;
+use crate::estimate::{MomentParts, Scaling};
+use crate::model::Model;
+use crate::run::Totals;
 use crate::study::Study;
-use crate::uncertainty::{
-    EffectEstimates, Estimate, Interval, ReplicatedIndices, replicated_indices, replicated_moments,
-};
+use crate::uncertainty::{AggregateIndices, IntervalMethod, aggregate_indices};
 
-/// What the result says about the run besides its totals.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RunFacts {
+/// A run of a study that is over.
+#[derive(Clone, Copy)]
+pub struct FinishedRun<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// Its model.
+    pub model: &'a dyn Model,
+    /// The design as it was in the end: a run that grows leaves the study's own behind.
+    pub design: &'a Design,
+    /// Totals of each replicate.
+    pub replicates: &'a [Totals],
     /// Threads used.
     pub threads: usize,
     /// Seconds from the first run to the last.
     pub wall_seconds: f64,
 }
 
-/// The result of `study`, whose `model` left `replicates`.
-pub fn build_result(study: &Study, model: &dyn Model, replicates: &[Totals], facts: RunFacts) -> ResultFile {
-    let mut whole = replicates[0].clone();
-    for totals in &replicates[1..] {
-        whole.merge(totals);
-    }
-    let outputs = model
-        .outputs()
-        .iter()
-        .enumerate()
-        .map(|(number, output)| {
-            let moments: Vec<Moments> = replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
-            output_record(study, output, &whole.outputs[number], &moments)
-        })
-        .collect();
+/// The result of a run; `stopping` tells why a growing one ended.
+pub fn build_result(run: &FinishedRun<'_>, stopping: Option<StoppingRecord>) -> ResultFile {
+    let FinishedRun { study, model, replicates, .. } = *run;
+    let mut whole = Totals::none(model);
+    replicates.iter().for_each(|totals| whole.add_counts(totals));
+    let outputs =
+        model.outputs().iter().enumerate().map(|(number, output)| output_record(run, output, number, &whole)).collect();
     let validity = model
         .flags()
         .iter()
@@ -54,11 +53,13 @@ pub fn build_result(study: &Study, model: &dyn Model, replicates: &[Totals], fac
         format: "apportion-result".to_owned(),
         version: 1,
         study: study_record(study),
-        provenance: provenance(study, facts),
+        provenance: provenance(run),
         factors: factor_records(study),
         outputs,
         validity,
         effort: effort_record(model, &whole),
+        aggregate: aggregate_record(study, model, replicates),
+        stopping,
     }
 }
 
@@ -91,28 +92,25 @@ fn study_record(study: &Study) -> StudyRecord {
     }
 }
 
-fn provenance(study: &Study, facts: RunFacts) -> Provenance {
-    let settings = study.design.settings();
-    let interval = (settings.replicates > 1).then(|| {
-        format!(
-            "95 % t-interval (delete-one jackknife) from {} independent randomisations of the design; the estimate \
-             rests on all of them together",
-            settings.replicates
-        )
-    });
+fn provenance(run: &FinishedRun<'_>) -> Provenance {
+    let FinishedRun { study, design, .. } = *run;
+    let (settings, analysis) = (design.settings(), &study.analysis);
+    let alone = settings.replicates == 1 && analysis.intervals == IntervalMethod::Replicates;
     Provenance {
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: settings.seed,
         sampler: settings.sampler.name().to_owned(),
         base_samples: settings.base_samples,
         replicates: settings.replicates,
-        model_runs: study.design.rows(),
-        threads: facts.threads,
-        wall_seconds: facts.wall_seconds,
+        model_runs: design.rows(),
+        threads: run.threads,
+        wall_seconds: run.wall_seconds,
         study_sha256: study.sha256.clone(),
         first_order_estimator: "Saltelli et al. 2010 (b), centred".to_owned(),
         total_estimator: "Jansen 1999".to_owned(),
-        interval,
+        interval: (!alone).then(|| analysis.intervals.words(settings.replicates, analysis.resamples)),
+        interval_method: analysis.intervals.name().to_owned(),
+        threshold: analysis.threshold,
     }
 }
 
@@ -127,84 +125,32 @@ fn factor_records(study: &Study) -> Vec<FactorRecord> {
     study.space.factors().iter().map(record).collect()
 }
 
-fn output_record(study: &Study, output: &Output, totals: &OutputTotals, replicates: &[Moments]) -> OutputRecord {
-    let unit = &output.unit;
-    let moments = replicated_moments(replicates);
-    let squared = |x: f64| unit.from_si(unit.from_si(x));
-    let in_unit = |x: f64| unit.from_si(x);
-    let indices = replicated_indices(replicates, study.design.factors());
-    let mut record = OutputRecord {
-        name: output.name.to_owned(),
-        unit: unit.to_string(),
-        mean: moments.map(|m| in_unit(m.mean.estimate)),
-        variance: moments.map(|m| squared(m.variance.estimate)),
-        mean_interval: moments.and_then(|m| interval_record(m.mean.interval, &in_unit)),
-        variance_interval: moments.and_then(|m| interval_record(m.variance.interval, &squared)),
-        runs_ok: study.design.rows() - totals.runs_failed,
-        runs_failed: totals.runs_failed,
-        base_points_used: totals.moments.count(),
-        failures: totals.failures.iter().map(|(failure, tally)| failure_record(study, failure, *tally)).collect(),
-        sum_first_order: None,
-        sum_total: None,
-        indices: None,
-        groups: None,
-        reason: None,
-        warnings: Vec::new(),
-    };
-    record.warnings = warnings::of_runs(study, &record);
-    match indices {
-        Err(undefined) => record.reason = Some(undefined.to_string()),
-        Ok(indices) => {
-            record.warnings.extend(warnings::of_indices(study, &indices));
-            add_indices(&mut record, study, &indices);
-        }
+fn aggregate_record(study: &Study, model: &dyn Model, replicates: &[Totals]) -> Option<AggregateRecord> {
+    let outputs = model.outputs();
+    if !study.analysis.aggregate || outputs.len() < 2 {
+        return None;
     }
-    record
-}
-
-fn add_indices(record: &mut OutputRecord, study: &Study, indices: &ReplicatedIndices) {
-    let factors = study.space.factors();
-    record.sum_first_order = Some(estimate_record(indices.sum_first_order));
-    record.sum_total = Some(estimate_record(indices.sum_total));
-    let of_factor = |(factor, effect): (&crate::space::Factor, &EffectEstimates)| IndexRecord {
+    let same_unit = outputs.iter().all(|output| output.unit.compatible(&outputs[0].unit));
+    let (scaling, weighting) = if same_unit {
+        (Scaling::Plain, "each output counts by its variance (Gamboa et al. 2014)")
+    } else {
+        (Scaling::Standardised, "each output is divided by its standard deviation first, since their units differ")
+    };
+    let parts: Vec<Vec<MomentParts>> = (0..outputs.len())
+        .map(|number| replicates.iter().map(|totals| totals.outputs[number].moments.clone()).collect())
+        .collect();
+    let parts: Vec<&[MomentParts]> = parts.iter().map(Vec::as_slice).collect();
+    let aggregate = aggregate_indices(&parts, scaling, study.analysis.intervals);
+    let record = |(number, factor): (usize, &crate::space::Factor), all: &AggregateIndices| AggregateIndexRecord {
         factor: factor.name.clone(),
-        effect: effect_record(effect),
+        first_order: estimate_record(all.first_order[number]),
+        total: estimate_record(all.total[number]),
     };
-    record.indices = Some(factors.iter().zip(&indices.factors).map(of_factor).collect());
-    let of_group = |(group, effect): (crate::space::Group, &EffectEstimates)| GroupRecord {
-        factors: group.factors.iter().map(|&number| factors[number].name.clone()).collect(),
-        group: group.name,
-        effect: effect_record(effect),
-    };
-    record.groups = Some(study.space.groups().into_iter().zip(&indices.groups).map(of_group).collect());
-}
-
-fn effect_record(effect: &EffectEstimates) -> EffectRecord {
-    let same = |x: f64| x;
-    let interval = |share: Option<Estimate>| share.and_then(|s| interval_record(s.interval, &same));
-    EffectRecord {
-        first_order: estimate_record(effect.first_order),
-        total: estimate_record(effect.total),
-        share_first_order: effect.share_first_order.map(|share| share.estimate),
-        share_total: effect.share_total.map(|share| share.estimate),
-        share_first_order_interval: interval(effect.share_first_order),
-        share_total_interval: interval(effect.share_total),
-    }
-}
-
-fn estimate_record(Estimate { estimate, interval }: Estimate) -> EstimateRecord {
-    EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) }
-}
-
-fn interval_record(interval: Option<Interval>, convert: &dyn Fn(f64) -> f64) -> Option<IntervalRecord> {
-    interval.map(|i| IntervalRecord { low: convert(i.low), high: convert(i.high) })
-}
-
-fn failure_record(study: &Study, failure: &crate::model::RowFailure, tally: Tally) -> FailureRecord {
-    let mut u = vec![0.0; study.design.factors()];
-    study.design.point(tally.first_row, &mut u);
-    let values = study.space.values_at(&u);
-    let named = |(factor, value): (&crate::space::Factor, f64)| (factor.name.clone(), Value::from(value));
-    let first_inputs: Map<String, Value> = study.space.factors().iter().zip(values).map(named).collect();
-    FailureRecord { reason: failure.to_string(), runs: tally.count, first_row: tally.first_row, first_inputs }
+    let factors = || study.space.factors().iter().enumerate();
+    Some(AggregateRecord {
+        outputs: outputs.iter().map(|output| output.name.to_string()).collect(),
+        weighting: weighting.to_owned(),
+        indices: aggregate.as_ref().ok().map(|all| factors().map(|factor| record(factor, all)).collect()),
+        reason: aggregate.err().map(|undefined| undefined.to_string()),
+    })
 }

@@ -1,6 +1,7 @@
 //! Exporters turn a result into bytes; one writer puts them on disk.
 
 mod build;
+mod build_output;
 pub mod chart;
 mod result;
 pub mod scene;
@@ -9,7 +10,8 @@ mod tables;
 mod warnings;
 mod write;
 
-pub use build::{RunFacts, build_result, result_json};
+pub use build::{FinishedRun, build_result, result_json};
+pub use build_output::judgement;
 pub use result::*;
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
 pub use tables::{estimate, fixed, indices_csv, share, share_of_runs, significant, summary, table, with_unit};

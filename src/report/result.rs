@@ -159,9 +159,6 @@ pub struct OutputRecord {
     /// How the indices and their intervals changed as the run grew.
     #[serde(default)]
     pub convergence: Vec<StageRecord>,
-    /// How the output is distributed over the rows A and B.
-    #[serde(default)]
-    pub distribution: Option<OutputDistribution>,
     /// Why there are no indices, where there are none.
     pub reason: Option<String>,
     /// What a careful reader should know.

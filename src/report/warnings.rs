@@ -1,21 +1,24 @@
 //! What a careful reader of a result should know, in sentences.
 
+use super::build::FinishedRun;
+use super::build_output::{effects, names_of_swaps};
 use super::result::OutputRecord;
 use crate::study::Study;
-use crate::uncertainty::{Estimate, ReplicatedIndices};
+use crate::uncertainty::{EffectEstimates, Estimate, IntervalMethod, OutputIndices, differs_clearly};
 
 /// Warnings about the runs behind an output.
-pub(super) fn of_runs(study: &Study, record: &OutputRecord) -> Vec<String> {
+pub(super) fn of_runs(run: &FinishedRun<'_>, record: &OutputRecord) -> Vec<String> {
     let mut warnings = Vec::new();
-    let design = &study.design;
+    let design = run.design;
+    let settings = design.settings();
     if record.runs_failed > 0 {
-        let left_out = design.settings().base_samples - record.base_points_used;
+        let left_out = settings.base_samples - record.base_points_used;
         warnings.push(format!(
-            "{} of {} runs failed, so {left_out} of {} base points are left out: the indices describe the part of the \
-             factor space where every run succeeds",
+            "{} of {} runs failed: every index does without the base points at which one of its own runs failed (at most \
+             {left_out} of {}), and describes the part of the factor space where they succeed",
             record.runs_failed,
             design.rows(),
-            design.settings().base_samples
+            settings.base_samples
         ));
     }
     if !design.balanced() {
@@ -23,26 +26,35 @@ pub(super) fn of_runs(study: &Study, record: &OutputRecord) -> Vec<String> {
         warnings.push(format!(
             "{points} base points in each replicate are not a power of two: Sobol' points lose much of their accuracy; \
              base_samples = {} or {} would be better",
-            points.next_power_of_two() / 2 * design.settings().replicates,
-            points.next_power_of_two() * design.settings().replicates
+            points.next_power_of_two() / 2 * settings.replicates,
+            points.next_power_of_two() * settings.replicates
         ));
     }
-    if design.settings().replicates == 1 {
-        warnings.push("a single replicate says nothing about its error: no intervals".to_owned());
+    if settings.replicates == 1 {
+        match run.study.analysis.intervals {
+            IntervalMethod::Replicates => {
+                warnings.push("a single replicate says nothing about its error: no intervals".to_owned());
+            }
+            IntervalMethod::Nets => warnings.push(
+                "a single net cannot tell whether it is a lucky one: intervals rest on how its parts differ (2 replicates \
+                 are safer)"
+                    .to_owned(),
+            ),
+            _ => (),
+        }
     }
     warnings
 }
 
 /// Warnings about indices that cannot all be right. Each compares an estimate with its interval, so that the noise of
 /// a small sample does not raise it.
-pub(super) fn of_indices(study: &Study, indices: &ReplicatedIndices) -> Vec<String> {
+pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> {
     let mut warnings = Vec::new();
-    let names = study.space.factors().iter().map(|factor| factor.name.clone());
-    let names = names.chain(study.space.groups().into_iter().map(|group| group.name));
-    for (name, effect) in names.zip(indices.factors.iter().chain(&indices.groups)) {
-        if clearly_above(effect.first_order, high(effect.total)) {
+    for (name, effect) in names_of_swaps(study).iter().zip(effects(indices)) {
+        if effect.interaction.estimate < 0.0 && differs_clearly(effect.interaction) {
             warnings.push(format!(
-                "{name}: the first-order index {:.4} exceeds the total index {:.4} beyond their intervals: too few samples",
+                "{name}: the first-order index {:.4} exceeds the total index {:.4} beyond the error of their difference: \
+                 too few samples",
                 effect.first_order.estimate, effect.total.estimate
             ));
         }
@@ -53,6 +65,7 @@ pub(super) fn of_indices(study: &Study, indices: &ReplicatedIndices) -> Vec<Stri
                 effect.check_gap.estimate.abs()
             ));
         }
+        warnings.extend(disagreements(study, name, effect));
     }
     if indices.sum_first_order.interval.is_some_and(|interval| interval.low <= 0.0) {
         warnings.push(
@@ -76,18 +89,30 @@ pub(super) fn of_indices(study: &Study, indices: &ReplicatedIndices) -> Vec<Stri
     warnings
 }
 
+/// Estimators asked for whose indices differ from the default ones by more than chance.
+fn disagreements(study: &Study, name: &str, effect: &EffectEstimates) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (estimator, other) in study.analysis.estimators.iter().zip(&effect.others) {
+        for (what, gap) in [("first-order", other.first_order_gap), ("total", other.total_gap)] {
+            if let Some(gap) = gap.filter(|gap| differs_clearly(*gap)) {
+                warnings.push(format!(
+                    "{name}: the {what} index by `{}` differs from the default one by {:.2e}, beyond the error of their \
+                     difference: one of the two is not to be trusted on this output",
+                    estimator.name(),
+                    gap.estimate
+                ));
+            }
+        }
+    }
+    warnings
+}
+
 fn high(estimate: Estimate) -> Option<f64> {
     estimate.interval.map(|interval| interval.high)
 }
 
 fn clearly_above(estimate: Estimate, bound: Option<f64>) -> bool {
     matches!((estimate.interval, bound), (Some(interval), Some(bound)) if interval.low > bound)
-}
-
-/// Zero lies outside an interval of twice the width: 1 in 1500 by chance with 16 replicates, where 1 in 20 would cry
-/// wolf in every study of eight factors.
-fn differs_clearly(gap: Estimate) -> bool {
-    gap.interval.is_some_and(|interval| gap.estimate.abs() > interval.high - interval.low)
 }
 
 #[cfg(test)]
@@ -105,7 +130,7 @@ mod tests {
         assert!(clearly_above(estimate(1.1, 1.2), Some(1.0)));
         assert!(!clearly_above(Estimate { estimate: 2.0, interval: None }, Some(1.0)));
         assert!(!differs_clearly(estimate(0.001, 0.021)));
-        assert!(differs_clearly(estimate(0.02, 0.04)));
+        assert!(differs_clearly(estimate(0.02, 0.03)));
         assert!(!differs_clearly(estimate(0.0, 0.0)));
     }
 }

@@ -1,39 +1,32 @@
 //! One block of base points: unit cube to SI values, rows to outputs, outputs to totals.
 
-use std::collections::BTreeMap;
-
 use super::Job;
-use super::totals::{OutputTotals, Tally, Totals};
-use crate::estimate::{BlockOutputs, Moments};
-use crate::model::{Batch, Effort, Worker};
+use super::totals::{OutputTotals, Place, Tally, Totals};
+use crate::design::Matrix;
+use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, Workspace};
+use crate::model::{Batch, Worker};
 
 /// What a thread needs to evaluate blocks, kept from block to block.
 pub(super) struct Scratch<'a> {
     worker: Box<dyn Worker + 'a>,
-    /// Columns of A, then of B, in the unit cube.
+    /// Columns of A, then of B, then of C if there is one, in the unit cube.
     unit: Vec<Vec<f64>>,
     /// The same in SI units.
     values: Vec<Vec<f64>>,
-    /// Outputs of A, B and every AB_j.
+    /// Outputs of every run of the design.
     batches: Vec<Batch>,
-    /// Outputs of a block with the incomplete base points left out.
-    kept: Vec<Vec<f64>>,
-    /// Which base points of the block are complete in the output at hand.
-    complete: Vec<bool>,
-    differences: Vec<f64>,
+    workspace: Workspace,
 }
 
 impl<'a> Scratch<'a> {
     pub(super) fn new(job: Job<'a>) -> Self {
-        let (factors, kinds) = (job.design.factors(), job.design.rows_per_point() as usize);
+        let (columns, runs) = (job.design.columns(), job.design.runs().len());
         Self {
             worker: job.model.worker(),
-            unit: vec![Vec::new(); factors * 2],
-            values: vec![Vec::new(); factors * 2],
-            batches: vec![Batch::of(job.model); kinds],
-            kept: vec![Vec::new(); kinds],
-            complete: Vec::new(),
-            differences: Vec::new(),
+            unit: vec![Vec::new(); columns],
+            values: vec![Vec::new(); columns],
+            batches: vec![Batch::of(job.model); runs],
+            workspace: Workspace::default(),
         }
     }
 
@@ -45,17 +38,15 @@ impl<'a> Scratch<'a> {
         &mut self.unit
     }
 
-    /// Evaluates the base points in the unit columns; `first_row` is the row number of the first one's A. `report` is
-    /// told of every batch: its runs, and how many of them failed.
-    pub(super) fn evaluate(&mut self, job: Job<'_>, first_row: u64, report: &dyn Fn(u64, u64)) -> Totals {
+    /// Evaluates the base points in the unit columns. `report` is told of every batch: its runs, and how many of them
+    /// failed.
+    pub(super) fn evaluate(&mut self, job: Job<'_>, place: BlockPlace, report: &dyn Fn(u64, u64)) -> Totals {
         self.run_rows(job, report);
         let rows = self.unit.first().map_or(0, Vec::len);
         let mut totals = Totals {
             runs: (rows * self.batches.len()) as u64,
             failed_runs: self.batches.iter().map(failed_rows).sum(),
-            outputs: Vec::with_capacity(job.model.outputs().len()),
-            flags: vec![0; job.model.flags().len()],
-            effort: Effort::none(job.model.rungs().len()),
+            ..Totals::none(job.model)
         };
         for batch in &self.batches {
             totals.effort.merge(batch.effort());
@@ -63,8 +54,8 @@ impl<'a> Scratch<'a> {
                 *total += raised;
             }
         }
-        for output in 0..job.model.outputs().len() {
-            totals.outputs.push(self.totals_of(output, rows, first_row));
+        for (output, of_output) in totals.outputs.iter_mut().enumerate() {
+            *of_output = self.totals_of(job, output, place);
         }
         totals
     }
@@ -75,15 +66,14 @@ impl<'a> Scratch<'a> {
             values.resize(unit.len(), 0.0);
             job.space.factors()[k % factors].fill_si(unit, values);
         }
-        let (a, b) = self.values.split_at(factors);
+        let values = &self.values;
+        let columns_of = |matrix: Matrix| &values[matrix as usize * factors..][..factors];
         let mut inputs: Vec<&[f64]> = Vec::with_capacity(factors);
-        for (kind, batch) in self.batches.iter_mut().enumerate() {
+        for (run, batch) in job.design.runs().iter().zip(&mut self.batches) {
             inputs.clear();
-            inputs.extend(if kind == 1 { b } else { a }.iter().map(Vec::as_slice));
-            if let Some(swap) = kind.checked_sub(2) {
-                for &column in &job.design.swaps()[swap] {
-                    inputs[column] = &b[column];
-                }
+            inputs.extend(columns_of(run.base).iter().map(Vec::as_slice));
+            for &column in &run.columns {
+                inputs[column] = &columns_of(run.from)[column];
             }
             batch.reset(inputs[0].len());
             self.worker.run(&inputs, batch);
@@ -92,35 +82,58 @@ impl<'a> Scratch<'a> {
         }
     }
 
-    fn totals_of(&mut self, output: usize, rows: usize, first_row: u64) -> OutputTotals {
-        let kinds = self.batches.len() as u64;
-        let mut totals = OutputTotals { moments: Moments::empty(0), runs_failed: 0, failures: BTreeMap::new() };
-        self.complete.clear();
-        self.complete.resize(rows, true);
-        for (kind, batch) in self.batches.iter().enumerate() {
-            for (_, row, failure) in batch.failures().iter().filter(|(o, _, _)| *o == output) {
-                self.complete[*row] = false;
+    fn totals_of(&mut self, job: Job<'_>, output: usize, place: BlockPlace) -> OutputTotals {
+        let design = job.design;
+        let mut totals = OutputTotals::default();
+        for (run, batch) in self.batches.iter_mut().enumerate() {
+            let failures = batch.failures().iter().filter(|(o, _, _)| *o == output).map(|(_, row, why)| (*row, why));
+            let failed: Vec<usize> = failures.clone().map(|(row, _)| row).collect();
+            for (row, failure) in failures {
+                let first = Place { point: place.first.point + row as u64, run: run as u64, ..place.first };
                 totals.runs_failed += 1;
-                totals.count(
-                    failure.clone(),
-                    Tally { count: 1, first_row: first_row + *row as u64 * kinds + kind as u64 },
-                );
+                totals.count(failure.clone(), Tally { count: 1, first });
+            }
+            // Whatever the model left there: it says that it failed.
+            for row in failed {
+                batch.set(row, output, f64::NAN);
             }
         }
-        let columns: Vec<&[f64]> = if totals.runs_failed == 0 {
-            self.batches.iter().map(|batch| batch.column(output)).collect()
-        } else {
-            for (batch, kept) in self.batches.iter().zip(&mut self.kept) {
-                kept.clear();
-                let complete = batch.column(output).iter().zip(&self.complete).filter(|(_, complete)| **complete);
-                kept.extend(complete.map(|(value, _)| value));
+        let column = |run: &usize| self.batches[*run].column(output);
+        let columns = |runs: &[usize]| runs.iter().map(column).collect::<Vec<&[f64]>>();
+        let (a, b) = (column(&0), column(&1));
+        let (ab, ba) = (columns(design.ab_runs()), columns(design.ba_runs()));
+        let (bc, cb) = (columns(design.bc_runs()), columns(design.cb_runs()));
+        let length = place.part_length as usize;
+        let mut parts = Vec::with_capacity(a.len().div_ceil(length));
+        let mut cut: [Vec<&[f64]>; 4] = Default::default();
+        for first in (0..a.len()).step_by(length) {
+            let part = first..(first + length).min(a.len());
+            for (cut, whole) in cut.iter_mut().zip([&ab, &ba, &bc, &cb]) {
+                cut.clear();
+                cut.extend(whole.iter().map(|column| &column[part.clone()]));
             }
-            self.kept.iter().map(Vec::as_slice).collect()
-        };
-        let outputs = BlockOutputs { a: columns[0], b: columns[1], swapped: &columns[2..] };
-        totals.moments = Moments::of_block(outputs, &mut self.differences);
+            let [ab, ba, bc, cb] = cut.each_ref().map(Vec::as_slice);
+            let outputs =
+                BlockOutputs { a: &a[part.clone()], b: &b[part.clone()], ab, ba, bc, cb, paired: design.paired() };
+            parts.push(Moments::of_block(outputs, &mut self.workspace));
+        }
+        totals.moments = MomentParts::new(place.part_length, a.len() as u64, parts);
+        totals.values = CentralMoments::of(a);
+        totals.values.merge(&CentralMoments::of(b));
+        totals.sample = a.iter().zip(b).take(place.sampled).flat_map(|(a, b)| [*a, *b]).collect();
         totals
     }
+}
+
+/// Where a block lies in its design, and what is kept of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BlockPlace {
+    /// The first base point's A.
+    pub first: Place,
+    /// Base points in each part whose moments are kept apart, a power of two.
+    pub part_length: u64,
+    /// How many of its base points, from the first on, belong to the sample.
+    pub sampled: usize,
 }
 
 /// Rows of a settled batch with at least one failure.

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-pub use totals::{OutputTotals, Place, Tally, Totals};
+pub use totals::{OutputTotals, Place, SAMPLE, Tally, Totals};
 
 use crate::design::{BasePoints, Design};
 use crate::estimate::part_length;
@@ -81,7 +81,7 @@ pub enum RunError {
 /// # Errors
 /// [`RunError::Threads`] if the threads cannot be started. Rows that fail are part of the totals, not errors.
 pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<Vec<Totals>, RunError> {
-    let mut run = Run::new(job, threads)?;
+    let mut run = GrowingRun::new(job, threads)?;
     run.grow_to(job.design.points_per_replicate(), on_progress)?;
     Ok(run.totals)
 }
@@ -91,12 +91,34 @@ pub fn threads_in_force(threads: usize) -> usize {
     if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads }
 }
 
+/// What happens when a row fails.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FailurePolicy {
+    /// The indices that need the row do without its base point.
+    DropBlock,
+    /// The run is given up.
+    Fail,
+}
+
+impl FailurePolicy {
+    /// Both, the default first.
+    pub const ALL: [Self; 2] = [Self::DropBlock, Self::Fail];
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::DropBlock => "drop-block",
+            Self::Fail => "fail",
+        }
+    }
+}
+
 /// A run that can go on: every replicate holds the same number of base points, and can be given more.
-pub struct Run<'a> {
+pub struct GrowingRun<'a> {
     job: Job<'a>,
     pool: rayon::ThreadPool,
     start: Instant,
-    stop_at_failure: bool,
+    failures: FailurePolicy,
     /// Base points of every replicate that have been run.
     points: u64,
     totals: Vec<Totals>,
@@ -104,7 +126,7 @@ pub struct Run<'a> {
     failed: u64,
 }
 
-impl<'a> Run<'a> {
+impl<'a> GrowingRun<'a> {
     /// A run of nothing yet, on `threads` threads (0: one per core).
     ///
     /// # Panics
@@ -119,13 +141,13 @@ impl<'a> Run<'a> {
             .build()
             .map_err(|source| RunError::Threads { threads: threads_in_force(threads), source })?;
         let (totals, start) = (Vec::new(), Instant::now());
-        Ok(Self { job, pool, start, stop_at_failure: false, points: 0, totals, done: 0, failed: 0 })
+        Ok(Self { job, pool, start, failures: FailurePolicy::DropBlock, points: 0, totals, done: 0, failed: 0 })
     }
 
-    /// The same run, which gives up at the first row that fails.
+    /// The same run under another policy than [`FailurePolicy::DropBlock`].
     #[must_use]
-    pub fn stopping_at_failure(self, stop: bool) -> Self {
-        Self { stop_at_failure: stop, ..self }
+    pub fn with_failures(self, failures: FailurePolicy) -> Self {
+        Self { failures, ..self }
     }
 
     /// Runs the base points that every replicate lacks to hold `points` of them, at most the design's. Those that have been
@@ -149,7 +171,7 @@ impl<'a> Run<'a> {
             start: self.start,
             done: AtomicU64::new(self.done),
             failed: AtomicU64::new(self.failed),
-            stop_at_failure: self.stop_at_failure,
+            failures: self.failures,
             given_up: AtomicBool::new(false),
             failure: Mutex::new(None),
             idle: Mutex::new(Vec::new()),
@@ -161,7 +183,7 @@ impl<'a> Run<'a> {
         if self.totals.is_empty() {
             self.totals = grown;
         } else {
-            self.totals.iter_mut().zip(&grown).for_each(|(totals, more)| totals.append(more));
+            self.totals.iter_mut().zip(&grown).for_each(|(totals, more)| totals.merge(more));
         }
         (self.done, self.failed) = (growth.done.into_inner(), growth.failed.into_inner());
         self.points = points;
@@ -194,7 +216,7 @@ struct Growth<'a, 'p> {
     start: Instant,
     done: AtomicU64,
     failed: AtomicU64,
-    stop_at_failure: bool,
+    failures: FailurePolicy,
     given_up: AtomicBool,
     failure: Mutex<Option<(Place, RowFailure)>>,
     /// Scratch space and workers not in use: one per thread that has ever been busy at once.
@@ -230,7 +252,7 @@ impl Growth<'_, '_> {
                 let middle = range.start + n.next_power_of_two() / 2;
                 let (mut left, right) =
                     rayon::join(|| self.tree(leaf, range.start..middle), || self.tree(leaf, middle..range.end));
-                left.append(&right);
+                left.merge(&right);
                 left
             }
         }
@@ -239,18 +261,23 @@ impl Growth<'_, '_> {
     fn block(&self, points: &BasePoints, replicate: u64, block: u64) -> Totals {
         let first = (block * BLOCK).max(self.range.start);
         let rows = ((block + 1) * BLOCK).min(self.range.end) - first;
+        if self.given_up.load(Ordering::Relaxed) {
+            return Totals::none(self.job.model);
+        }
         // A thread that panicked holding the lock has ended the run already; its scratch space is as good as any.
         let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let taken = idle().pop();
         let mut scratch = taken.unwrap_or_else(|| Scratch::new(self.job));
-        if self.given_up.load(Ordering::Relaxed) {
-            return scratch.nothing(self.job);
-        }
         points.fill(first, scratch.unit_columns(rows as usize));
-        let place = BlockPlace { replicate, point: first, part_length: part_length(block, BLOCK) };
+        let sample = (SAMPLE / self.job.design.settings().replicates).max(1);
+        let place = BlockPlace {
+            first: Place { replicate, point: first, run: 0 },
+            part_length: part_length(block, BLOCK),
+            sampled: sample.saturating_sub(first) as usize,
+        };
         let totals = scratch.evaluate(self.job, place, &|runs, failed| self.report(runs, failed));
         idle().push(scratch);
-        if self.stop_at_failure {
+        if self.failures == FailurePolicy::Fail {
             self.note_failure(&totals);
         }
         totals

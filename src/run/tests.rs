@@ -1,7 +1,7 @@
 use std::sync::Mutex;
 
 use super::*;
-use crate::design::{DesignSettings, Sampler};
+use crate::design::{DesignSettings, Rows, Sampler};
 use crate::model::{Batch, Output, RowFailure, Worker};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor};
@@ -49,7 +49,7 @@ fn space() -> Space {
 
 fn design(sampler: Sampler, base_samples: u64, replicates: u64) -> Design {
     let settings = DesignSettings { sampler, base_samples, replicates, seed: 1 };
-    Design::new(settings, 2, vec![vec![0], vec![1]]).unwrap()
+    Design::new(settings, 2, Rows::plain(vec![vec![0], vec![1]])).unwrap()
 }
 
 fn totals(design: &Design, model: &Sum, threads: usize) -> Vec<Totals> {

@@ -2,28 +2,67 @@
 
 use std::collections::BTreeMap;
 
-use crate::estimate::Moments;
-use crate::model::{Effort, RowFailure};
+use crate::design::Design;
+use crate::estimate::{CentralMoments, MomentParts};
+use crate::model::{Effort, Model, RowFailure};
+
+/// Where a row stands in a design, however many base points that has. Places are ordered as rows are counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// Its replicate.
+    pub replicate: u64,
+    /// Its base point in the replicate.
+    pub point: u64,
+    /// Which of the base point's runs it is.
+    pub run: u64,
+}
+
+impl Place {
+    /// The row's number in `design`.
+    pub fn row(self, design: &Design) -> u64 {
+        (self.replicate * design.points_per_replicate() + self.point) * design.rows_per_point() + self.run
+    }
+}
 
 /// How often something happened, and where first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tally {
     /// Number of rows.
     pub count: u64,
-    /// Lowest row number of the design among them.
-    pub first_row: u64,
+    /// The first of them.
+    pub first: Place,
 }
 
+/// Base points of a design, over all replicates, whose outputs are kept in [`OutputTotals::sample`].
+pub const SAMPLE: u64 = 1 << 15;
+
 /// Totals of one output.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct OutputTotals {
-    /// Moments of the base points whose rows all have a value: an incomplete base point is left out whole, so that
-    /// every index is estimated from the same points.
-    pub moments: Moments,
+    /// What the indices are read from: each from every base point at which its own rows have a value.
+    pub moments: MomentParts,
+    /// Moments of every value of the rows A and B.
+    pub values: CentralMoments,
+    /// Outputs of the rows A and B of the first [`SAMPLE`]/replicates base points of each replicate (at least one), in
+    /// the order of the points: A, B, A, B, ...; NaN where a run failed.
+    pub sample: Vec<f64>,
     /// Rows without a value.
     pub runs_failed: u64,
     /// Why, and how often each.
     pub failures: BTreeMap<RowFailure, Tally>,
+}
+
+/// Equal in every bit; the NaNs of failed runs in the sample are equal to each other.
+impl PartialEq for OutputTotals {
+    fn eq(&self, other: &Self) -> bool {
+        let Self { moments, values, sample, runs_failed, failures } = other;
+        let bits = |sample: &[f64]| sample.iter().map(|y| y.to_bits()).collect::<Vec<_>>();
+        self.moments == *moments
+            && self.values == *values
+            && bits(&self.sample) == bits(sample)
+            && self.runs_failed == *runs_failed
+            && self.failures == *failures
+    }
 }
 
 /// Totals of some rows of a design.
@@ -42,8 +81,29 @@ pub struct Totals {
 }
 
 impl Totals {
-    /// Adds other rows of the same design.
+    /// Totals of no rows through `model`.
+    pub fn none(model: &dyn Model) -> Self {
+        Self {
+            runs: 0,
+            failed_runs: 0,
+            outputs: vec![OutputTotals::default(); model.outputs().len()],
+            flags: vec![0; model.flags().len()],
+            effort: Effort::none(model.rungs().len()),
+        }
+    }
+
+    /// Adds the rows that follow in the same replicate.
     pub fn merge(&mut self, other: &Self) {
+        self.add_counts(other);
+        for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
+            mine.moments.append(&theirs.moments);
+            mine.sample.extend_from_slice(&theirs.sample);
+        }
+    }
+
+    /// Adds what is counted over the rows of another replicate: everything but moments and samples, which belong to
+    /// their replicate.
+    pub fn add_counts(&mut self, other: &Self) {
         self.runs += other.runs;
         self.failed_runs += other.failed_runs;
         self.effort.merge(&other.effort);
@@ -51,23 +111,27 @@ impl Totals {
             *mine += theirs;
         }
         for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
-            mine.moments.merge(&theirs.moments);
-            mine.runs_failed += theirs.runs_failed;
-            for (failure, tally) in &theirs.failures {
-                mine.count(failure.clone(), *tally);
-            }
+            mine.add_counts(theirs);
         }
     }
 }
 
 impl OutputTotals {
+    fn add_counts(&mut self, other: &Self) {
+        self.values.merge(&other.values);
+        self.runs_failed += other.runs_failed;
+        for (failure, tally) in &other.failures {
+            self.count(failure.clone(), *tally);
+        }
+    }
+
     /// Adds `tally` to the count of `failure`.
     pub fn count(&mut self, failure: RowFailure, tally: Tally) {
         self.failures
             .entry(failure)
             .and_modify(|mine| {
                 mine.count += tally.count;
-                mine.first_row = mine.first_row.min(tally.first_row);
+                mine.first = mine.first.min(tally.first);
             })
             .or_insert(tally);
     }

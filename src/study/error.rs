@@ -98,6 +98,19 @@ pub enum Problem {
     /// A constant that is also a factor.
     #[error("`{0}` is a factor of this study, so it cannot be fixed in [afm]")]
     FixedFactor(String),
+    /// A kind of interval that would be dishonest for the sampler.
+    #[error("intervals = \"{method}\" do not hold for points of the sampler `{sampler}`")]
+    UnfitInterval {
+        /// The kind asked for.
+        method: &'static str,
+        /// The sampler.
+        sampler: &'static str,
+        /// The kinds that hold.
+        serving: String,
+    },
+    /// A growing run of points that cannot be added to.
+    #[error("a Latin hypercube cannot grow: more points make another hypercube")]
+    CannotGrow,
     /// The study has no factor.
     #[error("the study has no factor: there is nothing to vary")]
     NoFactors,
@@ -199,6 +212,8 @@ impl Problem {
             Self::UnknownKey { expected, .. } => Some(format!("keys that can stand here: {}", expected.join(", "))),
             Self::UnknownName { expected, .. } => Some(format!("known: {}", expected.join(", "))),
             Self::FixedFactor(name) => Some(format!("remove `{name}` here, or remove its [[factor]]")),
+            Self::UnfitInterval { serving, .. } => Some(format!("these do: {serving}")),
+            Self::CannotGrow => Some("sampler = \"sobol\" and \"random\" can grow".to_owned()),
             Self::NoFactors => Some("add one or more [[factor]] tables with name, min, max and unit".to_owned()),
             Self::NoOutputs => Some("name at least one output, or leave `outputs` out".to_owned()),
             Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => {

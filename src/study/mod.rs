@@ -7,6 +7,7 @@ mod constants;
 mod distribution;
 mod error;
 mod file;
+mod options;
 mod overrides;
 mod resolve;
 mod subject;
@@ -17,11 +18,13 @@ use sha2::{Digest, Sha256};
 
 pub(crate) use error::nearest;
 pub use error::{Diagnostic, OverrideProblem, Problem, StudyError};
+pub use options::{AnalysisOptions, Stopping};
 pub use subject::{AfmSubject, KnownSubject, Subject};
 
 use crate::design::Design;
 use crate::model::Model;
 use crate::space::Space;
+use crate::uncertainty::Layout;
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
 #[derive(Debug, Clone)]
@@ -34,8 +37,13 @@ pub struct Study {
     pub subject: Subject,
     /// The factors.
     pub space: Space,
-    /// The points at which the model runs; its swaps are the factors, then the groups.
+    /// The points at which the model runs, or starts to; its swaps are the factors, the groups, the subsets of
+    /// [`Study::analysis`], and the dummy factor if there is one.
     pub design: Design,
+    /// What is asked of the runs.
+    pub analysis: AnalysisOptions,
+    /// When a run that grows ends.
+    pub stopping: Stopping,
     /// Changes made to the file on the command line, as given.
     pub overrides: Vec<String>,
     /// The file, word for word.
@@ -101,6 +109,18 @@ impl Study {
     /// The model, ready to run on this study's factors.
     pub fn model(&self) -> Box<dyn Model> {
         self.subject.model(&self.space)
+    }
+
+    /// What is estimated from the swaps of the design.
+    pub fn layout(&self) -> Layout {
+        Layout {
+            factors: self.space.factors().len(),
+            groups: self.space.groups().len(),
+            subsets: self.analysis.subsets.len(),
+            dummy: self.analysis.dummy,
+            estimators: self.analysis.estimators.clone(),
+            second_order: self.analysis.second_order,
+        }
     }
 
     /// The choices in force, such as the friction law, in the terms of the study file.

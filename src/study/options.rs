@@ -162,7 +162,11 @@ fn resamples(context: &Context<'_>, section: &AnalysisSection, method: IntervalM
 }
 
 /// Reads the keys of `[design]` that say when a growing run ends.
-pub(super) fn stopping(context: &Context<'_>, section: &DesignSection) -> Result<Stopping, Fault> {
+pub(super) fn stopping(
+    context: &Context<'_>,
+    section: &DesignSection,
+    sampler: Sampler,
+) -> Result<Stopping, Fault> {
     let half_width = match section.target.as_ref().map(At::get_ref) {
         None => None,
         Some(target) => {
@@ -172,6 +176,14 @@ pub(super) fn stopping(context: &Context<'_>, section: &DesignSection) -> Result
             Some(if fits { *width.get_ref() } else { return Err(context.fault(width.span(), problem())) })
         }
     };
+    let spans = [
+        section.target.as_ref().map(At::span),
+        section.budget.as_ref().map(At::span),
+        section.max_runs.as_ref().map(At::span),
+    ];
+    if let (Sampler::LatinHypercube, Some(span)) = (sampler, spans.into_iter().flatten().next()) {
+        return Err(context.fault(span, Problem::CannotGrow));
+    }
     let budget = match &section.budget {
         None => None,
         Some(text) => Some(seconds(text.get_ref()).map_err(|problem| context.fault(text.span(), problem))?),
@@ -199,7 +211,7 @@ fn between(context: &Context<'_>, key: &str, value: Option<&At<f64>>, default: f
     }
 }
 
-fn choice<T: Copy>(
+pub(super) fn choice<T: Copy>(
     context: &Context<'_>,
     typed: &At<String>,
     what: &'static str,

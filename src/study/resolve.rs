@@ -4,10 +4,11 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use super::error::{Diagnostic, Problem, nearest};
-use super::file::{At, DesignSection, FactorSection, StudyFile};
+use super::file::{At, FactorSection, StudyFile};
+use super::options::{self, AnalysisOptions, Stopping};
 use super::subject::{AfmSubject, KnownSubject, Subject};
 use super::{Study, constants, distribution};
-use crate::design::{Design, DesignError, DesignSettings, Sampler};
+use crate::design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler};
 use crate::model::{AfmOutput, Input, ModelKind};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor, Space};
@@ -33,13 +34,13 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let kind = model_kind(context, file.model.as_ref())?;
     let space = space(context, kind, &file.factor)?;
     let subject = subject(context, kind, &file, &space)?;
-    let (design, mut notes) = design(context, &file.design, &space)?;
+    let Plan { design, analysis, stopping, mut notes } = plan(context, &file, &space)?;
     if let (Subject::Afm(afm), Some(table)) = (&subject, &file.afm) {
         notes.extend(constants::idle(table.get_ref(), &afm.options));
     }
     let name = name(context, file.name.as_ref())?;
     let (overrides, source, sha256) = Default::default();
-    Ok(Study { name, title: file.title, subject, space, design, overrides, source, sha256, notes })
+    Ok(Study { name, title: file.title, subject, space, design, analysis, stopping, overrides, source, sha256, notes })
 }
 
 fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
@@ -57,10 +58,12 @@ fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
 
 /// The deserialiser's message without the names of Rust types.
 fn in_words(message: &str) -> String {
-    const WORDS: [(&str, &str); 7] = [
+    const WORDS: [(&str, &str); 9] = [
         ("expected f64", "expected a number"),
         ("expected u64", "expected a whole number from 0 to 9223372036854775807"),
         ("expected struct DesignSection", "expected a table [design]"),
+        ("expected struct AnalysisSection", "expected a table [analysis]"),
+        ("expected struct TargetSection", "expected a table, as in { half_width = 0.01 }"),
         ("expected struct FactorSection", "expected a table [[factor]]"),
         (
             "invalid type: map, expected a sequence",
@@ -80,7 +83,7 @@ fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<Model
     })
 }
 
-fn unknown_name<'a>(what: &'static str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Problem {
+pub(super) fn unknown_name<'a>(what: &'static str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Problem {
     Problem::UnknownName {
         what,
         name: name.to_owned(),
@@ -125,7 +128,7 @@ fn subject(context: &Context<'_>, kind: ModelKind, file: &StudyFile, space: &Spa
 }
 
 fn top_level_keys() -> Vec<String> {
-    ["name", "title", "model", "outputs", "design", "factor"].map(str::to_owned).to_vec()
+    ["name", "title", "model", "outputs", "design", "analysis", "factor"].map(str::to_owned).to_vec()
 }
 
 /// Numbers of the outputs in the catalogue, in the order asked for; the first one if nothing is asked.
@@ -244,41 +247,78 @@ fn unit(context: &Context<'_>, fields: &FactorSection, input: &Input) -> Result<
     Ok(unit)
 }
 
-fn design(context: &Context<'_>, section: &DesignSection, space: &Space) -> Result<(Design, Vec<String>), Fault> {
+/// The design with what is asked of it, and notes on what was read otherwise than it was written.
+struct Plan {
+    design: Design,
+    analysis: AnalysisOptions,
+    stopping: Stopping,
+    notes: Vec<String>,
+}
+
+fn plan(context: &Context<'_>, file: &StudyFile, space: &Space) -> Result<Plan, Fault> {
+    let section = &file.design;
     let defaults = DesignSettings::default();
     let sampler = match &section.sampler {
         None => defaults.sampler,
-        Some(name) => {
-            let found = Sampler::ALL.into_iter().find(|sampler| sampler.name() == name.get_ref());
-            let names = Sampler::ALL.map(Sampler::name);
-            found.ok_or_else(|| {
-                context.fault(name.span(), unknown_name("sampler", name.get_ref(), names.iter().copied()))
-            })?
-        }
+        Some(name) => options::choice(context, name, "sampler", &Sampler::ALL, Sampler::name)?,
     };
+    let analysis = options::analysis(context, &file.analysis, sampler, space)?;
+    let stopping = options::stopping(context, section, sampler)?;
     let or = |value: &Option<At<u64>>, default| value.as_ref().map_or(default, |value| *value.get_ref());
     let settings = DesignSettings {
         sampler,
-        base_samples: or(&section.base_samples, defaults.base_samples),
-        replicates: or(&section.replicates, defaults.replicates),
+        base_samples: or(&section.base_samples, if stopping.grows() { FIRST_STAGE } else { defaults.base_samples }),
+        replicates: or(&section.replicates, analysis.intervals.default_replicates()),
         seed: or(&section.seed, defaults.seed),
     };
+    let mut notes = Vec::new();
+    let settings = if stopping.grows() { whole_nets(settings, &mut notes) } else { settings };
     let asked = settings.base_samples;
-    let single = (0..space.factors().len()).map(|number| vec![number]);
-    let swaps = single.chain(space.groups().into_iter().map(|group| group.factors)).collect();
-    let design = Design::new(settings, space.factors().len(), swaps).map_err(|error| {
+    let design = Design::new(settings, space.factors().len(), rows(&analysis, space)).map_err(|error| {
         let span = match error {
-            DesignError::NoReplicates => section.replicates.as_ref(),
-            _ => section.base_samples.as_ref().or(section.replicates.as_ref()),
+            DesignError::NoReplicates => section.replicates.as_ref().map(At::span),
+            DesignError::TooManyPairs { .. } => file.analysis.second_order.as_ref().map(At::span),
+            _ => section.base_samples.as_ref().or(section.replicates.as_ref()).map(At::span),
         };
-        context.fault(span.map_or(0..0, At::span), error.into())
+        context.fault(span.unwrap_or(0..0), error.into())
     })?;
     let in_force = design.settings();
-    let rounded = (in_force.base_samples != asked).then(|| {
-        format!(
+    if in_force.base_samples != asked {
+        notes.push(format!(
             "base_samples = {asked} is not a multiple of {} replicates: {} are used",
             in_force.replicates, in_force.base_samples
-        )
-    });
-    Ok((design, rounded.into_iter().collect()))
+        ));
+    }
+    if analysis.aggregate && file.outputs.as_ref().is_none_or(|outputs| outputs.get_ref().len() < 2) {
+        notes.push("`aggregate` has no effect with a single output".to_owned());
+    }
+    Ok(Plan { design, analysis, stopping, notes })
+}
+
+/// Base samples with which a growing run starts.
+const FIRST_STAGE: u64 = 1 << 10;
+
+/// A growing run goes from one power of two to the next.
+fn whole_nets(settings: DesignSettings, notes: &mut Vec<String>) -> DesignSettings {
+    let DesignSettings { base_samples, replicates, .. } = settings;
+    let Some(points) = base_samples.div_ceil(replicates.max(1)).checked_next_power_of_two() else { return settings };
+    let Some(rounded) = points.checked_mul(replicates) else { return settings };
+    if rounded != base_samples && base_samples >= 2 * replicates {
+        notes.push(format!(
+            "a run that grows by doubling starts with a power of two in each replicate: base_samples = {rounded} instead of {base_samples}"
+        ));
+        return DesignSettings { base_samples: rounded, ..settings };
+    }
+    settings
+}
+
+/// The rows for what is asked: the factors, the groups, the subsets, the dummy.
+fn rows(analysis: &AnalysisOptions, space: &Space) -> Rows {
+    let single = (0..space.factors().len()).map(|number| vec![number]);
+    let groups = space.groups().into_iter().map(|group| group.factors);
+    let dummy = analysis.dummy.then(Vec::new);
+    let swaps = single.chain(groups).chain(analysis.subsets.iter().cloned()).chain(dummy).collect();
+    let second_order = Companions { ba: analysis.second_order, ..Companions::NONE };
+    let companions = analysis.estimators.iter().fold(second_order, |all, estimator| all.union(estimator.needs()));
+    Rows { swaps, companions, second_order: analysis.second_order }
 }

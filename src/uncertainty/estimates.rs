@@ -2,7 +2,7 @@
 //!
 //! Intervals work on lists of numbers: [`quantities`] lays the list out, [`Layout`] knows the places in it.
 
-use crate::estimate::{Estimator, Indices, Moments, shares};
+use crate::estimate::{Estimator, Indices, Moments, SecondOrder, shares};
 
 /// What is estimated from the swaps of a design, which come in this order.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -86,7 +86,7 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
         }
     }
     if layout.second_order {
-        list.extend(layout.pair_list().into_iter().map(|(j, k)| moments.second_order(j, k).unwrap_or(f64::NAN)));
+        list.extend(layout.pair_list().into_iter().map(|(j, k)| SecondOrder::Difference.estimate(moments, j, k)));
     }
     Some(list)
 }

@@ -98,13 +98,21 @@ impl IntervalMethod {
 
     /// Standard errors from the parts of every replicate; for methods that keep outputs, an approximation by batches.
     pub fn errors(self, quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
-        match self {
-            Self::Nets => net_errors(quantities, pooled),
+        let unknown = |parts: &PartInfluences| parts.iter().flatten().any(|influence| !influence.is_finite());
+        let errors = match self {
+            Self::Nets => {
+                let silent = |parts: &PartInfluences| parts.iter().map(|net| vec![0.0; net.len()]).collect();
+                let known: Vec<PartInfluences> =
+                    quantities.iter().map(|parts| if unknown(parts) { silent(parts) } else { parts.clone() }).collect();
+                net_errors(&known, pooled)
+            }
             Self::Replicates => quantities.iter().map(|parts| spread(&means(parts))).collect(),
             Self::Batches | Self::Delta | Self::Percentile | Self::Bca => {
                 quantities.iter().map(|parts| spread(&complete(parts))).collect()
             }
-        }
+        };
+        let none = StandardError { error: f64::NAN, freedom: 0.0 };
+        errors.into_iter().zip(quantities).map(|(error, parts)| if unknown(parts) { none } else { error }).collect()
     }
 }
 

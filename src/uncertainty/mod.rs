@@ -1,11 +1,29 @@
-//! Intervals from independent randomised replicates.
+//! Intervals that say how wrong an estimate may be, and what follows from them.
+//!
+//! An estimate rests on all runs. [`Influences`] tell what each part of them does to it; an [`IntervalMethod`] turns that
+//! into a standard error: for Sobol' points by [`net_errors`], for random points by their batches.
 
+mod aggregate;
+mod convergence;
+mod estimates;
+mod influence;
+mod method;
 mod net_decay;
-mod replicated;
+mod output;
+mod ranks;
 mod special;
 
+pub use aggregate::{AggregateIndices, aggregate_indices};
+pub use convergence::{Stage, stages};
+pub use estimates::Layout;
+pub use influence::{Influences, Outputs};
+pub use method::IntervalMethod;
 pub use net_decay::{PartInfluences, StandardError, net_errors};
-pub use replicated::{EffectEstimates, ReplicatedIndices, ReplicatedMoments, replicated_indices, replicated_moments};
+pub use output::{
+    EffectEstimates, Judgement, OtherEstimates, OutputIndices, OutputMoments, differs_clearly, output_indices,
+    output_moments,
+};
+pub use ranks::{probability_above, probability_first};
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -30,34 +48,20 @@ pub struct Estimate {
     pub interval: Option<Interval>,
 }
 
-/// Estimates of several quantities with t-intervals from `R` independent replicates, by the delete-one jackknife.
-///
-/// `whole` holds the quantities estimated from all replicates together, `without[r]` the same from all but replicate
-/// r. The standard error is sqrt((R - 1)/R sum_r (without_r - mean)^2) (Quenouille 1956, Tukey 1958; Efron and Stein
-/// 1981), and the interval is `whole` +- t_{R-1} times it. Replicates are independent randomisations of a whole net,
-/// so this is honest for quasi-random points, where a bootstrap over the points is not.
-///
-/// All lists have one entry per quantity, in the same order.
-pub fn jackknife(whole: &[f64], without: &[Vec<f64>]) -> Vec<Estimate> {
-    let quantile = t_quantile(without.len());
-    let interval = |k: usize, estimate: f64| {
-        let r = without.len() as f64;
-        // Relative to the estimate, so that nothing large is subtracted.
-        let deviations = || without.iter().map(move |values| values[k] - estimate);
-        let mean = deviations().sum::<f64>() / r;
-        let spread: f64 = deviations().map(|d| (d - mean).powi(2)).sum();
-        let half_width = quantile? * ((r - 1.0) / r * spread).sqrt();
-        Some(Interval { low: estimate - half_width, high: estimate + half_width })
-    };
-    whole.iter().enumerate().map(|(k, &estimate)| Estimate { estimate, interval: interval(k, estimate) }).collect()
+/// The two-sided t-interval at [`LEVEL`] about `estimate`; `None` if the estimate or its error is unknown.
+pub fn t_interval(estimate: f64, error: StandardError) -> Option<Interval> {
+    if error.error == 0.0 {
+        return Some(Interval { low: estimate, high: estimate }).filter(|_| estimate.is_finite());
+    }
+    let half_width = t_quantile(error.freedom)? * error.error;
+    let interval = Interval { low: estimate - half_width, high: estimate + half_width };
+    Some(interval).filter(|i| i.low.is_finite() && i.high.is_finite())
 }
 
-/// The quantile of Student's t distribution with `replicates - 1` degrees of freedom for a two-sided interval at
-/// [`LEVEL`]; `None` for fewer than two replicates.
-fn t_quantile(replicates: usize) -> Option<f64> {
-    let freedom = replicates.checked_sub(1).filter(|&f| f > 0)?;
-    let t = StudentsT::new(0.0, 1.0, freedom as f64).ok()?;
-    Some(t.inverse_cdf((1.0 + LEVEL) / 2.0))
+/// The quantile of Student's t distribution for a two-sided interval at [`LEVEL`]; `None` without degrees of freedom.
+fn t_quantile(freedom: f64) -> Option<f64> {
+    let t = StudentsT::new(0.0, 1.0, freedom).ok()?;
+    Some(t.inverse_cdf((1.0 + LEVEL) / 2.0)).filter(|quantile| quantile.is_finite())
 }
 
 #[cfg(test)]
@@ -66,27 +70,21 @@ mod tests {
 
     #[test]
     fn t_quantiles_are_those_of_the_tables() {
-        for (replicates, expected) in [(2, 12.7062), (3, 4.3027), (5, 2.7764), (16, 2.1314), (101, 1.9840)] {
-            assert!((t_quantile(replicates).unwrap() - expected).abs() < 5e-5);
+        // Whole degrees of freedom from tables; 2.5 and 5.7 from scipy.stats.t.ppf, SciPy 1.17.
+        let cases = [(1.0, 12.7062), (2.0, 4.3027), (4.0, 2.7764), (15.0, 2.1314), (100.0, 1.9840), (2.5, 3.5754), (5.7, 2.4793)];
+        for (freedom, expected) in cases {
+            assert!((t_quantile(freedom).unwrap() - expected).abs() < 5e-5, "{freedom}: {:?}", t_quantile(freedom));
         }
-        assert_eq!(t_quantile(1), None);
-        assert_eq!(t_quantile(0), None);
+        assert_eq!(t_quantile(0.0), None);
     }
 
     #[test]
-    fn for_a_mean_it_is_the_classical_t_interval() {
-        let x = [1.0, 4.0, 2.0, 7.0, 6.0];
-        let sum: f64 = x.iter().sum();
-        let without: Vec<Vec<f64>> = x.iter().map(|xi| vec![(sum - xi) / 4.0]).collect();
-        let got = jackknife(&[4.0], &without)[0].interval.unwrap();
-        let sd = (x.iter().map(|x| (x - 4.0f64).powi(2)).sum::<f64>() / 4.0).sqrt();
-        let half_width = t_quantile(5).unwrap() * sd / 5f64.sqrt();
-        assert!((got.high - 4.0 - half_width).abs() < 1e-14);
-        assert!((4.0 - got.low - half_width).abs() < 1e-14);
-    }
-
-    #[test]
-    fn one_replicate_carries_no_interval() {
-        assert_eq!(jackknife(&[0.5], &[vec![f64::NAN]])[0], Estimate { estimate: 0.5, interval: None });
+    fn an_interval_needs_an_error() {
+        let interval = |error, freedom| t_interval(0.5, StandardError { error, freedom });
+        assert_eq!(interval(0.0, 1.0), Some(Interval { low: 0.5, high: 0.5 }));
+        assert_eq!(interval(f64::NAN, 0.0), None);
+        assert_eq!(t_interval(f64::NAN, StandardError { error: 0.1, freedom: 3.0 }), None);
+        let found = interval(0.1, 1e9).unwrap();
+        assert!((found.high - 0.695_996).abs() < 1e-6 && (found.low - 0.304_004).abs() < 1e-6);
     }
 }

@@ -38,6 +38,16 @@ pub struct OutputIndices {
     pub second_order: Vec<Estimate>,
 }
 
+impl OutputIndices {
+    /// Largest half width of the first-order and total indices of factors, groups and subsets; `None` if one of them
+    /// has no interval.
+    pub fn largest_half_width(&self) -> Option<f64> {
+        let effects = self.factors.iter().chain(&self.groups).chain(&self.subsets);
+        let widths = effects.flat_map(|effect| [effect.first_order, effect.total]).map(|e| e.interval);
+        widths.map(|i| i.map(|Interval { low, high }| (high - low) / 2.0)).try_fold(0.0, |largest: f64, w| Some(largest.max(w?)))
+    }
+}
+
 /// The indices of one factor, group or subset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EffectEstimates {

@@ -1,7 +1,7 @@
 //! What must not matter: the output's offset and scale, the order of the factors, the number of threads.
 
 use crate::common::{analysed, apportion, gap, numbers, study_path};
-use apportion::design::{Design, DesignSettings};
+use apportion::design::{Design, DesignSettings, Rows};
 use apportion::model::{Batch, KnownAnswer, Model, Output, Worker};
 use apportion::quantity::Unit;
 use apportion::run::{Job, run};
@@ -51,7 +51,7 @@ fn indices(model: &Changed, base_samples: u64) -> ReplicatedIndices {
     let factor = |name| Factor::new(name, Unit::dimensionless(), range()).unwrap();
     let space = Space::new(["x1", "x2", "x3"].map(factor).to_vec());
     let settings = DesignSettings { base_samples, replicates: 4, ..DesignSettings::default() };
-    let design = Design::new(settings, 3, (0..3).map(|j| vec![j]).collect()).unwrap();
+    let design = Design::new(settings, 3, Rows::plain((0..3).map(|j| vec![j]).collect())).unwrap();
     let totals = run(Job { design: &design, space: &space, model }, 0, &|_| ()).unwrap();
     let moments: Vec<_> = totals.into_iter().map(|t| t.outputs[0].moments.clone()).collect();
     replicated_indices(&moments, 3).unwrap()

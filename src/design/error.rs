@@ -1,0 +1,84 @@
+//! Why a design cannot be made.
+
+use thiserror::Error;
+
+use super::{MAX_DIMENSIONS, MAX_PAIRED_FACTORS, MAX_POINTS, MAX_REPLICATES};
+
+/// Why a design cannot be made.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum DesignError {
+    /// There is nothing to vary.
+    #[error("a design needs at least one factor")]
+    NoFactors,
+    /// More factors than the direction numbers serve.
+    #[error(
+        "{factors} factors need {} dimensions of the Sobol' sequence ({matrices} for each), which has {MAX_DIMENSIONS}: at most {} factors, or another sampler",
+        factors * matrices,
+        MAX_DIMENSIONS / matrices
+    )]
+    TooManyFactors {
+        /// The number asked for.
+        factors: usize,
+        /// Matrices of the design: 2 for A and B, 3 with C.
+        matrices: usize,
+    },
+    /// No replicate at all.
+    #[error("replicates = 0: at least 1 is needed, and at least 2 for intervals")]
+    NoReplicates,
+    /// A replicate would hold fewer than two base points, which have no variance.
+    #[error(
+        "base_samples = {base_samples} is too few for {replicates} replicate{}: at least {} base samples are needed (2 in each replicate)",
+        if *replicates == 1 { "" } else { "s" },
+        u128::from(*replicates) * 2
+    )]
+    TooFewSamples {
+        /// The number asked for.
+        base_samples: u64,
+        /// The number of replicates that share them.
+        replicates: u64,
+    },
+    /// More replicates than anybody needs: each costs memory and a pass over the others.
+    #[error("replicates = {replicates}: at most {MAX_REPLICATES} are possible, and 4 to 32 are usual")]
+    TooManyReplicates {
+        /// The number asked for.
+        replicates: u64,
+    },
+    /// More model runs than can be counted.
+    #[error("{base_samples} base samples of {rows_per_point} runs each are more runs than can be counted")]
+    TooManyRuns {
+        /// The number asked for, rounded up to whole replicates.
+        base_samples: u128,
+        /// Model runs of each base sample.
+        rows_per_point: u64,
+    },
+    /// A swap names a column that does not exist.
+    #[error("a swap takes column {column}, but there are {factors} factors, counted from 0")]
+    NoSuchColumn {
+        /// The column.
+        column: usize,
+        /// Number of factors.
+        factors: usize,
+    },
+    /// A replicate would be longer than the sequence.
+    #[error(
+        "{base_samples} base samples in {replicates} replicates exceed {MAX_POINTS} (2^32) points a replicate, the length of the sequence"
+    )]
+    TooManySamples {
+        /// The number asked for.
+        base_samples: u64,
+        /// The number of replicates that share them.
+        replicates: u64,
+    },
+    /// Second-order indices without the rows that they need.
+    #[error("second-order indices need the rows BA (B with the columns of one factor from A) beside the rows AB")]
+    SecondOrderWithoutBa,
+    /// More pairs of factors than is sensible to keep sums for.
+    #[error(
+        "second-order indices of {factors} factors are {} pairs: at most {MAX_PAIRED_FACTORS} factors are possible; find those that act by their total indices first",
+        *factors as u128 * (*factors as u128 - 1) / 2
+    )]
+    TooManyPairs {
+        /// Number of factors with a swap of their own.
+        factors: usize,
+    },
+}

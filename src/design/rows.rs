@@ -1,0 +1,269 @@
+//! The rows of a base point: which are asked for, and which of them are the same point and so run once.
+
+use std::collections::BTreeMap;
+
+/// The columns that one row AB_s takes from B: those of one factor, or of a group of factors. An empty swap is a dummy
+/// factor: its rows repeat A, B or C but are run again, and show the noise of a model that is not deterministic.
+pub type Swap = Vec<usize>;
+
+/// Which rows a design has beside A, B and AB_s, for every swap s; C is a third independent matrix.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Companions {
+    /// BA_s: B with the columns s from A.
+    pub ba: bool,
+    /// BC_s: B with the columns s from C.
+    pub bc: bool,
+    /// CB_s: C with the columns s from B.
+    pub cb: bool,
+}
+
+impl Companions {
+    /// No companion rows.
+    pub const NONE: Self = Self { ba: false, bc: false, cb: false };
+
+    /// The rows of either.
+    pub fn union(self, other: Self) -> Self {
+        Self { ba: self.ba || other.ba, bc: self.bc || other.bc, cb: self.cb || other.cb }
+    }
+
+    /// Whether every row of `other` is among these.
+    pub fn serve(self, other: Self) -> bool {
+        self.union(other) == self
+    }
+
+    /// Kinds of companion rows: 0 to 3.
+    pub fn count(self) -> u64 {
+        u64::from(self.ba) + u64::from(self.bc) + u64::from(self.cb)
+    }
+
+    /// Independent matrices that the rows are made of: 2, or 3 with C.
+    pub fn matrices(self) -> usize {
+        if self.bc || self.cb { 3 } else { 2 }
+    }
+}
+
+/// The rows that a design is asked for beside A and B.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Rows {
+    /// One row AB_s for each; column numbers count from 0.
+    pub swaps: Vec<Swap>,
+    /// The companions of every AB_s.
+    pub companions: Companions,
+    /// Whether the sums for second-order indices are kept; needs the companions BA.
+    pub second_order: bool,
+}
+
+impl Rows {
+    /// The rows AB_s of `swaps`, without companions.
+    pub fn plain(swaps: Vec<Swap>) -> Self {
+        Self { swaps, ..Self::default() }
+    }
+}
+
+/// What one row of a design is; the number is that of its swap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowKind {
+    /// The first d coordinates of the base point.
+    A,
+    /// The next d coordinates.
+    B,
+    /// A with the columns of the swap from B.
+    Ab(usize),
+    /// B with the columns of the swap from A.
+    Ba(usize),
+    /// B with the columns of the swap from C.
+    Bc(usize),
+    /// C with the columns of the swap from B.
+    Cb(usize),
+}
+
+/// One of the independent matrices of a design.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Matrix {
+    /// Dimensions 0 to d of the sequence.
+    A,
+    /// Dimensions d to 2d.
+    B,
+    /// Dimensions 2d to 3d.
+    C,
+}
+
+/// A row that is run: the row of `base` with the `columns` of `from`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Run {
+    /// The first of the rows that are this point.
+    pub kind: RowKind,
+    /// Where its columns come from,
+    pub base: Matrix,
+    /// except these, in rising order,
+    pub columns: Vec<usize>,
+    /// which come from here.
+    pub from: Matrix,
+}
+
+/// The runs of a base point, and which of them answers for each row.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Runs {
+    pub runs: Vec<Run>,
+    /// For each swap the number of the run that is its row AB_s.
+    pub ab: Vec<usize>,
+    /// Likewise BA_s; empty without these companions.
+    pub ba: Vec<usize>,
+    /// Likewise BC_s.
+    pub bc: Vec<usize>,
+    /// Likewise CB_s.
+    pub cb: Vec<usize>,
+}
+
+impl Runs {
+    /// The runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s, BC_s, CB_s of their first rows.
+    pub fn of(rows: &Rows, factors: usize) -> Self {
+        let mut unique = Unique { factors, runs: Vec::new(), numbers: BTreeMap::new() };
+        unique.number(RowKind::A, Matrix::A, &[], Matrix::B);
+        unique.number(RowKind::B, Matrix::B, &[], Matrix::A);
+        let mut series = |asked: bool, kind: fn(usize) -> RowKind, base, from| -> Vec<usize> {
+            let swaps = rows.swaps.iter().enumerate().filter(|_| asked);
+            swaps.map(|(number, swap)| unique.swapped(kind(number), base, swap, from)).collect()
+        };
+        let Companions { ba, bc, cb } = rows.companions;
+        let ab = series(true, RowKind::Ab, Matrix::A, Matrix::B);
+        let ba = series(ba, RowKind::Ba, Matrix::B, Matrix::A);
+        let bc = series(bc, RowKind::Bc, Matrix::B, Matrix::C);
+        let cb = series(cb, RowKind::Cb, Matrix::C, Matrix::B);
+        Self { runs: unique.runs, ab, ba, bc, cb }
+    }
+}
+
+/// Runs so far, and their numbers by what they are made of.
+struct Unique {
+    factors: usize,
+    runs: Vec<Run>,
+    numbers: BTreeMap<(Matrix, Matrix, Vec<usize>), usize>,
+}
+
+impl Unique {
+    fn swapped(&mut self, kind: RowKind, base: Matrix, swap: &Swap, from: Matrix) -> usize {
+        if swap.is_empty() {
+            self.runs.push(Run { kind, base, columns: Vec::new(), from });
+            return self.runs.len() - 1;
+        }
+        let mut columns = swap.clone();
+        columns.sort_unstable();
+        columns.dedup();
+        self.number(kind, base, &columns, from)
+    }
+
+    /// The number of the run that is this point; a new one if there is none yet.
+    fn number(&mut self, kind: RowKind, base: Matrix, columns: &[usize], from: Matrix) -> usize {
+        let number = *self.numbers.entry(self::key(self.factors, base, columns, from)).or_insert(self.runs.len());
+        if number == self.runs.len() {
+            self.runs.push(Run { kind, base, columns: columns.to_vec(), from });
+        }
+        number
+    }
+}
+
+/// What a row is made of, written in one way only: the matrix of most of its columns first, A before B before C where
+/// both have half, and a row of one matrix alone with that matrix twice.
+fn key(factors: usize, base: Matrix, columns: &[usize], from: Matrix) -> (Matrix, Matrix, Vec<usize>) {
+    let (swapped, kept) = (columns.len(), factors - columns.len());
+    if swapped == 0 {
+        return (base, base, Vec::new());
+    }
+    if kept == 0 {
+        return (from, from, Vec::new());
+    }
+    if (swapped, base) > (kept, from) {
+        let complement = (0..factors).filter(|column| columns.binary_search(column).is_err()).collect();
+        return (from, base, complement);
+    }
+    (base, from, columns.to_vec())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: Companions = Companions { ba: true, bc: true, cb: true };
+
+    fn runs(factors: usize, swaps: &[&[usize]], companions: Companions) -> Runs {
+        let swaps = swaps.iter().map(|swap| swap.to_vec()).collect();
+        Runs::of(&Rows { swaps, companions, second_order: false }, factors)
+    }
+
+    /// The row of a kind, column by column, straight from its definition.
+    fn definition(kind: RowKind, factors: usize, swaps: &[&[usize]]) -> Vec<Matrix> {
+        use Matrix::{A, B, C};
+        let mixed = |base, swap: usize, from| {
+            (0..factors).map(|column| if swaps[swap].contains(&column) { from } else { base }).collect()
+        };
+        match kind {
+            RowKind::A => vec![A; factors],
+            RowKind::B => vec![B; factors],
+            RowKind::Ab(s) => mixed(A, s, B),
+            RowKind::Ba(s) => mixed(B, s, A),
+            RowKind::Bc(s) => mixed(B, s, C),
+            RowKind::Cb(s) => mixed(C, s, B),
+        }
+    }
+
+    fn made(run: &Run, factors: usize) -> Vec<Matrix> {
+        (0..factors).map(|column| if run.columns.contains(&column) { run.from } else { run.base }).collect()
+    }
+
+    #[test]
+    fn every_row_is_answered_by_a_run_of_the_same_point_and_no_two_runs_are_the_same() {
+        let cases: [(usize, &[&[usize]]); 7] = [
+            (1, &[&[0]]),
+            (2, &[&[0], &[1]]),
+            (3, &[&[0], &[1], &[2], &[1], &[2, 0], &[0, 1, 2]]),
+            (4, &[&[0], &[1], &[2], &[3], &[0, 1], &[3, 2], &[2, 2, 1, 3]]),
+            (2, &[&[0, 1], &[1, 0, 1]]),
+            (5, &[&[0, 1, 2], &[3, 4]]),
+            (6, &[&[0, 1, 2], &[3, 4, 5]]),
+        ];
+        for (factors, swaps) in cases {
+            for companions in [Companions::NONE, Companions { ba: true, ..Companions::NONE }, ALL] {
+                let runs = runs(factors, swaps, companions);
+                let all: Vec<Vec<Matrix>> = runs.runs.iter().map(|run| made(run, factors)).collect();
+                for (number, point) in all.iter().enumerate() {
+                    assert!(!all[..number].contains(point), "{factors} {swaps:?}: run {number} is repeated");
+                }
+                let series: [(&[usize], fn(usize) -> RowKind); 4] = [
+                    (&runs.ab, RowKind::Ab),
+                    (&runs.ba, RowKind::Ba),
+                    (&runs.bc, RowKind::Bc),
+                    (&runs.cb, RowKind::Cb),
+                ];
+                for (numbers, kind) in series {
+                    for (swap, &number) in numbers.iter().enumerate() {
+                        assert_eq!(all[number], definition(kind(swap), factors, swaps), "{:?}", kind(swap));
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn runs_are_counted_by_hand() {
+        let of = |factors, swaps: &[&[usize]], companions| runs(factors, swaps, companions).runs.len();
+        let ba = Companions { ba: true, ..Companions::NONE };
+        assert_eq!(of(1, &[&[0]], Companions::NONE), 2, "AB is B");
+        assert_eq!(of(1, &[&[0]], ALL), 3, "BC is C and CB is B");
+        assert_eq!(of(2, &[&[0], &[1]], ba), 4, "BA_1 is AB_2");
+        assert_eq!(of(3, &[&[0], &[1], &[2]], ba), 8);
+        assert_eq!(of(3, &[&[0], &[1], &[2], &[0, 1, 2], &[0], &[1, 2]], ba), 8, "complements and repeats");
+        assert_eq!(of(3, &[&[0], &[1], &[2]], ALL), 14);
+    }
+
+    #[test]
+    fn a_dummy_factor_is_run_again() {
+        let runs = runs(2, &[&[0], &[1], &[], &[]], ALL);
+        // A, B; AB_0, AB_1, two dummies; BA_0, BA_1 are known, two dummies; BC_0, BC_1, two dummies; CB likewise,
+        // of which none is known: C is there twice.
+        assert_eq!(runs.runs.len(), 2 + 4 + 2 + 4 + 4);
+        assert_eq!(made(&runs.runs[runs.ab[2]], 2), [Matrix::A; 2]);
+        assert_ne!(runs.ab[2], runs.ab[3]);
+        assert_eq!(made(&runs.runs[runs.cb[3]], 2), [Matrix::C; 2]);
+    }
+}

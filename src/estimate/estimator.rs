@@ -1,0 +1,340 @@
+//! The estimators by name.
+
+use super::formula::{correlation, difference, double, product};
+use super::{Moments, SwapMoments};
+use crate::design::Companions;
+
+const BA: Companions = Companions { ba: true, bc: false, cb: false };
+
+/// An estimator of first-order indices (of a group: closed first-order indices).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FirstOrder {
+    /// S = (1/n sum y_B y_AB - m_B^2)/V_B.
+    Sobol1993,
+    /// S = (1/n sum y_B y_AB - f0^2)/V.
+    HommaSaltelli1996,
+    /// S = (1/(n-1) sum y_B y_AB - 1/n sum y_A y_B)/V_A.
+    Saltelli2002,
+    /// S = 1/n sum y_B (y_AB - y_A)/V.
+    Sobol2007,
+    /// S = 1/n sum (y_B - f0)(y_AB - y_A)/V: the default.
+    Saltelli2010,
+    /// S = 1 - 1/(2n) sum (y_B - y_AB)^2/V.
+    Jansen1999,
+    /// S = cov(y_B, y_AB)/V, mean and variance from those two rows pooled.
+    JanonMonod2014,
+    /// S = r(y_B, y_AB).
+    Martinez2011,
+    /// Correlations of all pairs of rows, corrected for spurious ones.
+    GlenIsaacs2012,
+    /// S = 1/n sum (y_B - y_BC)(y_AB - y_A)/V.
+    Owen2013,
+    /// S = 2 sum (y_BA - y_B)(y_A - y_AB)/sum [(y_A - y_B)^2 + (y_BA - y_AB)^2].
+    Azzini2021,
+}
+
+impl FirstOrder {
+    /// All of them, in the order of their years.
+    pub const ALL: [Self; 11] = [
+        Self::Sobol1993,
+        Self::HommaSaltelli1996,
+        Self::Jansen1999,
+        Self::Saltelli2002,
+        Self::Sobol2007,
+        Self::Saltelli2010,
+        Self::Martinez2011,
+        Self::GlenIsaacs2012,
+        Self::Owen2013,
+        Self::JanonMonod2014,
+        Self::Azzini2021,
+    ];
+
+    /// The name used in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sobol1993 => "sobol-1993",
+            Self::HommaSaltelli1996 => "homma-saltelli-1996",
+            Self::Saltelli2002 => "saltelli-2002",
+            Self::Sobol2007 => "sobol-2007",
+            Self::Saltelli2010 => "saltelli-2010",
+            Self::Jansen1999 => "jansen-1999",
+            Self::JanonMonod2014 => "janon-monod-2014",
+            Self::Martinez2011 => "martinez-2011",
+            Self::GlenIsaacs2012 => "glen-isaacs-2012",
+            Self::Owen2013 => "owen-2013",
+            Self::Azzini2021 => "azzini-2021",
+        }
+    }
+
+    /// Where the formula comes from.
+    pub fn source(self) -> &'static str {
+        match self {
+            Self::Sobol1993 => {
+                "Sobol' (1993), Math. Model. Comput. Exp. 1, 407-414; Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (a)"
+            }
+            Self::HommaSaltelli1996 => {
+                "Homma and Saltelli (1996), Reliab. Eng. Syst. Saf. 52, 1-17, with the mean and variance of A and B pooled"
+            }
+            Self::Saltelli2002 => {
+                "Saltelli (2002), Comput. Phys. Commun. 145, 280-297, in the form of sobol2002 of the R package sensitivity"
+            }
+            Self::Sobol2007 => {
+                "Sobol', Tarantola, Gatelli, Kucherenko and Mauntz (2007), Reliab. Eng. Syst. Saf. 92, 957-960"
+            }
+            Self::Saltelli2010 => {
+                "Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (b), centred on the pooled mean"
+            }
+            Self::Jansen1999 => {
+                "Jansen (1999), Comput. Phys. Commun. 117, 35-43; Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (c)"
+            }
+            Self::JanonMonod2014 => {
+                "Janon, Klein, Lagnoux, Nodet and Prieur (2014), ESAIM: PS 18, 342-364, eq. 6, after Monod, Naud and Makowski (2006)"
+            }
+            Self::Martinez2011 => "Martinez (2011), Analyse de sensibilite globale par decomposition de la variance",
+            Self::GlenIsaacs2012 => {
+                "Glen and Isaacs (2012), Environ. Model. Softw. 37, 157-166, formula D3, on Pearson correlations"
+            }
+            Self::Owen2013 => "Owen (2013), ACM Trans. Model. Comput. Simul. 23(2), 11",
+            Self::Azzini2021 => "Azzini, Mara and Rosati (2021), Environ. Model. Softw. 144, 105167",
+        }
+    }
+
+    /// The rows it needs beside A, B and AB.
+    pub fn needs(self) -> Companions {
+        match self {
+            Self::GlenIsaacs2012 | Self::Azzini2021 => BA,
+            Self::Owen2013 => Companions { bc: true, ..Companions::NONE },
+            _ => Companions::NONE,
+        }
+    }
+
+    /// Model runs of a base point for `d` factors, where no two rows are the same point.
+    pub fn runs_per_point(self, d: u64) -> u64 {
+        runs_per_point(self.needs(), d)
+    }
+
+    /// The index of swap number `swap`, not clamped; NaN without the rows that it [needs](Self::needs) or without
+    /// variance.
+    ///
+    /// # Panics
+    /// If there is no such swap.
+    pub fn estimate(self, moments: &Moments, swap: usize) -> f64 {
+        self.of(moments.swap(swap)).unwrap_or(f64::NAN)
+    }
+
+    fn of(self, swap: &SwapMoments) -> Option<f64> {
+        match self {
+            Self::Sobol1993 => Some(product::sobol_1993(swap)),
+            Self::HommaSaltelli1996 => Some(product::homma_saltelli_first_order(swap)),
+            Self::Saltelli2002 => Some(product::saltelli_2002(swap)),
+            Self::Sobol2007 => Some(product::sobol_2007_first_order(swap)),
+            Self::Saltelli2010 => Some(difference::saltelli_2010(swap)),
+            Self::Jansen1999 => Some(difference::jansen_first_order(swap)),
+            Self::JanonMonod2014 => Some(correlation::janon_monod_first_order(swap)),
+            Self::Martinez2011 => Some(correlation::martinez_first_order(swap)),
+            Self::GlenIsaacs2012 => correlation::glen_isaacs(swap).map(|(first_order, _)| first_order),
+            Self::Owen2013 => double::owen_first_order(swap),
+            Self::Azzini2021 => double::azzini_first_order(swap),
+        }
+    }
+}
+
+/// An estimator of total indices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Total {
+    /// ST = (V - 1/n sum y_A y_AB + f0^2)/V.
+    HommaSaltelli1996,
+    /// ST = 1/n sum y_A (y_A - y_AB)/V.
+    Sobol2007,
+    /// ST = 1/(2n) sum (y_A - y_AB)^2/V: the default.
+    Jansen1999,
+    /// ST = 1 - cov(y_A, y_AB)/V, mean and variance from those two rows pooled.
+    JanonMonod2014,
+    /// ST = 1 - r(y_A, y_AB).
+    Martinez2011,
+    /// Correlations of all pairs of rows, corrected for spurious ones.
+    GlenIsaacs2012,
+    /// ST = 1 - 1/n sum (y_B - y_CB)(y_BA - y_A)/V.
+    Owen2013,
+    /// ST = sum [(y_B - y_BA)^2 + (y_A - y_AB)^2]/sum [(y_A - y_B)^2 + (y_BA - y_AB)^2].
+    Azzini2021,
+}
+
+impl Total {
+    /// All of them, in the order of their years.
+    pub const ALL: [Self; 8] = [
+        Self::HommaSaltelli1996,
+        Self::Jansen1999,
+        Self::Sobol2007,
+        Self::Martinez2011,
+        Self::GlenIsaacs2012,
+        Self::Owen2013,
+        Self::JanonMonod2014,
+        Self::Azzini2021,
+    ];
+
+    /// The name used in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::HommaSaltelli1996 => "homma-saltelli-1996",
+            Self::Sobol2007 => "sobol-2007",
+            Self::Jansen1999 => "jansen-1999",
+            Self::JanonMonod2014 => "janon-monod-2014",
+            Self::Martinez2011 => "martinez-2011",
+            Self::GlenIsaacs2012 => "glen-isaacs-2012",
+            Self::Owen2013 => "owen-2013",
+            Self::Azzini2021 => "azzini-2021",
+        }
+    }
+
+    /// Where the formula comes from.
+    pub fn source(self) -> &'static str {
+        match self {
+            Self::HommaSaltelli1996 => {
+                "Homma and Saltelli (1996), Reliab. Eng. Syst. Saf. 52, 1-17; Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (d)"
+            }
+            Self::Sobol2007 => {
+                "Sobol', Tarantola, Gatelli, Kucherenko and Mauntz (2007), Reliab. Eng. Syst. Saf. 92, 957-960; Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (e)"
+            }
+            Self::Jansen1999 => {
+                "Jansen (1999), Comput. Phys. Commun. 117, 35-43, eq. 14; Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (f)"
+            }
+            Self::JanonMonod2014 => FirstOrder::JanonMonod2014.source(),
+            Self::Martinez2011 => FirstOrder::Martinez2011.source(),
+            Self::GlenIsaacs2012 => FirstOrder::GlenIsaacs2012.source(),
+            Self::Owen2013 => FirstOrder::Owen2013.source(),
+            Self::Azzini2021 => FirstOrder::Azzini2021.source(),
+        }
+    }
+
+    /// The rows it needs beside A, B and AB.
+    pub fn needs(self) -> Companions {
+        match self {
+            Self::GlenIsaacs2012 | Self::Azzini2021 => BA,
+            Self::Owen2013 => Companions { ba: true, cb: true, ..Companions::NONE },
+            _ => Companions::NONE,
+        }
+    }
+
+    /// Model runs of a base point for `d` factors, where no two rows are the same point.
+    pub fn runs_per_point(self, d: u64) -> u64 {
+        runs_per_point(self.needs(), d)
+    }
+
+    /// The index of swap number `swap`, not clamped; NaN without the rows that it [needs](Self::needs) or without
+    /// variance.
+    ///
+    /// # Panics
+    /// If there is no such swap.
+    pub fn estimate(self, moments: &Moments, swap: usize) -> f64 {
+        self.of(moments.swap(swap)).unwrap_or(f64::NAN)
+    }
+
+    fn of(self, swap: &SwapMoments) -> Option<f64> {
+        match self {
+            Self::HommaSaltelli1996 => Some(product::homma_saltelli_total(swap)),
+            Self::Sobol2007 => Some(product::sobol_2007_total(swap)),
+            Self::Jansen1999 => Some(difference::jansen_total(swap)),
+            Self::JanonMonod2014 => Some(difference::janon_monod_total(swap)),
+            Self::Martinez2011 => Some(correlation::martinez_total(swap)),
+            Self::GlenIsaacs2012 => correlation::glen_isaacs(swap).map(|(_, total)| total),
+            Self::Owen2013 => double::owen_total(swap),
+            Self::Azzini2021 => double::azzini_total(swap),
+        }
+    }
+}
+
+fn runs_per_point(needs: Companions, d: u64) -> u64 {
+    2 + d * (1 + needs.count())
+}
+
+/// What a study file names: a paper's estimators of first-order and total indices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Estimator {
+    /// The most accurate of the rows that there are.
+    #[default]
+    Default,
+    /// First order only.
+    Sobol1993,
+    /// Both.
+    HommaSaltelli,
+    /// First order only.
+    Saltelli2002,
+    /// Both.
+    Sobol2007,
+    /// First order only.
+    Saltelli2010,
+    /// Both.
+    Jansen,
+    /// Both.
+    JanonMonod,
+    /// Both.
+    Martinez,
+    /// Both.
+    GlenIsaacs,
+    /// Both.
+    Owen,
+    /// Both.
+    Azzini,
+}
+
+impl Estimator {
+    /// All of them, the default first.
+    pub const ALL: [Self; 12] = [
+        Self::Default,
+        Self::Sobol1993,
+        Self::HommaSaltelli,
+        Self::Saltelli2002,
+        Self::Sobol2007,
+        Self::Saltelli2010,
+        Self::Jansen,
+        Self::JanonMonod,
+        Self::Martinez,
+        Self::GlenIsaacs,
+        Self::Owen,
+        Self::Azzini,
+    ];
+
+    /// The name used in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Default => "default",
+            Self::Sobol1993 => "sobol-1993",
+            Self::HommaSaltelli => "homma-saltelli",
+            Self::Saltelli2002 => "saltelli-2002",
+            Self::Sobol2007 => "sobol-2007",
+            Self::Saltelli2010 => "saltelli-2010",
+            Self::Jansen => "jansen",
+            Self::JanonMonod => "janon-monod",
+            Self::Martinez => "martinez",
+            Self::GlenIsaacs => "glen-isaacs",
+            Self::Owen => "owen",
+            Self::Azzini => "azzini",
+        }
+    }
+
+    /// Its estimators of first-order and of total indices; `None` where the paper has none of its own, and the default
+    /// is to be used.
+    pub fn formulas(self) -> (Option<FirstOrder>, Option<Total>) {
+        match self {
+            Self::Default => (Some(FirstOrder::Saltelli2010), Some(Total::Jansen1999)),
+            Self::Sobol1993 => (Some(FirstOrder::Sobol1993), None),
+            Self::HommaSaltelli => (Some(FirstOrder::HommaSaltelli1996), Some(Total::HommaSaltelli1996)),
+            Self::Saltelli2002 => (Some(FirstOrder::Saltelli2002), None),
+            Self::Sobol2007 => (Some(FirstOrder::Sobol2007), Some(Total::Sobol2007)),
+            Self::Saltelli2010 => (Some(FirstOrder::Saltelli2010), None),
+            Self::Jansen => (Some(FirstOrder::Jansen1999), Some(Total::Jansen1999)),
+            Self::JanonMonod => (Some(FirstOrder::JanonMonod2014), Some(Total::JanonMonod2014)),
+            Self::Martinez => (Some(FirstOrder::Martinez2011), Some(Total::Martinez2011)),
+            Self::GlenIsaacs => (Some(FirstOrder::GlenIsaacs2012), Some(Total::GlenIsaacs2012)),
+            Self::Owen => (Some(FirstOrder::Owen2013), Some(Total::Owen2013)),
+            Self::Azzini => (Some(FirstOrder::Azzini2021), Some(Total::Azzini2021)),
+        }
+    }
+
+    /// The rows it needs beside A, B and AB.
+    pub fn needs(self) -> Companions {
+        let (first_order, total) = self.formulas();
+        first_order.map_or(Companions::NONE, FirstOrder::needs).union(total.map_or(Companions::NONE, Total::needs))
+    }
+}

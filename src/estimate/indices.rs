@@ -1,0 +1,143 @@
+//! The indices of one output by one estimator.
+
+use super::{BaseMoments, FirstOrder, Moments, Total, Undefined};
+
+/// Indices of one output: entry j of each list belongs to swap j of the design.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Indices {
+    /// Closed first-order index of the swapped columns: the first-order index if it is one factor.
+    pub first_order: Vec<f64>,
+    /// Total index of the swapped columns.
+    pub total: Vec<f64>,
+    /// First-order index by Janon and Monod's formula, to check the first list.
+    pub check: Vec<f64>,
+}
+
+impl Indices {
+    /// The default estimators on `moments`: Saltelli et al. 2010 (b), centred, and Jansen 1999, both over the pooled
+    /// variance of A and B.
+    ///
+    /// # Errors
+    /// [`Undefined`] if there are fewer than two base points or the output has no usable variance.
+    pub fn of(moments: &Moments) -> Result<Self, Undefined> {
+        Self::by(moments, FirstOrder::Saltelli2010, Total::Jansen1999)
+    }
+
+    /// The indices by given estimators.
+    ///
+    /// # Errors
+    /// [`Undefined`] if there are fewer than two base points, the output has no usable variance, or the sums lack rows
+    /// that an estimator needs.
+    pub fn by(moments: &Moments, first_order: FirstOrder, total: Total) -> Result<Self, Undefined> {
+        if moments.count() < 2 {
+            return Err(Undefined::NoRuns);
+        }
+        if moments.constant() {
+            return Err(Undefined::ZeroVariance);
+        }
+        usable_variance(moments.base())?;
+        let companions = moments.companions();
+        for (estimator, needs) in [(first_order.name(), first_order.needs()), (total.name(), total.needs())] {
+            if !companions.serve(needs) && moments.swaps() > 0 {
+                return Err(Undefined::NoCompanions { estimator });
+            }
+        }
+        for swap in (0..moments.swaps()).map(|swap| moments.swap(swap)).filter(|swap| swap.base != *moments.base()) {
+            if swap.base.n < 2 {
+                return Err(Undefined::NoRuns);
+            }
+            usable_variance(&swap.base)?;
+        }
+        let each = |estimate: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..moments.swaps()).map(estimate).collect() };
+        let indices = Self {
+            first_order: each(&|j| first_order.estimate(moments, j)),
+            total: each(&|j| total.estimate(moments, j)),
+            check: each(&|j| FirstOrder::JanonMonod2014.estimate(moments, j)),
+        };
+        let Self { first_order, total, check } = &indices;
+        if first_order.iter().chain(total).chain(check).all(|index| index.is_finite()) {
+            Ok(indices)
+        } else {
+            Err(Undefined::Unrepresentable)
+        }
+    }
+}
+
+/// The variance, unless there is none that doubles can tell.
+fn usable_variance(base: &BaseMoments) -> Result<f64, Undefined> {
+    let variance = base.variance();
+    if variance == 0.0 && base.aa == 0.0 && base.bb == 0.0 && base.mean_a == base.mean_b {
+        return Err(Undefined::ZeroVariance);
+    }
+    if !variance.is_normal() {
+        return Err(Undefined::Unrepresentable);
+    }
+    // A spread of a few units in the last place of the mean is rounding, not variation. This is relative: an output of
+    // 1e-30 with a spread of 1e-31 passes like one of 1 with a spread of 0.1.
+    let rounding = 4.0 * f64::EPSILON * base.mean().abs();
+    if variance.sqrt() <= rounding {
+        return Err(Undefined::BelowRounding);
+    }
+    Ok(variance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimate::{BlockOutputs, Workspace};
+
+    fn indices(a: &[f64], b: &[f64], swapped: &[f64]) -> Result<Indices, Undefined> {
+        let block = BlockOutputs { a, b, ab: &[swapped], ..BlockOutputs::default() };
+        Indices::of(&Moments::of_block(block, &mut Workspace::default()))
+    }
+
+    #[test]
+    fn a_factor_that_carries_everything_has_index_one() {
+        // Every value of A meets every value of B, so the sample is a full factorial and the identities are exact.
+        let (mut a, mut b) = (vec![], vec![]);
+        for i in 0..8 {
+            for j in 0..8 {
+                a.push(f64::from(i));
+                b.push(f64::from(j));
+            }
+        }
+        let got = indices(&a, &b, &b).unwrap();
+        assert!((got.first_order[0] - 1.0).abs() < 1e-14);
+        assert!((got.total[0] - 1.0).abs() < 1e-14);
+        assert!((got.check[0] - 1.0).abs() < 1e-14);
+        let inert = indices(&a, &b, &a).unwrap();
+        assert_eq!((inert.first_order[0], inert.total[0]), (0.0, 0.0));
+    }
+
+    #[test]
+    fn constant_outputs_have_a_name_at_any_size() {
+        for value in [0.0, 0.1, 1e300, 1.0 / 3.0, 1e-150, 1e-300, -5e-324] {
+            let y = vec![value; 100];
+            assert_eq!(indices(&y, &y, &y), Err(Undefined::ZeroVariance), "{value}");
+        }
+    }
+
+    #[test]
+    fn too_few_points_have_a_name() {
+        assert_eq!(indices(&[], &[], &[]), Err(Undefined::NoRuns));
+        assert_eq!(indices(&[1.0], &[2.0], &[3.0]), Err(Undefined::NoRuns));
+    }
+
+    #[test]
+    fn variances_beyond_double_precision_have_a_name() {
+        let y: Vec<f64> = (1..100).map(f64::from).collect();
+        let scaled = |scale: f64| y.iter().map(|y| y * scale).collect::<Vec<_>>();
+        for scale in [1e-170, 1e-200, 1e200] {
+            let y = scaled(scale);
+            assert_eq!(indices(&y, &y, &y), Err(Undefined::Unrepresentable), "{scale}");
+        }
+        let signs: Vec<f64> = (0..100).map(|i| if i % 2 == 0 { 1e-170 } else { -1e-170 }).collect();
+        assert_eq!(indices(&signs, &signs, &signs), Err(Undefined::Unrepresentable));
+        let b: Vec<f64> = y.iter().rev().copied().collect();
+        let large: Vec<f64> = y.iter().map(|y| y * 1e160).collect();
+        assert_eq!(indices(&y, &b, &large), Err(Undefined::Unrepresentable));
+        let offset: Vec<f64> = y.iter().map(|y| 1e15 + y / 100.0).collect();
+        assert_eq!(indices(&offset, &offset, &offset), Err(Undefined::BelowRounding));
+        assert!(indices(&scaled(1e-100), &scaled(1e-100), &scaled(1e-100)).is_ok());
+    }
+}

@@ -1,0 +1,226 @@
+//! The sums from which the indices of one swap are read.
+
+use super::base_moments::{BaseMoments, Shift};
+use super::workspace::Workspace;
+use crate::sum::{centred_product, mean};
+
+/// Means and sums of centred products of the outputs of one swap s, over the base points at which all of its rows have
+/// an output.
+///
+/// Differences are kept instead of outputs, D = y_AB - y_A, E = y_BA - y_B, F = y_BC - y_B and G = y_CB - y_B: a factor
+/// of little effect has D, E and F near 0, and forming them from sums of the outputs would cancel.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SwapMoments {
+    /// y_A and y_B.
+    pub base: BaseMoments,
+    /// Mean of D.
+    pub mean_d: f64,
+    /// Sum of squares of D.
+    pub dd: f64,
+    /// Sum of products of y_A and D.
+    pub ad: f64,
+    /// Sum of products of y_B and D.
+    pub bd: f64,
+    /// What the row BA_s adds.
+    pub ba: Option<BaMoments>,
+    /// What the row BC_s adds.
+    pub bc: Option<BcMoments>,
+    /// What the row CB_s adds.
+    pub cb: Option<CbMoments>,
+}
+
+/// Sums with E = y_BA - y_B.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BaMoments {
+    /// Mean of E.
+    pub mean_e: f64,
+    /// Sum of squares of E.
+    pub ee: f64,
+    /// Sum of products of y_A and E.
+    pub ae: f64,
+    /// Sum of products of y_B and E.
+    pub be: f64,
+    /// Sum of products of D and E.
+    pub de: f64,
+}
+
+/// Sums with F = y_BC - y_B.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BcMoments {
+    /// Mean of F.
+    pub mean_f: f64,
+    /// Sum of products of D and F.
+    pub df: f64,
+}
+
+/// Sums with G = y_CB - y_B.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CbMoments {
+    /// Mean of G.
+    pub mean_g: f64,
+    /// Sum of products of y_A and G.
+    pub ag: f64,
+    /// Sum of products of y_B and G.
+    pub bg: f64,
+    /// Sum of products of E and G; 0 without the row BA_s, when no estimator reads it.
+    pub eg: f64,
+}
+
+/// Outputs of the rows of one swap, and of A and B.
+#[derive(Clone, Copy)]
+pub(super) struct Columns<'a> {
+    pub a: &'a [f64],
+    pub b: &'a [f64],
+    pub ab: &'a [f64],
+    pub ba: Option<&'a [f64]>,
+    pub bc: Option<&'a [f64]>,
+    pub cb: Option<&'a [f64]>,
+}
+
+impl SwapMoments {
+    /// The moments of one block. `base` are those of A and B if they have no failure in the block; an output that is
+    /// not finite is a failure.
+    pub(super) fn of(base: Option<BaseMoments>, columns: Columns<'_>, work: &mut Workspace) -> Self {
+        // A sum over a column is finite only if the column is: no pass of its own looks for failures.
+        let whole = base.map(|base| Self::of_complete(base, columns, work)).filter(Self::finite);
+        whole.unwrap_or_else(|| {
+            let mut kept = std::mem::take(&mut work.kept);
+            let columns = columns.without_failures(&mut kept);
+            let moments = Self::of_complete(BaseMoments::of(columns.a, columns.b), columns, work);
+            work.kept = kept;
+            moments
+        })
+    }
+
+    fn finite(&self) -> bool {
+        let Self { mean_d, ba, bc, cb, .. } = self;
+        mean_d.is_finite()
+            && ba.is_none_or(|ba| ba.mean_e.is_finite())
+            && bc.is_none_or(|bc| bc.mean_f.is_finite())
+            && cb.is_none_or(|cb| cb.mean_g.is_finite())
+    }
+
+    fn of_complete(base: BaseMoments, columns: Columns<'_>, work: &mut Workspace) -> Self {
+        let Columns { a, b, ab, ba, bc, cb } = columns;
+        let [buffer_d, buffer_e, buffer_f] = &mut work.differences;
+        let (ca, cb_) = ((a, base.mean_a), (b, base.mean_b));
+        let d = difference(ab, a, buffer_d);
+        let e = ba.map(|ba| difference(ba, b, buffer_e));
+        let bc = bc.map(|bc| {
+            let f = difference(bc, b, buffer_f);
+            BcMoments { mean_f: f.1, df: centred_product(d, f) }
+        });
+        let cb = cb.map(|cb| {
+            let g = difference(cb, b, buffer_f);
+            CbMoments {
+                mean_g: g.1,
+                ag: centred_product(ca, g),
+                bg: centred_product(cb_, g),
+                eg: e.map_or(0.0, |e| centred_product(e, g)),
+            }
+        });
+        let ba = e.map(|e| BaMoments {
+            mean_e: e.1,
+            ee: centred_product(e, e),
+            ae: centred_product(ca, e),
+            be: centred_product(cb_, e),
+            de: centred_product(d, e),
+        });
+        Self {
+            base,
+            mean_d: d.1,
+            dd: centred_product(d, d),
+            ad: centred_product(ca, d),
+            bd: centred_product(cb_, d),
+            ba,
+            bc,
+            cb,
+        }
+    }
+
+    /// Adds other base points of the same swap.
+    pub(super) fn merge(&mut self, other: &Self) {
+        if other.base.n == 0 {
+            return;
+        }
+        if self.base.n == 0 {
+            *self = *other;
+            return;
+        }
+        let shift = self.base.merge(&other.base);
+        let Shift { share, weight, a, b } = shift;
+        let d = other.mean_d - self.mean_d;
+        self.dd += other.dd + d * d * weight;
+        self.ad += other.ad + a * d * weight;
+        self.bd += other.bd + b * d * weight;
+        self.mean_d += d * share;
+        let mut e = 0.0;
+        if let (Some(mine), Some(theirs)) = (&mut self.ba, &other.ba) {
+            e = theirs.mean_e - mine.mean_e;
+            mine.ee += theirs.ee + e * e * weight;
+            mine.ae += theirs.ae + a * e * weight;
+            mine.be += theirs.be + b * e * weight;
+            mine.de += theirs.de + d * e * weight;
+            mine.mean_e += e * share;
+        }
+        if let (Some(mine), Some(theirs)) = (&mut self.bc, &other.bc) {
+            let f = theirs.mean_f - mine.mean_f;
+            mine.df += theirs.df + d * f * weight;
+            mine.mean_f += f * share;
+        }
+        if let (Some(mine), Some(theirs)) = (&mut self.cb, &other.cb) {
+            let g = theirs.mean_g - mine.mean_g;
+            mine.ag += theirs.ag + a * g * weight;
+            mine.bg += theirs.bg + b * g * weight;
+            mine.eg += theirs.eg + e * g * weight;
+            mine.mean_g += g * share;
+        }
+    }
+
+    /// Base points counted, as a number to divide by.
+    pub fn n(&self) -> f64 {
+        self.base.n as f64
+    }
+
+    /// Variance of y_AB.
+    pub fn variance_ab(&self) -> f64 {
+        (self.base.aa + 2.0 * self.ad + self.dd) / self.n()
+    }
+
+    /// Covariance of y_A and y_AB, which share all columns but those of the swap.
+    pub fn covariance_a_ab(&self) -> f64 {
+        (self.base.aa + self.ad) / self.n()
+    }
+
+    /// Covariance of y_B and y_AB, which share the columns of the swap.
+    pub fn covariance_b_ab(&self) -> f64 {
+        (self.base.ab + self.bd) / self.n()
+    }
+}
+
+impl<'a> Columns<'a> {
+    fn all(&self) -> [Option<&'a [f64]>; 6] {
+        [Some(self.a), Some(self.b), Some(self.ab), self.ba, self.bc, self.cb]
+    }
+
+    /// The base points whose outputs are all finite, copied to `kept`.
+    fn without_failures<'k>(&self, kept: &'k mut [Vec<f64>; 6]) -> Columns<'k> {
+        let columns = self.all();
+        for (kept, column) in kept.iter_mut().zip(columns) {
+            kept.clear();
+            let rows = column.into_iter().flatten().enumerate();
+            let complete = |row: usize| columns.iter().flatten().all(|column| column[row].is_finite());
+            kept.extend(rows.filter(|(row, _)| complete(*row)).map(|(_, y)| y));
+        }
+        let [a, b, ab, ba, bc, cb] = &*kept;
+        let asked = |column: Option<&[f64]>, kept: &'k [f64]| column.map(|_| kept);
+        Columns { a, b, ab, ba: asked(self.ba, ba), bc: asked(self.bc, bc), cb: asked(self.cb, cb) }
+    }
+}
+
+/// The differences `y - origin` in `buffer`, with their mean.
+fn difference<'a>(y: &[f64], origin: &[f64], buffer: &'a mut Vec<f64>) -> (&'a [f64], f64) {
+    buffer.clear();
+    buffer.extend(y.iter().zip(origin).map(|(y, origin)| y - origin));
+    (buffer, mean(buffer))
+}

@@ -1,0 +1,26 @@
+//! Memory that is reused from block to block.
+
+/// Buffers for [`super::Moments::of_block`]; any that has been used before serves as well as a new one.
+#[derive(Debug, Default)]
+pub struct Workspace {
+    /// Differences of the swap at hand.
+    pub(super) differences: [Vec<f64>; 3],
+    /// Columns of A, B and the rows of a swap without the base points that failed.
+    pub(super) kept: [Vec<f64>; 6],
+    /// Differences of all paired swaps.
+    pub(super) paired: Vec<super::pair_moments::PairedColumns>,
+}
+
+impl Workspace {
+    /// The base points at which A and B are both finite.
+    pub(super) fn without_failures(&mut self, a: &[f64], b: &[f64]) -> (&[f64], &[f64]) {
+        let [kept_a, kept_b, ..] = &mut self.kept;
+        kept_a.clear();
+        kept_b.clear();
+        for (a, b) in a.iter().zip(b).filter(|(a, b)| a.is_finite() && b.is_finite()) {
+            kept_a.push(*a);
+            kept_b.push(*b);
+        }
+        (kept_a, kept_b)
+    }
+}

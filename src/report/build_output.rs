@@ -1,0 +1,204 @@
+//! From the totals of one output to its part of the result file.
+
+use serde_json::{Map, Value};
+
+use super::build::FinishedRun;
+use super::result::{
+    EffectRecord, EstimateRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord, IntervalRecord,
+    OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
+};
+use super::warnings;
+use crate::estimate::{FirstOrder, MomentParts, Total, merged};
+use crate::model::{Output, RowFailure};
+use crate::run::{Tally, Totals};
+use crate::study::Study;
+use crate::uncertainty::{
+    EffectEstimates, Estimate, Interval, Judgement, OtherEstimates, OutputIndices, Stage, output_indices,
+    output_moments, stages,
+};
+
+/// The record of output number `number`; `whole` holds the counts over all replicates.
+pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usize, whole: &Totals) -> OutputRecord {
+    let study = run.study;
+    let totals = &whole.outputs[number];
+    let parts: Vec<MomentParts> = run.replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
+    let unit = &output.unit;
+    let moments = output_moments(&parts, study.analysis.intervals);
+    let squared = |x: f64| unit.from_si(unit.from_si(x));
+    let in_unit = |x: f64| unit.from_si(x);
+    let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>()).fewest();
+    let failure = |(failure, tally): (&RowFailure, &Tally)| failure_record(run, failure, *tally);
+    let mut record = OutputRecord {
+        name: output.name.to_owned(),
+        unit: unit.to_string(),
+        mean: moments.map(|m| in_unit(m.mean.estimate)),
+        variance: moments.map(|m| squared(m.variance.estimate)),
+        mean_interval: moments.and_then(|m| interval_record(m.mean.interval, &in_unit)),
+        variance_interval: moments.and_then(|m| interval_record(m.variance.interval, &squared)),
+        runs_ok: run.design.rows() - totals.runs_failed,
+        runs_failed: totals.runs_failed,
+        base_points_used: used,
+        failures: totals.failures.iter().map(failure).collect(),
+        sum_first_order: None,
+        sum_total: None,
+        indices: None,
+        groups: None,
+        subsets: None,
+        dummy: None,
+        second_order: None,
+        estimators: Vec::new(),
+        convergence: Vec::new(),
+        reason: None,
+        warnings: Vec::new(),
+    };
+    record.warnings = warnings::of_runs(run, &record);
+    let failed_share = totals.runs_failed as f64 / run.design.rows() as f64;
+    if failed_share > study.analysis.max_failed {
+        record.reason = Some(format!(
+            "{:.3} % of the runs failed, more than max_failed = {} allows: what is left would not stand for the whole",
+            100.0 * failed_share,
+            study.analysis.max_failed
+        ));
+        return record;
+    }
+    let (layout, judgement) = (study.layout(), judgement(study));
+    match output_indices(&parts, &layout, &judgement) {
+        Err(undefined) => record.reason = Some(undefined.to_string()),
+        Ok(indices) => {
+            record.warnings.extend(warnings::of_indices(study, &indices));
+            add_indices(&mut record, study, &indices);
+            let runs = run.design.rows_per_point();
+            record.convergence =
+                stages(&parts, &layout, &judgement).iter().map(|stage| stage_record(study, stage, runs)).collect();
+        }
+    }
+    record
+}
+
+/// How the intervals and probabilities of `study` are found.
+pub fn judgement(study: &Study) -> Judgement {
+    let (analysis, seed) = (&study.analysis, study.design.settings().seed);
+    Judgement { method: analysis.intervals, threshold: analysis.threshold, seed }
+}
+
+fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices) {
+    let factors = study.space.factors();
+    let names = |numbers: &[usize]| numbers.iter().map(|&number| factors[number].name.clone()).collect::<Vec<_>>();
+    record.sum_first_order = Some(estimate_record(indices.sum_first_order));
+    record.sum_total = Some(estimate_record(indices.sum_total));
+    let of_factor = |(factor, effect): (&crate::space::Factor, &EffectEstimates)| IndexRecord {
+        factor: factor.name.clone(),
+        effect: effect_record(effect),
+    };
+    record.indices = Some(factors.iter().zip(&indices.factors).map(of_factor).collect());
+    let of_group = |(group, effect): (crate::space::Group, &EffectEstimates)| GroupRecord {
+        factors: names(&group.factors),
+        group: group.name,
+        effect: effect_record(effect),
+    };
+    record.groups = Some(study.space.groups().into_iter().zip(&indices.groups).map(of_group).collect());
+    let subsets = study.analysis.subsets.iter().zip(&indices.subsets);
+    let of_subset = |(numbers, effect): (&Vec<usize>, &EffectEstimates)| SubsetRecord {
+        factors: names(numbers),
+        effect: effect_record(effect),
+    };
+    record.subsets = Some(subsets.map(of_subset).collect());
+    record.dummy = indices.dummy.as_ref().map(effect_record);
+    if study.analysis.second_order {
+        let of_pair = |((j, k), index): ((usize, usize), &Estimate)| PairRecord {
+            factors: [j, k].map(|number| factors[number].name.clone()),
+            index: estimate_record(*index),
+        };
+        let pairs = study.layout().pair_list();
+        record.second_order = Some(pairs.into_iter().zip(&indices.second_order).map(of_pair).collect());
+    }
+    record.estimators = estimator_records(study, indices);
+}
+
+/// Names of everything that has indices, in the order of the swaps: factors, groups, subsets, dummy.
+pub(super) fn names_of_swaps(study: &Study) -> Vec<String> {
+    let factors = study.space.factors();
+    let subset = |numbers: &Vec<usize>| {
+        numbers.iter().map(|&number| factors[number].name.as_str()).collect::<Vec<_>>().join(" + ")
+    };
+    let names = factors.iter().map(|factor| factor.name.clone());
+    let names = names.chain(study.space.groups().into_iter().map(|group| group.name));
+    let names = names.chain(study.analysis.subsets.iter().map(subset));
+    names.chain(study.analysis.dummy.then(|| "dummy".to_owned())).collect()
+}
+
+/// All effects of an output in the order of the swaps.
+pub(super) fn effects(indices: &OutputIndices) -> impl Iterator<Item = &EffectEstimates> {
+    indices.factors.iter().chain(&indices.groups).chain(&indices.subsets).chain(&indices.dummy)
+}
+
+fn estimator_records(study: &Study, indices: &OutputIndices) -> Vec<EstimatorRecord> {
+    let names = names_of_swaps(study);
+    let estimators = study.analysis.estimators.iter().enumerate();
+    let record = |(number, estimator): (usize, &crate::estimate::Estimator)| {
+        let (first_order, total) = estimator.formulas();
+        let of_swap = |(name, effect): (&String, &EffectEstimates)| {
+            let OtherEstimates { first_order, total, .. } = effect.others[number];
+            OtherIndexRecord {
+                name: name.clone(),
+                first_order: first_order.map(estimate_record),
+                total: total.map(estimate_record),
+            }
+        };
+        EstimatorRecord {
+            estimator: estimator.name().to_owned(),
+            first_order_source: first_order.map(FirstOrder::source).map(str::to_owned),
+            total_source: total.map(Total::source).map(str::to_owned),
+            indices: names.iter().zip(effects(indices)).map(of_swap).collect(),
+        }
+    };
+    estimators.map(record).collect()
+}
+
+fn stage_record(study: &Study, stage: &Stage, runs_per_point: u64) -> StageRecord {
+    let of_factor = |(factor, effect): (&crate::space::Factor, &EffectEstimates)| StageIndexRecord {
+        factor: factor.name.clone(),
+        first_order: estimate_record(effect.first_order),
+        total: estimate_record(effect.total),
+    };
+    StageRecord {
+        base_samples: stage.base_samples,
+        model_runs: stage.base_samples * runs_per_point,
+        largest_half_width: stage.indices.largest_half_width(),
+        indices: study.space.factors().iter().zip(&stage.indices.factors).map(of_factor).collect(),
+    }
+}
+
+fn effect_record(effect: &EffectEstimates) -> EffectRecord {
+    let same = |x: f64| x;
+    let interval = |share: Option<Estimate>| share.and_then(|s| interval_record(s.interval, &same));
+    EffectRecord {
+        first_order: estimate_record(effect.first_order),
+        total: estimate_record(effect.total),
+        share_first_order: effect.share_first_order.map(|share| share.estimate),
+        share_total: effect.share_total.map(|share| share.estimate),
+        share_first_order_interval: interval(effect.share_first_order),
+        share_total_interval: interval(effect.share_total),
+        interaction: Some(estimate_record(effect.interaction)),
+        probability_first: effect.probability_first,
+        probability_above_threshold: effect.probability_above,
+    }
+}
+
+pub(super) fn estimate_record(Estimate { estimate, interval }: Estimate) -> EstimateRecord {
+    EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) }
+}
+
+fn interval_record(interval: Option<Interval>, convert: &dyn Fn(f64) -> f64) -> Option<IntervalRecord> {
+    interval.map(|i| IntervalRecord { low: convert(i.low), high: convert(i.high) })
+}
+
+fn failure_record(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> FailureRecord {
+    let first_row = tally.first.row(run.design);
+    let mut u = vec![0.0; run.design.factors()];
+    run.design.point(first_row, &mut u);
+    let values = run.study.space.values_at(&u);
+    let named = |(factor, value): (&crate::space::Factor, f64)| (factor.name.clone(), Value::from(value));
+    let first_inputs: Map<String, Value> = run.study.space.factors().iter().zip(values).map(named).collect();
+    FailureRecord { reason: failure.to_string(), runs: tally.count, first_row, first_inputs }
+}

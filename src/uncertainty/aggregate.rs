@@ -1,0 +1,42 @@
+//! Indices over several outputs together, with intervals.
+
+use super::influence::{Influences, Outputs};
+use super::method::IntervalMethod;
+use super::output::Judged;
+use super::Estimate;
+use crate::estimate::{FirstOrder, MomentParts, Moments, Scaling, Total, Undefined, aggregated, merged};
+
+/// Aggregated indices of every swap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AggregateIndices {
+    /// First-order (of several factors: closed first-order) indices.
+    pub first_order: Vec<Estimate>,
+    /// Total indices.
+    pub total: Vec<Estimate>,
+}
+
+/// Aggregated indices of `outputs` by the default estimators ([`aggregated`]).
+///
+/// # Errors
+/// [`Undefined`] if all outputs are constant, or one has no indices for another reason.
+pub fn aggregate_indices(
+    outputs: Outputs<'_>,
+    scaling: Scaling,
+    method: IntervalMethod,
+) -> Result<AggregateIndices, Undefined> {
+    let of = |outputs: &[Moments]| {
+        let outputs: Vec<&Moments> = outputs.iter().collect();
+        aggregated(&outputs, FirstOrder::Saltelli2010, Total::Jansen1999, scaling)
+    };
+    let whole: Vec<Moments> = outputs
+        .iter()
+        .map(|replicates| merged(&replicates.iter().map(MomentParts::whole).collect::<Vec<_>>()))
+        .collect();
+    of(&whole)?;
+    let list = |outputs: &[Moments]| of(outputs).ok().map(|indices| [indices.first_order, indices.total].concat());
+    let influences = Influences::of(outputs, &list).ok_or(Undefined::NoRuns)?;
+    let pooled = vec![true; influences.whole.len()];
+    let mut first_order = Judged::of(influences, method, &pooled).estimates;
+    let total = first_order.split_off(first_order.len() / 2);
+    Ok(AggregateIndices { first_order, total })
+}

@@ -1,0 +1,37 @@
+//! How estimates and intervals changed as a run grew, read from its parts once it is over.
+
+use super::estimates::Layout;
+use super::output::{Judgement, OutputIndices, output_indices};
+use crate::estimate::MomentParts;
+
+/// What an output's indices were when the run had fewer base points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stage {
+    /// Base points in all.
+    pub base_samples: u64,
+    /// The indices then.
+    pub indices: OutputIndices,
+}
+
+/// Fewest parts of a replicate that make a stage: fewer say next to nothing of its error.
+const FEWEST_PARTS: usize = 4;
+
+/// The stages of a run at each half of the one after it, the whole last: every prefix of the parts of each replicate is a
+/// run of its own. Stages without indices are left out.
+pub fn stages(replicates: &[MomentParts], layout: &Layout, judgement: &Judgement) -> Vec<Stage> {
+    let parts = replicates.iter().map(|replicate| replicate.parts().len()).min().unwrap_or(0);
+    let mut sizes = vec![parts];
+    // Down from the largest power of two below the whole: prefixes of a net are nets.
+    let mut size = parts.next_power_of_two() / 2;
+    while size >= FEWEST_PARTS {
+        sizes.push(size);
+        size /= 2;
+    }
+    sizes.reverse();
+    let stage = |size: usize| {
+        let prefix: Vec<MomentParts> = replicates.iter().map(|replicate| replicate.prefix(size)).collect();
+        let base_samples = prefix.iter().map(MomentParts::points).sum();
+        output_indices(&prefix, layout, judgement).ok().map(|indices| Stage { base_samples, indices })
+    };
+    sizes.into_iter().filter_map(stage).collect()
+}
