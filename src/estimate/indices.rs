@@ -46,6 +46,9 @@ impl Indices {
             if swap.base.n < 2 {
                 return Err(Undefined::NoRuns);
             }
+            if swap.base.variance() == 0.0 {
+                return Err(Undefined::ZeroVariance);
+            }
             usable_variance(&swap.base)?;
         }
         let each = |estimate: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..moments.swaps()).map(estimate).collect() };
@@ -66,9 +69,6 @@ impl Indices {
 /// The variance, unless there is none that doubles can tell.
 fn usable_variance(base: &BaseMoments) -> Result<f64, Undefined> {
     let variance = base.variance();
-    if variance == 0.0 && base.aa == 0.0 && base.bb == 0.0 && base.mean_a == base.mean_b {
-        return Err(Undefined::ZeroVariance);
-    }
     if !variance.is_normal() {
         return Err(Undefined::Unrepresentable);
     }
