@@ -18,7 +18,8 @@ const SEEDS: u64 = 200;
 const G_STAR: [(f64, f64); 6] = [(0.0, 1.0), (0.1, 0.5), (0.3, 2.0), (1.0, 1.0), (4.0, 0.5), (9.0, 2.0)];
 
 fn g_star(x: &[f64]) -> f64 {
-    let term = |(x, (a, alpha)): (&f64, (f64, f64))| ((1.0 + alpha) * (2.0 * x - 1.0).abs().powf(alpha) + a) / (1.0 + a);
+    let term =
+        |(x, (a, alpha)): (&f64, (f64, f64))| ((1.0 + alpha) * (2.0 * x - 1.0).abs().powf(alpha) + a) / (1.0 + a);
     x.iter().zip(G_STAR).map(term).product()
 }
 

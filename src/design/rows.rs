@@ -229,13 +229,8 @@ mod tests {
                 for (number, point) in all.iter().enumerate() {
                     assert!(!all[..number].contains(point), "{factors} {swaps:?}: run {number} is repeated");
                 }
-                let series: [(&[usize], fn(usize) -> RowKind); 4] = [
-                    (&runs.ab, RowKind::Ab),
-                    (&runs.ba, RowKind::Ba),
-                    (&runs.bc, RowKind::Bc),
-                    (&runs.cb, RowKind::Cb),
-                ];
-                for (numbers, kind) in series {
+                let kinds: [fn(usize) -> RowKind; 4] = [RowKind::Ab, RowKind::Ba, RowKind::Bc, RowKind::Cb];
+                for (numbers, kind) in [&runs.ab, &runs.ba, &runs.bc, &runs.cb].into_iter().zip(kinds) {
                     for (swap, &number) in numbers.iter().enumerate() {
                         assert_eq!(all[number], definition(kind(swap), factors, swaps), "{:?}", kind(swap));
                     }

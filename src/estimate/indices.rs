@@ -15,12 +15,13 @@ pub struct Indices {
 
 impl Indices {
     /// The default estimators on `moments`: Saltelli et al. 2010 (b), centred, and Jansen 1999, both over the pooled
-    /// variance of A and B.
+    /// variance of A and B; with rows BA those of Azzini et al. 2021.
     ///
     /// # Errors
     /// [`Undefined`] if there are fewer than two base points or the output has no usable variance.
     pub fn of(moments: &Moments) -> Result<Self, Undefined> {
-        Self::by(moments, FirstOrder::Saltelli2010, Total::Jansen1999)
+        let companions = moments.companions();
+        Self::by(moments, FirstOrder::of_rows(companions), Total::of_rows(companions))
     }
 
     /// The indices by given estimators.

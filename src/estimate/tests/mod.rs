@@ -107,6 +107,22 @@ fn names_are_unique_and_sources_are_given() {
 }
 
 #[test]
+fn a_design_that_serves_the_name_in_a_study_serves_its_estimators() {
+    use crate::design::Companions;
+    for estimator in Estimator::ALL {
+        for rows in [estimator.needs(), Companions { ba: true, bc: true, cb: true }] {
+            let (first_order, total) = estimator.with_rows(rows);
+            assert!(rows.serve(first_order.needs()) && rows.serve(total.needs()), "{estimator:?}");
+            let own = estimator.formulas();
+            assert!(own.0.is_none_or(|own| own == first_order) && own.1.is_none_or(|own| own == total));
+        }
+    }
+    let ba = Companions { ba: true, ..Companions::NONE };
+    assert_eq!(Estimator::Default.with_rows(Companions::NONE), (FirstOrder::Saltelli2010, Total::Jansen1999));
+    assert_eq!(Estimator::default().with_rows(ba), (FirstOrder::Azzini2021, Total::Azzini2021));
+}
+
+#[test]
 fn an_estimator_gives_an_index_exactly_if_it_has_the_rows_that_it_needs() {
     let sample = Sample::noise(50, 0.0);
     let series = |on: bool, series: &'_ [Vec<f64>; 2]| if on { series.to_vec() } else { vec![] };
