@@ -229,13 +229,8 @@ mod tests {
                 for (number, point) in all.iter().enumerate() {
                     assert!(!all[..number].contains(point), "{factors} {swaps:?}: run {number} is repeated");
                 }
-                let series: [(&[usize], fn(usize) -> RowKind); 4] = [
-                    (&runs.ab, RowKind::Ab),
-                    (&runs.ba, RowKind::Ba),
-                    (&runs.bc, RowKind::Bc),
-                    (&runs.cb, RowKind::Cb),
-                ];
-                for (numbers, kind) in series {
+                let kinds: [fn(usize) -> RowKind; 4] = [RowKind::Ab, RowKind::Ba, RowKind::Bc, RowKind::Cb];
+                for (numbers, kind) in [&runs.ab, &runs.ba, &runs.bc, &runs.cb].into_iter().zip(kinds) {
                     for (swap, &number) in numbers.iter().enumerate() {
                         assert_eq!(all[number], definition(kind(swap), factors, swaps), "{:?}", kind(swap));
                     }
@@ -259,9 +254,9 @@ mod tests {
     #[test]
     fn a_dummy_factor_is_run_again() {
         let runs = runs(2, &[&[0], &[1], &[], &[]], ALL);
-        // A, B; AB_0, AB_1, two dummies; BA_0, BA_1 are known, two dummies; BC_0, BC_1, two dummies; CB likewise,
-        // of which none is known: C is there twice.
-        assert_eq!(runs.runs.len(), 2 + 4 + 2 + 4 + 4);
+        // A, B; AB_0, AB_1, two dummies; BA_0 is AB_1 and BA_1 is AB_0, two dummies; BC_0, BC_1, two dummies; CB_0 is
+        // BC_1 and CB_1 is BC_0, two dummies.
+        assert_eq!(runs.runs.len(), 2 + 4 + 2 + 4 + 2);
         assert_eq!(made(&runs.runs[runs.ab[2]], 2), [Matrix::A; 2]);
         assert_ne!(runs.ab[2], runs.ab[3]);
         assert_eq!(made(&runs.runs[runs.cb[3]], 2), [Matrix::C; 2]);

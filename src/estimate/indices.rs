@@ -15,12 +15,13 @@ pub struct Indices {
 
 impl Indices {
     /// The default estimators on `moments`: Saltelli et al. 2010 (b), centred, and Jansen 1999, both over the pooled
-    /// variance of A and B.
+    /// variance of A and B; with rows BA those of Azzini et al. 2021.
     ///
     /// # Errors
     /// [`Undefined`] if there are fewer than two base points or the output has no usable variance.
     pub fn of(moments: &Moments) -> Result<Self, Undefined> {
-        Self::by(moments, FirstOrder::Saltelli2010, Total::Jansen1999)
+        let companions = moments.companions();
+        Self::by(moments, FirstOrder::of_rows(companions), Total::of_rows(companions))
     }
 
     /// The indices by given estimators.
@@ -46,6 +47,9 @@ impl Indices {
             if swap.base.n < 2 {
                 return Err(Undefined::NoRuns);
             }
+            if swap.base.variance() == 0.0 {
+                return Err(Undefined::ZeroVariance);
+            }
             usable_variance(&swap.base)?;
         }
         let each = |estimate: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..moments.swaps()).map(estimate).collect() };
@@ -66,9 +70,6 @@ impl Indices {
 /// The variance, unless there is none that doubles can tell.
 fn usable_variance(base: &BaseMoments) -> Result<f64, Undefined> {
     let variance = base.variance();
-    if variance == 0.0 && base.aa == 0.0 && base.bb == 0.0 && base.mean_a == base.mean_b {
-        return Err(Undefined::ZeroVariance);
-    }
     if !variance.is_normal() {
         return Err(Undefined::Unrepresentable);
     }

@@ -68,3 +68,6 @@ pub fn shares(indices: &[f64]) -> Option<Vec<f64>> {
     let sum: f64 = indices.iter().sum();
     (sum > 0.0).then(|| indices.iter().map(|x| 100.0 * x / sum).collect())
 }
+
+#[cfg(test)]
+mod tests;

@@ -132,7 +132,7 @@ pub struct OutputRecord {
     pub runs_ok: u64,
     /// Runs without one.
     pub runs_failed: u64,
-    /// Base points all of whose runs have a value: those the estimates rest on.
+    /// Base points that every estimate rests on at least: each uses those where its own runs have a value.
     pub base_points_used: u64,
     /// Why runs failed.
     pub failures: Vec<FailureRecord>,

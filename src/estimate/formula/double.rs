@@ -40,17 +40,3 @@ pub fn owen_total(swap: &SwapMoments) -> Option<f64> {
     let closed = -(centred + cb.mean_g * (base.mean_b - base.mean_a + ba.mean_e));
     Some(1.0 - closed / base.variance())
 }
-
-/// S = 1/(2n) sum [(y_B - f0)(y_AB - y_A) + (y_A - f0)(y_BA - y_B)]/V: Saltelli's formula of 2010 on both series.
-pub fn saltelli_both(swap: &SwapMoments) -> Option<f64> {
-    let (ba, base) = (swap.ba.as_ref()?, &swap.base);
-    let centred = (swap.bd + ba.ae) / swap.n();
-    Some((centred + base.half_gap() * (swap.mean_d - ba.mean_e)) / (2.0 * base.variance()))
-}
-
-/// ST = 1/(4n) sum [(y_A - y_AB)^2 + (y_B - y_BA)^2]/V: Jansen's formula on both series.
-pub fn jansen_both(swap: &SwapMoments) -> Option<f64> {
-    let ba = swap.ba.as_ref()?;
-    let squares = (ba.ee + swap.dd) / swap.n() + ba.mean_e * ba.mean_e + swap.mean_d * swap.mean_d;
-    Some(squares / (4.0 * swap.base.variance()))
-}

@@ -1,0 +1,167 @@
+//! Samples for the tests of this module, and the tests that concern all of it.
+
+use super::*;
+
+mod exact;
+mod failures;
+mod invariance;
+mod textbook;
+
+/// Outputs of one swap with all of its companions, and of another one for pairs.
+#[derive(Clone)]
+struct Sample {
+    a: Vec<f64>,
+    b: Vec<f64>,
+    ab: [Vec<f64>; 2],
+    ba: [Vec<f64>; 2],
+    bc: [Vec<f64>; 2],
+    cb: [Vec<f64>; 2],
+}
+
+impl Sample {
+    /// `n` base points of columns that are correlated somehow, with `offset`.
+    fn noise(n: usize, offset: f64) -> Self {
+        let raw: Vec<Vec<f64>> = (1..=10).map(|salt| noise(n, salt)).collect();
+        let column = |own: usize, shared: &[usize]| -> Vec<f64> {
+            (0..n).map(|i| raw[own][i] + 0.7 * shared.iter().map(|&k| raw[k][i]).sum::<f64>() + offset).collect()
+        };
+        Self {
+            a: column(0, &[]),
+            b: column(1, &[]),
+            ab: [column(2, &[0]), column(3, &[0, 1])],
+            ba: [column(4, &[1]), column(5, &[1, 0])],
+            bc: [column(6, &[1]), column(7, &[1, 2])],
+            cb: [column(8, &[]), column(9, &[1])],
+        }
+    }
+
+    fn columns(&mut self) -> Vec<&mut Vec<f64>> {
+        let Self { a, b, ab, ba, bc, cb } = self;
+        [a, b].into_iter().chain(ab).chain(ba).chain(bc).chain(cb).collect()
+    }
+
+    fn map(&self, f: impl Fn(f64) -> f64) -> Self {
+        let mut mapped = self.clone();
+        mapped.columns().into_iter().flatten().for_each(|y| *y = f(*y));
+        mapped
+    }
+
+    fn part(&self, range: std::ops::Range<usize>) -> Self {
+        let mut part = self.clone();
+        part.columns().into_iter().for_each(|column| *column = column[range.clone()].to_vec());
+        part
+    }
+
+    fn moments(&self) -> Moments {
+        let [ab, ba, bc, cb] = [&self.ab, &self.ba, &self.bc, &self.cb].map(|s| [&s[0][..], &s[1][..]]);
+        let block = BlockOutputs { a: &self.a, b: &self.b, ab: &ab, ba: &ba, bc: &bc, cb: &cb, paired: &[0, 1] };
+        Moments::of_block(block, &mut Workspace::default())
+    }
+}
+
+/// Deterministic numbers without structure, about 0 with spread 1.
+fn noise(n: usize, salt: u64) -> Vec<f64> {
+    let mut x = salt.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let next = || {
+        x ^= x << 13;
+        x ^= x >> 7;
+        x ^= x << 17;
+        (x >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    };
+    std::iter::repeat_with(next).take(n).collect()
+}
+
+/// Every index of `moments` by every estimator, with the estimator's name.
+fn everything(moments: &Moments) -> Vec<(String, f64)> {
+    let mut all = Vec::new();
+    for swap in 0..moments.swaps() {
+        for estimator in FirstOrder::ALL {
+            all.push((format!("S{swap} {}", estimator.name()), estimator.estimate(moments, swap)));
+        }
+        for estimator in Total::ALL {
+            all.push((format!("ST{swap} {}", estimator.name()), estimator.estimate(moments, swap)));
+        }
+    }
+    for estimator in SecondOrder::ALL {
+        all.push((format!("S01 {}", estimator.name()), estimator.estimate(moments, 0, 1)));
+    }
+    all
+}
+
+#[track_caller]
+fn assert_close(got: &[(String, f64)], expected: &[(String, f64)], tolerance: f64) {
+    assert_eq!(got.len(), expected.len());
+    for ((name, got), (_, expected)) in got.iter().zip(expected) {
+        assert!((got - expected).abs() <= tolerance, "{name}: {got} is not {expected}");
+    }
+}
+
+#[test]
+fn names_are_unique_and_sources_are_given() {
+    let unique = |names: Vec<&str>| names.iter().collect::<std::collections::BTreeSet<_>>().len() == names.len();
+    assert!(unique(FirstOrder::ALL.map(FirstOrder::name).to_vec()));
+    assert!(unique(Total::ALL.map(Total::name).to_vec()));
+    assert!(unique(Estimator::ALL.map(Estimator::name).to_vec()));
+    assert!(FirstOrder::ALL.iter().all(|estimator| estimator.source().contains(char::is_numeric)));
+    assert!(Total::ALL.iter().all(|estimator| estimator.source().contains(char::is_numeric)));
+}
+
+#[test]
+fn a_design_that_serves_the_name_in_a_study_serves_its_estimators() {
+    use crate::design::Companions;
+    for estimator in Estimator::ALL {
+        for rows in [estimator.needs(), Companions { ba: true, bc: true, cb: true }] {
+            let (first_order, total) = estimator.with_rows(rows);
+            assert!(rows.serve(first_order.needs()) && rows.serve(total.needs()), "{estimator:?}");
+            let own = estimator.formulas();
+            assert!(own.0.is_none_or(|own| own == first_order) && own.1.is_none_or(|own| own == total));
+        }
+    }
+    let ba = Companions { ba: true, ..Companions::NONE };
+    assert_eq!(Estimator::Default.with_rows(Companions::NONE), (FirstOrder::Saltelli2010, Total::Jansen1999));
+    assert_eq!(Estimator::default().with_rows(ba), (FirstOrder::Azzini2021, Total::Azzini2021));
+}
+
+#[test]
+fn an_estimator_gives_an_index_exactly_if_it_has_the_rows_that_it_needs() {
+    let sample = Sample::noise(50, 0.0);
+    let series = |on: bool, series: &'_ [Vec<f64>; 2]| if on { series.to_vec() } else { vec![] };
+    for bits in 0..8 {
+        let companions = crate::design::Companions { ba: bits & 1 > 0, bc: bits & 2 > 0, cb: bits & 4 > 0 };
+        let owned = [(companions.ba, &sample.ba), (companions.bc, &sample.bc), (companions.cb, &sample.cb)]
+            .map(|(on, columns)| series(on, columns));
+        let [ba, bc, cb] = owned.each_ref().map(|s| s.iter().map(Vec::as_slice).collect::<Vec<_>>());
+        let ab = [&sample.ab[0][..], &sample.ab[1][..]];
+        let block = BlockOutputs { a: &sample.a, b: &sample.b, ab: &ab, ba: &ba, bc: &bc, cb: &cb, paired: &[] };
+        let moments = Moments::of_block(block, &mut Workspace::default());
+        assert_eq!(moments.companions(), companions);
+        for first_order in FirstOrder::ALL {
+            let served = companions.serve(first_order.needs());
+            assert_eq!(first_order.estimate(&moments, 1).is_finite(), served, "{first_order:?}");
+            let indices = Indices::by(&moments, first_order, Total::Jansen1999);
+            let refused = Err(Undefined::NoCompanions { estimator: first_order.name() });
+            assert!(if served { indices.is_ok() } else { indices == refused });
+        }
+        for total in Total::ALL {
+            let served = companions.serve(total.needs());
+            assert_eq!(total.estimate(&moments, 1).is_finite(), served, "{total:?}");
+        }
+    }
+}
+
+#[test]
+fn runs_are_those_of_a_design_that_serves_the_estimator() {
+    use crate::design::{Design, DesignSettings, Rows};
+    let runs = |companions, d: usize| {
+        let rows = Rows { swaps: (0..d).map(|j| vec![j]).collect(), companions, second_order: false };
+        Design::new(DesignSettings::default(), d, rows).unwrap().rows_per_point()
+    };
+    for d in [3, 7] {
+        for estimator in FirstOrder::ALL {
+            assert_eq!(estimator.runs_per_point(d as u64), runs(estimator.needs(), d), "{estimator:?}");
+        }
+        for estimator in Total::ALL {
+            assert_eq!(estimator.runs_per_point(d as u64), runs(estimator.needs(), d), "{estimator:?}");
+        }
+    }
+}
