@@ -93,10 +93,10 @@ fn case(name: &str, value: fn(&[f64]) -> f64, space: &Space, exact: &(Vec<f64>, 
         let rows = Rows { swaps: (0..d).map(|j| vec![j]).collect(), companions, second_order: false };
         let design = Design::new(DesignSettings { seed, ..settings.clone() }, d, rows).expect("a design");
         let totals = run(Job { design: &design, space, model: &model }, 0, &|_| ()).expect("threads");
-        let moments = &totals[0].outputs[0].moments;
+        let moments = totals[0].outputs[0].moments.whole();
         for ((_, _, first, formula), sum) in formulas.iter().zip(&mut squares) {
             let exact = if *first { &exact.0 } else { &exact.1 };
-            *sum += (0..d).map(|j| (formula(moments, j) - exact[j]).powi(2)).sum::<f64>();
+            *sum += (0..d).map(|j| (formula(&moments, j) - exact[j]).powi(2)).sum::<f64>();
         }
     }
     println!("{name}, {} base points, {}:", settings.base_samples, settings.sampler.name());

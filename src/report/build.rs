@@ -8,7 +8,7 @@ use super::result::{
     RungRecord, StoppingRecord, StudyRecord, ValidityRecord,
 };
 use crate::design::Design;
-use crate::estimate::{MomentParts, Scaling};
+use crate::estimate::{FirstOrder, MomentParts, Scaling, Total};
 use crate::model::Model;
 use crate::run::Totals;
 use crate::study::Study;
@@ -106,8 +106,8 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
         threads: run.threads,
         wall_seconds: run.wall_seconds,
         study_sha256: study.sha256.clone(),
-        first_order_estimator: "Saltelli et al. 2010 (b), centred".to_owned(),
-        total_estimator: "Jansen 1999".to_owned(),
+        first_order_estimator: FirstOrder::of_rows(design.companions()).source().to_owned(),
+        total_estimator: Total::of_rows(design.companions()).source().to_owned(),
         interval: (!alone).then(|| analysis.intervals.words(settings.replicates, analysis.resamples)),
         interval_method: analysis.intervals.name().to_owned(),
         threshold: analysis.threshold,

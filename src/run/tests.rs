@@ -69,6 +69,44 @@ fn any_number_of_threads_gives_the_same_bits() {
 }
 
 #[test]
+fn a_run_that_grows_ends_in_the_bits_of_a_run_that_began_long_and_runs_no_row_twice() {
+    for sampler in [Sampler::Sobol, Sampler::Random] {
+        let design = design(sampler, 2 << 15, 2);
+        let model = Sum::new(true);
+        let space = space();
+        let mut growing = GrowingRun::new(Job { design: &design, space: &space, model: &model }, 2).unwrap();
+        let rows = AtomicU64::new(0);
+        let count = |progress: Progress| drop(rows.fetch_max(progress.done, Ordering::Relaxed));
+        let mut points = 16;
+        while points <= design.points_per_replicate() {
+            growing.grow_to(points, &count).unwrap();
+            assert_eq!(growing.totals().iter().map(|t| t.runs).sum::<u64>(), 4 * 2 * points);
+            if points >= 1024 {
+                let shorter = design.with_points(points).unwrap();
+                assert_eq!(growing.totals(), totals(&shorter, &model, 1), "{sampler:?} at {points} points");
+            }
+            points *= 2;
+        }
+        assert_eq!(rows.into_inner(), design.rows());
+    }
+}
+
+#[test]
+fn a_run_can_be_given_up_at_the_first_failure() {
+    let design = design(Sampler::Sobol, 1 << 16, 2);
+    let model = Sum::new(true);
+    let space = space();
+    let job = Job { design: &design, space: &space, model: &model };
+    let mut run = GrowingRun::new(job, 2).unwrap().with_failures(FailurePolicy::Fail);
+    let failed = run.grow_to(1 << 15, &|_| ()).unwrap_err();
+    let RunError::RowFailed { row, reason } = failed else { panic!("{failed}") };
+    assert_eq!(reason, RowFailure::not_finite());
+    let mut u = [0.0; 2];
+    design.point(row.row(&design), &mut u);
+    assert!(u[0] > 0.75, "{row:?} is {u:?}");
+}
+
+#[test]
 fn every_row_is_run_once_and_progress_tells_so() {
     let design = design(Sampler::Sobol, 2 * 1000, 2);
     let last = Mutex::new((0, 0));
@@ -79,7 +117,7 @@ fn every_row_is_run_once_and_progress_tells_so() {
     };
     let got = run(Job { design: &design, space: &space(), model: &Sum::new(false) }, 2, &on_progress).unwrap();
     assert_eq!(got.iter().map(|t| t.runs).sum::<u64>(), 4 * 2000);
-    assert_eq!(got.iter().map(|t| t.outputs[0].moments.count()).sum::<u64>(), 2000);
+    assert_eq!(got.iter().map(|t| t.outputs[0].moments.whole().count()).sum::<u64>(), 2000);
     assert_eq!(last.into_inner().unwrap(), (8000, 8000));
 }
 
@@ -105,8 +143,9 @@ fn failed_rows_are_counted_located_and_left_out() {
     let tally = output.failures[&RowFailure::not_finite()];
     assert_eq!((output.runs_failed, got.failed_runs), (failed, failed));
     // x0 comes from A or from B, so a base point with any failure is one where A or B failed.
-    assert_eq!((output.moments.count(), output.moments.fewest()), (1024 - incomplete, 1024 - incomplete));
-    assert_eq!((tally.count, Some(tally.first_row)), (failed, first));
+    let moments = output.moments.whole();
+    assert_eq!((moments.count(), moments.fewest()), (1024 - incomplete, 1024 - incomplete));
+    assert_eq!((tally.count, Some(tally.first.row(&design))), (failed, first));
 }
 
 /// A model of one function of the SI values of a row and of how many rows its worker has run before.
@@ -165,14 +204,17 @@ fn every_estimator_finds_the_indices_of_an_interaction() {
     for (swap, (first, all)) in exact.into_iter().enumerate() {
         // 1024 points of a smooth function: an error of some 5e-3, and 2e-2 for Owen's formula of the total index.
         for estimator in FirstOrder::ALL {
-            assert!((estimator.estimate(&output.moments, swap) - first).abs() < 0.05, "{estimator:?} of {swap}");
+            assert!(
+                (estimator.estimate(&output.moments.whole(), swap) - first).abs() < 0.05,
+                "{estimator:?} of {swap}"
+            );
         }
         for estimator in Total::ALL {
-            assert!((estimator.estimate(&output.moments, swap) - all).abs() < 0.1, "{estimator:?} of {swap}");
+            assert!((estimator.estimate(&output.moments.whole(), swap) - all).abs() < 0.1, "{estimator:?} of {swap}");
         }
     }
     for estimator in SecondOrder::ALL {
-        let pairs = estimator.all(&output.moments);
+        let pairs = estimator.all(&output.moments.whole());
         assert_eq!((pairs.len(), pairs[0].swaps), (1, (0, 1)));
         assert!((pairs[0].index - v01 / v).abs() < 0.02, "{estimator:?}");
     }
@@ -181,7 +223,7 @@ fn every_estimator_finds_the_indices_of_an_interaction() {
 #[test]
 fn a_dummy_factor_is_the_noise_of_the_model() {
     let rows = || Rows::plain(vec![vec![0], vec![1], vec![]]);
-    let total = |model: &Of| crate::estimate::Indices::of(&with_rows(rows(), model).moments).unwrap().total[2];
+    let total = |model: &Of| crate::estimate::Indices::of(&with_rows(rows(), model).moments.whole()).unwrap().total[2];
     assert_eq!(total(&Of::new(|x, _| x[0] + x[1])), 0.0);
     // Noise of +-0.1 from row to row beside a variance of 1/6: 0.01/(1/6 + 0.01) of the whole.
     let noisy = total(&Of::new(|x, row| {
@@ -195,7 +237,7 @@ fn a_failure_costs_the_indices_of_its_own_rows_only() {
     // Fails where x0 is of A and x1 of B or the other way round, as in AB, for a third of the points of A.
     let model = Of::new(|x, _| if x[0] < 0.3 && x[1] > 0.8 { f64::NAN } else { x[0] + 2.0 * x[1] });
     let output = with_rows(Rows::plain(vec![vec![0], vec![1], vec![0, 1]]), &model);
-    let moments = &output.moments;
+    let moments = output.moments.whole();
     let counts = [0, 1, 2].map(|swap| moments.swap(swap).base.n);
     // A and B: 1 - 2 (0.3 0.2) + (0.06)^2 of the points; AB_2 is B and loses none beside.
     assert_eq!(counts[2], moments.count());
@@ -221,8 +263,9 @@ fn the_sample_is_the_first_base_points_of_each_replicate_in_order() {
             assert_eq!(*y, u[0] + 2.0 * u[1]);
         }
     }
-    let mut whole = totals[0].outputs[0].clone();
-    whole.merge(&totals[1].outputs[0]);
+    let mut both = totals[0].clone();
+    both.merge(&totals[1]);
+    let whole = &both.outputs[0];
     assert_eq!(whole.sample, [&totals[0].outputs[0].sample[..], &totals[1].outputs[0].sample].concat());
     assert_eq!(whole.values.count(), 2 * 2 * 700);
 }

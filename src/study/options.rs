@@ -131,7 +131,8 @@ fn subsets(context: &Context<'_>, section: &AnalysisSection, space: &Space) -> R
             numbers.push(number);
         }
         if numbers.is_empty() {
-            let problem = wrong("subsets", "lists of factor names, as in [[\"x1\", \"x3\"]]", "an empty list".to_owned());
+            let problem =
+                wrong("subsets", "lists of factor names, as in [[\"x1\", \"x3\"]]", "an empty list".to_owned());
             return Err(context.fault(list.span(), problem));
         }
         numbers.sort_unstable();
@@ -156,17 +157,15 @@ fn resamples(context: &Context<'_>, section: &AnalysisSection, method: IntervalM
     }
     if !matches!(method, IntervalMethod::Percentile | IntervalMethod::Bca) {
         let expected = "only beside intervals = \"percentile\" or \"bca\"";
-        return Err(context.fault(resamples.span(), wrong("resamples", expected, format!("intervals = \"{}\"", method.name()))));
+        return Err(
+            context.fault(resamples.span(), wrong("resamples", expected, format!("intervals = \"{}\"", method.name())))
+        );
     }
     Ok(found as usize)
 }
 
 /// Reads the keys of `[design]` that say when a growing run ends.
-pub(super) fn stopping(
-    context: &Context<'_>,
-    section: &DesignSection,
-    sampler: Sampler,
-) -> Result<Stopping, Fault> {
+pub(super) fn stopping(context: &Context<'_>, section: &DesignSection, sampler: Sampler) -> Result<Stopping, Fault> {
     let half_width = match section.target.as_ref().map(At::get_ref) {
         None => None,
         Some(target) => {

@@ -83,7 +83,11 @@ fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<Model
     })
 }
 
-pub(super) fn unknown_name<'a>(what: &'static str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Problem {
+pub(super) fn unknown_name<'a>(
+    what: &'static str,
+    name: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> Problem {
     Problem::UnknownName {
         what,
         name: name.to_owned(),

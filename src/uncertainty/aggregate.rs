@@ -1,9 +1,10 @@
 //! Indices over several outputs together, with intervals.
 
+use super::Estimate;
 use super::influence::{Influences, Outputs};
 use super::method::IntervalMethod;
 use super::output::Judged;
-use super::Estimate;
+use crate::design::Companions;
 use crate::estimate::{FirstOrder, MomentParts, Moments, Scaling, Total, Undefined, aggregated, merged};
 
 /// Aggregated indices of every swap.
@@ -25,8 +26,9 @@ pub fn aggregate_indices(
     method: IntervalMethod,
 ) -> Result<AggregateIndices, Undefined> {
     let of = |outputs: &[Moments]| {
+        let companions = outputs.first().map_or(Companions::NONE, Moments::companions);
         let outputs: Vec<&Moments> = outputs.iter().collect();
-        aggregated(&outputs, FirstOrder::Saltelli2010, Total::Jansen1999, scaling)
+        aggregated(&outputs, FirstOrder::of_rows(companions), Total::of_rows(companions), scaling)
     };
     let whole: Vec<Moments> = outputs
         .iter()

@@ -22,8 +22,7 @@ pub enum IntervalMethod {
 
 impl IntervalMethod {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Nets, Self::Replicates, Self::Batches, Self::Delta, Self::Percentile, Self::Bca];
+    pub const ALL: [Self; 6] = [Self::Nets, Self::Replicates, Self::Batches, Self::Delta, Self::Percentile, Self::Bca];
 
     /// The name in study files and results.
     pub fn name(self) -> &'static str {
@@ -90,8 +89,12 @@ impl IntervalMethod {
                  rests on all of them together"
             ),
             Self::Batches => "95 % t-interval from the spread of batches of independent random points".to_owned(),
-            Self::Delta => "95 % asymptotic (delta-method) interval from the influence of every random point".to_owned(),
-            Self::Percentile => format!("95 % percentile bootstrap interval, {resamples} resamples of the random points"),
+            Self::Delta => {
+                "95 % asymptotic (delta-method) interval from the influence of every random point".to_owned()
+            }
+            Self::Percentile => {
+                format!("95 % percentile bootstrap interval, {resamples} resamples of the random points")
+            }
             Self::Bca => format!("95 % BCa bootstrap interval, {resamples} resamples of the random points"),
         }
     }

@@ -194,9 +194,10 @@ impl Trend {
         if direct <= 0.0 {
             return Self { rise, freedom: freedom_of_log_variance(SCATTER_OF_INDICES + SCATTER_OF_OUTPUTS) };
         }
-        let gaps = pool.iter().filter(|levels| levels.spread > 0.0).map(|levels| {
-            levels.spread.ln() - log_bias(direct) - levels.height - rise
-        });
+        let gaps = pool
+            .iter()
+            .filter(|levels| levels.spread > 0.0)
+            .map(|levels| levels.spread.ln() - log_bias(direct) - levels.height - rise);
         let gaps: Vec<f64> = gaps.collect();
         let independent = (gaps.len() as f64 / DEPENDENCE).max(0.5);
         let noise = (log_variance(direct) + SCATTER_OF_INDICES) / independent;
@@ -209,11 +210,7 @@ impl Trend {
     /// The standard error of the mean over the nets.
     fn error(&self, levels: &Levels, shape: &Shape) -> StandardError {
         let direct = shape.direct_freedom();
-        let prior = if self.freedom > 0.0 {
-            (levels.height + self.rise + log_bias(self.freedom)).exp()
-        } else {
-            0.0
-        };
+        let prior = if self.freedom > 0.0 { (levels.height + self.rise + log_bias(self.freedom)).exp() } else { 0.0 };
         let freedom = self.freedom + direct;
         if freedom <= 0.0 {
             return StandardError { error: f64::NAN, freedom: 0.0 };

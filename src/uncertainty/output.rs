@@ -44,7 +44,9 @@ impl OutputIndices {
     pub fn largest_half_width(&self) -> Option<f64> {
         let effects = self.factors.iter().chain(&self.groups).chain(&self.subsets);
         let widths = effects.flat_map(|effect| [effect.first_order, effect.total]).map(|e| e.interval);
-        widths.map(|i| i.map(|Interval { low, high }| (high - low) / 2.0)).try_fold(0.0, |largest: f64, w| Some(largest.max(w?)))
+        widths
+            .map(|i| i.map(|Interval { low, high }| (high - low) / 2.0))
+            .try_fold(0.0, |largest: f64, w| Some(largest.max(w?)))
     }
 }
 
@@ -113,7 +115,8 @@ pub fn output_indices(
 ) -> Result<OutputIndices, Undefined> {
     let whole: Vec<Moments> = replicates.iter().map(MomentParts::whole).collect();
     Indices::of(&merged(&whole))?;
-    let influences = Influences::of(&[replicates], &|outputs| quantities(layout, &outputs[0])).ok_or(Undefined::NoRuns)?;
+    let influences =
+        Influences::of(&[replicates], &|outputs| quantities(layout, &outputs[0])).ok_or(Undefined::NoRuns)?;
     let pooled = layout.pooled(influences.whole.len());
     let judged = Judged::of(influences, judgement.method, &pooled);
     let first = judged.first(layout, judgement.seed);

@@ -6,7 +6,7 @@ use apportion::model::{Batch, KnownAnswer, Model, Output, Worker};
 use apportion::quantity::Unit;
 use apportion::run::{Job, run};
 use apportion::space::{Distribution, Factor, Space};
-use apportion::uncertainty::{ReplicatedIndices, replicated_indices};
+use apportion::uncertainty::{IntervalMethod, Judgement, Layout, OutputIndices, output_indices};
 use proptest::prelude::*;
 
 /// Ishigami's function times `scale` plus `offset`, with its inputs in the order `order`.
@@ -45,7 +45,7 @@ impl Worker for ChangedWorker<'_> {
     }
 }
 
-fn indices(model: &Changed, base_samples: u64) -> ReplicatedIndices {
+fn indices(model: &Changed, base_samples: u64) -> OutputIndices {
     let pi = std::f64::consts::PI;
     let range = || Distribution::uniform(-pi, pi).unwrap();
     let factor = |name| Factor::new(name, Unit::dimensionless(), range()).unwrap();
@@ -54,10 +54,11 @@ fn indices(model: &Changed, base_samples: u64) -> ReplicatedIndices {
     let design = Design::new(settings, 3, Rows::plain((0..3).map(|j| vec![j]).collect())).unwrap();
     let totals = run(Job { design: &design, space: &space, model }, 0, &|_| ()).unwrap();
     let moments: Vec<_> = totals.into_iter().map(|t| t.outputs[0].moments.clone()).collect();
-    replicated_indices(&moments, 3).unwrap()
+    let judgement = Judgement { method: IntervalMethod::Nets, threshold: 0.05, seed: 0 };
+    output_indices(&moments, &Layout::plain(3), &judgement).unwrap()
 }
 
-fn flat(indices: &ReplicatedIndices) -> Vec<f64> {
+fn flat(indices: &OutputIndices) -> Vec<f64> {
     let effects = indices.factors.iter();
     effects
         .flat_map(|e| [e.first_order, e.total, e.check_gap])
