@@ -62,8 +62,8 @@ pub enum RunError {
 
 /// Runs the whole job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
 ///
-/// `on_progress` is called whenever a block has gone through one kind of row, from the thread that did it. The result does not depend on the
-/// number of threads, in any bit.
+/// `on_progress` is called whenever a block has gone through one kind of row, from the thread that did it. The result
+/// does not depend on the number of threads, in any bit.
 ///
 /// # Panics
 /// If the space has not as many factors as the design.

@@ -68,7 +68,11 @@ proptest! {
     }
 
     #[test]
-    fn central_moments_merge_to_those_of_all_values(cut in 0usize..=500, offset in -1e3f64..1e3, exponent in -200i32..200) {
+    fn central_moments_merge_to_those_of_all_values(
+        cut in 0usize..=500,
+        offset in -1e3f64..1e3,
+        exponent in -200i32..200,
+    ) {
         let values: Vec<f64> = noise(500, 4).iter().map(|y| (y.exp() + offset) * 2f64.powi(exponent)).collect();
         let mut merged = CentralMoments::of(&values[..cut]);
         merged.merge(&CentralMoments::of(&values[cut..]));
