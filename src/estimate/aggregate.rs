@@ -11,8 +11,8 @@ pub enum Scaling {
     Standardised,
 }
 
-/// Aggregated indices of several outputs of one design: sum_k V_j^k/sum_k V^k, which is the mean of the outputs' indices
-/// weighted by their variances.
+/// Aggregated indices of several outputs of one design: sum_k V_j^k/sum_k V^k, which is the mean of the outputs'
+/// indices weighted by their variances.
 ///
 /// Gamboa, Janon, Klein and Lagnoux (2014), Electron. J. Stat. 8, 575-603; Lamboni, Monod and Makowski (2011), Reliab.
 /// Eng. Syst. Saf. 96, 450-459. An output that is constant has no part in it.

@@ -7,6 +7,22 @@ use crate::design::Companions;
 const BA: Companions = Companions { ba: true, bc: false, cb: false };
 
 /// An estimator of first-order indices (of a group: closed first-order indices).
+///
+/// In the formulas n is the number of base points, m_B the mean of y_B, V_B its variance, f0 and V the mean and
+/// variance of y_A and y_B pooled, r Pearson's correlation; AB is A with the columns of the swap from B. Sobol1993,
+/// HommaSaltelli1996, Saltelli2002 and Sobol2007 are not centred, as published: an offset of the output that is large
+/// against its spread makes their error grow in proportion (Saltelli2002: also its square over n), and takes digits.
+///
+/// ```
+/// use apportion::estimate::{BlockOutputs, FirstOrder, Moments, Workspace};
+///
+/// // y = x, sampled at every pair of 0, 1 and 0, 1: AB, which takes x from B, has the outputs of B.
+/// let (a, b) = ([0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 0.0, 1.0]);
+/// let block = BlockOutputs { a: &a, b: &b, ab: &[&b], ..BlockOutputs::default() };
+/// let moments = Moments::of_block(block, &mut Workspace::default());
+/// assert_eq!(FirstOrder::Saltelli2010.estimate(&moments, 0), 1.0);
+/// assert!(FirstOrder::Azzini2021.estimate(&moments, 0).is_nan(), "no rows BA");
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FirstOrder {
     /// S = (1/n sum y_B y_AB - m_B^2)/V_B.
@@ -27,7 +43,7 @@ pub enum FirstOrder {
     Martinez2011,
     /// Correlations of all pairs of rows, corrected for spurious ones.
     GlenIsaacs2012,
-    /// S = 1/n sum (y_B - y_BC)(y_AB - y_A)/V.
+    /// S = 1/n sum (y_B - y_BC)(y_AB - y_A)/V: for small indices.
     Owen2013,
     /// S = 2 sum (y_BA - y_B)(y_A - y_AB)/sum [(y_A - y_B)^2 + (y_BA - y_AB)^2]: the default with rows BA.
     Azzini2021,
@@ -97,9 +113,11 @@ impl FirstOrder {
             Self::JanonMonod2014 => {
                 "Janon, Klein, Lagnoux, Nodet and Prieur (2014), ESAIM: PS 18, 342-364, eq. 6, after Monod, Naud and Makowski (2006)"
             }
-            Self::Martinez2011 => "Martinez (2011), Analyse de sensibilite globale par decomposition de la variance",
+            Self::Martinez2011 => {
+                "Martinez (2011), Analyse de sensibilite globale par decomposition de la variance, GdR Ondes and GdR MASCOT-NUM, Paris"
+            }
             Self::GlenIsaacs2012 => {
-                "Glen and Isaacs (2012), Environ. Model. Softw. 37, 157-166, formula D3, on Pearson correlations"
+                "Glen and Isaacs (2012), Environ. Model. Softw. 37, 157-166, formulas D3, on Pearson correlations"
             }
             Self::Owen2013 => "Owen (2013), ACM Trans. Model. Comput. Simul. 23(2), 11",
             Self::Azzini2021 => "Azzini, Mara and Rosati (2021), Environ. Model. Softw. 144, 105167",
@@ -146,7 +164,8 @@ impl FirstOrder {
     }
 }
 
-/// An estimator of total indices.
+/// An estimator of total indices. Symbols are those of [`FirstOrder`]; HommaSaltelli1996 and Sobol2007 are not centred,
+/// as published.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Total {
     /// ST = (V - 1/n sum y_A y_AB + f0^2)/V.
@@ -261,33 +280,34 @@ fn runs_per_point(needs: Companions, d: u64) -> u64 {
     2 + d * (1 + needs.count())
 }
 
-/// What a study file names: a paper's estimators of first-order and total indices.
+/// What a study file names: a paper's estimators of first-order and total indices. The variants that say nothing else
+/// have both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Estimator {
     /// The most accurate of the rows that there are.
     #[default]
     Default,
-    /// First order only.
+    /// Sobol' 1993: first order only.
     Sobol1993,
-    /// Both.
+    /// Homma and Saltelli 1996.
     HommaSaltelli,
-    /// First order only.
+    /// Saltelli 2002: first order only.
     Saltelli2002,
-    /// Both.
+    /// Sobol' et al. 2007.
     Sobol2007,
-    /// First order only.
+    /// Saltelli et al. 2010: first order only.
     Saltelli2010,
-    /// Both.
+    /// Jansen 1999.
     Jansen,
-    /// Both.
+    /// Janon et al. 2014 and Monod et al. 2006.
     JanonMonod,
-    /// Both.
+    /// Martinez 2011.
     Martinez,
-    /// Both.
+    /// Glen and Isaacs 2012.
     GlenIsaacs,
-    /// Both.
+    /// Owen 2013.
     Owen,
-    /// Both.
+    /// Azzini et al. 2021.
     Azzini,
 }
 

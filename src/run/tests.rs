@@ -227,9 +227,11 @@ fn a_dummy_factor_is_the_noise_of_the_model() {
     assert_eq!(total(&Of::new(|x, _| x[0] + x[1])), 0.0);
     // Noise of +-0.1 from row to row beside a variance of 1/6: 0.01/(1/6 + 0.01) of the whole.
     let noisy = total(&Of::new(|x, row| {
-        x[0] + x[1] + 0.1 * (f64::from(row.wrapping_mul(0x9e37_79b9) as u32 >> 31) * 2.0 - 1.0)
+        let hash = (row.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x[0] + x[1] + if hash >> 63 == 0 { 0.1 } else { -0.1 }
     }));
-    assert!((noisy - 0.01 / (1.0 / 6.0 + 0.01)).abs() < 0.02, "{noisy}");
+    // 1024 pairs of signs, of which half differ give or take 16: 3 %, five of which are allowed.
+    assert!((noisy / (0.01 / (1.0 / 6.0 + 0.01)) - 1.0).abs() < 0.15, "{noisy}");
 }
 
 #[test]

@@ -31,6 +31,10 @@ fn one_minus_correlation(xx: f64, xd: f64, dd: f64) -> f64 {
 
 /// First-order and total index with the correction for spurious correlations.
 ///
+/// The total index is formula D3 as the script published with Lo Piano et al. (2021, Reliab. Eng. Syst. Saf. 206,
+/// 107300) has it, but for Pearson's correlations where that script standardises all rows by one mean and variance; the
+/// first-order index is the same with the parts of the swap and of the other columns exchanged.
+///
 /// With r Pearson's correlation, each averaged over the two pairs of rows that estimate it:
 /// c = (r(B, AB) + r(A, BA))/2, which tends to S; q = 1 - (r(A, AB) + r(B, BA))/2, which tends to ST; and
 /// p = (r(A, B) + r(AB, BA))/2, which tends to 0 but in a finite sample adds to the others. Solving

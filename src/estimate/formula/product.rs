@@ -1,6 +1,6 @@
-//! Formulas that subtract a squared mean from a mean of products. They are here to compare with other programs: their
-//! error grows with the offset of the output, by m (m_AB - m_B) or the like, and is of the order n^-1/2 even for a factor
-//! that does nothing (but for Saltelli's and Sobol's of 2007, which use differences).
+//! Formulas that subtract a squared mean from a mean of products, or do not centre the outputs. They are here to compare
+//! with other programs: their error grows with the offset of the output, as m (m_AB - m_B) or the like, and that of
+//! the first three is of the order n^-1/2 even for a factor that does nothing.
 
 use crate::estimate::SwapMoments;
 

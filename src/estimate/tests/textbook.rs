@@ -31,8 +31,7 @@ fn janon_monod(x: &[f64], y: &[f64]) -> f64 {
     (mean(|i| x[i] * y[i], n) - m * m) / (mean(|i| (x[i].powi(2) + y[i].powi(2)) / 2.0, n) - m * m)
 }
 
-/// First-order and total index by formula D3 of Glen and Isaacs, as in the published script of Lo Piano et al. (2021),
-/// on correlations.
+/// First-order and total index by formulas D3 of Glen and Isaacs on Pearson's correlations.
 fn glen_isaacs(s: &Sample, j: usize) -> (f64, f64) {
     let (a, b, ab, ba) = (&s.a, &s.b, &s.ab[j], &s.ba[j]);
     let cd_j = (r(b, ab) + r(a, ba)) / 2.0;
@@ -120,6 +119,20 @@ fn every_estimator_is_its_published_formula() {
         let tolerance = 1e-14 * (1.0 + offset * offset) * 10.0;
         assert_close(&everything(&sample.moments()), &textbook(&sample), tolerance);
     }
+}
+
+#[test]
+fn the_same_outputs_have_the_indices_of_salib() {
+    // first_order, total_order and second_order of SALib.analyze.sobol, SALib 1.6.0, on the outputs less f0.
+    let moments = Sample::noise(64, 0.0).moments();
+    let frozen = [(0.17964247006708178, 0.78332982457211), (0.31537181665513453, 0.8070096799813959)];
+    for (swap, (first_order, total)) in frozen.into_iter().enumerate() {
+        // Rounding of sums of 64 terms.
+        assert!((FirstOrder::Saltelli2010.estimate(&moments, swap) - first_order).abs() < 1e-14);
+        assert!((Total::Jansen1999.estimate(&moments, swap) - total).abs() < 1e-14);
+    }
+    let second_order = SecondOrder::ClosedMinusFirst.estimate(&moments, 0, 1);
+    assert!((second_order - -0.2907194178400423).abs() < 1e-14);
 }
 
 #[test]
