@@ -76,7 +76,9 @@ fn a_run_that_grows_ends_in_the_bits_of_a_run_that_began_long_and_runs_no_row_tw
         let space = space();
         let mut growing = GrowingRun::new(Job { design: &design, space: &space, model: &model }, 2).unwrap();
         let rows = AtomicU64::new(0);
-        let count = |progress: Progress| drop(rows.fetch_max(progress.done, Ordering::Relaxed));
+        let count = |progress: Progress| {
+            rows.fetch_max(progress.done, Ordering::Relaxed);
+        };
         let mut points = 16;
         while points <= design.points_per_replicate() {
             growing.grow_to(points, &count).unwrap();
