@@ -44,8 +44,8 @@ pub fn build_result(study: &Study, model: &dyn Model, replicates: &[Totals], fac
         .iter()
         .zip(&whole.flags)
         .map(|(flag, &runs)| ValidityRecord {
-            flag: flag.name.to_owned(),
-            description: flag.description.to_owned(),
+            flag: flag.name.to_string(),
+            description: flag.description.to_string(),
             runs,
             share: runs as f64 / whole.runs as f64,
         })
@@ -134,7 +134,7 @@ fn output_record(study: &Study, output: &Output, totals: &OutputTotals, replicat
     let in_unit = |x: f64| unit.from_si(x);
     let indices = replicated_indices(replicates, study.design.factors());
     let mut record = OutputRecord {
-        name: output.name.to_owned(),
+        name: output.name.to_string(),
         unit: unit.to_string(),
         mean: moments.map(|m| in_unit(m.mean.estimate)),
         variance: moments.map(|m| squared(m.variance.estimate)),

@@ -7,6 +7,7 @@ mod constants;
 mod distribution;
 mod error;
 mod file;
+mod function;
 mod overrides;
 mod resolve;
 mod subject;
@@ -15,8 +16,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-pub(crate) use error::nearest;
-pub use error::{Diagnostic, OverrideProblem, Problem, StudyError};
+pub use error::{Diagnostic, OverrideProblem, Problem, StudyError, nearest};
 pub use subject::{AfmSubject, KnownSubject, Subject};
 
 use crate::design::Design;
