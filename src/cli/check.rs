@@ -29,7 +29,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     text.push_str(&factors(&study));
     text.push_str(&design(&study)?);
     let model = study.model();
-    let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name).collect();
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     text.push_str(&format!("\nwill be written to {}:\n", folder.display()));
     for (name, content) in file_names(&study.name, &outputs) {
         text.push_str(&format!("  {name}  {content}\n"));
@@ -44,7 +44,7 @@ fn subject(study: &Study) -> String {
     }
     text.push_str(&format!("\nmodel {}: {}\n", study.subject.kind().name(), study.subject.kind().description()));
     for (name, value) in study.settings() {
-        text.push_str(&format!("  {name} = {value}\n"));
+        text.push_str(&format!("  {name} = {}\n", shortened(&value)));
     }
     let model = study.model();
     let outputs: Vec<String> = model.outputs().iter().map(|o| format!("{} [{}]", o.name, o.unit)).collect();
@@ -59,6 +59,18 @@ fn subject(study: &Study) -> String {
     }
     text.push('\n');
     text
+}
+
+/// A value as it is written in a study file, a long list by its beginning and its length.
+fn shortened(value: &serde_json::Value) -> String {
+    const SHOWN: usize = 12;
+    match value.as_array() {
+        Some(list) if list.len() > SHOWN => {
+            let entries: Vec<String> = list.iter().take(SHOWN).map(ToString::to_string).collect();
+            format!("[{}, ... {} in all]", entries.join(", "), list.len())
+        }
+        _ => value.to_string(),
+    }
 }
 
 fn factors(study: &Study) -> String {

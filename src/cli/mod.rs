@@ -40,8 +40,8 @@ enum Command {
     Check(check::Arguments),
     /// Follow one scene of a study in time, every factor at its nominal value: forces, positions, contacts
     Simulate(simulate::Arguments),
-    /// List what can be studied: models with their factors and outputs
-    Models,
+    /// List what can be studied, or show one model in full: formula, factors, outputs, exact indices
+    Models(models::Arguments),
 }
 
 /// A study file and the changes to it that the command line makes.
@@ -162,7 +162,7 @@ pub fn main() -> ExitCode {
         Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Simulate(arguments) => simulate::simulate(&arguments),
-        Command::Models => models::models(),
+        Command::Models(arguments) => models::models(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

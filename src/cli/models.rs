@@ -1,29 +1,172 @@
 //! `apportion models`: what can be studied.
 
-use apportion::model::ModelKind;
+use apportion::model::{Basis, Exact, ExactIndices, Input, KnownAnswer, KnownFunction, ModelKind, known_inputs};
 use apportion::report::{significant, table};
+use apportion::study::{Problem, nearest};
 
 use super::{Failure, print};
 
-pub fn models() -> Result<(), Failure> {
-    let mut text = String::new();
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Show this model in full: inputs, outputs, choices; of a function its formula, source and exact indices
+    name: Option<String>,
+}
+
+pub fn models(arguments: &Arguments) -> Result<(), Failure> {
+    let Some(name) = &arguments.name else { return print(&list()) };
+    let kind = ModelKind::from_name(name).ok_or_else(|| unknown(name))?;
+    print(&match kind {
+        ModelKind::Afm => flagship(),
+        ModelKind::Known(answer) => function(answer),
+    })
+}
+
+fn unknown(name: &str) -> Failure {
+    let names = ModelKind::all().into_iter().map(ModelKind::name);
+    let problem = Problem::UnknownName {
+        what: "model",
+        name: name.to_owned(),
+        nearest: nearest(name, names.clone()),
+        expected: names.map(str::to_owned).collect(),
+    };
+    let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
+    Failure::Input(anyhow::anyhow!("{problem}{help}"))
+}
+
+fn list() -> String {
+    let mut models = table(&["model", "inputs", "what it is"], &[0, 2]);
     for kind in ModelKind::all() {
-        text.push_str(&format!("{}: {}\n\n", kind.name(), kind.description()));
-        for (key, names) in kind.choices() {
-            text.push_str(&format!("  {key}: {}\n", names.join(", ")));
-        }
-        let mut inputs = table(&["factor", "symbol", "nominal", "unit", "must be", "meaning"], &[0, 1, 3, 4, 5]);
-        for input in kind.inputs() {
-            let domain = input.domain.map_or_else(|| "any number".to_owned(), |domain| domain.to_string());
-            let unit = input.unit.to_string();
-            inputs.add_row([input.name, input.symbol, &significant(input.nominal), &unit, &domain, &input.description]);
-        }
-        text.push_str(&format!("{inputs}\n"));
-        let mut outputs = table(&["output", "unit", "meaning"], &[0, 1, 2]);
-        for output in kind.outputs() {
-            outputs.add_row([output.name, &output.unit.to_string(), output.description]);
-        }
-        text.push_str(&format!("{outputs}\n\n"));
+        models.add_row([kind.name(), &kind.inputs().len().to_string(), kind.description()]);
     }
-    print(&text)
+    format!("{models}\n\n`apportion models NAME` shows one of them in full.\n")
+}
+
+fn flagship() -> String {
+    let kind = ModelKind::Afm;
+    let mut text = format!("{}: {}\n\n", kind.name(), kind.description());
+    for (key, names) in kind.choices() {
+        text.push_str(&format!("  {key}: {}\n", names.join(", ")));
+    }
+    let mut inputs = table(&["factor", "symbol", "nominal", "unit", "must be", "meaning"], &[0, 1, 3, 4, 5]);
+    for input in kind.inputs() {
+        let unit = input.unit.to_string();
+        inputs.add_row([
+            &*input.name,
+            &input.symbol,
+            &significant(input.nominal),
+            &unit,
+            &domain(&input),
+            &input.description,
+        ]);
+    }
+    text.push_str(&format!("{inputs}\n"));
+    let mut outputs = table(&["output", "unit", "meaning"], &[0, 1, 2]);
+    for output in kind.outputs() {
+        outputs.add_row([&*output.name, &output.unit.to_string(), &output.description]);
+    }
+    text.push_str(&format!("{outputs}\n"));
+    text
+}
+
+fn domain(input: &Input) -> String {
+    input.domain.map_or_else(|| "any number".to_owned(), |domain| domain.to_string())
+}
+
+fn function(answer: KnownAnswer) -> String {
+    let function = answer.default_function();
+    let mut text = format!(
+        "{}: {}\n\n  y = {}\n\n  source: {}\n",
+        answer.name(),
+        answer.description(),
+        answer.formula(),
+        answer.source()
+    );
+    if !answer.parameters().is_empty() {
+        let mut parameters = table(&["[function]", "meaning [default]"], &[0, 1]);
+        for parameter in answer.parameters() {
+            parameters.add_row([parameter.name, parameter.description]);
+        }
+        text.push_str(&format!("\n{parameters}\n"));
+    }
+    text.push_str(&inputs(&function));
+    text.push_str(&exact(&function));
+    text.push_str(&example(&function));
+    text
+}
+
+fn inputs(function: &KnownFunction) -> String {
+    let mut inputs =
+        table(&["factor", "distribution", "mean", "sd", "where no factor", "must be", "meaning"], &[0, 1, 5, 6]);
+    for input in known_inputs(function) {
+        let Some(law) = &input.distribution else { continue };
+        inputs.add_row([
+            input.name.clone(),
+            law.name().to_owned(),
+            significant(law.mean()),
+            significant(law.sd()),
+            significant(input.nominal),
+            domain(&input),
+            input.description.clone(),
+        ]);
+    }
+    format!("\n{inputs}\n")
+}
+
+fn exact(function: &KnownFunction) -> String {
+    let exact = function.exact();
+    let basis = match exact.basis {
+        Basis::ClosedForm => "by formula".to_owned(),
+        Basis::Quadrature { error } => format!("by quadrature, error {error:e} of the variance"),
+    };
+    let Exact { mean, variance, indices, .. } = exact;
+    let mut text = format!("\nmean {mean}, variance {variance} ({basis})\n");
+    let Some(indices) = indices else {
+        text.push_str("no indices: the variance is 0\n");
+        return text;
+    };
+    let mut rows = table(&["factor", "first order S", "total ST"], &[0]);
+    for (input, (first, total)) in known_inputs(function).iter().zip(indices.first_order.iter().zip(&indices.total)) {
+        rows.add_row([input.name.clone(), significant(*first), significant(*total)]);
+    }
+    text.push_str(&format!("{rows}\n{}", second_order(function, &indices)));
+    text
+}
+
+/// The largest second-order indices.
+fn second_order(function: &KnownFunction, indices: &ExactIndices) -> String {
+    const SHOWN: usize = 8;
+    let Some(second) = &indices.second_order else { return String::new() };
+    let mut pairs: Vec<_> = second.pairs().filter(|(_, _, index)| *index > 0.0).collect();
+    if pairs.is_empty() {
+        return "no interactions of two factors\n".to_owned();
+    }
+    pairs.sort_by(|(_, _, a), (_, _, b)| b.total_cmp(a));
+    let names = known_inputs(function);
+    let shown = pairs.iter().take(SHOWN);
+    let words = shown.map(|&(i, j, index)| format!("{}-{} {}", names[i].name, names[j].name, significant(index)));
+    let rest = pairs.len().saturating_sub(SHOWN);
+    let more = if rest > 0 { format!(", {rest} more") } else { String::new() };
+    format!("second order: {}{more}\n", words.collect::<Vec<_>>().join(", "))
+}
+
+/// A study file, complete as it is.
+fn example(function: &KnownFunction) -> String {
+    let mut text =
+        format!("\nA study of it, complete with its first line alone:\n\n  model = \"{}\"\n", function.answer().name());
+    let parameters = function.parameters();
+    if !parameters.is_empty() {
+        text.push_str("\n  [function]\n");
+        for (name, value) in parameters {
+            text.push_str(&format!("  {name} = {value}\n"));
+        }
+    }
+    text.push_str("\n  [design]\n  base_samples = 16384\n");
+    if let Some(input) = known_inputs(function).first() {
+        text.push_str(&format!(
+            "\n  [[factor]]            # without any [[factor]], all inputs vary\n  name = \"{}\"           # by its own \
+             distribution, unless another is given\n",
+            input.name
+        ));
+    }
+    text
 }

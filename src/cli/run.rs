@@ -34,7 +34,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     prepare_folder(&folder)?;
     let model = study.model();
-    let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name).collect();
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     for (name, _) in file_names(&study.name, &outputs) {
         prepare_file(&folder.join(name))?;
     }

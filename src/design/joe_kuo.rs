@@ -1,5 +1,7 @@
 //! Direction numbers of the Sobol' sequence: Joe and Kuo's set `new-joe-kuo-6`, read from the embedded table.
 
+use std::sync::LazyLock;
+
 /// Number of dimensions the embedded table holds (the first one needs no entry: it is van der Corput's sequence).
 pub const MAX_DIMENSIONS: usize = 4096;
 
@@ -8,26 +10,32 @@ pub const BITS: usize = 32;
 
 const TABLE: &str = include_str!("../../assets/joe-kuo/new-joe-kuo-6.4096.txt");
 
-/// Direction numbers of one dimension: entry `k` is XORed into the coordinate when bit `k` of the point's index is set.
-/// The most significant bit of an entry stands for 1/2.
+/// Direction numbers of one dimension, bits reversed: entry `k` is XORed into the coordinate when bit `k` of the point's
+/// index is set. The least significant bit of an entry stands for 1/2, as the scramble wants it.
 pub type Directions = [u32; BITS];
 
-/// Direction numbers of the first `dimensions` dimensions, in order. Only that many lines of the table are read.
+/// Of all dimensions, read once for the whole program.
+static ALL: LazyLock<Vec<Directions>> = LazyLock::new(|| {
+    let van_der_corput = std::array::from_fn(|k| 1 << (BITS - 1 - k));
+    std::iter::once(van_der_corput)
+        .chain(TABLE.lines().filter(|line| !line.starts_with('#')).map(from_line))
+        .map(|v| v.map(u32::reverse_bits))
+        .collect()
+});
+
+/// Direction numbers of the first `dimensions` dimensions, in order.
 ///
 /// Recurrence: Bratley and Fox (1988), ACM TOMS 14, 88-100, eq. (2), with the polynomials and initial numbers of
 /// Joe and Kuo (2008), SIAM J. Sci. Comput. 30, 2635-2654.
 ///
 /// # Panics
 /// If `dimensions` exceeds [`MAX_DIMENSIONS`]; [`crate::design::Design`] checks this before.
-pub fn directions(dimensions: usize) -> Vec<Directions> {
+pub fn directions(dimensions: usize) -> &'static [Directions] {
     assert!(dimensions <= MAX_DIMENSIONS, "at most {MAX_DIMENSIONS} dimensions");
-    let van_der_corput = std::array::from_fn(|k| 1 << (BITS - 1 - k));
-    std::iter::once(van_der_corput)
-        .chain(TABLE.lines().filter(|line| !line.starts_with('#')).map(from_line))
-        .take(dimensions)
-        .collect()
+    &ALL[..dimensions]
 }
 
+/// Before the bits are reversed: the most significant bit of an entry stands for 1/2.
 fn from_line(line: &str) -> Directions {
     let mut numbers = line.split(' ').map(|n| n.parse::<u32>().expect("the embedded table holds whole numbers"));
     let mut next = || numbers.next().expect("the embedded table is complete");
@@ -55,10 +63,10 @@ mod tests {
     fn the_whole_table_is_readable_and_every_matrix_is_upper_triangular() {
         let all = directions(MAX_DIMENSIONS);
         assert_eq!(all.len(), MAX_DIMENSIONS);
-        for v in &all {
+        for v in all {
             for (k, entry) in v.iter().enumerate() {
                 // A one on the diagonal and zeros below it: this is what makes each coordinate a (0, m, 1)-net.
-                assert_eq!(entry.trailing_zeros() as usize, BITS - 1 - k);
+                assert_eq!(entry.leading_zeros() as usize, BITS - 1 - k);
             }
         }
     }
@@ -68,7 +76,7 @@ mod tests {
         for (dimension, v) in directions(256).iter().enumerate() {
             for (k, &entry) in v.iter().enumerate().take(16) {
                 let reversed = sobol_burley::parts::sobol_rev((1u32 << k).reverse_bits(), dimension as u32);
-                assert_eq!(entry.reverse_bits(), reversed, "dimension {dimension}, bit {k}");
+                assert_eq!(entry, reversed, "dimension {dimension}, bit {k}");
             }
         }
     }

@@ -48,7 +48,7 @@ pub fn evaluate(study: &Study, points: impl Read, outputs: &mut dyn Write) -> Re
     let mut columns = vec![Vec::with_capacity(ROWS); factors.len()];
     let mut evaluated = Evaluated::default();
     let mut out = std::io::BufWriter::new(outputs);
-    let names: Vec<&str> = model.outputs().iter().map(|output| output.name).collect();
+    let names: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     writeln!(out, "{}", names.join(","))?;
     loop {
         let rows = reader.read(factors, ROWS, &mut columns)?;
@@ -94,7 +94,7 @@ impl Evaluated {
     fn count(&mut self, outputs: &[Output], batch: &Batch) {
         for (output, row, failure) in batch.failures() {
             let point = self.points + *row as u64 + 1;
-            let key = (outputs[*output].name.to_owned(), failure.clone());
+            let key = (outputs[*output].name.to_string(), failure.clone());
             self.failures.entry(key).and_modify(|(count, _)| *count += 1).or_insert((1, point));
         }
         self.points += batch.rows() as u64;

@@ -53,6 +53,11 @@ impl AfmOutput {
         self.row().2
     }
 
+    /// The same for a [`Model`].
+    pub fn info(self) -> Output {
+        Output::new(self.name(), self.unit(), self.description())
+    }
+
     fn row(self) -> (&'static str, &'static str, &'static str) {
         match self {
             Self::CriticalForce => ("critical_force", "nN", "tip force F_cr at which the particle slips"),
@@ -115,9 +120,11 @@ pub struct AfmModel {
 impl AfmModel {
     /// The model of `scene` under `options` whose factors are `factors`, in the order of the space.
     pub fn new(scene: Scene, options: Options, factors: Vec<&'static Parameter>, which: Vec<AfmOutput>) -> Self {
-        let output = |o: &AfmOutput| Output { name: o.name(), unit: o.unit(), description: o.description() };
-        let outputs = which.iter().map(output).collect();
-        let flags = afm::Flag::ALL.iter().map(|f| Flag { name: f.name(), description: f.description() }).collect();
+        let outputs = which.iter().map(|output| output.info()).collect();
+        let flags = afm::Flag::ALL
+            .iter()
+            .map(|f| Flag { name: f.name().into(), description: f.description().into() })
+            .collect();
         let rungs = Fidelity::ALL.iter().map(|rung| rung.name()).collect();
         Self { scene, options, factors, outputs, which, flags, rungs }
     }

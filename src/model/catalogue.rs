@@ -1,16 +1,18 @@
 //! What can be studied: every model with its inputs and outputs, for study files and for people.
 
+use super::Output;
 use super::afm::{AfmOutput, edge_unit};
-use super::known::KnownAnswer;
+use super::known::{KnownAnswer, KnownFunction, KnownModel};
 use crate::afm::{ContactTheory, Domain, Fidelity, FrictionLaw, LuGreParameters, Parameter, Scene, Torsion};
 use crate::quantity::Unit;
+use crate::space::Distribution;
 
 /// A model that a study can name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModelKind {
     /// The critical pushing force of a nanoparticle: the default.
     Afm,
-    /// A function with exact indices.
+    /// A function with known indices.
     Known(KnownAnswer),
 }
 
@@ -18,34 +20,25 @@ pub enum ModelKind {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
     /// The name in study files.
-    pub name: &'static str,
+    pub name: String,
     /// The symbol in the papers.
-    pub symbol: &'static str,
+    pub symbol: String,
     /// The unit in which people give it.
     pub unit: Unit,
     /// The value it has where nothing else is said, in `unit`.
     pub nominal: f64,
     /// Where it is physical (of its SI value); `None` for any finite number.
     pub domain: Option<Domain>,
+    /// How it varies where a study says nothing else, in `unit`; `None` if a study has to say.
+    pub distribution: Option<Distribution>,
     /// A few words for people.
     pub description: String,
-}
-
-/// An output of a model, which a study can ask for.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OutputInfo {
-    /// The name in study files.
-    pub name: &'static str,
-    /// The unit in which it is reported.
-    pub unit: Unit,
-    /// A few words for people.
-    pub description: &'static str,
 }
 
 impl ModelKind {
     /// Every model, the default first.
     pub fn all() -> Vec<Self> {
-        std::iter::once(Self::Afm).chain(KnownAnswer::ALL.map(Self::Known)).collect()
+        std::iter::once(Self::Afm).chain(KnownAnswer::all().map(Self::Known)).collect()
     }
 
     /// The name in study files.
@@ -69,23 +62,11 @@ impl ModelKind {
         }
     }
 
-    /// The inputs, the main ones first.
+    /// The inputs, the main ones first; of a function, those it has with its default parameters.
     pub fn inputs(self) -> Vec<Input> {
         match self {
             Self::Afm => Parameter::ALL.iter().map(afm_input).collect(),
-            Self::Known(function) => function
-                .inputs()
-                .into_iter()
-                .map(|input| Input {
-                    name: input.name,
-                    symbol: input.name,
-                    unit: Unit::dimensionless(),
-                    // Off the middle, where Sobol' G is 0 whatever the other inputs are.
-                    nominal: input.min + 0.75 * (input.max - input.min),
-                    domain: None,
-                    description: format!("exact indices hold for the range {} to {}", input.min, input.max),
-                })
-                .collect(),
+            Self::Known(answer) => known_inputs(&answer.default_function()),
         }
     }
 
@@ -114,27 +95,38 @@ impl ModelKind {
     }
 
     /// The outputs, the default one first.
-    pub fn outputs(self) -> Vec<OutputInfo> {
+    pub fn outputs(self) -> Vec<Output> {
         match self {
-            Self::Afm => AfmOutput::ALL
-                .iter()
-                .map(|o| OutputInfo { name: o.name(), unit: o.unit(), description: o.description() })
-                .collect(),
-            Self::Known(_) => {
-                vec![OutputInfo { name: "y", unit: Unit::dimensionless(), description: "value of the function" }]
-            }
+            Self::Afm => AfmOutput::ALL.iter().map(|output| output.info()).collect(),
+            Self::Known(_) => vec![KnownModel::output()],
         }
     }
+}
+
+/// The inputs of a function with its parameters chosen. An input that is no factor stands at its upper quartile: at
+/// their middle, many of these functions hide what the other inputs do (Sobol' G of a_1 = 0 is 0 there).
+pub fn known_inputs(function: &KnownFunction) -> Vec<Input> {
+    let input = |input: super::KnownInput| Input {
+        symbol: input.name.clone(),
+        name: input.name,
+        unit: Unit::dimensionless(),
+        nominal: input.distribution.quantile(0.75),
+        domain: input.domain,
+        description: input.description,
+        distribution: Some(input.distribution),
+    };
+    function.inputs().into_iter().map(input).collect()
 }
 
 fn afm_input(parameter: &Parameter) -> Input {
     let unit = edge_unit(parameter);
     Input {
-        name: parameter.name,
-        symbol: parameter.symbol,
+        name: parameter.name.to_owned(),
+        symbol: parameter.symbol.to_owned(),
         nominal: unit.from_si((parameter.get)(&Scene::default())),
         unit,
         domain: Some(parameter.domain),
+        distribution: None,
         description: parameter.description.to_owned(),
     }
 }

@@ -11,8 +11,13 @@ mod known;
 
 pub use afm::{AfmModel, AfmOutput, edge_unit};
 pub use batch::{Batch, Effort, RowFailure};
-pub use catalogue::{Input, ModelKind, OutputInfo};
-pub use known::{KnownAnswer, KnownModel};
+pub use catalogue::{Input, ModelKind, known_inputs};
+pub use known::{
+    Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, KnownModel, MAX_INPUTS, ParameterError,
+    ParameterInfo, ParameterValue, SecondOrder,
+};
+
+use std::borrow::Cow;
 
 use crate::quantity::Unit;
 
@@ -20,20 +25,27 @@ use crate::quantity::Unit;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
     /// The name in study files and results.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// The unit in which values are reported; workers deliver SI values.
     pub unit: Unit,
     /// One line for people.
-    pub description: &'static str,
+    pub description: Cow<'static, str>,
+}
+
+impl Output {
+    /// An output of that name, reported in `unit`.
+    pub fn new(name: impl Into<Cow<'static, str>>, unit: Unit, description: impl Into<Cow<'static, str>>) -> Self {
+        Self { name: name.into(), unit, description: description.into() }
+    }
 }
 
 /// A validity flag that a model may raise on a row: the result stands, but outside the theory's range.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Flag {
     /// The name in results, in kebab-case.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// What it means, one line.
-    pub description: &'static str,
+    pub description: Cow<'static, str>,
 }
 
 /// A model: shared between threads, immutable during a run.

@@ -43,8 +43,8 @@ pub fn build_result(run: &FinishedRun<'_>, stopping: Option<StoppingRecord>) -> 
         .iter()
         .zip(&whole.flags)
         .map(|(flag, &runs)| ValidityRecord {
-            flag: flag.name.to_owned(),
-            description: flag.description.to_owned(),
+            flag: flag.name.to_string(),
+            description: flag.description.to_string(),
             runs,
             share: runs as f64 / whole.runs as f64,
         })

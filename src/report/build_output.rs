@@ -29,7 +29,7 @@ pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usiz
     let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>()).fewest();
     let failure = |(failure, tally): (&RowFailure, &Tally)| failure_record(run, failure, *tally);
     let mut record = OutputRecord {
-        name: output.name.to_owned(),
+        name: output.name.to_string(),
         unit: unit.to_string(),
         mean: moments.map(|m| in_unit(m.mean.estimate)),
         variance: moments.map(|m| squared(m.variance.estimate)),

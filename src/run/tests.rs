@@ -14,7 +14,7 @@ struct Sum {
 
 impl Sum {
     fn new(fails: bool) -> Self {
-        Self { outputs: [Output { name: "y", unit: Unit::dimensionless(), description: "" }], fails }
+        Self { outputs: [Output::new("y", Unit::dimensionless(), "")], fails }
     }
 }
 

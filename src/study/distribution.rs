@@ -8,7 +8,7 @@ use super::resolve::{Context, Fault};
 use crate::space::{Distribution, DistributionError};
 
 /// How each distribution is written, the default first.
-const LAWS: [Law; 11] = [
+const LAWS: [Law; 12] = [
     Law { name: "uniform", takes: "min, max" },
     Law { name: "log-uniform", takes: "min, max" },
     Law { name: "normal", takes: "mean, sd" },
@@ -18,6 +18,7 @@ const LAWS: [Law; 11] = [
     Law { name: "beta", takes: "alpha, beta, min, max" },
     Law { name: "weibull", takes: "shape, scale, and location (default 0)" },
     Law { name: "gumbel", takes: "location, scale" },
+    Law { name: "truncated-gumbel", takes: "location, scale (before truncation), min, max" },
     Law { name: "discrete", takes: "values, and weights (default equal)" },
     Law { name: "constant", takes: "value" },
 ];
@@ -26,6 +27,13 @@ const LAWS: [Law; 11] = [
 struct Law {
     name: &'static str,
     takes: &'static str,
+}
+
+/// Whether a factor's table says nothing of its distribution.
+pub(super) fn is_unsaid(fields: &FactorSection) -> bool {
+    fields.distribution.is_none()
+        && numbers(fields).iter().all(|(_, value)| value.is_none())
+        && lists(fields).iter().all(|(_, value)| value.is_none())
 }
 
 /// The distribution of a factor.
@@ -83,6 +91,10 @@ impl Keys<'_> {
                 Distribution::weibull(self.number("shape")?, self.number("scale")?, location)
             }
             "gumbel" => Distribution::gumbel(self.number("location")?, self.number("scale")?),
+            "truncated-gumbel" => {
+                let (location, scale) = (self.number("location")?, self.number("scale")?);
+                Distribution::truncated_gumbel(location, scale, self.number("min")?, self.number("max")?)
+            }
             "discrete" => {
                 let values = self.list("values")?;
                 let weights = if self.fields.weights.is_some() { Some(self.list("weights")?) } else { None };
@@ -141,7 +153,9 @@ fn blamed_key(error: &DistributionError) -> Option<&'static str> {
         DistributionError::NotFinite { parameter, .. }
         | DistributionError::NotPositive { parameter, .. }
         | DistributionError::OutOfRange { parameter, .. } => Some(parameter),
-        DistributionError::Bounds { .. } | DistributionError::Truncation { .. } => Some("min"),
+        DistributionError::Bounds { .. }
+        | DistributionError::Truncation { .. }
+        | DistributionError::GumbelTruncation { .. } => Some("min"),
         DistributionError::Mode { .. } => Some("mode"),
         DistributionError::NoValues => Some("values"),
         DistributionError::EntryNotFinite { list, .. } => Some(list),

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use crate::design::DesignError;
+use crate::model::ParameterError;
 use crate::quantity::UnitError;
 use crate::space::DistributionError;
 
@@ -196,6 +197,17 @@ pub enum Problem {
         /// What it is.
         found: String,
     },
+    /// A unit beside a distribution that is not stated.
+    #[error("factor `{factor}` has the function's own distribution here, which is not in `{unit}`")]
+    UnitOfOwn {
+        /// The factor's name.
+        factor: String,
+        /// The unit as typed.
+        unit: String,
+    },
+    /// A parameter of a function that makes no sense.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     /// The design cannot be made.
     #[error(transparent)]
     Design(#[from] DesignError),
@@ -219,6 +231,7 @@ impl Problem {
             Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => {
                 Some(format!("it takes {takes}"))
             }
+            Self::UnitOfOwn { .. } => Some("remove the unit, or give the distribution too".to_owned()),
             Self::MissingUnit { example, .. } | Self::WrongUnit { example, .. } => Some(format!("write {example}")),
             _ => None,
         }
@@ -292,7 +305,7 @@ impl fmt::Display for Diagnostic {
 }
 
 /// The name in `known` nearest to `name`, if one is near enough to be meant.
-pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let name = name.to_lowercase();
     known
         .into_iter()

@@ -8,6 +8,9 @@ use toml::Spanned;
 /// A number, string or list with its byte range in the file.
 pub(super) type At<T> = Spanned<T>;
 
+/// A table of choices by name.
+pub(super) type Choices = BTreeMap<At<String>, At<toml::Value>>;
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StudyFile {
@@ -15,7 +18,8 @@ pub(super) struct StudyFile {
     pub title: Option<String>,
     pub model: Option<At<String>>,
     pub outputs: Option<At<Vec<At<String>>>>,
-    pub afm: Option<At<BTreeMap<At<String>, At<toml::Value>>>>,
+    pub afm: Option<At<Choices>>,
+    pub function: Option<At<Choices>>,
     #[serde(default)]
     pub design: DesignSection,
     #[serde(default)]
@@ -80,4 +84,10 @@ pub(super) struct FactorSection {
     pub value: Option<At<f64>>,
     pub values: Option<At<Vec<f64>>>,
     pub weights: Option<At<Vec<f64>>>,
+}
+
+impl StudyFile {
+    /// The keys it can have.
+    pub(super) const KEYS: [&str; 9] =
+        ["name", "title", "model", "outputs", "afm", "function", "design", "analysis", "factor"];
 }

@@ -7,6 +7,7 @@ mod constants;
 mod distribution;
 mod error;
 mod file;
+mod function;
 mod options;
 mod overrides;
 mod resolve;
@@ -16,8 +17,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-pub(crate) use error::nearest;
-pub use error::{Diagnostic, OverrideProblem, Problem, StudyError};
+pub use error::{Diagnostic, OverrideProblem, Problem, StudyError, nearest};
 pub use options::{AnalysisOptions, Stopping};
 pub use subject::{AfmSubject, KnownSubject, Subject};
 

@@ -4,12 +4,12 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use super::error::{Diagnostic, Problem, nearest};
-use super::file::{At, FactorSection, StudyFile};
+use super::file::{At, Choices, FactorSection, StudyFile};
 use super::options::{self, AnalysisOptions, Stopping};
 use super::subject::{AfmSubject, KnownSubject, Subject};
-use super::{Study, constants, distribution};
+use super::{Study, constants, distribution, function};
 use crate::design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler};
-use crate::model::{AfmOutput, Input, ModelKind};
+use crate::model::{AfmOutput, Input, ModelKind, known_inputs};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor, Space};
 
@@ -32,8 +32,18 @@ impl Context<'_> {
 pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let file: StudyFile = toml::from_str(context.text).map_err(|error| syntax(context, &error))?;
     let kind = model_kind(context, file.model.as_ref())?;
-    let space = space(context, kind, &file.factor)?;
-    let subject = subject(context, kind, &file, &space)?;
+    refuse_tables_of_others(context, kind, &file)?;
+    let function = match kind {
+        ModelKind::Afm => None,
+        ModelKind::Known(answer) => Some(function::known(context, answer, file.function.as_ref())?),
+    };
+    let inputs = function.as_ref().map_or_else(|| kind.inputs(), known_inputs);
+    let space = space(context, &inputs, &file.factor)?;
+    let outputs = outputs(context, kind, file.outputs.as_ref())?;
+    let subject = match function {
+        Some(function) => Subject::Known(KnownSubject { function }),
+        None => afm(context, file.afm.as_ref(), outputs, &space)?,
+    };
     let Plan { design, analysis, stopping, mut notes } = plan(context, &file, &space)?;
     if let (Subject::Afm(afm), Some(table)) = (&subject, &file.afm) {
         notes.extend(constants::idle(table.get_ref(), &afm.options));
@@ -112,27 +122,28 @@ fn name(context: &Context<'_>, name: Option<&At<String>>) -> Result<String, Faul
     Ok(name.get_ref().clone())
 }
 
-fn subject(context: &Context<'_>, kind: ModelKind, file: &StudyFile, space: &Space) -> Result<Subject, Fault> {
-    let outputs = outputs(context, kind, file.outputs.as_ref())?;
-    let is_factor = |name: &str| space.factors().iter().any(|factor| factor.name == name);
-    match (kind, &file.afm) {
-        (ModelKind::Afm, table) => {
-            let empty = Default::default();
-            let table = table.as_ref().map_or(&empty, At::get_ref);
-            let (scene, options) = constants::afm(context, table, &is_factor)?;
-            let outputs = outputs.into_iter().map(|number| AfmOutput::ALL[number]).collect();
-            Ok(Subject::Afm(Box::new(AfmSubject { scene, options, outputs })))
-        }
-        (ModelKind::Known(function), None) => Ok(Subject::Known(KnownSubject { function })),
-        (ModelKind::Known(_), Some(table)) => {
-            let problem = Problem::UnknownKey { name: "afm".to_owned(), nearest: None, expected: top_level_keys() };
-            Err(context.fault(table.span(), problem))
-        }
-    }
+/// `[afm]` and `[function]` belong to one kind of model each.
+fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyFile) -> Result<(), Fault> {
+    let (name, table) = match kind {
+        ModelKind::Afm => ("function", &file.function),
+        ModelKind::Known(_) => ("afm", &file.afm),
+    };
+    let Some(table) = table else { return Ok(()) };
+    let expected = StudyFile::KEYS.into_iter().filter(|key| *key != name).map(str::to_owned).collect();
+    Err(context.fault(table.span(), Problem::UnknownKey { name: name.to_owned(), nearest: None, expected }))
 }
 
-fn top_level_keys() -> Vec<String> {
-    ["name", "title", "model", "outputs", "design", "analysis", "factor"].map(str::to_owned).to_vec()
+fn afm(
+    context: &Context<'_>,
+    table: Option<&At<Choices>>,
+    outputs: Vec<usize>,
+    space: &Space,
+) -> Result<Subject, Fault> {
+    let is_factor = |name: &str| space.factors().iter().any(|factor| factor.name == name);
+    let empty = Choices::new();
+    let (scene, options) = constants::afm(context, table.map_or(&empty, At::get_ref), &is_factor)?;
+    let outputs = outputs.into_iter().map(|number| AfmOutput::ALL[number]).collect();
+    Ok(Subject::Afm(Box::new(AfmSubject { scene, options, outputs })))
 }
 
 /// Numbers of the outputs in the catalogue, in the order asked for; the first one if nothing is asked.
@@ -145,8 +156,8 @@ fn outputs(context: &Context<'_>, kind: ModelKind, asked: Option<&At<Vec<At<Stri
     let mut numbers = Vec::new();
     for output in asked.get_ref() {
         let name = output.get_ref();
-        let Some(number) = known.iter().position(|info| info.name == name) else {
-            let problem = unknown_name("output", name, known.iter().map(|info| info.name));
+        let Some(number) = known.iter().position(|info| info.name == *name) else {
+            let problem = unknown_name("output", name, known.iter().map(|info| &*info.name));
             return Err(context.fault(output.span(), problem));
         };
         if numbers.contains(&number) {
@@ -158,16 +169,20 @@ fn outputs(context: &Context<'_>, kind: ModelKind, asked: Option<&At<Vec<At<Stri
     Ok(numbers)
 }
 
-fn space(context: &Context<'_>, kind: ModelKind, sections: &[At<FactorSection>]) -> Result<Space, Fault> {
+fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]) -> Result<Space, Fault> {
     if sections.is_empty() {
-        return Err(context.fault(0..0, Problem::NoFactors));
+        // All inputs by their own distributions, if they have one.
+        let own = |input: &Input| Some(own_factor(input, input.distribution.clone()?));
+        let Some(factors) = inputs.iter().map(own).collect::<Option<Result<Vec<Factor>, Problem>>>() else {
+            return Err(context.fault(0..0, Problem::NoFactors));
+        };
+        return factors.map(Space::new).map_err(|problem| context.fault(0..0, problem));
     }
-    let inputs = kind.inputs();
     let mut factors: Vec<Factor> = Vec::new();
     for section in sections {
         let name = &section.get_ref().name;
-        let Some(input) = inputs.iter().find(|input| input.name == name.get_ref()) else {
-            let problem = unknown_name("factor", name.get_ref(), inputs.iter().map(|input| input.name));
+        let Some(input) = inputs.iter().find(|input| input.name == *name.get_ref()) else {
+            let problem = unknown_name("factor", name.get_ref(), inputs.iter().map(|input| &*input.name));
             return Err(context.fault(name.span(), problem));
         };
         if factors.iter().any(|factor| factor.name == *name.get_ref()) {
@@ -179,11 +194,30 @@ fn space(context: &Context<'_>, kind: ModelKind, sections: &[At<FactorSection>])
     Ok(Space::new(factors))
 }
 
+/// A factor that varies as the model's input does by itself.
+fn own_factor(input: &Input, distribution: Distribution) -> Result<Factor, Problem> {
+    let nominal = default_nominal(input, &input.unit, &distribution);
+    let mut factor = made(input, input.unit.clone(), distribution)?;
+    factor.nominal = nominal;
+    Ok(factor)
+}
+
+fn made(input: &Input, unit: Unit, distribution: Distribution) -> Result<Factor, Problem> {
+    Factor::new(&input.name, unit, distribution)
+        .map_err(|source| Problem::Distribution { factor: input.name.clone(), source })
+}
+
 fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> Result<Factor, Fault> {
     let place = section.get_ref().name.span();
     let fields = section.get_ref();
     let unit = unit(context, fields, input)?;
-    let distribution = distribution::of(context, section)?;
+    let distribution = match &input.distribution {
+        Some(own) if distribution::is_unsaid(fields) => {
+            refuse_unit_of_own(context, fields, &unit, input)?;
+            own.clone()
+        }
+        _ => distribution::of(context, section)?,
+    };
     let in_domain = |value: f64| input.domain.is_none_or(|domain| domain.contains(unit.to_si(value)));
     let outside = |span, found: String| {
         let domain = input.domain.map_or_else(|| "a finite number".to_owned(), in_words_of_units);
@@ -205,11 +239,21 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
         Some(nominal) => *nominal.get_ref(),
         None => default_nominal(input, &unit, &distribution),
     };
-    let mut factor = Factor::new(input.name, unit, distribution)
-        .map_err(|source| context.fault(place, Problem::Distribution { factor: input.name.to_owned(), source }))?;
+    let mut factor = made(input, unit, distribution).map_err(|problem| context.fault(place, problem))?;
     factor.nominal = nominal;
     factor.group = fields.group.as_ref().map(|group| group.get_ref().clone());
     Ok(factor)
+}
+
+/// The input's own distribution is in the input's own unit.
+fn refuse_unit_of_own(context: &Context<'_>, fields: &FactorSection, unit: &Unit, input: &Input) -> Result<(), Fault> {
+    match &fields.unit {
+        Some(typed) if unit.to_si(1.0) != input.unit.to_si(1.0) => {
+            let (factor, unit) = (input.name.clone(), typed.get_ref().clone());
+            Err(context.fault(typed.span(), Problem::UnitOfOwn { factor, unit }))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A domain for people who may be thinking in degrees.

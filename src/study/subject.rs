@@ -3,7 +3,9 @@
 use serde_json::{Value, json};
 
 use crate::afm::{Options, Parameter, Scene};
-use crate::model::{AfmModel, AfmOutput, KnownAnswer, KnownModel, Model, ModelKind, edge_unit};
+use crate::model::{
+    AfmModel, AfmOutput, KnownFunction, KnownModel, Model, ModelKind, ParameterValue, edge_unit, known_inputs,
+};
 use crate::space::Space;
 
 /// A model with its choices made.
@@ -11,7 +13,7 @@ use crate::space::Space;
 pub enum Subject {
     /// The nanoparticle model.
     Afm(Box<AfmSubject>),
-    /// A function with exact indices.
+    /// A function with known indices.
     Known(KnownSubject),
 }
 
@@ -26,11 +28,11 @@ pub struct AfmSubject {
     pub outputs: Vec<AfmOutput>,
 }
 
-/// A known-answer function.
+/// A function with known indices and its parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnownSubject {
-    /// Which one.
-    pub function: KnownAnswer,
+    /// The function.
+    pub function: KnownFunction,
 }
 
 impl Subject {
@@ -38,7 +40,7 @@ impl Subject {
     pub fn kind(&self) -> ModelKind {
         match self {
             Self::Afm(_) => ModelKind::Afm,
-            Self::Known(known) => ModelKind::Known(known.function),
+            Self::Known(known) => ModelKind::Known(known.function.answer()),
         }
     }
 
@@ -50,9 +52,9 @@ impl Subject {
                 Box::new(AfmModel::new(afm.scene, afm.options, factors, afm.outputs.clone()))
             }
             Self::Known(KnownSubject { function }) => {
-                let inputs = ModelKind::Known(*function).inputs();
+                let inputs = known_inputs(function);
                 let factors = names().filter_map(|name| inputs.iter().position(|i| i.name == name)).collect();
-                Box::new(KnownModel::new(*function, inputs.iter().map(|i| i.nominal).collect(), factors))
+                Box::new(KnownModel::new(function.clone(), inputs.iter().map(|i| i.nominal).collect(), factors))
             }
         }
     }
@@ -70,7 +72,9 @@ impl Subject {
                 ("step", json!(format!("{} s", afm.options.step))),
                 ("step_budget", json!(afm.options.step_budget)),
             ],
-            Self::Known(_) => Vec::new(),
+            Self::Known(known) => {
+                known.function.parameters().into_iter().map(|(name, value)| (name, in_json(value))).collect()
+            }
         }
     }
 
@@ -85,12 +89,20 @@ impl Subject {
                 .map(|p| (p, edge_unit(p)))
                 .map(|(p, unit)| constant(p.name, unit.from_si((p.get)(&afm.scene)), unit.to_string()))
                 .collect(),
-            Self::Known(KnownSubject { function }) => ModelKind::Known(*function)
-                .inputs()
+            Self::Known(KnownSubject { function }) => known_inputs(function)
                 .iter()
-                .filter(|input| !is_factor(input.name))
-                .map(|input| constant(input.name, input.nominal, input.unit.to_string()))
+                .filter(|input| !is_factor(&input.name))
+                .map(|input| constant(&input.name, input.nominal, input.unit.to_string()))
                 .collect(),
         }
+    }
+}
+
+fn in_json(value: ParameterValue) -> Value {
+    match value {
+        // Whole numbers, such as dimensions, as people write them.
+        ParameterValue::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => json!(number as i64),
+        ParameterValue::Number(number) => json!(number),
+        ParameterValue::List(list) => json!(list),
     }
 }

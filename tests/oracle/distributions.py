@@ -72,6 +72,32 @@ class Weibull:
         return self.scale * mp.sqrt(mp.gamma(1 + 2 * self.power) - mp.gamma(1 + self.power) ** 2)
 
 
+class TruncatedGumbel:
+    """Exact to 50 digits."""
+
+    def __init__(self, location, scale, low, high):
+        self.location, self.scale = mp.mpf(location), mp.mpf(scale)
+        self.a, self.b = ((mp.mpf(x) - self.location) / self.scale for x in (low, high))
+        self.below, self.mass = self.cdf(self.a), self.cdf(self.b) - self.cdf(self.a)
+
+    @staticmethod
+    def cdf(z):
+        return mp.exp(-mp.exp(-z))
+
+    def ppf(self, us):
+        return [self.location - self.scale * mp.log(-mp.log(self.below + mp.mpf(u) * self.mass)) for u in us]
+
+    def moment(self, power, centre):
+        points = sorted({self.a, self.b, *(p for p in map(mp.mpf, range(-10, 120)) if self.a < p < self.b)})
+        return mp.quad(lambda z: (z - centre) ** power * mp.exp(-z - mp.exp(-z)) / self.mass, points)
+
+    def mean(self):
+        return self.location + self.scale * self.moment(1, 0)
+
+    def std(self):
+        return self.scale * mp.sqrt(self.moment(2, self.moment(1, 0)))
+
+
 CASES = [
     ("uniform", dict(min=a, max=b), stats.uniform(a, b - a)) for a, b in [(0, 1), (-3, 5), (2e-6, 2.5e-6)]
 ] + [
@@ -124,6 +150,17 @@ CASES = [
     for k, s, x in [(1, 2, 0), (0.5, 1, 0), (2, 3e-9, 0), (20, 1, 5), (1000, 1, 0)]
 ] + [
     ("gumbel", dict(location=m, scale=s), stats.gumbel_r(m, s)) for m, s in [(0, 1), (1013, 558)]
+] + [
+    ("truncated-gumbel", dict(location=m, scale=s, min=a, max=b), TruncatedGumbel(m, s, a, b))
+    for m, s, a, b in [
+        (1013, 558, 500, 3000),
+        (0, 1, -2, 2),
+        (0, 1, 30, 31),
+        (0, 1, -5, -3),
+        (0, 1, -40, 100),
+        (5, 2, 4, 4.001),
+        (3, 0.5, 0, 10),
+    ]
 ]
 
 cases = [

@@ -23,6 +23,7 @@ fn from_json(case: &Value) -> Distribution {
         "beta" => Distribution::beta(p("alpha"), p("beta"), p("min"), p("max")),
         "weibull" => Distribution::weibull(p("shape"), p("scale"), p("location")),
         "gumbel" => Distribution::gumbel(p("location"), p("scale")),
+        "truncated-gumbel" => Distribution::truncated_gumbel(p("location"), p("scale"), p("min"), p("max")),
         other => panic!("{other}"),
     })
 }
@@ -215,7 +216,7 @@ const LOG_UNIFORM_MOMENTS: [(f64, f64, f64, f64); 6] = [
 
 /// A distribution of each continuous family over wide ranges of its parameters.
 fn any_distribution() -> impl Strategy<Value = Distribution> {
-    let family = 0usize..10;
+    let family = 0usize..11;
     let decades = |low: f64, high: f64| (low..high).prop_map(|decade: f64| 10f64.powf(decade));
     (family, -1e3..1e3f64, decades(-3.0, 3.0), decades(-2.0, 4.0), 0.0..1.0f64).prop_filter_map(
         "accepted",
@@ -232,6 +233,7 @@ fn any_distribution() -> impl Strategy<Value = Distribution> {
                 6 => Distribution::triangular(min, mode.clamp(min, max), max),
                 7 => Distribution::beta(shape, scale * 10.0, min, max),
                 8 => Distribution::weibull(shape + 0.02, scale, location),
+                9 => Distribution::truncated_gumbel(location + 10.0 * (part - 0.5) * scale, scale, min, max),
                 _ => Distribution::gumbel(location, scale),
             }
             .ok()

@@ -170,6 +170,38 @@ fn numbers_of_the_ladder() {
 }
 
 #[test]
+fn parameters_of_functions() {
+    let refused = |table: &str, expected: &[&str]| {
+        assert_refused(&format!("model = \"sobol-g\"\n[function]\n{table}\n"), expected)
+    };
+    refused("b = 3", &["study.toml:3:1:", "unknown key `b`", "keys that can stand here: a, dimension"]);
+    refused("dimensions = 3", &["study.toml:3:1:", "did you mean `dimension`?"]);
+    refused("a = \"1\"", &["study.toml:3:5:", "`a` must be a number or a list of numbers, not string"]);
+    refused("a = [1, true]", &["study.toml:3:5:", "a list of numbers"]);
+    refused("a = [1, -2]", &["study.toml:3:5:", "`a` must be 0 or greater, not -2"]);
+    refused("a = nan", &["study.toml:3:5:", "0 or greater"]);
+    refused("dimension = 3\na = [1, 2]", &["study.toml:4:5:", "`a` has 2 entries", "3 inputs"]);
+    refused("dimension = 0", &["study.toml:3:13:", "a whole number from 1 to 4096"]);
+    refused("a = [1, 2]\n[[factor]]\nname = \"x3\"", &["study.toml:5:8:", "unknown factor `x3`", "known: x1, x2"]);
+    refused(
+        "a = 1\n[[factor]]\nname = \"x1\"\nunit = \"%\"",
+        &["study.toml:6:8:", "own distribution", "remove the unit"],
+    );
+    refused("a = 1\n[[factor]]\nname = \"x1\"\nmin = 0", &["study.toml:5:8:", "needs `max`"]);
+    refused("[[factor]]\nname = \"x1\"\n[afm]", &["study.toml:5:1:", "unknown key `afm`"]);
+    assert_refused("model = \"flood\"\n[function]\na = 1", &["study.toml:3:1:", "the function has no parameter `a`"]);
+    assert_refused(
+        "model = \"flood\"\n[[factor]]\nname = \"B\"\nmin = -1\nmax = 1",
+        &["study.toml:4:7:", "must be > 0"],
+    );
+    assert_refused(
+        "model = \"kucherenko-1b\"\n[function]\ndimension = 4000",
+        &["study.toml:1:1:", "at most 2048 factors"],
+    );
+    assert_spoilt("[design]", "[function]\na = 1\n[design]", &["study.toml:4:1:", "unknown key `function`"]);
+}
+
+#[test]
 fn impossible_designs() {
     assert_spoilt("base_samples = 64", "base_samples = 0", &["study.toml:5:16:", "too few", "at least 32"]);
     assert_spoilt("base_samples = 64", "replicates = 0", &["study.toml:5:14:", "replicates = 0"]);

@@ -6,5 +6,6 @@ mod common;
 mod distributions;
 mod extremes;
 mod failures;
+mod known;
 mod metamorphic;
 mod workflows;

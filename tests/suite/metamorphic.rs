@@ -2,7 +2,7 @@
 
 use crate::common::{analysed, apportion, gap, numbers, study_path};
 use apportion::design::{Design, DesignSettings, Rows};
-use apportion::model::{Batch, KnownAnswer, Model, Output, Worker};
+use apportion::model::{Batch, KnownAnswer, KnownFunction, Model, Output, Worker};
 use apportion::quantity::Unit;
 use apportion::run::{Job, run};
 use apportion::space::{Distribution, Factor, Space};
@@ -11,6 +11,7 @@ use proptest::prelude::*;
 
 /// Ishigami's function times `scale` plus `offset`, with its inputs in the order `order`.
 struct Changed {
+    function: KnownFunction,
     scale: f64,
     offset: f64,
     order: [usize; 3],
@@ -19,8 +20,9 @@ struct Changed {
 
 impl Changed {
     fn new(scale: f64, offset: f64, order: [usize; 3]) -> Self {
-        let outputs = [Output { name: "y", unit: Unit::dimensionless(), description: "" }];
-        Self { scale, offset, order, outputs }
+        let function = KnownAnswer::from_name("ishigami").unwrap().default_function();
+        let outputs = [Output::new("y", Unit::dimensionless(), "")];
+        Self { function, scale, offset, order, outputs }
     }
 }
 
@@ -40,7 +42,7 @@ impl Worker for ChangedWorker<'_> {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
         for (row, y) in batch.column_mut(0).iter_mut().enumerate() {
             let x = self.0.order.map(|column| inputs[column][row]);
-            *y = KnownAnswer::Ishigami.value(&x) * self.0.scale + self.0.offset;
+            *y = self.0.function.value(&x) * self.0.scale + self.0.offset;
         }
     }
 }

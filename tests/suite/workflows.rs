@@ -158,13 +158,31 @@ fn evaluate_takes_no_points_as_no_points_and_many_as_many() {
 }
 
 #[test]
-fn models_lists_every_factor_and_output() {
+fn models_lists_every_model_and_shows_each_in_full() {
     let listed = succeed(&["models"]);
+    let place = |name: &str| listed.find(&format!("\n  {name} ")).unwrap_or_else(|| panic!("{name}"));
+    for kind in apportion::model::ModelKind::all().into_iter().skip(1) {
+        assert!(place("afm") < place(kind.name()), "the flagship comes first");
+        let shown = succeed(&["models", kind.name()]);
+        for input in kind.inputs() {
+            assert!(shown.contains(&format!("\n  {} ", input.name)), "{}: {}", kind.name(), input.name);
+        }
+        // The example study at the end is a study.
+        let example: String = shown.split("line alone:").nth(1).unwrap().replace("\n  ", "\n");
+        apportion::study::Study::parse(&example, "example.toml".as_ref(), &[])
+            .unwrap_or_else(|error| panic!("{error}"));
+        assert!(shown.contains("source: ") && shown.contains("mean "), "{}", kind.name());
+    }
+    assert!(listed.lines().count() < 40);
+    let shown = succeed(&["models", "afm"]);
     let inputs = apportion::afm::Parameter::ALL.iter().map(|parameter| parameter.name);
     let outputs = apportion::model::AfmOutput::ALL.iter().map(|output| output.name());
-    let keys = ["adhesion_in_load", "tolerance", "step", "maugis-dugdale", "quasi-static", "ishigami", "sobol-g"];
+    let keys = ["adhesion_in_load", "tolerance", "step", "maugis-dugdale", "quasi-static"];
     for name in inputs.chain(outputs).chain(keys) {
-        assert!(listed.contains(name), "{name}");
+        assert!(shown.contains(name), "{name}");
+    }
+    for expected in ["0.787144", "x1-x2 0.0596827", "prod_i (|4 x_i - 2|", "Saltelli and Sobol' 1995"] {
+        assert!(succeed(&["models", "sobol-g"]).contains(expected), "{expected}");
     }
 }
 

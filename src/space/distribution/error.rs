@@ -64,6 +64,21 @@ pub enum DistributionError {
         /// The upper bound.
         max: f64,
     },
+    /// A Gumbel distribution has next to no probability between the bounds it is truncated to.
+    #[error(
+        "a Gumbel distribution of location {location} and scale {scale} has no probability between `min` ({min}) and \
+         `max` ({max}): move the bounds to between 6 scales below and 600 above the location"
+    )]
+    GumbelTruncation {
+        /// The location before truncation.
+        location: f64,
+        /// The scale before truncation.
+        scale: f64,
+        /// The lower bound.
+        min: f64,
+        /// The upper bound.
+        max: f64,
+    },
     /// A discrete distribution without values.
     #[error("`values` is empty, but must hold at least one number")]
     NoValues,

@@ -16,7 +16,9 @@ mod gumbel;
 mod log_normal;
 mod log_uniform;
 mod normal;
+mod quadrature;
 mod triangular;
+mod truncated_gumbel;
 mod truncated_normal;
 mod uniform;
 mod weibull;
@@ -36,6 +38,7 @@ pub use log_normal::LogNormal;
 pub use log_uniform::LogUniform;
 pub use normal::Normal;
 pub use triangular::Triangular;
+pub use truncated_gumbel::TruncatedGumbel;
 pub use truncated_normal::TruncatedNormal;
 pub use uniform::Uniform;
 pub use weibull::Weibull;
@@ -82,6 +85,8 @@ pub enum Distribution {
     Weibull(Weibull),
     /// See [`Distribution::gumbel`].
     Gumbel(Gumbel),
+    /// See [`Distribution::truncated_gumbel`].
+    TruncatedGumbel(TruncatedGumbel),
     /// See [`Distribution::discrete`].
     Discrete(Discrete),
     /// See [`Distribution::constant`].
@@ -101,6 +106,7 @@ macro_rules! each {
             Distribution::Beta($family) => $body,
             Distribution::Weibull($family) => $body,
             Distribution::Gumbel($family) => $body,
+            Distribution::TruncatedGumbel($family) => $body,
             Distribution::Discrete($family) => $body,
             Distribution::Constant($family) => $body,
         }

@@ -22,6 +22,7 @@ fn samples() -> Vec<Distribution> {
         Distribution::beta(2.0, 0.5, 1.0, 3.0),
         Distribution::weibull(1.5, 2.0, 0.25),
         Distribution::gumbel(1.0, 2.0),
+        Distribution::truncated_gumbel(1.0, 2.0, 0.5, 6.0),
         Distribution::discrete(&[3.0, 1.0, 2.0], Some(&[1.0, 0.0, 3.0])),
         Distribution::discrete(&[3.0, 1.0], None),
         Distribution::constant(225.0),
@@ -84,14 +85,17 @@ fn truncation_where_nothing_is_left_is_refused() {
     assert!(!refused(35.0, 37.0) && !refused(-50.0, -35.0) && !refused(-1e300, 1e-300));
     // Bounds that are one number as seen from the mean.
     assert!(matches!(Distribution::truncated_normal(1e20, 1e20, 0.0, 1.0), Err(Error::Truncation { .. })));
+    let refused =
+        |min, max| matches!(Distribution::truncated_gumbel(0.0, 1.0, min, max), Err(Error::GumbelTruncation { .. }));
+    assert!(refused(650.0, 651.0) && refused(-10.0, -6.5) && refused(-1e300, -1e299));
+    assert!(!refused(640.0, 641.0) && !refused(-1e300, -6.4) && !refused(-1e300, 1e300));
 }
 
 #[test]
 fn names_are_those_of_study_files() {
     let mut names: Vec<_> = samples().iter().map(Distribution::name).collect();
     names.dedup();
-    let expected =
-        "uniform log-uniform normal truncated-normal log-normal triangular beta weibull gumbel discrete constant";
+    let expected = "uniform log-uniform normal truncated-normal log-normal triangular beta weibull gumbel truncated-gumbel discrete constant";
     assert_eq!(names.join(" "), expected);
 }
 
@@ -110,6 +114,7 @@ fn json_holds_the_name_and_the_parameters_as_given() {
     {"name":"beta","alpha":2.0,"beta":0.5,"min":1.0,"max":3.0}
     {"name":"weibull","shape":1.5,"scale":2.0,"location":0.25}
     {"name":"gumbel","location":1.0,"scale":2.0}
+    {"name":"truncated-gumbel","location":1.0,"scale":2.0,"min":0.5,"max":6.0}
     {"name":"discrete","values":[3.0,1.0,2.0],"weights":[1.0,0.0,3.0]}
     {"name":"discrete","values":[3.0,1.0]}
     {"name":"constant","value":225.0}
@@ -206,6 +211,7 @@ proptest! {
             Distribution::beta(a.abs(), b.abs(), c.min(d), c.max(d)),
             Distribution::weibull(a.abs(), b.abs(), c),
             Distribution::gumbel(a, b.abs()),
+            Distribution::truncated_gumbel(a, b.abs(), c.min(d), c.max(d)),
             Distribution::discrete(&list, None),
             Distribution::discrete(&p, Some(&list)),
         ];

@@ -1,0 +1,428 @@
+//! Properties of the sequence: published points, nets, rates of convergence, independence.
+
+use super::*;
+use crate::design::MAX_DIMENSIONS;
+
+fn points(sequence: &SobolSequence, first: u64, n: usize) -> Vec<Vec<f64>> {
+    let dimensions = sequence.directions.len();
+    let mut columns = vec![vec![0.0; n]; dimensions];
+    for (dimension, column) in columns.iter_mut().enumerate() {
+        sequence.fill(dimension, first, column);
+    }
+    columns
+}
+
+#[test]
+fn unscrambled_points_are_the_published_ones() {
+    // The first points of the example of Joe and Kuo's program, which SciPy's unscrambled sequence repeats.
+    let expected = [
+        [0.0, 0.5, 0.75, 0.25, 0.375, 0.875, 0.625, 0.125, 0.1875, 0.6875],
+        [0.0, 0.5, 0.25, 0.75, 0.375, 0.875, 0.125, 0.625, 0.3125, 0.8125],
+        [0.0, 0.5, 0.25, 0.75, 0.625, 0.125, 0.875, 0.375, 0.9375, 0.4375],
+    ];
+    for (column, expected) in points(&SobolSequence::plain(3), 0, 10).iter().zip(expected) {
+        for (x, e) in column.iter().zip(expected) {
+            assert_eq!(*x, e + 0.5 * CELL);
+        }
+    }
+}
+
+#[test]
+fn unscrambled_points_of_high_dimensions_are_those_of_scipy() {
+    // scipy.stats.qmc.Sobol(1000, scramble=False, bits=32).random(2048), SciPy 1.17.
+    let columns = points(&SobolSequence::plain(1000), 0, 2048);
+    let frozen = [
+        (5, 99, 0.375),
+        (777, 1, 0.9365234375),
+        (777, 99, 0.5107421875),
+        (777, 999, 0.3837890625),
+        (2047, 99, 0.86083984375),
+        (2047, 998, 0.13330078125),
+        (2047, 999, 0.44873046875),
+    ];
+    for (index, dimension, expected) in frozen {
+        assert_eq!(columns[dimension][index], expected + 0.5 * CELL);
+    }
+}
+
+#[test]
+fn dimensions_are_dealt_out_within_their_deal() {
+    let dealt = SobolSequence::scrambled_in(&[40, 20], 3, 1);
+    let plain = SobolSequence::plain(60);
+    let place = |k: usize| plain.directions.iter().position(|d| *d == dealt.directions[k]).unwrap();
+    let mut places: Vec<usize> = (0..60).map(place).collect();
+    assert_ne!(places[..40], (0..40).collect::<Vec<_>>());
+    assert_eq!(dealt.directions[..40], SobolSequence::scrambled(40, 3, 1).directions[..]);
+    assert_eq!(dealt.scrambles.as_ref().unwrap()[..40], SobolSequence::scrambled(40, 3, 1).scrambles.unwrap()[..]);
+    places[..40].sort_unstable();
+    places[40..].sort_unstable();
+    assert_eq!(places, (0..60).collect::<Vec<_>>());
+    // Every coordinate meets every dimension in the long run: 600 deals of 6 leave each pair near 100, sd 9.
+    let mut counts = [[0; 6]; 6];
+    let six = SobolSequence::plain(6);
+    for replicate in 0..600 {
+        let dealt = SobolSequence::scrambled(6, 0, replicate);
+        for (k, row) in counts.iter_mut().enumerate() {
+            row[six.directions.iter().position(|d| *d == dealt.directions[k]).unwrap()] += 1;
+        }
+    }
+    assert!(counts.iter().flatten().all(|&count| (55..145).contains(&count)), "{counts:?}");
+}
+
+#[test]
+fn any_index_gives_the_point_of_the_running_sequence() {
+    let sequence = SobolSequence::scrambled(5, 7, 3);
+    let whole = points(&sequence, 0, 1000);
+    for first in [0, 1, 2, 255, 256, 511, 998] {
+        for (column, expected) in points(&sequence, first, 2).iter().zip(&whole) {
+            assert_eq!(column[..], expected[first as usize..first as usize + 2]);
+        }
+    }
+}
+
+#[test]
+fn no_repetition_past_two_to_the_sixteen() {
+    // The reference library's own sampler drops the index's high bits; ours must not.
+    let sequence = SobolSequence::in_order(2, 1, 0);
+    let mut seen: Vec<u64> = points(&sequence, (1 << 16) - 512, 1024)[1].iter().map(|x| x.to_bits()).collect();
+    seen.extend(points(&sequence, (1 << 32) - 1024, 1024)[1].iter().map(|x| x.to_bits()));
+    seen.sort_unstable();
+    seen.dedup();
+    assert_eq!(seen.len(), 2048);
+}
+
+#[test]
+fn every_elementary_interval_of_a_scrambled_net_holds_one_point() {
+    // Dimensions 1 and 2 of the sequence form a (0, m, 2)-net in base 2, scrambled or not.
+    for m in 1..=10 {
+        let n = 1usize << m;
+        let columns = points(&SobolSequence::in_order(2, 11, m), 5 * n as u64, n);
+        for split in 0..=m {
+            let (nx, ny) = (1usize << split, 1usize << (m - split));
+            let mut counts = vec![0; n];
+            for (x, y) in columns[0].iter().zip(&columns[1]) {
+                counts[(x * nx as f64) as usize * ny + (y * ny as f64) as usize] += 1;
+            }
+            assert!(counts.iter().all(|&c| c == 1), "m = {m}, split = {split}");
+        }
+    }
+}
+
+#[test]
+fn points_lie_strictly_inside_the_unit_interval() {
+    for replicate in 0..64 {
+        for column in points(&SobolSequence::scrambled(4, 0, replicate), 0, 4096) {
+            assert!(column.iter().all(|&x| x > 0.0 && x < 1.0));
+        }
+    }
+    assert_eq!((f64::from(u32::MAX) + 0.5) * CELL, 1.0 - CELL / 2.0);
+}
+
+#[test]
+fn unscrambled_points_of_the_last_dimensions_are_those_of_scipy() {
+    // scipy.stats.qmc.Sobol(4096, scramble=False, bits=32).random(2048), SciPy 1.17.
+    let sequence = SobolSequence::plain(4096);
+    let frozen = [
+        (3, 1023, 0.25),
+        (100, 1024, 0.0703125),
+        (777, 2047, 0.2060546875),
+        (1500, 2048, 0.09423828125),
+        (2047, 3000, 0.30810546875),
+        (1023, 4094, 0.0439453125),
+        (2047, 4095, 0.82080078125),
+        (5, 4095, 0.875),
+    ];
+    for (index, dimension, expected) in frozen {
+        let mut point = [0.0];
+        sequence.fill(dimension, index, &mut point);
+        assert_eq!(point[0], expected + 0.5 * CELL);
+    }
+}
+
+/// Quality parameter t of the (t, m, s)-net that some dimensions of the sequence form: the smallest t for which the
+/// leading k_1, ..., k_s rows of the generator matrices are independent whenever k_1 + ... + k_s = m - t (Niederreiter
+/// 1987).
+fn net_parameter(dimensions: &[usize], m: usize) -> usize {
+    let all = directions(MAX_DIMENSIONS);
+    // Row k of a matrix as a mask of its first m columns.
+    let row = |dimension: usize, k: usize| (0..m).fold(0u32, |mask, j| mask | (all[dimension][j] >> k & 1) << j);
+    let independent = |depths: &[usize]| {
+        let mut basis: Vec<u32> = Vec::new();
+        depths.iter().zip(dimensions).flat_map(|(&depth, &d)| (0..depth).map(move |k| (d, k))).all(|(d, k)| {
+            let rest = basis.iter().fold(row(d, k), |rest, b| rest.min(rest ^ b));
+            basis.push(rest);
+            rest != 0
+        })
+    };
+    (0..=m).find(|t| splits(m - t, dimensions.len()).iter().all(|depths| independent(depths))).unwrap_or(m)
+}
+
+/// All ways to write `sum` as an ordered sum of `parts` numbers from 0.
+fn splits(sum: usize, parts: usize) -> Vec<Vec<usize>> {
+    if parts == 1 {
+        return vec![vec![sum]];
+    }
+    let with =
+        |first: usize| splits(sum - first, parts - 1).into_iter().map(move |rest| [&[first], &rest[..]].concat());
+    (0..=sum).flat_map(with).collect()
+}
+
+/// Whether every elementary interval of volume 2^(t - m) holds 2^t of the 2^m points.
+fn is_net(columns: &[Vec<f64>], m: usize, t: usize) -> bool {
+    splits(m - t, columns.len()).into_iter().all(|depths| {
+        let mut counts = vec![0; 1 << (m - t)];
+        for i in 0..1 << m {
+            let place = columns
+                .iter()
+                .zip(&depths)
+                .fold(0, |place, (column, &depth)| (place << depth) + (column[i] * (1u64 << depth) as f64) as usize);
+            counts[place] += 1;
+        }
+        counts.iter().all(|&count| count == 1 << t)
+    })
+}
+
+#[test]
+fn scrambled_pairs_and_triples_are_the_nets_their_matrices_promise() {
+    // Neighbours, the same factor in A and B of a design of d = 3, 64, 1000 and 2048, and high dimensions among each other.
+    let sets: [&[usize]; 16] = [
+        &[0, 1],
+        &[1, 2],
+        &[0, 3],
+        &[5, 8],
+        &[0, 64],
+        &[31, 95],
+        &[254, 255],
+        &[499, 1499],
+        &[1022, 1023],
+        &[2046, 4094],
+        &[4094, 4095],
+        &[0, 1, 2],
+        &[0, 3, 6],
+        &[7, 70, 700],
+        &[1000, 2000, 3000],
+        &[4093, 4094, 4095],
+    ];
+    for (number, set) in sets.into_iter().enumerate() {
+        for m in 1..=10 {
+            let t = net_parameter(set, m);
+            // Sobol's conditions: the first dimensions by theory, 0 for the first two and 1 at most for the first three.
+            assert!(number != 0 || t == 0, "{set:?}: t = {t}");
+            assert!(number != 11 || t <= 1, "{set:?}: t = {t}");
+            let sequence = SobolSequence::in_order(MAX_DIMENSIONS, 23, number as u64);
+            let (n, first) = (1usize << m, 3u64 << m);
+            let columns: Vec<Vec<f64>> = set
+                .iter()
+                .map(|&dimension| {
+                    let mut column = vec![0.0; n];
+                    sequence.fill(dimension, first, &mut column);
+                    column
+                })
+                .collect();
+            assert!(is_net(&columns, m, t), "{set:?}, m = {m}, t = {t}");
+        }
+    }
+}
+
+#[test]
+fn every_dimension_is_stratified_and_stays_inside() {
+    let m = 8;
+    let sequence = SobolSequence::in_order(MAX_DIMENSIONS, 3, 1);
+    let mut column = vec![0.0; 1 << m];
+    for dimension in 0..MAX_DIMENSIONS {
+        sequence.fill(dimension, 7 << m, &mut column);
+        assert!(column.iter().all(|&x| x > 0.0 && x < 1.0));
+        assert!(is_net(std::slice::from_ref(&column), m, 0), "dimension {dimension}");
+    }
+}
+
+#[test]
+fn ends_of_the_interval_are_never_reached() {
+    // The digits 0 and 2^32 - 1 are the closest: half a cell from the end.
+    for digits in [0u32, u32::MAX] {
+        let x = (f64::from(digits) + 0.5) * CELL;
+        assert!(x > 0.0 && x < 1.0 && x.max(1.0 - x) == 1.0 - CELL / 2.0);
+    }
+    // In an unscrambled sequence both occur: index 0, and the point whose digits are all 1.
+    let plain = SobolSequence::plain(1);
+    let ones = (0..BITS).fold(0u64, |index, bit| index | u64::from(bit % 2 == 1) << bit);
+    let (mut first, mut last) = ([0.5], [0.5]);
+    plain.fill(0, 0, &mut first);
+    plain.fill(0, ones, &mut last);
+    assert_eq!((first[0], last[0]), (CELL / 2.0, 1.0 - CELL / 2.0));
+}
+
+/// Correlation of two columns of values uniform on (0, 1), by their exact mean and variance.
+fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    12.0 * a.iter().zip(b).map(|(a, b)| (a - 0.5) * (b - 0.5)).sum::<f64>() / a.len() as f64
+}
+
+fn column(sequence: &SobolSequence, dimension: usize, n: usize) -> Vec<f64> {
+    let mut column = vec![0.0; n];
+    sequence.fill(dimension, 0, &mut column);
+    column
+}
+
+#[test]
+fn low_dimensions_are_not_correlated() {
+    // Every pair of the dimensions that a design of 40 factors uses, within A, within B and across: five standard errors
+    // of random points are allowed at 3160 pairs, and on the whole the pairs are far closer to 0 than random ones.
+    let sequence = SobolSequence::in_order(80, 41, 0);
+    for m in [10, 12] {
+        let n = 1usize << m;
+        let columns: Vec<_> = (0..80).map(|dimension| column(&sequence, dimension, n)).collect();
+        let mut squares = 0.0;
+        for (i, a) in columns.iter().enumerate() {
+            for (j, b) in columns.iter().enumerate().skip(i + 1) {
+                let r = correlation(a, b);
+                assert!(r.abs() < 5.0 / (n as f64).sqrt(), "2^{m} points, dimensions {i} and {j}: {r}");
+                squares += r * r;
+            }
+        }
+        let random = 1.0 / n as f64;
+        assert!(squares / 3160.0 < random / 4.0, "2^{m} points: {squares}");
+    }
+}
+
+#[test]
+fn a_factor_is_not_correlated_with_itself_across_a_and_b() {
+    // Five standard errors of random points again. High dimensions hold to it from 2^14 points on only: see
+    // `dimensions_with_equal_rows_are_correlated_until_their_next_column`.
+    for (m, factors) in [(10, 1..=100), (12, 1..=100), (14, 300..=303), (14, 998..=1001), (14, 2046..=2048)] {
+        let n = 1usize << m;
+        for d in factors {
+            let sequence = SobolSequence::in_order(2 * d, 7, 1);
+            for j in (0..d).step_by(1.max(d / 16)) {
+                let r = correlation(&column(&sequence, j, n), &column(&sequence, d + j, n));
+                assert!(r.abs() < 5.0 / (n as f64).sqrt(), "2^{m} points, factor {j} of {d}: {r}");
+            }
+        }
+    }
+}
+
+#[test]
+fn dimensions_with_equal_rows_are_correlated_until_their_next_column() {
+    // The first digit of a dimension's first 2^m points is one of 2^(m-1) functions of the index, so that among more
+    // dimensions two must share it, whatever the direction numbers; likewise the second digit of one and the first of
+    // another. Dimensions 7 and 3808 do so up to 2^12 points: t is m - 2 there, and the scramble only chooses the sign of
+    // the correlation. Their next columns part them.
+    assert_eq!([8, 10, 12, 14, 16].map(|m| net_parameter(&[6, 3807], m)), [6, 8, 10, 4, 3]);
+    let signs: Vec<f64> = (0..32)
+        .map(|replicate| {
+            let sequence = SobolSequence::in_order(3808, 41, replicate);
+            let at = |m: u32| correlation(&column(&sequence, 6, 1 << m), &column(&sequence, 3807, 1 << m));
+            assert!((at(12).abs() - 0.375).abs() < 0.02 && at(16).abs() < 0.02, "{} {}", at(12), at(16));
+            at(12).signum()
+        })
+        .collect();
+    // Either sign by chance: 32 tosses.
+    assert!(signs.iter().sum::<f64>().abs() < 24.0);
+}
+
+/// Errors of the mean of `function` over 2^m points of `dimensions` coordinates, one for each of `replicates`.
+fn errors(
+    function: &dyn Fn(&[f64]) -> f64,
+    exact: f64,
+    (dimensions, m): (usize, usize),
+    replicates: std::ops::Range<u64>,
+) -> Vec<f64> {
+    let mean = |replicate| {
+        let columns = points(&SobolSequence::scrambled(dimensions, 5, replicate), 0, 1 << m);
+        let mut x = vec![0.0; dimensions];
+        let sum: f64 = (0..1 << m)
+            .map(|i| {
+                x.iter_mut().zip(&columns).for_each(|(x, column)| *x = column[i]);
+                function(&x)
+            })
+            .sum();
+        sum / (1u64 << m) as f64 - exact
+    };
+    replicates.map(mean).collect()
+}
+
+fn rms(errors: &[f64]) -> f64 {
+    (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt()
+}
+
+#[test]
+fn in_one_dimension_the_error_is_that_of_stratified_points() {
+    // The mean of x over one random point in each of N cells has the variance 1 / (12 N^3); 256 squares of errors estimate
+    // it to 9 %, five times of which are allowed.
+    for m in [1, 4, 8, 12, 16] {
+        let e = errors(&|x| x[0], 0.5, (1, m), 0..256);
+        let expected = 1.0 / (12.0 * 2f64.powi(3 * m as i32));
+        let ratio = rms(&e).powi(2) / expected;
+        assert!((ratio - 1.0).abs() < 0.45, "m = {m}: {ratio}");
+    }
+}
+
+/// A function with the exact mean, its number of inputs, and the slope of log error over log N that is allowed.
+type Rate = (&'static str, fn(&[f64]) -> f64, f64, usize, f64);
+
+#[test]
+fn means_converge_at_the_rates_of_scrambled_nets() {
+    // Owen (1997): the standard error of a smooth function falls like N^-3/2 (log N)^((d-1)/2), which between 2^6 and 2^12
+    // points is a slope of -3/2 + (d-1)/12; kinks along axes change nothing. Kinks across slanted planes cost more, but
+    // leave N^-1; jumps across them cost most and still beat the N^-1/2 of random points. 128 replicates tell a slope to
+    // 0.02, four times of which are allowed.
+    let rates: [Rate; 6] = [
+        ("product of three", |x| x.iter().map(|x| 0.5 + x).product(), 1.0, 3, -1.333),
+        ("exponential of two", |x| (x[0] + x[1]).exp(), (std::f64::consts::E - 1.0).powi(2), 2, -1.417),
+        ("kinks along axes", |x| x.iter().map(|x| (x - 1.0 / 3.0).abs()).product(), (5f64 / 18.0).powi(2), 2, -1.417),
+        ("minimum of two", |x| x[0].min(x[1]), 1.0 / 3.0, 2, -1.08),
+        ("minimum of three", |x| x[0].min(x[1]).min(x[2]), 0.25, 3, -1.08),
+        ("half plane", |x| f64::from(u8::from(x[0] + x[1] < 1.0)), 0.5, 2, -0.66),
+    ];
+    for (name, function, exact, dimensions, slope) in rates {
+        let [coarse, fine] = [6, 12].map(|m| errors(&function, exact, (dimensions, m), 0..128));
+        let found = (rms(&fine) / rms(&coarse)).log2() / 6.0;
+        assert!(found < slope + 0.08, "{name}: a slope of {found}");
+        // No bias: the mean of 128 errors within four of its standard errors.
+        for e in [coarse, fine] {
+            let mean = e.iter().sum::<f64>() / 128.0;
+            assert!(mean.abs() < 4.0 * rms(&e) / 128f64.sqrt(), "{name}: a bias of {mean}");
+        }
+    }
+}
+
+#[test]
+fn variances_converge_like_means() {
+    // The mean of squares of a smooth function, minus the square of its mean: still N^-3/2 with its logarithms.
+    let f: fn(&[f64]) -> f64 = |x| x.iter().map(|x| 0.5 + x).product();
+    let exact = (13f64 / 12.0).powi(3);
+    let [coarse, fine] = [6, 12].map(|m| {
+        let squares = errors(&|x| f(x).powi(2), exact, (3, m), 0..128);
+        let means = errors(&f, 1.0, (3, m), 0..128);
+        let variances: Vec<f64> = squares.iter().zip(&means).map(|(s, m)| s - 2.0 * m - m * m).collect();
+        rms(&variances)
+    });
+    let slope = (fine / coarse).log2() / 6.0;
+    assert!(slope < -1.25, "a slope of {slope}");
+}
+
+#[test]
+fn replicates_and_seeds_are_independent() {
+    // Correlations of 512 errors with those of later replicates: a standard error of 0.044 each, four of which are allowed.
+    let f: &dyn Fn(&[f64]) -> f64 = &|x| (x[0] + 2.0 * x[1] * x[2]).exp();
+    let e = errors(f, 0.0, (3, 6), 0..512);
+    let mean = e.iter().sum::<f64>() / 512.0;
+    let e: Vec<f64> = e.iter().map(|e| e - mean).collect();
+    for lag in [1, 2, 3, 16, 256] {
+        let r = e.iter().zip(&e[lag..]).map(|(a, b)| a * b).sum::<f64>() / (512 - lag) as f64 / rms(&e).powi(2);
+        assert!(r.abs() < 0.18, "lag {lag}: {r}");
+    }
+    // The first point of every replicate and seed is a random number of its own.
+    let mut firsts: Vec<f64> = Vec::new();
+    for seed in 0..64 {
+        for replicate in 0..64 {
+            firsts.push(points(&SobolSequence::scrambled(2, seed, replicate), 0, 1)[1][0]);
+        }
+    }
+    for lag in [1, 64] {
+        let r = correlation(&firsts[..4096 - lag], &firsts[lag..]);
+        assert!(r.abs() < 4.0 / 64.0, "lag {lag}: {r}");
+    }
+    firsts.sort_by(f64::total_cmp);
+    firsts.dedup();
+    assert!(firsts.len() > 4090);
+}

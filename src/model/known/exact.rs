@@ -1,0 +1,164 @@
+//! Exact answers, and the rules by which families of functions have theirs.
+
+/// Mean, variance and indices of a function of independent inputs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exact {
+    /// The mean.
+    pub mean: f64,
+    /// The variance.
+    pub variance: f64,
+    /// The indices; none where the variance is 0.
+    pub indices: Option<ExactIndices>,
+    /// How well they are known.
+    pub basis: Basis,
+}
+
+/// Sobol' indices as shares of the variance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExactIndices {
+    /// First-order indices S_i.
+    pub first_order: Vec<f64>,
+    /// Total indices ST_i.
+    pub total: Vec<f64>,
+    /// Second-order indices S_ij, without the first-order ones; none where they are not known.
+    pub second_order: Option<SecondOrder>,
+}
+
+/// How well an answer is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Basis {
+    /// By a formula, to rounding: some 1e-15 of the variance.
+    ClosedForm,
+    /// By quadrature (`tests/oracle/known_reference.py`).
+    Quadrature {
+        /// Error of the indices, and relative error of mean and variance, as the difference of two orders of the rule.
+        error: f64,
+    },
+}
+
+/// Second-order indices of all pairs of inputs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SecondOrder {
+    inputs: usize,
+    /// Row by row of the upper triangle without the diagonal.
+    pairs: Vec<f64>,
+}
+
+impl SecondOrder {
+    fn of(inputs: usize, index: impl Fn(usize, usize) -> f64) -> Self {
+        let pairs = (0..inputs).flat_map(|i| (i + 1..inputs).map(move |j| (i, j))).map(|(i, j)| index(i, j)).collect();
+        Self { inputs, pairs }
+    }
+
+    /// S_ij of two different inputs, counted from 0, in either order; 0 for i = j.
+    ///
+    /// # Panics
+    /// If there is no such input.
+    pub fn get(&self, i: usize, j: usize) -> f64 {
+        let (i, j) = (i.min(j), i.max(j));
+        assert!(j < self.inputs, "input {j} of {}", self.inputs);
+        if i == j { 0.0 } else { self.pairs[i * (2 * self.inputs - i - 1) / 2 + j - i - 1] }
+    }
+
+    /// All pairs i < j with their index.
+    pub fn pairs(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        let places = (0..self.inputs).flat_map(|i| (i + 1..self.inputs).map(move |j| (i, j)));
+        places.zip(&self.pairs).map(|((i, j), &index)| (i, j, index))
+    }
+}
+
+impl Exact {
+    /// From the parts V_u of the variance, each with its set of inputs u (ascending, each set once).
+    pub(super) fn of_parts(mean: f64, inputs: usize, parts: &[(Vec<usize>, f64)]) -> Self {
+        let variance: f64 = parts.iter().map(|(_, part)| part).sum();
+        let (mut first, mut total) = (vec![0.0; inputs], vec![0.0; inputs]);
+        let mut second = SecondOrder::of(inputs, |_, _| 0.0);
+        for (set, part) in parts {
+            let share = part / variance;
+            match set[..] {
+                [i] => first[i] += share,
+                [i, j] => second.pairs[i * (2 * inputs - i - 1) / 2 + j - i - 1] += share,
+                _ => {}
+            }
+            set.iter().for_each(|&i| total[i] += share);
+        }
+        Self::closed(mean, variance, first, total, second)
+    }
+
+    /// Of a sum of functions of one input each, with the variances `parts`: no interactions.
+    pub(super) fn of_sum(mean: f64, parts: &[f64]) -> Self {
+        let variance: f64 = parts.iter().sum();
+        let first: Vec<f64> = parts.iter().map(|part| part / variance).collect();
+        Self::closed(mean, variance, first.clone(), first, SecondOrder::of(parts.len(), |_, _| 0.0))
+    }
+
+    /// Of a product of functions of one input each, with the variances `r` over their squared means; `mean` is the
+    /// product of their means.
+    ///
+    /// S_i = r_i / D, S_ij = r_i r_j / D, ST_i = r_i prod_{j != i} (1 + r_j) / D and variance = mean^2 D, where
+    /// D = prod (1 + r_j) - 1 (Sobol' 1993).
+    pub(super) fn of_product(mean: f64, r: &[f64]) -> Self {
+        let log: f64 = r.iter().map(|r| r.ln_1p()).sum();
+        let d = log.exp_m1();
+        let first = r.iter().map(|r| r / d).collect();
+        // (1 + D) / D, which stays finite where D does not.
+        let total = r.iter().map(|r| r / (1.0 + r) / -(-log).exp_m1()).collect();
+        let second = SecondOrder::of(r.len(), |i, j| r[i] * r[j] / d);
+        Self::closed(mean, mean * mean * d, first, total, second)
+    }
+
+    /// With all indices of one order alike.
+    pub(super) fn of_symmetric(mean: f64, variance: f64, inputs: usize, [s, st, sij]: [f64; 3]) -> Self {
+        Self::closed(mean, variance, vec![s; inputs], vec![st; inputs], SecondOrder::of(inputs, |_, _| sij))
+    }
+
+    /// From the indices themselves.
+    pub(super) fn of_indices(
+        (mean, variance): (f64, f64),
+        first: Vec<f64>,
+        total: Vec<f64>,
+        second: impl Fn(usize, usize) -> f64,
+    ) -> Self {
+        let second = SecondOrder::of(first.len(), second);
+        Self::closed(mean, variance, first, total, second)
+    }
+
+    /// From a table of references.
+    pub(super) fn by_quadrature(mean: f64, variance: f64, first: &[f64], total: &[f64], error: f64) -> Self {
+        let indices = ExactIndices { first_order: first.to_vec(), total: total.to_vec(), second_order: None };
+        Self { mean, variance, indices: Some(indices), basis: Basis::Quadrature { error } }
+    }
+
+    fn closed(mean: f64, variance: f64, first: Vec<f64>, total: Vec<f64>, second: SecondOrder) -> Self {
+        let indices = ExactIndices { first_order: first, total, second_order: Some(second) };
+        Self { mean, variance, indices: (variance > 0.0).then_some(indices), basis: Basis::ClosedForm }
+    }
+}
+
+/// Variance over squared mean of e^(b x), x uniform on (0, 1): (b/2) coth(b/2) - 1.
+pub(super) fn relative_variance_of_exponential(b: f64) -> f64 {
+    let x = b / 2.0;
+    let s = x * x;
+    if x.abs() < 0.3 {
+        // The series of x coth x - 1, which loses no digits; the first term left out is below 1e-16 of the sum.
+        let terms = [
+            1.0 / 3.0,
+            -1.0 / 45.0,
+            2.0 / 945.0,
+            -1.0 / 4725.0,
+            2.0 / 93_555.0,
+            -1382.0 / 638_512_875.0,
+            4.0 / 18_243_225.0,
+            -3617.0 / 162_820_783_125.0,
+            87_734.0 / 38_979_295_480_125.0,
+        ];
+        s * terms.iter().rev().fold(0.0, |sum, term| sum * s + term)
+    } else {
+        x / x.tanh() - 1.0
+    }
+}
+
+/// Mean of e^(b x), x uniform on (0, 1): (e^b - 1) / b.
+pub(super) fn mean_of_exponential(b: f64) -> f64 {
+    if b == 0.0 { 1.0 } else { b.exp_m1() / b }
+}

@@ -1,0 +1,51 @@
+//! A weighted sum.
+
+use super::function::unit_cube;
+use super::parameters::{DIMENSION, FINITE, Given};
+use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "linear",
+    summary: "weighted sum: no interactions",
+    formula: "sum_i c_i x_i",
+    source: "textbook: S_i = c_i^2 Var x_i / sum_j c_j^2 Var x_j",
+    parameters: &[
+        ParameterInfo { name: "c", description: "weights, one number or one per input [4, 2, 1, 0.5, 0 ...]" },
+        DIMENSION,
+    ],
+    build: |given| Ok(Box::new(Linear::new(given)?)),
+};
+
+/// sum c_i x_i, x uniform on (0, 1)^d.
+///
+/// Mean sum c_i / 2, V_i = c_i^2 / 12, S_i = ST_i = V_i / sum V_j, S_ij = 0. For c = (4, 2, 1, 0.5, 0): variance 1.7708,
+/// S = (0.7529, 0.1882, 0.0471, 0.0118, 0).
+struct Linear {
+    c: Vec<f64>,
+}
+
+impl Linear {
+    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
+        let [c] = given.per_input([("c", &[4.0, 2.0, 1.0, 0.5, 0.0][..], FINITE)])?;
+        Ok(Self { c })
+    }
+}
+
+impl Function for Linear {
+    fn inputs(&self) -> Vec<KnownInput> {
+        unit_cube(self.c.len())
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
+        vec![("c", ParameterValue::List(self.c.clone()))]
+    }
+
+    fn value(&self, x: &[f64]) -> f64 {
+        x.iter().zip(&self.c).map(|(x, c)| c * x).sum()
+    }
+
+    fn exact(&self) -> Exact {
+        let parts: Vec<f64> = self.c.iter().map(|c| c * c / 12.0).collect();
+        Exact::of_sum(self.c.iter().sum::<f64>() / 2.0, &parts)
+    }
+}

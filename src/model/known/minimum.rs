@@ -1,0 +1,52 @@
+//! The smallest of several inputs.
+
+use super::function::unit_cube;
+use super::parameters::{Given, Range};
+use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "minimum",
+    summary: "the smallest input: kinks across slanted planes",
+    formula: "min_i x_i",
+    source: "textbook: order statistics of uniform inputs",
+    parameters: &[ParameterInfo { name: "dimension", description: "number of inputs d, at least 2 [2]" }],
+    build: |given| Ok(Box::new(Minimum::new(given)?)),
+};
+
+pub(super) const TWO_OR_MORE: Range = (|d| d >= 2.0, "a whole number from 2");
+
+/// min x_i, x uniform on (0, 1)^d.
+///
+/// Mean 1/(d + 1), variance d / ((d + 1)^2 (d + 2)), S_i = (d + 2) / (d (2d + 1)), ST_i = 2 (d + 1) / (d (d + 3)),
+/// S_ij = (d + 2) / (d^2 (2d + 1)). From E(min | x_i, x_j) = (1 - (1 - m)^(d-1)) / (d - 1) with m the smaller of the two,
+/// and Var(min | the others) = m^3/3 - m^4/4 with m their smallest. For d = 2: S_i = 0.4, ST_i = 0.6, S_12 = 0.2.
+struct Minimum {
+    d: usize,
+}
+
+impl Minimum {
+    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
+        Ok(Self { d: given.dimension(2, TWO_OR_MORE)? })
+    }
+}
+
+impl Function for Minimum {
+    fn inputs(&self) -> Vec<KnownInput> {
+        unit_cube(self.d)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
+        vec![("dimension", ParameterValue::Number(self.d as f64))]
+    }
+
+    fn value(&self, x: &[f64]) -> f64 {
+        x.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    fn exact(&self) -> Exact {
+        let d = self.d as f64;
+        let first = (d + 2.0) / (d * (2.0 * d + 1.0));
+        let indices = [first, 2.0 * (d + 1.0) / (d * (d + 3.0)), first / d];
+        Exact::of_symmetric(1.0 / (d + 1.0), d / ((d + 1.0) * (d + 1.0) * (d + 2.0)), self.d, indices)
+    }
+}

@@ -1,0 +1,217 @@
+//! Functions with known indices, to try the engine on and to test it with.
+//!
+//! One file per function or family; each states its formula, its source, its inputs and its exact mean, variance and
+//! indices. To add one: a file with a struct, its [`Function`] and its `Entry`; one line in [`KnownAnswer::all`].
+
+mod borehole;
+mod bratley;
+mod constant;
+mod decades;
+mod exact;
+mod flood;
+mod function;
+mod g_star;
+mod ishigami;
+mod ishigami_holes;
+mod kucherenko;
+mod linear;
+mod minimum;
+mod morris;
+mod oakley_ohagan;
+mod otl_circuit;
+mod parameters;
+mod piston;
+mod product;
+mod simplex;
+mod sobol_g;
+mod sobol_levitan;
+mod steps;
+mod wing_weight;
+mod worker;
+
+use std::fmt;
+use std::sync::Arc;
+
+pub use exact::{Basis, Exact, ExactIndices, SecondOrder};
+pub use function::{Function, KnownInput};
+pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
+pub use worker::KnownModel;
+
+use parameters::Given;
+
+/// What the list of functions holds of each.
+struct Entry {
+    name: &'static str,
+    summary: &'static str,
+    formula: &'static str,
+    source: &'static str,
+    parameters: &'static [ParameterInfo],
+    build: fn(&Given<'_>) -> Result<Box<dyn Function>, ParameterError>,
+}
+
+const ENTRIES: [&Entry; 22] = [
+    &ishigami::ENTRY,
+    &sobol_g::ENTRY,
+    &g_star::ENTRY,
+    &morris::ENTRY,
+    &bratley::ENTRY,
+    &oakley_ohagan::ENTRY,
+    &sobol_levitan::ENTRY,
+    &kucherenko::PRODUCT,
+    &kucherenko::ROOTS,
+    &linear::ENTRY,
+    &product::ENTRY,
+    &minimum::ENTRY,
+    &steps::ENTRY,
+    &simplex::ENTRY,
+    &decades::ENTRY,
+    &constant::ENTRY,
+    &ishigami_holes::ENTRY,
+    &flood::ENTRY,
+    &borehole::ENTRY,
+    &wing_weight::ENTRY,
+    &otl_circuit::ENTRY,
+    &piston::ENTRY,
+];
+
+/// A function of the list, before its parameters are chosen.
+#[derive(Clone, Copy)]
+pub struct KnownAnswer(&'static Entry);
+
+impl KnownAnswer {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        ENTRIES.into_iter().map(Self)
+    }
+
+    /// The function of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::all().find(|function| function.name() == name)
+    }
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        self.0.name
+    }
+
+    /// One line for people.
+    pub fn description(self) -> &'static str {
+        self.0.summary
+    }
+
+    /// The formula of the value, in plain characters.
+    pub fn formula(self) -> &'static str {
+        self.0.formula
+    }
+
+    /// Where the function comes from.
+    pub fn source(self) -> &'static str {
+        self.0.source
+    }
+
+    /// The parameters it takes, in the order in which they are shown.
+    pub fn parameters(self) -> &'static [ParameterInfo] {
+        self.0.parameters
+    }
+
+    /// The function with these parameters, and its defaults for the others.
+    ///
+    /// ```
+    /// use apportion::model::{KnownAnswer, ParameterValue};
+    ///
+    /// let g = KnownAnswer::from_name("sobol-g").ok_or("no such function")?;
+    /// let g = g.with(&[("a".to_owned(), ParameterValue::List(vec![0.0, 1.0]))])?;
+    /// assert_eq!(g.value(&[0.75, 1.0]), 1.5);
+    /// let exact = g.exact();
+    /// let indices = exact.indices.ok_or("a constant")?;
+    /// assert!((indices.first_order[0] / indices.first_order[1] - 4.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ParameterError`] if the function has no such parameter, or the value makes no sense.
+    pub fn with(self, parameters: &[(String, ParameterValue)]) -> Result<KnownFunction, ParameterError> {
+        let known = || self.0.parameters.iter().map(|parameter| parameter.name);
+        if let Some((name, _)) = parameters.iter().find(|(name, _)| known().all(|parameter| parameter != name)) {
+            return Err(ParameterError::Unknown { parameter: name.clone(), known: known().collect() });
+        }
+        let function = (self.0.build)(&Given::new(parameters))?;
+        Ok(KnownFunction { answer: self, function: function.into() })
+    }
+
+    /// The function with its default parameters.
+    ///
+    /// # Panics
+    /// Never: a test goes through all of them.
+    pub fn default_function(self) -> KnownFunction {
+        self.with(&[]).expect("the defaults make sense")
+    }
+}
+
+impl PartialEq for KnownAnswer {
+    fn eq(&self, other: &Self) -> bool {
+        self.name() == other.name()
+    }
+}
+
+impl Eq for KnownAnswer {}
+
+impl fmt::Debug for KnownAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A function with its parameters chosen. Cheap to clone.
+#[derive(Clone)]
+pub struct KnownFunction {
+    answer: KnownAnswer,
+    function: Arc<dyn Function>,
+}
+
+impl KnownFunction {
+    /// Its entry in the list.
+    pub fn answer(&self) -> KnownAnswer {
+        self.answer
+    }
+
+    /// The inputs in order, each with the distribution for which the exact indices hold.
+    pub fn inputs(&self) -> Vec<KnownInput> {
+        self.function.inputs()
+    }
+
+    /// The parameters in force.
+    pub fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
+        self.function.parameters()
+    }
+
+    /// The value at `x`, which has one entry per input; NaN where there is none.
+    pub fn value(&self, x: &[f64]) -> f64 {
+        self.function.value(x)
+    }
+
+    /// Why there is no value at `x`, where the function can say so.
+    pub fn reason(&self, x: &[f64]) -> Option<&'static str> {
+        self.function.reason(x)
+    }
+
+    /// Mean, variance and indices for independent inputs of their own distributions.
+    pub fn exact(&self) -> Exact {
+        self.function.exact()
+    }
+}
+
+impl PartialEq for KnownFunction {
+    fn eq(&self, other: &Self) -> bool {
+        self.answer == other.answer && self.parameters() == other.parameters()
+    }
+}
+
+impl fmt::Debug for KnownFunction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(self.answer.name()).field("parameters", &self.parameters()).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests;

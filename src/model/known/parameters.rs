@@ -1,0 +1,178 @@
+//! Parameters of functions, such as the `a` of Sobol' G.
+
+use std::fmt;
+
+use thiserror::Error;
+
+/// Most inputs of a function whose number of inputs can be chosen.
+pub const MAX_INPUTS: usize = 4096;
+
+/// A parameter that a function takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ParameterInfo {
+    /// The key in `[function]`.
+    pub name: &'static str,
+    /// What it is, and what values it may have.
+    pub description: &'static str,
+}
+
+/// The number of inputs, for functions that take lists.
+pub(super) const DIMENSION: ParameterInfo =
+    ParameterInfo { name: "dimension", description: "number of inputs, if no list gives it" };
+
+/// A parameter's value.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ParameterValue {
+    /// One number, for all inputs alike if the parameter has one per input.
+    Number(f64),
+    /// One number per input.
+    List(Vec<f64>),
+}
+
+/// As TOML.
+impl fmt::Display for ParameterValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(f, "{number}"),
+            Self::List(list) => {
+                let entries: Vec<String> = list.iter().map(f64::to_string).collect();
+                write!(f, "[{}]", entries.join(", "))
+            }
+        }
+    }
+}
+
+/// Why a function cannot be made.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ParameterError {
+    /// The function has no such parameter.
+    #[error("the function has no parameter `{parameter}`")]
+    Unknown {
+        /// The name given.
+        parameter: String,
+        /// The names it has.
+        known: Vec<&'static str>,
+    },
+    /// A list where one number is needed.
+    #[error("`{parameter}` must be one number, not a list")]
+    NotOneNumber {
+        /// The parameter.
+        parameter: &'static str,
+    },
+    /// A value outside the range of the parameter.
+    #[error("`{parameter}` must be {must}, not {value}")]
+    OutOfRange {
+        /// The parameter.
+        parameter: &'static str,
+        /// The value given.
+        value: f64,
+        /// The range in words.
+        must: &'static str,
+    },
+    /// A list that is not as long as there are inputs.
+    #[error("`{parameter}` has {entries} entries, but the function has {inputs} inputs")]
+    Length {
+        /// The parameter.
+        parameter: &'static str,
+        /// Number of entries.
+        entries: usize,
+        /// Number of inputs, by `dimension` or an earlier list.
+        inputs: usize,
+    },
+    /// A list that no function can have.
+    #[error("`{parameter}` has {entries} entries, but must have 1 to {MAX_INPUTS}")]
+    Entries {
+        /// The parameter.
+        parameter: &'static str,
+        /// Number of entries.
+        entries: usize,
+    },
+}
+
+impl ParameterError {
+    /// The parameter it is about.
+    pub fn parameter(&self) -> &str {
+        match self {
+            Self::Unknown { parameter, .. } => parameter,
+            Self::NotOneNumber { parameter }
+            | Self::OutOfRange { parameter, .. }
+            | Self::Length { parameter, .. }
+            | Self::Entries { parameter, .. } => parameter,
+        }
+    }
+}
+
+/// A range of values, with the words for it.
+pub(super) type Range = (fn(f64) -> bool, &'static str);
+
+pub(super) const FINITE: Range = (f64::is_finite, "a finite number");
+pub(super) const NOT_NEGATIVE: Range = (|x| (0.0..f64::INFINITY).contains(&x), "0 or greater");
+pub(super) const POSITIVE: Range = (|x| x > 0.0 && x < f64::INFINITY, "greater than 0");
+pub(super) const PORTION: Range = (|x| (0.0..=1.0).contains(&x), "between 0 and 1");
+const INPUTS: Range = (|x| (1.0..=MAX_INPUTS as f64).contains(&x) && x.fract() == 0.0, "a whole number from 1 to 4096");
+
+/// A parameter with one number per input: its name, its default for the first inputs (the last entry stands for all
+/// that follow), and its range.
+pub(super) type PerInput<'a> = (&'static str, &'a [f64], Range);
+
+/// The parameters given, for the functions to read.
+pub(super) struct Given<'a>(&'a [(String, ParameterValue)]);
+
+impl<'a> Given<'a> {
+    pub(super) fn new(parameters: &'a [(String, ParameterValue)]) -> Self {
+        Self(parameters)
+    }
+
+    fn get(&self, name: &str) -> Option<&ParameterValue> {
+        self.0.iter().find(|(given, _)| given == name).map(|(_, value)| value)
+    }
+
+    /// One number.
+    pub(super) fn number(&self, parameter: &'static str, default: f64, range: Range) -> Result<f64, ParameterError> {
+        match self.get(parameter) {
+            None => Ok(default),
+            Some(ParameterValue::Number(value)) => within(parameter, *value, range),
+            Some(ParameterValue::List(_)) => Err(ParameterError::NotOneNumber { parameter }),
+        }
+    }
+
+    /// The parameter `dimension` alone.
+    pub(super) fn dimension(&self, default: usize, range: Range) -> Result<usize, ParameterError> {
+        let value = within("dimension", self.number("dimension", default as f64, range)?, INPUTS)?;
+        // Whole and at most 4096.
+        Ok(value as usize)
+    }
+
+    /// Numbers per input, all of one length: that of `dimension`, else of the first list given, else of the default.
+    pub(super) fn per_input<const N: usize>(&self, all: [PerInput<'_>; N]) -> Result<[Vec<f64>; N], ParameterError> {
+        let listed = all.iter().find_map(|(name, ..)| match self.get(name) {
+            Some(ParameterValue::List(list)) => Some((*name, list.len())),
+            _ => None,
+        });
+        let inputs = match (self.get("dimension"), listed) {
+            (None, Some((_, entries))) if (1..=MAX_INPUTS).contains(&entries) => entries,
+            (None, Some((parameter, entries))) => {
+                return Err(ParameterError::Entries { parameter, entries });
+            }
+            _ => self.dimension(all.first().map_or(1, |(_, default, _)| default.len()), INPUTS)?,
+        };
+        let mut columns = [const { Vec::new() }; N];
+        for (column, (parameter, default, range)) in columns.iter_mut().zip(all) {
+            *column = match self.get(parameter) {
+                None => (0..inputs).map(|i| default[i.min(default.len() - 1)]).collect(),
+                Some(ParameterValue::Number(value)) => vec![within(parameter, *value, range)?; inputs],
+                Some(ParameterValue::List(list)) if list.len() != inputs => {
+                    return Err(ParameterError::Length { parameter, entries: list.len(), inputs });
+                }
+                Some(ParameterValue::List(list)) => {
+                    list.iter().map(|&value| within(parameter, value, range)).collect::<Result<_, _>>()?
+                }
+            };
+        }
+        Ok(columns)
+    }
+}
+
+fn within(parameter: &'static str, value: f64, (contains, must): Range) -> Result<f64, ParameterError> {
+    if contains(value) { Ok(value) } else { Err(ParameterError::OutOfRange { parameter, value, must }) }
+}

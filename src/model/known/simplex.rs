@@ -1,0 +1,59 @@
+//! The indicator of a simplex.
+
+use super::function::unit_cube;
+use super::parameters::{Given, Range};
+use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "simplex",
+    summary: "1 below a slanted plane, 0 above: discontinuous along no axis",
+    formula: "1 if sum_i x_i <= 1, else 0",
+    source: "this program; the integrals are Dirichlet's",
+    parameters: &[ParameterInfo { name: "dimension", description: "number of inputs d, 2 to 12 [3]" }],
+    build: |given| Ok(Box::new(Simplex::new(given)?)),
+};
+
+/// Beyond 12 the simplex is too small to be met by any sample.
+const FEW: Range = (|d| (2.0..=12.0).contains(&d), "a whole number from 2 to 12");
+
+/// 1 where sum x_i <= 1, else 0; x uniform on (0, 1)^d.
+///
+/// Mean 1/d!, variance (d! - 1)/d!^2, and with n = d! - 1
+///
+/// S_i = (d - 1)^2 / ((2d - 1) n), ST_i = (d - 1) d! / ((d + 1) n),
+/// S_ij = (d^2 (d - 1) / (2 (2d - 3)) - 1) / n - S_i - S_j,
+///
+/// from E(f | x_i) = (1 - x_i)^(d-1) / (d - 1)! and its like for pairs. For d = 3: S_i = 0.16, ST_i = 0.6, S_ij = 0.08.
+struct Simplex {
+    d: usize,
+}
+
+impl Simplex {
+    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
+        Ok(Self { d: given.dimension(3, FEW)? })
+    }
+}
+
+impl Function for Simplex {
+    fn inputs(&self) -> Vec<KnownInput> {
+        unit_cube(self.d)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
+        vec![("dimension", ParameterValue::Number(self.d as f64))]
+    }
+
+    fn value(&self, x: &[f64]) -> f64 {
+        f64::from(u8::from(x.iter().sum::<f64>() <= 1.0))
+    }
+
+    fn exact(&self) -> Exact {
+        let d = self.d as f64;
+        let factorial: f64 = (1..=self.d).map(|k| k as f64).product();
+        let n = factorial - 1.0;
+        let first = (d - 1.0).powi(2) / ((2.0 * d - 1.0) * n);
+        let total = (d - 1.0) * factorial / ((d + 1.0) * n);
+        let second = (d * d * (d - 1.0) / (2.0 * (2.0 * d - 3.0)) - 1.0) / n - 2.0 * first;
+        Exact::of_symmetric(1.0 / factorial, n / (factorial * factorial), self.d, [first, total, second])
+    }
+}
