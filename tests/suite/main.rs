@@ -6,5 +6,7 @@ mod common;
 mod distributions;
 mod extremes;
 mod failures;
+mod given;
 mod metamorphic;
+mod points;
 mod workflows;
