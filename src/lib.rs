@@ -20,8 +20,8 @@
 //! | [`estimate`] | centred sums of constant size, and the indices read from them |
 //! | [`run`] | a design through a model: fixed blocks on a thread pool, merged in a fixed tree |
 //! | [`uncertainty`] | intervals from independent replicates |
-//! | [`study`] | studies: the file as typed, and what it means |
 //! | [`given`] | first-order indices from a table that exists already |
+//! | [`study`] | studies: the file as typed, and what it means |
 //! | [`report`] | results as JSON, CSV, text and charts; files written whole or not at all |
 //! | [`simulation`] | one scene of a study in time |
 //! | [`exchange`] | tables of points and outputs, for other programs |

@@ -82,11 +82,8 @@ pub(super) fn of_order(order: &Order, z: &[f64], independent: bool) -> Binned {
         .filter(|(_, count)| **count > 1.0)
         .map(|(w, count)| 2.0 * (w / (count - 1.0)).powi(2) * (count - 1.0) / (count + 1.0))
         .sum();
-    let influence: Vec<f64> = classes
-        .iter()
-        .zip(z)
-        .map(|(&class, z)| (means[class] * (2.0 * z - means[class])) - estimate * z * z)
-        .collect();
+    let influence: Vec<f64> =
+        classes.iter().zip(z).map(|(&class, z)| (means[class] * (2.0 * z - means[class])) - estimate * z * z).collect();
     let mean = influence.iter().sum::<f64>() / n;
     let spread: f64 = influence.iter().map(|i| (i - mean).powi(2)).sum();
     // The noise of g enters `spread` with 4 v^2 a bin, the estimate with 2 v^2.

@@ -33,22 +33,15 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// # Errors
 /// [`NoVariance`] if nothing is left but zeros or rounding errors.
 pub(super) fn centred(values: &[f64]) -> Result<Vec<f64>, NoVariance> {
-    let largest = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if values.windows(2).all(|pair| pair[0] == pair[1]) {
         return Err(NoVariance::Constant);
     }
-    let scaled = rescaled(values, largest);
+    let (scaled, _) = sum::rescaled(values);
     let mean = sum::mean(&scaled);
     let centred: Vec<f64> = scaled.iter().map(|v| v - mean).collect();
     let spread = centred.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     // The largest of `scaled` lies between 1 and 2.
-    if spread < ROUNDING { Err(NoVariance::Rounding) } else { Ok(rescaled(&centred, spread)) }
-}
-
-/// The values times the power of two that brings `largest` between 1 and 2.
-fn rescaled(values: &[f64], largest: f64) -> Vec<f64> {
-    let exponent = libm::ilogb(largest);
-    values.iter().map(|&v| libm::scalbn(v, -exponent)).collect()
+    if spread < ROUNDING { Err(NoVariance::Rounding) } else { Ok(sum::rescaled(&centred).0) }
 }
 
 #[cfg(test)]

@@ -73,16 +73,13 @@ impl Evidence {
     }
 }
 
-/// What kind of points the rows are; `inputs` are those that vary.
+/// Independent draws, or too even for that; `inputs` are those that vary.
 ///
 /// Three tests, each with a chance of error far below 1e-6 a table: rows are counted in square grids over the ranks of
 /// pairs of inputs, and of row number and input (which sees a single sequence in its order), of which Pearson's
 /// statistic must not lie far in its lower tail; and the rank of an input must not step from row to row by a few
 /// numbers only (rank-1 and Kronecker lattices).
 pub(super) fn point_set(inputs: &[(&str, &Order)], rows: usize) -> PointSet {
-    if is_grid(inputs, rows) {
-        return PointSet::Grid;
-    }
     let fitting: Vec<usize> = GRIDS.into_iter().filter(|grid| grid * grid <= rows).collect();
     // About 1 to 16 rows a cell (more beyond the finest grid): even on different scales.
     let finest = fitting.iter().rev().take(3).rev();
@@ -95,8 +92,8 @@ pub(super) fn point_set(inputs: &[(&str, &Order)], rows: usize) -> PointSet {
     steps.map_or(PointSet::Independent, |(name, steps)| PointSet::TooEven(Evidence::Steps((*name).to_owned(), steps)))
 }
 
-/// As many different rows as there are combinations of values.
-fn is_grid(inputs: &[(&str, &Order)], rows: usize) -> bool {
+/// Whether there are as many different rows as combinations of values.
+pub(super) fn is_grid(inputs: &[(&str, &Order)], rows: usize) -> bool {
     let combinations = inputs.iter().map(|(_, order)| order.groups() as u128);
     let combinations = combinations.fold(1u128, |product, groups| product.saturating_mul(groups));
     if inputs.len() < 2 || combinations != rows as u128 {

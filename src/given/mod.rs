@@ -85,7 +85,9 @@ pub enum GivenError {
         row: usize,
     },
     /// Too few rows.
-    #[error("the table has {rows} usable rows; at least {FEWEST_ROWS} are needed, and some hundreds for narrow intervals")]
+    #[error(
+        "the table has {rows} usable rows; at least {FEWEST_ROWS} are needed, and some hundreds for narrow intervals"
+    )]
     TooFewRows {
         /// Rows found.
         rows: usize,
@@ -176,18 +178,17 @@ pub struct GivenIndices {
 /// assert!(interval.low < 0.9 && 0.9 < interval.high);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn analyse(
-    inputs: &[Column],
-    outputs: &[Column],
-    method: Method,
-    seed: u64,
-) -> Result<GivenIndices, GivenError> {
+pub fn analyse(inputs: &[Column], outputs: &[Column], method: Method, seed: u64) -> Result<GivenIndices, GivenError> {
     let rows = check(inputs, outputs)?;
     let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
     let varying: Vec<usize> = (0..inputs.len()).filter(|&j| orders[j].groups() > 1).collect();
     let varied: Vec<(&str, &Order)> = varying.iter().map(|&j| (inputs[j].name.as_str(), &orders[j])).collect();
-    repeats::check(&varied, rows)?;
-    let points = evenness::point_set(&varied, rows);
+    let points = if evenness::is_grid(&varied, rows) {
+        PointSet::Grid
+    } else {
+        repeats::check(&varied, rows)?;
+        evenness::point_set(&varied, rows)
+    };
     if let (Method::Rank, Some(reason)) = (method, points.reason()) {
         return Err(GivenError::RankRefused { reason });
     }

@@ -87,11 +87,8 @@ impl Tie {
 
 /// Standard error of the mean product of neighbours less S times the mean square.
 fn standard_error(rows: &[usize], z: &[f64], s: f64) -> f64 {
-    let w: Vec<f64> = rows
-        .windows(2)
-        .map(|pair| (z[pair[0]], z[pair[1]]))
-        .map(|(a, b)| a * b - s * (a * a + b * b) / 2.0)
-        .collect();
+    let w: Vec<f64> =
+        rows.windows(2).map(|pair| (z[pair[0]], z[pair[1]])).map(|(a, b)| a * b - s * (a * a + b * b) / 2.0).collect();
     let mean = w.iter().sum::<f64>() / w.len() as f64;
     let covariance = |lag: usize| {
         let pairs = w.iter().zip(&w[lag..]);

@@ -2,6 +2,8 @@
 
 mod build;
 pub mod chart;
+pub mod distribution;
+pub mod given;
 mod result;
 pub mod scene;
 mod shares_chart;

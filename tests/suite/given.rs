@@ -1,9 +1,7 @@
 //! Indices from given data: exact answers, honest intervals, and every table that must be refused.
 
 use apportion::design::Sampler;
-use apportion::given::{
-    Column, GivenError, GivenIndices, InputIndices, Method, NoVariance, PointSet, analyse,
-};
+use apportion::given::{Column, GivenError, GivenIndices, InputIndices, Method, NoVariance, PointSet, analyse};
 use apportion::model::KnownAnswer;
 use proptest::prelude::*;
 
@@ -17,8 +15,7 @@ fn named(columns: Columns) -> Vec<Column> {
 fn evaluated(function: KnownAnswer, columns: &Columns) -> Column {
     let inputs = function.inputs();
     let at = |row: usize| {
-        let x: Vec<f64> =
-            inputs.iter().zip(columns).map(|(i, column)| i.min + column[row] * (i.max - i.min)).collect();
+        let x: Vec<f64> = inputs.iter().zip(columns).map(|(i, column)| i.min + column[row] * (i.max - i.min)).collect();
         function.value(&x)
     };
     Column { name: "y".to_owned(), values: (0..columns[0].len()).map(at).collect() }
@@ -101,9 +98,9 @@ fn one_input_that_decides_everything_has_index_one() {
         let result = analysed(columns, y, Method::Both).unwrap();
         let rank = indices(&result)[0].rank.unwrap();
         let interval = rank.interval.unwrap();
-        // The pair that closes the circle of ranks costs 4/N or so, and the bound knows; what is left is the curvature
-        // within a step.
-        assert!((rank.estimate - 1.0).abs() < 5.0 / rows as f64);
+        // The pair that closes the circle of ranks costs (e - 1)^2/2 of the variance 0.242, over N: 6.1/N, and the bound
+        // knows; what is left is the change within a step.
+        assert!((rank.estimate - 1.0).abs() < 8.0 / rows as f64);
         assert!((interval.high - 1.0).abs() < 20.0 / (rows as f64).powi(2), "{rank:?}");
     }
 }
@@ -111,8 +108,10 @@ fn one_input_that_decides_everything_has_index_one() {
 #[test]
 fn discrete_inputs_are_inputs() {
     // y = 2 a + b + 10 with a and b fair coins: S = 0.8 and 0.2, exactly, with the sums of squares of the table.
-    let coins: Columns = random(2, 4000, 9).iter().map(|c| c.iter().map(|u| f64::from(u8::from(*u < 0.5))).collect()).collect();
-    let y = Column { name: "y".to_owned(), values: (0..4000).map(|k| 2.0 * coins[0][k] + coins[1][k] + 10.0).collect() };
+    let coins: Columns =
+        random(2, 4000, 9).iter().map(|c| c.iter().map(|u| f64::from(u8::from(*u < 0.5))).collect()).collect();
+    let y =
+        Column { name: "y".to_owned(), values: (0..4000).map(|k| 2.0 * coins[0][k] + coins[1][k] + 10.0).collect() };
     let result = analysed(coins, y, Method::Both).unwrap();
     for (index, exact) in indices(&result).iter().zip([0.8, 0.2]) {
         // The standard error of both is 0.009 for S = 0.8 (0.4 x 0.4 ... of the coins' frequencies); four of them.
