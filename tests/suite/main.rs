@@ -7,6 +7,7 @@ mod distributions;
 mod extremes;
 mod failures;
 mod given;
+mod given_data;
 mod metamorphic;
 mod points;
 mod workflows;
