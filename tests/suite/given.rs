@@ -101,7 +101,10 @@ fn one_input_that_decides_everything_has_index_one() {
         // The pair that closes the circle of ranks costs (e - 1)^2/2 of the variance 0.242, over N: 6.1/N, and the bound
         // knows; what is left is the change within a step.
         assert!((rank.estimate - 1.0).abs() < 8.0 / rows as f64);
-        assert!((interval.high - 1.0).abs() < 20.0 / (rows as f64).powi(2), "{rank:?}");
+        assert!(
+            interval.high > 1.0 - 20.0 / (rows as f64).powi(2) && interval.high < 1.0 + 3.0 / rows as f64,
+            "{rank:?}"
+        );
     }
 }
 

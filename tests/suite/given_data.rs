@@ -68,7 +68,9 @@ fn a_table_becomes_a_result() {
     assert_eq!(output.distribution.as_ref().unwrap().count, 500);
     for (index, exact) in output.indices.as_ref().unwrap().iter().zip([9.0, 4.0, 1.0]) {
         let rank = index.rank.unwrap();
-        assert!(rank.low.unwrap() < exact / 14.0 && exact / 14.0 < rank.high.unwrap(), "{index:?}");
+        // Four standard errors.
+        let width = rank.high.unwrap() - rank.low.unwrap();
+        assert!((rank.estimate - exact / 14.0).abs() < width && width < 0.2, "{index:?}");
     }
     let printed = stdout(&run.output);
     for part in ["500 rows, 3 inputs", "by ranks", "by bins", "note: given data yield first-order indices only"] {
@@ -136,10 +138,9 @@ fn rows_that_are_no_independent_draws_are_refused_or_warned_of() {
 
 #[test]
 fn an_output_that_does_not_vary_has_no_indices_but_a_reason() {
-    let content = table(&random(2, 60, 3))
-        .lines()
-        .map(|line| line.to_owned() + if line.ends_with('y') { ",c\n" } else { ",7\n" });
-    let run = Run::of(&content.collect::<String>(), &["--outputs", "y,c"]);
+    let plain = table(&random(2, 60, 3));
+    let extended = |line: &str| line.to_owned() + if line.ends_with('y') { ",c\n" } else { ",7\n" };
+    let run = Run::of(&plain.lines().map(extended).collect::<String>(), &["--outputs", "y,c"]);
     let result = run.result();
     assert!(result.outputs[0].indices.is_some());
     assert_eq!(
@@ -149,6 +150,7 @@ fn an_output_that_does_not_vary_has_no_indices_but_a_reason() {
     assert!(stdout(&run.output).contains("no indices: the output is constant"));
 }
 
+#[cfg(unix)]
 #[test]
 fn the_table_is_never_overwritten() {
     let folder = tempfile::tempdir().unwrap();
