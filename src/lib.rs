@@ -20,6 +20,7 @@
 //! | [`estimate`] | centred sums of constant size, and the indices read from them |
 //! | [`run`] | a design through a model: fixed blocks on a thread pool, merged in a fixed tree |
 //! | [`uncertainty`] | intervals from independent replicates |
+//! | [`given`] | first-order indices from a table that exists already |
 //! | [`study`] | studies: the file as typed, and what it means |
 //! | [`report`] | results as JSON, CSV, text and charts; files written whole or not at all |
 //! | [`simulation`] | one scene of a study in time |
@@ -65,6 +66,7 @@ mod analysis;
 pub mod design;
 pub mod estimate;
 pub mod exchange;
+pub mod given;
 pub mod model;
 pub mod quantity;
 pub mod report;

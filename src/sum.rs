@@ -39,6 +39,14 @@ pub fn centred_product((x, mean_x): (&[f64], f64), (y, mean_y): (&[f64], f64)) -
     sum_by(n, |i| (x[i] - mean_x) * (y[i] - mean_y))
 }
 
+/// The values times 2^-e, and e, which brings the largest magnitude between 1 and 2: sums of powers of them can neither
+/// overflow nor vanish, and no digit is lost. Values are finite; e is 0 if all are zero.
+pub(crate) fn rescaled(x: &[f64]) -> (Vec<f64>, i32) {
+    let largest = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let exponent = if largest == 0.0 { 0 } else { libm::ilogb(largest) };
+    (x.iter().map(|&v| libm::scalbn(v, -exponent)).collect(), exponent)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,6 +2,7 @@
 
 mod check;
 mod evaluate;
+mod given_data;
 mod models;
 mod progress;
 mod reproduce;
@@ -36,6 +37,8 @@ enum Command {
     Run(run::Arguments),
     /// Evaluate a study's model at points from a CSV file
     Evaluate(evaluate::Arguments),
+    /// First-order indices from a table of inputs and outputs that exists already
+    GivenData(given_data::Arguments),
     /// Explain a study before running it: factors, cost (by a short pilot), memory, files
     Check(check::Arguments),
     /// Follow one scene of a study in time, every factor at its nominal value: forces, positions, contacts
@@ -160,6 +163,7 @@ pub fn main() -> ExitCode {
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
+        Command::GivenData(arguments) => given_data::given_data(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Simulate(arguments) => simulate::simulate(&arguments),
         Command::Models(arguments) => models::models(&arguments),

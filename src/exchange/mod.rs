@@ -2,6 +2,8 @@
 
 mod evaluate;
 mod points;
+mod table;
 
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use points::{PointsError, PointsReader};
+pub use table::{DroppedRows, Missing, Selection, Table, TableError, read_table};

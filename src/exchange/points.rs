@@ -71,13 +71,13 @@ fn hint(nearest: &Option<String>) -> String {
 
 /// A text with `\n` for every end of line, also after the last one: what it takes for the reader of CSV to know which
 /// line it has come to.
-struct PlainLines<R: Read> {
+pub(super) struct PlainLines<R: Read> {
     bytes: std::iter::Peekable<std::io::Bytes<std::io::BufReader<R>>>,
     last: u8,
 }
 
 impl<R: Read> PlainLines<R> {
-    fn new(reader: R) -> Self {
+    pub(super) fn new(reader: R) -> Self {
         Self { bytes: std::io::BufReader::new(reader).bytes().peekable(), last: b'\n' }
     }
 

@@ -3,6 +3,8 @@
 mod build;
 mod build_output;
 pub mod chart;
+pub mod distribution;
+pub mod given;
 mod result;
 pub mod scene;
 mod shares_chart;

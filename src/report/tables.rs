@@ -191,7 +191,7 @@ fn csv_line(output: &str, (kind, name): (&str, &str), effect: &EffectRecord) -> 
 }
 
 /// A text as a CSV field, quoted where it must be (RFC 4180).
-fn csv_field(text: &str) -> String {
+pub(super) fn csv_field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 

@@ -1,0 +1,117 @@
+//! `apportion given-data`: first-order indices from a table that exists already.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use apportion::exchange::{Missing, Selection, Table, read_table};
+use apportion::given::{Method, analyse};
+use apportion::report::chart::png;
+use apportion::report::given::{GivenFacts, GivenFile, build_given, given_chart, given_csv, given_json, given_summary};
+use apportion::report::{prepare_file, prepare_folder, write_atomically};
+use sha2::{Digest, Sha256};
+
+use super::run::default_folder;
+use super::{Failure, print, say};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The table: CSV with a header of column names, then one line of numbers per run
+    table: PathBuf,
+    /// Columns that are outputs, separated by commas
+    #[arg(long, value_name = "NAMES", required = true, value_delimiter = ',', value_parser = column_name)]
+    outputs: Vec<String>,
+    /// Columns that are inputs, separated by commas [default: all that are no outputs]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
+    inputs: Vec<String>,
+    /// How to estimate: by ranks, by bins, or by ranks with the bins as a check
+    #[arg(long, value_name = "METHOD", default_value = "both", value_parser = parse_method)]
+    method: Method,
+    /// Leave out rows without a value in one of these columns, and count them
+    #[arg(long)]
+    drop_missing: bool,
+    /// Seed of the order of equal inputs in the intervals by ranks; the estimates do not depend on it
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+    /// Folder for the results [default: results/NAME of the table]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+fn column_name(text: &str) -> Result<String, String> {
+    let name = text.trim();
+    if name.is_empty() { Err("expected names of columns, separated by commas".to_owned()) } else { Ok(name.to_owned()) }
+}
+
+fn parse_method(text: &str) -> Result<Method, String> {
+    let names = Method::ALL.map(Method::name).join(", ");
+    Method::ALL.into_iter().find(|method| method.name() == text).ok_or_else(|| format!("expected one of {names}"))
+}
+
+pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
+    let path = arguments.table.display();
+    let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{path}: {error}"));
+    let bytes = std::fs::read(&arguments.table).map_err(|error| wrong(&format!("cannot read the table: {error}")))?;
+    let missing = if arguments.drop_missing { Missing::Drop } else { Missing::Refuse };
+    let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing };
+    let Table { inputs, outputs, dropped } = read_table(&bytes[..], &selection).map_err(|error| wrong(&error))?;
+    let indices = analyse(&inputs, &outputs, arguments.method, arguments.seed).map_err(|error| wrong(&error))?;
+    let facts = GivenFacts {
+        file: path.to_string(),
+        sha256: Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect(),
+        dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
+        method: arguments.method,
+        seed: arguments.seed,
+    };
+    let result = build_given(&indices, (&inputs, &outputs), &facts);
+    let files = write_files(arguments, &result)?;
+    print(&given_summary(&result))?;
+    for file in files {
+        say(&format!("wrote {}", file.display()));
+    }
+    Ok(())
+}
+
+fn write_files(arguments: &Arguments, result: &GivenFile) -> Result<Vec<PathBuf>, Failure> {
+    let stem =
+        arguments.table.file_stem().map_or_else(|| "table".to_owned(), |stem| stem.to_string_lossy().into_owned());
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&stem));
+    prepare_folder(&folder)?;
+    let mut written = Vec::new();
+    let mut write = |name: String, bytes: &[u8]| -> Result<(), Failure> {
+        let path = folder.join(name);
+        // A second run of a table called `x.csv` in the folder of its results must not take its place.
+        if same_file(&path, &arguments.table) {
+            return Err(Failure::Input(anyhow!("{}: this is the table itself; choose another --out", path.display())));
+        }
+        prepare_file(&path)?;
+        write_atomically(&path, bytes)?;
+        written.push(path);
+        Ok(())
+    };
+    write(format!("{stem}.json"), given_json(result).as_bytes())?;
+    write(format!("{stem}-indices.csv"), given_csv(result).as_bytes())?;
+    let names: Vec<String> = result.outputs.iter().map(|output| file_name(&output.name)).collect();
+    for (place, output) in result.outputs.iter().enumerate() {
+        let name = match &names[..place] {
+            [] if names.len() == 1 => stem.clone(),
+            // Names that differ may be alike as names of files.
+            before if before.contains(&names[place]) => format!("{stem}-{}-{}", names[place], place + 1),
+            _ => format!("{stem}-{}", names[place]),
+        };
+        let svg = given_chart(result, output).map_err(|error| Failure::Run(error.into()))?;
+        write(format!("{name}.svg"), svg.as_bytes())?;
+        let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
+        write(format!("{name}.png"), &picture.bytes)?;
+    }
+    Ok(written)
+}
+
+fn same_file(a: &Path, b: &Path) -> bool {
+    let real = |path: &Path| std::fs::canonicalize(path).ok();
+    real(a).zip(real(b)).is_some_and(|(a, b)| a == b)
+}
+
+/// A column's name as part of a file's name.
+fn file_name(column: &str) -> String {
+    column.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect()
+}

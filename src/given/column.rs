@@ -1,0 +1,71 @@
+//! Columns of a table, and an output prepared for sums.
+
+use thiserror::Error;
+
+use crate::sum;
+
+/// A named column of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its header.
+    pub name: String,
+    /// Its values, one per row, finite.
+    pub values: Vec<f64>,
+}
+
+/// Why there are no indices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum NoVariance {
+    /// All values are equal.
+    #[error("the output is constant")]
+    Constant,
+    /// The values differ by rounding errors only.
+    #[error("the output varies by less than the rounding errors of its values")]
+    Rounding,
+}
+
+/// Values whose spread is below this many units in the last place of the largest one are taken for rounding errors.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// The values less their mean, times a power of two that makes the largest about 1: no square of them can overflow or
+/// vanish, and no digit is lost.
+///
+/// # Errors
+/// [`NoVariance`] if nothing is left but zeros or rounding errors.
+pub(super) fn centred(values: &[f64]) -> Result<Vec<f64>, NoVariance> {
+    if values.windows(2).all(|pair| pair[0] == pair[1]) {
+        return Err(NoVariance::Constant);
+    }
+    let (scaled, _) = sum::rescaled(values);
+    let mean = sum::mean(&scaled);
+    let centred: Vec<f64> = scaled.iter().map(|v| v - mean).collect();
+    let spread = centred.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    // The largest of `scaled` lies between 1 and 2.
+    if spread < ROUNDING { Err(NoVariance::Rounding) } else { Ok(sum::rescaled(&centred).0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extremes_come_to_order_one() {
+        for scale in [1e-300, 1.0, 1e307] {
+            let values = [-17.0 * scale, 3.0 * scale, 5.0 * scale];
+            let centred = centred(&values).unwrap();
+            assert!(centred.iter().sum::<f64>().abs() < 1e-15, "the sum of three numbers near 1");
+            assert!((centred[1] - centred[2]).abs() / (centred[0] - centred[2]).abs() - 2.0 / 22.0 < 1e-15);
+        }
+        assert!(centred(&[f64::MAX, -f64::MAX, 0.0]).unwrap().iter().all(|v| v.abs() < 2.0));
+        // The smallest numbers there are.
+        assert!(centred(&[5e-324, 0.0]).is_ok());
+    }
+
+    #[test]
+    fn no_variance_has_a_name() {
+        assert_eq!(centred(&[4.0; 9]), Err(NoVariance::Constant));
+        assert_eq!(centred(&[0.0; 9]), Err(NoVariance::Constant));
+        assert_eq!(centred(&[1.0, 1.0 + f64::EPSILON, 1.0]), Err(NoVariance::Rounding));
+        assert!(centred(&[1.0, 1.0 + 1e-12, 1.0]).is_ok());
+    }
+}

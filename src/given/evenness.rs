@@ -1,0 +1,208 @@
+//! Are the rows independent draws, or too even for that?
+//!
+//! Quasi-random points (Sobol', Halton, lattices) fill space more evenly than chance does. That serves integrals, but
+//! neighbours in one input then are systematically far apart in the others, and the rank estimator, which takes
+//! neighbours for independent draws of the others, does not converge: on Sobol' points its error is 0.1 to 0.3 at any
+//! size. Latin hypercubes are even in each input alone, which ranks do not see; there it converges.
+
+use super::order::Order;
+
+/// Classes per input of the grids on which rows are counted.
+pub(super) const GRIDS: [usize; 6] = [4, 8, 16, 32, 64, 128];
+
+/// A standard normal number below which counts are too even. By chance it is reached with probability 1e-9 a test.
+const TOO_EVEN: f64 = -6.0;
+
+/// Fewest degrees of freedom of a test: with fewer, perfectly even counts occur by chance.
+const LEAST_FREEDOM: f64 = 27.0;
+
+/// Pairs of inputs that are looked at.
+const MOST_PAIRS: usize = 500;
+
+/// What kind of points the rows of a table are.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PointSet {
+    /// Nothing speaks against independent draws. (A Latin hypercube counts as such.)
+    Independent,
+    /// Too even for independent draws: quasi-random points.
+    TooEven(Evidence),
+    /// Every combination of the values of the inputs, once.
+    Grid,
+}
+
+/// What gave quasi-random points away.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Evidence {
+    /// Counts of rows in a grid over two inputs (pooled over all pairs if no names are given), which are more even than
+    /// independent draws allow: by so many standard deviations of a normal number.
+    Inputs(Option<(String, String)>, f64),
+    /// Counts of rows in a grid over row number and input (pooled over all inputs if no name is given).
+    Rows(Option<String>, f64),
+    /// From row to row the rank of this input moves by one of a few steps, as in a lattice.
+    Steps(String, usize),
+}
+
+impl PointSet {
+    /// Why ranks are refused, in words; `None` for independent rows.
+    pub fn reason(&self) -> Option<String> {
+        match self {
+            Self::Independent => None,
+            Self::Grid => Some("the rows are a full grid of the inputs' values, not independent draws".to_owned()),
+            Self::TooEven(evidence) => Some(format!(
+                "the rows are quasi-random points (Sobol', Halton, lattice) or as even as such: {}",
+                evidence.words()
+            )),
+        }
+    }
+}
+
+impl Evidence {
+    fn words(&self) -> String {
+        let counts = |place: String, z: f64| {
+            format!("counts over a grid of {place} are too even for independent draws (z = {z:.1}; chance ends at -6)")
+        };
+        match self {
+            Self::Inputs(Some((a, b)), z) => counts(format!("`{a}` and `{b}`"), *z),
+            Self::Inputs(None, z) => counts("pairs of inputs".to_owned(), *z),
+            Self::Rows(Some(a), z) => counts(format!("row number and `{a}`"), *z),
+            Self::Rows(None, z) => counts("row number and each input".to_owned(), *z),
+            Self::Steps(a, steps) => {
+                format!("from row to row the rank of `{a}` moves by one of only {steps} different steps")
+            }
+        }
+    }
+}
+
+/// Independent draws, or too even for that; `inputs` are those that vary.
+///
+/// Three tests, each with a chance of error far below 1e-6 a table: rows are counted in square grids over the ranks of
+/// pairs of inputs, and of row number and input (which sees a single sequence in its order), of which Pearson's
+/// statistic must not lie far in its lower tail; and the rank of an input must not step from row to row by a few
+/// numbers only (rank-1 and Kronecker lattices).
+pub(super) fn point_set(inputs: &[(&str, &Order)], rows: usize) -> PointSet {
+    let fitting: Vec<usize> = GRIDS.into_iter().filter(|grid| grid * grid <= rows).collect();
+    // About 1 to 16 rows a cell (more beyond the finest grid): even on different scales.
+    let finest = fitting.iter().rev().take(3).rev();
+    for &grid in finest {
+        if let Some(evidence) = too_even(inputs, rows, grid) {
+            return PointSet::TooEven(evidence);
+        }
+    }
+    let steps = inputs.iter().find_map(|(name, order)| Some((name, few_steps(order, rows)?)));
+    steps.map_or(PointSet::Independent, |(name, steps)| PointSet::TooEven(Evidence::Steps((*name).to_owned(), steps)))
+}
+
+/// Whether there are as many different rows as combinations of values.
+pub(super) fn is_grid(inputs: &[(&str, &Order)], rows: usize) -> bool {
+    let combinations = inputs.iter().map(|(_, order)| order.groups() as u128);
+    let combinations = combinations.fold(1u128, |product, groups| product.saturating_mul(groups));
+    if inputs.len() < 2 || combinations != rows as u128 {
+        return false;
+    }
+    // Each combination has its number; all are taken if none is taken twice.
+    let mut seen = vec![false; rows];
+    let mut numbers = vec![0usize; rows];
+    for (_, order) in inputs {
+        for (number, label) in numbers.iter_mut().zip(order.labels()) {
+            *number = *number * order.groups() + label;
+        }
+    }
+    numbers.into_iter().all(|number| !std::mem::replace(&mut seen[number], true))
+}
+
+/// Rows in classes by an input, and the number of classes.
+type Classes = (Vec<usize>, usize);
+
+fn too_even(inputs: &[(&str, &Order)], rows: usize, grid: usize) -> Option<Evidence> {
+    let classes: Vec<Classes> = inputs.iter().map(|(_, order)| order.classes(grid)).collect();
+    let row_classes = ((0..rows).map(|row| row * grid / rows).collect(), grid);
+    let mut pooled = Deviation::default();
+    let mut by_row = Deviation::default();
+    for ((name, _), classes) in inputs.iter().zip(&classes) {
+        let Some(one) = deviation(&row_classes, classes) else { continue };
+        if let Some(z) = one.too_even() {
+            return Some(Evidence::Rows(Some((*name).to_owned()), z));
+        }
+        by_row.add(one);
+    }
+    for (i, j) in nearest_pairs(inputs.len()) {
+        let Some(one) = deviation(&classes[i], &classes[j]) else { continue };
+        if let Some(z) = one.too_even() {
+            return Some(Evidence::Inputs(Some((inputs[i].0.to_owned(), inputs[j].0.to_owned())), z));
+        }
+        pooled.add(one);
+    }
+    let rows = by_row.too_even().map(|z| Evidence::Rows(None, z));
+    rows.or_else(|| pooled.too_even().map(|z| Evidence::Inputs(None, z)))
+}
+
+/// Pairs of column numbers, neighbours first, as many as are looked at.
+fn nearest_pairs(columns: usize) -> impl Iterator<Item = (usize, usize)> {
+    (1..columns).flat_map(move |lag| (lag..columns).map(move |j| (j - lag, j))).take(MOST_PAIRS)
+}
+
+/// Pearson's chi-square statistic with its degrees of freedom.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Deviation {
+    statistic: f64,
+    freedom: f64,
+}
+
+impl Deviation {
+    fn add(&mut self, other: Self) {
+        self.statistic += other.statistic;
+        self.freedom += other.freedom;
+    }
+
+    /// The statistic as a standard normal number (Wilson and Hilferty 1931): far below 0 if counts are too even, far
+    /// above if the columns depend on each other.
+    pub fn normal(self) -> f64 {
+        let v = 2.0 / (9.0 * self.freedom);
+        ((self.statistic / self.freedom).cbrt() - (1.0 - v)) / v.sqrt()
+    }
+
+    fn too_even(self) -> Option<f64> {
+        Some(self.normal()).filter(|&z| self.freedom >= LEAST_FREEDOM && z < TOO_EVEN)
+    }
+}
+
+/// How the counts of rows over two classifications deviate from independence; `None` if either has one class.
+pub(super) fn deviation((a, a_classes): &Classes, (b, b_classes): &Classes) -> Option<Deviation> {
+    let (rows, columns) = (*a_classes, *b_classes);
+    if rows < 2 || columns < 2 {
+        return None;
+    }
+    let mut counts = vec![0u32; rows * columns];
+    for (&a, &b) in a.iter().zip(b) {
+        counts[a * columns + b] += 1;
+    }
+    let count = |k: usize| f64::from(counts[k]);
+    let row_sums: Vec<f64> = (0..rows).map(|r| (0..columns).map(|c| count(r * columns + c)).sum()).collect();
+    let column_sums: Vec<f64> = (0..columns).map(|c| (0..rows).map(|r| count(r * columns + c)).sum()).collect();
+    let n = a.len() as f64;
+    let mut statistic = 0.0;
+    for (r, row_sum) in row_sums.iter().enumerate() {
+        for (c, column_sum) in column_sums.iter().enumerate() {
+            let expected = row_sum * column_sum / n;
+            statistic += (count(r * columns + c) - expected).powi(2) / expected;
+        }
+    }
+    // With fixed sums of rows and columns its mean is the freedom times n/(n - 1).
+    statistic *= (n - 1.0) / n;
+    Some(Deviation { statistic, freedom: ((rows - 1) * (columns - 1)) as f64 })
+}
+
+/// The number of different steps, modulo the number of rows, by which the rank of an input moves from row to row, if it
+/// is far below the 63 % of the rows that independent draws have; `None` too for a column with ties, and for one that
+/// moves to a close rank most of the time, as sorted columns and time series do.
+fn few_steps(order: &Order, rows: usize) -> Option<usize> {
+    if order.groups() < rows {
+        return None;
+    }
+    let rank = order.labels();
+    let mut steps: Vec<usize> = rank.windows(2).map(|pair| (pair[1] + rows - pair[0]) % rows).collect();
+    steps.sort_unstable();
+    let close = steps.iter().filter(|&&step| step.min(rows - step) <= (rows / 50).max(2)).count();
+    let different = steps.chunk_by(|a, b| a == b).count();
+    (close * 2 < steps.len() && different * 4 <= rows).then_some(different)
+}

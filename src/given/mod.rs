@@ -1,0 +1,224 @@
+//! First-order Sobol' indices from data that exist already: a table of inputs and outputs, whoever made it.
+//!
+//! There is no design to rely on, so nothing but S_j = V(E[Y|X_j])/V(Y) can be estimated, and only from rows that are
+//! independent draws. [`analyse`] looks at the rows first ([`PointSet`]) and refuses what would give wrong numbers; then
+//! it estimates by [`rank`](rank_first_order) and by [`bins`](binned_first_order), two methods that share nothing but
+//! the data.
+
+mod binned;
+mod column;
+mod dependence;
+mod evenness;
+mod order;
+mod outcome;
+mod rank;
+mod repeats;
+
+use thiserror::Error;
+
+pub use binned::{Binned, binned_first_order, bins_for};
+pub use column::{Column, NoVariance};
+pub use dependence::{Dependence, PairDependence};
+pub use evenness::{Evidence, PointSet};
+pub use outcome::{InputIndices, OutputIndices};
+pub use rank::rank_first_order;
+
+use column::centred;
+use order::Order;
+
+/// Fewest rows that are analysed: below, an interval is wider than the range of an index.
+pub const FEWEST_ROWS: usize = 30;
+
+/// How indices are estimated from given data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// By ranks: [`rank_first_order`].
+    Rank,
+    /// By bins: [`binned_first_order`].
+    Binned,
+    /// By ranks, with the bins as a check.
+    #[default]
+    Both,
+}
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Rank, Self::Binned, Self::Both];
+
+    /// The name on the command line and in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rank => "rank",
+            Self::Binned => "binned",
+            Self::Both => "both",
+        }
+    }
+}
+
+/// Why a table is not analysed.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum GivenError {
+    /// No input, or no output.
+    #[error("the table needs at least one input and one output: it has {inputs} and {outputs}")]
+    Nothing {
+        /// Number of inputs.
+        inputs: usize,
+        /// Number of outputs.
+        outputs: usize,
+    },
+    /// Columns of different lengths.
+    #[error("column `{name}` has {found} rows, the first one has {expected}")]
+    Length {
+        /// The column.
+        name: String,
+        /// Its rows.
+        found: usize,
+        /// Rows of the first column.
+        expected: usize,
+    },
+    /// A value that is NaN or infinite.
+    #[error("column `{name}`, row {row} (from 1): a value is not finite")]
+    NotFinite {
+        /// The column.
+        name: String,
+        /// The row, from 1.
+        row: usize,
+    },
+    /// Too few rows.
+    #[error(
+        "the table has {rows} usable rows; at least {FEWEST_ROWS} are needed, and some hundreds for narrow intervals"
+    )]
+    TooFewRows {
+        /// Rows found.
+        rows: usize,
+    },
+    /// The rows of a Saltelli design.
+    #[error(
+        "the rows are those of a pick-freeze (Saltelli) design: values of an input return in other rows together with \
+         those of other inputs. Rows that share values are not independent, and indices from them as from given data \
+         would be wrong. Analyse the design as such, or keep only its rows A and B"
+    )]
+    PickFreeze,
+    /// The rows of a one-at-a-time design.
+    #[error(
+        "the rows are those of a one-at-a-time design (Morris trajectories, for one): {pairs} of {rows} rows differ from \
+         the row before in a single input. They are not independent draws, and indices from them would be wrong. Analyse \
+         the design as such"
+    )]
+    OneAtATime {
+        /// Rows that differ from the one before in one input only.
+        pairs: usize,
+        /// Rows of the table.
+        rows: usize,
+    },
+    /// Rows that repeat the inputs of others.
+    #[error(
+        "{repeated} of {rows} rows repeat the inputs of an earlier row. Rows with the same value of one input then share \
+         the others too, and every index would come out too large. Keep one row of each, or their average"
+    )]
+    RepeatedRows {
+        /// Rows that repeat an earlier one.
+        repeated: usize,
+        /// Rows of the table.
+        rows: usize,
+    },
+    /// Ranks were asked for, but the rows do not allow it.
+    #[error(
+        "the rank estimator is refused: {reason}. On such points it does not converge, however many there are; method \
+         `binned` remains"
+    )]
+    RankRefused {
+        /// What was found.
+        reason: String,
+    },
+}
+
+/// What came out of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GivenIndices {
+    /// Rows used.
+    pub rows: usize,
+    /// What kind of points the rows are.
+    pub points: PointSet,
+    /// How the inputs depend on each other; `None` with fewer than two inputs that vary.
+    pub dependence: Option<Dependence>,
+    /// One entry per output.
+    pub outputs: Vec<OutputIndices>,
+}
+
+/// First-order indices of every output with respect to every input.
+///
+/// `inputs` and `outputs` are columns of one length, in any units: indices have none. `seed` orders tied input values
+/// for the interval of the rank estimator; the estimates do not depend on it.
+///
+/// # Errors
+/// [`GivenError`]: no columns, columns of different lengths, values that are not finite, fewer than [`FEWEST_ROWS`] rows,
+/// rows that are not independent because they belong to a design or repeat each other, or [`Method::Rank`] on points for
+/// which it does not converge. (With [`Method::Both`] such points are analysed by bins alone.)
+///
+/// # Example
+/// ```
+/// use apportion::given::{Column, Method, analyse};
+///
+/// // y = 3 a + b with independent uniform a and b: exactly S_a = 0.9, S_b = 0.1.
+/// let mut state = 7u64;
+/// let mut uniform = || {
+///     state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+///     (state >> 11) as f64 / (1u64 << 53) as f64
+/// };
+/// let a = Column { name: "a".into(), values: (0..2000).map(|_| uniform()).collect() };
+/// let b = Column { name: "b".into(), values: (0..2000).map(|_| uniform()).collect() };
+/// let values = a.values.iter().zip(&b.values).map(|(a, b)| 3.0 * a + b).collect();
+/// let y = Column { name: "y".into(), values };
+///
+/// let result = analyse(&[a, b], &[y], Method::Both, 0)?;
+/// let indices = result.outputs[0].indices.as_ref().map_err(|no_variance| no_variance.to_string())?;
+/// let s_a = indices[0].rank.ok_or("no estimate")?;
+/// let interval = s_a.interval.ok_or("no interval")?;
+/// assert!(interval.low < 0.9 && 0.9 < interval.high);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn analyse(inputs: &[Column], outputs: &[Column], method: Method, seed: u64) -> Result<GivenIndices, GivenError> {
+    let rows = check(inputs, outputs)?;
+    let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
+    let varying: Vec<usize> = (0..inputs.len()).filter(|&j| orders[j].groups() > 1).collect();
+    let varied: Vec<(&str, &Order)> = varying.iter().map(|&j| (inputs[j].name.as_str(), &orders[j])).collect();
+    let points = if evenness::is_grid(&varied, rows) {
+        PointSet::Grid
+    } else {
+        repeats::check(&varied, rows)?;
+        evenness::point_set(&varied, rows)
+    };
+    if let (Method::Rank, Some(reason)) = (method, points.reason()) {
+        return Err(GivenError::RankRefused { reason });
+    }
+    let dependence = dependence::between(&varied, rows);
+    let settings = outcome::Settings {
+        rank: method != Method::Binned && points == PointSet::Independent,
+        binned: method != Method::Rank,
+        independent: points == PointSet::Independent,
+        seed,
+    };
+    let outputs = outputs.iter().map(|output| outcome::of_output(output, inputs, &orders, settings)).collect();
+    Ok(GivenIndices { rows, points, dependence, outputs })
+}
+
+/// The number of rows, if the table can be analysed at all.
+fn check(inputs: &[Column], outputs: &[Column]) -> Result<usize, GivenError> {
+    let Some(first) = inputs.first().filter(|_| !outputs.is_empty()) else {
+        return Err(GivenError::Nothing { inputs: inputs.len(), outputs: outputs.len() });
+    };
+    let rows = first.values.len();
+    for Column { name, values } in inputs.iter().chain(outputs) {
+        if values.len() != rows {
+            return Err(GivenError::Length { name: name.clone(), found: values.len(), expected: rows });
+        }
+        if let Some(row) = values.iter().position(|value| !value.is_finite()) {
+            return Err(GivenError::NotFinite { name: name.clone(), row: row + 1 });
+        }
+    }
+    if rows < FEWEST_ROWS {
+        return Err(GivenError::TooFewRows { rows });
+    }
+    Ok(rows)
+}

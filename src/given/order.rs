@@ -1,0 +1,164 @@
+//! The rows of a table in the order of one column.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// Rows sorted by a column, with its ties.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Order {
+    /// Row numbers in ascending order of their values; rows of equal values in ascending order of their numbers.
+    rows: Vec<usize>,
+    /// Where each group of equal values begins in `rows`; at the end the number of rows.
+    starts: Vec<usize>,
+}
+
+impl Order {
+    /// The order of `values`, which are finite. -0 and 0 are equal.
+    pub fn of(values: &[f64]) -> Self {
+        let mut rows: Vec<usize> = (0..values.len()).collect();
+        let by_value = |a: &usize, b: &usize| (values[*a] + 0.0).total_cmp(&(values[*b] + 0.0)).then(a.cmp(b));
+        rows.sort_unstable_by(by_value);
+        let new = |&k: &usize| k == 0 || values[rows[k]] != values[rows[k - 1]];
+        let mut starts: Vec<usize> = (0..rows.len()).filter(new).collect();
+        starts.push(rows.len());
+        Self { rows, starts }
+    }
+
+    /// Number of different values.
+    pub fn groups(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The rows of each value, in ascending order of the values.
+    pub fn iter(&self) -> impl Iterator<Item = &[usize]> {
+        self.starts.windows(2).map(|ends| &self.rows[ends[0]..ends[1]])
+    }
+
+    /// Pairs of rows with equal values.
+    pub fn tied_pairs(&self) -> f64 {
+        self.iter().map(|group| group.len() as f64 * (group.len() - 1) as f64 / 2.0).sum()
+    }
+
+    /// The number of its value, from 0, for every row.
+    pub fn labels(&self) -> Vec<usize> {
+        self.spread(|place, _| place)
+    }
+
+    /// For every row, the mean rank of its value, from 0, less that of all rows.
+    pub fn centred_ranks(&self) -> Vec<f64> {
+        let middle = (self.rows.len() as f64 - 1.0) / 2.0;
+        let mut before = 0;
+        self.spread(|_, group| {
+            let rank = before as f64 + (group.len() as f64 - 1.0) / 2.0 - middle;
+            before += group.len();
+            rank
+        })
+    }
+
+    /// The rows in order, ties shuffled.
+    pub fn shuffled(&self, seed: u64, stream: u64) -> Vec<usize> {
+        let mut rows = self.rows.clone();
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        rng.set_stream(stream);
+        for ends in self.starts.windows(2) {
+            let group = &mut rows[ends[0]..ends[1]];
+            for k in (1..group.len()).rev() {
+                group.swap(k, rng.random_range(0..=k as u64) as usize);
+            }
+        }
+        rows
+    }
+
+    /// For every row the number, from 0, of one of at most `wanted` classes of about equal size that keep equal values
+    /// together, and the number of classes. None is smaller than half of what equal sizes would give.
+    pub fn classes(&self, wanted: usize) -> (Vec<usize>, usize) {
+        let n = self.rows.len();
+        let least = n.div_ceil(2 * wanted);
+        // For each value its class: a new one when the middle of its ranks has passed a boundary.
+        let mut class_of = Vec::with_capacity(self.groups());
+        let (mut class, mut slot, mut size) = (0, 0, 0);
+        for ends in self.starts.windows(2) {
+            let middle = (ends[0] + ends[1] - 1) / 2;
+            let target = middle * wanted / n;
+            if target > slot && size >= least {
+                (class, size) = (class + 1, 0);
+            }
+            slot = target;
+            size += ends[1] - ends[0];
+            class_of.push(class);
+        }
+        if size < least && class > 0 {
+            class_of.iter_mut().rev().take_while(|c| **c == class).for_each(|c| *c -= 1);
+            class -= 1;
+        }
+        (self.spread(|place, _| class_of[place]), class + 1)
+    }
+
+    /// A value per row from one per group.
+    fn spread<T: Copy + Default>(&self, mut of: impl FnMut(usize, &[usize]) -> T) -> Vec<T> {
+        let mut spread = vec![T::default(); self.rows.len()];
+        for (place, group) in self.iter().enumerate() {
+            let value = of(place, group);
+            group.iter().for_each(|&row| spread[row] = value);
+        }
+        spread
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn small_orders_by_hand() {
+        let order = Order::of(&[3.0, -0.0, 3.0, 1.0, 0.0]);
+        let groups: Vec<&[usize]> = order.iter().collect();
+        assert_eq!(groups, [&[1, 4][..], &[3], &[0, 2]]);
+        assert_eq!((order.groups(), order.tied_pairs()), (3, 2.0));
+        assert_eq!(order.labels(), [2, 0, 2, 1, 0]);
+        assert_eq!(order.centred_ranks(), [1.5, -1.5, 1.5, 0.0, -1.5]);
+        assert_eq!(order.classes(2), (vec![1, 0, 1, 0, 0], 2));
+        assert_eq!(Order::of(&[2.0; 4]).classes(3), (vec![0; 4], 1));
+    }
+
+    #[test]
+    fn values_without_ties_fill_classes_evenly() {
+        let values: Vec<f64> = (0..64).map(|k| f64::from(k * 37 % 64)).collect();
+        let (classes, count) = Order::of(&values).classes(8);
+        assert_eq!(count, 8);
+        for class in 0..8 {
+            assert_eq!(classes.iter().filter(|&&c| c == class).count(), 8);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn classes_keep_ties_and_a_least_size(values in prop::collection::vec(0..9i32, 2..80), wanted in 1..12usize) {
+            let values: Vec<f64> = values.into_iter().map(f64::from).collect();
+            let (classes, count) = Order::of(&values).classes(wanted);
+            prop_assert!(count <= wanted.max(1));
+            for class in 0..count {
+                let size = classes.iter().filter(|&&c| c == class).count();
+                prop_assert!(size >= values.len().div_ceil(2 * wanted) || count == 1);
+            }
+            for (i, a) in values.iter().enumerate() {
+                for (j, b) in values.iter().enumerate() {
+                    prop_assert!(a != b || classes[i] == classes[j]);
+                    prop_assert!(a >= b || classes[i] <= classes[j]);
+                }
+            }
+        }
+
+        #[test]
+        fn shuffling_stays_within_ties(values in prop::collection::vec(0..5i32, 2..60), seed in any::<u64>()) {
+            let values: Vec<f64> = values.into_iter().map(f64::from).collect();
+            let order = Order::of(&values);
+            let mut rows = order.shuffled(seed, 3);
+            prop_assert_eq!(&rows, &order.shuffled(seed, 3));
+            prop_assert!(rows.windows(2).all(|pair| values[pair[0]] <= values[pair[1]]));
+            rows.sort_unstable();
+            prop_assert_eq!(rows, (0..values.len()).collect::<Vec<_>>());
+        }
+    }
+}

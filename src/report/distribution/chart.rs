@@ -1,0 +1,120 @@
+//! Histogram and density of an output in one picture.
+
+use super::OutputDistribution;
+use crate::report::chart::{Axis, ChartError, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use crate::report::significant;
+
+/// The words and colour of a density chart.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DensityWords<'a> {
+    /// Headline.
+    pub title: &'a str,
+    /// The output, as words: title of the horizontal axis.
+    pub output: &'a str,
+    /// Colour of density and histogram.
+    pub role: Role,
+}
+
+/// Draws the distribution of an output as an SVG document: the histogram as a light area of steps, the kernel density as a
+/// line, and marks at the mean and at the 2.5, 50 and 97.5 % quantiles. A constant output has its mark alone.
+///
+/// # Errors
+/// [`ChartError`] if the chart cannot be drawn.
+pub fn density_chart(distribution: &OutputDistribution, words: &DensityWords<'_>) -> Result<String, ChartError> {
+    let symbol = match distribution.unit.symbol() {
+        "1" => "",
+        symbol => symbol,
+    };
+    let per_unit = if symbol.is_empty() { String::new() } else { format!("1/({symbol})") };
+    let series = LineSeries {
+        name: "density (histogram: area, kernel estimate: line)".to_owned(),
+        role: words.role,
+        stroke: Stroke::Solid,
+        points: density_points(distribution),
+        band: histogram_steps(distribution),
+    };
+    let axis = |label: &str, unit: &str| Axis { label: label.to_owned(), unit: unit.to_owned(), ..Axis::default() };
+    let chart = LineChart {
+        title: words.title.to_owned(),
+        caption: caption(distribution, words.output, symbol),
+        x: axis(words.output, symbol),
+        panels: vec![LinePanel {
+            title: String::new(),
+            y: axis("probability density", &per_unit),
+            series: vec![series],
+            markers: markers(distribution),
+        }],
+    };
+    chart.svg()
+}
+
+fn density_points(distribution: &OutputDistribution) -> Vec<(f64, f64)> {
+    let density = distribution.density.iter();
+    density.flat_map(|d| d.x.iter().copied().zip(d.density.iter().copied())).collect()
+}
+
+/// Both upper corners of every bin over its lower ones.
+fn histogram_steps(distribution: &OutputDistribution) -> Vec<(f64, f64, f64)> {
+    let Some(histogram) = &distribution.histogram else { return Vec::new() };
+    let bins = histogram.edges.windows(2).zip(&histogram.counts);
+    bins.flat_map(|(ends, &count)| {
+        let height = count as f64 / distribution.count as f64 / (ends[1] - ends[0]);
+        [(ends[0], 0.0, height), (ends[1], 0.0, height)]
+    })
+    .collect()
+}
+
+fn markers(distribution: &OutputDistribution) -> Vec<Marker> {
+    if distribution.histogram.is_none() {
+        return vec![Marker { x: distribution.mean, label: format!("all values {}", significant(distribution.mean)) }];
+    }
+    let mark = |x: Option<f64>, name: &str| x.map(|x| Marker { x, label: format!("{name} {}", short(x)) });
+    [
+        mark(distribution.quantile(2.5), "2.5 %"),
+        mark(distribution.quantile(50.0), "median"),
+        mark(Some(distribution.mean), "mean"),
+        mark(distribution.quantile(97.5), "97.5 %"),
+    ]
+    .into_iter()
+    .flatten()
+    .filter(|marker| distribution.histogram.as_ref().is_some_and(|h| inside(marker.x, &h.edges)))
+    .collect()
+}
+
+/// Marks beyond the reach of the histogram would squeeze it.
+fn inside(x: f64, edges: &[f64]) -> bool {
+    edges.first().is_some_and(|low| *low <= x) && edges.last().is_some_and(|high| x <= *high)
+}
+
+/// Four significant digits.
+fn short(x: f64) -> String {
+    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
+    significant(rounded)
+}
+
+/// What is seen, in one sentence.
+fn caption(distribution: &OutputDistribution, output: &str, symbol: &str) -> String {
+    let unit = if symbol.is_empty() { String::new() } else { format!(" {symbol}") };
+    let n = distribution.count;
+    let (Some(histogram), Some(low), Some(high)) =
+        (&distribution.histogram, distribution.quantile(2.5), distribution.quantile(97.5))
+    else {
+        return format!("All {n} values of the {output} are {}{unit}.", significant(distribution.mean));
+    };
+    let mut caption = format!(
+        "95 % of the {n} values of the {output} lie between {} and {}{unit}, their mean is {}{unit}",
+        short(low),
+        short(high),
+        short(distribution.mean)
+    );
+    let beyond = histogram.below + histogram.above;
+    if beyond > 0 {
+        let extremes = (short(distribution.min), short(distribution.max));
+        let values = if beyond == 1 { "value lies" } else { "values lie" };
+        caption.push_str(&format!(
+            "; {beyond} {values} outside the picture (smallest {}, largest {}{unit})",
+            extremes.0, extremes.1
+        ));
+    }
+    caption + "."
+}

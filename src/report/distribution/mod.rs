@@ -1,0 +1,260 @@
+//! The distribution of an output: moments, quantiles, histogram, density, and their chart.
+
+mod chart;
+mod density;
+mod histogram;
+mod quantile;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+pub use chart::{DensityWords, density_chart};
+pub use quantile::{PERCENTS, quantile};
+
+use crate::quantity::Unit;
+use crate::sum::{mean, rescaled};
+
+/// The distribution of one output over a sample, as it stands in result files. Numbers are in `unit`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OutputDistribution {
+    /// The unit of the numbers.
+    pub unit: Unit,
+    /// Number of values n.
+    pub count: u64,
+    /// Arithmetic mean.
+    pub mean: f64,
+    /// Standard deviation, with n - 1; `null` for a single value, and beyond double precision.
+    pub sd: Option<f64>,
+    /// Skewness m3/m2^(3/2) with the central moments m_k = 1/n sum (y - mean)^k; `null` without variance.
+    pub skewness: Option<f64>,
+    /// Excess kurtosis m4/m2^2 - 3; `null` without variance.
+    pub excess_kurtosis: Option<f64>,
+    /// Smallest value.
+    pub min: f64,
+    /// Largest value.
+    pub max: f64,
+    /// Quantiles at [`PERCENTS`], of type 8 (see [`quantile`]).
+    pub quantiles: Vec<QuantileRecord>,
+    /// Histogram; `null` without variance.
+    pub histogram: Option<Histogram>,
+    /// Kernel density; `null` without variance.
+    pub density: Option<Density>,
+}
+
+/// A quantile.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct QuantileRecord {
+    /// Its probability in percent.
+    pub percent: f64,
+    /// Its value.
+    pub value: f64,
+}
+
+/// A histogram of equal bins.
+///
+/// It reaches from the smallest to the largest value, but no further than 6 interquartile ranges beyond the quartiles:
+/// a few far values would else leave all others in one bin. They are counted in `below` and `above`. The width is that
+/// of Freedman and Diaconis (1981), 2 IQR n^(-1/3), or where the IQR is 0 that of Scott (1979), 3.49 sd n^(-1/3), and not
+/// less than a hundredth of the whole.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Histogram {
+    /// Edges of the bins, ascending, one more than bins. A value on an inner edge belongs to the bin above it.
+    pub edges: Vec<f64>,
+    /// Values in each bin.
+    pub counts: Vec<u64>,
+    /// Values below the first edge.
+    pub below: u64,
+    /// Values above the last edge.
+    pub above: u64,
+}
+
+/// A kernel density estimate with Gaussian kernels, over the reach of the histogram.
+///
+/// Kernels that would reach beyond the smallest or largest value are reflected there, so that no density lies where there
+/// are no values and that of a bounded output does not sag at its bounds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Density {
+    /// Standard deviation of the kernel.
+    pub bandwidth: f64,
+    /// How it was chosen.
+    pub rule: BandwidthRule,
+    /// Places, ascending, in equal steps.
+    pub x: Vec<f64>,
+    /// Densities there, per unit of the output; they integrate to the share of values within reach.
+    pub density: Vec<f64>,
+}
+
+/// How the bandwidth of a kernel density was chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BandwidthRule {
+    /// Direct plug-in of two stages (Sheather and Jones 1991, J. R. Statist. Soc. B 53, 683-690, in the form of R's
+    /// `bw.SJ(method = "dpi")`).
+    SheatherJones,
+    /// 0.9 min(sd, IQR/1.34) n^(-1/5) (Silverman 1986, section 3.4), for fewer than 20 values and where the plug-in has no
+    /// answer; with the standard deviation alone where the IQR is 0.
+    Silverman,
+}
+
+/// Why a sample has no distribution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum DistributionError {
+    /// There are no values.
+    #[error("there are no values")]
+    NoValues,
+    /// A value is NaN or infinite.
+    #[error("value {number} (from 1) is not finite")]
+    NotFinite {
+        /// Its number, from 1.
+        number: usize,
+    },
+}
+
+impl OutputDistribution {
+    /// The distribution of `values`, which are in SI; the record is in `unit`. Any finite values will do, however large,
+    /// small or equal. Costs O(n log n) time and a copy of the values.
+    ///
+    /// # Errors
+    /// [`DistributionError`] if there are no values, or one is not finite.
+    ///
+    /// # Example
+    /// ```
+    /// use apportion::quantity::Unit;
+    /// use apportion::report::distribution::OutputDistribution;
+    ///
+    /// let forces: Vec<f64> = (0..=100).map(|k| 1e-9 * f64::from(k)).collect();
+    /// let distribution = OutputDistribution::of(&forces, &Unit::parse("nN")?)?;
+    /// assert!((distribution.mean - 50.0).abs() < 1e-12);
+    /// assert_eq!(distribution.max, 100.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of(values: &[f64], unit: &Unit) -> Result<Self, DistributionError> {
+        if let Some(place) = values.iter().position(|value| !value.is_finite()) {
+            return Err(DistributionError::NotFinite { number: place + 1 });
+        }
+        let (mut sorted, exponent) = rescaled(values);
+        sorted.sort_unstable_by(f64::total_cmp);
+        let (Some(&min), Some(&max)) = (sorted.first(), sorted.last()) else {
+            return Err(DistributionError::NoValues);
+        };
+        let scale = Scale { exponent, unit };
+        let moments = Moments::of(&sorted);
+        let varied = max - min > ROUNDING;
+        let sample = varied.then(|| Sample::of(&sorted, moments.sd));
+        let histogram = sample.as_ref().map(|sample| histogram::of(sample));
+        let density = sample.as_ref().and_then(|sample| scale.density(density::of(sample)));
+        Ok(Self {
+            unit: unit.clone(),
+            count: sorted.len() as u64,
+            mean: scale.value(moments.mean.clamp(min, max)),
+            sd: (sorted.len() > 1).then(|| scale.value(moments.sd)).filter(|sd| sd.is_finite()),
+            skewness: varied.then_some(moments.skewness),
+            excess_kurtosis: varied.then_some(moments.excess_kurtosis),
+            min: scale.value(min),
+            max: scale.value(max),
+            quantiles: PERCENTS
+                .iter()
+                .map(|&percent| QuantileRecord { percent, value: scale.value(quantile(&sorted, percent / 100.0)) })
+                .collect(),
+            histogram: histogram.map(|h| Histogram { edges: h.edges.iter().map(|&x| scale.value(x)).collect(), ..h }),
+            density,
+        })
+    }
+
+    /// The quantile at a percentage of [`PERCENTS`].
+    pub fn quantile(&self, percent: f64) -> Option<f64> {
+        self.quantiles.iter().find(|q| q.percent == percent).map(|q| q.value)
+    }
+}
+
+/// A spread below this, of values whose largest lies between 1 and 2, is rounding error: the sample counts as constant.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// From the working scale, in which the largest value lies between 1 and 2, to the unit of the record.
+struct Scale<'a> {
+    exponent: i32,
+    unit: &'a Unit,
+}
+
+impl Scale<'_> {
+    fn value(&self, x: f64) -> f64 {
+        self.unit.from_si(libm::scalbn(x, self.exponent))
+    }
+
+    /// `None` if a density is beyond double precision, as for values near 1e-308.
+    fn density(&self, density: Density) -> Option<Density> {
+        let one = self.unit.from_si(1.0);
+        let converted = Density {
+            bandwidth: self.value(density.bandwidth),
+            x: density.x.iter().map(|&x| self.value(x)).collect(),
+            density: density.density.iter().map(|&d| libm::scalbn(d, -self.exponent) / one).collect(),
+            ..density
+        };
+        let finite = converted.density.iter().all(|d| d.is_finite());
+        (finite && converted.bandwidth > 0.0).then_some(converted)
+    }
+}
+
+/// Moments of values of order one.
+struct Moments {
+    mean: f64,
+    sd: f64,
+    skewness: f64,
+    excess_kurtosis: f64,
+}
+
+impl Moments {
+    fn of(values: &[f64]) -> Self {
+        let n = values.len() as f64;
+        let mean = mean(values);
+        let (centred, exponent) = rescaled(&values.iter().map(|v| v - mean).collect::<Vec<f64>>());
+        let moment = |k: i32| centred.iter().map(|c| c.powi(k)).sum::<f64>() / n;
+        let m2 = moment(2);
+        Self {
+            mean,
+            sd: libm::scalbn((m2 * n / (n - 1.0).max(1.0)).sqrt(), exponent),
+            skewness: moment(3) / m2.powf(1.5),
+            excess_kurtosis: moment(4) / (m2 * m2) - 3.0,
+        }
+    }
+}
+
+/// A sorted sample that varies, with what histogram and density need of it.
+struct Sample<'a> {
+    sorted: &'a [f64],
+    sd: f64,
+    iqr: f64,
+    /// Where histogram and density begin and end.
+    reach: (f64, f64),
+}
+
+impl<'a> Sample<'a> {
+    fn of(sorted: &'a [f64], sd: f64) -> Self {
+        /// In interquartile ranges beyond the quartiles.
+        const REACH: f64 = 6.0;
+        let (lower, upper) = (quantile(sorted, 0.25), quantile(sorted, 0.75));
+        let iqr = upper - lower;
+        let (min, max) = (sorted[0], sorted[sorted.len() - 1]);
+        // An IQR of rounding errors would leave nothing within reach.
+        let (iqr, reach) = if iqr > ROUNDING {
+            (iqr, (min.max(lower - REACH * iqr), max.min(upper + REACH * iqr)))
+        } else {
+            (0.0, (min, max))
+        };
+        Self { sorted, sd, iqr, reach }
+    }
+
+    fn n(&self) -> f64 {
+        self.sorted.len() as f64
+    }
+
+    /// The values within reach, and how many there are below and above.
+    fn within(&self) -> (&'a [f64], usize, usize) {
+        let from = self.sorted.partition_point(|&v| v < self.reach.0);
+        let to = self.sorted.partition_point(|&v| v <= self.reach.1);
+        (&self.sorted[from..to], from, self.sorted.len() - to)
+    }
+}
+
+#[cfg(test)]
+mod tests;

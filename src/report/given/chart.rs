@@ -1,0 +1,62 @@
+//! The chart of first-order indices from given data.
+
+use super::{GivenFile, GivenIndexRecord, GivenOutputRecord};
+use crate::report::chart::{Bar, ChartError, GroupedBars, Panel, Role, Series};
+use crate::report::result::EstimateRecord;
+
+/// Draws the indices of one output in percent of its variance, one bar per input and method, with their intervals.
+///
+/// # Errors
+/// [`ChartError`] if the chart cannot be drawn.
+pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Result<String, ChartError> {
+    let rank = |index: &GivenIndexRecord| index.rank;
+    let binned = |index: &GivenIndexRecord| index.binned.map(|binned| binned.estimate);
+    let indices = output.indices.as_deref().unwrap_or_default();
+    let series =
+        [series("by ranks", Role::Other(0), indices, rank), series("by bins", Role::Other(2), indices, binned)];
+    let chart = GroupedBars {
+        title: format!("First-order indices of {}", output.name),
+        caption: caption(result, output),
+        y_label: "first-order index (% of the variance)".to_owned(),
+        interval_label: "95 % interval".to_owned(),
+        published_label: String::new(),
+        panels: vec![Panel {
+            title: String::new(),
+            categories: indices.iter().map(|index| index.input.clone()).collect(),
+            series: series.into_iter().flatten().collect(),
+        }],
+    };
+    chart.svg()
+}
+
+/// The bars of one method; `None` if it was not used.
+fn series(
+    name: &str,
+    role: Role,
+    indices: &[GivenIndexRecord],
+    of: impl Fn(&GivenIndexRecord) -> Option<EstimateRecord>,
+) -> Option<Series> {
+    let bar = |record: EstimateRecord| Bar {
+        value: 100.0 * record.estimate,
+        interval: record.low.zip(record.high).map(|(low, high)| (100.0 * low, 100.0 * high)),
+    };
+    let values: Vec<Option<Bar>> = indices.iter().map(|index| of(index).map(bar)).collect();
+    let used = values.iter().any(Option::is_some);
+    used.then(|| Series { name: name.to_owned(), role, values, published: Vec::new() })
+}
+
+/// What is seen, in one sentence.
+fn caption(result: &GivenFile, output: &GivenOutputRecord) -> String {
+    let leading = |index: &GivenIndexRecord| index.rank.or(index.binned.map(|b| b.estimate)).map(|r| r.estimate);
+    let known = output.indices.iter().flatten().filter_map(|index| Some((leading(index)?, &index.input)));
+    match (known.max_by(|a, b| a.0.total_cmp(&b.0)), &output.reason) {
+        (Some((largest, input)), _) => format!(
+            "From {} given rows: of all inputs, {input} alone explains most of {}, {:.0} % of its variance.",
+            result.table.rows,
+            output.name,
+            100.0 * largest
+        ),
+        (None, Some(reason)) => format!("No indices of {}: {reason}.", output.name),
+        (None, None) => format!("No indices of {}.", output.name),
+    }
+}

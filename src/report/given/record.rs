@@ -1,0 +1,230 @@
+//! The result file of given data.
+
+use serde::{Deserialize, Serialize};
+
+use super::words;
+use crate::given::{Binned, Column, GivenIndices, InputIndices, Method, OutputIndices, PointSet};
+use crate::quantity::Unit;
+use crate::report::distribution::OutputDistribution;
+use crate::report::result::EstimateRecord;
+use crate::uncertainty::Estimate;
+
+/// A result from given data, as described in `docs/given-data-format.md`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GivenFile {
+    /// `"apportion-given-data"`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
+    /// How the numbers came about.
+    pub provenance: GivenProvenance,
+    /// The table.
+    pub table: TableRecord,
+    /// The inputs, in the order of the analysis.
+    pub inputs: Vec<GivenInputRecord>,
+    /// Dependence between the inputs; `null` with fewer than two that vary.
+    pub dependence: Option<DependenceRecord>,
+    /// The outputs.
+    pub outputs: Vec<GivenOutputRecord>,
+    /// What a careful reader should know of this table, in sentences.
+    pub warnings: Vec<String>,
+    /// What indices from given data cannot say, in sentences.
+    pub notes: Vec<String>,
+}
+
+/// How the numbers came about.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GivenProvenance {
+    /// Version of this program.
+    pub apportion_version: String,
+    /// The method asked for.
+    pub method: String,
+    /// Seed of the order of ties in the intervals of the rank estimator.
+    pub seed: u64,
+    /// What the estimates are.
+    pub estimators: Vec<String>,
+    /// What the intervals are; `null` if there are none.
+    pub interval: Option<String>,
+}
+
+/// The table that was read.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TableRecord {
+    /// Its file, as named by the user.
+    pub file: String,
+    /// SHA-256 of the file.
+    pub sha256: String,
+    /// Rows used.
+    pub rows: u64,
+    /// Rows left out for missing values.
+    pub rows_dropped: u64,
+    /// Line of the first of them.
+    pub first_dropped_line: Option<u64>,
+    /// `"independent"`, `"too-even"` or `"grid"`.
+    pub points: String,
+    /// Why the rows are not taken for independent draws, if they are not.
+    pub points_reason: Option<String>,
+}
+
+/// An input: indices hold for its values in the table, between these bounds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GivenInputRecord {
+    /// Its name.
+    pub name: String,
+    /// Smallest value.
+    pub min: f64,
+    /// Largest value.
+    pub max: f64,
+}
+
+/// Dependence between the inputs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DependenceRecord {
+    /// The pair of inputs with the largest absolute rank correlation.
+    pub inputs: (String, String),
+    /// Their rank correlation (Spearman).
+    pub spearman: f64,
+    /// The absolute rank correlation that independent inputs exceed in one table of a thousand.
+    pub noise: f64,
+    /// A pair that depends on each other in another way; `null` if none was found.
+    pub uneven: Option<(String, String)>,
+}
+
+/// An output.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GivenOutputRecord {
+    /// Its name.
+    pub name: String,
+    /// Its distribution over the rows.
+    pub distribution: Option<OutputDistribution>,
+    /// One entry per input; `null` if there are no indices.
+    pub indices: Option<Vec<GivenIndexRecord>>,
+    /// Sum of the leading estimates (by ranks if there are any, else by bins) over the inputs.
+    pub sum_first_order: Option<f64>,
+    /// Why there are no indices.
+    pub reason: Option<String>,
+    /// What a careful reader should know, in sentences.
+    pub warnings: Vec<String>,
+}
+
+/// The first-order index of one input.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GivenIndexRecord {
+    /// The input.
+    pub input: String,
+    /// Whether it has one value only, and so index 0 by definition.
+    pub constant: bool,
+    /// By ranks; `null` if not asked for, or refused.
+    pub rank: Option<EstimateRecord>,
+    /// By bins; `null` if not asked for.
+    pub binned: Option<BinnedRecord>,
+}
+
+/// An estimate by bins.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BinnedRecord {
+    /// Estimate and bounds; these are `null` where the rows are not independent draws.
+    #[serde(flatten)]
+    pub estimate: EstimateRecord,
+    /// Number of bins.
+    pub bins: u64,
+}
+
+/// What the result says besides the indices.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct GivenFacts {
+    /// The table's file, as named by the user.
+    pub file: String,
+    /// Its SHA-256.
+    pub sha256: String,
+    /// Rows left out, and the line of the first.
+    pub dropped: Option<(u64, u64)>,
+    /// The method asked for.
+    pub method: Method,
+    /// The seed.
+    pub seed: u64,
+}
+
+/// The result file for `indices` of the columns they were estimated from.
+pub fn build_given(indices: &GivenIndices, (inputs, outputs): (&[Column], &[Column]), facts: &GivenFacts) -> GivenFile {
+    let outputs: Vec<GivenOutputRecord> =
+        indices.outputs.iter().zip(outputs).map(|(indices, column)| output_record(indices, column)).collect();
+    GivenFile {
+        format: "apportion-given-data".to_owned(),
+        version: 1,
+        provenance: GivenProvenance {
+            apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
+            method: facts.method.name().to_owned(),
+            seed: facts.seed,
+            estimators: words::estimators(indices, facts.method),
+            interval: words::interval(indices),
+        },
+        table: TableRecord {
+            file: facts.file.clone(),
+            sha256: facts.sha256.clone(),
+            rows: indices.rows as u64,
+            rows_dropped: facts.dropped.map_or(0, |(rows, _)| rows),
+            first_dropped_line: facts.dropped.map(|(_, line)| line),
+            points: points_name(&indices.points).to_owned(),
+            points_reason: indices.points.reason(),
+        },
+        inputs: inputs.iter().map(input_record).collect(),
+        dependence: indices.dependence.as_ref().map(|dependence| DependenceRecord {
+            inputs: dependence.strongest.inputs.clone(),
+            spearman: dependence.strongest.spearman,
+            noise: dependence.noise,
+            uneven: dependence.uneven.clone(),
+        }),
+        outputs,
+        warnings: words::warnings(indices, facts),
+        notes: words::notes(),
+    }
+}
+
+fn points_name(points: &PointSet) -> &'static str {
+    match points {
+        PointSet::Independent => "independent",
+        PointSet::TooEven(_) => "too-even",
+        PointSet::Grid => "grid",
+    }
+}
+
+fn input_record(column: &Column) -> GivenInputRecord {
+    let bounds = |(low, high): (f64, f64), &v: &f64| (low.min(v), high.max(v));
+    let (min, max) = column.values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
+    GivenInputRecord { name: column.name.clone(), min, max }
+}
+
+fn output_record(output: &OutputIndices, column: &Column) -> GivenOutputRecord {
+    let indices = output.indices.as_ref();
+    let leading = |index: &InputIndices| index.leading().map(|estimate| estimate.estimate);
+    GivenOutputRecord {
+        name: output.name.clone(),
+        distribution: OutputDistribution::of(&column.values, &Unit::dimensionless()).ok(),
+        indices: indices.ok().map(|indices| indices.iter().map(index_record).collect()),
+        sum_first_order: indices.ok().and_then(|indices| indices.iter().map(leading).sum()),
+        reason: indices.err().map(ToString::to_string),
+        warnings: words::output_warnings(output),
+    }
+}
+
+fn index_record(index: &InputIndices) -> GivenIndexRecord {
+    GivenIndexRecord {
+        input: index.input.clone(),
+        constant: index.constant,
+        rank: index.rank.map(estimate_record),
+        binned: index
+            .binned
+            .map(|Binned { estimate, bins }| BinnedRecord { estimate: estimate_record(estimate), bins: bins as u64 }),
+    }
+}
+
+fn estimate_record(Estimate { estimate, interval }: Estimate) -> EstimateRecord {
+    EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) }
+}
+
+/// The result as JSON, ending in a line feed.
+pub fn given_json(result: &GivenFile) -> String {
+    // Serialisation fails on maps without text keys only, of which there is none; a number that is not finite is null.
+    serde_json::to_string_pretty(result).expect("a result is plain data") + "\n"
+}

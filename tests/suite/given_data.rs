@@ -1,0 +1,164 @@
+//! `apportion given-data` through the program.
+
+use std::path::{Path, PathBuf};
+
+use apportion::report::given::GivenFile;
+
+use crate::common::{apportion, stderr, stdout};
+use crate::points::{Columns, random, saltelli, sobol};
+
+/// A table of the columns and of their linear combination 3, 2, 1, ... as `y`.
+fn table(columns: &Columns) -> String {
+    let mut text: String = (1..=columns.len()).map(|j| format!("x{j},")).collect::<String>() + "y\n";
+    for row in 0..columns[0].len() {
+        let x = columns.iter().map(|column| column[row]);
+        let y: f64 = x.clone().enumerate().map(|(j, x)| (columns.len() - j) as f64 * x).sum();
+        x.for_each(|x| text.push_str(&format!("{x},")));
+        text.push_str(&format!("{y}\n"));
+    }
+    text
+}
+
+struct Run {
+    folder: tempfile::TempDir,
+    output: std::process::Output,
+}
+
+impl Run {
+    fn of(content: &str, more: &[&str]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        std::fs::write(&path, content).unwrap();
+        let out = folder.path().join("out");
+        let output = apportion(&[&["given-data", text(&path), "--out", text(&out)], more].concat());
+        Self { folder, output }
+    }
+
+    fn out(&self) -> PathBuf {
+        self.folder.path().join("out")
+    }
+
+    #[track_caller]
+    fn refused(&self, expected: &str) {
+        let message = stderr(&self.output);
+        assert_eq!(self.output.status.code(), Some(2), "{message}");
+        assert!(message.contains(expected), "no {expected:?} in {message}");
+        assert!(!self.out().exists(), "a refused table leaves nothing behind");
+    }
+
+    #[track_caller]
+    fn result(&self) -> GivenFile {
+        assert_eq!(self.output.status.code(), Some(0), "{}", stderr(&self.output));
+        serde_json::from_slice(&std::fs::read(self.out().join("table.json")).unwrap()).unwrap()
+    }
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[test]
+fn a_table_becomes_a_result() {
+    let content = table(&random(3, 500, 2));
+    let run = Run::of(&content, &["--outputs", "y"]);
+    let result = run.result();
+    assert_eq!((result.format.as_str(), result.version, result.table.rows), ("apportion-given-data", 1, 500));
+    assert!(result.warnings.is_empty() && result.notes.len() == 3, "{:?}", result.warnings);
+    let output = &result.outputs[0];
+    assert_eq!(output.distribution.as_ref().unwrap().count, 500);
+    for (index, exact) in output.indices.as_ref().unwrap().iter().zip([9.0, 4.0, 1.0]) {
+        let rank = index.rank.unwrap();
+        // Four standard errors.
+        let width = rank.high.unwrap() - rank.low.unwrap();
+        assert!((rank.estimate - exact / 14.0).abs() < width && width < 0.2, "{index:?}");
+    }
+    let printed = stdout(&run.output);
+    for part in ["500 rows, 3 inputs", "by ranks", "by bins", "note: given data yield first-order indices only"] {
+        assert!(printed.contains(part), "no {part:?} in {printed}");
+    }
+    let csv = std::fs::read_to_string(run.out().join("table-indices.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 4);
+    for chart in ["table.svg", "table.png"] {
+        assert!(run.out().join(chart).is_file());
+    }
+    // The same again gives the same bytes, whatever the threads and the time.
+    let again = Run::of(&content, &["--outputs", "y"]);
+    let bytes = |run: &Run, name: &str| std::fs::read(run.out().join(name)).unwrap();
+    assert_eq!(bytes(&run, "table.svg"), bytes(&again, "table.svg"));
+    assert_eq!(result.outputs, again.result().outputs);
+}
+
+#[test]
+fn columns_are_chosen_and_methods_too() {
+    let content = table(&random(3, 100, 2));
+    let result = Run::of(&content, &["--outputs", "y,x3", "--inputs", "x2,x1", "--method", "binned"]).result();
+    assert_eq!(result.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>(), ["x2", "x1"]);
+    let output = &result.outputs[1];
+    assert_eq!(output.name, "x3");
+    let index = &output.indices.as_ref().unwrap()[0];
+    assert!(index.rank.is_none() && index.binned.is_some_and(|binned| binned.bins == 10));
+    Run::of(&content, &["--outputs", "z"]).refused("line 1: no column is called `z`");
+    Run::of(&content, &["--outputs", "y", "--method", "kernel"]).refused("expected one of rank, binned, both");
+    Run::of(&content, &["--outputs", "y,,"]).refused("expected names of columns");
+    Run::of(&content, &[]).refused("--outputs");
+}
+
+#[test]
+fn faults_are_refused_with_their_place() {
+    let content = table(&random(2, 40, 2));
+    let spoilt = |line: usize, cells: &str| {
+        let lines = content.lines().enumerate();
+        lines.map(|(k, text)| format!("{}\n", if k + 1 == line { cells } else { text })).collect::<String>()
+    };
+    Run::of(&spoilt(7, "0.5,,1"), &["--outputs", "y"])
+        .refused("table.csv: line 7: column 2 (`x2`): the value is missing");
+    Run::of(&spoilt(9, "0.5,red,1"), &["--outputs", "y"]).refused("line 9: column 2 (`x2`): expected a finite number");
+    Run::of(&spoilt(9, "0.5,1"), &["--outputs", "y"]).refused("line 9: expected 3 cells");
+    Run::of("x,y\n1,2\n", &["--outputs", "y"]).refused("at least 30 are needed");
+    let result = Run::of(&spoilt(7, "0.5,NaN,1"), &["--outputs", "y", "--drop-missing"]).result();
+    assert_eq!((result.table.rows, result.table.rows_dropped, result.table.first_dropped_line), (39, 1, Some(7)));
+    assert!(result.warnings[0].contains("1 row was left out"), "{:?}", result.warnings);
+}
+
+#[test]
+fn rows_that_are_no_independent_draws_are_refused_or_warned_of() {
+    let content = table(&sobol(3, 256, 1));
+    Run::of(&content, &["--outputs", "y", "--method", "rank"]).refused("the rank estimator is refused");
+    let result = Run::of(&content, &["--outputs", "y"]).result();
+    assert_eq!(result.table.points, "too-even");
+    assert!(result.warnings[0].contains("no estimate by ranks"), "{:?}", result.warnings);
+    let index = &result.outputs[0].indices.as_ref().unwrap()[0];
+    let binned = index.binned.unwrap().estimate;
+    assert!(index.rank.is_none() && binned.low.is_none());
+    // 16 bins lose 1/256 of a linear effect; means over a net are exact to 1e-3.
+    assert!((binned.estimate - 9.0 / 14.0).abs() < 0.006, "{binned:?}");
+    let design = table(&saltelli(3, 64, apportion::design::Sampler::Sobol, 1));
+    Run::of(&design, &["--outputs", "y"]).refused("pick-freeze (Saltelli) design");
+}
+
+#[test]
+fn an_output_that_does_not_vary_has_no_indices_but_a_reason() {
+    let plain = table(&random(2, 60, 3));
+    let extended = |line: &str| line.to_owned() + if line.ends_with('y') { ",c\n" } else { ",7\n" };
+    let run = Run::of(&plain.lines().map(extended).collect::<String>(), &["--outputs", "y,c"]);
+    let result = run.result();
+    assert!(result.outputs[0].indices.is_some());
+    assert_eq!(
+        (&result.outputs[1].indices, result.outputs[1].reason.as_deref()),
+        (&None, Some("the output is constant"))
+    );
+    assert!(stdout(&run.output).contains("no indices: the output is constant"));
+}
+
+#[cfg(unix)]
+#[test]
+fn the_table_is_never_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a-indices.csv");
+    std::fs::write(&path, table(&random(2, 60, 3))).unwrap();
+    let twin = folder.path().join("a.csv");
+    std::os::unix::fs::symlink(&path, &twin).unwrap();
+    let output = apportion(&["given-data", text(&twin), "--outputs", "y", "--out", text(folder.path())]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(std::fs::read_to_string(&path).unwrap().starts_with("x1,x2,y"));
+}
