@@ -3,10 +3,13 @@
 mod check;
 mod evaluate;
 mod models;
+mod pictures;
 mod progress;
 mod reproduce;
 mod run;
+mod screen;
 mod simulate;
+mod sweep;
 
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
@@ -34,6 +37,10 @@ enum Command {
     Reproduce(reproduce::Arguments),
     /// Run a study: design, model runs, indices, charts
     Run(run::Arguments),
+    /// Screen many factors for those that matter, by elementary effects: a few runs for each factor
+    Screen(screen::Arguments),
+    /// Move one factor at a time around the nominal point: curves, ranges and slopes of every output
+    Sweep(sweep::Arguments),
     /// Evaluate a study's model at points from a CSV file
     Evaluate(evaluate::Arguments),
     /// Explain a study before running it: factors, cost (by a short pilot), memory, files
@@ -159,6 +166,8 @@ pub fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Run(arguments) => run::run(&arguments),
+        Command::Screen(arguments) => screen::screen(&arguments),
+        Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Simulate(arguments) => simulate::simulate(&arguments),

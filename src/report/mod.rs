@@ -1,14 +1,18 @@
 //! Exporters turn a result into bytes; one writer puts them on disk.
 
+mod asked;
 mod build;
 pub mod chart;
 mod result;
 pub mod scene;
+pub mod screening;
 mod shares_chart;
+pub mod sweep;
 mod tables;
 mod warnings;
 mod write;
 
+pub use asked::{AskedFactor, AskedRecord, Drawing};
 pub use build::{RunFacts, build_result, result_json};
 pub use result::*;
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};

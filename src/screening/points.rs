@@ -32,7 +32,10 @@ pub(super) struct Trajectories {
 
 enum Shape {
     /// The base points of each randomisation, with the number of points in each.
-    Star { points: Vec<BasePoints>, each: u64 },
+    Star {
+        points: Vec<BasePoints>,
+        each: u64,
+    },
     Walk,
 }
 

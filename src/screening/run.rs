@@ -58,8 +58,8 @@ pub(super) fn run(
         outcome
     };
     let blocks = trajectories.div_ceil(block);
-    let outcomes: Vec<Outcome> = pool
-        .install(|| (0..blocks).into_par_iter().map_init(|| Bench::new(job, rows), one).collect());
+    let outcomes: Vec<Outcome> =
+        pool.install(|| (0..blocks).into_par_iter().map_init(|| Bench::new(job, rows), one).collect());
     let mut whole = Outcome::of(job);
     outcomes.into_iter().for_each(|outcome| whole.append(outcome));
     Ok(whole)

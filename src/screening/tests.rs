@@ -83,7 +83,8 @@ fn a_linear_function_has_its_slopes_and_no_spread() {
     let slopes = [3.0, -2.0, 0.5, 0.0];
     let space = space([uniform(0.0, 1.0), uniform(-4.0, 6.0), uniform(1e-9, 3e-9), uniform(0.0, 1.0)]);
     for design in DESIGNS {
-        let screening = screened(&space, settings(design, 16), |x| Some(x.iter().zip(slopes).map(|(x, c)| x * c).sum()));
+        let screening =
+            screened(&space, settings(design, 16), |x| Some(x.iter().zip(slopes).map(|(x, c)| x * c).sum()));
         for (m, expected) in measured(&screening).iter().zip([3.0, -20.0, 1e-9, 0.0]) {
             // The output's own rounding, 20 eps, over the shortest step.
             let rounding = 20.0 * f64::EPSILON / MIN_STEP;
@@ -214,7 +215,8 @@ fn a_walk_visits_all_levels_and_orders() {
 fn discrete_factors_step_by_rank_and_constants_do_not_step() {
     let two = Distribution::discrete(&[5.0, 1.0], Some(&[1.0, 99.0])).unwrap();
     let three = Distribution::discrete(&[0.0, 1.0, 2.0, 1.0, 7.0], Some(&[1.0, 1.0, 1.0, 1.0, 0.0])).unwrap();
-    let space = space([two, three, Distribution::constant(3.0).unwrap(), Distribution::discrete(&[2.0], None).unwrap()]);
+    let space =
+        space([two, three, Distribution::constant(3.0).unwrap(), Distribution::discrete(&[2.0], None).unwrap()]);
     for design in DESIGNS {
         let screening = screened(&space, settings(design, 32), |x| Some(x[0] - 3.0 * x[1] + x[2] + x[3]));
         let m = measured(&screening);
@@ -335,9 +337,8 @@ fn settings_are_checked_and_rounded() {
     assert_eq!(rounded(SOBOL, 33), (40, 8));
     assert_eq!(rounded(RANDOM, 33), (33, 33));
     assert_eq!(rounded(WALK, 100), (128, 64));
-    let refused = |design, trajectories, factors| {
-        settings(design, trajectories).in_force(factors).unwrap_err().to_string()
-    };
+    let refused =
+        |design, trajectories, factors| settings(design, trajectories).in_force(factors).unwrap_err().to_string();
     assert!(refused(SOBOL, 3, 1).starts_with("3 trajectories are too few"));
     assert!(refused(SOBOL, u64::MAX, 3).contains("more than 134217728 model runs"));
     for levels in [0, 1, 3, MAX_LEVELS + 2] {

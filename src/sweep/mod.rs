@@ -107,28 +107,13 @@ pub struct Extent {
 /// # Panics
 /// If a factor's number is not one of the space.
 pub fn sweep(space: &Space, model: &dyn Model, request: &SweepRequest) -> Result<Sweeps, SweepError> {
-    check(space, request)?;
+    request.check(space)?;
     let mut bench = Bench::new(space, model);
     let first = space.factors().first().map_or(f64::NAN, |factor| factor.nominal);
     let nominal: Vec<Result<f64, RowFailure>> =
         bench.curve((0, &[first]), None).into_iter().map(CurveOutput::single).collect();
     let sweeps = request.factors.iter().map(|asked| one(&mut bench, (space, asked), (&nominal, request))).collect();
     Ok(Sweeps { nominal, sweeps, runs: bench.runs, flags: bench.flags })
-}
-
-fn check(space: &Space, request: &SweepRequest) -> Result<(), SweepError> {
-    let name = |factor: usize| space.factors()[factor].name.clone();
-    for (place, asked) in request.factors.iter().enumerate() {
-        if request.factors[..place].iter().any(|other| other.factor == asked.factor) {
-            return Err(SweepError::Repeated { name: name(asked.factor) });
-        }
-    }
-    match (&request.against, &request.factors[..]) {
-        (Some(against), [only]) if only.factor == against.factor => {
-            Err(SweepError::AgainstItself { name: name(against.factor) })
-        }
-        _ => Ok(()),
-    }
 }
 
 fn one(

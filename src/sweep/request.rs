@@ -101,6 +101,30 @@ pub enum SweepError {
     },
 }
 
+impl SweepRequest {
+    /// Checks that no factor is asked for twice, and that a family has another factor to be swept.
+    ///
+    /// # Errors
+    /// [`SweepError::Repeated`] and [`SweepError::AgainstItself`].
+    ///
+    /// # Panics
+    /// If a factor's number is not one of `space`.
+    pub fn check(&self, space: &Space) -> Result<(), SweepError> {
+        let name = |factor: usize| space.factors()[factor].name.clone();
+        for (place, asked) in self.factors.iter().enumerate() {
+            if self.factors[..place].iter().any(|other| other.factor == asked.factor) {
+                return Err(SweepError::Repeated { name: name(asked.factor) });
+            }
+        }
+        match (&self.against, &self.factors[..]) {
+            (Some(against), [only]) if only.factor == against.factor => {
+                Err(SweepError::AgainstItself { name: name(against.factor) })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
 impl FactorValues {
     /// `points` values over the range of factor number `factor`: from the least to the largest value, or between the
     /// quantiles [`TAIL`] and 1 - [`TAIL`] on an unbounded side; at equal ratios for a log-uniform or log-normal factor,

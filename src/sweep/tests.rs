@@ -159,10 +159,7 @@ fn values_are_read_with_their_units() {
     );
     assert_eq!(refused("length"), "expected NAME=VALUES, as in \"length=100,300 um\"");
     assert_eq!(refused("length="), refused("length"));
-    assert_eq!(
-        refused("length=1,2"),
-        "`1` needs a unit, as in \"length=100,300 um\": factor `length` is a length"
-    );
+    assert_eq!(refused("length=1,2"), "`1` needs a unit, as in \"length=100,300 um\": factor `length` is a length");
     assert!(refused("length=1 N").starts_with("`1 N` is a force, but factor `length` is a length"));
     assert!(refused("length=1 um,").contains("\"\""), "{}", refused("length=1 um,"));
 }

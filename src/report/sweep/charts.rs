@@ -1,0 +1,171 @@
+//! The charts of sweeps: every output against each factor, and how far each factor moves each output.
+
+use super::super::asked::{Drawing, axis_unit, printed, sentence, short_with_unit, the, words};
+use super::super::chart::{
+    Axis, ChartError, LineChart, LinePanel, LineSeries, Marker, Range, RangeBars, RangeRow, Reference, Role, Spacing,
+    Stroke,
+};
+use super::super::friction_role;
+use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines};
+
+/// Up to so many values, each is marked by a point.
+const FEW_VALUES: usize = 12;
+/// Most bars in a chart; the rest are counted in its caption.
+const MOST_BARS: usize = 40;
+/// Colours at the low and the high end of a factor.
+const LOW_END: Role = Role::Other(2);
+const HIGH_END: Role = Role::Other(0);
+
+/// One line chart per factor, `-sweep-FACTOR`, with a panel per output; then per output the ranges of all factors,
+/// `-sweep-ranges`, with the output's name at the end where there are several.
+///
+/// # Errors
+/// [`ChartError`] if there is nothing to draw.
+pub fn sweep_charts(file: &SweepFile) -> Result<Vec<Drawing>, ChartError> {
+    let mut drawings = Vec::with_capacity(file.sweeps.len() + file.nominal.len());
+    for sweep in &file.sweeps {
+        drawings.push(Drawing { suffix: format!("-sweep-{}", sweep.factor), svg: lines(file, sweep).svg()? });
+    }
+    for (number, nominal) in file.nominal.iter().enumerate() {
+        let suffix = match file.nominal.len() {
+            1 => "-sweep-ranges".to_owned(),
+            _ => format!("-sweep-ranges-{}", nominal.output),
+        };
+        drawings.push(Drawing { suffix, svg: ranges(file, (number, nominal)).svg()? });
+    }
+    Ok(drawings)
+}
+
+fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> LineChart {
+    let logarithmic = sweep.spacing == "logarithmic" && sweep.values.iter().all(|value| *value > 0.0);
+    // With a family, the curve at nominal values would only be in its way.
+    let drawn = if sweep.curves.len() > 1 { &sweep.curves[1..] } else { &sweep.curves[..] };
+    let panels = file.nominal.iter().enumerate().map(|(number, nominal)| LinePanel {
+        title: String::new(),
+        y: Axis { label: words(&nominal.output), unit: axis_unit(&nominal.unit), ..Axis::default() },
+        series: drawn.iter().enumerate().map(|(place, curve)| series(file, (sweep, curve), (place, number))).collect(),
+        markers: if number == 0 { vec![Marker { x: sweep.nominal, label: "nominal".to_owned() }] } else { Vec::new() },
+    });
+    LineChart {
+        title: format!("{}: {}", file.study.headline(), words(&sweep.factor)),
+        caption: caption(sweep),
+        x: Axis {
+            label: words(&sweep.factor),
+            unit: axis_unit(&sweep.unit),
+            spacing: if logarithmic { Spacing::Logarithmic } else { Spacing::Linear },
+        },
+        panels: panels.collect(),
+    }
+}
+
+fn series(
+    file: &SweepFile,
+    (sweep, curve): (&FactorSweepRecord, &CurveRecord),
+    (place, number): (usize, usize),
+) -> LineSeries {
+    let friction = file.study.settings.get("friction").and_then(serde_json::Value::as_str);
+    let few = sweep.values.len() <= FEW_VALUES;
+    let points = sweep.values.iter().zip(&curve.outputs[number].values);
+    let (name, role, stroke) = match &curve.against {
+        None => (String::new(), friction.map_or(Role::Other(0), friction_role), Stroke::Solid),
+        Some(against) => (
+            format!("{} = {}", words(&against.factor), short_with_unit(against.value, &against.unit)),
+            Role::Other(place),
+            [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][place % 3],
+        ),
+    };
+    LineSeries {
+        name,
+        role,
+        stroke: if few { Stroke::SolidWithPoints } else { stroke },
+        points: points.map(|(x, y)| (*x, y.unwrap_or(f64::NAN))).collect(),
+        band: Vec::new(),
+    }
+}
+
+/// What is seen: how far each output goes, its slope, and what is missing.
+fn caption(sweep: &FactorSweepRecord) -> String {
+    let others = if sweep.curves.len() > 1 { "the rest" } else { "every other factor" };
+    let mut text = format!("{} over its range, {others} at the nominal values.", sentence(&words(&sweep.factor)));
+    for effect in &sweep.effects {
+        let output = sentence(&the(&effect.output));
+        let over = if sweep.curves.len() > 1 { "at nominal values" } else { "over the range" };
+        match (effect.percent, effect.elasticity) {
+            (Some(percent), _) if percent == 0.0 => text.push_str(&format!(" {output} does not change.")),
+            (Some(percent), Some(elasticity)) => text.push_str(&format!(
+                " {output} moves by {} % of its nominal value {over}, and by {} % for each 1 % of the factor near its \
+                 nominal value.",
+                printed(percent),
+                signed(elasticity)
+            )),
+            (Some(percent), None) => {
+                text.push_str(&format!(" {output} moves by {} % of its nominal value {over}.", printed(percent)));
+            }
+            (None, _) => (),
+        }
+    }
+    for line in gap_lines(sweep) {
+        text.push_str(&format!(" No {line}."));
+    }
+    text
+}
+
+/// Three significant digits with a sign.
+fn signed(value: f64) -> String {
+    if value > 0.0 { format!("+{}", printed(value)) } else { printed(value) }
+}
+
+fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> RangeBars {
+    let mut sweeps: Vec<(&FactorSweepRecord, &SweepEffectRecord)> =
+        file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
+    sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
+    let beyond = match sweeps.len().saturating_sub(MOST_BARS) {
+        0 => String::new(),
+        more => format!(" {more} factors of less effect are not shown."),
+    };
+    let output = the(&nominal.output);
+    RangeBars {
+        title: format!("{}: how far each factor moves {output}", file.study.headline()),
+        caption: format!(
+            "{} with one factor at either end of its range and every other at its nominal value; the percentages \
+             are of the nominal value.{beyond}",
+            sentence(&output)
+        ),
+        x: Axis { label: words(&nominal.output), unit: axis_unit(&nominal.unit), ..Axis::default() },
+        reference: nominal
+            .value
+            .map(|value| Reference { value, label: format!("nominal: {}", short_with_unit(value, &nominal.unit)) }),
+        series: vec![
+            ("factor at its low end".to_owned(), LOW_END),
+            ("factor at its high end".to_owned(), HIGH_END),
+            ("whole range".to_owned(), Role::Other(3)),
+        ],
+        interval_label: "whole range, where the ends are not the extremes".to_owned(),
+        rows: sweeps.iter().take(MOST_BARS).map(|(sweep, effect)| row(sweep, effect, nominal.value)).collect(),
+    }
+}
+
+fn row(sweep: &FactorSweepRecord, effect: &SweepEffectRecord, nominal: Option<f64>) -> RangeRow {
+    let bars = match (nominal, effect.low.zip(effect.high)) {
+        (Some(from), Some(_)) => {
+            let bar = |role, to: Option<f64>| Range { role, from, to: to.unwrap_or(f64::NAN) };
+            vec![bar(LOW_END, effect.first), bar(HIGH_END, effect.last)]
+        }
+        (None, Some((from, to))) => vec![Range { role: Role::Other(3), from, to }],
+        (_, None) => Vec::new(),
+    };
+    let ends = || [effect.first, effect.last, nominal].into_iter().flatten();
+    let beyond = |(low, high): &(f64, f64)| ends().all(|end| end > *low) || ends().all(|end| end < *high);
+    let (from, to) = (sweep.values.first(), sweep.values.last());
+    let unit = axis_unit(&sweep.unit);
+    let from_to = from.zip(to).map_or_else(String::new, |(from, to)| match from == to {
+        true => format!("{} {unit}", printed(*to)),
+        false => format!("{} to {} {unit}", printed(*from), printed(*to)),
+    });
+    RangeRow {
+        name: words(&sweep.factor),
+        bars,
+        interval: effect.low.zip(effect.high).filter(|_| nominal.is_some()).filter(beyond),
+        note: effect.percent.map_or_else(|| from_to.clone(), |percent| format!("{} %: {from_to}", printed(percent))),
+    }
+}
