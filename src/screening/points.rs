@@ -14,7 +14,7 @@ pub const TAIL: f64 = 1e-3;
 /// What one factor does in one trajectory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Move {
-    /// Its coordinate in the unit cube before and after its step.
+    /// Its coordinate in the unit cube before and after its step; 0 and 1 are the ends of a bounded range.
     pub u: [f64; 2],
     /// The step as a signed part of its range.
     pub step: f64,
@@ -162,8 +162,8 @@ impl Grid {
             (Distribution::Constant(_), _) | (_, ScreeningDesign::Radial { .. }) => Self::Continuous,
             (distribution, ScreeningDesign::Trajectory { levels }) => {
                 let (low, high) = distribution.support();
-                let from = if low.is_finite() { SMALLEST_U } else { TAIL };
-                let to = if high.is_finite() { LARGEST_U } else { 1.0 - TAIL };
+                let from = if low.is_finite() { 0.0 } else { TAIL };
+                let to = if high.is_finite() { 1.0 } else { 1.0 - TAIL };
                 let part = |k: u32| f64::from(k) / f64::from(levels - 1);
                 Self::Levels((0..levels).map(|k| from * (1.0 - part(k)) + to * part(k)).collect())
             }

@@ -10,6 +10,7 @@ use super::points::{Move, Trajectories};
 use super::{ScreeningError, ScreeningJob};
 use crate::model::{Batch, RowFailure, Worker};
 use crate::run::{Progress, RunError, threads_in_force};
+use crate::space::Factor;
 
 /// Model runs handed to a worker at a time, or one trajectory if that is longer.
 const ROWS: usize = 1024;
@@ -86,8 +87,7 @@ impl<'a> Bench<'a> {
         for (j, (column, factor)) in self.columns.iter_mut().zip(job.space.factors()).enumerate() {
             column.resize(rows, 0.0);
             for (moves, column) in moves.iter().zip(column.chunks_exact_mut(self.rows)) {
-                let mut values = [0.0; 2];
-                factor.fill_si(&moves[j].u, &mut values);
+                let values = values_at(factor, &moves[j].u);
                 outcome.idle[j] += u64::from(values[0] == values[1]);
                 points.fill(&moves[j], values, column);
             }
@@ -105,6 +105,21 @@ impl<'a> Bench<'a> {
         outcome.note(&self.batch, &inputs);
         outcome
     }
+}
+
+/// The SI values at two coordinates. Quantiles are for the open interval: its ends are those of the range itself.
+fn values_at(factor: &Factor, u: &[f64; 2]) -> [f64; 2] {
+    let mut values = [0.0; 2];
+    factor.fill_si(u, &mut values);
+    let (low, high) = factor.distribution().support();
+    for (value, u) in values.iter_mut().zip(u) {
+        match u {
+            0.0 => *value = factor.unit().to_si(low),
+            1.0 => *value = factor.unit().to_si(high),
+            _ => (),
+        }
+    }
+    values
 }
 
 /// The difference of the output by the step; NaN where a run failed or the quotient overflows.

@@ -137,7 +137,7 @@ fn morris_1991(x: &[f64]) -> f64 {
             _ => 2.0 * (x[i - 1] - 0.5),
         })
         .collect();
-    let sign = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
     let mut y = 0.0;
     for i in 1..=20 {
         y += w[i - 1] * if i <= 10 { 20.0 } else { sign(i) };

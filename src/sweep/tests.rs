@@ -3,7 +3,7 @@ use crate::model::{Batch, Output, Worker};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor};
 
-/// y = x0^3 / x1^2 + 1e-9 z, and z, which fails where x2 is above 0.8.
+/// y = x0^3 / x1^2, and z = x2^2, which fails where x2 is above 0.8.
 struct Powers {
     outputs: [Output; 2],
 }
@@ -27,12 +27,13 @@ struct Row;
 
 impl Worker for Row {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
-        for row in 0..batch.rows() {
-            batch.set(row, 0, inputs[0][row].powi(3) / inputs[1][row].powi(2));
-            if inputs[2][row] > 0.8 {
+        let [length, stiffness, share] = inputs else { panic!("three factors") };
+        for (row, ((x0, x1), x2)) in length.iter().zip(*stiffness).zip(*share).enumerate() {
+            batch.set(row, 0, x0.powi(3) / x1.powi(2));
+            if *x2 > 0.8 {
                 batch.fail(row, 1, RowFailure::new("too far"));
             } else {
-                batch.set(row, 1, inputs[2][row] * inputs[2][row]);
+                batch.set(row, 1, x2 * x2);
             }
         }
     }

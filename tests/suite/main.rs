@@ -7,4 +7,5 @@ mod distributions;
 mod extremes;
 mod failures;
 mod metamorphic;
+mod screening;
 mod workflows;

@@ -48,15 +48,22 @@ fn axis(symbol: &str, output: &OutputScreeningRecord) -> Axis {
 }
 
 fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> ScatterChart {
-    let readings = Reading::ALL.iter().rev().map(|&reading| (Some(reading), reading.words()));
-    let series = readings.chain([(None, "no effect")]).map(|(reading, name)| {
-        let own = output.factors.iter().filter(|factor| factor.reading == reading);
+    let readings = Reading::ALL.iter().rev().map(|&reading| Some(reading));
+    let series = readings.chain([None]).map(|reading| {
+        let own = output.factors.iter().filter(|factor| factor.reading == reading && factor.mu_star.is_some());
+        let name = match reading {
+            Some(reading) => reading.words().to_owned(),
+            // All of these lie at the origin, where there is no room for their names.
+            None => {
+                format!("no effect: {}", own.clone().map(|f| words(&f.factor)).collect::<Vec<_>>().join(", "))
+            }
+        };
         let point = |factor: &FactorScreeningRecord| ScatterPoint {
             x: factor.mu_star.map_or(f64::NAN, |estimate| estimate.estimate),
             y: factor.sigma.map_or(f64::NAN, |estimate| estimate.estimate),
-            label: words(&factor.factor),
+            label: reading.map_or_else(String::new, |_| words(&factor.factor)),
         };
-        ScatterSeries { name: name.to_owned(), role: role(reading), points: own.map(point).collect() }
+        ScatterSeries { name, role: role(reading), points: own.map(point).collect() }
     });
     let guide = |slope: f64, label: &str| Guide { slope, label: label.to_owned() };
     ScatterChart {

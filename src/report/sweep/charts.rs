@@ -85,29 +85,47 @@ fn series(
 
 /// What is seen: how far each output goes, its slope, and what is missing.
 fn caption(sweep: &FactorSweepRecord) -> String {
-    let others = if sweep.curves.len() > 1 { "the rest" } else { "every other factor" };
-    let mut text = format!("{} over its range, {others} at the nominal values.", sentence(&words(&sweep.factor)));
+    let factor = sentence(&words(&sweep.factor));
+    let mut text = match sweep.curves.iter().find_map(|curve| curve.against.as_ref()) {
+        Some(against) => format!(
+            "{factor}, {}, for {} values of {}; percentages are for its nominal value. Every other factor is nominal.",
+            from_to(sweep),
+            sweep.curves.len() - 1,
+            the(&against.factor)
+        ),
+        None => format!("{factor}, {}; every other factor is nominal.", from_to(sweep)),
+    };
     for effect in &sweep.effects {
         let output = sentence(&the(&effect.output));
-        let over = if sweep.curves.len() > 1 { "at nominal values" } else { "over the range" };
         match (effect.percent, effect.elasticity) {
-            (Some(percent), _) if percent == 0.0 => text.push_str(&format!(" {output} does not change.")),
+            (Some(0.0), _) => text.push_str(&format!(" {output} does not change.")),
             (Some(percent), Some(elasticity)) => text.push_str(&format!(
-                " {output} moves by {} % of its nominal value {over}, and by {} % for each 1 % of the factor near its \
-                 nominal value.",
+                " {output} moves by {} % of its nominal value in all, and by {} % for each 1 % of the factor near the \
+                 nominal point.",
                 printed(percent),
                 signed(elasticity)
             )),
             (Some(percent), None) => {
-                text.push_str(&format!(" {output} moves by {} % of its nominal value {over}.", printed(percent)));
+                text.push_str(&format!(" {output} moves by {} % of its nominal value in all.", printed(percent)));
             }
             (None, _) => (),
         }
     }
     for line in gap_lines(sweep) {
-        text.push_str(&format!(" No {line}."));
+        text.push_str(&format!(" No {}.", words(&line)));
     }
     text
+}
+
+/// The ends of a sweep with their unit.
+fn from_to(sweep: &FactorSweepRecord) -> String {
+    let (Some(from), Some(to)) = (sweep.values.first(), sweep.values.last()) else { return String::new() };
+    let unit = axis_unit(&sweep.unit);
+    let space = if unit.is_empty() { "" } else { " " };
+    match from == to {
+        true => format!("{}{space}{unit}", printed(*to)),
+        false => format!("{} to {}{space}{unit}", printed(*from), printed(*to)),
+    }
 }
 
 /// Three significant digits with a sign.
@@ -124,11 +142,17 @@ fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> Range
         more => format!(" {more} factors of less effect are not shown."),
     };
     let output = the(&nominal.output);
+    let missing = |read: fn(&SweepEffectRecord) -> Option<f64>, end: &str| {
+        let without = sweeps.iter().filter(|(_, effect)| read(effect).is_none());
+        let names: Vec<String> = without.map(|(sweep, _)| words(&sweep.factor)).collect();
+        if names.is_empty() { String::new() } else { format!(" No value at the {end} end: {}.", names.join(", ")) }
+    };
+    let gaps = missing(|effect| effect.first, "low") + &missing(|effect| effect.last, "high");
     RangeBars {
         title: format!("{}: how far each factor moves {output}", file.study.headline()),
         caption: format!(
             "{} with one factor at either end of its range and every other at its nominal value; the percentages \
-             are of the nominal value.{beyond}",
+             are of the nominal value.{gaps}{beyond}",
             sentence(&output)
         ),
         x: Axis { label: words(&nominal.output), unit: axis_unit(&nominal.unit), ..Axis::default() },
@@ -156,16 +180,14 @@ fn row(sweep: &FactorSweepRecord, effect: &SweepEffectRecord, nominal: Option<f6
     };
     let ends = || [effect.first, effect.last, nominal].into_iter().flatten();
     let beyond = |(low, high): &(f64, f64)| ends().all(|end| end > *low) || ends().all(|end| end < *high);
-    let (from, to) = (sweep.values.first(), sweep.values.last());
-    let unit = axis_unit(&sweep.unit);
-    let from_to = from.zip(to).map_or_else(String::new, |(from, to)| match from == to {
-        true => format!("{} {unit}", printed(*to)),
-        false => format!("{} to {} {unit}", printed(*from), printed(*to)),
-    });
+    let note = match effect.percent {
+        Some(percent) => format!("{} %: {}", printed(percent), from_to(sweep)),
+        None => from_to(sweep),
+    };
     RangeRow {
         name: words(&sweep.factor),
         bars,
         interval: effect.low.zip(effect.high).filter(|_| nominal.is_some()).filter(beyond),
-        note: effect.percent.map_or_else(|| from_to.clone(), |percent| format!("{} %: {from_to}", printed(percent))),
+        note,
     }
 }

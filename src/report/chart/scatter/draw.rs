@@ -102,8 +102,9 @@ impl Sheet<'_> {
             .iter()
             .enumerate()
             .map(|(number, (point, at))| {
-                // Beyond the most labels there is no room of any width.
-                let width = if number < MOST_LABELS { TICK.width(&point.label) } else { f64::INFINITY };
+                // Without a label, or beyond the most labels, there is no room of any width.
+                let labelled = number < MOST_LABELS && !point.label.trim().is_empty();
+                let width = if labelled { TICK.width(&point.label) } else { f64::INFINITY };
                 Wanted { at: *at, width, height: TICK.cap_height() }
             })
             .collect();

@@ -46,7 +46,7 @@ pub struct ScatterPoint {
     pub x: f64,
     /// On the vertical axis.
     pub y: f64,
-    /// Written beside it.
+    /// Written beside it; may be empty.
     pub label: String,
 }
 
