@@ -129,7 +129,13 @@ pub(super) fn printed(value: f64) -> String {
 
 /// A value with four significant digits.
 pub(super) fn short(value: f64) -> String {
-    super::significant(format!("{value:.3e}").parse().unwrap_or(value))
+    let text = super::significant(format!("{value:.3e}").parse().unwrap_or(value));
+    match text.split_once('e') {
+        Some((digits, exponent)) if digits.contains('.') => {
+            format!("{}e{exponent}", digits.trim_end_matches('0').trim_end_matches('.'))
+        }
+        _ => text,
+    }
 }
 
 /// A value with four significant digits and its unit, if it has one.
@@ -168,8 +174,9 @@ mod tests {
     #[test]
     fn numbers_read_well_and_cells_are_quoted() {
         assert_eq!(short(1234.567), "1235");
-        assert_eq!(short_with_unit(-0.012_345, "nN"), "-0.01234 nN");
+        assert_eq!(short_with_unit(-0.012_346, "nN"), "-0.01235 nN");
         assert_eq!(short(0.0), "0");
+        assert_eq!((short(3.072e-5), short(-1e-12)), ("3.072e-5".to_owned(), "-1e-12".to_owned()));
         assert_eq!(short_with_unit(2.5, "1"), "2.5");
         assert_eq!(csv_text([vec!["a,b".to_owned(), cell(Some(0.1)), cell(None)]]), "\"a,b\",0.1,\n");
     }

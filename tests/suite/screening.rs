@@ -154,9 +154,7 @@ fn a_family_has_its_gaps_and_its_own_values() {
     assert!(table.contains("failed: critical_time at 4 of 8 points of velocity"));
     let csv = read(folder.path(), "coulomb-general-sweep.csv");
     assert_eq!(csv.lines().count(), 1 + 4 * 2 + 4 * 5);
-    assert!(
-        csv.contains("velocity,nm/s,0,thickness,um,0.5,critical_time,s,,\"") || csv.contains(",s,,velocity is zero")
-    );
+    assert!(csv.contains("\nvelocity,nm/s,0,thickness,um,0.5,critical_time,s,,"));
     let svg = read(folder.path(), "coulomb-general-sweep-length.svg");
     assert!(svg.contains("thickness = 0.5 um") && svg.contains("thickness = 2 um"));
 }

@@ -51,16 +51,11 @@ fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> ScatterChart
     let readings = Reading::ALL.iter().rev().map(|&reading| Some(reading));
     let series = readings.chain([None]).map(|reading| {
         let own = output.factors.iter().filter(|factor| factor.reading == reading && factor.mu_star.is_some());
-        let name = match reading {
-            Some(reading) => reading.words().to_owned(),
-            // All of these lie at the origin, where there is no room for their names.
-            None => {
-                format!("no effect: {}", own.clone().map(|f| words(&f.factor)).collect::<Vec<_>>().join(", "))
-            }
-        };
+        let name = reading.map_or("no effect", Reading::words).to_owned();
         let point = |factor: &FactorScreeningRecord| ScatterPoint {
             x: factor.mu_star.map_or(f64::NAN, |estimate| estimate.estimate),
             y: factor.sigma.map_or(f64::NAN, |estimate| estimate.estimate),
+            // Those without effect all lie at the origin; the caption names them.
             label: reading.map_or_else(String::new, |_| words(&factor.factor)),
         };
         ScatterSeries { name, role: role(reading), points: own.map(point).collect() }
@@ -70,9 +65,10 @@ fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> ScatterChart
         title: title(file, output),
         caption: format!(
             "Mean size μ* of the elementary effects per full range of each factor, and their standard deviation σ, from \
-             {} trajectories. {}",
+             {} trajectories. {}{}",
             file.provenance.trajectories,
-            leader(output)
+            leader(output),
+            idle(output)
         ),
         x: axis("μ*, mean size of the effects", output),
         y: axis("σ, standard deviation of the effects", output),
@@ -121,6 +117,16 @@ fn bars(file: &ScreeningFile, output: &OutputScreeningRecord) -> RangeBars {
         interval_label: "95 % interval".to_owned(),
         rows: ranked.iter().take(MOST_BARS).map(row).collect(),
     }
+}
+
+/// Which factors have no effect, if some have one.
+fn idle(output: &OutputScreeningRecord) -> String {
+    let still = output.factors.iter().filter(|factor| factor.reading.is_none() && factor.mu_star.is_some());
+    let names: Vec<String> = still.map(|factor| words(&factor.factor)).collect();
+    if names.is_empty() || names.len() == output.factors.len() {
+        return String::new();
+    }
+    format!(" Without effect: {}.", names.join(", "))
 }
 
 /// What is seen, in one sentence.

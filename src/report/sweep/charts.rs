@@ -10,6 +10,8 @@ use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, Sw
 
 /// Up to so many values, each is marked by a point.
 const FEW_VALUES: usize = 12;
+/// A logarithmic axis from this ratio of the largest to the least value on.
+const WIDE: f64 = 50.0;
 /// Most bars in a chart; the rest are counted in its caption.
 const MOST_BARS: usize = 40;
 /// Colours at the low and the high end of a factor.
@@ -42,7 +44,11 @@ fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> LineChart {
     let drawn = if sweep.curves.len() > 1 { &sweep.curves[1..] } else { &sweep.curves[..] };
     let panels = file.nominal.iter().enumerate().map(|(number, nominal)| LinePanel {
         title: String::new(),
-        y: Axis { label: words(&nominal.output), unit: axis_unit(&nominal.unit), ..Axis::default() },
+        y: Axis {
+            label: words(&nominal.output),
+            unit: axis_unit(&nominal.unit),
+            spacing: if is_wide(drawn, number) { Spacing::Logarithmic } else { Spacing::Linear },
+        },
         series: drawn.iter().enumerate().map(|(place, curve)| series(file, (sweep, curve), (place, number))).collect(),
         markers: if number == 0 { vec![Marker { x: sweep.nominal, label: "nominal".to_owned() }] } else { Vec::new() },
     });
@@ -56,6 +62,13 @@ fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> LineChart {
         },
         panels: panels.collect(),
     }
+}
+
+/// Whether an output spans so much over its curves that a linear axis would hide the lower ones.
+fn is_wide(curves: &[CurveRecord], number: usize) -> bool {
+    let values = || curves.iter().flat_map(|curve| curve.outputs[number].values.iter().copied().flatten());
+    let (low, high) = values().fold((f64::INFINITY, 0.0f64), |(low, high), y| (low.min(y), high.max(y)));
+    low > 0.0 && high / low > WIDE
 }
 
 fn series(
