@@ -65,7 +65,7 @@ impl Reading {
 const QUANTITIES: usize = 4;
 
 /// The measures of `effects` (NaN where there is none), which stand in `parts` independent parts of equal length;
-/// `None` with fewer than two effects.
+/// `None` with fewer than two effects, or if they overflow.
 ///
 /// Intervals are the delete-one jackknife over the parts with Student's t, for mu and mu* the classical t-interval of a
 /// mean where no effect is missing; there is none if leaving out a part leaves too few effects.
@@ -85,7 +85,7 @@ pub(super) fn measures(effects: &[f64], parts: usize) -> Option<Measures> {
     Some(Measures { mu: checked(0), mu_star: checked(1), sigma: checked(2), ratio })
 }
 
-/// mu, mu*, sigma and sigma / mu*, the last NaN where mu* is 0.
+/// mu, mu*, sigma and sigma / mu*, the last NaN where mu* is 0; `None` if there are too few effects or they overflow.
 fn quantities(effects: impl Iterator<Item = f64>) -> Option<[f64; QUANTITIES]> {
     let effects: Vec<f64> = effects.filter(|effect| effect.is_finite()).collect();
     if effects.len() < 2 {
@@ -102,5 +102,5 @@ fn quantities(effects: impl Iterator<Item = f64>) -> Option<[f64; QUANTITIES]> {
         f64::NAN
     };
     let sigma = if mu_star > 0.0 { ratio * mu_star } else { 0.0 };
-    Some([mu, mu_star, sigma, ratio])
+    [mu, mu_star, sigma].iter().all(|number| number.is_finite()).then_some([mu, mu_star, sigma, ratio])
 }

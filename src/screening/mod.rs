@@ -78,7 +78,8 @@ pub struct ScreenedFactor {
     pub effects: u64,
     /// Effects dropped because a run at either end failed.
     pub dropped: u64,
-    /// Mean and spread of the effects in the output's unit per full range of the factor; `None` with fewer than two.
+    /// Mean and spread of the effects in the output's unit per full range of the factor; `None` with fewer than two, or if they
+    /// overflow.
     pub measures: Option<Measures>,
     /// What the spread says; `None` without measures, or where every effect is 0.
     pub reading: Option<Reading>,

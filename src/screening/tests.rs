@@ -283,6 +283,14 @@ fn a_constant_output_has_no_factor_to_keep_or_fix() {
 }
 
 #[test]
+fn effects_beyond_double_precision_give_no_measures() {
+    let jump = |x: &[f64]| Some(if x[0] < 0.5 { -1e308 } else { 1e308 });
+    for factor in &screened(&unit_cube(2), settings(WALK, 16), jump).outputs[0].factors {
+        assert!(factor.measures.is_none_or(|m| m.mu_star.estimate == 0.0), "{factor:?}");
+    }
+}
+
+#[test]
 fn a_thousand_factors_are_screened() {
     let space = unit_cube(1000);
     for design in DESIGNS {

@@ -89,6 +89,17 @@ impl Distribution {
 impl Discrete {
     /// The distinct values that occur, in ascending order, each with a `u` at which it is the quantile: the middle of
     /// its part of the unit interval.
+    ///
+    /// ```
+    /// use apportion::space::Distribution;
+    ///
+    /// let Distribution::Discrete(grade) = Distribution::discrete(&[2.0, 1.0, 2.0, 5.0], Some(&[1.0, 2.0, 1.0, 0.0]))?
+    /// else {
+    ///     unreachable!("made as one");
+    /// };
+    /// assert_eq!(grade.levels(), [(1.0, 0.25), (2.0, 0.75)]);
+    /// # Ok::<(), apportion::space::DistributionError>(())
+    /// ```
     pub fn levels(&self) -> Vec<(f64, f64)> {
         let mut levels: Vec<(f64, f64)> = Vec::new();
         let mut low = 0.0;
