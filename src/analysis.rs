@@ -2,7 +2,7 @@
 
 use crate::design::{Design, MAX_POINTS};
 use crate::estimate::MomentParts;
-use crate::report::{FinishedRun, ResultFile, StoppingRecord, build_result, judgement};
+use crate::report::{FinishedRun, ResultFile, RunFacts, StoppingRecord, build_result, judgement};
 use crate::run::{GrowingRun, Job, Progress, RunError, threads_in_force};
 use crate::study::{Stopping, Study};
 use crate::uncertainty::output_indices;
@@ -47,8 +47,7 @@ pub fn analyse(study: &Study, threads: usize, on_progress: &(dyn Fn(Progress) + 
         model: model.as_ref(),
         design: &design,
         replicates: run.totals(),
-        threads: threads_in_force(threads),
-        wall_seconds: run.elapsed().as_secs_f64(),
+        facts: RunFacts { threads: threads_in_force(threads), wall_seconds: run.elapsed().as_secs_f64() },
     };
     Ok(build_result(&finished, stopping))
 }

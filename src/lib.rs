@@ -21,7 +21,9 @@
 //! | [`run`] | a design through a model: fixed blocks on a thread pool, merged in a fixed tree |
 //! | [`uncertainty`] | intervals from independent replicates |
 //! | [`given`] | first-order indices from a table that exists already |
+//! | [`screening`] | elementary effects: which of many factors matter, for a few runs each |
 //! | [`study`] | studies: the file as typed, and what it means |
+//! | [`sweep`] | one factor at a time over its range, and the slopes at the nominal point |
 //! | [`report`] | results as JSON, CSV, text and charts; files written whole or not at all |
 //! | [`simulation`] | one scene of a study in time |
 //! | [`exchange`] | tables of points and outputs, for other programs |
@@ -72,10 +74,12 @@ pub mod quantity;
 pub mod report;
 pub mod reproduce;
 pub mod run;
+pub mod screening;
 pub mod simulation;
 pub mod space;
 pub mod study;
 pub mod sum;
+pub mod sweep;
 pub mod uncertainty;
 
 pub use analysis::analyse;

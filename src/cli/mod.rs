@@ -4,10 +4,13 @@ mod check;
 mod evaluate;
 mod given_data;
 mod models;
+mod pictures;
 mod progress;
 mod reproduce;
 mod run;
+mod screen;
 mod simulate;
+mod sweep;
 
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
@@ -35,6 +38,10 @@ enum Command {
     Reproduce(reproduce::Arguments),
     /// Run a study: design, model runs, indices, charts
     Run(run::Arguments),
+    /// Screen many factors for those that matter, by elementary effects: a few runs for each factor
+    Screen(screen::Arguments),
+    /// Move one factor at a time around the nominal point: curves, ranges and slopes of every output
+    Sweep(sweep::Arguments),
     /// Evaluate a study's model at points from a CSV file
     Evaluate(evaluate::Arguments),
     /// First-order indices from a table of inputs and outputs that exists already
@@ -162,6 +169,8 @@ pub fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Run(arguments) => run::run(&arguments),
+        Command::Screen(arguments) => screen::screen(&arguments),
+        Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
         Command::GivenData(arguments) => given_data::given_data(&arguments),
         Command::Check(arguments) => check::check(&arguments),

@@ -14,6 +14,15 @@ use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::{AggregateIndices, IntervalMethod, aggregate_indices};
 
+/// What the result says about the run besides its totals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunFacts {
+    /// Threads used.
+    pub threads: usize,
+    /// Seconds from the first run to the last.
+    pub wall_seconds: f64,
+}
+
 /// A run of a study that is over.
 #[derive(Clone, Copy)]
 pub struct FinishedRun<'a> {
@@ -25,10 +34,8 @@ pub struct FinishedRun<'a> {
     pub design: &'a Design,
     /// Totals of each replicate.
     pub replicates: &'a [Totals],
-    /// Threads used.
-    pub threads: usize,
-    /// Seconds from the first run to the last.
-    pub wall_seconds: f64,
+    /// Threads and time.
+    pub facts: RunFacts,
 }
 
 /// The result of a run; `stopping` tells why a growing one ended.
@@ -103,8 +110,8 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
         base_samples: settings.base_samples,
         replicates: settings.replicates,
         model_runs: design.rows(),
-        threads: run.threads,
-        wall_seconds: run.wall_seconds,
+        threads: run.facts.threads,
+        wall_seconds: run.facts.wall_seconds,
         study_sha256: study.sha256.clone(),
         first_order_estimator: FirstOrder::of_rows(design.companions()).source().to_owned(),
         total_estimator: Total::of_rows(design.companions()).source().to_owned(),

@@ -1,5 +1,6 @@
 //! Exporters turn a result into bytes; one writer puts them on disk.
 
+mod asked;
 mod build;
 mod build_output;
 pub mod chart;
@@ -7,12 +8,15 @@ pub mod distribution;
 pub mod given;
 mod result;
 pub mod scene;
+pub mod screening;
 mod shares_chart;
+pub mod sweep;
 mod tables;
 mod warnings;
 mod write;
 
-pub use build::{FinishedRun, build_result, result_json};
+pub use asked::{AskedFactor, AskedRecord, Drawing};
+pub use build::{FinishedRun, RunFacts, build_result, result_json};
 pub use build_output::judgement;
 pub use result::*;
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};

@@ -155,7 +155,7 @@ struct Of(fn(&[f64], u64) -> f64, [Output; 1]);
 
 impl Of {
     fn new(f: fn(&[f64], u64) -> f64) -> Self {
-        Self(f, [Output { name: "y", unit: Unit::dimensionless(), description: "" }])
+        Self(f, [Output { name: "y".into(), unit: Unit::dimensionless(), description: "".into() }])
     }
 }
 

@@ -7,6 +7,7 @@ mod aggregate;
 mod convergence;
 mod estimates;
 mod influence;
+mod jackknife;
 mod method;
 mod net_decay;
 mod output;
@@ -17,6 +18,7 @@ pub use aggregate::{AggregateIndices, aggregate_indices};
 pub use convergence::{Stage, stages};
 pub use estimates::Layout;
 pub use influence::{Influences, Outputs};
+pub use jackknife::jackknife;
 pub use method::IntervalMethod;
 pub use net_decay::{PartInfluences, StandardError, net_errors};
 pub use output::{

@@ -11,4 +11,5 @@ mod given_data;
 mod known;
 mod metamorphic;
 mod points;
+mod screening;
 mod workflows;

@@ -96,7 +96,7 @@ fn the_order_of_the_factors_changes_their_coordinates_only() {
     let plain = indices(&Changed::new(1.0, 0.0, [0, 1, 2]), 1 << 14);
     let swapped = indices(&Changed::new(1.0, 0.0, [2, 0, 1]), 1 << 14);
     for (j, k) in [(0, 2), (1, 0), (2, 1)] {
-        let (a, b) = (plain.factors[j], swapped.factors[k]);
+        let (a, b) = (&plain.factors[j], &swapped.factors[k]);
         assert!((a.first_order.estimate - b.first_order.estimate).abs() < 0.01);
         assert!((a.total.estimate - b.total.estimate).abs() < 0.01);
     }

@@ -1,6 +1,6 @@
 //! Points of many kinds in the unit cube, as columns: independent ones, and all that only look so.
 
-use apportion::design::{Design, DesignSettings, LatinHypercube, RandomPoints, Sampler, SobolSequence};
+use apportion::design::{Design, DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 
 pub type Columns = Vec<Vec<f64>>;
 
@@ -71,7 +71,7 @@ pub fn lattice(d: usize, n: usize, seed: u64) -> Columns {
 /// The rows A, B and AB_j of every base point, one after the other.
 pub fn saltelli(d: usize, base: u64, sampler: Sampler, seed: u64) -> Columns {
     let settings = DesignSettings { sampler, base_samples: base, replicates: 1, seed };
-    let design = Design::new(settings, d, (0..d).map(|j| vec![j]).collect()).unwrap();
+    let design = Design::new(settings, d, Rows::plain((0..d).map(|j| vec![j]).collect())).unwrap();
     let mut row = vec![0.0; d];
     let mut columns = vec![Vec::new(); d];
     for k in 0..design.rows() {

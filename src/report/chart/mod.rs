@@ -1,6 +1,6 @@
 //! Charts as SVG text and PNG pictures, all in one style.
 //!
-//! A chart is plain data, [`GroupedBars`] or [`LineChart`]; its method `svg` draws it, and [`png()`] turns the
+//! A chart is plain data, [`GroupedBars`], [`LineChart`], [`RangeBars`] or [`ScatterChart`]; its method `svg` draws it, and [`png()`] turns the
 //! SVG into a picture. Colours belong to a [`Role`], so a friction model looks the same in every chart.
 //! The same data give the same bytes. Text stays text, is escaped, and is laid out with the advances of
 //! the embedded faces, which are those of Arial. Numbers that cannot be drawn (not finite, or beyond
@@ -14,7 +14,9 @@ mod lines;
 mod marks;
 mod plot;
 mod png;
+mod ranges;
 mod scale;
+mod scatter;
 mod style;
 mod svg;
 mod text;
@@ -26,5 +28,7 @@ pub use bars::{Bar, GroupedBars, Panel, Series};
 pub use error::ChartError;
 pub use lines::{Axis, LineChart, LinePanel, LineSeries, Marker, Stroke};
 pub use png::{PNG_SCALE, Png, PngError, png};
+pub use ranges::{Range, RangeBars, RangeRow, Reference};
 pub use scale::Spacing;
+pub use scatter::{Guide, ScatterChart, ScatterPoint, ScatterSeries};
 pub use style::Role;

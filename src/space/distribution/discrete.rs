@@ -86,6 +86,36 @@ impl Distribution {
     }
 }
 
+impl Discrete {
+    /// The distinct values that occur, in ascending order, each with a `u` at which it is the quantile: the middle of
+    /// its part of the unit interval.
+    ///
+    /// ```
+    /// use apportion::space::Distribution;
+    ///
+    /// let Distribution::Discrete(grade) = Distribution::discrete(&[2.0, 1.0, 2.0, 5.0], Some(&[1.0, 2.0, 1.0, 0.0]))?
+    /// else {
+    ///     unreachable!("made as one");
+    /// };
+    /// assert_eq!(grade.levels(), [(1.0, 0.25), (2.0, 0.75)]);
+    /// # Ok::<(), apportion::space::DistributionError>(())
+    /// ```
+    pub fn levels(&self) -> Vec<(f64, f64)> {
+        let mut levels: Vec<(f64, f64)> = Vec::new();
+        let mut low = 0.0;
+        for same in self.sorted.iter().zip(&self.cumulative).collect::<Vec<_>>().chunk_by(|a, b| a.0 == b.0) {
+            let (&value, &high) = same[same.len() - 1];
+            // A part without any double inside is never drawn.
+            let middle = low + (high - low) / 2.0;
+            if low < middle && middle < high {
+                levels.push((value, middle));
+            }
+            low = high;
+        }
+        levels
+    }
+}
+
 fn check(list: &'static str, entries: &[f64]) -> Result<(), DistributionError> {
     match entries.iter().enumerate().find(|(_, value)| !value.is_finite()) {
         Some((index, &value)) => Err(DistributionError::EntryNotFinite { list, index, value }),

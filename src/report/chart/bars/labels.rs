@@ -7,7 +7,7 @@ const GAP: f64 = 3.0;
 
 /// A rectangle in px; `top < bottom`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Area {
+pub(in super::super) struct Area {
     pub left: f64,
     pub right: f64,
     pub top: f64,
@@ -20,7 +20,8 @@ impl Area {
         Self { left: x - half, right: x + half, top: from.min(to), bottom: from.max(to) }
     }
 
-    fn overlaps(&self, other: &Area) -> bool {
+    /// Whether the two have a point in common inside both.
+    pub fn overlaps(&self, other: &Area) -> bool {
         self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
     }
 }

@@ -1,7 +1,7 @@
 //! Grouped bars with intervals and published values: shares of variance by factor.
 
 mod draw;
-mod labels;
+pub(super) mod labels;
 mod layout;
 
 use super::ChartError;

@@ -182,7 +182,7 @@ impl LineChart {
 
 impl Axis {
     /// Label and unit, with the power of ten that the ticks are in.
-    fn title(&self, exponent: i32) -> String {
+    pub(super) fn title(&self, exponent: i32) -> String {
         super::plot::axis_title(&self.label, &self.unit, exponent)
     }
 }

@@ -1,0 +1,112 @@
+//! `apportion screen`: which of many factors matter, for a few runs each.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::anyhow;
+use apportion::report::RunFacts;
+use apportion::report::screening::{
+    build_screening, screening_charts, screening_csv, screening_json, screening_summary,
+};
+use apportion::run::threads_in_force;
+use apportion::screening::{MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningJob};
+use apportion::screening::{ScreeningSettings, screen as screen_factors};
+use apportion::study::Study;
+
+use super::pictures::{prepare, write};
+use super::progress::Meter;
+use super::run::default_folder;
+use super::{Failure, StudyArguments, Threads, print, say, whole_number};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Trajectories; each costs one run more than there are factors
+    #[arg(long, value_name = "R", default_value_t = 32, value_parser = clap::value_parser!(u64).range(MIN_TRAJECTORIES..))]
+    trajectories: u64,
+    /// How the points are laid out: radial (Campolongo et al. 2011, by the study's sampler) or trajectory (Morris 1991)
+    #[arg(long, value_enum, default_value_t = Layout::Radial)]
+    design: Layout,
+    /// Levels of the trajectory design's grid, an even number [default: 4]
+    #[arg(long, value_name = "P", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_LEVELS)))]
+    levels: Option<u32>,
+    /// Seed of the points [default: the study's]
+    #[arg(long, value_name = "S", value_parser = whole_number())]
+    seed: Option<u64>,
+    /// Folder for the results [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    threads: Threads,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Layout {
+    Radial,
+    Trajectory,
+}
+
+impl From<ScreeningError> for Failure {
+    fn from(error: ScreeningError) -> Self {
+        match error {
+            ScreeningError::Run(_) => Self::Run(error.into()),
+            _ => Self::Input(error.into()),
+        }
+    }
+}
+
+impl Arguments {
+    fn settings(&self, study: &Study) -> Result<ScreeningSettings, Failure> {
+        let in_study = study.design.settings();
+        let design = match (self.design, self.levels) {
+            (Layout::Radial, None) => ScreeningDesign::Radial { sampler: in_study.sampler },
+            (Layout::Radial, Some(levels)) => {
+                let message = "--levels is of no account to the radial design: add --design trajectory";
+                return Err(Failure::Input(anyhow!("--levels {levels}: {message}")));
+            }
+            (Layout::Trajectory, levels) => ScreeningDesign::Trajectory { levels: levels.unwrap_or(4) },
+        };
+        let seed = self.seed.unwrap_or(in_study.seed);
+        Ok(ScreeningSettings { design, trajectories: self.trajectories, seed })
+    }
+}
+
+pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load()?;
+    let settings = arguments.settings(&study)?;
+    let (in_force, _) = settings.in_force(study.space.factors().len())?;
+    if in_force.trajectories != settings.trajectories {
+        let (asked, used) = (settings.trajectories, in_force.trajectories);
+        say(&format!("note: {asked} trajectories do not make equal parts for the intervals: {used} are used"));
+    }
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    let model = study.model();
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name).collect();
+    prepare(&folder, &file_names(&study.name, &outputs))?;
+    let runs = in_force.trajectories * (study.space.factors().len() as u64 + 1);
+    let meter = Meter::new(&study.name, runs);
+    let start = Instant::now();
+    let job = ScreeningJob { space: &study.space, model: model.as_ref(), settings };
+    let screening = screen_factors(job, arguments.threads.number(), &|progress| meter.update(progress))?;
+    let threads = threads_in_force(arguments.threads.number());
+    let facts = RunFacts { threads, wall_seconds: start.elapsed().as_secs_f64() };
+    meter.finish(screening.runs, facts.wall_seconds);
+    let file = build_screening(&study, model.as_ref(), &screening, facts);
+    let charts = screening_charts(&file).map_err(|error| Failure::Run(error.into()))?;
+    let tables = [("-screen.json", screening_json(&file)), ("-screen.csv", screening_csv(&file))];
+    let files = write(&folder, &study.name, (&tables, &charts))?;
+    print(&screening_summary(&file))?;
+    super::pictures::say_written(&files);
+    Ok(())
+}
+
+/// The files a screening of the study called `name` writes.
+fn file_names(name: &str, outputs: &[&str]) -> Vec<PathBuf> {
+    let charts = outputs.iter().flat_map(|output| {
+        let stem = if outputs.len() == 1 { format!("{name}-screen") } else { format!("{name}-screen-{output}") };
+        [format!("{stem}.svg"), format!("{stem}.png"), format!("{stem}-bars.svg"), format!("{stem}-bars.png")]
+    });
+    let tables = [format!("{name}-screen.json"), format!("{name}-screen.csv")];
+    tables.into_iter().chain(charts).map(|name| Path::new(&name).to_owned()).collect()
+}

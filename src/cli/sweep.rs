@@ -1,0 +1,107 @@
+//! `apportion sweep`: one factor at a time around the nominal point.
+
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+use apportion::report::sweep::{build_sweep, sweep_charts, sweep_csv, sweep_json, sweep_summary};
+use apportion::space::Space;
+use apportion::study::Study;
+use apportion::sweep::{FactorValues, MAX_POINTS, SweepError, SweepRequest, find, sweep as sweep_factors};
+
+use super::pictures::{prepare, say_written, write};
+use super::run::default_folder;
+use super::{Failure, StudyArguments, print};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// A factor to sweep over its range, or over values: thickness, or thickness='0.5,1,2 um' [default: every factor]
+    #[arg(long = "factor", value_name = "NAME[=VALUES]")]
+    factors: Vec<String>,
+    /// Points over the range of each factor
+    #[arg(long, value_name = "N", default_value_t = 101, value_parser = parse_points)]
+    points: usize,
+    /// Repeat each sweep for values of another factor, one curve for each: length='300,450,600 um'
+    #[arg(long, value_name = "NAME=VALUES")]
+    against: Option<String>,
+    /// Folder for the results [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+fn parse_points(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(points) if (2..=MAX_POINTS).contains(&points) => Ok(points),
+        _ => Err(format!("expected a whole number from 2 to {MAX_POINTS}")),
+    }
+}
+
+impl From<SweepError> for Failure {
+    fn from(error: SweepError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+impl Arguments {
+    fn request(&self, study: &Study) -> Result<SweepRequest, Failure> {
+        let space = &study.space;
+        let factors = if self.factors.is_empty() {
+            let all = 0..space.factors().len();
+            all.map(|factor| FactorValues::over_range(space, factor, self.points)).collect::<Result<_, _>>()?
+        } else {
+            let read = |text: &String| asked("--factor", text, || self.swept(text, space));
+            self.factors.iter().map(read).collect::<Result<_, _>>()?
+        };
+        let against = self.against.as_ref();
+        let against = against.map(|text| asked("--against", text, || FactorValues::parse(text, space))).transpose()?;
+        Ok(SweepRequest { factors, against })
+    }
+
+    fn swept(&self, text: &str, space: &Space) -> Result<FactorValues, SweepError> {
+        if text.contains('=') {
+            FactorValues::parse(text, space)
+        } else {
+            FactorValues::over_range(space, find(space, text)?, self.points)
+        }
+    }
+}
+
+/// What an option asks for, or its error with the option in front.
+fn asked(
+    option: &str,
+    text: &str,
+    read: impl FnOnce() -> Result<FactorValues, SweepError>,
+) -> Result<FactorValues, Failure> {
+    read().map_err(|error| Failure::Input(anyhow!("{option} {text}: {error}")))
+}
+
+pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load()?;
+    let request = arguments.request(&study)?;
+    request.check(&study.space)?;
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    let model = study.model();
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name).collect();
+    prepare(&folder, &file_names(&study, &request, &outputs))?;
+    let sweeps = sweep_factors(&study.space, model.as_ref(), &request)?;
+    let file = build_sweep(&study, model.as_ref(), &sweeps);
+    let charts = sweep_charts(&file).map_err(|error| Failure::Run(error.into()))?;
+    let tables = [("-sweep.json", sweep_json(&file)), ("-sweep.csv", sweep_csv(&file))];
+    let files = write(&folder, &study.name, (&tables, &charts))?;
+    print(&sweep_summary(&file))?;
+    say_written(&files);
+    Ok(())
+}
+
+/// The files that the sweeps write.
+fn file_names(study: &Study, request: &SweepRequest, outputs: &[&str]) -> Vec<PathBuf> {
+    let factors = request.factors.iter().map(|asked| study.space.factors()[asked.factor].name.clone());
+    let ranges = outputs.iter().map(|output| match outputs.len() {
+        1 => "ranges".to_owned(),
+        _ => format!("ranges-{output}"),
+    });
+    let charts = factors.chain(ranges).flat_map(|chart| [format!("-{chart}.svg"), format!("-{chart}.png")]);
+    let endings = [".json".to_owned(), ".csv".to_owned()].into_iter().chain(charts);
+    endings.map(|ending| PathBuf::from(format!("{}-sweep{ending}", study.name))).collect()
+}

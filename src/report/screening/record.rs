@@ -1,0 +1,247 @@
+//! The screening file: JSON that other programs can rely on.
+//!
+//! Format `apportion-screening`, version 1, described key by key in `docs/screening-format.md`. Later versions of the
+//! program only add keys. A number that does not exist is `null`.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use super::super::asked::{AskedRecord, asked, validity};
+use super::super::result::{EstimateRecord, ValidityRecord};
+use super::super::{RunFacts, with_unit};
+use crate::design::Sampler;
+use crate::model::{Model, Output};
+use crate::screening::{
+    FIXABLE, MIN_STEP, Reading, ScreenedFactor, ScreenedOutput, Screening, ScreeningDesign, ScreeningFailure,
+};
+use crate::space::Distribution;
+use crate::study::Study;
+use crate::uncertainty::Estimate;
+
+/// A whole screening.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ScreeningFile {
+    /// Always `apportion-screening`.
+    pub format: String,
+    /// Version of the format.
+    pub version: u32,
+    /// What was asked.
+    pub study: AskedRecord,
+    /// How it was answered.
+    pub provenance: ScreeningProvenance,
+    /// The outputs in the order of the study.
+    pub outputs: Vec<OutputScreeningRecord>,
+    /// Rows on which the model's assumptions do not hold; the rows count all the same.
+    pub validity: Vec<ValidityRecord>,
+    /// What a careful reader should know, in sentences.
+    pub notes: Vec<String>,
+}
+
+/// How a screening was made.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ScreeningProvenance {
+    /// Version of the program.
+    pub apportion_version: String,
+    /// `radial` or `trajectory`.
+    pub design: String,
+    /// Where the points of a radial design come from; `null` for trajectories.
+    pub sampler: Option<String>,
+    /// Levels of the grid of a trajectory design; `null` for a radial one.
+    pub levels: Option<u32>,
+    /// Shortest step of a radial design, as a part of the range; `null` for trajectories.
+    pub shortest_step: Option<f64>,
+    /// Trajectories r.
+    pub trajectories: u64,
+    /// Independent parts that the intervals rest on.
+    pub parts: u64,
+    /// Seed of the design.
+    pub seed: u64,
+    /// Runs of the model, r (d + 1).
+    pub model_runs: u64,
+    /// Runs that failed in at least one output.
+    pub failed_runs: u64,
+    /// Threads used.
+    pub threads: usize,
+    /// Seconds from the first run to the last.
+    pub wall_seconds: f64,
+    /// What the intervals are, in words.
+    pub interval: String,
+    /// When a factor is said to be one that could be fixed: the upper bound of mu* below this part of the largest mu*.
+    pub fixable_below: f64,
+}
+
+/// Everything about one output.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OutputScreeningRecord {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// One entry per factor, in the order of the study.
+    pub factors: Vec<FactorScreeningRecord>,
+    /// Why runs failed.
+    pub failures: Vec<ScreeningFailureRecord>,
+    /// What a careful reader should know, in sentences.
+    pub warnings: Vec<String>,
+}
+
+/// One factor's effect on one output.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FactorScreeningRecord {
+    /// The factor.
+    pub factor: String,
+    /// Place by mu*, from 1.
+    pub rank: usize,
+    /// Mean size of the elementary effects, in the output's unit per full range of the factor.
+    pub mu_star: Option<EstimateRecord>,
+    /// Mean of the elementary effects, likewise.
+    pub mu: Option<EstimateRecord>,
+    /// Standard deviation of the elementary effects, likewise.
+    pub sigma: Option<EstimateRecord>,
+    /// sigma / mu*; `null` where mu* is 0.
+    pub ratio: Option<EstimateRecord>,
+    /// What the ratio says.
+    pub reading: Option<Reading>,
+    /// Whether the factor could be fixed; `null` where nothing can be said.
+    pub could_be_fixed: Option<bool>,
+    /// Effects that the measures rest on.
+    pub effects: u64,
+    /// Effects dropped because a run failed.
+    pub dropped: u64,
+    /// Steps that did not change the factor's value, as those of a constant; their effect is 0.
+    pub idle_steps: u64,
+}
+
+/// A reason for which runs failed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ScreeningFailureRecord {
+    /// The reason.
+    pub reason: String,
+    /// Number of runs.
+    pub runs: u64,
+    /// The factor values of the first of them, in the units of the factors.
+    pub first_inputs: Map<String, Value>,
+}
+
+/// The file of a screening of `study`, whose model is `model`.
+pub fn build_screening(study: &Study, model: &dyn Model, screening: &Screening, facts: RunFacts) -> ScreeningFile {
+    let outputs = model.outputs().iter().zip(&screening.outputs);
+    ScreeningFile {
+        format: "apportion-screening".to_owned(),
+        version: 1,
+        study: asked(study),
+        provenance: provenance(screening, facts),
+        outputs: outputs.map(|(output, screened)| output_record(study, output, (screening, screened))).collect(),
+        validity: validity(model, &screening.flags, screening.runs),
+        notes: notes(study),
+    }
+}
+
+fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
+    let Screening { settings, parts, .. } = *screening;
+    let (sampler, levels) = match settings.design {
+        ScreeningDesign::Radial { sampler } => (Some(sampler), None),
+        ScreeningDesign::Trajectory { levels } => (None, Some(levels)),
+    };
+    let what = match sampler {
+        Some(Sampler::Sobol | Sampler::LatinHypercube) => "randomisations of the design",
+        _ if parts == settings.trajectories => "trajectories",
+        _ => "equal parts of the trajectories",
+    };
+    ScreeningProvenance {
+        apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
+        design: settings.design.name().to_owned(),
+        sampler: sampler.map(|sampler| sampler.name().to_owned()),
+        levels,
+        shortest_step: sampler.map(|_| MIN_STEP),
+        trajectories: settings.trajectories,
+        parts,
+        seed: settings.seed,
+        model_runs: screening.runs,
+        failed_runs: screening.failed,
+        threads: facts.threads,
+        wall_seconds: facts.wall_seconds,
+        interval: format!("95 % t-interval (delete-one jackknife) from {parts} independent {what}"),
+        fixable_below: FIXABLE,
+    }
+}
+
+fn output_record(
+    study: &Study,
+    output: &Output,
+    (screening, screened): (&Screening, &ScreenedOutput),
+) -> OutputScreeningRecord {
+    let names = || study.space.factors().iter().map(|factor| factor.name.clone());
+    let factors = names().zip(&screened.factors).zip(&screening.idle);
+    let dropped: u64 = screened.factors.iter().map(|factor| factor.dropped).sum();
+    let all = screening.settings.trajectories * screened.factors.len() as u64;
+    let warning = format!(
+        "{dropped} of {all} elementary effects are dropped because a run failed: the measures describe the part of the \
+         factor space where runs succeed"
+    );
+    OutputScreeningRecord {
+        name: output.name.to_string(),
+        unit: output.unit.to_string(),
+        factors: factors.map(|((name, factor), &idle)| factor_record(name, factor, idle)).collect(),
+        failures: screened.failures.iter().map(|failure| failure_record(study, failure)).collect(),
+        warnings: if dropped > 0 { vec![warning] } else { Vec::new() },
+    }
+}
+
+fn factor_record(factor: String, screened: &ScreenedFactor, idle_steps: u64) -> FactorScreeningRecord {
+    let measures = screened.measures;
+    FactorScreeningRecord {
+        factor,
+        rank: screened.rank,
+        mu_star: measures.map(|m| estimate(m.mu_star)),
+        mu: measures.map(|m| estimate(m.mu)),
+        sigma: measures.map(|m| estimate(m.sigma)),
+        ratio: measures.and_then(|m| m.ratio).map(estimate),
+        reading: screened.reading,
+        could_be_fixed: screened.could_be_fixed,
+        effects: screened.effects,
+        dropped: screened.dropped,
+        idle_steps,
+    }
+}
+
+fn estimate(estimate: Estimate) -> EstimateRecord {
+    let (low, high) = estimate.interval.map(|interval| (interval.low, interval.high)).unzip();
+    EstimateRecord { estimate: estimate.estimate, low, high }
+}
+
+fn failure_record(study: &Study, failure: &ScreeningFailure) -> ScreeningFailureRecord {
+    let inputs = study.space.factors().iter().zip(&failure.first);
+    ScreeningFailureRecord {
+        reason: failure.reason.to_string(),
+        runs: failure.runs,
+        first_inputs: inputs.map(|(factor, value)| (factor.name.clone(), Value::from(*value))).collect(),
+    }
+}
+
+fn notes(study: &Study) -> Vec<String> {
+    let factors = study.space.factors();
+    let bent = factors.iter().filter(|factor| {
+        !matches!(
+            factor.distribution(),
+            Distribution::Uniform(_) | Distribution::Discrete(_) | Distribution::Constant(_)
+        )
+    });
+    let bent: Vec<String> = bent.map(|factor| format!("{} ({})", factor.name, factor.distribution().name())).collect();
+    let still = factors.iter().filter(|factor| matches!(factor.distribution(), Distribution::Constant(_)));
+    let still: Vec<String> = still
+        .map(|factor| format!("{} = {}", factor.name, with_unit(factor.nominal, factor.unit().symbol())))
+        .collect();
+    let mut notes = Vec::new();
+    if !bent.is_empty() {
+        notes.push(format!(
+            "effects are per step in probability, so that sigma of factors that are not uniform holds the bend of their \
+             distribution too: {}",
+            bent.join(", ")
+        ));
+    }
+    if !still.is_empty() {
+        notes.push(format!("constant, hence without effect: {}", still.join(", ")));
+    }
+    notes
+}

@@ -1,0 +1,206 @@
+//! The charts of sweeps: every output against each factor, and how far each factor moves each output.
+
+use super::super::asked::{Drawing, axis_unit, printed, sentence, short_with_unit, the, words};
+use super::super::chart::{
+    Axis, ChartError, LineChart, LinePanel, LineSeries, Marker, Range, RangeBars, RangeRow, Reference, Role, Spacing,
+    Stroke,
+};
+use super::super::friction_role;
+use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines};
+
+/// Up to so many values, each is marked by a point.
+const FEW_VALUES: usize = 12;
+/// A logarithmic axis from this ratio of the largest to the least value on.
+const WIDE: f64 = 50.0;
+/// Most bars in a chart; the rest are counted in its caption.
+const MOST_BARS: usize = 40;
+/// Colours at the low and the high end of a factor.
+const LOW_END: Role = Role::Other(2);
+const HIGH_END: Role = Role::Other(0);
+
+/// One line chart per factor, `-sweep-FACTOR`, with a panel per output; then per output the ranges of all factors,
+/// `-sweep-ranges`, with the output's name at the end where there are several.
+///
+/// # Errors
+/// [`ChartError`] if there is nothing to draw.
+pub fn sweep_charts(file: &SweepFile) -> Result<Vec<Drawing>, ChartError> {
+    let mut drawings = Vec::with_capacity(file.sweeps.len() + file.nominal.len());
+    for sweep in &file.sweeps {
+        drawings.push(Drawing { suffix: format!("-sweep-{}", sweep.factor), svg: lines(file, sweep).svg()? });
+    }
+    for (number, nominal) in file.nominal.iter().enumerate() {
+        let suffix = match file.nominal.len() {
+            1 => "-sweep-ranges".to_owned(),
+            _ => format!("-sweep-ranges-{}", nominal.output),
+        };
+        drawings.push(Drawing { suffix, svg: ranges(file, (number, nominal)).svg()? });
+    }
+    Ok(drawings)
+}
+
+fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> LineChart {
+    let logarithmic = sweep.spacing == "logarithmic" && sweep.values.iter().all(|value| *value > 0.0);
+    // With a family, the curve at nominal values would only be in its way.
+    let drawn = if sweep.curves.len() > 1 { &sweep.curves[1..] } else { &sweep.curves[..] };
+    let panels = file.nominal.iter().enumerate().map(|(number, nominal)| LinePanel {
+        title: String::new(),
+        y: Axis {
+            label: words(&nominal.output),
+            unit: axis_unit(&nominal.unit),
+            spacing: if is_wide(drawn, number) { Spacing::Logarithmic } else { Spacing::Linear },
+        },
+        series: drawn.iter().enumerate().map(|(place, curve)| series(file, (sweep, curve), (place, number))).collect(),
+        markers: if number == 0 { vec![Marker { x: sweep.nominal, label: "nominal".to_owned() }] } else { Vec::new() },
+    });
+    LineChart {
+        title: format!("{}: {}", file.study.headline(), words(&sweep.factor)),
+        caption: caption(sweep),
+        x: Axis {
+            label: words(&sweep.factor),
+            unit: axis_unit(&sweep.unit),
+            spacing: if logarithmic { Spacing::Logarithmic } else { Spacing::Linear },
+        },
+        panels: panels.collect(),
+    }
+}
+
+/// Whether an output spans so much over its curves that a linear axis would hide the lower ones.
+fn is_wide(curves: &[CurveRecord], number: usize) -> bool {
+    let values = || curves.iter().flat_map(|curve| curve.outputs[number].values.iter().copied().flatten());
+    let (low, high) = values().fold((f64::INFINITY, 0.0f64), |(low, high), y| (low.min(y), high.max(y)));
+    low > 0.0 && high / low > WIDE
+}
+
+fn series(
+    file: &SweepFile,
+    (sweep, curve): (&FactorSweepRecord, &CurveRecord),
+    (place, number): (usize, usize),
+) -> LineSeries {
+    let friction = file.study.settings.get("friction").and_then(serde_json::Value::as_str);
+    let few = sweep.values.len() <= FEW_VALUES;
+    let points = sweep.values.iter().zip(&curve.outputs[number].values);
+    let (name, role, stroke) = match &curve.against {
+        None => (String::new(), friction.map_or(Role::Other(0), friction_role), Stroke::Solid),
+        Some(against) => (
+            format!("{} = {}", words(&against.factor), short_with_unit(against.value, &against.unit)),
+            Role::Other(place),
+            [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][place % 3],
+        ),
+    };
+    LineSeries {
+        name,
+        role,
+        stroke: if few { Stroke::SolidWithPoints } else { stroke },
+        points: points.map(|(x, y)| (*x, y.unwrap_or(f64::NAN))).collect(),
+        band: Vec::new(),
+    }
+}
+
+/// What is seen: how far each output goes, its slope, and what is missing.
+fn caption(sweep: &FactorSweepRecord) -> String {
+    let factor = sentence(&words(&sweep.factor));
+    let mut text = match sweep.curves.iter().find_map(|curve| curve.against.as_ref()) {
+        Some(against) => format!(
+            "{factor}, {}, for {} values of {}; percentages are for its nominal value. Every other factor is nominal.",
+            from_to(sweep),
+            sweep.curves.len() - 1,
+            the(&against.factor)
+        ),
+        None => format!("{factor}, {}; every other factor is nominal.", from_to(sweep)),
+    };
+    for effect in &sweep.effects {
+        let output = sentence(&the(&effect.output));
+        match (effect.percent, effect.elasticity) {
+            (Some(0.0), _) => text.push_str(&format!(" {output} does not change.")),
+            (Some(percent), Some(elasticity)) => text.push_str(&format!(
+                " {output} moves by {} % of its nominal value in all, and by {} % for each 1 % of the factor near the \
+                 nominal point.",
+                printed(percent),
+                signed(elasticity)
+            )),
+            (Some(percent), None) => {
+                text.push_str(&format!(" {output} moves by {} % of its nominal value in all.", printed(percent)));
+            }
+            (None, _) => (),
+        }
+    }
+    for line in gap_lines(sweep) {
+        text.push_str(&format!(" No {}.", words(&line)));
+    }
+    text
+}
+
+/// The ends of a sweep with their unit.
+fn from_to(sweep: &FactorSweepRecord) -> String {
+    let (Some(from), Some(to)) = (sweep.values.first(), sweep.values.last()) else { return String::new() };
+    let unit = axis_unit(&sweep.unit);
+    let space = if unit.is_empty() { "" } else { " " };
+    match from == to {
+        true => format!("{}{space}{unit}", printed(*to)),
+        false => format!("{} to {}{space}{unit}", printed(*from), printed(*to)),
+    }
+}
+
+/// Three significant digits with a sign.
+fn signed(value: f64) -> String {
+    if value > 0.0 { format!("+{}", printed(value)) } else { printed(value) }
+}
+
+fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> RangeBars {
+    let mut sweeps: Vec<(&FactorSweepRecord, &SweepEffectRecord)> =
+        file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
+    sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
+    let beyond = match sweeps.len().saturating_sub(MOST_BARS) {
+        0 => String::new(),
+        more => format!(" {more} factors of less effect are not shown."),
+    };
+    let output = the(&nominal.output);
+    let missing = |read: fn(&SweepEffectRecord) -> Option<f64>, end: &str| {
+        let without = sweeps.iter().filter(|(_, effect)| read(effect).is_none());
+        let names: Vec<String> = without.map(|(sweep, _)| words(&sweep.factor)).collect();
+        if names.is_empty() { String::new() } else { format!(" No value at the {end} end: {}.", names.join(", ")) }
+    };
+    let gaps = missing(|effect| effect.first, "low") + &missing(|effect| effect.last, "high");
+    RangeBars {
+        title: format!("{}: how far each factor moves {output}", file.study.headline()),
+        caption: format!(
+            "{} with one factor at either end of its range and every other at its nominal value; the percentages \
+             are of the nominal value.{gaps}{beyond}",
+            sentence(&output)
+        ),
+        x: Axis { label: words(&nominal.output), unit: axis_unit(&nominal.unit), ..Axis::default() },
+        reference: nominal
+            .value
+            .map(|value| Reference { value, label: format!("nominal: {}", short_with_unit(value, &nominal.unit)) }),
+        series: vec![
+            ("factor at its low end".to_owned(), LOW_END),
+            ("factor at its high end".to_owned(), HIGH_END),
+            ("whole range".to_owned(), Role::Other(3)),
+        ],
+        interval_label: "whole range, where the ends are not the extremes".to_owned(),
+        rows: sweeps.iter().take(MOST_BARS).map(|(sweep, effect)| row(sweep, effect, nominal.value)).collect(),
+    }
+}
+
+fn row(sweep: &FactorSweepRecord, effect: &SweepEffectRecord, nominal: Option<f64>) -> RangeRow {
+    let bars = match (nominal, effect.low.zip(effect.high)) {
+        (Some(from), Some(_)) => {
+            let bar = |role, to: Option<f64>| Range { role, from, to: to.unwrap_or(f64::NAN) };
+            vec![bar(LOW_END, effect.first), bar(HIGH_END, effect.last)]
+        }
+        (None, Some((from, to))) => vec![Range { role: Role::Other(3), from, to }],
+        (_, None) => Vec::new(),
+    };
+    let ends = || [effect.first, effect.last, nominal].into_iter().flatten();
+    let beyond = |(low, high): &(f64, f64)| ends().all(|end| end > *low) || ends().all(|end| end < *high);
+    let note = match effect.percent {
+        Some(percent) => format!("{} %: {}", printed(percent), from_to(sweep)),
+        None => from_to(sweep),
+    };
+    RangeRow {
+        name: words(&sweep.factor),
+        bars,
+        interval: effect.low.zip(effect.high).filter(|_| nominal.is_some()).filter(beyond),
+        note,
+    }
+}

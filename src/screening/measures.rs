@@ -1,0 +1,106 @@
+//! Morris's measures of the elementary effects of one factor on one output.
+
+use serde::{Deserialize, Serialize};
+
+use crate::sum::{centred_product, mean};
+use crate::uncertainty::{Estimate, jackknife};
+
+/// A factor could be fixed if mu* with its error stays below this part of the largest mu*.
+pub const FIXABLE: f64 = 0.05;
+
+/// The measures of one factor, in units of the output per full range of the factor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measures {
+    /// mu: the mean of the elementary effects (Morris 1991). Effects of both signs cancel in it.
+    pub mu: Estimate,
+    /// mu*: the mean of their absolute values (Campolongo, Cariboni and Saltelli 2007).
+    pub mu_star: Estimate,
+    /// sigma: their standard deviation, with n - 1.
+    pub sigma: Estimate,
+    /// sigma / mu*; `None` where mu* is 0.
+    pub ratio: Option<Estimate>,
+}
+
+/// What sigma / mu* says of a factor (Garcia Sanchez, Lacarriere, Musy and Bourges 2014, Energy and Buildings 68,
+/// 741-750).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Reading {
+    /// Below 0.1: almost linear.
+    Linear,
+    /// From 0.1 to 0.5: monotone.
+    Monotone,
+    /// From 0.5 to 1: almost monotone.
+    AlmostMonotone,
+    /// From 1: non-linear, not monotone, or interacting with other factors.
+    NonLinearOrInteracting,
+}
+
+impl Reading {
+    /// All of them, in ascending order of sigma / mu*.
+    pub const ALL: [Self; 4] = [Self::Linear, Self::Monotone, Self::AlmostMonotone, Self::NonLinearOrInteracting];
+
+    /// The reading of a ratio sigma / mu*.
+    pub fn of(ratio: f64) -> Self {
+        match ratio {
+            r if r < 0.1 => Self::Linear,
+            r if r < 0.5 => Self::Monotone,
+            r if r < 1.0 => Self::AlmostMonotone,
+            _ => Self::NonLinearOrInteracting,
+        }
+    }
+
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Linear => "almost linear",
+            Self::Monotone => "monotone",
+            Self::AlmostMonotone => "almost monotone",
+            Self::NonLinearOrInteracting => "non-linear or interacting",
+        }
+    }
+}
+
+/// Numbers in the flat list that the jackknife works on.
+const QUANTITIES: usize = 4;
+
+/// The measures of `effects` (NaN where there is none), which stand in `parts` independent parts of equal length;
+/// `None` with fewer than two effects, or if they overflow.
+///
+/// Intervals are the delete-one jackknife over the parts with Student's t, for mu and mu* the classical t-interval of a
+/// mean where no effect is missing; there is none if leaving out a part leaves too few effects.
+pub(super) fn measures(effects: &[f64], parts: usize) -> Option<Measures> {
+    let whole = quantities(effects.iter().copied())?;
+    let part = effects.len() / parts.max(1);
+    let without = |p: usize| {
+        quantities(effects[..p * part].iter().chain(&effects[(p + 1) * part..]).copied()).map(|list| list.to_vec())
+    };
+    let without: Option<Vec<Vec<f64>>> = (0..parts).map(without).collect();
+    let estimates = jackknife(&whole, &without.unwrap_or_default());
+    let checked = |k: usize| {
+        let Estimate { estimate, interval } = estimates[k];
+        Estimate { estimate, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) }
+    };
+    let ratio = Some(checked(3)).filter(|ratio| ratio.estimate.is_finite());
+    Some(Measures { mu: checked(0), mu_star: checked(1), sigma: checked(2), ratio })
+}
+
+/// mu, mu*, sigma and sigma / mu*, the last NaN where mu* is 0; `None` if there are too few effects or they overflow.
+fn quantities(effects: impl Iterator<Item = f64>) -> Option<[f64; QUANTITIES]> {
+    let effects: Vec<f64> = effects.filter(|effect| effect.is_finite()).collect();
+    if effects.len() < 2 {
+        return None;
+    }
+    let sizes: Vec<f64> = effects.iter().map(|effect| effect.abs()).collect();
+    let (mu, mu_star) = (mean(&effects), mean(&sizes));
+    // In units of mu*, so that squares neither vanish nor overflow.
+    let ratio = if mu_star > 0.0 {
+        let scaled: Vec<f64> = effects.iter().map(|effect| effect / mu_star).collect();
+        let centre = mean(&scaled);
+        (centred_product((&scaled, centre), (&scaled, centre)) / (effects.len() - 1) as f64).sqrt()
+    } else {
+        f64::NAN
+    };
+    let sigma = if mu_star > 0.0 { ratio * mu_star } else { 0.0 };
+    [mu, mu_star, sigma].iter().all(|number| number.is_finite()).then_some([mu, mu_star, sigma, ratio])
+}

@@ -1,0 +1,172 @@
+//! The trajectories of a screening, each a pure function of its number.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::settings::{MIN_STEP, ScreeningDesign, ScreeningError, ScreeningSettings};
+use crate::design::{BasePoints, Design, DesignSettings, Rows, Sampler};
+use crate::space::distribution::{LARGEST_U, SMALLEST_U};
+use crate::space::{Distribution, Factor, Space};
+
+/// Where the grid ends on a side on which the factor's distribution is unbounded: this quantile, or 1 minus it.
+pub const TAIL: f64 = 1e-3;
+
+/// What one factor does in one trajectory.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Move {
+    /// Its coordinate in the unit cube before and after its step; 0 and 1 are the ends of a bounded range.
+    pub u: [f64; 2],
+    /// The step as a signed part of its range.
+    pub step: f64,
+    /// The rows of the trajectory before and after the step.
+    pub rows: [usize; 2],
+}
+
+/// Makes the trajectories.
+pub(super) struct Trajectories {
+    shape: Shape,
+    seed: u64,
+    /// For each factor, where it can stand.
+    grids: Vec<Grid>,
+}
+
+enum Shape {
+    /// The base points of each randomisation, with the number of points in each.
+    Star {
+        points: Vec<BasePoints>,
+        each: u64,
+    },
+    Walk,
+}
+
+/// Where a factor can stand.
+enum Grid {
+    /// Anywhere in the unit interval.
+    Continuous,
+    /// At given coordinates, of equal distance as far as effects are concerned.
+    Levels(Vec<f64>),
+}
+
+impl Trajectories {
+    /// The trajectories of `settings`, which are in force, for intervals from `parts` parts.
+    pub fn new(space: &Space, settings: &ScreeningSettings, parts: u64) -> Result<Self, ScreeningError> {
+        let ScreeningSettings { design, trajectories, seed } = *settings;
+        let shape = match design {
+            ScreeningDesign::Radial { sampler } => {
+                let replicates = if sampler == Sampler::Random { 1 } else { parts };
+                let settings = DesignSettings { sampler, base_samples: trajectories, replicates, seed };
+                let design = Design::new(settings, space.factors().len(), Rows::default())?;
+                let points = (0..replicates).map(|replicate| design.replicate(replicate)).collect();
+                Shape::Star { points, each: trajectories / replicates }
+            }
+            ScreeningDesign::Trajectory { .. } => Shape::Walk,
+        };
+        Ok(Self { shape, seed, grids: space.factors().iter().map(|factor| Grid::of(factor, design)).collect() })
+    }
+
+    /// The moves of all factors in trajectory `number`.
+    pub fn moves(&self, number: u64) -> Vec<Move> {
+        match &self.shape {
+            Shape::Star { points, each } => self.star(&points[(number / each) as usize], number % each),
+            Shape::Walk => self.walk(number),
+        }
+    }
+
+    /// The coordinates of factor `j` in all rows of a trajectory, from its two values.
+    pub fn fill(&self, factor: &Move, values: [f64; 2], column: &mut [f64]) {
+        let [_, after] = factor.rows;
+        match self.shape {
+            Shape::Star { .. } => {
+                column.fill(values[0]);
+                column[after] = values[1];
+            }
+            Shape::Walk => {
+                column[..after].fill(values[0]);
+                column[after..].fill(values[1]);
+            }
+        }
+    }
+
+    /// Base point and auxiliary point are the two halves of one point. In an unscrambled sequence the halves begin
+    /// with equal coordinates, which Campolongo et al. avoid by taking b from a later point; here every coordinate has
+    /// a scramble of its own, so that b_j is independent of a_j.
+    fn star(&self, points: &BasePoints, index: u64) -> Vec<Move> {
+        let factors = self.grids.len();
+        let mut columns = vec![vec![0.0]; 2 * factors];
+        points.fill(index, &mut columns);
+        let place = |(j, grid): (usize, &Grid)| {
+            let (a, b) = (columns[j][0], columns[factors + j][0]);
+            let (u, step) = match grid {
+                Grid::Continuous => {
+                    let b = if (b - a).abs() < MIN_STEP { half_way_round(b) } else { b };
+                    ([a, b], b - a)
+                }
+                Grid::Levels(levels) => {
+                    let count = levels.len();
+                    let level = |u: f64| ((u * count as f64) as usize).min(count - 1);
+                    let (from, mut to) = (level(a), level(b));
+                    if from == to {
+                        to = (from + count.div_ceil(2)) % count;
+                    }
+                    between(levels, from, to)
+                }
+            };
+            Move { u, step, rows: [0, j + 1] }
+        };
+        self.grids.iter().enumerate().map(place).collect()
+    }
+
+    /// One of Morris's walks. Each level is as likely as any other, as is each order of the factors.
+    fn walk(&self, number: u64) -> Vec<Move> {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        rng.set_stream(number);
+        let mut position: Vec<usize> = (0..self.grids.len()).collect();
+        for last in (1..position.len()).rev() {
+            position.swap(last, rng.random_range(0..=last));
+        }
+        let place = |(grid, row): (&Grid, usize)| {
+            let (u, step) = match grid {
+                // A factor that cannot move: its coordinate is of no account.
+                Grid::Continuous => ([0.5, 0.5], 1.0),
+                Grid::Levels(levels) => {
+                    let (count, stride) = (levels.len(), levels.len() / 2);
+                    let from = rng.random_range(0..count);
+                    // Of two ways, which the middle of an odd number of levels has, either.
+                    let up = from + stride < count && (from < stride || rng.random_bool(0.5));
+                    between(levels, from, if up { from + stride } else { from - stride })
+                }
+            };
+            Move { u, step, rows: [row, row + 1] }
+        };
+        self.grids.iter().zip(position).map(place).collect()
+    }
+}
+
+/// The coordinates of two levels, and the step between them as a part of the range.
+fn between(levels: &[f64], from: usize, to: usize) -> ([f64; 2], f64) {
+    ([levels[from], levels[to]], (to as f64 - from as f64) / (levels.len() - 1) as f64)
+}
+
+/// The coordinate half a range further on, round the ends.
+fn half_way_round(u: f64) -> f64 {
+    (if u < 0.5 { u + 0.5 } else { u - 0.5 }).clamp(SMALLEST_U, LARGEST_U)
+}
+
+impl Grid {
+    fn of(factor: &Factor, design: ScreeningDesign) -> Self {
+        match (factor.distribution(), design) {
+            (Distribution::Discrete(discrete), _) => {
+                let levels: Vec<f64> = discrete.levels().iter().map(|(_, u)| *u).collect();
+                if levels.len() < 2 { Self::Continuous } else { Self::Levels(levels) }
+            }
+            (Distribution::Constant(_), _) | (_, ScreeningDesign::Radial { .. }) => Self::Continuous,
+            (distribution, ScreeningDesign::Trajectory { levels }) => {
+                let (low, high) = distribution.support();
+                let from = if low.is_finite() { 0.0 } else { TAIL };
+                let to = if high.is_finite() { 1.0 } else { 1.0 - TAIL };
+                let part = |k: u32| f64::from(k) / f64::from(levels - 1);
+                Self::Levels((0..levels).map(|k| from * (1.0 - part(k)) + to * part(k)).collect())
+            }
+        }
+    }
+}

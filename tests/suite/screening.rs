@@ -1,0 +1,211 @@
+//! Screenings and sweeps through the program: files, formats, bad input.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use apportion::report::screening::{ScreeningFile, screening_json};
+use apportion::report::sweep::{SweepFile, sweep_json};
+use apportion::screening::Reading;
+
+use crate::common::{apportion, stderr, stdout, study_path};
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[track_caller]
+fn succeed(arguments: &[&str]) -> String {
+    let output = apportion(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+    stdout(&output)
+}
+
+fn files(folder: &Path) -> BTreeSet<String> {
+    std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).unwrap()
+}
+
+fn screened(study: &str, more: &[&str]) -> (tempfile::TempDir, ScreeningFile, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study_path(study);
+    let table = succeed(&[&["screen", text(&study), "--out", text(folder.path())], more].concat());
+    let name = study.file_stem().unwrap().to_str().unwrap();
+    let file = serde_json::from_str(&read(folder.path(), &format!("{name}-screen.json"))).unwrap();
+    (folder, file, table)
+}
+
+fn swept(study: &str, more: &[&str]) -> (tempfile::TempDir, SweepFile, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study_path(study);
+    let table = succeed(&[&["sweep", text(&study), "--out", text(folder.path())], more].concat());
+    let name = study.file_stem().unwrap().to_str().unwrap();
+    let file = serde_json::from_str(&read(folder.path(), &format!("{name}-sweep.json"))).unwrap();
+    (folder, file, table)
+}
+
+#[test]
+fn a_screening_finds_what_the_indices_find() {
+    let (folder, file, table) = screened("coulomb-general", &[]);
+    assert_eq!((file.format.as_str(), file.version), ("apportion-screening", 1));
+    assert_eq!(screening_json(&file), read(folder.path(), "coulomb-general-screen.json"));
+    assert_eq!((file.provenance.model_runs, file.provenance.trajectories), (32 * 9, 32));
+    let factors = &file.outputs[0].factors;
+    let by = |name: &str| factors.iter().find(|factor| factor.factor == name).unwrap();
+    // The order of the total indices: thickness, length, width, elastic modulus; height and velocity have none.
+    let first: BTreeSet<usize> = ["thickness", "length", "width"].iter().map(|name| by(name).rank).collect();
+    assert_eq!((first, by("elastic_modulus").rank), (BTreeSet::from([1, 2, 3]), 4));
+    for name in ["height", "velocity"] {
+        let mu_star = by(name).mu_star.unwrap();
+        assert_eq!((mu_star.estimate, by(name).could_be_fixed, by(name).reading), (0.0, Some(true), None));
+    }
+    assert_eq!(by("thickness").could_be_fixed, Some(false));
+    assert!(by("length").mu.unwrap().estimate < 0.0);
+    assert!(table.contains("could be fixed for critical force: height, velocity"));
+    let expected = ["screen-bars.png", "screen-bars.svg", "screen.csv", "screen.json", "screen.png", "screen.svg"];
+    let expected: BTreeSet<String> = expected.iter().map(|name| format!("coulomb-general-{name}")).collect();
+    assert_eq!(files(folder.path()), expected);
+    let csv = read(folder.path(), "coulomb-general-screen.csv");
+    assert_eq!(csv.lines().count(), 1 + 8);
+    assert!(csv.starts_with("output,unit,factor,rank,mu_star,mu_star_low,mu_star_high,mu,"));
+}
+
+#[test]
+fn ishigami_is_read_as_what_it_is() {
+    let (_folder, file, _) = screened("ishigami", &["--trajectories", "512"]);
+    let factors = &file.outputs[0].factors;
+    assert!(factors.iter().all(|factor| factor.reading == Some(Reading::NonLinearOrInteracting)));
+    // By symmetry the effects of x2 and x3 have mean 0.
+    for factor in &factors[1..] {
+        let mu = factor.mu.unwrap();
+        assert!(mu.estimate.abs() < 0.1 * factor.mu_star.unwrap().estimate, "{mu:?}");
+    }
+}
+
+#[test]
+fn designs_seeds_and_threads_do_what_they_say() {
+    let csv = |more: &[&str]| read(screened("soft-cantilever", more).0.path(), "soft-cantilever-screen.csv");
+    let plain = csv(&["--threads", "1"]);
+    assert_eq!(plain, csv(&["--threads", "3"]));
+    assert_eq!(plain, csv(&["--seed", "1"]), "the study's own seed");
+    assert_ne!(plain, csv(&["--seed", "2"]));
+    assert_ne!(plain, csv(&["--set", "design.sampler=random"]));
+    let walk = csv(&["--design", "trajectory"]);
+    assert_ne!(walk, plain);
+    assert_eq!(walk, csv(&["--design", "trajectory", "--levels", "4", "--threads", "2"]));
+    assert_ne!(walk, csv(&["--design", "trajectory", "--levels", "6"]));
+    let (folder, file, _) = screened("soft-cantilever", &["--trajectories", "10"]);
+    assert_eq!((file.provenance.trajectories, file.provenance.parts), (10, 5));
+    assert_eq!(files(folder.path()).len(), 2 + 2 * 4);
+    assert!(file.notes[0].contains("velocity (log-uniform)"));
+}
+
+#[test]
+fn failed_runs_are_told_with_their_factors() {
+    let more = ["--design", "trajectory", "--set", "outputs=['critical_force', 'critical_time']"];
+    let (_folder, file, table) = screened("coulomb-environmental", &more);
+    let [force, time] = &file.outputs[..] else { panic!("two outputs") };
+    assert!(force.failures.is_empty() && force.factors.iter().all(|factor| factor.dropped == 0));
+    // The grid begins at velocity 0, where the particle never slips.
+    assert!(time.factors.iter().all(|factor| factor.dropped > 0 && factor.effects + factor.dropped == 32));
+    assert_eq!(time.failures[0].runs, file.provenance.failed_runs);
+    assert_eq!(time.failures[0].first_inputs["velocity"], 0.0);
+    assert!(table.contains("elementary effects are dropped because a run failed"));
+}
+
+#[test]
+fn a_sweep_shows_curves_ranges_and_slopes() {
+    let (folder, file, table) = swept("coulomb-general", &["--points", "11"]);
+    assert_eq!((file.format.as_str(), file.version), ("apportion-sweep", 1));
+    assert_eq!(sweep_json(&file), read(folder.path(), "coulomb-general-sweep.json"));
+    assert_eq!(file.sweeps.len(), 8);
+    let thickness = &file.sweeps[2];
+    assert_eq!((thickness.values[0], thickness.values[10], thickness.values.len()), (0.25, 2.5, 11));
+    // F goes with the stiffness, E w t^3 / (4 L^2 ..): elasticities 1, 1, 3 and -2 but for the load on the contact.
+    for (name, power) in [("width", 1.0), ("elastic_modulus", 1.0), ("thickness", 3.0), ("length", -2.0)] {
+        let sweep = file.sweeps.iter().find(|sweep| sweep.factor == name).unwrap();
+        let elasticity = sweep.effects[0].elasticity.unwrap();
+        assert!((elasticity - power).abs() < 0.02, "{name}: {elasticity}");
+        assert!(sweep.effects[0].elasticity_error.unwrap() < 1e-3);
+    }
+    assert_eq!(files(folder.path()).len(), 2 + 2 * (8 + 1));
+    assert_eq!(read(folder.path(), "coulomb-general-sweep.csv").lines().count(), 1 + 8 * 11);
+    assert!(table.contains("critical_force = 631.3 nN where every factor is nominal"));
+}
+
+#[test]
+fn a_family_has_its_gaps_and_its_own_values() {
+    let more = [
+        &["--factor", "velocity=0,100 nm/s", "--factor", "length", "--against", "thickness=500 nm, 1, 2 um"][..],
+        &["--points", "5", "--set", "outputs=['critical_time']"],
+    ];
+    let (folder, file, table) = swept("coulomb-general", &more.concat());
+    let [velocity, length] = &file.sweeps[..] else { panic!("two sweeps") };
+    let against: Vec<Option<f64>> =
+        velocity.curves.iter().map(|curve| curve.against.as_ref().map(|against| against.value)).collect();
+    assert_eq!(against, [None, Some(0.5), Some(1.0), Some(2.0)]);
+    assert_eq!((length.values.len(), length.curves.len()), (5, 4));
+    for curve in &velocity.curves {
+        assert!(curve.outputs[0].values[0].is_none() && curve.outputs[0].values[1].is_some());
+        assert!(curve.outputs[0].gaps[0].reason.contains("velocity is zero"));
+    }
+    assert!(table.contains("failed: critical_time at 4 of 8 points of velocity"));
+    let csv = read(folder.path(), "coulomb-general-sweep.csv");
+    assert_eq!(csv.lines().count(), 1 + 4 * 2 + 4 * 5);
+    assert!(csv.contains("\nvelocity,nm/s,0,thickness,um,0.5,critical_time,s,,"));
+    let svg = read(folder.path(), "coulomb-general-sweep-length.svg");
+    assert!(svg.contains("thickness = 0.5 um") && svg.contains("thickness = 2 um"));
+}
+
+#[test]
+fn bad_requests_are_refused_before_anything_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study_path("coulomb-general");
+    let refused = |command: &str, more: &[&str], expected: &str| {
+        let out = folder.path().join("out");
+        let output = apportion(&[&[command, text(&study), "--out", text(&out)], more].concat());
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{command} {more:?}: {message}");
+        assert!(message.contains(expected), "{command} {more:?}: no {expected:?} in:\n{message}");
+        assert!(!out.exists(), "{command} {more:?}");
+    };
+    refused("screen", &["--trajectories", "3"], "3 is not in 4..");
+    refused("screen", &["--trajectories", "18446744073709551615"], "more than 134217728 model runs");
+    refused(
+        "screen",
+        &["--design", "trajectory", "--levels", "5"],
+        "5 levels: the trajectory design needs an even number",
+    );
+    refused("screen", &["--levels", "4"], "--levels is of no account to the radial design");
+    refused("screen", &["--design", "star"], "radial, trajectory");
+    refused("screen", &["--seed", "-1"], "-1");
+    refused("screen", &["--set", "factor.length.max=100"], "must be below");
+    refused(
+        "sweep",
+        &["--factor", "thicknes"],
+        "--factor thicknes: the study has no factor `thicknes` (did you mean `thickness`?)",
+    );
+    refused("sweep", &["--factor", "thickness=1"], "--factor thickness=1: `1` needs a unit");
+    refused("sweep", &["--against", "thickness=1,x um"], "--against thickness=1,x um: ");
+    refused("sweep", &["--against", "thickness=1 nN"], "`1 nN` is a force, but factor `thickness` is a length");
+    refused("sweep", &["--against", "thickness"], "expected NAME=VALUES, as in \"thickness=0.25,2.5 um\"");
+    refused("sweep", &["--points", "1"], "expected a whole number from 2 to 100000");
+    refused("sweep", &["--factor", "length", "--factor", "length=1 um"], "factor `length` is asked for twice");
+    refused("sweep", &["--factor", "length", "--against", "length=1 um"], "cannot be swept against itself");
+}
+
+#[test]
+fn targets_are_checked_before_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study_path("ishigami");
+    for (command, blocked) in [("screen", "ishigami-screen-bars.png"), ("sweep", "ishigami-sweep-x2.svg")] {
+        let out = folder.path().join(command);
+        std::fs::create_dir_all(out.join(blocked)).unwrap();
+        let output = apportion(&[command, text(&study), "--out", text(&out)]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(stderr(&output).contains(blocked), "{}", stderr(&output));
+        assert_eq!(files(&out).len(), 1, "nothing was written");
+    }
+}
