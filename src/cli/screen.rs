@@ -82,7 +82,7 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
     }
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     let model = study.model();
-    let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name).collect();
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     prepare(&folder, &file_names(&study.name, &outputs))?;
     let runs = in_force.trajectories * (study.space.factors().len() as u64 + 1);
     let meter = Meter::new(&study.name, runs);

@@ -82,7 +82,7 @@ pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     request.check(&study.space)?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     let model = study.model();
-    let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name).collect();
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     prepare(&folder, &file_names(&study, &request, &outputs))?;
     let sweeps = sweep_factors(&study.space, model.as_ref(), &request)?;
     let file = build_sweep(&study, model.as_ref(), &sweeps);

@@ -14,11 +14,11 @@ use super::joe_kuo::{BITS, Directions, directions};
 /// of its cell of width 2^-32: never 0, never 1.
 ///
 /// Pairs of dimensions are as good as their direction numbers: excellent for low ones; but among many dimensions some pairs
-/// share a digit over the first points, which no sequence can avoid when there are more dimensions than 2^(m-1) for 2^m
-/// points. Up to 80 dimensions (40 factors) no pair is correlated beyond chance from 2^10 points on; at 2^10 points some
-/// four of the 1000 pairs (A_j, B_j) of a design of 1000 factors are, by up to 0.75, and none at 2^14. The
-/// scramble makes the sign of such a correlation random, so that estimates stay unbiased and the spread of
-/// replicates shows it.
+/// share leading digits over the first points, which no such sequence can avoid with more than 2^(m-1) dimensions for 2^m
+/// points. No pair is correlated by more than 0.1 among the first 60 dimensions (30 factors) from 2^10 points on, 100
+/// (50 factors) from 2^12 and 200 (100 factors) from 2^14. Of the 1000 pairs (A_j, B_j) of a design of 1000 factors,
+/// 20 may be at 2^10 points, by up to 0.75; seven at 2^12, one at 2^14. The scramble draws the sign of such a
+/// correlation, so that estimates stay unbiased and the spread of replicates shows it.
 ///
 /// A scrambled sequence also deals out the dimensions to its coordinates at random. Some pairs fit badly at some numbers of
 /// points, whatever the scramble (dimensions 5 and 34 at 2^12 points are spread no better than 2^6 could be). Dealt

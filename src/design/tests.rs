@@ -120,7 +120,7 @@ fn rows_are_counted_replicate_by_replicate() {
 
 #[test]
 fn impossible_designs_are_refused_with_the_reason() {
-    let settings = DesignSettings::default;
+    let settings = || DesignSettings { replicates: 16, ..DesignSettings::default() };
     let of = |settings, factors| Design::new(settings, factors, Rows::default()).unwrap_err();
     assert_eq!(of(settings(), 0), DesignError::NoFactors);
     assert_eq!(of(settings(), 3000), DesignError::TooManyFactors { factors: 3000, matrices: 2 });
@@ -143,7 +143,7 @@ fn impossible_designs_are_refused_with_the_reason() {
 
 #[test]
 fn samples_are_rounded_up_to_whole_replicates() {
-    let settings = DesignSettings { base_samples: 1000, ..DesignSettings::default() };
+    let settings = DesignSettings { base_samples: 1000, replicates: 16, ..DesignSettings::default() };
     let design = Design::new(settings, 2, Rows::default()).unwrap();
     assert_eq!(design.settings().base_samples, 1008);
     assert!(!design.balanced());

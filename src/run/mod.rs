@@ -151,8 +151,8 @@ impl<'a> GrowingRun<'a> {
     }
 
     /// Runs the base points that every replicate lacks to hold `points` of them, at most the design's. Those that have been
-    /// run are not run again. From one power of two to the next, the totals are the same bits as those of a run
-    /// that began with the larger number.
+    /// run are not run again. From one power of two to the next, from [`BLOCK`] on, the totals are
+    /// the same bits as those of a run that began with the larger number.
     ///
     /// # Errors
     /// [`RunError::RowFailed`] if a row fails and the run is to stop at that; the run is then of no further use.

@@ -79,7 +79,7 @@ fn a_run_that_grows_ends_in_the_bits_of_a_run_that_began_long_and_runs_no_row_tw
         let count = |progress: Progress| {
             rows.fetch_max(progress.done, Ordering::Relaxed);
         };
-        let mut points = 16;
+        let mut points = BLOCK;
         while points <= design.points_per_replicate() {
             growing.grow_to(points, &count).unwrap();
             assert_eq!(growing.totals().iter().map(|t| t.runs).sum::<u64>(), 4 * 2 * points);
