@@ -6,13 +6,16 @@ use super::super::plot::{Plot, TICK_GAP, tick_room, title_room};
 use super::super::scale::{Scale, Spacing, Wish};
 use super::super::style::{MARGIN, MUTED, TICK, WIDTH};
 use super::super::svg::{Anchor, Canvas, Text};
+use super::super::text::shorten;
 use super::labels::{Place, Wanted, place};
-use super::{ScatterChart, ScatterPoint};
+use super::{Guide, ScatterChart, ScatterPoint};
 
 /// Height of the plot, px.
 const HEIGHT: f64 = 400.0;
 /// Room above the plot for the ends of steep guides, px.
 const HEAD: f64 = 18.0;
+/// Longest label of a guide, px.
+const LONGEST_GUIDE: f64 = 120.0;
 /// Most points that are labelled: more would be a thicket.
 const MOST_LABELS: usize = 60;
 
@@ -23,7 +26,7 @@ pub(super) fn plot(figure: &mut Figure, chart: &ScatterChart) -> f64 {
     let y = scale(points().map(|point| point.y));
     let y_title = chart.y.title(y.exponent);
     let left = MARGIN + title_room(&y_title, HEIGHT) + tick_room(&y);
-    let beside = chart.guides.iter().map(|guide| TICK.width(&guide.label) + 4.0).fold(0.0, f64::max);
+    let beside = chart.guides.iter().map(|guide| TICK.width(&guide_label(guide)) + 4.0).fold(0.0, f64::max);
     let overhang = x.ticks.last().map_or(0.0, |tick| TICK.width(&tick.label) / 2.0 + 4.0);
     let width = WIDTH - left - MARGIN - beside.max(overhang);
     let plot = Plot { left, top: figure.top + HEAD, width, height: HEIGHT };
@@ -75,7 +78,7 @@ impl Sheet<'_> {
                 continue;
             }
             let (width, height) = (self.plot.right() - origin.0, origin.1 - self.plot.top);
-            let steep = rise * width > height;
+            let steep = rise > height / width;
             let end = if steep {
                 (origin.0 + height / rise, self.plot.top)
             } else {
@@ -84,12 +87,13 @@ impl Sheet<'_> {
             canvas.open("g", &[("stroke", &MUTED), ("stroke-width", &"1"), ("stroke-dasharray", &"5 4")]);
             canvas.line(origin, end);
             canvas.close("g");
+            let label = guide_label(guide);
             let text = if steep {
-                Text::new(&guide.label, (end.0, end.1 - 4.0), TICK).anchor(Anchor::Middle)
+                Text::new(&label, (end.0, end.1 - 4.0), TICK).anchor(Anchor::Middle)
             } else {
-                Text::new(&guide.label, (end.0 + 4.0, end.1 + TICK.cap_height() / 2.0), TICK)
+                Text::new(&label, (end.0 + 4.0, end.1 + TICK.cap_height() / 2.0), TICK)
             };
-            canvas.text(&text.fill(MUTED));
+            canvas.text(&text.fill(MUTED).whole(&guide.label));
         }
         canvas.close("g");
     }
@@ -135,6 +139,11 @@ impl Sheet<'_> {
             canvas.close("g");
         }
     }
+}
+
+/// The label of a guide, shortened if need be: it takes its room from the plot.
+fn guide_label(guide: &Guide) -> String {
+    shorten(&guide.label, LONGEST_GUIDE, TICK)
 }
 
 /// Length of one unit of a linear scale that is so many px long.

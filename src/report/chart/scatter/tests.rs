@@ -50,6 +50,14 @@ fn nothing_to_show_is_said_and_no_series_refused() {
     assert!(matches!(empty.svg(), Err(ChartError::NoPanels { .. })));
 }
 
+#[test]
+fn a_guide_of_any_slope_and_label_stays_inside() {
+    for slope in [-1.85e306, f64::MAX, f64::MIN_POSITIVE, 0.0, f64::NAN, f64::INFINITY] {
+        let svg = chart(vec![point(1.0, 1.0, "a")], &[slope]).svg().expect("a figure");
+        assert!(only_finite(&Document::parse(&svg).expect("well-formed")), "{slope}");
+    }
+}
+
 proptest! {
     #[test]
     fn any_numbers_and_names_make_a_chart(
