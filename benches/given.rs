@@ -114,6 +114,8 @@ fn detection() {
             |seed| random(3, 100, seed).into_iter().map(|c| c.iter().map(|u| (u * levels).floor()).collect()).collect();
         println!("  random, 3 inputs of {levels} levels, 100 rows   {} of 20000", refused(20_000, rounded));
     }
+    println!("  trajectories, 4 inputs of 4 levels   {} of 1000", refused(1000, |seed| trajectories(4, 10, 4, seed)));
+    println!("  grid, 3 inputs of 5 levels, shuffled   {} of 1000", refused(1000, |seed| shuffled(grid(3, 5), seed)));
     for d in [2, 3, 8] {
         let refused = refused(1000, |seed| shuffled(saltelli(d, 16, Sampler::Random, seed), seed));
         println!("  saltelli of 16 base points, {d} inputs   {refused} of 1000");

@@ -75,6 +75,10 @@ impl Evidence {
 
 /// Independent draws, or too even for that; `inputs` are those that vary.
 ///
+/// Measured (`cargo bench --bench given`): none of 400,000 tables of independent rows, Latin hypercubes and rounded values,
+/// of 1 to 8 inputs and 32 to 1000 rows, is taken for quasi-random. All Sobol', Halton and lattice points from 256 rows on
+/// are found, from 64 rows nearly all, unless their rows were shuffled; 32 scrambled Sobol' points of 2 inputs are not.
+///
 /// Three tests, each with a chance of error far below 1e-6 a table: rows are counted in square grids over the ranks of
 /// pairs of inputs, and of row number and input (which sees a single sequence in its order), of which Pearson's
 /// statistic must not lie far in its lower tail; and the rank of an input must not step from row to row by a few
