@@ -15,11 +15,13 @@ use points::*;
 
 const SEEDS: u64 = 400;
 
+type Function = dyn Fn(&[f64]) -> f64;
+
 /// A function with its exact first-order indices.
 struct Case {
     name: &'static str,
     exact: Vec<f64>,
-    value: Box<dyn Fn(&[f64]) -> f64>,
+    value: Box<Function>,
 }
 
 fn cases() -> Vec<Case> {
@@ -48,7 +50,7 @@ fn evaluated(case: &Case, columns: &Columns) -> Column {
     Column { name: "y".to_owned(), values: (0..columns[0].len()).map(|k| (case.value)(&row(k))).collect() }
 }
 
-fn coverage(case: &Case, rows: usize, sample: fn(usize, usize, u64) -> Columns) {
+fn coverage(case: &Case, rows: usize, sample: Sample) {
     let (mut held, mut squares, mut widths, mut count) = ([0.0; 2], [0.0; 2], [0.0; 2], 0.0);
     for seed in 0..SEEDS {
         let columns = sample(case.exact.len(), rows, seed);
@@ -90,7 +92,7 @@ fn refused(tables: u64, table: impl Fn(u64) -> Columns) -> u64 {
 
 fn detection() {
     println!("tables that are refused, or taken for quasi-random, of 1000 (independent kinds: of 20000):");
-    let kinds: [(&str, fn(usize, usize, u64) -> Columns, u64); 7] = [
+    let kinds: [(&str, Sample, u64); 7] = [
         ("random", random, 20_000),
         ("latin", latin, 20_000),
         ("sobol", sobol, 1000),
