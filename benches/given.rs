@@ -15,11 +15,13 @@ use points::*;
 
 const SEEDS: u64 = 400;
 
+type Function = dyn Fn(&[f64]) -> f64;
+
 /// A function with its exact first-order indices.
 struct Case {
     name: &'static str,
     exact: Vec<f64>,
-    value: Box<dyn Fn(&[f64]) -> f64>,
+    value: Box<Function>,
 }
 
 fn cases() -> Vec<Case> {
@@ -50,7 +52,7 @@ fn evaluated(case: &Case, columns: &Columns) -> Column {
     Column { name: "y".to_owned(), values: (0..columns[0].len()).map(|k| (case.value)(&row(k))).collect() }
 }
 
-fn coverage(case: &Case, rows: usize, sample: fn(usize, usize, u64) -> Columns) {
+fn coverage(case: &Case, rows: usize, sample: Sample) {
     let (mut held, mut squares, mut widths, mut count) = ([0.0; 2], [0.0; 2], [0.0; 2], 0.0);
     for seed in 0..SEEDS {
         let columns = sample(case.exact.len(), rows, seed);
@@ -92,7 +94,7 @@ fn refused(tables: u64, table: impl Fn(u64) -> Columns) -> u64 {
 
 fn detection() {
     println!("tables that are refused, or taken for quasi-random, of 1000 (independent kinds: of 20000):");
-    let kinds: [(&str, fn(usize, usize, u64) -> Columns, u64); 7] = [
+    let kinds: [(&str, Sample, u64); 7] = [
         ("random", random, 20_000),
         ("latin", latin, 20_000),
         ("sobol", sobol, 1000),
@@ -116,6 +118,8 @@ fn detection() {
             |seed| random(3, 100, seed).into_iter().map(|c| c.iter().map(|u| (u * levels).floor()).collect()).collect();
         println!("  random, 3 inputs of {levels} levels, 100 rows   {} of 20000", refused(20_000, rounded));
     }
+    println!("  trajectories, 4 inputs of 4 levels   {} of 1000", refused(1000, |seed| trajectories(4, 10, 4, seed)));
+    println!("  grid, 3 inputs of 5 levels, shuffled   {} of 1000", refused(1000, |seed| shuffled(grid(3, 5), seed)));
     for d in [2, 3, 8] {
         let refused = refused(1000, |seed| shuffled(saltelli(d, 16, Sampler::Random, seed), seed));
         println!("  saltelli of 16 base points, {d} inputs   {refused} of 1000");

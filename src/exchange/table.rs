@@ -152,7 +152,7 @@ pub struct Table {
 /// Reads a table: a header of names, then one line of numbers per run. Columns that are not selected may hold anything.
 ///
 /// A byte-order mark and spaces around cells are ignored, empty lines are skipped. A value is missing if its cell is
-/// empty or says `nan`, `na`, `n/a`, `null` or `none`, in capitals or not.
+/// empty or says `nan`, `na`, `n/a`, `null`, `none` or `-`, in capitals or not.
 ///
 /// # Errors
 /// [`TableError`] with line and column of the first fault.
@@ -244,8 +244,8 @@ enum Cell {
 }
 
 fn value(cell: &str) -> Cell {
-    const MISSING: [&str; 6] = ["", "nan", "na", "n/a", "null", "none"];
-    if MISSING.iter().any(|word| cell.trim_start_matches(['+', '-']).eq_ignore_ascii_case(word)) {
+    const MISSING: [&str; 8] = ["", "nan", "-nan", "na", "n/a", "null", "none", "-"];
+    if MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) {
         return Cell::Missing;
     }
     cell.parse().ok().filter(|value: &f64| value.is_finite()).map_or(Cell::Other, Cell::Number)

@@ -35,7 +35,10 @@ pub fn bins_for(rows: usize) -> usize {
 /// stay in one bin. A dependence with structure finer than a bin is lost, so the estimate errs on the low side.
 ///
 /// The interval is asymptotic, from the variance of g^2 + 2 g e - S z^2 over the rows (g: mean of the row's bin, e: the
-/// rest, z = g + e), corrected for the noise in g; for inert inputs from the variance of SSB.
+/// rest, z = g + e), corrected for the noise in g; for inert inputs from the variance of SSB. It knows nothing of what bins
+/// lose: over 400 seeds it held in 91 to 97 % of the cases for the Sobol' G and a linear function at 30 to 10,000 rows, but
+/// for the Ishigami function, which has two periods, in 81 % at 30 rows, 89 % at 100, and 94 % or more from 300
+/// (`cargo bench --bench given`).
 ///
 /// # Errors
 /// [`NoVariance`] if `y` is constant, up to rounding errors. A constant `x` has index 0 without an interval.

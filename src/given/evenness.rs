@@ -75,6 +75,12 @@ impl Evidence {
 
 /// Independent draws, or too even for that; `inputs` are those that vary.
 ///
+/// Measured (`cargo bench --bench given`): none of 400,000 tables of independent rows, Latin hypercubes and rounded values,
+/// of 1 to 8 inputs and 32 to 1000 rows, is taken for quasi-random. In the order they were made,
+/// all Sobol', Halton and lattice points of two inputs or more are found from 256 rows on, nearly all from 64; with shuffled
+/// rows, all but one Kronecker table in eight at 256, and few below 100. A single input shows less: 100 scrambled Sobol'
+/// points pass.
+///
 /// Three tests, each with a chance of error far below 1e-6 a table: rows are counted in square grids over the ranks of
 /// pairs of inputs, and of row number and input (which sees a single sequence in its order), of which Pearson's
 /// statistic must not lie far in its lower tail; and the rank of an input must not step from row to row by a few

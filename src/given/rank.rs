@@ -22,7 +22,8 @@ use crate::uncertainty::{Estimate, Interval, LEVEL};
 /// is the change of the means. (A bootstrap is inconsistent here: repeated rows become each other's neighbours. The
 /// delete-one jackknife counts the noise three times.) The pair that closes the circle, the first and the last in rank,
 /// lowers S by up to a term of order 1/N, which is added to the upper bound. `seed` orders ties in W; with many ties of
-/// few values the interval is too wide, never too narrow.
+/// few values the interval is too wide. Over 400 seeds each of Ishigami, Sobol' G and a linear function it held in 93 to
+/// 96 % of the cases at 30 to 10,000 rows (`cargo bench --bench given`).
 ///
 /// Rows must be independent; on quasi-random points S does not converge (see [`PointSet`](super::PointSet)).
 ///

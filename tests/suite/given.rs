@@ -135,7 +135,7 @@ fn discrete_inputs_are_inputs() {
 
 #[test]
 fn quasi_random_points_are_found_and_ranks_refused() {
-    let kinds: [(&str, fn(usize, usize, u64) -> Columns); 5] = [
+    let kinds: [(&str, Sample); 5] = [
         ("sobol", sobol),
         ("sobol plain", sobol_plain),
         ("halton", halton),

@@ -4,6 +4,9 @@ use apportion::design::{Design, DesignSettings, LatinHypercube, RandomPoints, Ro
 
 pub type Columns = Vec<Vec<f64>>;
 
+/// Points by number of inputs, number of rows, and seed.
+pub type Sample = fn(usize, usize, u64) -> Columns;
+
 pub fn random(d: usize, n: usize, seed: u64) -> Columns {
     let mut columns = vec![vec![0.0; n]; d];
     RandomPoints::new(d, seed, 0).fill(0, &mut columns);
@@ -90,9 +93,9 @@ pub fn grid(d: usize, levels: usize) -> Columns {
 /// Trajectories of `d + 1` rows on a grid of `levels` values, each row one step in one input from the row before.
 pub fn trajectories(d: usize, count: usize, levels: usize, seed: u64) -> Columns {
     let mut columns = vec![Vec::new(); d];
-    let draws = random(2 * d, count, seed);
+    let draws = random(d, count, seed);
     for t in 0..count {
-        let mut row: Vec<usize> = (0..d).map(|j| (draws[j][t] * levels as f64) as usize).collect();
+        let mut row: Vec<usize> = draws[..d].iter().map(|draw| (draw[t] * levels as f64) as usize).collect();
         for step in 0..=d {
             if step > 0 {
                 row[step - 1] = (row[step - 1] + levels / 2) % levels;

@@ -25,13 +25,10 @@ pub fn density_chart(distribution: &OutputDistribution, words: &DensityWords<'_>
         "1" => "",
         symbol => symbol,
     };
-    let per_unit = if symbol.is_empty() { String::new() } else { format!("1/({symbol})") };
-    let series = LineSeries {
-        name: "density (histogram: area, kernel estimate: line)".to_owned(),
-        role: words.role,
-        stroke: Stroke::Solid,
-        points: density_points(distribution),
-        band: histogram_steps(distribution),
+    let per_unit = match symbol {
+        "" => String::new(),
+        simple if simple.chars().all(char::is_alphabetic) => format!("1/{simple}"),
+        product => format!("1/({product})"),
     };
     let axis = |label: &str, unit: &str| Axis { label: label.to_owned(), unit: unit.to_owned(), ..Axis::default() };
     let chart = LineChart {
@@ -41,11 +38,25 @@ pub fn density_chart(distribution: &OutputDistribution, words: &DensityWords<'_>
         panels: vec![LinePanel {
             title: String::new(),
             y: axis("probability density", &per_unit),
-            series: vec![series],
+            series: vec![series(distribution, words.role)],
             markers: markers(distribution),
         }],
     };
     chart.svg()
+}
+
+fn series(distribution: &OutputDistribution, role: Role) -> LineSeries {
+    if distribution.histogram.is_none() {
+        let (name, points) = ("all values".to_owned(), vec![(distribution.mean, 0.0)]);
+        return LineSeries { name, role, stroke: Stroke::Points, points, band: Vec::new() };
+    }
+    LineSeries {
+        name: "density (histogram: area, kernel estimate: line)".to_owned(),
+        role,
+        stroke: Stroke::Solid,
+        points: density_points(distribution),
+        band: histogram_steps(distribution),
+    }
 }
 
 fn density_points(distribution: &OutputDistribution) -> Vec<(f64, f64)> {
@@ -86,10 +97,10 @@ fn inside(x: f64, edges: &[f64]) -> bool {
     edges.first().is_some_and(|low| *low <= x) && edges.last().is_some_and(|high| x <= *high)
 }
 
-/// Four significant digits.
+/// Four significant digits, with a true minus sign.
 fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    significant(rounded)
+    significant(rounded).replace('-', "\u{2212}")
 }
 
 /// What is seen, in one sentence.

@@ -36,6 +36,10 @@ pub(super) fn notes() -> Vec<String> {
     .to_vec()
 }
 
+/// Fewer rows than this make bins too wide for a function of a few periods: at 100 rows the 95 % intervals by bins held in
+/// 89 % of the cases for the Ishigami function, at 300 in 94 %.
+const FEW_FOR_BINS: usize = 300;
+
 /// What a careful reader should know of the table.
 pub(super) fn warnings(indices: &GivenIndices, facts: &GivenFacts) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -49,6 +53,12 @@ pub(super) fn warnings(indices: &GivenIndices, facts: &GivenFacts) -> Vec<String
     if let Some(reason) = indices.points.reason() {
         warnings.push(format!(
             "no estimate by ranks, which does not converge here, and no intervals: {reason}. The estimates by bins stand"
+        ));
+    }
+    if facts.method != Method::Rank && indices.points == PointSet::Independent && indices.rows < FEW_FOR_BINS {
+        warnings.push(format!(
+            "fewer than {FEW_FOR_BINS} rows: the intervals by bins do not know of dependence finer than a bin, and may be too \
+             narrow; those by ranks are safer"
         ));
     }
     if let Some(dependence) = &indices.dependence {
