@@ -122,7 +122,7 @@ impl OutputDistribution {
     /// use apportion::quantity::Unit;
     /// use apportion::report::distribution::OutputDistribution;
     ///
-    /// let forces: Vec<f64> = (0..=100).map(|k| 1e-9 * f64::from(k)).collect();
+    /// let forces: Vec<f64> = (0..=100).map(|k| f64::from(k) / 1e9).collect();
     /// let distribution = OutputDistribution::of(&forces, &Unit::parse("nN")?)?;
     /// assert!((distribution.mean - 50.0).abs() < 1e-12);
     /// assert_eq!(distribution.max, 100.0);
