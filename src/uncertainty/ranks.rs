@@ -11,8 +11,8 @@ use super::net_decay::{PartInfluences, StandardError};
 const DRAWS: usize = 4096;
 
 /// Distance from the lead, in standard errors of both together, beyond which a quantity is not drawn: t of one degree of
-/// freedom is beyond it once in 150 draws, of three once in 10^5.
-const OUT_OF_REACH: f64 = 100.0;
+/// freedom is beyond it once in 60 draws, of three once in 30000.
+const OUT_OF_REACH: f64 = 40.0;
 
 /// For each quantity the probability that its true value is the largest of all, in so far as the errors are known: the
 /// share of draws from their joint distribution (Student's t, correlated as the influences of the parts are) in which it
@@ -33,11 +33,11 @@ pub fn probability_first(
         k == lead || estimates[lead] - estimates[k] <= reach
     };
     let rivals: Vec<usize> = (0..estimates.len()).filter(within_reach).collect();
-    let directions: Vec<Vec<f64>> = rivals.iter().map(|&k| direction(parts[k])).collect();
+    let directions = coordinates(rivals.iter().map(|&k| direction(parts[k])).collect());
     let chi_squared = ChiSquared::new(errors[lead].freedom).ok()?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut wins = vec![0usize; estimates.len()];
-    let mut normals = vec![0.0; directions.first().map_or(0, Vec::len)];
+    let mut normals = vec![0.0; directions.iter().map(Vec::len).max().unwrap_or(0)];
     for _ in 0..DRAWS {
         normals.iter_mut().for_each(|z| *z = StandardNormal.sample(&mut rng));
         let widening = (errors[lead].freedom / chi_squared.sample(&mut rng)).sqrt();
@@ -57,6 +57,30 @@ fn direction(parts: &PartInfluences) -> Vec<f64> {
     let size = parts.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let length = parts.iter().flatten().map(|x| (x / size).powi(2)).sum::<f64>().sqrt() * size;
     parts.iter().flatten().map(|x| if size > 0.0 { x / length } else { 0.0 }).collect()
+}
+
+/// The same directions in a basis of as few dimensions as they span: each in terms of those before it and a new one
+/// (Gram and Schmidt), so that no more normal numbers have to be drawn than there are directions.
+fn coordinates(directions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    /// A remainder of this length is rounding.
+    const SPANNED: f64 = 1e-12;
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let mut all = Vec::with_capacity(directions.len());
+    for mut rest in directions {
+        let mut coordinates = Vec::with_capacity(basis.len() + 1);
+        for axis in &basis {
+            let along: f64 = rest.iter().zip(axis).map(|(x, axis)| x * axis).sum();
+            rest.iter_mut().zip(axis).for_each(|(x, axis)| *x -= along * axis);
+            coordinates.push(along);
+        }
+        let length = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if length > SPANNED {
+            basis.push(rest.into_iter().map(|x| x / length).collect());
+            coordinates.push(length);
+        }
+        all.push(coordinates);
+    }
+    all
 }
 
 /// Probability that the true value lies above `threshold`, by Student's t about the estimate; `None` if the error is
@@ -93,6 +117,13 @@ mod tests {
         let parts = vec![vec![1.0, -1.0]];
         let got = probability_first(&[1.0, 0.9], &[error(1.0, 5.0); 2], &[&parts, &parts], 1).unwrap();
         assert_eq!(got, [1.0, 0.0]);
+    }
+
+    #[test]
+    fn coordinates_keep_lengths_and_angles() {
+        let directions = vec![vec![1.0, 0.0, 0.0], vec![0.6, 0.8, 0.0], vec![1.0, 0.0, 0.0], vec![0.0; 3]];
+        let short = coordinates(directions);
+        assert_eq!(short, [vec![1.0], vec![0.6, 0.8], vec![1.0, 0.0], vec![0.0, 0.0]]);
     }
 
     #[test]
