@@ -20,7 +20,7 @@ use apportion::run::{Job, run};
 use apportion::study::Study;
 use apportion::uncertainty::{IntervalMethod, Judgement, Layout, output_indices};
 
-const SEEDS: u64 = 300;
+const SEEDS: u64 = 200;
 const SIZES: std::ops::RangeInclusive<u32> = 8..=14;
 
 /// The product form of the force and the functions of the literature on which the method was developed.
