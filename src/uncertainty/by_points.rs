@@ -109,3 +109,6 @@ fn bca_tails(sorted: &[f64], estimate: f64, acceleration: f64) -> Option<[f64; 2
     };
     acceleration.is_finite().then(|| [tail((1.0 - LEVEL) / 2.0), tail((1.0 + LEVEL) / 2.0)])
 }
+
+#[cfg(test)]
+mod tests;
