@@ -89,7 +89,9 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design) -> Opti
         return Some(end("the sequence of points has come to its end".to_owned()));
     }
     if run.room_for(next).is_err() {
-        return Some(end("the outputs of twice the runs would not fit: these intervals need all of them at once".to_owned()));
+        return Some(end(
+            "the outputs of twice the runs would not fit: these intervals need all of them at once".to_owned()
+        ));
     }
     if let Some(most) = max_runs.filter(|most| runs > u128::from(*most)) {
         return Some(end(format!("twice the runs would be {runs}, more than max_runs = {most}")));

@@ -59,9 +59,7 @@ impl Products {
     pub fn of(whole: Moments) -> Self {
         let companions = whole.companions();
         let mut of_swap = WITH_AB.to_vec();
-        for (asked, products) in
-            [(companions.ba, &WITH_BA[..]), (companions.bc, &WITH_BC), (companions.cb, &WITH_CB)]
-        {
+        for (asked, products) in [(companions.ba, &WITH_BA[..]), (companions.bc, &WITH_BC), (companions.cb, &WITH_CB)] {
             of_swap.extend(products.iter().filter(|_| asked));
         }
         let count = whole.count();
@@ -131,7 +129,9 @@ impl Products {
                 moments.bc.map_or(0.0, |bc| bc.mean_f),
                 moments.cb.map_or(0.0, |cb| cb.mean_g),
             ];
-            for (place, (row, origin)) in [(ab, block.a), (ba, block.b), (bc, block.b), (cb, block.b)].into_iter().enumerate() {
+            for (place, (row, origin)) in
+                [(ab, block.a), (ba, block.b), (bc, block.b), (cb, block.b)].into_iter().enumerate()
+            {
                 match row {
                     Some(row) => set_centred(letters, D + place, (row, Some(origin)), means[place]),
                     None => {
@@ -196,12 +196,7 @@ fn set_mask(mask: &mut Vec<f64>, points: usize, columns: &[&[f64]]) {
 }
 
 /// A letter: `y`, or `y` less `origin`, less `mean`; 0 where the mask is.
-fn set_centred(
-    letters: &mut [Vec<f64>; LETTERS],
-    letter: usize,
-    (y, origin): (&[f64], Option<&[f64]>),
-    mean: f64,
-) {
+fn set_centred(letters: &mut [Vec<f64>; LETTERS], letter: usize, (y, origin): (&[f64], Option<&[f64]>), mean: f64) {
     let (mask, rest) = letters.split_at_mut(1);
     let (mask, into) = (&mask[0], &mut rest[letter - 1]);
     into.clear();

@@ -12,7 +12,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Binomial, Distribution};
 use rayon::prelude::*;
 
-use super::points::{Chunk, KeptPoints, transposed};
+use super::points::{Chunk, KeptPoints};
 use crate::estimate::{Moments, Products};
 
 /// Resamples that share a pass over the products.
@@ -41,7 +41,8 @@ where
         let batch = |start: &usize| Batch::new(*start..(start + BATCH).min(round.end), count, products.columns());
         let mut batches: Vec<Batch> = starts.iter().map(batch).collect();
         for (number, chunk) in chunks.iter().enumerate() {
-            let matrix = chunk.products(points.design, products);
+            // Copied, not viewed: nalgebra 0.35 reads past the end of views with strides when a side is shorter than 6.
+            let matrix = chunk.products(points.design, products).transpose();
             let add = |work: &mut Counts, batch: &mut Batch| batch.add(&matrix, (chunk, number), &random, work);
             batches.par_iter_mut().for_each_init(Counts::default, add);
         }
@@ -79,8 +80,9 @@ impl Batch {
         Self { first: resamples.start, left, points, sums }
     }
 
+    /// Adds a chunk, whose `products` have a column per point.
     fn add(&mut self, products: &DMatrix<f64>, chunk: (&Chunk<'_>, usize), random: &ChaCha8Rng, work: &mut Counts) {
-        let points = products.nrows();
+        let points = products.ncols();
         work.all.clear();
         for (place, left) in self.left.iter_mut().enumerate() {
             let mut stream = random.clone();
@@ -92,7 +94,7 @@ impl Batch {
         }
         self.points -= points;
         let counts = nalgebra::DMatrixView::from_slice(&work.all, points, self.left.len());
-        self.sums.gemm(1.0, &transposed(products), &counts, 1.0);
+        self.sums.gemm(1.0, products, &counts, 1.0);
     }
 }
 

@@ -49,7 +49,8 @@ impl ByPoints<'_> {
         let values = resampled(self.points, &products, (self.seed, self.resamples), quantities);
         let freedom = self.points.count() as f64 - 1.0;
         let of_quantity = |(q, estimate): (usize, &f64)| {
-            let mut sorted: Vec<f64> = values.iter().flatten().map(|values| values[q]).filter(|x| x.is_finite()).collect();
+            let mut sorted: Vec<f64> =
+                values.iter().flatten().map(|values| values[q]).filter(|x| x.is_finite()).collect();
             let undefined = self.resamples - sorted.len();
             if undefined as f64 > UNDEFINED * self.resamples as f64 || !estimate.is_finite() || freedom < 1.0 {
                 return none;
@@ -63,7 +64,8 @@ impl ByPoints<'_> {
                 }
                 _ => Some([(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0]),
             };
-            let interval = tails.map(|[low, high]| Interval { low: quantile(&sorted, low), high: quantile(&sorted, high) });
+            let interval =
+                tails.map(|[low, high]| Interval { low: quantile(&sorted, low), high: quantile(&sorted, high) });
             (error, interval)
         };
         estimates.iter().enumerate().map(of_quantity).collect()

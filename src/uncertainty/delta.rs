@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::net_decay::StandardError;
-use super::points::{KeptPoints, transposed};
+use super::points::KeptPoints;
 use crate::estimate::{Moments, Products};
 
 /// Power sums of the influences of all points on one quantity.
@@ -57,7 +57,8 @@ pub(super) fn influence_sums(
     let gradient = gradient(products, &total, quantities)?;
     // In units of what the sizes of the products would do together.
     let n = points.count() as f64;
-    let unit = |g: nalgebra::DVectorView<'_, f64>| g.iter().zip(&total).map(|(g, (_, size))| g.abs() * size).sum::<f64>();
+    let unit =
+        |g: nalgebra::DVectorView<'_, f64>| g.iter().zip(&total).map(|(g, (_, size))| g.abs() * size).sum::<f64>();
     let units: Vec<f64> = gradient.column_iter().map(unit).collect();
     let mut scaled = gradient;
     for (mut column, unit) in scaled.column_iter_mut().zip(&units) {
@@ -118,5 +119,5 @@ fn gradient(
             }
         }
     }
-    Some(transposed(&DMatrix::from_iterator(length, sums.len(), rows.into_iter().flatten())).into_owned())
+    Some(DMatrix::from_row_iterator(sums.len(), length, rows.into_iter().flatten()))
 }

@@ -89,9 +89,11 @@ impl IntervalMethod {
                  rests on all of them together"
             ),
             Self::Batches => "95 % t-interval from the spread of batches of independent random points".to_owned(),
-            Self::Delta => "95 % t-interval around the estimate by the delta method, from the influence of every random point; \
+            Self::Delta => {
+                "95 % t-interval around the estimate by the delta method, from the influence of every random point; \
                             indices over all outputs together by batches of them"
-                .to_owned(),
+                    .to_owned()
+            }
             Self::Percentile => {
                 format!(
                     "95 % percentile bootstrap interval, {resamples} resamples of the random points; indices over all outputs \

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use nalgebra::{DMatrix, DMatrixView, Dyn, Matrix, ViewStorage};
+use nalgebra::DMatrix;
 
 use crate::design::Design;
 use crate::estimate::{BlockOutputs, PointOutputs, ProductWork, Products};
@@ -67,9 +67,6 @@ pub(super) struct Chunk<'a> {
     blocks: Vec<Vec<&'a [f64]>>,
 }
 
-/// A matrix seen as its transpose.
-pub(super) type Transposed<'a> = Matrix<f64, Dyn, Dyn, ViewStorage<'a, f64, Dyn, Dyn, Dyn, Dyn>>;
-
 impl Chunk<'_> {
     /// The products of every point: a row per point, a column per product.
     pub fn products(&self, design: &Design, products: &Products) -> DMatrix<f64> {
@@ -95,10 +92,4 @@ impl Chunk<'_> {
         }
         matrix
     }
-}
-
-/// `matrix` seen as its transpose, without copying.
-pub(super) fn transposed(matrix: &DMatrix<f64>) -> Transposed<'_> {
-    let (rows, columns) = matrix.shape();
-    DMatrixView::from_slice_with_strides(matrix.as_slice(), columns, rows, rows, 1)
 }

@@ -230,11 +230,70 @@ fn scale_of_the_output_does_not_matter() {
         scaled.columns.iter_mut().flatten().for_each(|y| *y *= scale);
         for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
             let (expected, got) = (base.bounds(method).1, scaled.bounds(method).1);
-            let lows = |bounds: &[Bounds]| bounds[2..].iter().map(|b| b.1.map_or(f64::NAN, |i| i.low)).collect::<Vec<_>>();
+            let lows =
+                |bounds: &[Bounds]| bounds[2..].iter().map(|b| b.1.map_or(f64::NAN, |i| i.low)).collect::<Vec<_>>();
             // Uncentred estimators carry rounding of the size of the mean.
             assert_near(&lows(&got), &lows(&expected), 1e-9);
         }
     }
+}
+
+#[test]
+fn constant_outputs_have_a_certain_mean_and_no_indices() {
+    let mut sample = Sample::new(50, Companions::NONE, 0.0);
+    sample.columns.iter_mut().flatten().for_each(|y| *y = 0.1);
+    let kept = sample.kept();
+    let replicates = [&kept];
+    let points = KeptPoints::all(&sample.design, &replicates).unwrap();
+    let moments = |moments: &Moments| Some(vec![moments.mean(), moments.variance()]);
+    for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
+        let by_points = ByPoints { method, points, seed: 0, resamples: 100 };
+        let bounds = by_points.bounds(sample.whole().without_swaps(), &[0.1, 0.0], &moments);
+        assert_eq!(bounds[0].1, Some(Interval { low: 0.1, high: 0.1 }), "{method:?}");
+        assert_eq!(bounds[1].1, Some(Interval { low: 0.0, high: 0.0 }), "{method:?}");
+        let none = by_points.bounds(sample.whole(), &[0.5], &|moments| quantities(&sample.layout, moments));
+        assert_eq!(none[0].1, None, "{method:?}");
+    }
+}
+
+/// Share of intervals, over the first-order and total indices of active factors, that hold the exact index.
+fn coverage(function: &str, method: &str) -> f64 {
+    use crate::model::KnownAnswer;
+    use crate::study::Study;
+    const SEEDS: u64 = 200;
+    let exact = KnownAnswer::from_name(function).unwrap().default_function().exact().indices.unwrap();
+    let (mut held, mut count) = (0.0, 0.0);
+    for seed in 0..SEEDS {
+        let text = format!(
+            "model = \"{function}\"\n[design]\nsampler = \"random\"\nbase_samples = 512\nseed = {seed}\n\
+             [analysis]\nintervals = \"{method}\""
+        );
+        let study = Study::parse(&text, "coverage.toml".as_ref(), &[]).unwrap();
+        let result = crate::analyse(&study, 0, &|_| ()).unwrap();
+        let exact = exact.first_order.iter().zip(&exact.total);
+        // A factor that does nothing has intervals of no width, which always hold.
+        let effects = result.outputs[0].indices.as_ref().unwrap().iter().zip(exact);
+        for (index, (first, total)) in effects.filter(|(_, (_, total))| **total > 0.0) {
+            for (estimate, exact) in [(index.effect.first_order, *first), (index.effect.total, *total)] {
+                held += f64::from(u8::from(estimate.low.unwrap() <= exact && exact <= estimate.high.unwrap()));
+                count += 1.0;
+            }
+        }
+    }
+    held / count
+}
+
+#[test]
+fn ninety_five_percent_is_about_that() {
+    // 1200 intervals or more, in groups that come from one sample: the standard error of the share is about 1 %.
+    let mut shares = Vec::new();
+    for method in ["delta", "percentile", "bca"] {
+        for function in ["ishigami", "linear"] {
+            let share = coverage(function, method);
+            shares.push((function, method, share));
+        }
+    }
+    assert!(shares.iter().all(|(_, _, share)| (0.92..=0.98).contains(share)), "{shares:?}");
 }
 
 #[test]
