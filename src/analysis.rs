@@ -1,11 +1,11 @@
 //! The whole way of the data in one function.
 
 use crate::design::{Design, MAX_POINTS};
-use crate::estimate::MomentParts;
+use crate::estimate::{MomentParts, PointOutputs};
 use crate::report::{FinishedRun, ResultFile, RunFacts, StoppingRecord, build_result, judgement};
 use crate::run::{GrowingRun, Job, Progress, RunError, threads_in_force};
 use crate::study::{Stopping, Study};
-use crate::uncertainty::output_indices;
+use crate::uncertainty::{Judgement, KeptPoints, output_indices};
 
 /// Runs `study` on `threads` threads (0: one per core) and estimates its indices. `on_progress` is called from time to
 /// time, from any thread. The result is the same for any number of threads, apart from the fields that tell about them
@@ -24,18 +24,19 @@ use crate::uncertainty::output_indices;
 /// ```
 ///
 /// # Errors
-/// [`RunError`] if the threads cannot be started, or a row fails in a study that says to stop then. Otherwise rows that
-/// fail are part of the result.
+/// [`RunError`] if the threads cannot be started, a row fails in a study that says to stop then, or intervals need more
+/// outputs at once than fit. Otherwise rows that fail are part of the result.
 pub fn analyse(study: &Study, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<ResultFile, RunError> {
     let model = study.model();
     let longest = if study.stopping.grows() { longest(&study.design) } else { study.design.clone() };
     let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
-    let mut run = GrowingRun::new(job, threads)?.with_failures(study.analysis.failures);
+    let run = GrowingRun::new(job, threads)?.with_failures(study.analysis.failures);
+    let mut run = run.with_outputs_kept(study.analysis.intervals.keeps_outputs());
     run.grow_to(study.design.points_per_replicate(), on_progress)?;
     let mut stopping = None;
     if study.stopping.grows() {
         stopping = Some(loop {
-            if let Some(reason) = reason_to_stop(study, &run, &longest) {
+            if let Some(reason) = run.install(|| reason_to_stop(study, &run, &longest)) {
                 break reason;
             }
             run.grow_to(run.points_per_replicate() * 2, on_progress)?;
@@ -49,7 +50,7 @@ pub fn analyse(study: &Study, threads: usize, on_progress: &(dyn Fn(Progress) + 
         replicates: run.totals(),
         facts: RunFacts { threads: threads_in_force(threads), wall_seconds: run.elapsed().as_secs_f64() },
     };
-    Ok(build_result(&finished, stopping))
+    Ok(run.install(|| build_result(&finished, stopping)))
 }
 
 /// The longest design that a run of `design` can grow into.
@@ -87,6 +88,11 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design) -> Opti
     if next > longest.points_per_replicate() {
         return Some(end("the sequence of points has come to its end".to_owned()));
     }
+    if run.room_for(next).is_err() {
+        return Some(end(
+            "the outputs of twice the runs would not fit: these intervals need all of them at once".to_owned()
+        ));
+    }
     if let Some(most) = max_runs.filter(|most| runs > u128::from(*most)) {
         return Some(end(format!("twice the runs would be {runs}, more than max_runs = {most}")));
     }
@@ -105,9 +111,12 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design) -> Opti
 fn widest(study: &Study, run: &GrowingRun<'_>) -> Option<f64> {
     let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());
     let (layout, judgement) = (study.layout(), judgement(study));
+    let design = run.design();
     let mut widest = None;
     for number in 0..outputs {
         let parts: Vec<MomentParts> = run.totals().iter().map(|t| t.outputs[number].moments.clone()).collect();
+        let kept: Vec<&PointOutputs> = run.totals().iter().map(|t| &t.outputs[number].kept).collect();
+        let judgement = Judgement { points: KeptPoints::all(design, &kept), ..judgement };
         match output_indices(&parts, &layout, &judgement) {
             Ok(indices) => widest = Some(indices.largest_half_width()?.max(widest.unwrap_or(0.0))),
             Err(crate::estimate::Undefined::ZeroVariance) => (),

@@ -83,6 +83,14 @@ impl Moments {
         }
     }
 
+    /// Moments of weighted base points, whose sums are known but whose smallest and largest output is not.
+    pub(super) fn from_sums(base: BaseMoments, swaps: Vec<SwapMoments>, pairs: Option<PairMoments>) -> Self {
+        let constant = base.aa == 0.0 && base.bb == 0.0 && base.mean_a == base.mean_b;
+        let spread = if constant { 0.0 } else { base.half_gap().abs() + (base.aa + base.bb).sqrt() };
+        let range = (base.n > 0).then(|| (base.mean() - spread, base.mean() + spread));
+        Self { base, range, swaps, pairs }
+    }
+
     /// Adds the base points of `other`, which has the same swaps.
     pub fn merge(&mut self, other: &Self) {
         if other.base.n == 0 {
@@ -103,6 +111,12 @@ impl Moments {
         if let (Some(mine), Some(theirs)) = (&mut self.pairs, &other.pairs) {
             mine.merge(theirs);
         }
+    }
+
+    /// The sums of y_A and y_B alone.
+    #[must_use]
+    pub fn without_swaps(self) -> Self {
+        Self { swaps: Vec::new(), pairs: None, ..self }
     }
 
     /// Base points at which A and B have an output.

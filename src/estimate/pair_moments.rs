@@ -75,6 +75,11 @@ impl PairMoments {
         Self { swaps: swaps.to_vec(), means }
     }
 
+    /// The means of all ordered pairs of `swaps`, each with its number of base points.
+    pub(super) fn from_means(swaps: &[usize], means: impl Iterator<Item = (f64, u64)>) -> Self {
+        Self { swaps: swaps.to_vec(), means: means.map(|(mean, n)| PairMean { n, mean }).collect() }
+    }
+
     /// Adds other base points of the same swaps.
     pub(super) fn merge(&mut self, other: &Self) {
         for (mine, theirs) in self.means.iter_mut().zip(&other.means) {

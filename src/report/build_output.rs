@@ -8,12 +8,12 @@ use super::result::{
     OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
 };
 use super::warnings;
-use crate::estimate::{FirstOrder, MomentParts, Total, merged};
+use crate::estimate::{FirstOrder, MomentParts, PointOutputs, Total, merged};
 use crate::model::{Output, RowFailure};
 use crate::run::{Tally, Totals};
 use crate::study::Study;
 use crate::uncertainty::{
-    EffectEstimates, Estimate, Interval, Judgement, OtherEstimates, OutputIndices, Stage, output_indices,
+    EffectEstimates, Estimate, Interval, Judgement, KeptPoints, OtherEstimates, OutputIndices, Stage, output_indices,
     output_moments, stages,
 };
 
@@ -23,7 +23,9 @@ pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usiz
     let totals = &whole.outputs[number];
     let parts: Vec<MomentParts> = run.replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
     let unit = &output.unit;
-    let moments = output_moments(&parts, study.analysis.intervals);
+    let kept: Vec<&PointOutputs> = run.replicates.iter().map(|t| &t.outputs[number].kept).collect();
+    let judgement = Judgement { points: KeptPoints::all(run.design, &kept), ..judgement(study) };
+    let moments = output_moments(&parts, &judgement);
     let squared = |x: f64| unit.from_si(unit.from_si(x));
     let in_unit = |x: f64| unit.from_si(x);
     let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>()).fewest();
@@ -61,7 +63,7 @@ pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usiz
         ));
         return record;
     }
-    let (layout, judgement) = (study.layout(), judgement(study));
+    let layout = study.layout();
     match output_indices(&parts, &layout, &judgement) {
         Err(undefined) => record.reason = Some(undefined.to_string()),
         Ok(indices) => {
@@ -76,9 +78,10 @@ pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usiz
 }
 
 /// How the intervals and probabilities of `study` are found.
-pub fn judgement(study: &Study) -> Judgement {
+pub fn judgement(study: &Study) -> Judgement<'static> {
     let (analysis, seed) = (&study.analysis, study.design.settings().seed);
-    Judgement { method: analysis.intervals, threshold: analysis.threshold, seed }
+    let (method, threshold, resamples) = (analysis.intervals, analysis.threshold, analysis.resamples);
+    Judgement { method, threshold, seed, resamples, points: None }
 }
 
 fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices) {

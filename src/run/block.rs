@@ -3,7 +3,7 @@
 use super::Job;
 use super::totals::{OutputTotals, Place, Tally, Totals};
 use crate::design::Matrix;
-use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, Workspace};
+use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace};
 use crate::model::{Batch, Worker};
 
 /// What a thread needs to evaluate blocks, kept from block to block.
@@ -117,6 +117,10 @@ impl<'a> Scratch<'a> {
                 BlockOutputs { a: &a[part.clone()], b: &b[part.clone()], ab, ba, bc, cb, paired: design.paired() };
             parts.push(Moments::of_block(outputs, &mut self.workspace));
         }
+        if place.keeps_outputs {
+            let runs: Vec<&[f64]> = self.batches.iter().map(|batch| batch.column(output)).collect();
+            totals.kept = PointOutputs::of_block(&runs);
+        }
         totals.moments = MomentParts::new(place.part_length, a.len() as u64, parts);
         totals.values = CentralMoments::of(a);
         totals.values.merge(&CentralMoments::of(b));
@@ -134,6 +138,8 @@ pub(super) struct BlockPlace {
     pub part_length: u64,
     /// How many of its base points, from the first on, belong to the sample.
     pub sampled: usize,
+    /// Whether all outputs are kept.
+    pub keeps_outputs: bool,
 }
 
 /// Rows of a settled batch with at least one failure.

@@ -2,7 +2,8 @@
 //!
 //! A block is [`BLOCK`] base points with all of their rows. Blocks are merged in a binary tree whose shape depends on
 //! the number of blocks alone, so that the totals are the same bits on any number of threads; and only the totals of
-//! the open branches exist at any time, so that memory does not grow with the number of samples.
+//! the open branches exist at any time, so that memory does not grow with the number of samples, unless the outputs are
+//! kept for intervals that need them.
 
 mod block;
 mod totals;
@@ -68,7 +69,21 @@ pub enum RunError {
         /// Why.
         reason: RowFailure,
     },
+    /// The outputs of all runs were to be kept, and are too many.
+    #[error(
+        "the outputs of {runs} runs, which these intervals need all at once, take {bytes} bytes of memory, more than the \
+         {MOST_KEPT} that they may: take fewer base samples or fewer outputs, or intervals = \"batches\""
+    )]
+    TooManyOutputs {
+        /// Model runs.
+        runs: u64,
+        /// Bytes that their outputs take.
+        bytes: u64,
+    },
 }
+
+/// Memory that kept outputs may take, in bytes: 8 GiB.
+pub const MOST_KEPT: u64 = 8 << 30;
 
 /// Runs the whole job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
 ///
@@ -119,6 +134,7 @@ pub struct GrowingRun<'a> {
     pool: rayon::ThreadPool,
     start: Instant,
     failures: FailurePolicy,
+    keeps_outputs: bool,
     /// Base points of every replicate that have been run.
     points: u64,
     totals: Vec<Totals>,
@@ -141,7 +157,8 @@ impl<'a> GrowingRun<'a> {
             .build()
             .map_err(|source| RunError::Threads { threads: threads_in_force(threads), source })?;
         let (totals, start) = (Vec::new(), Instant::now());
-        Ok(Self { job, pool, start, failures: FailurePolicy::DropBlock, points: 0, totals, done: 0, failed: 0 })
+        let (failures, keeps_outputs) = (FailurePolicy::DropBlock, false);
+        Ok(Self { job, pool, start, failures, keeps_outputs, points: 0, totals, done: 0, failed: 0 })
     }
 
     /// The same run under another policy than [`FailurePolicy::DropBlock`].
@@ -150,17 +167,45 @@ impl<'a> GrowingRun<'a> {
         Self { failures, ..self }
     }
 
+    /// The same run with the outputs of every run kept in [`OutputTotals::kept`], if `keeps_outputs`.
+    #[must_use]
+    pub fn with_outputs_kept(self, keeps_outputs: bool) -> Self {
+        Self { keeps_outputs, ..self }
+    }
+
+    /// Whether the outputs of `points` base points of every replicate can be kept, where they are to be.
+    ///
+    /// # Errors
+    /// [`RunError::TooManyOutputs`] if they take more than [`MOST_KEPT`].
+    pub fn room_for(&self, points: u64) -> Result<(), RunError> {
+        let design = self.job.design;
+        let runs = points.saturating_mul(design.settings().replicates).saturating_mul(design.rows_per_point());
+        let numbers = runs.saturating_mul(self.job.model.outputs().len() as u64);
+        let bytes = numbers.saturating_mul(size_of::<f64>() as u64);
+        if self.keeps_outputs && bytes > MOST_KEPT {
+            return Err(RunError::TooManyOutputs { runs, bytes });
+        }
+        Ok(())
+    }
+
+    /// What `work` returns, done on the threads of this run.
+    pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        self.pool.install(work)
+    }
+
     /// Runs the base points that every replicate lacks to hold `points` of them, at most the design's. Those that have been
     /// run are not run again. From one power of two to the next, from [`BLOCK`] on, the totals are
     /// the same bits as those of a run that began with the larger number.
     ///
     /// # Errors
     /// [`RunError::RowFailed`] if a row fails and the run is to stop at that; the run is then of no further use.
+    /// [`RunError::TooManyOutputs`] if there is no [room](Self::room_for) for the outputs that are to be kept.
     pub fn grow_to(&mut self, points: u64, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<(), RunError> {
         let points = points.min(self.job.design.points_per_replicate());
         if points <= self.points {
             return Ok(());
         }
+        self.room_for(points)?;
         let design = self.job.design;
         let replicates = design.settings().replicates;
         let growth = Growth {
@@ -172,6 +217,7 @@ impl<'a> GrowingRun<'a> {
             done: AtomicU64::new(self.done),
             failed: AtomicU64::new(self.failed),
             failures: self.failures,
+            keeps_outputs: self.keeps_outputs,
             given_up: AtomicBool::new(false),
             failure: Mutex::new(None),
             idle: Mutex::new(Vec::new()),
@@ -188,6 +234,11 @@ impl<'a> GrowingRun<'a> {
         (self.done, self.failed) = (growth.done.into_inner(), growth.failed.into_inner());
         self.points = points;
         Ok(())
+    }
+
+    /// The design that the run grows into.
+    pub fn design(&self) -> &'a Design {
+        self.job.design
     }
 
     /// Base points of every replicate that have been run.
@@ -217,6 +268,7 @@ struct Growth<'a, 'p> {
     done: AtomicU64,
     failed: AtomicU64,
     failures: FailurePolicy,
+    keeps_outputs: bool,
     given_up: AtomicBool,
     failure: Mutex<Option<(Place, RowFailure)>>,
     /// Scratch space and workers not in use: one per thread that has ever been busy at once.
@@ -274,6 +326,7 @@ impl Growth<'_, '_> {
             first: Place { replicate, point: first, run: 0 },
             part_length: part_length(block, BLOCK),
             sampled: sample.saturating_sub(first) as usize,
+            keeps_outputs: self.keeps_outputs,
         };
         let totals = scratch.evaluate(self.job, place, &|runs, failed| self.report(runs, failed));
         idle().push(scratch);

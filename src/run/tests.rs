@@ -273,3 +273,37 @@ fn the_sample_is_the_first_base_points_of_each_replicate_in_order() {
     assert_eq!(whole.sample, [&totals[0].outputs[0].sample[..], &totals[1].outputs[0].sample].concat());
     assert_eq!(whole.values.count(), 2 * 2 * 700);
 }
+
+#[test]
+fn outputs_are_kept_in_order_when_asked_for_and_refused_when_too_many() {
+    let (model, space) = (Sum::new(true), space());
+    let kept = |threads| {
+        let design = design(Sampler::Random, 1000, 2);
+        let job = Job { design: &design, space: &space, model: &model };
+        let mut run = GrowingRun::new(job, threads).unwrap().with_outputs_kept(true);
+        run.grow_to(300, &|_| ()).unwrap();
+        run.grow_to(500, &|_| ()).unwrap();
+        run.totals().iter().map(|totals| totals.outputs[0].clone()).collect::<Vec<_>>()
+    };
+    let one = kept(1);
+    assert!(kept(3) == one);
+    for output in &one {
+        let rows = |run: usize| output.kept.blocks(500).flat_map(|runs| runs[run].to_vec()).collect::<Vec<f64>>();
+        let interleaved: Vec<u64> =
+            rows(0).iter().zip(&rows(1)).flat_map(|(a, b)| [a.to_bits(), b.to_bits()]).collect();
+        assert_eq!(interleaved.len(), 1000);
+        assert_eq!(interleaved, output.sample.iter().map(|y| y.to_bits()).collect::<Vec<_>>());
+    }
+    assert_eq!(totals(&design(Sampler::Random, 1000, 2), &model, 1)[0].outputs[0].kept.points(), 0);
+
+    // 4 runs of 8 bytes per base point: 2^28 of them take 8 GiB.
+    let long = design(Sampler::Random, 1 << 29, 1);
+    let job = Job { design: &long, space: &space, model: &model };
+    let run = GrowingRun::new(job, 1).unwrap();
+    assert!(run.room_for(1 << 29).is_ok());
+    let mut run = run.with_outputs_kept(true);
+    assert!(run.room_for(1 << 28).is_ok());
+    let refused = run.grow_to(1 << 29, &|_| ()).unwrap_err();
+    assert!(matches!(refused, RunError::TooManyOutputs { bytes: 17_179_869_184, .. }), "{refused}");
+    assert!(run.totals().is_empty());
+}

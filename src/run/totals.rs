@@ -1,9 +1,9 @@
-//! What a run leaves behind: constant in size, merged in a fixed tree.
+//! What a run leaves behind: constant in size unless outputs are kept, merged in a fixed tree.
 
 use std::collections::BTreeMap;
 
 use crate::design::Design;
-use crate::estimate::{CentralMoments, MomentParts};
+use crate::estimate::{CentralMoments, MomentParts, PointOutputs};
 use crate::model::{Effort, Model, RowFailure};
 
 /// Where a row stands in a design, however many base points that has. Places are ordered as rows are counted.
@@ -46,6 +46,8 @@ pub struct OutputTotals {
     /// Outputs of the rows A and B of the first [`SAMPLE`]/replicates base points of each replicate (at least one), in
     /// the order of the points: A, B, A, B, ...; NaN where a run failed.
     pub sample: Vec<f64>,
+    /// The outputs of every run, if they are kept.
+    pub kept: PointOutputs,
     /// Rows without a value.
     pub runs_failed: u64,
     /// Why, and how often each.
@@ -55,11 +57,12 @@ pub struct OutputTotals {
 /// Equal in every bit; the NaNs of failed runs in the sample are equal to each other.
 impl PartialEq for OutputTotals {
     fn eq(&self, other: &Self) -> bool {
-        let Self { moments, values, sample, runs_failed, failures } = other;
+        let Self { moments, values, sample, kept, runs_failed, failures } = other;
         let bits = |sample: &[f64]| sample.iter().map(|y| y.to_bits()).collect::<Vec<_>>();
         self.moments == *moments
             && self.values == *values
             && bits(&self.sample) == bits(sample)
+            && self.kept == *kept
             && self.runs_failed == *runs_failed
             && self.failures == *failures
     }
@@ -98,11 +101,12 @@ impl Totals {
         for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
             mine.moments.append(&theirs.moments);
             mine.sample.extend_from_slice(&theirs.sample);
+            mine.kept.append(&theirs.kept);
         }
     }
 
-    /// Adds what is counted over the rows of another replicate: everything but moments and samples, which belong to
-    /// their replicate.
+    /// Adds what is counted over the rows of another replicate: everything but moments, samples and kept outputs,
+    /// which belong to their replicate.
     pub fn add_counts(&mut self, other: &Self) {
         self.runs += other.runs;
         self.failed_runs += other.failed_runs;

@@ -18,7 +18,7 @@ const FEWEST_PARTS: usize = 4;
 
 /// The stages of a run at each half of the one after it, the whole last: every prefix of the parts of each replicate is a
 /// run of its own. Stages without indices are left out.
-pub fn stages(replicates: &[MomentParts], layout: &Layout, judgement: &Judgement) -> Vec<Stage> {
+pub fn stages(replicates: &[MomentParts], layout: &Layout, judgement: &Judgement<'_>) -> Vec<Stage> {
     let parts = replicates.iter().map(|replicate| replicate.parts().len()).min().unwrap_or(0);
     let mut sizes = vec![parts];
     // Down from the largest power of two below the whole: prefixes of a net are nets.
@@ -31,7 +31,9 @@ pub fn stages(replicates: &[MomentParts], layout: &Layout, judgement: &Judgement
     let stage = |size: usize| {
         let prefix: Vec<MomentParts> = replicates.iter().map(|replicate| replicate.prefix(size)).collect();
         let base_samples = prefix.iter().map(MomentParts::points).sum();
-        output_indices(&prefix, layout, judgement).ok().map(|indices| Stage { base_samples, indices })
+        let longest = prefix.iter().map(MomentParts::points).max().unwrap_or(0);
+        let judgement = Judgement { points: judgement.points.map(|points| points.prefix(longest)), ..*judgement };
+        output_indices(&prefix, layout, &judgement).ok().map(|indices| Stage { base_samples, indices })
     };
     sizes.into_iter().filter_map(stage).collect()
 }

@@ -90,16 +90,24 @@ impl IntervalMethod {
             ),
             Self::Batches => "95 % t-interval from the spread of batches of independent random points".to_owned(),
             Self::Delta => {
-                "95 % asymptotic (delta-method) interval from the influence of every random point".to_owned()
+                "95 % t-interval around the estimate by the delta method, from the influence of every random point; \
+                            indices over all outputs together by batches of them"
+                    .to_owned()
             }
             Self::Percentile => {
-                format!("95 % percentile bootstrap interval, {resamples} resamples of the random points")
+                format!(
+                    "95 % percentile bootstrap interval, {resamples} resamples of the random points; indices over all outputs \
+                     together by batches of them"
+                )
             }
-            Self::Bca => format!("95 % BCa bootstrap interval, {resamples} resamples of the random points"),
+            Self::Bca => format!(
+                "95 % bias-corrected and accelerated (BCa) bootstrap interval, {resamples} resamples of the random points; \
+                 indices over all outputs together by batches of them"
+            ),
         }
     }
 
-    /// Standard errors from the parts of every replicate; for methods that keep outputs, an approximation by batches.
+    /// Standard errors from the parts of every replicate; for methods that work on kept outputs, an approximation by batches.
     pub fn errors(self, quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
         let unknown = |parts: &PartInfluences| parts.iter().flatten().any(|influence| !influence.is_finite());
         let errors = match self {

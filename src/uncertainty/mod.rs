@@ -1,16 +1,21 @@
 //! Intervals that say how wrong an estimate may be, and what follows from them.
 //!
 //! An estimate rests on all runs. [`Influences`] tell what each part of them does to it; an [`IntervalMethod`] turns that
-//! into a standard error: for Sobol' points by [`net_errors`], for random points by their batches.
+//! into a standard error: for Sobol' points by [`net_errors`], for random points by their batches, or from the outputs of
+//! every point ([`KeptPoints`]) by the delta method or a bootstrap.
 
 mod aggregate;
+mod bootstrap;
+mod by_points;
 mod convergence;
+mod delta;
 mod estimates;
 mod influence;
 mod jackknife;
 mod method;
 mod net_decay;
 mod output;
+mod points;
 mod ranks;
 mod special;
 
@@ -25,6 +30,7 @@ pub use output::{
     EffectEstimates, Judgement, OtherEstimates, OutputIndices, OutputMoments, differs_clearly, output_indices,
     output_moments,
 };
+pub use points::KeptPoints;
 pub use ranks::{probability_above, probability_first};
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -49,7 +55,7 @@ pub struct Interval {
 pub struct Estimate {
     /// The estimate.
     pub estimate: f64,
-    /// Its interval; `None` with one replicate, which says nothing about its error.
+    /// Its interval; `None` where nothing is known of its error.
     pub interval: Option<Interval>,
 }
 

@@ -1,22 +1,29 @@
 //! Indices of one output with their intervals, probabilities and checks.
 
+use super::by_points::{Bounds, ByPoints};
 use super::estimates::{Layout, quantities};
 use super::influence::Influences;
 use super::method::IntervalMethod;
 use super::net_decay::{PartInfluences, StandardError};
+use super::points::KeptPoints;
 use super::ranks::{probability_above, probability_first};
 use super::{Estimate, Interval, t_interval};
 use crate::estimate::{Indices, MomentParts, Moments, Undefined, merged};
 
 /// How intervals and probabilities are found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Judgement {
+#[derive(Debug, Clone, Copy)]
+pub struct Judgement<'a> {
     /// The kind of interval.
     pub method: IntervalMethod,
     /// The total index above which a factor counts as one that matters.
     pub threshold: f64,
-    /// Seed of the draws behind the probabilities.
+    /// Seed of the draws behind the probabilities, and of the resamples of a bootstrap.
     pub seed: u64,
+    /// Resamples of a bootstrap.
+    pub resamples: usize,
+    /// The outputs of every base point, for the methods that [keep](IntervalMethod::keeps_outputs) them. Without any they
+    /// are approximated by batches.
+    pub points: Option<KeptPoints<'a>>,
 }
 
 /// Indices of one output.
@@ -96,11 +103,25 @@ pub struct OutputMoments {
     pub variance: Estimate,
 }
 
+impl<'a> Judgement<'a> {
+    fn by_points(&self) -> Option<ByPoints<'a>> {
+        let Self { method, seed, resamples, points, .. } = *self;
+        points.filter(|_| method.keeps_outputs()).map(|points| ByPoints { method, points, seed, resamples })
+    }
+}
+
 /// Mean and variance of one output from the parts of its replicates; `None` without any base point.
-pub fn output_moments(replicates: &[MomentParts], method: IntervalMethod) -> Option<OutputMoments> {
+pub fn output_moments(replicates: &[MomentParts], judgement: &Judgement<'_>) -> Option<OutputMoments> {
     let of = |m: &Moments| (m.count() > 0).then(|| vec![m.mean(), m.variance()]);
     let influences = Influences::of(&[replicates], &|outputs| of(&outputs[0]))?;
-    let estimates = Judged::of(influences, method, &[true, true]).estimates;
+    let bounds = judgement.by_points().map(|by_points| {
+        let whole: Vec<Moments> = replicates.iter().map(MomentParts::whole).collect();
+        by_points.bounds(merged(&whole).without_swaps(), &influences.whole, &of)
+    });
+    let estimates = match bounds {
+        Some(bounds) => Judged::with(influences, bounds).estimates,
+        None => Judged::of(influences, judgement.method, &[true, true]).estimates,
+    };
     Some(OutputMoments { mean: estimates[0], variance: estimates[1] })
 }
 
@@ -111,14 +132,21 @@ pub fn output_moments(replicates: &[MomentParts], method: IntervalMethod) -> Opt
 pub fn output_indices(
     replicates: &[MomentParts],
     layout: &Layout,
-    judgement: &Judgement,
+    judgement: &Judgement<'_>,
 ) -> Result<OutputIndices, Undefined> {
     let whole: Vec<Moments> = replicates.iter().map(MomentParts::whole).collect();
-    Indices::of(&merged(&whole))?;
+    let whole = merged(&whole);
+    Indices::of(&whole)?;
     let influences =
         Influences::of(&[replicates], &|outputs| quantities(layout, &outputs[0])).ok_or(Undefined::NoRuns)?;
     let pooled = layout.pooled(influences.whole.len());
-    let judged = Judged::of(influences, judgement.method, &pooled);
+    let judged = match judgement.by_points() {
+        Some(by_points) => {
+            let bounds = by_points.bounds(whole, &influences.whole, &|moments| quantities(layout, moments));
+            Judged::with(influences, bounds)
+        }
+        None => Judged::of(influences, judgement.method, &pooled),
+    };
     let first = judged.first(layout, judgement.seed);
     let mut effects: Vec<EffectEstimates> = (0..layout.swaps())
         .map(|swap| {
@@ -152,6 +180,14 @@ impl Judged {
             .map(|(&estimate, error)| Estimate { estimate, interval: t_interval(estimate, *error) })
             .collect();
         Self { estimates, errors, parts }
+    }
+
+    /// With errors and intervals that are known from elsewhere.
+    pub fn with(influences: Influences, bounds: Vec<Bounds>) -> Self {
+        let Influences { whole, parts } = influences;
+        let (errors, intervals): (Vec<StandardError>, Vec<Option<Interval>>) = bounds.into_iter().unzip();
+        let estimates = whole.into_iter().zip(intervals).map(|(estimate, interval)| Estimate { estimate, interval });
+        Self { estimates: estimates.collect(), errors, parts }
     }
 
     fn first(&self, layout: &Layout, seed: u64) -> Option<Vec<f64>> {

@@ -56,7 +56,7 @@ fn indices(model: &Changed, base_samples: u64) -> OutputIndices {
     let design = Design::new(settings, 3, Rows::plain((0..3).map(|j| vec![j]).collect())).unwrap();
     let totals = run(Job { design: &design, space: &space, model }, 0, &|_| ()).unwrap();
     let moments: Vec<_> = totals.into_iter().map(|t| t.outputs[0].moments.clone()).collect();
-    let judgement = Judgement { method: IntervalMethod::Nets, threshold: 0.05, seed: 0 };
+    let judgement = Judgement { method: IntervalMethod::Nets, threshold: 0.05, seed: 0, resamples: 0, points: None };
     output_indices(&moments, &Layout::plain(3), &judgement).unwrap()
 }
 

@@ -1,0 +1,82 @@
+//! The outputs of every run of a design, kept for intervals that need them point by point.
+
+use std::sync::Arc;
+
+/// One output at every run of consecutive base points: a column per unique run, the points in order; not finite where a
+/// run failed. Held in blocks that are shared, so that appending copies no outputs.
+#[derive(Debug, Clone, Default)]
+pub struct PointOutputs {
+    blocks: Vec<Arc<Block>>,
+    points: u64,
+}
+
+/// The outputs of the base points of one block.
+#[derive(Debug)]
+struct Block {
+    points: usize,
+    /// Column by column.
+    outputs: Vec<f64>,
+}
+
+impl PointOutputs {
+    /// The outputs of one block, a column for each unique run, all of one length.
+    pub fn of_block(columns: &[&[f64]]) -> Self {
+        let points = columns.first().map_or(0, |column| column.len());
+        let block = Block { points, outputs: columns.concat() };
+        Self { blocks: vec![Arc::new(block)], points: points as u64 }
+    }
+
+    /// Appends the base points that follow.
+    pub fn append(&mut self, following: &Self) {
+        self.blocks.extend_from_slice(&following.blocks);
+        self.points += following.points;
+    }
+
+    /// Base points in all.
+    pub fn points(&self) -> u64 {
+        self.points
+    }
+
+    /// The columns of every block up to base point number `end`, in order.
+    pub fn blocks<'a>(&'a self, end: u64) -> impl Iterator<Item = Vec<&'a [f64]>> {
+        let mut left = usize::try_from(end).unwrap_or(usize::MAX);
+        let mut take = move |block: &Block| {
+            let taken = block.points.min(left);
+            left -= taken;
+            taken
+        };
+        let cut = |(block, taken): (&'a Arc<Block>, usize)| -> Vec<&'a [f64]> {
+            block.outputs.chunks_exact(block.points).map(|column| &column[..taken]).collect()
+        };
+        let sized = self.blocks.iter().map(move |block| (block, take(block)));
+        sized.filter(|(_, taken)| *taken > 0).map(cut)
+    }
+}
+
+/// Equal in every bit; the NaNs of failed runs are equal to each other.
+impl PartialEq for PointOutputs {
+    fn eq(&self, other: &Self) -> bool {
+        let bits = |kept: &Self| -> Vec<u64> {
+            kept.blocks.iter().flat_map(|block| &block.outputs).map(|y| y.to_bits()).collect()
+        };
+        self.points == other.points && bits(self) == bits(other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_come_back_cut_at_any_point() {
+        let mut kept = PointOutputs::of_block(&[&[1.0, 2.0], &[10.0, 20.0]]);
+        kept.append(&PointOutputs::of_block(&[&[3.0, 4.0, 5.0], &[30.0, 40.0, 50.0]]));
+        assert_eq!(kept.points(), 5);
+        let column = |end, run: usize| kept.blocks(end).flat_map(|columns| columns[run].to_vec()).collect::<Vec<f64>>();
+        assert_eq!(column(5, 0), [1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert_eq!(column(3, 1), [10.0, 20.0, 30.0]);
+        assert_eq!(column(2, 1), [10.0, 20.0]);
+        assert_eq!(column(0, 1), [] as [f64; 0]);
+        assert_eq!(column(u64::MAX, 1).len(), 5);
+    }
+}

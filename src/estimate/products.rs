@@ -1,0 +1,285 @@
+//! Moments as sums over base points: what resampling and influences need.
+//!
+//! All of [`Moments`] follow from sums over the base points of products of two centred outputs. Weighting the points,
+//! as a bootstrap does, weights the sums: moments of a resample are a matrix product away from the products.
+
+use super::pair_moments::PairMoments;
+use super::swap_moments::{BaMoments, BcMoments, CbMoments};
+use super::{BaseMoments, BlockOutputs, Moments, SwapMoments};
+
+/// The letters of which products are made: 1 at a base point that counts, and the outputs and differences of
+/// [`SwapMoments`] less their means over all points. All are 0 at a base point that does not count.
+const ONE: usize = 0;
+const A: usize = 1;
+const B: usize = 2;
+const D: usize = 3;
+const E: usize = 4;
+const F: usize = 5;
+const G: usize = 6;
+const LETTERS: usize = 7;
+
+type Product = (usize, usize);
+
+/// Products of the rows A and B; the first counts the points.
+const BASE: [Product; 6] = [(ONE, ONE), (A, ONE), (B, ONE), (A, A), (B, B), (A, B)];
+/// Products that the rows AB, BA, BC and CB of a swap add.
+const WITH_AB: [Product; 4] = [(D, ONE), (D, D), (A, D), (B, D)];
+const WITH_BA: [Product; 5] = [(E, ONE), (E, E), (A, E), (B, E), (D, E)];
+const WITH_BC: [Product; 2] = [(F, ONE), (D, F)];
+const WITH_CB: [Product; 4] = [(G, ONE), (A, G), (B, G), (E, G)];
+
+/// Which products of the outputs at a base point the moments are made of, and how.
+///
+/// A swap that lost base points which A and B have counts its points, and the products of A and B over them, itself;
+/// so does a pair.
+#[derive(Debug, Clone)]
+pub struct Products {
+    /// The moments of all points, about whose means the products are taken.
+    whole: Moments,
+    /// Which swaps count points of their own.
+    own: Vec<bool>,
+    /// The products that each swap adds to the base.
+    of_swap: Vec<Product>,
+    /// Ordered pairs of swaps of which sums are kept, and which of them count points of their own.
+    pairs: Vec<(usize, usize, bool)>,
+    columns: usize,
+}
+
+/// Buffers of [`Products::fill`].
+#[derive(Debug, Default)]
+pub struct ProductWork {
+    base: [Vec<f64>; LETTERS],
+    swap: [Vec<f64>; LETTERS],
+    /// D and E of every swap, for pairs, not centred.
+    differences: Vec<[Vec<f64>; 2]>,
+}
+
+impl Products {
+    /// The products behind `whole`, the moments of all base points.
+    pub fn of(whole: Moments) -> Self {
+        let companions = whole.companions();
+        let mut of_swap = WITH_AB.to_vec();
+        for (asked, products) in [(companions.ba, &WITH_BA[..]), (companions.bc, &WITH_BC), (companions.cb, &WITH_CB)] {
+            of_swap.extend(products.iter().filter(|_| asked));
+        }
+        let count = whole.count();
+        let own: Vec<bool> = (0..whole.swaps()).map(|swap| whole.swap(swap).base.n != count).collect();
+        let paired = whole.pairs().map_or(&[][..], PairMoments::swaps);
+        let ordered = paired.iter().flat_map(|&j| paired.iter().filter(move |k| **k != j).map(move |&k| (j, k)));
+        let points = |j, k| whole.pairs().and_then(|pairs| pairs.mean(j, k)).map_or(0, |(_, points)| points);
+        let pairs: Vec<(usize, usize, bool)> = ordered.map(|(j, k)| (j, k, points(j, k) != count)).collect();
+        let columns = BASE.len()
+            + own.iter().map(|own| of_swap.len() + if *own { BASE.len() } else { 0 }).sum::<usize>()
+            + pairs.iter().map(|(_, _, own)| 1 + usize::from(*own)).sum::<usize>();
+        Self { whole, own, of_swap, pairs, columns }
+    }
+
+    /// Number of products at each base point.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// For each product the number of the one that counts its base points; for those that count, their own.
+    pub fn counts(&self) -> Vec<usize> {
+        let mut counts = vec![0; BASE.len()];
+        for own in &self.own {
+            let (first, length) = (counts.len(), self.of_swap.len());
+            let (count, more) = if *own { (first, BASE.len()) } else { (0, 0) };
+            counts.extend(std::iter::repeat_n(count, length + more));
+        }
+        for (_, _, own) in &self.pairs {
+            let first = counts.len();
+            counts.extend(if *own { vec![first; 2] } else { vec![0] });
+        }
+        counts
+    }
+
+    /// Writes the products of the base points of `block`: product c of point i to `out[c * stride + i]`.
+    pub fn fill(&self, block: &BlockOutputs<'_>, (out, stride): (&mut [f64], usize), work: &mut ProductWork) {
+        let ProductWork { base: letters, swap: of_swap, differences } = work;
+        let points = block.a.len();
+        let mut columns = out.chunks_mut(stride).map(|column| &mut column[..points]);
+        let mut put = |letters: &[Vec<f64>; LETTERS], products: &[Product]| {
+            for (column, &(x, y)) in columns.by_ref().take(products.len()).zip(products) {
+                column.iter_mut().zip(&letters[x]).zip(&letters[y]).for_each(|((out, x), y)| *out = x * y);
+            }
+        };
+        let base = self.whole.base();
+        set_mask(&mut letters[ONE], points, &[block.a, block.b]);
+        set_centred(letters, A, (block.a, None), base.mean_a);
+        set_centred(letters, B, (block.b, None), base.mean_b);
+        put(letters, &BASE);
+        for (swap, own) in self.own.iter().enumerate() {
+            let moments = self.whole.swap(swap);
+            let rows = [block.ab, block.ba, block.bc, block.cb].map(|rows| rows.get(swap).copied());
+            let letters = if *own {
+                let asked: Vec<&[f64]> = [block.a, block.b].into_iter().chain(rows.into_iter().flatten()).collect();
+                set_mask(&mut of_swap[ONE], points, &asked);
+                set_centred(of_swap, A, (block.a, None), moments.base.mean_a);
+                set_centred(of_swap, B, (block.b, None), moments.base.mean_b);
+                put(of_swap, &BASE);
+                &mut *of_swap
+            } else {
+                &mut *letters
+            };
+            let [ab, ba, bc, cb] = rows;
+            let means = [
+                moments.mean_d,
+                moments.ba.map_or(0.0, |ba| ba.mean_e),
+                moments.bc.map_or(0.0, |bc| bc.mean_f),
+                moments.cb.map_or(0.0, |cb| cb.mean_g),
+            ];
+            for (place, (row, origin)) in
+                [(ab, block.a), (ba, block.b), (bc, block.b), (cb, block.b)].into_iter().enumerate()
+            {
+                match row {
+                    Some(row) => set_centred(letters, D + place, (row, Some(origin)), means[place]),
+                    None => {
+                        letters[D + place].clear();
+                        letters[D + place].resize(points, 0.0);
+                    }
+                }
+            }
+            put(letters, &self.of_swap);
+        }
+        if self.pairs.is_empty() {
+            return;
+        }
+        differences.resize_with(self.own.len(), Default::default);
+        for (swap, [d, e]) in differences.iter_mut().enumerate() {
+            for (into, row, origin) in [(d, block.ab[swap], block.a), (e, block.ba[swap], block.b)] {
+                into.clear();
+                into.extend(row.iter().zip(origin).map(|(y, origin)| y - origin));
+            }
+        }
+        for (j, k, own) in &self.pairs {
+            let product = |i: usize| differences[*j][1][i] * differences[*k][0][i];
+            let counts = |i: usize| if *own { product(i).is_finite() } else { letters[ONE][i] > 0.0 };
+            if *own && let Some(column) = columns.next() {
+                column.iter_mut().enumerate().for_each(|(i, out)| *out = f64::from(u8::from(counts(i))));
+            }
+            if let Some(column) = columns.next() {
+                column.iter_mut().enumerate().for_each(|(i, out)| *out = if counts(i) { product(i) } else { 0.0 });
+            }
+        }
+    }
+
+    /// The moments of weighted base points from the weighted sums of their products.
+    pub fn moments(&self, sums: &[f64]) -> Moments {
+        let mut sums = sums.iter().copied();
+        let mut next = move || sums.next().unwrap_or(f64::NAN);
+        let base = base_moments(&mut next, self.whole.base());
+        let swaps = self.own.iter().enumerate().map(|(swap, own)| {
+            let whole = self.whole.swap(swap);
+            let (moments, gaps) = if *own { base_moments(&mut next, &whole.base) } else { base };
+            swap_moments(&mut next, (moments, gaps), whole)
+        });
+        let swaps = swaps.collect();
+        let pairs = self.whole.pairs().map(|whole| {
+            let of_pair = |(_, _, own): &(usize, usize, bool)| {
+                let n = if *own { next().round() } else { base.0.n as f64 };
+                (if n > 0.0 { next() / n } else { next() * 0.0 }, n as u64)
+            };
+            PairMoments::from_means(whole.swaps(), self.pairs.iter().map(of_pair))
+        });
+        Moments::from_sums(base.0, swaps, pairs)
+    }
+}
+
+/// 1 where all of `columns` are finite, 0 elsewhere.
+fn set_mask(mask: &mut Vec<f64>, points: usize, columns: &[&[f64]]) {
+    mask.clear();
+    mask.resize(points, 1.0);
+    for column in columns {
+        mask.iter_mut().zip(*column).filter(|(_, y)| !y.is_finite()).for_each(|(mask, _)| *mask = 0.0);
+    }
+}
+
+/// A letter: `y`, or `y` less `origin`, less `mean`; 0 where the mask is.
+fn set_centred(letters: &mut [Vec<f64>; LETTERS], letter: usize, (y, origin): (&[f64], Option<&[f64]>), mean: f64) {
+    let (mask, rest) = letters.split_at_mut(1);
+    let (mask, into) = (&mask[0], &mut rest[letter - 1]);
+    into.clear();
+    match origin {
+        None => into.extend(y.iter().map(|y| y - mean)),
+        Some(origin) => into.extend(y.iter().zip(origin).map(|(y, origin)| y - origin - mean)),
+    }
+    into.iter_mut().zip(mask).filter(|(_, mask)| **mask == 0.0).for_each(|(x, _)| *x = 0.0);
+}
+
+/// Sums of the centred outputs A and B, where they are about other means than their own.
+type Gaps = (f64, f64);
+
+/// A sum of products about new means, from that about the old: nothing large is subtracted, for the means differ by
+/// about a standard error.
+fn recentred(product: f64, x: f64, y: f64, n: f64) -> f64 {
+    product - x * (y / n)
+}
+
+/// The same of squares: what is left of a resample without variance is rounding, and taken to be 0.
+fn recentred_square(square: f64, x: f64, n: f64) -> f64 {
+    const ROUNDING: f64 = 64.0 * f64::EPSILON;
+    let left = recentred(square, x, x, n);
+    if left <= ROUNDING * square { 0.0 } else { left }
+}
+
+fn base_moments(next: &mut impl FnMut() -> f64, whole: &BaseMoments) -> (BaseMoments, Gaps) {
+    let [n, a, b, aa, bb, ab] = std::array::from_fn(|_| next());
+    let points = n.round();
+    if points <= 0.0 {
+        return (BaseMoments::default(), (0.0, 0.0));
+    }
+    let base = BaseMoments {
+        n: points as u64,
+        mean_a: whole.mean_a + a / points,
+        mean_b: whole.mean_b + b / points,
+        aa: recentred_square(aa, a, points),
+        bb: recentred_square(bb, b, points),
+        ab: recentred(ab, a, b, points),
+    };
+    (base, (a, b))
+}
+
+fn swap_moments(
+    next: &mut impl FnMut() -> f64,
+    (base, (a, b)): (BaseMoments, Gaps),
+    whole: &SwapMoments,
+) -> SwapMoments {
+    let n = if base.n == 0 { 1.0 } else { base.n as f64 };
+    let [d, dd, ad, bd] = std::array::from_fn(|_| next());
+    let mut e = 0.0;
+    let ba = whole.ba.map(|ba| {
+        e = next();
+        let [ee, ae, be, de] = std::array::from_fn(|_| next());
+        BaMoments {
+            mean_e: ba.mean_e + e / n,
+            ee: recentred_square(ee, e, n),
+            ae: recentred(ae, a, e, n),
+            be: recentred(be, b, e, n),
+            de: recentred(de, d, e, n),
+        }
+    });
+    let bc = whole.bc.map(|bc| {
+        let [f, df] = std::array::from_fn(|_| next());
+        BcMoments { mean_f: bc.mean_f + f / n, df: recentred(df, d, f, n) }
+    });
+    let cb = whole.cb.map(|cb| {
+        let [g, ag, bg, eg] = std::array::from_fn(|_| next());
+        CbMoments {
+            mean_g: cb.mean_g + g / n,
+            ag: recentred(ag, a, g, n),
+            bg: recentred(bg, b, g, n),
+            eg: recentred(eg, e, g, n),
+        }
+    });
+    SwapMoments {
+        base,
+        mean_d: whole.mean_d + d / n,
+        dd: recentred_square(dd, d, n),
+        ad: recentred(ad, a, d, n),
+        bd: recentred(bd, b, d, n),
+        ba,
+        bc,
+        cb,
+    }
+}

@@ -1,0 +1,181 @@
+//! The bootstrap over base points (Efron 1979, Ann. Stat. 7, 1-26), as matrix products.
+//!
+//! A resample draws n of the n base points with replacement: it is a list of counts. The sums that moments are made of
+//! are then counts times products of outputs ([`Products`]), so that all resamples together are a matrix product,
+//! which runs near the peak of the machine. The counts of each resample and each chunk of points come from a random
+//! stream of their own: the number that falls into the chunk is binomial given those before it, and its points are
+//! uniform. So nothing depends on the number of threads.
+
+use nalgebra::DMatrix;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Binomial, Distribution};
+use rayon::prelude::*;
+
+use super::points::{Chunk, KeptPoints};
+use crate::estimate::{Moments, Products};
+
+/// Resamples that share a pass over the products.
+const BATCH: usize = 32;
+
+/// Resamples whose sums are held at a time.
+const ROUND: usize = 1 << 12;
+
+/// What `quantities` gives on the moments of each of `resamples` resamples of `points`, in order; `None` where it does.
+pub(super) fn resampled<Q>(
+    points: KeptPoints<'_>,
+    products: &Products,
+    (seed, resamples): (u64, usize),
+    quantities: &(dyn Fn(&Moments) -> Option<Q> + Sync),
+) -> Vec<Option<Q>>
+where
+    Q: Send,
+{
+    let chunks = points.chunks();
+    let random = ChaCha8Rng::seed_from_u64(seed);
+    let count = chunks.last().map_or(0, |chunk| chunk.points.end);
+    let mut values = Vec::with_capacity(resamples);
+    for first in (0..resamples).step_by(ROUND) {
+        let round = first..(first + ROUND).min(resamples);
+        let starts: Vec<usize> = round.clone().step_by(BATCH).collect();
+        let batch = |start: &usize| Batch::new(*start..(start + BATCH).min(round.end), count, products.columns());
+        let mut batches: Vec<Batch> = starts.iter().map(batch).collect();
+        for (number, chunk) in chunks.iter().enumerate() {
+            // Copied, not viewed: nalgebra 0.35 reads past the end of views with strides when a side is shorter than 6.
+            let matrix = chunk.products(points.design, products).transpose();
+            let add = |work: &mut Counts, batch: &mut Batch| batch.add(&matrix, (chunk, number), &random, work);
+            batches.par_iter_mut().for_each_init(Counts::default, add);
+        }
+        let of_batch = |batch: &Batch| -> Vec<Option<Q>> {
+            let columns = batch.sums.column_iter();
+            columns.map(|sums| quantities(&products.moments(sums.as_slice()))).collect()
+        };
+        values.extend(batches.par_iter().map(of_batch).collect::<Vec<_>>().into_iter().flatten());
+    }
+    values
+}
+
+/// Some resamples on their way through the chunks.
+struct Batch {
+    first: usize,
+    /// How many points each resample has still to draw.
+    left: Vec<u64>,
+    /// Points that no chunk has held yet.
+    points: usize,
+    /// Sums so far, a column for each resample.
+    sums: DMatrix<f64>,
+}
+
+/// Counts of the points of a chunk: of one resample, and of all of a batch, a column each.
+#[derive(Default)]
+struct Counts {
+    one: Vec<u8>,
+    all: Vec<f64>,
+}
+
+impl Batch {
+    fn new(resamples: std::ops::Range<usize>, points: usize, products: usize) -> Self {
+        let left = vec![points as u64; resamples.len()];
+        let sums = DMatrix::zeros(products, resamples.len());
+        Self { first: resamples.start, left, points, sums }
+    }
+
+    /// Adds a chunk, whose `products` have a column per point.
+    fn add(&mut self, products: &DMatrix<f64>, chunk: (&Chunk<'_>, usize), random: &ChaCha8Rng, work: &mut Counts) {
+        let points = products.ncols();
+        work.all.clear();
+        for (place, left) in self.left.iter_mut().enumerate() {
+            let mut stream = random.clone();
+            stream.set_stream(stream_of(self.first + place, chunk.1));
+            let drawn = drawn_here(*left, (points, self.points), &mut stream);
+            *left -= drawn;
+            count(&mut work.one, (drawn, points), &mut stream);
+            work.all.extend(work.one.iter().map(|count| f64::from(*count)));
+        }
+        self.points -= points;
+        let counts = nalgebra::DMatrixView::from_slice(&work.all, points, self.left.len());
+        self.sums.gemm(1.0, products, &counts, 1.0);
+    }
+}
+
+/// The random stream of a resample and a chunk; those of random designs count up from 0.
+fn stream_of(resample: usize, chunk: usize) -> u64 {
+    1 << 63 | (resample as u64) << 32 | chunk as u64
+}
+
+/// How many of `left` draws fall on `points` of the `of` points.
+fn drawn_here(left: u64, (points, of): (usize, usize), random: &mut ChaCha8Rng) -> u64 {
+    if points >= of {
+        return left;
+    }
+    // The share is a number between 0 and 1.
+    Binomial::new(left, points as f64 / of as f64).map_or(0, |binomial| binomial.sample(random))
+}
+
+/// How often each of `points` points (at most 2^16) is drawn in `draws` draws, to `counts`.
+fn count(counts: &mut Vec<u8>, (draws, points): (u64, usize), random: &mut ChaCha8Rng) {
+    counts.clear();
+    counts.resize(points, 0);
+    // Lemire (2019, ACM Trans. Model. Comput. Simul. 29(1), 3) on 16-bit words: no point is likelier than another.
+    let points = points as u32;
+    let uneven = (1 << 16) % points.max(1);
+    let mut left = draws;
+    while left > 0 {
+        let word = random.next_u64();
+        for shift in [0, 16, 32, 48] {
+            let product = (word >> shift & 0xffff) as u32 * points;
+            if left > 0 && product & 0xffff >= uneven {
+                // The chance that one point is drawn 256 times or more is below 1/256!.
+                let count = &mut counts[(product >> 16) as usize];
+                *count = count.saturating_add(1);
+                left -= 1;
+            }
+        }
+    }
+}
+
+/// How often resample number `resample` draws each of all points: for tests that resample the rows themselves.
+#[cfg(test)]
+pub(super) fn counts_of(points: KeptPoints<'_>, seed: u64, resample: usize) -> Vec<u8> {
+    let random = ChaCha8Rng::seed_from_u64(seed);
+    let chunks = points.chunks();
+    let of = chunks.last().map_or(0, |chunk| chunk.points.end);
+    let (mut left, mut all, mut one) = (of as u64, Vec::new(), Vec::new());
+    for (number, chunk) in chunks.iter().enumerate() {
+        let mut stream = random.clone();
+        stream.set_stream(stream_of(resample, number));
+        let here = chunk.points.len();
+        let drawn = drawn_here(left, (here, of - chunk.points.start), &mut stream);
+        count(&mut one, (drawn, here), &mut stream);
+        left -= drawn;
+        all.extend_from_slice(&one);
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_draw_is_counted_and_every_point_as_likely() {
+        // 5000 points: not a power of two, so that words are rejected; 400 resamples.
+        let (points, resamples) = (5000usize, 400u64);
+        let mut totals = vec![0u64; points];
+        let (mut counts, mut squares) = (Vec::new(), 0u64);
+        for resample in 0..resamples {
+            let mut random = ChaCha8Rng::seed_from_u64(3);
+            random.set_stream(resample);
+            count(&mut counts, (points as u64, points), &mut random);
+            assert_eq!(counts.iter().map(|c| u64::from(*c)).sum::<u64>(), points as u64);
+            totals.iter_mut().zip(&counts).for_each(|(total, count)| *total += u64::from(*count));
+            squares += counts.iter().map(|c| u64::from(*c).pow(2)).sum::<u64>();
+        }
+        // Each total is binomial with mean and variance 400: chi-squared over the points has mean 4999 and standard
+        // deviation 100, and 5 of them are allowed. E count^2 = 2 - 1/n.
+        let chi: f64 = totals.iter().map(|t| (*t as f64 - 400.0).powi(2) / 400.0).sum();
+        assert!((chi - 4999.0).abs() < 500.0, "{chi}");
+        let mean_square = squares as f64 / (points as u64 * resamples) as f64;
+        assert!((mean_square - 2.0).abs() < 0.01, "{mean_square}");
+    }
+}
