@@ -19,8 +19,8 @@ from SALib.analyze import sobol as salib
 from SALib.test_functions import Ishigami, Sobol_G
 from scipy import stats
 
-# Of indices, which are of size 1. Ours come from centred sums and are good to some 1e-15; an uncentred formula loses
-# (offset / spread)^2 of the precision it is computed in, which here is at most 3e4 times 1e-16 (doubles of SALib).
+# Of indices, which are of size 1. Centred sums are good to some 1e-15, ours and theirs. A formula that is not centred
+# loses, with outputs of mean 100 and standard deviation 0.7, up to 100 * 100 / 0.5 = 2e4 of them; measured: 5e-12.
 TOLERANCE = 1e-10
 
 PRECISE = np.longdouble
@@ -268,7 +268,8 @@ def check_sequence(checks, path):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # Numbers of points that are no power of two.
             engine = stats.qmc.Sobol(d, scramble=False, bits=32)
-            engine.fast_forward(first)
+            if first > 0:  # SciPy cannot go forward by nothing.
+                engine.fast_forward(first)
             theirs = engine.random(len(ours))
         checks.close(f"Sobol' points {first} on, {d} dimensions, SciPy", ours[:, :d] - 2.0**-33, theirs, 0.0)
 
