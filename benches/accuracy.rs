@@ -112,7 +112,7 @@ fn moments_by_size(function: &KnownFunction, sampler: Sampler, seed: u64) -> Vec
     let of = |n: u64| design(DesignSettings { sampler, base_samples: n, replicates: 1, seed }, d, false);
     if sampler == Sampler::LatinHypercube {
         // The points depend on how many there will be.
-        let single = |exponent| Outputs::of(function, &of(1 << exponent)).moments(0..1 << exponent, &mut work);
+        let single = |exponent: u32| Outputs::of(function, &of(1 << exponent)).moments(0..1 << exponent, &mut work);
         return EXPONENTS.map(single).collect();
     }
     let design = of(1 << EXPONENTS.end());
