@@ -18,7 +18,7 @@ use apportion::report::write_atomically;
 use outputs::{Outputs, design, function};
 use rayon::prelude::*;
 
-const SEEDS: u64 = 100;
+const SEEDS: u64 = 200;
 
 /// Base points are 2 to these powers.
 const EXPONENTS: std::ops::RangeInclusive<u32> = 6..=14;
@@ -86,23 +86,46 @@ struct Curve {
     runs_per_point: u64,
     /// Base points and error, in rising order.
     points: Vec<(f64, f64)>,
+    slope: Slope,
 }
 
 impl Curve {
-    /// Least-squares slope of the logarithm of the error over that of the number of base points.
-    fn slope(&self) -> f64 {
-        let fitted = self.points.iter().filter(|(n, _)| *n >= f64::from(1u32 << FITTED_FROM));
-        let logs: Vec<(f64, f64)> = fitted.map(|(n, error)| (n.ln(), error.ln())).collect();
-        let mean = |f: fn(&(f64, f64)) -> f64| logs.iter().map(f).sum::<f64>() / logs.len() as f64;
-        let (mx, my) = (mean(|p| p.0), mean(|p| p.1));
-        let sums = logs.iter().map(|(x, y)| ((x - mx) * (y - my), (x - mx).powi(2)));
-        let (xy, xx) = sums.fold((0.0, 0.0), |(a, b), (xy, xx)| (a + xy, b + xx));
-        xy / xx
-    }
-
     fn finest(&self) -> f64 {
         self.points.last().map_or(f64::NAN, |point| point.1)
     }
+}
+
+/// Slope of the logarithm of the error over that of the number of base points, from 2 to [`FITTED_FROM`] on.
+#[derive(Clone, Copy)]
+struct Slope {
+    value: f64,
+    /// Its standard error, by the jackknife over the seeds.
+    error: f64,
+}
+
+impl Slope {
+    /// `squares` holds the mean square error of every seed and number of base points.
+    fn of(squares: &[Vec<f64>]) -> Self {
+        let sums = |size: usize| squares.iter().map(|seed| seed[size]).sum::<f64>();
+        let all: Vec<f64> = EXPONENTS.enumerate().map(|(size, _)| sums(size)).collect();
+        let without = |seed: &Vec<f64>| fitted(&all.iter().zip(seed).map(|(all, seed)| all - seed).collect::<Vec<_>>());
+        let slopes: Vec<f64> = squares.iter().map(without).collect();
+        let n = slopes.len() as f64;
+        let mean = slopes.iter().sum::<f64>() / n;
+        let spread: f64 = slopes.iter().map(|slope| (slope - mean).powi(2)).sum();
+        Self { value: fitted(&all), error: ((n - 1.0) / n * spread).sqrt() }
+    }
+}
+
+/// Least-squares slope of half the logarithm of `squares` (of any unit) over that of the number of base points.
+fn fitted(squares: &[f64]) -> f64 {
+    let points = EXPONENTS.zip(squares).filter(|(exponent, _)| *exponent >= FITTED_FROM);
+    let logs: Vec<(f64, f64)> = points.map(|(exponent, square)| (f64::from(exponent), square.log2() / 2.0)).collect();
+    let mean = |f: fn(&(f64, f64)) -> f64| logs.iter().map(f).sum::<f64>() / logs.len() as f64;
+    let (mx, my) = (mean(|p| p.0), mean(|p| p.1));
+    let sums = logs.iter().map(|(x, y)| ((x - mx) * (y - my), (x - mx).powi(2)));
+    let (xy, xx) = sums.fold((0.0, 0.0), |(a, b), (xy, xx)| (a + xy, b + xx));
+    xy / xx
 }
 
 /// Moments at every number of base points.
@@ -143,10 +166,11 @@ fn curves((name, kind): (&'static str, &'static str), sampler: Sampler) -> Vec<C
     };
     let seeds: Vec<_> = (0..SEEDS).into_par_iter().map(of_seed).collect();
     let curve = |(number, &formula): (usize, &Formula)| {
-        let error = |size: usize| (seeds.iter().map(|seed| seed[number][size]).sum::<f64>() / SEEDS as f64).sqrt();
+        let squares: Vec<Vec<f64>> = seeds.iter().map(|seed| seed[number].clone()).collect();
+        let error = |size: usize| (squares.iter().map(|seed| seed[size]).sum::<f64>() / SEEDS as f64).sqrt();
         let points = EXPONENTS.enumerate().map(|(size, exponent)| (f64::from(1u32 << exponent), error(size))).collect();
         let runs_per_point = formula.runs_per_point(d as u64);
-        Curve { function: name, kind, sampler, formula, runs_per_point, points }
+        Curve { function: name, kind, sampler, formula, runs_per_point, points, slope: Slope::of(&squares) }
     };
     formulas.iter().enumerate().map(curve).collect()
 }
@@ -158,15 +182,15 @@ fn write(name: &str, bytes: &[u8]) {
 
 fn write_tables(all: &[Curve]) {
     let mut errors = "function,sampler,index,estimator,runs_per_point,base_points,rmse\n".to_owned();
-    let mut slopes = "function,kind,sampler,index,estimator,rmse_at_16384,slope\n".to_owned();
+    let mut slopes = "function,kind,sampler,index,estimator,rmse_at_16384,slope,slope_error\n".to_owned();
     for curve in all {
         let Curve { function, kind, sampler, formula, runs_per_point, .. } = curve;
         let (sampler, index, name) = (sampler.name(), formula.index(), formula.name());
         for (n, error) in &curve.points {
             errors += &format!("{function},{sampler},{index},{name},{runs_per_point},{n},{error:.3e}\n");
         }
-        let (finest, slope) = (curve.finest(), curve.slope());
-        slopes += &format!("{function},{kind},{sampler},{index},{name},{finest:.2e},{slope:.2}\n");
+        let (finest, Slope { value, error }) = (curve.finest(), curve.slope);
+        slopes += &format!("{function},{kind},{sampler},{index},{name},{finest:.2e},{value:.2},{error:.2}\n");
     }
     write("rmse.csv", errors.as_bytes());
     write("slopes.csv", slopes.as_bytes());
@@ -178,19 +202,20 @@ fn print(all: &[Curve]) {
     for curve in all.iter().filter(|curve| accuracy_charts::is_default(curve.formula)) {
         let Curve { function, kind, sampler, formula, .. } = curve;
         let (index, name, finest) = (formula.index(), formula.name(), curve.finest());
-        let slope = curve.slope();
-        println!("{function:9} {kind:13} {:15} {index:11} {name:13} {finest:8.1e} {slope:6.2}", sampler.name());
+        let Slope { value, error } = curve.slope;
+        println!(
+            "{function:9} {kind:13} {:15} {index:11} {name:13} {finest:8.1e} {value:6.2} +- {error:.2}",
+            sampler.name()
+        );
     }
-    let shallow = |curve: &&Curve| {
-        curve.kind == "smooth"
-            && curve.sampler == Sampler::Sobol
-            && accuracy_charts::is_default(curve.formula)
-            && curve.slope() > -0.9
+    let smooth = |curve: &&Curve| {
+        curve.kind == "smooth" && curve.sampler == Sampler::Sobol && accuracy_charts::is_default(curve.formula)
     };
-    match all.iter().filter(shallow).count() {
-        0 => println!("Sobol' points on smooth functions: every slope is -0.9 or steeper"),
-        n => println!("Sobol' points on smooth functions: {n} slopes are not as steep as -0.9"),
-    }
+    let slopes: Vec<Slope> = all.iter().filter(smooth).map(|curve| curve.slope).collect();
+    let shallow = slopes.iter().filter(|slope| slope.value > -0.9).count();
+    let surely = slopes.iter().filter(|slope| slope.value - 2.0 * slope.error > -0.9).count();
+    println!("Sobol' points, smooth functions, default estimators: of {} slopes", slopes.len());
+    println!("  {shallow} are less steep than -0.9, {surely} of them by more than two standard errors");
 }
 
 fn main() {
