@@ -1,5 +1,6 @@
 //! Tests of the whole: one program, so that it is linked once.
 
+mod accuracy;
 mod afm_contact_oracle;
 mod analytic;
 mod common;

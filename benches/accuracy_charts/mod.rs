@@ -1,0 +1,111 @@
+//! The charts of `docs/accuracy/`.
+
+use apportion::design::Sampler;
+use apportion::estimate::{FirstOrder, Total};
+use apportion::report::chart::{Axis, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke, png};
+
+use super::{Curve, Formula, SEEDS};
+
+/// Functions that have a panel.
+const SHOWN: [&str; 4] = ["ishigami", "product", "sobol-g", "steps"];
+
+/// Whether it is what a study uses that asks for nothing, or for rows BA.
+pub fn is_default(formula: Formula) -> bool {
+    let (first, total) = ([FirstOrder::Saltelli2010, FirstOrder::Azzini2021], [Total::Jansen1999, Total::Azzini2021]);
+    match formula {
+        Formula::First(estimator) => first.contains(&estimator),
+        Formula::Total(estimator) => total.contains(&estimator),
+    }
+}
+
+fn axis(label: &str) -> Axis {
+    Axis { label: label.into(), unit: String::new(), spacing: Spacing::Logarithmic }
+}
+
+fn panels(all: &[Curve], series: impl Fn(&Curve) -> Option<LineSeries>) -> Vec<LinePanel> {
+    let panel = |function: &&str| {
+        let of_function: Vec<&Curve> = all.iter().filter(|curve| curve.function == *function).collect();
+        LinePanel {
+            title: format!("{function} ({})", of_function[0].kind),
+            y: axis("RMSE"),
+            series: of_function.into_iter().filter_map(&series).collect(),
+            markers: Vec::new(),
+        }
+    };
+    SHOWN.iter().map(panel).collect()
+}
+
+/// The default estimators without companion rows, by sampler.
+fn samplers(all: &[Curve]) -> LineChart {
+    let series = |curve: &Curve| {
+        let stroke = match curve.formula {
+            Formula::First(FirstOrder::Saltelli2010) => Stroke::SolidWithPoints,
+            Formula::Total(Total::Jansen1999) => Stroke::Dashed,
+            _ => return None,
+        };
+        let role = match curve.sampler {
+            Sampler::Sobol => Role::Coulomb,
+            Sampler::Random => Role::Other(0),
+            Sampler::LatinHypercube => Role::Other(3),
+        };
+        let name = format!("{}, {}", curve.sampler.name(), curve.formula.index());
+        Some(LineSeries { name, role, stroke, points: curve.points.clone(), band: Vec::new() })
+    };
+    LineChart {
+        title: "Error of the indices by sampler".into(),
+        caption: format!(
+            "Root mean square error over the factors and {SEEDS} seeds against the number of base points. First order by \
+             Saltelli 2010, total by Jansen 1999."
+        ),
+        x: axis("Base points"),
+        panels: panels(all, series),
+    }
+}
+
+/// Colour and stroke of an estimator: the stroke tells the family of its formula.
+fn look(name: &str) -> (Role, Stroke) {
+    let families = [
+        (Stroke::Dotted, ["sobol-1993", "homma-saltelli-1996", "saltelli-2002", "sobol-2007"]),
+        (Stroke::Dashed, ["martinez-2011", "glen-isaacs-2012", "janon-monod-2014", ""]),
+        (Stroke::SolidWithPoints, ["saltelli-2010", "jansen-1999", "owen-2013", "azzini-2021"]),
+    ];
+    let colours = [Role::Coulomb, Role::Other(0), Role::LuGre, Role::Other(1)];
+    let place =
+        |(stroke, names): &(Stroke, [&str; 4])| Some((colours[names.iter().position(|n| *n == name)?], *stroke));
+    families.iter().find_map(place).unwrap_or((Role::Reference, Stroke::Solid))
+}
+
+/// All estimators of one kind of index on Sobol' points, against what they cost.
+fn estimators(all: &[Curve], index: &str) -> LineChart {
+    let series = |curve: &Curve| {
+        let shown = curve.sampler == Sampler::Sobol && curve.formula.index() == index;
+        let name = curve.formula.name();
+        let (role, stroke) = look(name);
+        let points = curve.points.iter().map(|(n, error)| (n * curve.runs_per_point as f64, *error)).collect();
+        shown.then(|| LineSeries { name: name.into(), role, stroke, points, band: Vec::new() })
+    };
+    LineChart {
+        title: format!("Error of {index} indices on Sobol' points by estimator"),
+        caption: format!(
+            "Root mean square error over the factors and {SEEDS} seeds against the model runs of a study that asks for \
+             this estimator alone, 2^6 to 2^14 base points. Dotted: products of outputs as published; dashed: \
+             correlations; full: products of differences."
+        ),
+        x: axis("Model runs"),
+        panels: panels(all, series),
+    }
+}
+
+/// Draws and writes all charts.
+pub fn write(all: &[Curve]) {
+    let charts = [
+        ("samplers", samplers(all)),
+        ("first-order", estimators(all, "first-order")),
+        ("total", estimators(all, "total")),
+    ];
+    for (name, chart) in charts {
+        let svg = chart.svg().expect("a chart with panels");
+        super::write(&format!("{name}.svg"), svg.as_bytes());
+        super::write(&format!("{name}.png"), &png(&svg).expect("our own SVG").bytes);
+    }
+}
