@@ -5,8 +5,8 @@ use serde_json::{Map, Value};
 use super::build::FinishedRun;
 use super::distribution::OutputDistribution;
 use super::result::{
-    DistributionRecord, EffectRecord, EstimateRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord, IntervalRecord,
-    OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
+    DistributionRecord, EffectRecord, EstimateRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord,
+    IntervalRecord, OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
 };
 use super::warnings;
 use crate::design::Design;

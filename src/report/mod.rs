@@ -3,11 +3,11 @@
 mod asked;
 mod build;
 mod build_output;
-mod run_charts;
 pub mod chart;
 pub mod distribution;
 pub mod given;
 mod result;
+mod run_charts;
 pub mod scene;
 pub mod screening;
 mod shares_chart;
@@ -19,8 +19,8 @@ mod write;
 pub use asked::{AskedFactor, AskedRecord, Drawing};
 pub use build::{FinishedRun, RunFacts, build_result, result_json};
 pub use build_output::{inputs_in_words, judgement};
-pub use run_charts::{convergence_chart, distribution_chart};
 pub use result::*;
+pub use run_charts::{convergence_chart, distribution_chart};
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
 pub use tables::{
     convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,

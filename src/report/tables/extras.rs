@@ -22,7 +22,8 @@ pub(super) fn below_zero(output: &OutputRecord) -> String {
     let subsets = output.subsets.iter().flatten().map(|subset| (subset.factors.join(" + "), &subset.effect));
     let dummy = output.dummy.iter().map(|effect| ("dummy".to_owned(), effect));
     let named = factors.chain(groups).chain(subsets).chain(dummy);
-    let estimates = named.flat_map(|(name, e)| [(format!("S1 of {name}"), e.first_order), (format!("ST of {name}"), e.total)]);
+    let estimates =
+        named.flat_map(|(name, e)| [(format!("S1 of {name}"), e.first_order), (format!("ST of {name}"), e.total)]);
     let negative: Vec<(String, EstimateRecord)> = estimates.filter(|(_, index)| index.estimate < 0.0).collect();
     let of_kind = |kind: Zero| {
         let names = negative.iter().filter(|(_, index)| zero(*index) == kind).map(|(name, _)| name.as_str());
@@ -32,7 +33,10 @@ pub(super) fn below_zero(output: &OutputRecord) -> String {
         if names.is_empty() { String::new() } else { format!("below 0: {names}: {words}\n") }
     };
     sentence(of_kind(Zero::Inside), "the interval contains 0, which is within the error")
-        + &sentence(of_kind(Zero::Outside), "the interval does NOT contain 0: chance, once in 20 times, or too few samples")
+        + &sentence(
+            of_kind(Zero::Outside),
+            "the interval does NOT contain 0: chance, once in 20 times, or too few samples",
+        )
         + &sentence(of_kind(Zero::Unknown), "without an interval nothing tells whether 0 is within the error")
 }
 
@@ -67,7 +71,11 @@ pub(super) fn second_order_summary(result: &ResultFile, output: &OutputRecord) -
         table.add_row([pair.factors.join(" x "), estimate(pair.index, 4), contains.to_owned()]);
     }
     let left = sorted.len().saturating_sub(PAIRS);
-    let more = if left > 0 { format!("{left} smaller ones in {}-second-order.csv\n", result.study.name) } else { String::new() };
+    let more = if left > 0 {
+        format!("{left} smaller ones in {}-second-order.csv\n", result.study.name)
+    } else {
+        String::new()
+    };
     format!("{table}\n{more}")
 }
 
@@ -101,9 +109,8 @@ fn estimator_table(output: &OutputRecord, title: &str, column: &Column) -> Strin
     let mut order: Vec<usize> = (0..factors.len()).collect();
     // Of many factors the largest.
     if order.len() > ROWS {
-        let largest = |a: &usize, b: &usize| -> Ordering {
-            column.default[*b].estimate.total_cmp(&column.default[*a].estimate)
-        };
+        let largest =
+            |a: &usize, b: &usize| -> Ordering { column.default[*b].estimate.total_cmp(&column.default[*a].estimate) };
         order.sort_by(largest);
         order.truncate(ROWS);
     }
