@@ -1,5 +1,6 @@
 //! Charts of a run besides that of the shares: how the indices settled, and how the output is distributed.
 
+use super::asked::the;
 use super::chart::{Axis, ChartError, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
 use super::distribution::{DensityWords, density_chart};
 use super::result::{EstimateRecord, OutputRecord, ResultFile, StageIndexRecord, StageRecord};
@@ -32,12 +33,16 @@ pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Result<S
         markers: Vec::new(),
     };
     let chart = LineChart {
-        title: format!("{}: how the indices of the {} settled", headline(result), words(&output.name)),
+        title: format!("{}: how the indices of {} settled", headline(result), the(&output.name)),
         caption: caption(result, output, factors.len()),
         x: axis("model runs", Spacing::Logarithmic),
         panels: vec![
             panel("Total indices with their 95 % intervals", axis("total index", Spacing::Linear), totals.collect()),
-            panel("Half widths of the intervals", axis("half width", Spacing::Logarithmic), widths),
+            panel(
+                "Half widths of the intervals of the total indices",
+                axis("half width", Spacing::Logarithmic),
+                widths,
+            ),
         ],
     };
     chart.svg()
@@ -48,7 +53,7 @@ pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Result<S
 /// # Errors
 /// [`ChartError`] if the chart cannot be drawn.
 pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Result<String, ChartError> {
-    let title = format!("{}: distribution of the {}", headline(result), words(&output.name));
+    let title = format!("{}: distribution of {}", headline(result), the(&output.name));
     let friction = result.study.settings.get("friction").and_then(serde_json::Value::as_str);
     let role = friction.map_or(Role::Other(0), friction_role);
     let output_words = words(&output.name);
@@ -59,7 +64,7 @@ pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Result<
     let y = Axis { label: "probability density".to_owned(), ..Axis::default() };
     let chart = LineChart {
         title,
-        caption: format!("No distribution of the {output_words}: {reason}."),
+        caption: format!("No distribution of {}: {reason}.", the(&output.name)),
         x: Axis { label: output_words, ..Axis::default() },
         panels: vec![LinePanel { title: String::new(), y, series: Vec::new(), markers: Vec::new() }],
     };

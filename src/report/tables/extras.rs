@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::number::{estimate, fixed};
+use super::number::give_or_take;
 use super::table;
 use crate::report::result::{EstimateRecord, OtherIndexRecord, OutputRecord, PairRecord, ResultFile};
 
@@ -68,7 +68,7 @@ pub(super) fn second_order_summary(result: &ResultFile, output: &OutputRecord) -
             Zero::Outside => "no",
             Zero::Unknown => "-",
         };
-        table.add_row([pair.factors.join(" x "), estimate(pair.index, 4), contains.to_owned()]);
+        table.add_row([pair.factors.join(" x "), give_or_take(pair.index), contains.to_owned()]);
     }
     let left = sorted.len().saturating_sub(PAIRS);
     let more = if left > 0 {
@@ -130,14 +130,6 @@ fn estimator_table(output: &OutputRecord, title: &str, column: &Column) -> Strin
     text
 }
 
-/// `0.3374 ± 0.0024`, by half the width of the interval.
-fn give_or_take(index: EstimateRecord) -> String {
-    match (index.low, index.high) {
-        (Some(low), Some(high)) => format!("{} ± {}", fixed(index.estimate, 4), fixed((high - low) / 2.0, 4)),
-        _ => fixed(index.estimate, 4),
-    }
-}
-
 /// The indices over all outputs together.
 pub(super) fn aggregate_summary(result: &ResultFile) -> String {
     let Some(aggregate) = &result.aggregate else { return String::new() };
@@ -145,7 +137,7 @@ pub(super) fn aggregate_summary(result: &ResultFile) -> String {
     if let Some(indices) = &aggregate.indices {
         let mut table = table(&["factor", "first order", "total"], &[0]);
         for index in indices {
-            table.add_row([index.factor.clone(), estimate(index.first_order, 4), estimate(index.total, 4)]);
+            table.add_row([index.factor.clone(), give_or_take(index.first_order), give_or_take(index.total)]);
         }
         text.push_str(&format!("{table}\n"));
     }

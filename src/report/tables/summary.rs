@@ -1,7 +1,7 @@
 //! A result as text for a terminal.
 
 use super::extras::{aggregate_summary, below_zero, estimator_tables, second_order_summary};
-use super::number::{chance, estimate, share, share_of_runs, significant};
+use super::number::{chance, give_or_take, share_give_or_take, share_of_runs, significant};
 use super::table;
 use crate::report::result::{EffectRecord, EstimateRecord, FailureRecord, OutputRecord, ResultFile};
 
@@ -24,7 +24,7 @@ fn interval_summary(result: &ResultFile) -> String {
         return String::new();
     }
     match &result.provenance.interval {
-        Some(words) => format!("[low, high]: {words}\n"),
+        Some(words) => format!("intervals (± half of them): {words}\n"),
         None => "no intervals: a single replicate says nothing about its error\n".to_owned(),
     }
 }
@@ -101,7 +101,7 @@ fn index_table(result: &ResultFile, output: &OutputRecord) -> String {
     if let Some(effect) = &output.dummy {
         table.add_row(effect_row("dummy (does nothing)", effect));
     }
-    let sum = |sum: Option<EstimateRecord>| sum.map_or_else(String::new, |s| estimate(s, 4));
+    let sum = |sum: Option<EstimateRecord>| sum.map_or_else(String::new, |s| give_or_take(s));
     table.add_row(["sum of factors".to_owned(), sum(output.sum_first_order), sum(output.sum_total)]);
     format!("{table}\n")
 }
@@ -109,10 +109,10 @@ fn index_table(result: &ResultFile, output: &OutputRecord) -> String {
 fn effect_row(name: &str, effect: &EffectRecord) -> [String; 7] {
     [
         name.to_owned(),
-        estimate(effect.first_order, 4),
-        estimate(effect.total, 4),
-        share(effect.share_first_order, effect.share_first_order_interval),
-        share(effect.share_total, effect.share_total_interval),
+        give_or_take(effect.first_order),
+        give_or_take(effect.total),
+        share_give_or_take(effect.share_first_order, effect.share_first_order_interval),
+        share_give_or_take(effect.share_total, effect.share_total_interval),
         chance(effect.probability_first),
         chance(effect.probability_above_threshold),
     ]
