@@ -288,7 +288,7 @@ fn pilot(study: &Study) -> Result<Pilot, Failure> {
             let share = study.design.rows() as f64 / design.rows() as f64;
             return Ok(Pilot { runs: design.rows(), seconds: seconds * share });
         }
-        points *= 4;
+        points = (points * 4).min(study.design.settings().base_samples);
     }
 }
 
