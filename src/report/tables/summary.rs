@@ -101,7 +101,7 @@ fn index_table(result: &ResultFile, output: &OutputRecord) -> String {
     if let Some(effect) = &output.dummy {
         table.add_row(effect_row("dummy (does nothing)", effect));
     }
-    let sum = |sum: Option<EstimateRecord>| sum.map_or_else(String::new, |s| give_or_take(s));
+    let sum = |sum: Option<EstimateRecord>| sum.map_or_else(String::new, give_or_take);
     table.add_row(["sum of factors".to_owned(), sum(output.sum_first_order), sum(output.sum_total)]);
     format!("{table}\n")
 }
