@@ -52,6 +52,9 @@ const METHODS: [(&str, &str, IntervalMethod, u64); 7] = [
     ("latin, 16 replicates", "latin-hypercube", IntervalMethod::Replicates, 16),
 ];
 
+/// The default among the methods.
+const DEFAULT: usize = 2;
+
 struct Case {
     text: String,
     first: Vec<f64>,
@@ -188,7 +191,7 @@ fn main() {
         }
         let line: Vec<String> = SIZES
             .map(|m| {
-                let Cell { coverage, worst, width, .. } = cells[&(1, f, m)];
+                let Cell { coverage, worst, width, .. } = cells[&(DEFAULT, f, m)];
                 format!("{coverage:.3} ({worst:.2}) {width:.2}")
             })
             .collect();
@@ -224,7 +227,7 @@ fn tables(names: &[&str], cells: &BTreeMap<(usize, usize, u32), Cell>, seeds: u6
         let _ = writeln!(
             text,
             "| {name}{} | {:.3} | {least:.3} | {largest:.3} | {:.0} % | {:.2} | {:.2} |",
-            if k == 1 { " (default)" } else { "" },
+            if k == DEFAULT { " (default)" } else { "" },
             mean(|cell| cell.coverage),
             100.0 * within,
             mean(|cell| cell.width.ln()).exp(),
@@ -245,7 +248,7 @@ fn tables(names: &[&str], cells: &BTreeMap<(usize, usize, u32), Cell>, seeds: u6
         }
         let _ = write!(text, "| {name} |");
         for m in SIZES {
-            let Cell { coverage, width, .. } = cells[&(1, f, m)];
+            let Cell { coverage, width, .. } = cells[&(DEFAULT, f, m)];
             let _ = write!(text, " {:.1} % / {width:.2} |", 100.0 * coverage);
         }
         text.push('\n');

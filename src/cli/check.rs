@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use apportion::design::{Design, DesignSettings};
+use apportion::design::{Companions, Design, DesignSettings, Sampler};
+use apportion::estimate::{FirstOrder, Total};
 use apportion::report::{significant, table, with_unit};
-use apportion::run::{BLOCK, Job, run};
-use apportion::study::Study;
+use apportion::run::{BLOCK, FailurePolicy, Job, run};
+use apportion::study::{Stopping, Study};
+use apportion::uncertainty::IntervalMethod;
 
-use super::run::{default_folder, file_names};
+use super::run::{default_folder, files};
 use super::{DesignChanges, Failure, StudyArguments, print};
 
 #[derive(clap::Args)]
@@ -28,11 +30,9 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let mut text = subject(&study);
     text.push_str(&factors(&study));
     text.push_str(&design(&study)?);
-    let model = study.model();
-    let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     text.push_str(&format!("\nwill be written to {}:\n", folder.display()));
-    for (name, content) in file_names(&study.name, &outputs) {
-        text.push_str(&format!("  {name}  {content}\n"));
+    for file in files(&study) {
+        text.push_str(&format!("  {}  {}\n", file.name, file.content));
     }
     print(&text)
 }
@@ -100,35 +100,170 @@ fn factors(study: &Study) -> String {
 fn design(study: &Study) -> Result<String, Failure> {
     let design = &study.design;
     let settings = design.settings();
-    let groups = study.space.groups().len();
+    let stopping = stopping(study);
+    let size = if study.stopping.grows() { "begins with " } else { "" };
+    let pilot = pilot(study)?;
     let mut text = format!(
-        "\ndesign: {} points, {} base samples in {} replicates of {}, seed {}\n\
-         cost: {} base samples x (2 + {} factors{}) = {} model runs",
+        "\ndesign: {} points, {size}{} base samples in {} replicate{} of {}, seed {}\n{}{}\
+         cost: {size}{} base samples x {} = {} model runs, about {} on this machine (by {} runs of it)\n{stopping}",
         settings.sampler.name(),
         settings.base_samples,
         settings.replicates,
+        if settings.replicates == 1 { "" } else { "s" },
         design.points_per_replicate(),
         settings.seed,
+        asked(study),
+        rows(study),
         settings.base_samples,
-        design.factors(),
-        if groups > 0 { format!(" + {groups} groups") } else { String::new() },
+        design.rows_per_point(),
         design.rows(),
+        duration(pilot.seconds),
+        pilot.runs
     );
-    let pilot = pilot(study)?;
-    text.push_str(&format!(", about {} on this machine (by {} runs of it)\n", duration(pilot.seconds), pilot.runs));
-    text.push_str(&format!(
-        "memory: about {:.0} kB a thread for the columns of a block, whatever the number of samples\n",
-        kilobytes_per_thread(study)
-    ));
-    if !design.balanced() {
-        text.push_str(
-            "warning: the points of a replicate are not a power of two: Sobol' points lose much of their accuracy\n",
-        );
-    }
-    if settings.replicates == 1 {
-        text.push_str("warning: a single replicate says nothing about its error: there will be no intervals\n");
+    text.push_str(&memory(study));
+    for warning in warnings(study) {
+        text.push_str(&format!("warning: {warning}\n"));
     }
     Ok(text)
+}
+
+/// What is estimated, and what the intervals are.
+fn asked(study: &Study) -> String {
+    let analysis = &study.analysis;
+    let counted =
+        |n: usize, what: &str| (n > 0).then(|| if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") });
+    let mut parts = vec!["first-order and total indices of the factors".to_owned()];
+    parts.extend(counted(study.space.groups().len(), "group"));
+    parts.extend(counted(analysis.subsets.len(), "subset"));
+    parts.extend(analysis.dummy.then(|| "a dummy factor".to_owned()));
+    parts.extend(analysis.second_order.then(|| format!("second order of {} pairs", study.layout().pair_list().len())));
+    if analysis.aggregate && study.model().outputs().len() > 1 {
+        parts.push("all outputs together".to_owned());
+    }
+    if !analysis.estimators.is_empty() {
+        let names: Vec<&str> = analysis.estimators.iter().map(|estimator| estimator.name()).collect();
+        parts.push(format!("other estimators {}", names.join(", ")));
+    }
+    let companions = study.design.companions();
+    let (first, total) = (FirstOrder::of_rows(companions), Total::of_rows(companions));
+    let none = "none: a single replicate says nothing about its error".to_owned();
+    let intervals = if alone(study) {
+        none
+    } else {
+        analysis.intervals.words(study.design.settings().replicates, analysis.resamples)
+    };
+    format!(
+        "asked: {}\nestimators: first order {}, total {}\nintervals: {intervals}\n\
+         failed runs: {}\n",
+        parts.join(", "),
+        first.name(),
+        total.name(),
+        match analysis.failures {
+            FailurePolicy::Fail => "the first one ends the run".to_owned(),
+            FailurePolicy::DropBlock => format!(
+                "left out, up to {} % of all; beyond that there are no indices",
+                significant(100.0 * analysis.max_failed)
+            ),
+        }
+    )
+}
+
+/// Which rows every base sample has, and why.
+fn rows(study: &Study) -> String {
+    let (design, analysis) = (&study.design, &study.analysis);
+    let swaps = design.swaps().len();
+    let Companions { ba, bc, cb } = design.companions();
+    let mut words =
+        vec!["A and B".to_owned(), format!("{swaps} rows AB (one for each factor, group, subset and dummy)")];
+    let askers = |needs: fn(Companions) -> bool| {
+        let pairs =
+            (analysis.second_order && needs(Companions { ba: true, ..Companions::NONE })).then_some("second order");
+        let estimators = analysis.estimators.iter().filter(|estimator| needs(estimator.needs()));
+        pairs.into_iter().chain(estimators.map(|estimator| estimator.name())).collect::<Vec<_>>().join(", ")
+    };
+    words.extend(ba.then(|| format!("{swaps} rows BA ({})", askers(|rows| rows.ba))));
+    words.extend(bc.then(|| format!("{swaps} rows BC ({})", askers(|rows| rows.bc))));
+    words.extend(cb.then(|| format!("{swaps} rows CB ({})", askers(|rows| rows.cb))));
+    let all = 2 + swaps as u64 * (1 + design.companions().count());
+    let saved = all - design.rows_per_point();
+    let once = if saved > 0 {
+        format!("; {saved} of them the same point as another, which is run once")
+    } else {
+        String::new()
+    };
+    format!("rows of a base sample: {}{once}\n", words.join(" + "))
+}
+
+/// How a growing run goes on and when it ends.
+fn stopping(study: &Study) -> String {
+    let Stopping { half_width, budget, max_runs } = study.stopping;
+    let ends = [
+        half_width.map(|width| format!("every first-order and total index is known to {width} (half its interval)")),
+        budget.map(|seconds| format!("twice the runs would take longer than {}", duration(seconds))),
+        max_runs.map(|runs| format!("twice the runs would be more than {runs}")),
+    ];
+    let ends: Vec<String> = ends.into_iter().flatten().collect();
+    if ends.is_empty() {
+        return String::new();
+    }
+    format!("growth: the runs are doubled, none of them lost, until {}\n", ends.join(", or "))
+}
+
+fn memory(study: &Study) -> String {
+    let kilobytes = kilobytes_per_thread(study);
+    let mut text = format!(
+        "memory: about {kilobytes:.0} kB a thread for the columns of a block, whatever the number of samples\n"
+    );
+    if study.analysis.intervals.keeps_outputs() {
+        let bytes = study.design.rows() as f64 * study.model().outputs().len() as f64 * 8.0;
+        text.push_str(&format!(
+            "        and {:.1} MB for the outputs of all runs, which intervals = \"{}\" need\n",
+            bytes / 1e6,
+            study.analysis.intervals.name()
+        ));
+    }
+    text
+}
+
+/// A single replicate, and intervals that need several.
+fn alone(study: &Study) -> bool {
+    study.design.settings().replicates == 1 && study.analysis.intervals == IntervalMethod::Replicates
+}
+
+fn warnings(study: &Study) -> Vec<String> {
+    let design = &study.design;
+    let mut warnings = Vec::new();
+    if !design.balanced() {
+        warnings.push(
+            "the points of a replicate are not a power of two: Sobol' points lose much of their accuracy".to_owned(),
+        );
+    }
+    if alone(study) {
+        warnings.push("a single replicate says nothing about its error: there will be no intervals".to_owned());
+    } else if design.settings().replicates == 1 && study.analysis.intervals == IntervalMethod::Nets {
+        warnings.push(
+            "a single net cannot tell whether it is a lucky one: intervals will rest on how its parts differ; 2 replicates are safer"
+                .to_owned(),
+        );
+    }
+    warnings.extend(correlated_pairs(design));
+    warnings
+}
+
+/// Sobol' points of many factors have pairs of dimensions that are correlated until there are points enough
+/// (see `SobolSequence`).
+fn correlated_pairs(design: &Design) -> Option<String> {
+    /// More factors than the first number need as many points a replicate as the second.
+    const NEEDED: [(usize, u64); 3] = [(100, 1 << 14), (50, 1 << 12), (30, 1 << 11)];
+    let points = design.points_per_replicate();
+    let (_, needed) = *NEEDED.iter().find(|(factors, _)| design.factors() > *factors)?;
+    (design.settings().sampler == Sampler::Sobol && points < needed).then(|| {
+        format!(
+            "{} factors at {points} points a replicate: some pairs of dimensions of Sobol' points are still correlated, \
+             which widens the errors; use {needed} points a replicate or more",
+            design.factors()
+        )
+    })
 }
 
 /// A few runs of the study's model, and how long the whole design would take by them.
@@ -153,7 +288,7 @@ fn pilot(study: &Study) -> Result<Pilot, Failure> {
             let share = study.design.rows() as f64 / design.rows() as f64;
             return Ok(Pilot { runs: design.rows(), seconds: seconds * share });
         }
-        points *= 4;
+        points = (points * 4).min(study.design.settings().base_samples);
     }
 }
 

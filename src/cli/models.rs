@@ -1,5 +1,7 @@
 //! `apportion models`: what can be studied.
 
+use apportion::design::Companions;
+use apportion::estimate::{Estimator, FirstOrder, Total};
 use apportion::model::{Basis, Exact, ExactIndices, Input, KnownAnswer, KnownFunction, ModelKind, known_inputs};
 use apportion::report::{significant, table};
 use apportion::study::{Problem, nearest};
@@ -10,15 +12,63 @@ use super::{Failure, print};
 pub struct Arguments {
     /// Show this model in full: inputs, outputs, choices; of a function its formula, source and exact indices
     name: Option<String>,
+    /// List the estimators of indices instead: what they estimate, what they cost, where they come from
+    #[arg(long, conflicts_with = "name")]
+    estimators: bool,
 }
 
 pub fn models(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.estimators {
+        return print(&estimators());
+    }
     let Some(name) = &arguments.name else { return print(&list()) };
     let kind = ModelKind::from_name(name).ok_or_else(|| unknown(name))?;
     print(&match kind {
         ModelKind::Afm => flagship(),
         ModelKind::Known(answer) => function(answer),
     })
+}
+
+/// Every estimator with its cost; the sources under the table, since they are long.
+fn estimators() -> String {
+    const FACTORS: u64 = 8;
+    let header = ["estimator", "first order", "total", "runs per base sample", "for d = 8"];
+    let mut rows = table(&header, &[0, 1, 2, 3]);
+    let mut sources = String::new();
+    for estimator in Estimator::ALL {
+        let (first_order, total) = estimator.formulas();
+        let count = 1 + estimator.needs().count();
+        let times = if count == 1 { String::new() } else { format!("{count} ") };
+        let (first, all) = match estimator {
+            Estimator::Default => {
+                (FirstOrder::of_rows(Companions::NONE).name(), Total::of_rows(Companions::NONE).name())
+            }
+            _ => (first_order.map_or("-", FirstOrder::name), total.map_or("-", Total::name)),
+        };
+        let cost = (2 + FACTORS * count).to_string();
+        rows.add_row([estimator.name(), first, all, &format!("2 + {times}d"), &cost]);
+        let (first, all) = (first_order.map(FirstOrder::source), total.map(Total::source));
+        let named = match (first, all) {
+            (Some(first), Some(total)) if first != total => format!("{first}; total: {total}"),
+            (Some(source), _) | (None, Some(source)) => source.to_owned(),
+            (None, None) => {
+                let rows = Companions { ba: true, ..Companions::NONE };
+                let (first, total) = (FirstOrder::of_rows(rows), Total::of_rows(rows));
+                format!(
+                    "{}; {}. Where second order or another estimator brings rows BA along: {} and {}",
+                    FirstOrder::Saltelli2010.source(),
+                    Total::Jansen1999.source(),
+                    first.name(),
+                    total.name()
+                )
+            }
+        };
+        sources.push_str(&format!("{}: {named}\n", estimator.name()));
+    }
+    format!(
+        "{rows}\nd counts factors, groups, subsets and the dummy. Ask for them in a study by [analysis] estimators = \
+         [\"azzini\", \"jansen\"]; the default ones are always there.\n\n{sources}"
+    )
 }
 
 fn unknown(name: &str) -> Failure {

@@ -43,6 +43,8 @@ impl Meter {
     pub fn update(&self, progress: Progress) {
         match &self.display {
             Display::Bar(bar) => {
+                // A run that grows learns its length as it goes.
+                bar.set_length(progress.total);
                 bar.set_position(progress.done);
                 if progress.failed > 0 {
                     bar.set_message(format!("  {} failed", progress.failed));
@@ -72,7 +74,7 @@ impl Meter {
         let Progress { done, total, failed, elapsed } = progress;
         let seconds = elapsed.as_secs_f64();
         let per_second = done as f64 / seconds;
-        let left = (total - done) as f64 / per_second;
+        let left = total.saturating_sub(done) as f64 / per_second;
         let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
         let percent = 100.0 * done as f64 / total as f64;
         format!(

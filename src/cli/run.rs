@@ -2,11 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
+use anyhow::anyhow;
 use apportion::analyse;
-use apportion::report::chart::png;
+use apportion::report::chart::{ChartError, png};
 use apportion::report::{
-    ResultFile, indices_csv, prepare_file, prepare_folder, result_json, study_chart, summary, write_atomically,
+    OutputRecord, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv, indices_csv,
+    inputs_in_words, prepare_file, prepare_folder, result_json, second_order_csv, study_chart, summary,
+    write_atomically,
 };
+use apportion::run::RunError;
+use apportion::study::Study;
 
 use super::progress::Meter;
 use super::{DesignChanges, Failure, StudyArguments, Threads, print, say};
@@ -33,46 +38,113 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load_with(&arguments.design.overrides())?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     prepare_folder(&folder)?;
-    let model = study.model();
-    let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
-    for (name, _) in file_names(&study.name, &outputs) {
-        prepare_file(&folder.join(name))?;
+    for file in files(&study) {
+        prepare_file(&folder.join(file.name))?;
     }
     let meter = Meter::new(&study.name, study.design.rows());
-    let result = analyse(&study, arguments.threads.number(), &|progress| meter.update(progress))?;
+    let result = analyse(&study, arguments.threads.number(), &|progress| meter.update(progress))
+        .map_err(|error| with_inputs(&study, error))?;
     meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
-    let files = write_files(&folder, &result)?;
+    let written = write_files(&folder, &study, &result)?;
     print(&summary(&result))?;
-    for file in files {
+    for file in written {
         say(&format!("wrote {}", file.display()));
     }
-    Ok(())
-}
-
-/// The files a run of the study called `name` writes, with what they hold.
-pub fn file_names(name: &str, outputs: &[&str]) -> Vec<(String, &'static str)> {
-    let charts = outputs.iter().flat_map(|output| {
-        let stem = if outputs.len() == 1 { name.to_owned() } else { format!("{name}-{output}") };
-        [(format!("{stem}.svg"), "chart of the shares"), (format!("{stem}.png"), "the same as a picture")]
-    });
-    let tables = [
-        (format!("{name}.json"), "the result, for programs"),
-        (format!("{name}.csv"), "the indices, for spreadsheets"),
-    ];
-    tables.into_iter().chain(charts).collect()
-}
-
-fn write_files(folder: &Path, result: &ResultFile) -> Result<Vec<PathBuf>, Failure> {
-    let outputs: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
-    let names = file_names(&result.study.name, &outputs);
-    let files: Vec<PathBuf> = names.iter().map(|(name, _)| folder.join(name)).collect();
-    write_atomically(&files[0], result_json(result).as_bytes())?;
-    write_atomically(&files[1], indices_csv(result).as_bytes())?;
-    for (output, pair) in result.outputs.iter().zip(files[2..].chunks_exact(2)) {
-        let svg = study_chart(result, output).map_err(|error| Failure::Run(error.into()))?;
-        write_atomically(&pair[0], svg.as_bytes())?;
-        let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
-        write_atomically(&pair[1], &picture.bytes)?;
+    let lost: Vec<&str> =
+        result.outputs.iter().filter(|output| lost(&study, output)).map(|output| output.name.as_str()).collect();
+    if lost.is_empty() {
+        return Ok(());
     }
-    Ok(files)
+    Err(Failure::Run(anyhow!(
+        "no indices of {}: too many runs failed (the result says which and why)",
+        lost.join(", ")
+    )))
+}
+
+/// Whether an output has no indices because runs failed, and not because it does not vary.
+fn lost(study: &Study, output: &OutputRecord) -> bool {
+    let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
+    let too_many = share > study.analysis.max_failed || output.base_points_used < 2;
+    output.indices.is_none() && output.runs_failed > 0 && too_many
+}
+
+/// A row that failed is of use to the user by its inputs.
+fn with_inputs(study: &Study, error: RunError) -> Failure {
+    match &error {
+        RunError::RowFailed { row, .. } => {
+            Failure::Run(anyhow!("{error}\nthe run's inputs: {}", inputs_in_words(study, *row)))
+        }
+        RunError::Threads { .. } | RunError::TooManyOutputs { .. } => error.into(),
+    }
+}
+
+/// A file that a run writes.
+pub struct ResultFileName {
+    /// Its name in the folder of results.
+    pub name: String,
+    /// What it holds, in words.
+    pub content: &'static str,
+    kind: Kind,
+}
+
+enum Kind {
+    Text(fn(&ResultFile) -> String),
+    /// The chart of the output of that number, as SVG.
+    Svg(Draw, usize),
+    /// The same as PNG.
+    Png(Draw, usize),
+}
+
+type Draw = fn(&ResultFile, &OutputRecord) -> Result<String, ChartError>;
+
+/// The files that a run of `study` writes.
+pub fn files(study: &Study) -> Vec<ResultFileName> {
+    let mut files = Vec::new();
+    let mut table = |suffix: &str, content, text| {
+        let name = format!("{}{suffix}", study.name);
+        files.push(ResultFileName { name, content, kind: Kind::Text(text) });
+    };
+    table(".json", "the result, for programs", result_json);
+    table(".csv", "the indices, for spreadsheets", indices_csv);
+    if study.analysis.second_order {
+        table("-second-order.csv", "the second-order indices of all pairs", second_order_csv);
+    }
+    if !study.analysis.estimators.is_empty() {
+        table("-estimators.csv", "the indices by the other estimators", estimators_csv);
+    }
+    table("-convergence.csv", "the indices at every stage of the run", convergence_csv);
+    let charts: [(&str, &str, Draw); 3] = [
+        ("", "chart of the shares", study_chart),
+        ("-distribution", "chart of the output's distribution", distribution_chart),
+        ("-convergence", "chart of how the indices settled", convergence_chart),
+    ];
+    let model = study.model();
+    for (number, output) in model.outputs().iter().enumerate() {
+        let one = model.outputs().len() == 1;
+        let stem = if one { study.name.clone() } else { format!("{}-{}", study.name, output.name) };
+        for (suffix, content, draw) in charts {
+            let name = format!("{stem}{suffix}.svg");
+            files.push(ResultFileName { name, content, kind: Kind::Svg(draw, number) });
+            let name = format!("{stem}{suffix}.png");
+            files.push(ResultFileName { name, content: "the same as a picture", kind: Kind::Png(draw, number) });
+        }
+    }
+    files
+}
+
+fn write_files(folder: &Path, study: &Study, result: &ResultFile) -> Result<Vec<PathBuf>, Failure> {
+    let drawn =
+        |draw: Draw, number: usize| draw(result, &result.outputs[number]).map_err(|error| Failure::Run(error.into()));
+    let mut written = Vec::new();
+    for file in files(study) {
+        let bytes = match file.kind {
+            Kind::Text(text) => text(result).into_bytes(),
+            Kind::Svg(draw, number) => drawn(draw, number)?.into_bytes(),
+            Kind::Png(draw, number) => png(&drawn(draw, number)?).map_err(|error| Failure::Run(error.into()))?.bytes,
+        };
+        let path = folder.join(file.name);
+        write_atomically(&path, &bytes)?;
+        written.push(path);
+    }
+    Ok(written)
 }

@@ -30,9 +30,7 @@ impl BasePoints {
         let DesignSettings { sampler, seed, .. } = *settings;
         let length = settings.base_samples / settings.replicates;
         if sampler == Sampler::Sobol {
-            // One sequence, whose dimensions are dealt out to A and B first, then to C.
-            let deals = [factors * 2, factors];
-            let sequence = SobolSequence::scrambled_in(&deals[..matrices - 1], seed, replicate);
+            let sequence = SobolSequence::scrambled(factors * matrices, seed, replicate);
             return Self { points: Points::Sobol(sequence), third: None, dimensions: factors * matrices };
         }
         let of = |dimensions, stream| {

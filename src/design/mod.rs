@@ -77,9 +77,9 @@ pub struct DesignSettings {
 }
 
 impl Default for DesignSettings {
-    /// 2^14 base points of the scrambled Sobol' sequence in 2 replicates, seed 0.
+    /// 2^14 base points of the scrambled Sobol' sequence in 4 replicates, seed 0.
     fn default() -> Self {
-        Self { sampler: Sampler::Sobol, base_samples: 1 << 14, replicates: 2, seed: 0 }
+        Self { sampler: Sampler::Sobol, base_samples: 1 << 14, replicates: 4, seed: 0 }
     }
 }
 

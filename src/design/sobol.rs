@@ -19,16 +19,10 @@ use super::joe_kuo::{BITS, Directions, directions};
 /// (50 factors) from 2^12 and 200 (100 factors) from 2^14. Of the 1000 pairs (A_j, B_j) of a design of 1000 factors,
 /// 20 may be at 2^10 points, by up to 0.75; seven at 2^12, one at 2^14. The scramble draws the sign of such a
 /// correlation, so that estimates stay unbiased and the spread of replicates shows it.
-///
-/// A scrambled sequence also deals out the dimensions to its coordinates at random. Some pairs fit badly at some numbers of
-/// points, whatever the scramble (dimensions 5 and 34 at 2^12 points are spread no better than 2^6 could be). Dealt
-/// in order, every replicate of a study hits the same pairs: the error of one index then stays put while N grows
-/// fourfold, and no spread between replicates, no trend within one, tells. Dealt at random, bad luck differs from
-/// replicate to replicate, and intervals hold (`benches/coverage.rs`).
 #[derive(Debug, Clone)]
 pub struct SobolSequence {
-    /// Per coordinate: the direction numbers of its dimension.
-    directions: Vec<&'static Directions>,
+    /// Per dimension: the direction numbers.
+    directions: &'static [Directions],
     /// Per dimension: the key of its scramble, none for the plain sequence.
     scrambles: Option<Vec<u32>>,
 }
@@ -36,36 +30,15 @@ pub struct SobolSequence {
 impl SobolSequence {
     /// The scrambled sequence of `dimensions` coordinates. Sequences of another `seed` or `replicate` are independent.
     pub fn scrambled(dimensions: usize, seed: u64, replicate: u64) -> Self {
-        Self::scrambled_in(&[dimensions], seed, replicate)
-    }
-
-    /// The scrambled sequence whose first `deals[0]` coordinates share out the first `deals[0]` dimensions among them, the
-    /// next `deals[1]` coordinates the next `deals[1]` dimensions, and so on: coordinates of an earlier deal do not depend
-    /// on how many follow.
-    pub fn scrambled_in(deals: &[usize], seed: u64, replicate: u64) -> Self {
-        let dimensions = deals.iter().sum();
-        let mut sequence = Self::in_order(dimensions, seed, replicate);
-        // Far behind the keys of the scrambles, which take one word each.
-        let mut rng = stream(seed, replicate);
-        rng.set_word_pos(1 << 40);
-        let mut first = 0;
-        for &deal in deals {
-            shuffle(&mut sequence.directions[first..first + deal], &mut rng);
-            first += deal;
-        }
-        sequence
-    }
-
-    /// The scrambled sequence whose coordinate j is dimension j of the Sobol' sequence.
-    pub fn in_order(dimensions: usize, seed: u64, replicate: u64) -> Self {
-        let mut rng = stream(seed, replicate);
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        rng.set_stream(replicate);
         let scrambles = Some((0..dimensions).map(|_| rng.next_u32()).collect());
         Self { scrambles, ..Self::plain(dimensions) }
     }
 
     /// The sequence without scrambling, as published: for tests and comparisons, its first point is (nearly) 0.
     pub fn plain(dimensions: usize) -> Self {
-        Self { directions: directions(dimensions).iter().collect(), scrambles: None }
+        Self { directions: directions(dimensions), scrambles: None }
     }
 
     /// Coordinate `dimension` of the points `first`, `first + 1`, ... into `out`.
@@ -74,7 +47,7 @@ impl SobolSequence {
     /// If an index would reach 2^32, where the sequence would repeat itself.
     pub fn fill(&self, dimension: usize, first: u64, out: &mut [f64]) {
         assert!(first + out.len() as u64 <= 1 << BITS, "the sequence ends at 2^32 points");
-        let directions = self.directions[dimension];
+        let directions = &self.directions[dimension];
         let mut coordinate = at_index(directions, first);
         let scramble = self.scrambles.as_ref().map(|keys| keys[dimension]);
         for (slot, next) in out.iter_mut().zip(first + 1..) {
@@ -82,20 +55,6 @@ impl SobolSequence {
             *slot = (f64::from(digits.reverse_bits()) + 0.5) * CELL;
             coordinate ^= directions[(next.trailing_zeros() as usize).min(BITS - 1)];
         }
-    }
-}
-
-fn stream(seed: u64, replicate: u64) -> ChaCha8Rng {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    rng.set_stream(replicate);
-    rng
-}
-
-/// Fisher and Yates' shuffle; 32 random bits a step, whose bias of 2^-20 at most (4096 dimensions) nobody will see.
-fn shuffle<T>(items: &mut [T], rng: &mut impl Rng) {
-    for last in (1..items.len()).rev() {
-        let other = (u64::from(rng.next_u32()) * (last as u64 + 1)) >> 32;
-        items.swap(last, other as usize);
     }
 }
 

@@ -3,14 +3,17 @@
 use serde_json::{Map, Value};
 
 use super::build::FinishedRun;
+use super::distribution::OutputDistribution;
 use super::result::{
-    EffectRecord, EstimateRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord, IntervalRecord,
-    OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
+    DistributionRecord, EffectRecord, EstimateRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord,
+    IntervalRecord, OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
 };
 use super::warnings;
-use crate::estimate::{FirstOrder, MomentParts, PointOutputs, Total, merged};
+use crate::design::Design;
+use crate::estimate::{CentralMoments, FirstOrder, MomentParts, PointOutputs, Total, merged};
 use crate::model::{Output, RowFailure};
-use crate::run::{Tally, Totals};
+use crate::quantity::Unit;
+use crate::run::{Place, Tally, Totals};
 use crate::study::Study;
 use crate::uncertainty::{
     EffectEstimates, Estimate, Interval, Judgement, KeptPoints, OtherEstimates, OutputIndices, Stage, output_indices,
@@ -50,6 +53,7 @@ pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usiz
         second_order: None,
         estimators: Vec::new(),
         convergence: Vec::new(),
+        distribution: distribution_record(run.replicates, number, (&totals.values, unit)),
         reason: None,
         warnings: Vec::new(),
     };
@@ -196,12 +200,54 @@ fn interval_record(interval: Option<Interval>, convert: &dyn Fn(f64) -> f64) -> 
     interval.map(|i| IntervalRecord { low: convert(i.low), high: convert(i.high) })
 }
 
+/// Moments and range from all values of the rows A and B, the rest from those that were kept. `None` without values, and
+/// where a number is beyond double precision in the unit.
+fn distribution_record(
+    replicates: &[Totals],
+    number: usize,
+    (values, unit): (&CentralMoments, &Unit),
+) -> Option<DistributionRecord> {
+    let kept = replicates.iter().flat_map(|totals| &totals.outputs[number].sample).copied();
+    let kept: Vec<f64> = kept.filter(|value| value.is_finite()).collect();
+    let mut sample = OutputDistribution::of(&kept, unit).ok()?;
+    let (min, max) = values.range()?;
+    (sample.mean, sample.min, sample.max) = (unit.from_si(values.mean()?), unit.from_si(min), unit.from_si(max));
+    let n = values.count();
+    let sd = (values.variance()? * (n as f64 / (n as f64 - 1.0))).sqrt();
+    sample.sd = (n > 1).then(|| unit.from_si(sd)).filter(|sd| sd.is_finite());
+    (sample.skewness, sample.excess_kurtosis) = (values.skewness(), values.excess_kurtosis());
+    let quantiles = sample.quantiles.iter().map(|quantile| quantile.value);
+    let edges = sample.histogram.iter().flat_map(|histogram| histogram.edges.iter().copied());
+    let all = [sample.mean, sample.min, sample.max].into_iter().chain(quantiles).chain(edges);
+    let representable = all.into_iter().all(f64::is_finite);
+    representable.then_some(DistributionRecord { values: n, sample })
+}
+
 fn failure_record(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> FailureRecord {
     let first_row = tally.first.row(run.design);
-    let mut u = vec![0.0; run.design.factors()];
-    run.design.point(first_row, &mut u);
-    let values = run.study.space.values_at(&u);
+    let values = row_inputs(run.study, run.design, tally.first);
     let named = |(factor, value): (&crate::space::Factor, f64)| (factor.name.clone(), Value::from(value));
     let first_inputs: Map<String, Value> = run.study.space.factors().iter().zip(values).map(named).collect();
     FailureRecord { reason: failure.to_string(), runs: tally.count, first_row, first_inputs }
+}
+
+/// The values of the factors at `place` of `design`, in their units.
+fn row_inputs(study: &Study, design: &Design, place: Place) -> Vec<f64> {
+    let mut u = vec![0.0; design.factors()];
+    design.point(place.row(design), &mut u);
+    study.space.values_at(&u)
+}
+
+/// The inputs of a row of `study` in words, such as `length = 300 um, velocity = 0 nm/s`; `place` may lie beyond the
+/// study's own design, where a growing run has gone.
+pub fn inputs_in_words(study: &Study, place: Place) -> String {
+    let points = place.point.checked_add(1).and_then(u64::checked_next_power_of_two);
+    let longer = points.filter(|points| *points > study.design.points_per_replicate());
+    let longer = longer.and_then(|points| study.design.with_points(points).ok());
+    let values = row_inputs(study, longer.as_ref().unwrap_or(&study.design), place);
+    let words = study.space.factors().iter().zip(values).map(|(factor, value)| {
+        let unit = factor.unit().to_string();
+        if unit == "1" { format!("{} = {value}", factor.name) } else { format!("{} = {value} {unit}", factor.name) }
+    });
+    words.collect::<Vec<_>>().join(", ")
 }

@@ -7,6 +7,7 @@ pub mod chart;
 pub mod distribution;
 pub mod given;
 mod result;
+mod run_charts;
 pub mod scene;
 pub mod screening;
 mod shares_chart;
@@ -17,8 +18,12 @@ mod write;
 
 pub use asked::{AskedFactor, AskedRecord, Drawing};
 pub use build::{FinishedRun, RunFacts, build_result, result_json};
-pub use build_output::judgement;
+pub use build_output::{inputs_in_words, judgement};
 pub use result::*;
+pub use run_charts::{convergence_chart, distribution_chart};
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
-pub use tables::{estimate, fixed, indices_csv, share, share_of_runs, significant, summary, table, with_unit};
+pub use tables::{
+    convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,
+    summary, table, with_unit,
+};
 pub use write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};

@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::distribution::OutputDistribution;
+
 /// A whole result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ResultFile {
@@ -159,10 +161,23 @@ pub struct OutputRecord {
     /// How the indices and their intervals changed as the run grew.
     #[serde(default)]
     pub convergence: Vec<StageRecord>,
+    /// How its values are distributed; `null` if no run succeeded, or if a number is beyond double precision.
+    #[serde(default)]
+    pub distribution: Option<DistributionRecord>,
     /// Why there are no indices, where there are none.
     pub reason: Option<String>,
     /// What a careful reader should know.
     pub warnings: Vec<String>,
+}
+
+/// How the values of an output are distributed, as far as the rows A and B tell.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DistributionRecord {
+    /// Values that mean, standard deviation, skewness, kurtosis and range rest on: those of all rows A and B.
+    pub values: u64,
+    /// The rest; quantiles, histogram and density rest on the `count` values that were kept, the first of every replicate.
+    #[serde(flatten)]
+    pub sample: OutputDistribution,
 }
 
 /// An interval by itself.

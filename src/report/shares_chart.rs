@@ -113,6 +113,6 @@ fn chart_series(series: &SharesSeries<'_>, factors: &[&str], share: ShareOf) -> 
 }
 
 /// A factor's name as words.
-fn label(factor: &str) -> String {
+pub(super) fn label(factor: &str) -> String {
     factor.replace('_', " ")
 }

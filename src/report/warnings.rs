@@ -36,7 +36,7 @@ pub(super) fn of_runs(run: &FinishedRun<'_>, record: &OutputRecord) -> Vec<Strin
                 warnings.push("a single replicate says nothing about its error: no intervals".to_owned());
             }
             IntervalMethod::Nets => warnings.push(
-                "a single net cannot tell whether it is a lucky one: intervals rest on how its parts differ (2 replicates \
+                "a single net cannot tell whether it is a lucky one: intervals rest on how its parts differ (4 replicates \
                  are safer)"
                     .to_owned(),
             ),

@@ -46,12 +46,15 @@ pub(super) struct TargetSection {
     pub half_width: At<f64>,
 }
 
+/// Names, each with its place.
+pub(super) type NameList = At<Vec<At<String>>>;
+
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct AnalysisSection {
     pub estimators: Option<At<Vec<At<String>>>>,
     pub second_order: Option<At<bool>>,
-    pub subsets: Option<At<Vec<At<Vec<At<String>>>>>>,
+    pub subsets: Option<At<Vec<NameList>>>,
     pub aggregate: Option<At<bool>>,
     pub dummy: Option<At<bool>>,
     pub intervals: Option<At<String>>,

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use super::error::{Diagnostic, Problem, nearest};
-use super::file::{At, Choices, FactorSection, StudyFile};
+use super::file::{At, Choices, DesignSection, FactorSection, StudyFile};
 use super::options::{self, AnalysisOptions, Stopping};
 use super::subject::{AfmSubject, KnownSubject, Subject};
 use super::{Study, constants, distribution, function};
@@ -313,10 +313,17 @@ fn plan(context: &Context<'_>, file: &StudyFile, space: &Space) -> Result<Plan, 
     let analysis = options::analysis(context, &file.analysis, sampler, space)?;
     let stopping = options::stopping(context, section, sampler)?;
     let or = |value: &Option<At<u64>>, default| value.as_ref().map_or(default, |value| *value.get_ref());
+    let replicates = or(&section.replicates, analysis.intervals.default_replicates());
+    let unsaid = match stopping {
+        // A model so slow that its user thinks in time may not have time for more.
+        Stopping { budget: Some(_), .. } => FIRST_POINTS.saturating_mul(replicates),
+        stopping if stopping.grows() => FIRST_STAGE,
+        _ => defaults.base_samples,
+    };
     let settings = DesignSettings {
         sampler,
-        base_samples: or(&section.base_samples, if stopping.grows() { FIRST_STAGE } else { defaults.base_samples }),
-        replicates: or(&section.replicates, analysis.intervals.default_replicates()),
+        base_samples: or(&section.base_samples, unsaid),
+        replicates,
         seed: or(&section.seed, defaults.seed),
     };
     let mut notes = Vec::new();
@@ -337,6 +344,14 @@ fn plan(context: &Context<'_>, file: &StudyFile, space: &Space) -> Result<Plan, 
             in_force.replicates, in_force.base_samples
         ));
     }
+    let begun = design.settings().base_samples;
+    let design = within_max_runs(context, section, design)?;
+    if section.base_samples.is_some() && design.settings().base_samples < begun {
+        notes.push(format!(
+            "the run starts with base_samples = {} instead of {begun}, which would take more than max_runs",
+            design.settings().base_samples
+        ));
+    }
     if analysis.aggregate && file.outputs.as_ref().is_none_or(|outputs| outputs.get_ref().len() < 2) {
         notes.push("`aggregate` has no effect with a single output".to_owned());
     }
@@ -345,6 +360,34 @@ fn plan(context: &Context<'_>, file: &StudyFile, space: &Space) -> Result<Plan, 
 
 /// Base samples with which a growing run starts.
 const FIRST_STAGE: u64 = 1 << 10;
+
+/// Base points of each replicate with which one starts that has a budget of time.
+const FIRST_POINTS: u64 = 64;
+
+/// The design halved until it takes no more than `max_runs`.
+fn within_max_runs(context: &Context<'_>, section: &DesignSection, mut design: Design) -> Result<Design, Fault> {
+    let Some(max_runs) = &section.max_runs else { return Ok(design) };
+    while design.rows() > *max_runs.get_ref() {
+        match design.with_points(design.points_per_replicate() / 2) {
+            Ok(shorter) => design = shorter,
+            Err(_) => {
+                let replicates = design.settings().replicates;
+                let problem = Problem::WrongType {
+                    key: "max_runs".to_owned(),
+                    expected: format!(
+                        "{} or more (2 base points in each of {replicates} replicate{}, {} runs each)",
+                        design.rows(),
+                        if replicates == 1 { "" } else { "s" },
+                        design.rows_per_point()
+                    ),
+                    found: max_runs.get_ref().to_string(),
+                };
+                return Err(context.fault(max_runs.span(), problem));
+            }
+        }
+    }
+    Ok(design)
+}
 
 /// A growing run goes from one power of two to the next.
 fn whole_nets(settings: DesignSettings, notes: &mut Vec<String>) -> DesignSettings {

@@ -57,7 +57,7 @@ impl IntervalMethod {
     /// How many replicates it works best with.
     pub fn default_replicates(self) -> u64 {
         match self {
-            Self::Nets => 2,
+            Self::Nets => 4,
             Self::Replicates => 16,
             Self::Batches | Self::Delta | Self::Percentile | Self::Bca => 1,
         }

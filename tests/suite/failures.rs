@@ -203,10 +203,108 @@ fn parameters_of_functions() {
 
 #[test]
 fn impossible_designs() {
-    assert_spoilt("base_samples = 64", "base_samples = 0", &["study.toml:5:16:", "too few", "at least 32"]);
+    assert_spoilt("base_samples = 64", "base_samples = 0", &["study.toml:5:16:", "too few", "at least 4 base samples"]);
     assert_spoilt("base_samples = 64", "replicates = 0", &["study.toml:5:14:", "replicates = 0"]);
     assert_spoilt("base_samples = 64", "base_samples = 18446744073709551615", &["study.toml:5:16:", "2^32"]);
     assert_spoilt("base_samples = 64", "sampler = \"sobel\"", &["study.toml:5:11:", "did you mean `sobol`?"]);
+}
+
+#[test]
+fn keys_of_the_analysis() {
+    let refused = |line: &str, expected: &[&str]| {
+        assert_spoilt("[design]", &format!("[analysis]\n{line}\n[design]"), expected);
+    };
+    refused("estimators = [\"jansenn\"]", &["study.toml:5:15:", "unknown estimator", "did you mean `jansen`?"]);
+    refused("estimators = [\"jansen\", \"jansen\"]", &["study.toml:5:25:", "estimator `jansen` stands here twice"]);
+    refused("estimators = \"jansen\"", &["study.toml:5:14:"]);
+    refused("second_order = 1", &["study.toml:5:16:", "expected a boolean"]);
+    refused("subsets = [[\"length\", \"lenght\"]]", &["study.toml:5:23:", "did you mean `length`?"]);
+    refused("subsets = [[\"length\", \"length\"]]", &["study.toml:5:23:", "factor `length` stands here twice"]);
+    refused("subsets = [[]]", &["study.toml:5:12:", "lists of factor names", "an empty list"]);
+    refused("subsets = [[\"length\"], [\"length\"]]", &["study.toml:5:24:", "subset `length` stands here twice"]);
+    refused("aggregate = \"yes\"", &["study.toml:5:13:", "expected a boolean"]);
+    refused("dummy = 0", &["study.toml:5:9:", "expected a boolean"]);
+    refused("intervals = \"bootstrap\"", &["study.toml:5:13:", "unknown kind of interval `bootstrap`", "percentile"]);
+    refused("intervals = \"bca\"", &["study.toml:5:13:", "do not hold for points of the sampler `sobol`", "nets"]);
+    refused("resamples = 500", &["study.toml:5:13:", "only beside intervals = \"percentile\" or \"bca\""]);
+    refused("resamples = 5", &["study.toml:5:13:", "from 100 to 1000000"]);
+    refused("threshold = 2.0", &["study.toml:5:13:", "`threshold` must be a number from 0 to 1, not 2"]);
+    refused("threshold = nan", &["study.toml:5:13:", "from 0 to 1"]);
+    refused("failures = \"ignore\"", &["study.toml:5:12:", "failure policy `ignore`", "drop-block, fail"]);
+    refused("max_failed = -0.1", &["study.toml:5:14:", "`max_failed` must be a number from 0 to 1"]);
+    refused("thresold = 0.1", &["study.toml:5:1:", "did you mean `threshold`?"]);
+}
+
+#[test]
+fn keys_that_end_a_run() {
+    let refused = |line: &str, expected: &[&str]| assert_spoilt("base_samples = 64", line, expected);
+    refused("target = { half_width = 0.0 }", &["study.toml:5:25:", "a number above 0"]);
+    refused("target = { half_width = nan }", &["study.toml:5:25:", "a number above 0"]);
+    refused("target = 0.01", &["study.toml:5:10:", "{ half_width = 0.01 }"]);
+    refused("target = { width = 0.01 }", &["study.toml:5:12:", "unknown key `width`", "half_width"]);
+    refused("budget = \"30\"", &["study.toml:5:10:"]);
+    refused("budget = \"30 nm\"", &["study.toml:5:10:", "a time above 0, as in \"30 s\""]);
+    refused("budget = \"-1 s\"", &["study.toml:5:10:", "a time above 0"]);
+    refused("budget = 30", &["study.toml:5:10:"]);
+    refused("max_runs = -1", &["study.toml:5:12:", "whole number"]);
+    refused("max_runs = 15", &["study.toml:5:12:", "16 or more (2 base points in each of 2 replicates, 4 runs each)"]);
+    refused("sampler = \"latin-hypercube\"\nmax_runs = 1000", &["study.toml:6:12:", "cannot grow"]);
+}
+
+/// A study of a function that fails on a part of its inputs.
+fn holes(analysis: &str) -> String {
+    format!("model = \"ishigami-holes\"\n[design]\nbase_samples = 256\n[analysis]\n{analysis}\n")
+}
+
+#[test]
+fn an_output_lost_to_failed_runs_is_a_failed_run() {
+    let folder = Folder::new();
+    let (study, out) = (folder.with("holes.toml", holes("max_failed = 0")), folder.path("out"));
+    let output = apportion(&["run", text(&study), "--out", text(&out)]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("no indices of y: too many runs failed"), "{}", stderr(&output));
+    let json = std::fs::read_to_string(out.join("holes.json")).unwrap();
+    let result: apportion::report::ResultFile = serde_json::from_str(&json).unwrap();
+    assert!(result.outputs[0].reason.as_ref().unwrap().contains("max_failed = 0"), "{json}");
+    assert!(result.outputs[0].distribution.is_some(), "the values that there are");
+    assert!(out.join("holes-convergence.png").exists());
+    // What was allowed to fail is no failure.
+    let study = folder.with("holes.toml", holes("max_failed = 1"));
+    let output = apportion(&["run", text(&study), "--out", text(&out)]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    // No run at all has a value: the time to slip at velocity 0.
+    let none = GOOD
+        .replace("critical_force", "critical_time")
+        .replace("friction =", "velocity = \"0 nm/s\"\nfriction =")
+        .split("[[factor]]\nname = \"velocity\"")
+        .next()
+        .unwrap()
+        .to_owned();
+    let output = apportion(&["run", text(&folder.with("none.toml", none)), "--out", text(&out)]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(out.join("none.json").exists() && out.join("none-distribution.png").exists());
+    // An output that does not vary has no indices either, but nothing failed.
+    let constant = folder.with("constant.toml", "model = \"constant\"\n[design]\nbase_samples = 64\n");
+    let output = apportion(&["run", text(&constant), "--out", text(&out)]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+#[test]
+fn the_first_failed_run_ends_a_run_that_says_so() {
+    let folder = Folder::new();
+    for more in ["", "[design]\nmax_runs = 100000\n"] {
+        let text_of =
+            holes("failures = \"fail\"").replace("[design]\n", if more.is_empty() { "[design]\n" } else { more });
+        let (study, out) = (folder.with("holes.toml", text_of), folder.path("out"));
+        let output = apportion(&["run", text(&study), "--out", text(&out)]);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        assert!(
+            message.contains("the study says to stop then") && message.contains("the run's inputs: x1 = "),
+            "{message}"
+        );
+        assert_eq!(std::fs::read_dir(&out).unwrap().count(), 0, "no result files");
+    }
 }
 
 #[test]

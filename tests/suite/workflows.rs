@@ -32,7 +32,8 @@ fn run_writes_what_check_announces() {
     for name in files(&out) {
         assert!(announced.contains(&name), "{name} was not announced");
     }
-    assert_eq!(files(&out).len(), 6);
+    // Result, indices and convergence; shares, distribution and convergence of two outputs, each drawn twice.
+    assert_eq!(files(&out).len(), 3 + 2 * 6);
     assert!(table.contains("thickness") && table.contains("critical_time [s]"));
 }
 
@@ -70,6 +71,17 @@ fn the_format_of_a_result_is_what_it_was() {
     result.provenance.study_sha256 = "SHA-256".to_owned();
     result.study.source = "SOURCE".to_owned();
     result.study.constants.truncate(2);
+    for output in &mut result.outputs {
+        output.convergence.truncate(1);
+        let Some(distribution) = output.distribution.as_mut().map(|record| &mut record.sample) else { continue };
+        distribution.quantiles.truncate(2);
+        if let (Some(histogram), Some(density)) = (&mut distribution.histogram, &mut distribution.density) {
+            histogram.edges.truncate(2);
+            histogram.counts.truncate(2);
+            density.x.truncate(2);
+            density.density.truncate(2);
+        }
+    }
     // Four digits: the format is at stake here, not the last bits of another processor's logarithm.
     let text = apportion::report::result_json(&result);
     let mut value: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -350,8 +362,158 @@ fn a_reader_that_goes_away_is_no_failure() {
 fn round_sample_sizes_are_made_whole_and_said_so() {
     let folder = tempfile::tempdir().unwrap();
     let study = study_path("ishigami");
-    let output = apportion(&["run", text(&study), "--base-samples", "1000", "--out", text(folder.path())]);
+    let output = apportion(&["run", text(&study), "--base-samples", "1001", "--out", text(folder.path())]);
     assert_eq!(output.status.code(), Some(0));
-    assert!(stderr(&output).contains("1000 is not a multiple of 16 replicates: 1008 are used"));
+    assert!(stderr(&output).contains("1001 is not a multiple of 2 replicates: 1002 are used"));
     assert!(stdout(&output).contains("not a power of two"));
+}
+
+/// Runs `study` with settings into a folder of its own and returns its result, what was printed, and the folder.
+#[track_caller]
+fn run_with(study: &str, settings: &[&str]) -> (ResultFile, String, tempfile::TempDir) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = study_path(study);
+    let set = settings.iter().flat_map(|setting| ["--set", setting]);
+    let arguments: Vec<&str> = ["run", text(&path), "--out", text(folder.path())].into_iter().chain(set).collect();
+    let printed = succeed(&arguments);
+    let json = std::fs::read_to_string(folder.path().join(format!("{study}.json"))).unwrap();
+    (serde_json::from_str(&json).unwrap(), printed, folder)
+}
+
+fn csv_lines(folder: &Path, name: &str) -> Vec<Vec<String>> {
+    let text = std::fs::read_to_string(folder.join(name)).unwrap();
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
+    reader.records().map(|record| record.unwrap().iter().map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn pairs_other_estimators_and_a_dummy_are_in_every_result_that_asks_for_them() {
+    let (result, printed, folder) = run_with("ishigami-second-order", &["design.base_samples=4096"]);
+    let output = &result.outputs[0];
+    let pairs = output.second_order.as_ref().unwrap();
+    let pair = pairs.iter().find(|pair| pair.factors == ["x1", "x3"]).unwrap();
+    // S13 is exactly 0.2437; at 4096 base samples the error is some 3e-3.
+    assert!((pair.index.estimate - 0.2437).abs() < 0.015, "{pair:?}");
+    assert_eq!(
+        output.estimators.iter().map(|record| &record.estimator[..]).collect::<Vec<_>>(),
+        ["janon-monod", "jansen", "martinez"]
+    );
+    assert_eq!(output.dummy.unwrap().total.estimate, 0.0);
+    assert_eq!(result.provenance.model_runs, 4096 * (2 + 2 * 4));
+    for expected in
+        ["x1 x x3", "first order by estimator", "martinez", "dummy (does nothing)", "intervals (", "P(ST > 0.05)"]
+    {
+        assert!(printed.contains(expected), "{expected}: {printed}");
+    }
+    let csv = csv_lines(folder.path(), "ishigami-second-order.csv");
+    let old = "output,kind,name,first_order,first_order_low,first_order_high,total,total_low,total_high,\
+               share_first_order,share_first_order_low,share_first_order_high,share_total,share_total_low,share_total_high";
+    assert_eq!(csv[0][..15].join(","), old, "the columns of readers that know the first ones");
+    assert_eq!((csv.len(), &csv[4][1][..]), (5, "dummy"));
+    let second = csv_lines(folder.path(), "ishigami-second-order-second-order.csv");
+    assert_eq!(second.len(), 1 + 3);
+    assert_eq!(second[2][3].parse::<f64>().unwrap(), pair.index.estimate, "{second:?}");
+    assert_eq!(csv_lines(folder.path(), "ishigami-second-order-estimators.csv").len(), 1 + 3 * 4);
+    let convergence = csv_lines(folder.path(), "ishigami-second-order-convergence.csv");
+    assert_eq!(convergence.len(), 1 + 3 * output.convergence.len());
+    assert_eq!(convergence.last().unwrap()[1], "4096");
+}
+
+#[test]
+fn subsets_and_outputs_together() {
+    let (result, printed, folder) = run_with("soft-cantilever-subsets", &["design.base_samples=2048"]);
+    let subsets = result.outputs[0].subsets.as_ref().unwrap();
+    assert_eq!(subsets[0].factors, ["particle_radius", "adhesion"]);
+    // Thickness and friction make the force but for adhesion and radius, which add 0.1 %.
+    assert!((subsets[1].effect.total.estimate - 0.9987).abs() < 5e-3, "{:?}", subsets[1]);
+    let aggregate = result.aggregate.as_ref().unwrap();
+    assert_eq!(aggregate.outputs, ["critical_force", "critical_time"]);
+    assert_eq!(aggregate.indices.as_ref().unwrap().len(), 5);
+    assert!(printed.contains("critical_force, critical_time together"), "{printed}");
+    assert!(printed.contains("particle_radius + adhesion") && printed.contains("P(ST > 0.01)"), "{printed}");
+    let lines = csv_lines(folder.path(), "soft-cantilever-subsets.csv");
+    let kinds: Vec<&str> = lines[1..].iter().map(|line| &line[1][..]).collect();
+    let expected = [["factor"; 10].as_slice(), &["subset"; 4], &["aggregate"; 5]].concat();
+    assert_eq!(kinds, expected);
+    assert_eq!(lines.last().unwrap()[0], "critical_force + critical_time");
+}
+
+#[test]
+fn runs_that_grow_say_why_they_ended() {
+    let stopping = |settings: &[&str]| {
+        let (result, printed, _) = run_with("flood", settings);
+        let stopping = result.stopping.unwrap();
+        assert!(printed.contains(&format!("stopped: {}", stopping.reason)), "{printed}");
+        (stopping, result.provenance.model_runs, result.outputs[0].convergence.last().cloned())
+    };
+    let (met, _, stage) = stopping(&["design.target.half_width=0.02"]);
+    assert_eq!((met.target_met, met.target_half_width), (Some(true), Some(0.02)));
+    assert!(stage.unwrap().largest_half_width.unwrap() <= 0.02);
+    let (unmet, runs, _) = stopping(&["design.target.half_width=1e-6", "design.max_runs=50000"]);
+    assert_eq!((unmet.target_met, unmet.max_runs), (Some(false), Some(50_000)));
+    assert!(unmet.reason.contains("more than max_runs = 50000") && (25_000..=50_000).contains(&runs), "{unmet:?}");
+    // Ten runs a base sample: the first stage of 1024 has to give way.
+    let (few, runs, _) = stopping(&["design.max_runs=100"]);
+    assert_eq!((few.target_met, runs), (None, 80));
+    let (spent, _, _) = stopping(&["design.budget=0.05 s"]);
+    assert!(spent.reason.contains("more than the budget of 0.05 s"), "{spent:?}");
+    assert_eq!(spent.budget_seconds, Some(0.05));
+}
+
+#[test]
+fn check_says_what_is_asked_and_what_it_takes() {
+    let check = |study: &str, settings: &[&str]| {
+        let path = study_path(study);
+        let set: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();
+        succeed(&[&["check", text(&path)], &set[..]].concat())
+    };
+    let told = check("ishigami-second-order", &[]);
+    for expected in [
+        "second order of 3 pairs",
+        "A and B + 4 rows AB",
+        "4 rows BA (second order)",
+        "other estimators janon-monod, jansen, martinez",
+        "2 independently scrambled nets",
+        "-second-order.csv",
+    ] {
+        assert!(told.contains(expected), "{expected}: {told}");
+    }
+    let told = check("sobol-g-target", &[]);
+    assert!(told.contains("until every first-order and total index is known to 0.002"), "{told}");
+    assert!(told.contains("or twice the runs would be more than 10000000"), "{told}");
+    assert!(check("ishigami", &["design.replicates=1"]).contains("2 replicates are safer"));
+    let alone = check("ishigami", &["design.replicates=1", "analysis.intervals=replicates"]);
+    assert!(alone.contains("there will be no intervals"), "{alone}");
+    let correlated = "dimensions of Sobol' points are still correlated";
+    assert!(!check("sobol-g-hundred", &[]).contains(correlated), "a hundred factors, 2^13 points");
+    assert!(check("sobol-g-hundred", &["design.base_samples=4096"]).contains(correlated));
+    let bytes = check("flood", &["design.sampler=random", "analysis.intervals=delta", "design.base_samples=1000"]);
+    assert!(bytes.contains("0.1 MB for the outputs of all runs"), "{bytes}");
+}
+
+#[test]
+fn models_lists_the_estimators_with_their_costs() {
+    let listed = succeed(&["models", "--estimators"]);
+    for estimator in apportion::estimate::Estimator::ALL {
+        assert!(listed.contains(&format!("\n  {} ", estimator.name())), "{}", estimator.name());
+        assert!(listed.contains(&format!("\n{}: ", estimator.name())), "{}: source", estimator.name());
+    }
+    let line = |name: &str| listed.lines().find(|line| line.starts_with(&format!("  {name} "))).unwrap().to_owned();
+    assert!(line("jansen").contains("2 + d ") && line("jansen").contains(" 10 "), "{listed}");
+    assert!(line("azzini").contains("2 + 2 d") && line("azzini").contains(" 18 "), "{listed}");
+    assert!(line("owen").contains("2 + 4 d") && line("owen").contains(" 34 "), "{listed}");
+    assert_eq!(apportion(&["models", "flood", "--estimators"]).status.code(), Some(2));
+}
+
+#[test]
+fn indices_below_0_are_put_in_words() {
+    let (result, printed, _) =
+        run_with("ishigami", &["design.base_samples=64", "design.seed=3", "design.sampler=random"]);
+    let indices = result.outputs[0].indices.as_ref().unwrap();
+    let negative = indices.iter().filter(|index| index.effect.first_order.estimate < 0.0);
+    for index in negative {
+        assert!(printed.contains(&format!("S1 of {}", index.factor)), "{printed}");
+    }
+    let any = indices.iter().any(|index| index.effect.first_order.estimate < 0.0);
+    assert_eq!(printed.contains("below 0: "), any, "{printed}");
 }

@@ -46,30 +46,6 @@ fn unscrambled_points_of_high_dimensions_are_those_of_scipy() {
 }
 
 #[test]
-fn dimensions_are_dealt_out_within_their_deal() {
-    let dealt = SobolSequence::scrambled_in(&[40, 20], 3, 1);
-    let plain = SobolSequence::plain(60);
-    let place = |k: usize| plain.directions.iter().position(|d| *d == dealt.directions[k]).unwrap();
-    let mut places: Vec<usize> = (0..60).map(place).collect();
-    assert_ne!(places[..40], (0..40).collect::<Vec<_>>());
-    assert_eq!(dealt.directions[..40], SobolSequence::scrambled(40, 3, 1).directions[..]);
-    assert_eq!(dealt.scrambles.as_ref().unwrap()[..40], SobolSequence::scrambled(40, 3, 1).scrambles.unwrap()[..]);
-    places[..40].sort_unstable();
-    places[40..].sort_unstable();
-    assert_eq!(places, (0..60).collect::<Vec<_>>());
-    // Every coordinate meets every dimension in the long run: 600 deals of 6 leave each pair near 100, sd 9.
-    let mut counts = [[0; 6]; 6];
-    let six = SobolSequence::plain(6);
-    for replicate in 0..600 {
-        let dealt = SobolSequence::scrambled(6, 0, replicate);
-        for (k, row) in counts.iter_mut().enumerate() {
-            row[six.directions.iter().position(|d| *d == dealt.directions[k]).unwrap()] += 1;
-        }
-    }
-    assert!(counts.iter().flatten().all(|&count| (55..145).contains(&count)), "{counts:?}");
-}
-
-#[test]
 fn any_index_gives_the_point_of_the_running_sequence() {
     let sequence = SobolSequence::scrambled(5, 7, 3);
     let whole = points(&sequence, 0, 1000);
@@ -83,7 +59,7 @@ fn any_index_gives_the_point_of_the_running_sequence() {
 #[test]
 fn no_repetition_past_two_to_the_sixteen() {
     // The reference library's own sampler drops the index's high bits; ours must not.
-    let sequence = SobolSequence::in_order(2, 1, 0);
+    let sequence = SobolSequence::scrambled(2, 1, 0);
     let mut seen: Vec<u64> = points(&sequence, (1 << 16) - 512, 1024)[1].iter().map(|x| x.to_bits()).collect();
     seen.extend(points(&sequence, (1 << 32) - 1024, 1024)[1].iter().map(|x| x.to_bits()));
     seen.sort_unstable();
@@ -96,7 +72,7 @@ fn every_elementary_interval_of_a_scrambled_net_holds_one_point() {
     // Dimensions 1 and 2 of the sequence form a (0, m, 2)-net in base 2, scrambled or not.
     for m in 1..=10 {
         let n = 1usize << m;
-        let columns = points(&SobolSequence::in_order(2, 11, m), 5 * n as u64, n);
+        let columns = points(&SobolSequence::scrambled(2, 11, m), 5 * n as u64, n);
         for split in 0..=m {
             let (nx, ny) = (1usize << split, 1usize << (m - split));
             let mut counts = vec![0; n];
@@ -209,7 +185,7 @@ fn scrambled_pairs_and_triples_are_the_nets_their_matrices_promise() {
             // Sobol's conditions: the first dimensions by theory, 0 for the first two and 1 at most for the first three.
             assert!(number != 0 || t == 0, "{set:?}: t = {t}");
             assert!(number != 11 || t <= 1, "{set:?}: t = {t}");
-            let sequence = SobolSequence::in_order(MAX_DIMENSIONS, 23, number as u64);
+            let sequence = SobolSequence::scrambled(MAX_DIMENSIONS, 23, number as u64);
             let (n, first) = (1usize << m, 3u64 << m);
             let columns: Vec<Vec<f64>> = set
                 .iter()
@@ -227,7 +203,7 @@ fn scrambled_pairs_and_triples_are_the_nets_their_matrices_promise() {
 #[test]
 fn every_dimension_is_stratified_and_stays_inside() {
     let m = 8;
-    let sequence = SobolSequence::in_order(MAX_DIMENSIONS, 3, 1);
+    let sequence = SobolSequence::scrambled(MAX_DIMENSIONS, 3, 1);
     let mut column = vec![0.0; 1 << m];
     for dimension in 0..MAX_DIMENSIONS {
         sequence.fill(dimension, 7 << m, &mut column);
@@ -272,7 +248,7 @@ fn low_dimensions_are_not_correlated() {
     // Every pair within A, within B and across, of designs of 30 and of 50 factors.
     for (m, dimensions) in [(10, 60), (12, 100)] {
         for replicate in 0..4 {
-            let sequence = SobolSequence::in_order(dimensions, 41, replicate);
+            let sequence = SobolSequence::scrambled(dimensions, 41, replicate);
             let n = 1usize << m;
             let columns: Vec<_> = (0..dimensions).map(|dimension| column(&sequence, dimension, n)).collect();
             let (mut squares, mut pairs) = (0.0, 0);
@@ -293,7 +269,7 @@ fn low_dimensions_are_not_correlated() {
 #[test]
 fn a_factor_is_not_correlated_with_itself_across_a_and_b() {
     for d in (1..=100).step_by(3) {
-        let sequence = SobolSequence::in_order(2 * d, 7, 1);
+        let sequence = SobolSequence::scrambled(2 * d, 7, 1);
         for j in 0..d {
             let r = correlation(&column(&sequence, j, 1 << 12), &column(&sequence, d + j, 1 << 12));
             assert!(r.abs() < WEAK, "factor {j} of {d}: {r}");
@@ -307,7 +283,7 @@ fn dimensions_that_share_digits_are_correlated_until_their_next_column() {
     // dimensions two must share it, whatever the direction numbers; likewise for the second digit of one and the first of
     // another, which dimensions 7 and 3808 share up to 2^12 points: t is m - 2 there. Their next columns part them.
     assert_eq!([8, 10, 12, 14, 16].map(|m| net_parameter(&[6, 3807], m)), [6, 8, 10, 4, 3]);
-    let sequence = |replicate| SobolSequence::in_order(3808, 41, replicate);
+    let sequence = |replicate| SobolSequence::scrambled(3808, 41, replicate);
     let at = |replicate, m: u32| {
         let sequence = sequence(replicate);
         correlation(&column(&sequence, 6, 1 << m), &column(&sequence, 3807, 1 << m))

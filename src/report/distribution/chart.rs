@@ -113,7 +113,7 @@ fn caption(distribution: &OutputDistribution, output: &str, symbol: &str) -> Str
         return format!("All {n} values of the {output} are {}{unit}.", significant(distribution.mean));
     };
     let mut caption = format!(
-        "95 % of the {n} values of the {output} lie between {} and {}{unit}, their mean is {}{unit}",
+        "95 % of the {n} values of the {output} lie between {} and {}{unit}, the mean is {}{unit}",
         short(low),
         short(high),
         short(distribution.mean)
