@@ -20,7 +20,7 @@ use apportion::run::{Job, run};
 use apportion::study::Study;
 use apportion::uncertainty::{IntervalMethod, Judgement, Layout, output_indices};
 
-const SEEDS: u64 = 200;
+const SEEDS: u64 = 100;
 const SIZES: std::ops::RangeInclusive<u32> = 8..=14;
 
 /// The product form of the force and the functions of the literature on which the method was developed.
@@ -111,7 +111,7 @@ fn sample(
         let job = Job { design: &study.design, space: &study.space, model: model.as_ref() };
         let totals = run(job, 0, &|_| ()).expect("threads");
         let parts: Vec<MomentParts> = totals.iter().map(|t| t.outputs[0].moments.clone()).collect();
-        let judgement = Judgement { method, threshold: 0.05, seed };
+        let judgement = Judgement { method, threshold: 0.05, seed, resamples: 0, points: None };
         let layout = Layout::plain(case.first.len());
         let Ok(indices) = output_indices(&parts, &layout, &judgement) else { return Vec::new() };
         let factors = indices.factors.iter().zip(&case.total).filter(|(_, total)| **total > 1e-12);

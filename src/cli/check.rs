@@ -242,7 +242,7 @@ fn warnings(study: &Study) -> Vec<String> {
         warnings.push("a single replicate says nothing about its error: there will be no intervals".to_owned());
     } else if design.settings().replicates == 1 && study.analysis.intervals == IntervalMethod::Nets {
         warnings.push(
-            "a single net cannot tell whether it is a lucky one: intervals will rest on how its parts differ; 2 replicates are safer"
+            "a single net cannot tell whether it is a lucky one: intervals will rest on how its parts differ; 4 replicates are safer"
                 .to_owned(),
         );
     }

@@ -203,7 +203,7 @@ fn parameters_of_functions() {
 
 #[test]
 fn impossible_designs() {
-    assert_spoilt("base_samples = 64", "base_samples = 0", &["study.toml:5:16:", "too few", "at least 4 base samples"]);
+    assert_spoilt("base_samples = 64", "base_samples = 0", &["study.toml:5:16:", "too few", "at least 8 base samples"]);
     assert_spoilt("base_samples = 64", "replicates = 0", &["study.toml:5:14:", "replicates = 0"]);
     assert_spoilt("base_samples = 64", "base_samples = 18446744073709551615", &["study.toml:5:16:", "2^32"]);
     assert_spoilt("base_samples = 64", "sampler = \"sobel\"", &["study.toml:5:11:", "did you mean `sobol`?"]);
@@ -247,7 +247,7 @@ fn keys_that_end_a_run() {
     refused("budget = \"-1 s\"", &["study.toml:5:10:", "a time above 0"]);
     refused("budget = 30", &["study.toml:5:10:"]);
     refused("max_runs = -1", &["study.toml:5:12:", "whole number"]);
-    refused("max_runs = 15", &["study.toml:5:12:", "16 or more (2 base points in each of 2 replicates, 4 runs each)"]);
+    refused("max_runs = 15", &["study.toml:5:12:", "32 or more (2 base points in each of 4 replicates, 4 runs each)"]);
     refused("sampler = \"latin-hypercube\"\nmax_runs = 1000", &["study.toml:6:12:", "cannot grow"]);
 }
 

@@ -201,7 +201,7 @@ fn models_lists_every_model_and_shows_each_in_full() {
 #[test]
 fn reproduce_writes_nine_results_three_charts_and_a_table() {
     let folder = tempfile::tempdir().unwrap();
-    let table = succeed(&["reproduce", "--base-samples", "1024", "--out", text(folder.path())]);
+    let table = succeed(&["reproduce", "--base-samples", "8192", "--out", text(folder.path())]);
     let names = files(folder.path());
     assert_eq!(names.len(), 9 + 1 + 6);
     for friction in ["coulomb", "hk", "lugre"] {
@@ -364,7 +364,7 @@ fn round_sample_sizes_are_made_whole_and_said_so() {
     let study = study_path("ishigami");
     let output = apportion(&["run", text(&study), "--base-samples", "1001", "--out", text(folder.path())]);
     assert_eq!(output.status.code(), Some(0));
-    assert!(stderr(&output).contains("1001 is not a multiple of 2 replicates: 1002 are used"));
+    assert!(stderr(&output).contains("1001 is not a multiple of 4 replicates: 1004 are used"));
     assert!(stdout(&output).contains("not a power of two"));
 }
 
@@ -473,7 +473,7 @@ fn check_says_what_is_asked_and_what_it_takes() {
         "A and B + 4 rows AB",
         "4 rows BA (second order)",
         "other estimators janon-monod, jansen, martinez",
-        "2 independently scrambled nets",
+        "4 independently scrambled nets",
         "-second-order.csv",
     ] {
         assert!(told.contains(expected), "{expected}: {told}");
@@ -481,7 +481,7 @@ fn check_says_what_is_asked_and_what_it_takes() {
     let told = check("sobol-g-target", &[]);
     assert!(told.contains("until every first-order and total index is known to 0.002"), "{told}");
     assert!(told.contains("or twice the runs would be more than 10000000"), "{told}");
-    assert!(check("ishigami", &["design.replicates=1"]).contains("2 replicates are safer"));
+    assert!(check("ishigami", &["design.replicates=1"]).contains("4 replicates are safer"));
     let alone = check("ishigami", &["design.replicates=1", "analysis.intervals=replicates"]);
     assert!(alone.contains("there will be no intervals"), "{alone}");
     let correlated = "dimensions of Sobol' points are still correlated";
