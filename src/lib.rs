@@ -19,7 +19,7 @@
 //! | [`model`] | what can be studied: a shared description that lends out workers, one per thread |
 //! | [`estimate`] | centred sums of constant size, and the indices read from them |
 //! | [`run`] | a design through a model: fixed blocks on a thread pool, merged in a fixed tree |
-//! | [`uncertainty`] | intervals from independent replicates |
+//! | [`uncertainty`] | intervals from few nets, replicates or batches; ranks and convergence |
 //! | [`given`] | first-order indices from a table that exists already |
 //! | [`screening`] | elementary effects: which of many factors matter, for a few runs each |
 //! | [`study`] | studies: the file as typed, and what it means |

@@ -65,9 +65,8 @@ impl FirstOrder {
         Self::Azzini2021,
     ];
 
-    /// The default: the most accurate estimator of the rows that there are, by the measurements of
-    /// `benches/estimators.rs`. With rows BA that is Azzini's, whose error was 0.5 to 0.9 times that of Saltelli's
-    /// formula averaged over the rows AB and BA; else it is Saltelli's of 2010.
+    /// The default: the most accurate estimator of the rows that there are (`benches/accuracy.rs`). With rows BA that is
+    /// Azzini's, else Saltelli's of 2010.
     pub fn of_rows(companions: Companions) -> Self {
         if companions.ba { Self::Azzini2021 } else { Self::Saltelli2010 }
     }

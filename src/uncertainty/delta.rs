@@ -113,10 +113,8 @@ fn gradient(
     for c in 0..sums.len() {
         if counts[c] != c {
             let weight = sums[c] / sums[counts[c]];
-            for q in 0..length {
-                let change = rows[c][q] * weight;
-                rows[counts[c]][q] -= change;
-            }
+            let change: Vec<f64> = rows[c].iter().map(|slope| slope * weight).collect();
+            rows[counts[c]].iter_mut().zip(change).for_each(|(slope, change)| *slope -= change);
         }
     }
     Some(DMatrix::from_row_iterator(sums.len(), length, rows.into_iter().flatten()))

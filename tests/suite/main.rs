@@ -4,6 +4,7 @@ mod accuracy;
 mod afm_contact_oracle;
 mod analytic;
 mod common;
+mod degenerate;
 mod distributions;
 mod extremes;
 mod failures;

@@ -24,7 +24,7 @@ fn interval_summary(result: &ResultFile) -> String {
         return String::new();
     }
     match &result.provenance.interval {
-        Some(words) => format!("intervals (± half of them): {words}\n"),
+        Some(words) => format!("intervals (±): {words}\n"),
         None => "no intervals: a single replicate says nothing about its error\n".to_owned(),
     }
 }

@@ -1,0 +1,127 @@
+//! Studies at the edge of what can be studied: each has an answer or a reason, and none a number that only looks like one.
+
+use std::path::Path;
+
+use apportion::analyse;
+use apportion::report::{OutputRecord, ResultFile};
+use apportion::study::Study;
+
+fn analysed(text: &str) -> ResultFile {
+    let study = Study::parse(text, Path::new("degenerate.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
+    analyse(&study, 0, &|_| ()).unwrap()
+}
+
+fn first_and_total(output: &OutputRecord) -> Vec<(f64, f64)> {
+    let indices = output.indices.as_ref().unwrap_or_else(|| panic!("{:?}", output.reason));
+    indices.iter().map(|index| (index.effect.first_order.estimate, index.effect.total.estimate)).collect()
+}
+
+#[test]
+fn a_constant_output_has_a_reason_and_no_indices() {
+    let result = analysed("model = \"constant\"");
+    let output = &result.outputs[0];
+    assert_eq!((&output.indices, output.variance), (&None, Some(0.0)));
+    assert!(output.reason.as_ref().unwrap().contains("zero variance"));
+    assert!(output.convergence.is_empty());
+}
+
+#[test]
+fn one_factor_is_everything_for_two_runs_a_base_sample() {
+    let result = analysed("model = \"linear\"\n[[factor]]\nname = \"x1\"\n[analysis]\nsecond_order = true");
+    assert_eq!(result.provenance.model_runs, 2 * result.provenance.base_samples);
+    let [(first, total)] = first_and_total(&result.outputs[0])[..] else { panic!("one factor") };
+    // The covariance of the columns A and B of a net of 2^12 points, which an exact 1 would need to be 0.
+    assert!((first - 1.0).abs() < 1e-3 && (total - 1.0).abs() < 1e-3, "{first} {total}");
+    assert_eq!(result.outputs[0].second_order.as_ref().unwrap().len(), 0);
+    assert_eq!(result.outputs[0].indices.as_ref().unwrap()[0].effect.probability_first, Some(1.0));
+}
+
+#[test]
+fn a_factor_without_effect_has_exactly_none_and_one_that_is_everything_all() {
+    let text = "model = \"linear\"\n[function]\nc = [1, 0, 0]\n[analysis]\nsecond_order = true\ndummy = true";
+    let result = analysed(text);
+    let output = &result.outputs[0];
+    let indices = first_and_total(output);
+    assert!((indices[0].0 - 1.0).abs() < 1e-3 && (indices[0].1 - 1.0).abs() < 1e-3, "{indices:?}");
+    assert_eq!(indices[1..], [(0.0, 0.0); 2]);
+    let inert = &output.indices.as_ref().unwrap()[1].effect;
+    assert_eq!((inert.total.low, inert.total.high), (Some(0.0), Some(0.0)));
+    assert_eq!((inert.probability_first, inert.probability_above_threshold), (Some(0.0), Some(0.0)));
+    assert_eq!(output.dummy.as_ref().unwrap().total.estimate, 0.0);
+    assert!(output.second_order.as_ref().unwrap().iter().all(|pair| pair.index.estimate == 0.0));
+}
+
+#[test]
+fn two_base_samples_are_enough_for_estimates_and_too_few_for_more() {
+    let result = analysed("model = \"ishigami\"\n[design]\nbase_samples = 2\nreplicates = 1");
+    assert_eq!((result.provenance.base_samples, result.provenance.model_runs), (2, 10));
+    for (first, total) in first_and_total(&result.outputs[0]) {
+        assert!(first.is_finite() && total >= 0.0);
+    }
+    assert!(result.outputs[0].indices.as_ref().unwrap().iter().all(|index| index.effect.first_order.low.is_none()));
+    let result = analysed("model = \"ishigami\"\n[design]\nbase_samples = 4\nreplicates = 2");
+    assert!(first_and_total(&result.outputs[0]).iter().all(|(first, total)| first.is_finite() && total.is_finite()));
+}
+
+#[test]
+fn samples_that_are_no_power_of_two_are_allowed_and_warned_of() {
+    let result = analysed("model = \"ishigami\"\n[design]\nbase_samples = 12000\nreplicates = 4");
+    let output = &result.outputs[0];
+    assert!(output.warnings.iter().any(|warning| warning.contains("not a power of two")), "{:?}", output.warnings);
+    let exact = [(0.313905, 0.557589), (0.442411, 0.442411), (0.0, 0.243684)];
+    for (got, exact) in output.indices.as_ref().unwrap().iter().zip(exact) {
+        // Some 2e-3 is the standard error of as many points on the way from one net to the next.
+        let effect = &got.effect;
+        assert!((effect.first_order.estimate - exact.0).abs() < 0.02 && (effect.total.estimate - exact.1).abs() < 0.02);
+        assert!(
+            effect.total.low.unwrap() < effect.total.estimate && effect.total.estimate < effect.total.high.unwrap()
+        );
+    }
+}
+
+#[test]
+fn failed_rows_cost_their_own_indices_and_too_many_of_them_all() {
+    let result = analysed("model = \"ishigami-holes\"\n[design]\nbase_samples = 4096");
+    let output = &result.outputs[0];
+    assert!(output.runs_failed > 0 && output.runs_ok > output.runs_failed);
+    assert!(output.base_points_used < 4096 && output.indices.is_some());
+    assert!(output.warnings.iter().any(|warning| warning.contains("runs failed")), "{:?}", output.warnings);
+    let result = analysed("model = \"ishigami-holes\"\n[design]\nbase_samples = 4096\n[analysis]\nmax_failed = 0.0001");
+    assert_eq!(result.outputs[0].indices, None);
+    assert!(result.outputs[0].reason.as_ref().unwrap().contains("more than max_failed = 0.0001 allows"));
+}
+
+#[test]
+fn outputs_of_any_size_that_doubles_hold_have_the_same_indices() {
+    let of = |c: &str| {
+        let result = analysed(&format!("model = \"linear\"\n[function]\nc = [{c}]\n[design]\nbase_samples = 1024"));
+        first_and_total(&result.outputs[0])
+    };
+    let plain = of("2, 1");
+    for (c, size) in [("2e140, 1e140", "1e140"), ("2e-140, 1e-140", "1e-140")] {
+        for ((first, total), (expected_first, expected_total)) in of(c).into_iter().zip(&plain) {
+            // Powers of ten round, and the roundings of 1024 sums differ.
+            assert!((first - expected_first).abs() < 1e-12 && (total - expected_total).abs() < 1e-12, "{size}");
+        }
+    }
+    // The squares of 1e300 and of 1e-300 leave the range of doubles: a reason, not a zero.
+    for c in ["2e300, 1e300", "2e-300, 1e-300"] {
+        let result = analysed(&format!("model = \"linear\"\n[function]\nc = [{c}]\n[design]\nbase_samples = 64"));
+        let output = &result.outputs[0];
+        assert_eq!(output.indices, None);
+        assert!(output.reason.as_ref().unwrap().contains("over- or underflows"), "{:?}", output.reason);
+    }
+}
+
+#[test]
+fn a_thousand_factors() {
+    let c: Vec<String> = (0..1000).map(|j| if j == 700 { "30" } else { "1" }.to_owned()).collect();
+    let text = format!("model = \"linear\"\n[function]\nc = [{}]\n[design]\nbase_samples = 2048", c.join(", "));
+    let result = analysed(&text);
+    assert_eq!(result.provenance.model_runs, 2048 * 1002);
+    let indices = first_and_total(&result.outputs[0]);
+    // 900 of 1899 shares of the variance; the standard error at this size is some 0.01.
+    assert!((indices[700].1 - 900.0 / 1899.0).abs() < 0.06, "{:?}", indices[700]);
+    let first = result.outputs[0].indices.as_ref().unwrap()[700].effect.probability_first;
+    assert!(first.unwrap() > 0.99, "{first:?}");
+}
