@@ -6,6 +6,7 @@ mod analytic;
 mod common;
 mod degenerate;
 mod distributions;
+mod estimators;
 mod extremes;
 mod failures;
 mod given;
