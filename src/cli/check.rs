@@ -295,7 +295,7 @@ fn pilot(study: &Study) -> Result<Pilot, Failure> {
 /// Columns of the factors (unit cube and SI, A and B) and of every output of every row kind.
 fn kilobytes_per_thread(study: &Study) -> f64 {
     let outputs = study.model().outputs().len() as u64;
-    let columns = 4 * study.design.factors() as u64 + study.design.rows_per_point() * (outputs + 1);
+    let columns = 2 * study.design.columns() as u64 + study.design.rows_per_point() * (outputs + 1);
     (columns * BLOCK * 8) as f64 / 1e3
 }
 

@@ -155,7 +155,7 @@ impl Unique {
 
     /// The number of the run that is this point; a new one if there is none yet.
     fn number(&mut self, kind: RowKind, base: Matrix, columns: &[usize], from: Matrix) -> usize {
-        let number = *self.numbers.entry(self::key(self.factors, base, columns, from)).or_insert(self.runs.len());
+        let number = *self.numbers.entry(key(self.factors, base, columns, from)).or_insert(self.runs.len());
         if number == self.runs.len() {
             self.runs.push(Run { kind, base, columns: columns.to_vec(), from });
         }

@@ -103,35 +103,35 @@ impl SwapMoments {
     fn of_complete(base: BaseMoments, columns: Columns<'_>, work: &mut Workspace) -> Self {
         let Columns { a, b, ab, ba, bc, cb } = columns;
         let [buffer_d, buffer_e, buffer_f] = &mut work.differences;
-        let (ca, cb_) = ((a, base.mean_a), (b, base.mean_b));
-        let d = difference(ab, a, buffer_d);
-        let e = ba.map(|ba| difference(ba, b, buffer_e));
+        let (a, b) = ((a, base.mean_a), (b, base.mean_b));
+        let d = difference(ab, a.0, buffer_d);
+        let e = ba.map(|ba| difference(ba, b.0, buffer_e));
         let bc = bc.map(|bc| {
-            let f = difference(bc, b, buffer_f);
+            let f = difference(bc, b.0, buffer_f);
             BcMoments { mean_f: f.1, df: centred_product(d, f) }
         });
         let cb = cb.map(|cb| {
-            let g = difference(cb, b, buffer_f);
+            let g = difference(cb, b.0, buffer_f);
             CbMoments {
                 mean_g: g.1,
-                ag: centred_product(ca, g),
-                bg: centred_product(cb_, g),
+                ag: centred_product(a, g),
+                bg: centred_product(b, g),
                 eg: e.map_or(0.0, |e| centred_product(e, g)),
             }
         });
         let ba = e.map(|e| BaMoments {
             mean_e: e.1,
             ee: centred_product(e, e),
-            ae: centred_product(ca, e),
-            be: centred_product(cb_, e),
+            ae: centred_product(a, e),
+            be: centred_product(b, e),
             de: centred_product(d, e),
         });
         Self {
             base,
             mean_d: d.1,
             dd: centred_product(d, d),
-            ad: centred_product(ca, d),
-            bd: centred_product(cb_, d),
+            ad: centred_product(a, d),
+            bd: centred_product(b, d),
             ba,
             bc,
             cb,

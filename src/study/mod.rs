@@ -82,7 +82,8 @@ impl Study {
     /// "#;
     /// let study = Study::parse(text, Path::new("small.toml"), &["design.base_samples=256".to_owned()])?;
     /// assert_eq!(study.name, "small");
-    /// assert_eq!(study.design.rows(), 3 * 256);
+    /// // A and B: with one factor, A with its column from B is B, and is not run again.
+    /// assert_eq!(study.design.rows(), 2 * 256);
     /// # Ok::<(), apportion::study::StudyError>(())
     /// ```
     ///
