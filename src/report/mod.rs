@@ -6,6 +6,7 @@ mod build_output;
 pub mod chart;
 pub mod distribution;
 pub mod given;
+pub mod page;
 mod result;
 mod run_charts;
 pub mod scene;

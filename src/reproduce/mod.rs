@@ -1,7 +1,10 @@
 //! The papers' studies, run and set beside what the papers print.
 
+pub mod claims;
 mod compare;
+pub mod figures;
 mod published;
+pub mod readings;
 
 use std::path::{Path, PathBuf};
 
@@ -16,6 +19,16 @@ use crate::report::{
 };
 use crate::run::RunError;
 use crate::study::{Study, StudyError};
+
+/// How much is computed.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Effort {
+    /// What the conclusions rest on.
+    #[default]
+    Full,
+    /// A look: the same with fewer points.
+    Quick,
+}
 
 /// A friction model of the papers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,6 +6,7 @@
 //! the embedded faces, which are those of Arial. Numbers that cannot be drawn (not finite, or beyond
 //! 1e300) appear as missing values or gaps.
 
+mod any;
 mod bars;
 mod error;
 mod figure;
@@ -24,6 +25,7 @@ mod text;
 #[cfg(test)]
 mod reading;
 
+pub use any::{Chart, ChartWidth, Picture};
 pub use bars::{Bar, GroupedBars, Panel, Series};
 pub use error::ChartError;
 pub use lines::{Axis, LineChart, LinePanel, LineSeries, Marker, Stroke};
