@@ -50,12 +50,32 @@ pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, Simu
         Some(duration) => duration,
         None => 2.0 * critical_force(&scene, &Options { fidelity: Fidelity::QuasiStatic, ..options })?.critical_time?,
     };
-    let told = history(&scene, &options, duration)?;
-    let pushing = pushing(scene, &options);
+    let title = study.title.clone().unwrap_or_else(|| study.name.clone());
+    Ok(scene_story(title, &scene, &options, duration)?)
+}
+
+/// A scene in time, for `duration` seconds, by the quasi-static rung whatever the fidelity of the options.
+///
+/// # Errors
+/// Those of [`history`].
+///
+/// # Example
+/// ```
+/// use apportion::afm::{Options, Scene};
+/// use apportion::simulation::scene_story;
+///
+/// let story = scene_story("Nominal".to_owned(), &Scene::default(), &Options::default(), 0.4)?;
+/// assert!(story.critical.time.is_some_and(|slip| slip < 0.4));
+/// assert!(story.samples.last().is_some_and(|end| end.slipping));
+/// # Ok::<(), apportion::afm::Failure>(())
+/// ```
+pub fn scene_story(title: String, scene: &Scene, options: &Options, duration: f64) -> Result<SceneStory, Failure> {
+    let told = history(scene, options, duration)?;
+    let pushing = pushing(*scene, options);
     let samples = told.samples.iter().map(|sample| scene_sample(sample, &pushing)).collect::<Result<_, _>>()?;
     Ok(SceneStory {
-        title: study.title.clone().unwrap_or_else(|| study.name.clone()),
-        setting: setting(&scene, &options),
+        title,
+        setting: setting(scene, options),
         geometry: SceneGeometry {
             particle_radius: scene.particle_radius,
             tip_radius: scene.tip_radius,
@@ -76,7 +96,8 @@ pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, Simu
     })
 }
 
-fn pushing(scene: Scene, options: &Options) -> Pushing {
+/// What may move the particle of a scene under its options, with the default constants of the modes.
+pub(crate) fn pushing(scene: Scene, options: &Options) -> Pushing {
     Pushing { theory: options.contact, adhesion_in_load: options.adhesion_in_load, ..Pushing::new(scene) }
 }
 
@@ -141,8 +162,16 @@ const ANGLES: usize = 180;
 /// [`SimulationError`] if the study has no scene, or the scene no answer.
 pub fn mode_diagram(study: &Study) -> Result<ModeDiagram, SimulationError> {
     let (scene, options) = scene_of(study)?;
-    let pushing = pushing(scene, &options);
-    let critical = critical_force(&scene, &options)?;
+    Ok(scene_modes(&scene, &options)?)
+}
+
+/// The mode diagram of a scene, as [`mode_diagram`] draws it for a study.
+///
+/// # Errors
+/// Those of [`critical_force`] and of [`Pushing::balance`].
+pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Failure> {
+    let pushing = pushing(*scene, options);
+    let critical = critical_force(scene, options)?;
     // The scene's own angle among them, so that its slip can be read off the steep curves.
     let grid = (1..ANGLES).map(|i| std::f64::consts::FRAC_PI_2 * i as f64 / ANGLES as f64);
     let mut angle: Vec<f64> = grid.chain([critical.force_angle]).collect();

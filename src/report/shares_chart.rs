@@ -32,12 +32,17 @@ pub struct SharesWords {
 /// # Errors
 /// [`ChartError`] if there is nothing to draw.
 pub fn shares_chart(words: SharesWords, factors: &[&str], series: &[SharesSeries<'_>]) -> Result<String, ChartError> {
+    shares_bars(words, factors, series).svg()
+}
+
+/// The same before it is drawn.
+pub(crate) fn shares_bars(words: SharesWords, factors: &[&str], series: &[SharesSeries<'_>]) -> GroupedBars {
     let panel = |title: &str, share: ShareOf| Panel {
         title: title.to_owned(),
         categories: factors.iter().map(|factor| label(factor)).collect(),
         series: series.iter().map(|s| chart_series(s, factors, share)).collect(),
     };
-    let chart = GroupedBars {
+    GroupedBars {
         title: words.title,
         caption: words.caption,
         y_label: "share of the sum of indices (%)".to_owned(),
@@ -47,8 +52,7 @@ pub fn shares_chart(words: SharesWords, factors: &[&str], series: &[SharesSeries
             panel("First-order indices", |e| (e.share_first_order, e.share_first_order_interval)),
             panel("Total indices", |e| (e.share_total, e.share_total_interval)),
         ],
-    };
-    chart.svg()
+    }
 }
 
 /// The chart of one output of a single study.

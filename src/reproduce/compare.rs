@@ -195,7 +195,7 @@ fn validity(member: &Reproduced) -> String {
 }
 
 /// The percentages of all studies as CSV, the published ones in the last column; an empty cell where there is none.
-pub fn shares_csv(studies: &[Reproduced]) -> String {
+pub fn shares_csv<'a>(studies: impl IntoIterator<Item = &'a Reproduced>) -> String {
     let mut text = String::from(
         "study,friction,factor,share_first_order,share_first_order_low,share_first_order_high,\
          share_total,share_total_low,share_total_high,published\n",
@@ -221,7 +221,8 @@ pub fn shares_csv(studies: &[Reproduced]) -> String {
     text
 }
 
-fn capitalised(word: &str) -> String {
+/// With a capital at the beginning.
+pub(super) fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -14,9 +14,7 @@ pub use compare::{comparison_table, shares_csv};
 pub use published::{Published, published};
 
 use crate::report::chart::{ChartError, PngError, png};
-use crate::report::{
-    ResultFile, SharesSeries, SharesWords, WriteError, friction_role, result_json, shares_chart, write_atomically,
-};
+use crate::report::{ResultFile, WriteError, result_json, write_atomically};
 use crate::run::RunError;
 use crate::study::{Study, StudyError};
 
@@ -143,54 +141,11 @@ pub fn write_all(folder: &Path, studies: &[Reproduced]) -> Result<Vec<PathBuf>, 
     write("shares.csv".to_owned(), shares_csv(studies).as_bytes())?;
     for group in GROUPS {
         let members: Vec<&Reproduced> = studies.iter().filter(|study| study.group == group).collect();
-        let svg = group_chart(group, &members)?;
+        let svg = figures::group_chart(group, &members).svg()?;
         write(format!("{}.svg", group.key), svg.as_bytes())?;
         write(format!("{}.png", group.key), &png(&svg)?.bytes)?;
     }
     Ok(files)
-}
-
-fn group_chart(group: StudyGroup, members: &[&Reproduced]) -> Result<String, ChartError> {
-    let factors: Vec<&str> =
-        members.first().map_or_else(Vec::new, |m| m.result.factors.iter().map(|f| f.name.as_str()).collect());
-    let series: Vec<SharesSeries<'_>> = members
-        .iter()
-        .map(|member| SharesSeries {
-            name: member.friction.name.to_owned(),
-            role: friction_role(member.friction.key),
-            output: &member.result.outputs[0],
-            published: published(group.key, member.friction.key).shares.to_vec(),
-        })
-        .collect();
-    let words = SharesWords {
-        title: format!("Which factor decides the critical force: {} study", group.key),
-        caption: caption(group, members),
-        published: "published (LuGre)",
-    };
-    shares_chart(words, &factors, &series)
-}
-
-/// What is seen in the chart of a group, in one sentence.
-fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
-    let leader = |member: &&Reproduced| {
-        let indices = member.result.outputs.first()?.indices.as_ref()?;
-        let first = indices.iter().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate))?;
-        Some((first.factor.replace('_', " "), first.effect.share_total?, member.friction.name))
-    };
-    let leaders: Vec<_> = members.iter().filter_map(leader).collect();
-    let seen = match &leaders[..] {
-        [] => "No factor has a share".to_owned(),
-        [(factor, ..), rest @ ..] if rest.iter().all(|(other, ..)| other == factor) => {
-            let shares: Vec<String> = leaders.iter().map(|(_, share, name)| format!("{share:.0} %, {name}")).collect();
-            format!("The {factor} has the largest total share under every friction model ({})", shares.join("; "))
-        }
-        _ => {
-            let each: Vec<String> =
-                leaders.iter().map(|(factor, share, name)| format!("{factor} under {name} ({share:.0} %)")).collect();
-            format!("The largest total share belongs to {}", each.join(", "))
-        }
-    };
-    format!("{seen}; to be compared with {}, diamonds being the percentages printed for LuGre.", group.figures)
 }
 
 #[cfg(test)]

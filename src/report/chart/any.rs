@@ -25,10 +25,19 @@ pub struct Picture {
     pub title: String,
     /// One sentence under the picture.
     pub caption: String,
-    /// The SVG document for a page column.
-    pub wide: String,
-    /// The SVG document for a phone.
-    pub narrow: String,
+    /// For a page column.
+    pub wide: Drawing,
+    /// For a phone.
+    pub narrow: Drawing,
+}
+
+/// A picture for one width.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Drawing {
+    /// As an SVG document.
+    pub document: String,
+    /// As an SVG element for a page that sets title and caption as text, see [`Chart::inline`].
+    pub inline: String,
 }
 
 impl Chart {
@@ -72,7 +81,7 @@ impl Chart {
 
     /// The chart as an SVG element for a page that sets [`title`](Self::title) and [`caption`](Self::caption) as text: it
     /// has a `viewBox` but no size, so that the style of the page scales it; an `aria-label`, and title and description
-    /// for screen readers; and no `id`, so that any number of them may stand on a page. A [`Picture`] is as it was drawn.
+    /// for screen readers; and no `id`, so that any number of them may stand on a page.
     ///
     /// ```
     /// use apportion::report::chart::{Axis, Chart, ChartWidth, Range, RangeBars, RangeRow, Role};
@@ -116,7 +125,10 @@ impl Chart {
             Self::Lines(chart) => chart.drawn(medium),
             Self::Ranges(chart) => chart.drawn(medium),
             Self::Scatter(chart) => chart.drawn(medium),
-            Self::Picture(picture) => Ok(medium.width.choose(&picture.wide, &picture.narrow).clone()),
+            Self::Picture(picture) => {
+                let drawing = medium.width.choose(&picture.wide, &picture.narrow);
+                Ok(if medium.inline { drawing.inline.clone() } else { drawing.document.clone() })
+            }
         }
     }
 }

@@ -18,6 +18,7 @@ mod png;
 mod ranges;
 mod scale;
 mod scatter;
+mod sheet;
 mod style;
 mod svg;
 mod text;
@@ -25,7 +26,7 @@ mod text;
 #[cfg(test)]
 mod reading;
 
-pub use any::{Chart, Picture};
+pub use any::{Chart, Drawing, Picture};
 pub use bars::{Bar, GroupedBars, Panel, Series};
 pub use error::ChartError;
 pub use lines::{Axis, LineChart, LinePanel, LineSeries, Marker, Stroke};
@@ -33,4 +34,5 @@ pub use png::{PNG_SCALE, Png, PngError, png};
 pub use ranges::{Range, RangeBars, RangeRow, Reference};
 pub use scale::Spacing;
 pub use scatter::{Guide, ScatterChart, ScatterPoint, ScatterSeries};
+pub(in crate::report) use sheet::{Look, Sheet, Sketch};
 pub use style::{ChartWidth, Role};

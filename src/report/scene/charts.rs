@@ -70,7 +70,7 @@ fn chart(title: &str, caption: String, panels: Vec<LinePanel>) -> LineChart {
 }
 
 /// TS04 figure 8, CHK figure 5.
-fn forces(story: &SceneStory) -> LineChart {
+pub(crate) fn forces(story: &SceneStory) -> LineChart {
     let curves = [
         Curve { name: "tip force F_T", look: (story.friction_role, Stroke::Solid), read: &|s| NANO * s.tip_force },
         Curve { name: "lateral force F_Y", look: (LATERAL, Stroke::Dashed), read: &|s| NANO * s.lateral_force },
@@ -108,7 +108,7 @@ fn forces_caption(story: &SceneStory) -> String {
 }
 
 /// TS04 figure 9.
-fn pushing(story: &SceneStory) -> LineChart {
+pub(crate) fn pushing(story: &SceneStory) -> LineChart {
     let critical = NANO * story.critical.critical_force;
     let curves = [
         Curve { name: "pushing force F_T", look: (story.friction_role, Stroke::Solid), read: &|s| NANO * s.tip_force },
@@ -131,7 +131,7 @@ fn pushing(story: &SceneStory) -> LineChart {
 }
 
 /// TS04 figure 10.
-fn positions(story: &SceneStory) -> LineChart {
+pub(crate) fn positions(story: &SceneStory) -> LineChart {
     let curves = [
         Curve { name: "substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| NANO * s.substrate_position },
         Curve { name: "particle", look: (PARTICLE, Stroke::Solid), read: &|s| NANO * s.particle_position },
@@ -166,7 +166,7 @@ fn positions_caption(story: &SceneStory) -> String {
 }
 
 /// TS04 figure 13.
-fn contacts(story: &SceneStory) -> LineChart {
+pub(crate) fn contacts(story: &SceneStory) -> LineChart {
     let tip = (story.friction_role, Stroke::Solid);
     let substrate = (SUBSTRATE, Stroke::Dashed);
     let absolute = |label: &str, tip_of: Read, substrate_of: Read| {

@@ -4,17 +4,19 @@
 //! Tafazzoli & Sitti 2004 (8, 9, 10, 12, 13 and, moving, 14). A number that is not finite is an empty cell in CSV,
 //! `null` in JSON and a gap in a chart.
 
-mod charts;
+pub(crate) mod charts;
 mod columns;
+mod film;
 #[cfg(test)]
 mod fixture;
-mod mode_diagram;
+pub(crate) mod mode_diagram;
 mod page;
 mod view;
-mod words;
+pub(crate) mod words;
 
 pub use charts::{SceneChart, scene_charts};
 pub use columns::{scene_csv, scene_json};
+pub use film::{Film, film_strip};
 pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
 pub use page::{PageError, PageParts, scene_page};
 

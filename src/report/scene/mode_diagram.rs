@@ -44,6 +44,11 @@ const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 /// # Ok::<(), apportion::report::chart::ChartError>(())
 /// ```
 pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Result<String, ChartError> {
+    mode_lines(diagram)?.svg()
+}
+
+/// The same before it is drawn.
+pub(crate) fn mode_lines(diagram: &ModeDiagram) -> Result<LineChart, ChartError> {
     const TITLE: &str = "Modes of motion";
     for line in &diagram.forces {
         if line.force.len() != diagram.angle.len() {
@@ -65,7 +70,7 @@ pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Result<String, ChartError> {
         band: Vec::new(),
     }));
     let axis = |label: &str, unit: &str, spacing| Axis { label: label.to_owned(), unit: unit.to_owned(), spacing };
-    let chart = LineChart {
+    Ok(LineChart {
         title: TITLE.to_owned(),
         caption: caption(diagram),
         x: axis("Angle of the tip force from the vertical, ψ", "°", Spacing::Linear),
@@ -75,8 +80,7 @@ pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Result<String, ChartError> {
             series,
             markers: Vec::new(),
         }],
-    };
-    chart.svg()
+    })
 }
 
 fn mode_series(diagram: &ModeDiagram, line: &ModeLine) -> LineSeries {

@@ -1,7 +1,7 @@
 //! Numbers in sentences.
 
 /// A number with three significant digits and a typographic minus; a dash if it is not finite.
-pub(super) fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     const DIGITS: i32 = 3;
     if !value.is_finite() {
         return "\u{2013}".to_owned();
@@ -18,22 +18,22 @@ pub(super) fn short(value: f64) -> String {
 }
 
 /// A time in s.
-pub(super) fn time(seconds: f64) -> String {
+pub(crate) fn time(seconds: f64) -> String {
     format!("{} s", short(seconds))
 }
 
 /// A force in N, said in nN.
-pub(super) fn force(newtons: f64) -> String {
+pub(crate) fn force(newtons: f64) -> String {
     format!("{} nN", short(newtons * 1e9))
 }
 
 /// A length in m, said in nm.
-pub(super) fn length(metres: f64) -> String {
+pub(crate) fn length(metres: f64) -> String {
     format!("{} nm", short(metres * 1e9))
 }
 
 /// A change as a part, said in percent with its sign; `None` if it is not finite.
-pub(super) fn change(part: f64) -> Option<String> {
+pub(crate) fn change(part: f64) -> Option<String> {
     let percent = short(100.0 * part);
     let sign = if part > 0.0 { "+" } else { "" };
     part.is_finite().then(|| format!("{sign}{percent} %"))

@@ -1,0 +1,173 @@
+//! TS04 figure 12: what moves the particle in which way, against the angle of the force and of the contact.
+
+use super::table::Table;
+use super::{FiguresError, PaperFigure};
+use crate::afm::modes::Mode;
+use crate::afm::{Failure, Options, Scene, critical_force};
+use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Spacing, Stroke};
+use crate::report::scene::ModeDiagram;
+use crate::report::scene::mode_diagram::mode_lines;
+use crate::report::scene::words::{force, short};
+use crate::reproduce::Effort;
+use crate::simulation::{pushing, scene_modes};
+
+const NANO: f64 = 1e9;
+/// Contact angles: about the nominal 60 degrees.
+const CONTACT_ANGLES: (f64, f64) = (40.0, 70.0);
+const THEIRS: &str = "A larger angle lowers the force at which the particle slides, which it does before it rolls.";
+
+/// Both figures.
+pub(super) fn modes(effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
+    Ok(vec![against_force_angle()?, against_contact_angle(effort)?])
+}
+
+fn against_force_angle() -> Result<PaperFigure, FiguresError> {
+    let diagram = scene_modes(&Scene::default(), &Options::default())?;
+    let mut chart = mode_lines(&diagram)?;
+    if let Some(said) = sliding(&diagram) {
+        chart.caption = format!("{}; {said}.", chart.caption.trim_end_matches('.'));
+    }
+    let mut table = Table::default().with("force_angle_deg", diagram.angle.iter().map(|angle| angle.to_degrees()));
+    for line in &diagram.forces {
+        let column = format!("{}_nN", line.mode.replace('-', "_"));
+        table = table.with(&column, line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN)));
+    }
+    Ok(PaperFigure {
+        stem: "ts04-12",
+        label: "TS04 fig. 12",
+        theirs: THEIRS,
+        chart: Chart::Lines(chart),
+        csv: table.csv(),
+    })
+}
+
+/// How the force of sliding goes with the angle.
+fn sliding(diagram: &ModeDiagram) -> Option<String> {
+    let line = diagram.forces.iter().find(|line| line.mode == Mode::Slide.name())?;
+    let points: Vec<(f64, f64)> = diagram
+        .angle
+        .iter()
+        .zip(&line.force)
+        .filter_map(|(angle, force)| Some((angle.to_degrees(), (*force)?)))
+        .collect();
+    let (first, last) = (points.first()?, points.last()?);
+    let falls = points.windows(2).all(|pair| pair[1].1 <= pair[0].1);
+    let verb = if falls { "falls" } else { "goes" };
+    Some(format!(
+        "the force of sliding {verb} from {} at {}° to {} at {}°",
+        force(first.1),
+        short(first.0),
+        force(last.1),
+        short(last.0)
+    ))
+}
+
+/// Forces (N) over the contact angles; `None` where no force will do.
+struct Against {
+    key: String,
+    name: String,
+    look: (Role, Stroke),
+    force: Vec<Option<f64>>,
+}
+
+fn against_contact_angle(effort: Effort) -> Result<PaperFigure, FiguresError> {
+    let steps = match effort {
+        Effort::Full => 120,
+        Effort::Quick => 30,
+    };
+    let (from, to) = CONTACT_ANGLES;
+    let degrees: Vec<f64> = (0..=steps).map(|i| from + (to - from) * f64::from(i) / f64::from(steps)).collect();
+    let over = |read: &dyn Fn(Scene) -> Result<Option<f64>, Failure>| {
+        let scene = |angle: &f64| Scene { contact_angle: angle.to_radians(), ..Scene::default() };
+        degrees.iter().map(|angle| read(scene(angle))).collect::<Result<Vec<_>, Failure>>()
+    };
+    let options = Options::default();
+    let psi = critical_force(&Scene::default(), &options)?.force_angle;
+    let at = |scene: Scene, mode, angle| pushing(scene, &options).critical_tip_force(mode, angle);
+    let own = |mode: Mode, role| -> Result<Against, Failure> {
+        Ok(Against {
+            key: format!("{}_nN", mode.name().replace('-', "_")),
+            name: format!("{}, force at ψ = {}°", mode.name(), short(psi.to_degrees())),
+            look: (role, Stroke::Solid),
+            force: over(&|scene| at(scene, mode, psi))?,
+        })
+    };
+    let lines = [
+        Against {
+            key: "critical_force_nN".to_owned(),
+            name: "critical force F_cr of the scene".to_owned(),
+            look: (Role::Coulomb, Stroke::Solid),
+            force: over(&|scene| Ok(Some(critical_force(&scene, &options)?.critical_force)))?,
+        },
+        Against {
+            key: "slide_along_contact_nN".to_owned(),
+            name: "slide, force along the contact (ψ = φ)".to_owned(),
+            look: (Role::Coulomb, Stroke::Dashed),
+            force: over(&|scene| at(scene, Mode::Slide, scene.contact_angle))?,
+        },
+        own(Mode::TipSlip, Role::Other(0))?,
+        own(Mode::Roll, Role::Other(1))?,
+        own(Mode::Spin, Role::Other(2))?,
+    ];
+    let mut table = Table::default().with("contact_angle_deg", degrees.iter().copied());
+    for line in &lines {
+        table = table.with(&line.key, line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN)));
+    }
+    Ok(PaperFigure {
+        stem: "ts04-12-contact-angle",
+        label: "TS04 fig. 12, contact angle",
+        theirs: THEIRS,
+        chart: Chart::Lines(chart(&degrees, &lines)),
+        csv: table.csv(),
+    })
+}
+
+fn chart(degrees: &[f64], lines: &[Against]) -> LineChart {
+    let series = lines.iter().filter(|line| line.force.iter().any(Option::is_some)).map(|line| LineSeries {
+        name: line.name.clone(),
+        role: line.look.0,
+        stroke: line.look.1,
+        points: degrees.iter().copied().zip(line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN))).collect(),
+        band: Vec::new(),
+    });
+    let axis = |label: &str, unit: &str, spacing| Axis { label: label.to_owned(), unit: unit.to_owned(), spacing };
+    let nominal = Scene::default().contact_angle.to_degrees();
+    LineChart {
+        title: "Modes of motion against the contact angle".to_owned(),
+        caption: caption(lines),
+        x: axis("Angle of the contact between tip and particle from the vertical, φ", "°", Spacing::Linear),
+        panels: vec![LinePanel {
+            title: String::new(),
+            y: axis("Force at which the mode sets in", "nN", Spacing::Logarithmic),
+            series: series.collect(),
+            markers: vec![Marker { x: nominal, label: format!("nominal: {}°", short(nominal)) }],
+        }],
+    }
+}
+
+/// What the first two lines do, and which modes never set in.
+fn caption(lines: &[Against]) -> String {
+    let ends = |line: &Against| Some((line.force.first().copied()??, line.force.last().copied()??));
+    let (Some((first, last)), Some((along_first, along_last))) = (ends(&lines[0]), ends(&lines[1])) else {
+        return "The scene has no critical force.".to_owned();
+    };
+    let (from, to) = (short(CONTACT_ANGLES.0), short(CONTACT_ANGLES.1));
+    // 1e-9: rounding; the contact angle does not enter the critical force.
+    let own = if (last / first - 1.0).abs() < 1e-9 {
+        format!("stays at {}", force(first))
+    } else {
+        format!("goes from {} to {}", force(first), force(last))
+    };
+    let never: Vec<&str> = lines[2..]
+        .iter()
+        .filter(|line| line.force.iter().all(Option::is_none))
+        .map(|line| line.name.split(',').next().unwrap_or_default())
+        .collect();
+    let never = if never.is_empty() { String::new() } else { format!("; no force sets in: {}", never.join(", ")) };
+    format!(
+        "From {from}° to {to}° of contact angle the critical force of the scene {own}, while a force along the contact \
+         would have to be {} and {} to let the particle slide{never}.",
+        force(along_first),
+        force(along_last)
+    )
+}

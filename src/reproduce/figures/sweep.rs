@@ -1,0 +1,224 @@
+//! The critical force against one factor, all others at their defaults.
+
+use rayon::prelude::*;
+
+use super::curve::{Curve, crossing, list};
+use super::sweep_list::{Line, SWEEPS, SweepFigure, Variant};
+use super::table::Table;
+use super::{FiguresError, PaperFigure, edge};
+use crate::afm::{Fidelity, Options, Parameter, critical_force};
+use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Stroke};
+use crate::report::scene::words::short;
+use crate::reproduce::compare::capitalised;
+use crate::reproduce::{Effort, STUDIES};
+use crate::space::{Factor, Space};
+use crate::study::Study;
+use crate::sweep::{FactorValues, find};
+
+const NANO: f64 = 1e9;
+/// The quasi-static rung is drawn beside the closed form where they differ by more than this part of the force's range.
+const VISIBLE: f64 = 5e-3;
+/// A force that changes by less than this part of its size counts as having no range but its size.
+const FLAT: f64 = 1e-3;
+/// The study whose factors have all ranges.
+const GENERAL: &str = "coulomb-general";
+
+/// The figures of [`SWEEPS`].
+pub(super) fn sweeps(effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
+    let text = STUDIES.iter().find(|(name, _)| *name == GENERAL).map_or("", |(_, text)| text);
+    let study = Study::parse(text, format!("studies/{GENERAL}.toml").as_ref(), &[])?;
+    let points = match effort {
+        Effort::Full => 201,
+        Effort::Quick => 41,
+    };
+    SWEEPS.par_iter().map(|figure| one(figure, &study.space, points)).collect()
+}
+
+fn one(figure: &SweepFigure, space: &Space, points: usize) -> Result<PaperFigure, FiguresError> {
+    let number = find(space, figure.factor)?;
+    let values = FactorValues::over_range(space, number, points)?.values;
+    let parameter = Parameter::from_name(figure.factor).ok_or(FiguresError::NoParameter { name: figure.factor })?;
+    let swept = Swept { figure, factor: &space.factors()[number], parameter, values };
+    let lines: Vec<Drawn> = figure.lines.iter().map(|line| swept.line(line)).collect();
+    Ok(PaperFigure {
+        stem: figure.stem,
+        label: figure.label,
+        theirs: figure.theirs,
+        chart: Chart::Lines(swept.chart(&lines)),
+        csv: swept.csv(&lines),
+    })
+}
+
+/// A figure with the values of its factor.
+struct Swept<'a> {
+    figure: &'a SweepFigure,
+    factor: &'a Factor,
+    parameter: &'static Parameter,
+    /// In the factor's unit.
+    values: Vec<f64>,
+}
+
+/// A computed line, forces in nN; NaN where there is none.
+struct Drawn<'a> {
+    line: &'a Line,
+    force: Vec<f64>,
+    /// The same by the quasi-static rung, unless the line is of a rung of its own.
+    quasi_static: Option<Vec<f64>>,
+}
+
+impl Swept<'_> {
+    fn line<'a>(&self, line: &'a Line) -> Drawn<'a> {
+        let (scene, options) = line.variant.apply(line.law);
+        let force = |options: &Options| -> Vec<f64> {
+            let at = |value: &f64| {
+                let mut scene = scene;
+                (self.parameter.set)(&mut scene, self.factor.unit().to_si(*value));
+                critical_force(&scene, options).map_or(f64::NAN, |critical| NANO * critical.critical_force)
+            };
+            self.values.par_iter().map(at).collect()
+        };
+        let checked = line.variant != Variant::NaiveMarch;
+        Drawn {
+            line,
+            force: force(&options),
+            quasi_static: checked.then(|| force(&Options { fidelity: Fidelity::QuasiStatic, ..options })),
+        }
+    }
+
+    fn csv(&self, lines: &[Drawn]) -> String {
+        let unit = edge::column(self.factor.unit().symbol());
+        let mut table = Table::default().with(&format!("{}_{unit}", self.figure.factor), self.values.iter().copied());
+        for drawn in lines {
+            table = table.with(&format!("{}_nN", drawn.line.key), drawn.force.iter().copied());
+        }
+        for drawn in lines {
+            if let Some(force) = &drawn.quasi_static {
+                table = table.with(&format!("{}_quasi_static_nN", drawn.line.key), force.iter().copied());
+            }
+        }
+        table.csv()
+    }
+
+    fn chart(&self, lines: &[Drawn]) -> LineChart {
+        let unit = edge::printed(self.factor.unit().symbol());
+        let series = |name: String, look, force: &[f64]| LineSeries {
+            name,
+            role: look,
+            stroke: Stroke::Solid,
+            points: self.values.iter().copied().zip(force.iter().copied()).collect(),
+            band: Vec::new(),
+        };
+        let range = range(lines);
+        let mut all = Vec::new();
+        // What is marched scatters over the rest, so it lies below them.
+        let (marched, rest): (Vec<_>, Vec<_>) =
+            lines.iter().partition(|drawn| drawn.line.variant == Variant::NaiveMarch);
+        for drawn in marched.into_iter().chain(rest) {
+            let (role, stroke) = drawn.line.look;
+            all.push(LineSeries { stroke, ..series(drawn.line.name.to_owned(), role, &drawn.force) });
+            if let Some(force) = drawn.quasi_static.as_ref().filter(|_| drawn.difference() > VISIBLE * range) {
+                let name = format!("{}, quasi-static", drawn.line.name);
+                all.push(LineSeries { stroke: Stroke::Dashed, ..series(name, role, force) });
+            }
+        }
+        LineChart {
+            title: format!("Critical force against {}", self.parameter.description),
+            caption: self.caption(lines, range),
+            x: Axis {
+                label: format!("{}, {}", capitalised(self.parameter.description), edge::symbol(self.parameter)),
+                unit: unit.to_owned(),
+                ..Axis::default()
+            },
+            panels: vec![LinePanel {
+                title: String::new(),
+                y: Axis { label: "Critical force F_cr".to_owned(), unit: "nN".to_owned(), ..Axis::default() },
+                series: all,
+                markers: vec![Marker {
+                    x: self.factor.nominal,
+                    label: format!("nominal: {} {unit}", self.factor.nominal),
+                }],
+            }],
+        }
+    }
+
+    fn caption(&self, lines: &[Drawn], range: f64) -> String {
+        let unit = format!(" {}", edge::printed(self.factor.unit().symbol()));
+        let (Some(from), Some(to)) = (self.values.first(), self.values.last()) else { return String::new() };
+        let mut courses: Vec<String> = Vec::new();
+        for drawn in lines {
+            courses.push(match drawn.line.variant {
+                Variant::NaiveMarch => overshoot(drawn, &lines[0]),
+                _ => Curve { x: &self.values, y: &drawn.force, x_unit: &unit, y_unit: " nN" }.course(drawn.line.said),
+            });
+        }
+        let mut text = format!(
+            "From {from} to {to}{unit} of {}, the critical force {}",
+            self.parameter.description,
+            list(&courses)
+        );
+        if let [one, other, ..] = lines
+            && self.figure.lines[0].law != self.figure.lines[1].law
+        {
+            text.push_str(&self.between(one, other, &unit));
+        }
+        text.push_str(&agreement(lines, range));
+        text.push('.');
+        text
+    }
+
+    /// Where two lines meet, and how far apart they are at the ends.
+    fn between(&self, one: &Drawn, other: &Drawn, unit: &str) -> String {
+        let gap: Vec<(f64, f64)> =
+            self.values.iter().zip(one.force.iter().zip(&other.force)).map(|(x, (a, b))| (*x, a - b)).collect();
+        let mut text = String::new();
+        if let Some(x) = crossing(&gap, 0.0) {
+            text.push_str(&format!("; the two are equal at {}{unit}", short(x)));
+        }
+        if let (Some(first), Some(last), true) = (gap.first(), gap.last(), self.figure.gap) {
+            let verb = if last.1.abs() > first.1.abs() { "diverge" } else { "approach each other" };
+            let (first, last) = (short(first.1.abs()), short(last.1.abs()));
+            text.push_str(&format!("; the two {verb}, from {first} to {last} nN apart"));
+        }
+        text
+    }
+}
+
+impl Drawn<'_> {
+    /// The largest distance of the two rungs (nN).
+    fn difference(&self) -> f64 {
+        let Some(other) = &self.quasi_static else { return 0.0 };
+        largest(self.force.iter().zip(other).map(|(a, b)| (a - b).abs()))
+    }
+
+    /// The same as a part of the force.
+    fn relative_difference(&self) -> f64 {
+        let Some(other) = &self.quasi_static else { return 0.0 };
+        largest(self.force.iter().zip(other).map(|(a, b)| (b / a - 1.0).abs()))
+    }
+}
+
+/// The largest of the finite values, at least 0.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.filter(|value| value.is_finite()).fold(0.0, f64::max)
+}
+
+/// Over which range of force the lines go (nN); their size if they are level.
+fn range(lines: &[Drawn]) -> f64 {
+    let values = || lines.iter().flat_map(|drawn| &drawn.force).copied().filter(|force| force.is_finite());
+    let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+    if high - low > FLAT * high.abs() { high - low } else { high.abs() }
+}
+
+/// How much the naive march reads too much.
+fn overshoot(naive: &Drawn, right: &Drawn) -> String {
+    let most = largest(naive.force.iter().zip(&right.force).map(|(a, b)| a - b));
+    format!("is read up to {} nN too high{}", short(most), naive.line.said)
+}
+
+/// What the quasi-static rung says to the closed form.
+fn agreement(lines: &[Drawn], range: f64) -> String {
+    let most = largest(lines.iter().map(Drawn::relative_difference));
+    let drawn = if lines.iter().any(|line| line.difference() > VISIBLE * range) { " (dashed)" } else { "" };
+    let size = if most < 1e-6 { "less than 0.0001 %".to_owned() } else { format!("at most {} %", short(100.0 * most)) };
+    format!("; the quasi-static rung{drawn} differs from the closed forms by {size}")
+}
