@@ -290,7 +290,7 @@ mod tests {
         let s = scale(&[0.05, 3.0], Logarithmic, 0.0);
         assert_eq!(labels(&s.with_room(80.0)), ["0.1", "1"]);
         let s = scale(&[1e-8, 1e-3], Logarithmic, 0.0);
-        assert_eq!(labels(&s.with_room(80.0)), ["10⁻⁸", "10⁻⁵"]);
+        assert_eq!(labels(&s.with_room(80.0)), ["10⁻⁸", "10⁻⁶", "10⁻⁴"]);
         assert_eq!(labels(&scale(&[-2.0, 2.0], Linear, 0.0).with_room(1.0)).len(), 1);
     }
 

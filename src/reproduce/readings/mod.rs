@@ -160,7 +160,9 @@ pub fn readings(
         let of_groups: Vec<Vec<Reading>> =
             GROUPS.iter().map(|group| of_variant(variant, (group.key, effort), threads)).collect::<Result<_, _>>()?;
         let readings = of_groups.first().map_or(0, Vec::len);
-        rows.extend((0..readings).flat_map(|reading| of_groups.iter().filter_map(move |rows| rows.get(reading)).cloned()));
+        rows.extend(
+            (0..readings).flat_map(|reading| of_groups.iter().filter_map(move |rows| rows.get(reading)).cloned()),
+        );
     }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads_in_force(threads))

@@ -2,8 +2,8 @@
 
 use serde_json::json;
 
-use super::small_samples::QUANTILES;
 use super::Readings;
+use super::small_samples::QUANTILES;
 
 /// One line per group, reading and factor; the distance and the runs are those of the whole reading. Percentages and
 /// distances in percent, empty where there is none.

@@ -4,10 +4,15 @@ use super::*;
 fn look() {
     let effort = if std::env::var("FULL").is_ok() { Effort::Full } else { Effort::Quick };
     let start = Instant::now();
-    let all = readings(effort, 0, &|what, part| eprintln!("{:.2} {what} {part:.2}", start.elapsed().as_secs_f64())).unwrap();
+    let all =
+        readings(effort, 0, &|what, part| eprintln!("{:.2} {what} {part:.2}", start.elapsed().as_secs_f64())).unwrap();
     eprintln!("{}", all.wall_seconds);
     for row in &all.rows {
-        let shares: Vec<String> = row.shares.iter().map(|s| format!("{} {:.1} ±{:.1}", &s.factor[..2], s.share, s.interval.map_or(0.0, |i| (i.1 - i.0) / 2.0))).collect();
+        let shares: Vec<String> = row
+            .shares
+            .iter()
+            .map(|s| format!("{} {:.1} ±{:.1}", &s.factor[..2], s.share, s.interval.map_or(0.0, |i| (i.1 - i.0) / 2.0)))
+            .collect();
         eprintln!("{:14} {:45} {:6.2} {}", row.group, row.id, row.distance, shares.join(" "));
     }
     std::fs::write("/tmp/rd/readings.csv", readings_csv(&all)).unwrap();
