@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::analyse;
-use apportion::report::chart::{ChartError, png};
+use apportion::report::chart::{Chart, png};
 use apportion::report::{
     OutputRecord, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv, indices_csv,
     inputs_in_words, output_stem, prepare_file, prepare_folder, result_json, run_page, second_order_csv, study_chart,
@@ -97,7 +97,7 @@ enum Kind {
     Png(Draw, usize),
 }
 
-type Draw = fn(&ResultFile, &OutputRecord) -> Result<String, ChartError>;
+type Draw = fn(&ResultFile, &OutputRecord) -> Chart;
 
 /// The files that a run of `study` writes.
 pub fn files(study: &Study) -> Vec<ResultFileName> {
@@ -135,15 +135,16 @@ pub fn files(study: &Study) -> Vec<ResultFileName> {
 }
 
 fn write_files(folder: &Path, study: &Study, result: &ResultFile) -> Result<Vec<PathBuf>, Failure> {
-    let drawn =
-        |draw: Draw, number: usize| draw(result, &result.outputs[number]).map_err(|error| Failure::Run(error.into()));
+    let drawn = |draw: Draw, number: usize| {
+        draw(result, &result.outputs[number]).svg().map_err(|error| Failure::Run(error.into()))
+    };
     let files = files(study);
     let others = files.iter().filter(|file| !matches!(file.kind, Kind::Page)).map(|file| file.name.clone());
     let others: Vec<String> = others.collect();
     let mut written = Vec::with_capacity(files.len());
     for file in files {
         let bytes = match file.kind {
-            Kind::Page => page(result, &others)?.into_bytes(),
+            Kind::Page => run_page(result, &others).html().map_err(|error| Failure::Run(error.into()))?.into_bytes(),
             Kind::Text(text) => text(result).into_bytes(),
             Kind::Svg(draw, number) => drawn(draw, number)?.into_bytes(),
             Kind::Png(draw, number) => png(&drawn(draw, number)?).map_err(|error| Failure::Run(error.into()))?.bytes,
@@ -153,9 +154,4 @@ fn write_files(folder: &Path, study: &Study, result: &ResultFile) -> Result<Vec<
         written.push(path);
     }
     Ok(written)
-}
-
-fn page(result: &ResultFile, others: &[String]) -> Result<String, Failure> {
-    let page = run_page(result, others).map_err(|error| Failure::Run(error.into()))?;
-    page.html().map_err(|error| Failure::Run(error.into()))
 }

@@ -13,7 +13,7 @@ use thiserror::Error;
 pub use compare::{comparison_table, shares_csv};
 pub use published::{Published, published};
 
-use crate::report::chart::{ChartError, PngError, png};
+use crate::report::chart::{Chart, ChartError, PngError, png};
 use crate::report::{
     ResultFile, SharesSeries, SharesWords, WriteError, friction_role, result_json, shares_chart, write_atomically,
 };
@@ -143,14 +143,14 @@ pub fn write_all(folder: &Path, studies: &[Reproduced]) -> Result<Vec<PathBuf>, 
     write("shares.csv".to_owned(), shares_csv(studies).as_bytes())?;
     for group in GROUPS {
         let members: Vec<&Reproduced> = studies.iter().filter(|study| study.group == group).collect();
-        let svg = group_chart(group, &members)?;
+        let svg = group_chart(group, &members).svg()?;
         write(format!("{}.svg", group.key), svg.as_bytes())?;
         write(format!("{}.png", group.key), &png(&svg)?.bytes)?;
     }
     Ok(files)
 }
 
-fn group_chart(group: StudyGroup, members: &[&Reproduced]) -> Result<String, ChartError> {
+fn group_chart(group: StudyGroup, members: &[&Reproduced]) -> Chart {
     let factors: Vec<&str> =
         members.first().map_or_else(Vec::new, |m| m.result.factors.iter().map(|f| f.name.as_str()).collect());
     let series: Vec<SharesSeries<'_>> = members

@@ -25,7 +25,7 @@ mod text;
 #[cfg(test)]
 mod reading;
 
-pub use any::{Chart, ChartWidth, Picture};
+pub use any::{Chart, Picture};
 pub use bars::{Bar, GroupedBars, Panel, Series};
 pub use error::ChartError;
 pub use lines::{Axis, LineChart, LinePanel, LineSeries, Marker, Stroke};
@@ -33,4 +33,4 @@ pub use png::{PNG_SCALE, Png, PngError, png};
 pub use ranges::{Range, RangeBars, RangeRow, Reference};
 pub use scale::Spacing;
 pub use scatter::{Guide, ScatterChart, ScatterPoint, ScatterSeries};
-pub use style::Role;
+pub use style::{ChartWidth, Role};

@@ -10,7 +10,7 @@ pub(super) struct Drawings {
 
 /// The drawings of `chart` as elements whose identifiers begin with `id`.
 pub(super) fn drawings(id: &str, chart: &Chart) -> Result<Drawings, ChartError> {
-    let drawn = |width, suffix: &str| chart.svg_at(width).map(|svg| named(&svg, &format!("{id}-{suffix}")));
+    let drawn = |width, suffix: &str| chart.inline(width).map(|svg| named(&svg, &format!("{id}-{suffix}")));
     Ok(Drawings { wide: drawn(ChartWidth::Wide, "wide")?, narrow: drawn(ChartWidth::Narrow, "narrow")? })
 }
 

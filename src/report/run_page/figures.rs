@@ -1,7 +1,8 @@
 //! The charts of a run as figures of the page, numbered through.
 
 use super::beside::{Beside, output_stem};
-use crate::report::chart::{Chart, ChartError, Picture};
+use super::words::{capital, the};
+use crate::report::chart::Chart;
 use crate::report::page::{PageFigure, Part};
 use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::{convergence_chart, distribution_chart, study_chart};
@@ -22,24 +23,29 @@ pub(super) struct Numbered<'a> {
 }
 
 impl Figures<'_> {
-    pub fn shares(&mut self, of: Numbered<'_>) -> Result<Part, ChartError> {
-        let chart = picture(study_chart(self.result, of.output)?);
-        Ok(self.figure(of, "", ("shares", chart)))
+    pub fn shares(&mut self, of: Numbered<'_>) -> Part {
+        let mut chart = study_chart(self.result, of.output);
+        set_title(&mut chart, format!("Shares of {}", the(&of.output.name)));
+        self.figure(of, "", ("shares", chart))
     }
 
-    pub fn convergence(&mut self, of: Numbered<'_>) -> Result<Part, ChartError> {
-        let chart = picture(convergence_chart(self.result, of.output)?);
-        Ok(self.figure(of, "-convergence", ("convergence", chart)))
+    pub fn convergence(&mut self, of: Numbered<'_>) -> Part {
+        self.figure(of, "-convergence", ("convergence", convergence_chart(self.result, of.output)))
     }
 
-    pub fn distribution(&mut self, of: Numbered<'_>) -> Result<Part, ChartError> {
-        let chart = picture(distribution_chart(self.result, of.output)?);
-        Ok(self.figure(of, "-distribution", ("distribution", chart)))
+    pub fn distribution(&mut self, of: Numbered<'_>) -> Part {
+        self.figure(of, "-distribution", ("distribution", distribution_chart(self.result, of.output)))
     }
 
-    fn figure(&mut self, of: Numbered<'_>, suffix: &str, (name, chart): (&str, Chart)) -> Part {
+    fn figure(&mut self, of: Numbered<'_>, suffix: &str, (name, mut chart): (&str, Chart)) -> Part {
         self.count += 1;
         let stem = output_stem(self.beside.study, &of.output.name, self.result.outputs.len());
+        let study = &self.result.study;
+        let headline = format!("{}: ", study.title.as_ref().unwrap_or(&study.name));
+        // The page has the study's title at its top.
+        if let Some(title) = chart.title().strip_prefix(&headline).map(capital) {
+            set_title(&mut chart, title);
+        }
         Part::Figure(Box::new(PageFigure {
             id: format!("figure-{}-{name}", of.number),
             label: format!("Figure {}", self.count),
@@ -50,11 +56,11 @@ impl Figures<'_> {
     }
 }
 
-/// TEMPORARY until the chart functions return `Chart`.
-fn picture(svg: String) -> Chart {
-    let between = |a: &str, b: &str| {
-        svg.split_once(a).and_then(|(_, rest)| rest.split_once(b)).map(|(t, _)| t.to_owned()).unwrap_or_default()
-    };
-    let title = between("<title>", "</title>");
-    Chart::Picture(Picture { title, caption: String::new(), wide: svg.clone(), narrow: svg })
+fn set_title(chart: &mut Chart, title: String) {
+    match chart {
+        Chart::Bars(chart) => chart.title = title,
+        Chart::Lines(chart) => chart.title = title,
+        Chart::Scatter(chart) => chart.title = title,
+        _ => (),
+    }
 }

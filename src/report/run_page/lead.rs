@@ -1,7 +1,7 @@
 //! What a hurried reader should take along: which factor matters most, how sure that is, and what to mind.
 
 use super::trend::width_after_doubling;
-use super::words::{count, first, grouped, half_width, index, list, name, percent, the};
+use super::words::{capital, count, first, grouped, half_width, index, list, name, percent, the};
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 use crate::report::share_of_runs;
 
@@ -161,11 +161,6 @@ fn settled(result: &ResultFile) -> String {
 /// Largest half width of an output's indices at the end.
 pub(super) fn widest(output: &OutputRecord) -> Option<f64> {
     output.convergence.last()?.largest_half_width
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |letter| letter.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]

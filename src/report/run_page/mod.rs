@@ -14,16 +14,12 @@ pub use beside::output_stem;
 use figures::{Figures, Numbered};
 use output::Topic;
 
-use super::chart::ChartError;
 use super::page::{Page, Part, Section};
 use super::result::{AggregateRecord, ResultFile};
 
 /// The page of a result; `files` are the names of the files beside it, to which it links. Everything on it comes from
 /// the result, so that a page can be drawn again from the JSON file. With one output every topic is a section; with
 /// several every output is.
-///
-/// # Errors
-/// [`ChartError`] if a chart cannot be drawn.
 ///
 /// # Example
 /// ```
@@ -32,18 +28,18 @@ use super::result::{AggregateRecord, ResultFile};
 ///
 /// let study = Study::parse(include_str!("../../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
 /// let result = analyse(&study, 0, &|_| ())?;
-/// let page = run_page(&result, &["ishigami.csv".to_owned()])?;
+/// let page = run_page(&result, &["ishigami.csv".to_owned()]);
 /// assert!(page.lead[0].starts_with("x1 matters most for y"));
 /// assert!(page.html()?.contains("href=\"ishigami.csv\""));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn run_page(result: &ResultFile, files: &[String]) -> Result<Page, ChartError> {
+pub fn run_page(result: &ResultFile, files: &[String]) -> Page {
     let beside = Beside { files, study: &result.study.name };
     let mut figures = Figures { result, beside, count: 0 };
     let mut sections = Vec::new();
     let single = result.outputs.len() == 1;
     for (place, output) in result.outputs.iter().enumerate() {
-        let topics = output::topics(&mut figures, Numbered { output, number: place + 1 })?;
+        let topics = output::topics(&mut figures, Numbered { output, number: place + 1 });
         if single {
             sections.extend(topics.into_iter().map(|Topic { id, title, parts }| section(id, title, parts)));
         } else {
@@ -68,13 +64,13 @@ pub fn run_page(result: &ResultFile, files: &[String]) -> Result<Page, ChartErro
     sections.extend(
         whole.into_iter().filter(|(_, _, parts)| !parts.is_empty()).map(|(id, title, parts)| section(id, title, parts)),
     );
-    Ok(Page {
+    Page {
         kicker: "Result of a study".to_owned(),
         title: result.study.title.clone().unwrap_or_else(|| result.study.name.clone()),
         lead: lead::lead(result),
         sections,
         footer: format!("Made by apportion {}.", result.provenance.apportion_version),
-    })
+    }
 }
 
 fn section(id: &str, title: &str, parts: Vec<Part>) -> Section {

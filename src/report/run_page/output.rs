@@ -4,8 +4,7 @@ use super::figures::{Figures, Numbered};
 use super::lead::{answer, by_total, widest};
 use super::tables;
 use super::trend::width_after_doubling;
-use super::words::{count, first, grouped, half_width, index, list, name, the};
-use crate::report::chart::ChartError;
+use super::words::{capital, count, first, grouped, half_width, index, list, name, the};
 use crate::report::page::{Mark, Part};
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 
@@ -17,20 +16,20 @@ pub(super) struct Topic {
 }
 
 /// All topics of an output; those of which there is nothing to say are left out.
-pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Result<Vec<Topic>, ChartError> {
+pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> {
     let result = figures.result;
     let topic = |id, title, parts| Topic { id, title, parts };
     let mut topics = vec![topic("mind", "What to mind", warnings(of.output))];
     if of.output.indices.is_some() {
-        topics.push(topic("shares", "Shares", shares(figures, of)?));
+        topics.push(topic("shares", "Shares", shares(figures, of)));
         topics.push(topic("indices", "Indices", indices(result, of.output)));
         topics.push(topic("interactions", "Interactions", interactions(of.output)));
-        topics.push(topic("convergence", "How the indices settled", convergence(figures, of)?));
+        topics.push(topic("convergence", "How the indices settled", convergence(figures, of)));
     }
-    topics.push(topic("distribution", "Distribution of the output", distribution(figures, of)?));
+    topics.push(topic("distribution", "Distribution of the output", distribution(figures, of)));
     topics.push(topic("estimators", "Other estimators", estimators(of.output)));
     topics.retain(|topic| !topic.parts.is_empty());
-    Ok(topics)
+    topics
 }
 
 /// Why there are no indices, what the run warns of, and which runs failed.
@@ -42,7 +41,7 @@ fn warnings(output: &OutputRecord) -> Vec<Part> {
     }
     if !output.warnings.is_empty() {
         let kind = if output.warnings.len() == 1 { "Warning" } else { "Warnings" }.to_owned();
-        let texts = output.warnings.iter().map(|warning| format!("{}.", first_letter(warning))).collect();
+        let texts = output.warnings.iter().map(|warning| format!("{}.", capital(warning))).collect();
         parts.push(Part::Notice { mark: Mark::Mixed, kind, texts });
     }
     if output.runs_failed > 0 {
@@ -51,7 +50,7 @@ fn warnings(output: &OutputRecord) -> Vec<Part> {
         let runs = count(output.runs_failed, "run", "runs");
         parts.push(Part::Text(format!(
             "{} of {} ({share}) had no value; every estimate rests on {} or more.",
-            first_letter(&runs),
+            capital(&runs),
             grouped(all),
             count(output.base_points_used, "base point", "base points")
         )));
@@ -60,15 +59,15 @@ fn warnings(output: &OutputRecord) -> Vec<Part> {
     parts
 }
 
-fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Result<Vec<Part>, ChartError> {
+fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let text = "A factor's share is its index in percent of the sum of the indices of all factors: of the first-order \
                 indices S_1, which count what a factor does alone, or of the total indices S_T, which count what it does \
                 together with others too.";
-    let mut parts = vec![Part::Text(text.to_owned()), figures.shares(of)?];
+    let mut parts = vec![Part::Text(text.to_owned()), figures.shares(of)];
     if let Some(table) = tables::shares(of.output) {
         parts.push(Part::Details { summary: "The shares as numbers".to_owned(), parts: vec![table] });
     }
-    Ok(parts)
+    parts
 }
 
 fn indices(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
@@ -137,7 +136,7 @@ fn interactions(output: &OutputRecord) -> Vec<Part> {
     parts
 }
 
-fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Result<Vec<Part>, ChartError> {
+fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let output = of.output;
     let mut sentences = Vec::new();
     if let Some(width) = widest(output) {
@@ -154,21 +153,21 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Result<Vec<Part>,
     }
     let mut parts = vec![Part::Text(sentences.join(" "))];
     if !output.convergence.is_empty() {
-        parts.push(figures.convergence(of)?);
+        parts.push(figures.convergence(of));
     }
     parts.extend(figures.beside.table("-convergence.csv", "every stage as CSV").map(|link| Part::Links(vec![link])));
     if let Some(table) = tables::stages(output) {
         parts.push(Part::Details { summary: "The stages as numbers".to_owned(), parts: vec![table] });
     }
-    Ok(parts)
+    parts
 }
 
-fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Result<Vec<Part>, ChartError> {
+fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let Some(table) = tables::moments(of.output) else {
         let text = format!("There are no values of {} to show.", the(&of.output.name));
-        return Ok(vec![Part::Text(text)]);
+        return vec![Part::Text(text)];
     };
-    Ok(vec![figures.distribution(of)?, table])
+    vec![figures.distribution(of), table]
 }
 
 fn estimators(output: &OutputRecord) -> Vec<Part> {
@@ -193,9 +192,4 @@ pub(super) fn heading(output: &OutputRecord) -> String {
         "" | "1" => first(&output.name),
         unit => format!("{} ({unit})", first(&output.name)),
     }
-}
-
-fn first_letter(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |letter| letter.to_uppercase().chain(letters).collect())
 }

@@ -3,10 +3,10 @@
 use serde_json::Value;
 
 use super::tables::table;
-use super::words::{grouped, name};
+use super::words::{grouped, name, value};
 use crate::report::page::{Cell, Mark, Part};
 use crate::report::result::{FactorRecord, ResultFile, ValidityRecord};
-use crate::report::{share_of_runs, significant, with_unit};
+use crate::report::{share_of_runs, significant};
 
 /// Most factors in the table of the study.
 const FACTORS: usize = 50;
@@ -90,7 +90,7 @@ pub(super) fn study(result: &ResultFile) -> Vec<Part> {
     let row = |factor: &FactorRecord| {
         let mut row = vec![Cell::plain(name(&factor.name)), Cell::plain(distribution(factor))];
         row.push(Cell::plain(factor.group.as_deref().unwrap_or("–")));
-        row.push(Cell::plain(with_unit(factor.nominal, &factor.unit)));
+        row.push(Cell::plain(value(factor.nominal, &factor.unit)));
         row
     };
     let mut caption = "The factors with their distributions.".to_owned();
@@ -100,12 +100,12 @@ pub(super) fn study(result: &ResultFile) -> Vec<Part> {
     let rows = shown.iter().map(row).collect();
     parts.push(table(caption, &["factor", "distribution", "group", "nominal value"], (3, rows)));
     let mut choices = vec![("model".to_owned(), format!("`{}`", study.model))];
-    choices.extend(study.settings.iter().map(|(key, value)| (name(key), plain(value))));
+    choices.extend(study.settings.iter().map(|(key, json)| (name(key), plain(json))));
     choices.extend(study.overrides.iter().map(|text| ("changed on the command line".to_owned(), format!("`{text}`"))));
     parts.push(pairs("The choices in force.", choices));
     if !study.constants.is_empty() {
         let constant = |constant: &crate::report::result::ConstantRecord| {
-            (name(&constant.name), with_unit(constant.value, &constant.unit))
+            (name(&constant.name), value(constant.value, &constant.unit))
         };
         let table = pairs("Inputs that are fixed in the study.", study.constants.iter().map(constant).collect());
         parts.push(Part::Details { summary: "Fixed inputs".to_owned(), parts: vec![table] });
@@ -120,7 +120,7 @@ fn distribution(factor: &FactorRecord) -> String {
     let family = keys.get("name").and_then(Value::as_str).unwrap_or("unknown");
     let parameters = keys.iter().filter(|(key, _)| *key != "name");
     let parameters: Vec<String> =
-        parameters.map(|(key, value)| format!("{} {}", key.replace('_', " "), plain(value))).collect();
+        parameters.map(|(key, json)| format!("{} {}", key.replace('_', " "), plain(json))).collect();
     let unit = match factor.unit.as_str() {
         "" | "1" => String::new(),
         unit => format!(" ({unit})"),
@@ -129,19 +129,19 @@ fn distribution(factor: &FactorRecord) -> String {
 }
 
 /// A value of JSON as people write it.
-fn plain(value: &Value) -> String {
-    match value {
+fn plain(json: &Value) -> String {
+    match json {
         Value::Null => "none".to_owned(),
         Value::Bool(true) => "yes".to_owned(),
         Value::Bool(false) => "no".to_owned(),
-        Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), significant),
+        Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), |number| value(number, "")),
         Value::String(text) => text.clone(),
         Value::Array(values) => {
             let more = if values.len() > VALUES { format!("; … ({} in all)", values.len()) } else { String::new() };
             values.iter().take(VALUES).map(plain).collect::<Vec<_>>().join("; ") + &more
         }
         Value::Object(keys) => {
-            let pairs = keys.iter().take(VALUES).map(|(key, value)| format!("{key} {}", plain(value)));
+            let pairs = keys.iter().take(VALUES).map(|(key, json)| format!("{key} {}", plain(json)));
             pairs.collect::<Vec<_>>().join("; ")
         }
     }

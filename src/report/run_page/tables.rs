@@ -1,14 +1,14 @@
 //! The tables of one output.
 
 use super::lead::by_total;
-use super::words::{grouped, half_width, name, share, value};
+use super::words::{give_or_take, grouped, half_width, name, share, value};
 use crate::report::page::{Cell, PageTable, Part};
 use crate::report::result::{
     AggregateIndexRecord, EffectRecord, EstimateRecord, FailureRecord, IndexRecord, OtherIndexRecord, OutputRecord,
     PairRecord, ResultFile,
 };
 use crate::report::significant;
-use crate::report::tables::{chance, give_or_take};
+use crate::report::tables::chance;
 
 /// Most factors in a table; the files have all of them.
 const FACTORS: usize = 50;
@@ -142,7 +142,7 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
     let mut rows: Vec<(String, String)> = Vec::new();
     let mut add = |label: &str, text: Option<String>| rows.extend(text.map(|text| (label.to_owned(), text)));
     let mean = output.mean.map(|mean| match output.mean_interval {
-        Some(i) => format!("{}, 95 % interval {} to {}", number(mean), significant(i.low), significant(i.high)),
+        Some(i) => format!("{} ({} to {})", number(mean), value(i.low, ""), value(i.high, "")),
         None => number(mean),
     });
     let sample = &record.sample;

@@ -10,7 +10,7 @@ fn result(text: &str) -> ResultFile {
 }
 
 fn page(result: &ResultFile) -> Page {
-    run_page(result, &["small.csv".to_owned(), "small.svg".to_owned()]).unwrap()
+    run_page(result, &["small.csv".to_owned(), "small.svg".to_owned()])
 }
 
 fn titles(page: &Page) -> Vec<&str> {

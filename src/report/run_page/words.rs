@@ -1,7 +1,7 @@
 //! Names and numbers in the sentences of the page.
 
 use crate::report::result::{EstimateRecord, IntervalRecord};
-use crate::report::{fixed, significant};
+use crate::report::{fixed, significant, tables};
 
 /// A name of the study as words; a symbol such as `F_cr` stays one.
 pub(super) fn name(name: &str) -> String {
@@ -15,12 +15,13 @@ pub(super) fn the(text: &str) -> String {
 
 /// A name at the beginning of a sentence.
 pub(super) fn first(text: &str) -> String {
-    let words = name(text);
-    let mut letters = words.chars();
-    match letters.next() {
-        Some(letter) if !is_symbol(text) => letter.to_uppercase().chain(letters).collect(),
-        _ => words,
-    }
+    if is_symbol(text) { text.to_owned() } else { capital(&name(text)) }
+}
+
+/// A text with a capital at the beginning.
+pub(super) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |letter| letter.to_uppercase().chain(letters).collect())
 }
 
 fn is_symbol(name: &str) -> bool {
@@ -86,6 +87,24 @@ pub(super) fn value(value: f64, unit: &str) -> String {
     minus(crate::report::asked::short_with_unit(value, unit))
 }
 
+/// An index and the half width of its interval for a table, with four decimals: the files have all digits.
+pub(super) fn give_or_take(record: EstimateRecord) -> String {
+    const LEAST: f64 = 1e-4;
+    let bounds = [record.estimate, record.low.unwrap_or(record.estimate), record.high.unwrap_or(record.estimate)];
+    if bounds.iter().all(|bound| *bound == 0.0) {
+        return "0".to_owned();
+    }
+    if bounds.iter().all(|bound| bound.abs() < LEAST) {
+        return if bounds.iter().all(|bound| *bound > 0.0) { "< 0.0001" } else { "0 ± < 0.0001" }.to_owned();
+    }
+    match (record.low, record.high) {
+        (Some(low), Some(high)) if (high - low) / 2.0 < LEAST / 2.0 => {
+            format!("{} ± < 0.0001", fixed(record.estimate, 4))
+        }
+        _ => tables::give_or_take(record),
+    }
+}
+
 /// Hyphens before digits as minus signs, for numbers in sentences.
 fn minus(text: String) -> String {
     let mut plain = String::with_capacity(text.len());
@@ -126,6 +145,11 @@ mod tests {
         assert_eq!(index(estimate(-0.02, 0.0, 0.02)), "0.00 (−0.02 to 0.02)");
         assert_eq!(percent(estimate(0.3890, 0.3920, 0.3950)), "39.2 % (38.9 to 39.5 %)");
         assert_eq!(percent(EstimateRecord { estimate: 0.5, low: None, high: None }), "50.0 %");
+        assert_eq!(give_or_take(estimate(0.0, 0.0, 0.0)), "0");
+        assert_eq!(give_or_take(estimate(1e-6, 2e-6, 3e-6)), "< 0.0001");
+        assert_eq!(give_or_take(estimate(-2e-5, 1e-5, 4e-5)), "0 ± < 0.0001");
+        assert_eq!(give_or_take(estimate(0.012_34, 0.012_35, 0.012_36)), "0.0123 ± < 0.0001");
+        assert_eq!(give_or_take(estimate(0.48, 0.5, 0.52)), "0.5000 ± 0.0200");
         assert_eq!(half_width(0.012_345), "0.012");
         assert_eq!(list(&["a", "b", "c"].map(str::to_owned)), "a, b and c");
     }

@@ -7,7 +7,7 @@ mod path;
 use super::ChartError;
 use super::figure::{Entry, Figure, Key, Words};
 use super::scale::{Scale, Spacing};
-use super::style::Role;
+use super::style::{ChartWidth, Medium, Role};
 
 /// A figure of lines; its panels stand one above the other and share the horizontal axis.
 ///
@@ -142,12 +142,24 @@ impl LineChart {
     /// # Ok::<(), apportion::report::chart::ChartError>(())
     /// ```
     pub fn svg(&self) -> Result<String, ChartError> {
+        self.svg_at(ChartWidth::Wide)
+    }
+
+    /// The figure as an SVG document for `width`.
+    ///
+    /// # Errors
+    /// As [`svg`](Self::svg).
+    pub fn svg_at(&self, width: ChartWidth) -> Result<String, ChartError> {
+        self.drawn(width.into())
+    }
+
+    pub(super) fn drawn(&self, medium: Medium) -> Result<String, ChartError> {
         if self.panels.is_empty() {
             return Err(ChartError::NoPanels { chart: self.title.clone() });
         }
         let words = Words { title: &self.title, caption: &self.caption };
-        let mut figure = Figure::begin(super::style::WIDTH, words, &self.legend());
-        let bottom = draw::panels(&mut figure, self);
+        let mut figure = Figure::begin(medium, words, &self.legend());
+        let bottom = draw::panels(&mut figure, self, medium.width);
         Ok(figure.finish(bottom, &self.description()))
     }
 
@@ -167,7 +179,7 @@ impl LineChart {
     }
 
     /// Axes and series in words.
-    fn description(&self) -> String {
+    pub(super) fn description(&self) -> String {
         let mut words = format!("Horizontal axis: {}.", self.x.title(0));
         for panel in &self.panels {
             let names: Vec<_> = panel.series.iter().map(|series| series.name.as_str()).collect();

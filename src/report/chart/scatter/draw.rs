@@ -4,39 +4,43 @@ use super::super::bars::labels::Area;
 use super::super::figure::Figure;
 use super::super::plot::{Plot, TICK_GAP, tick_room, title_room};
 use super::super::scale::{Scale, Spacing, Wish};
-use super::super::style::{MARGIN, MUTED, TICK, WIDTH};
+use super::super::style::{ChartWidth, MARGIN, MUTED, TICK};
 use super::super::svg::{Anchor, Canvas, Text};
 use super::super::text::shorten;
 use super::labels::{Place, Wanted, place};
 use super::{Guide, ScatterChart, ScatterPoint};
 
-/// Height of the plot, px.
-const HEIGHT: f64 = 400.0;
+/// Height of the plot, px, and the same on a phone.
+const HEIGHTS: (f64, f64) = (400.0, 290.0);
 /// Room above the plot for the ends of steep guides, px.
 const HEAD: f64 = 18.0;
-/// Longest label of a guide, px.
-const LONGEST_GUIDE: f64 = 120.0;
+/// Longest label of a guide, px, and the same on a phone.
+const LONGEST_GUIDE: (f64, f64) = (120.0, 64.0);
+/// Longest label of a point on a phone, px.
+const LONGEST_LABEL: f64 = 110.0;
 /// Most points that are labelled: more would be a thicket.
 const MOST_LABELS: usize = 60;
 
 /// Draws the plot into the figure's free room; gives the lower edge.
-pub(super) fn plot(figure: &mut Figure, chart: &ScatterChart) -> f64 {
+pub(super) fn plot(figure: &mut Figure, chart: &ScatterChart, page: ChartWidth) -> f64 {
+    let height = page.choose(HEIGHTS.0, HEIGHTS.1);
     let points = || chart.series.iter().flat_map(|series| &series.points);
-    let x = scale(points().map(|point| point.x));
-    let y = scale(points().map(|point| point.y));
+    let x = scale(points().map(|point| point.x), page.choose(6, 4));
+    let y = scale(points().map(|point| point.y), 6);
     let y_title = chart.y.title(y.exponent);
-    let left = MARGIN + title_room(&y_title, HEIGHT) + tick_room(&y);
-    let beside = chart.guides.iter().map(|guide| TICK.width(&guide_label(guide)) + 4.0).fold(0.0, f64::max);
+    let left = MARGIN + title_room(&y_title, height) + tick_room(&y);
+    let beside = chart.guides.iter().map(|guide| TICK.width(&guide_label(guide, page)) + 4.0).fold(0.0, f64::max);
     let overhang = x.ticks.last().map_or(0.0, |tick| TICK.width(&tick.label) / 2.0 + 4.0);
-    let width = WIDTH - left - MARGIN - beside.max(overhang);
-    let plot = Plot { left, top: figure.top + HEAD, width, height: HEIGHT };
+    let width = page.px() - left - MARGIN - beside.max(overhang);
+    let plot = Plot { left, top: figure.top + HEAD, width, height };
+    let x = if page == ChartWidth::Narrow { x.with_room(width) } else { x };
     let canvas = &mut figure.canvas;
     canvas.open("g", &[("class", &"panel")]);
     plot.x_grid(canvas, &x);
     plot.y_axis(canvas, &y);
     plot.y_title(canvas, &y_title, left - tick_room(&y) - TICK_GAP - 3.0);
     plot.axis_lines(canvas);
-    let sheet = Sheet { chart, plot, x: &x, y: &y };
+    let sheet = Sheet { chart, plot, x: &x, y: &y, page };
     sheet.guides(canvas);
     sheet.labels(canvas);
     sheet.points(canvas);
@@ -48,8 +52,8 @@ pub(super) fn plot(figure: &mut Figure, chart: &ScatterChart) -> f64 {
 }
 
 /// Zero belongs to both axes, and a little air above the largest value.
-fn scale(values: impl Iterator<Item = f64>) -> Scale {
-    Scale::over(values.chain([0.0]), Wish { spacing: Spacing::Linear, air: 0.06, steps: 6 })
+fn scale(values: impl Iterator<Item = f64>, steps: usize) -> Scale {
+    Scale::over(values.chain([0.0]), Wish { spacing: Spacing::Linear, air: 0.06, steps })
 }
 
 struct Sheet<'a> {
@@ -57,6 +61,7 @@ struct Sheet<'a> {
     plot: Plot,
     x: &'a Scale,
     y: &'a Scale,
+    page: ChartWidth,
 }
 
 impl Sheet<'_> {
@@ -87,7 +92,7 @@ impl Sheet<'_> {
             canvas.open("g", &[("stroke", &MUTED), ("stroke-width", &"1"), ("stroke-dasharray", &"5 4")]);
             canvas.line(origin, end);
             canvas.close("g");
-            let label = guide_label(guide);
+            let label = guide_label(guide, self.page);
             let text = if steep {
                 Text::new(&label, (end.0, end.1 - 4.0), TICK).anchor(Anchor::Middle)
             } else {
@@ -102,13 +107,14 @@ impl Sheet<'_> {
         let points = self.chart.series.iter().flat_map(|series| &series.points);
         let mut shown: Vec<_> = points.filter_map(|point| Some((point, self.at(point)?))).collect();
         shown.sort_by(|a, b| b.0.x.total_cmp(&a.0.x).then(b.0.y.total_cmp(&a.0.y)));
+        let words = |label: &str| self.page.choose(label.to_owned(), shorten(label, LONGEST_LABEL, TICK));
         let wanted: Vec<Wanted> = shown
             .iter()
             .enumerate()
             .map(|(number, (point, at))| {
                 // Without a label, or beyond the most labels, there is no room of any width.
                 let labelled = number < MOST_LABELS && !point.label.trim().is_empty();
-                let width = if labelled { TICK.width(&point.label) } else { f64::INFINITY };
+                let width = if labelled { TICK.width(&words(&point.label)) } else { f64::INFINITY };
                 Wanted { at: *at, width, height: TICK.cap_height() }
             })
             .collect();
@@ -124,7 +130,8 @@ impl Sheet<'_> {
                 canvas.close("g");
             }
             let middle = ((area.left + area.right) / 2.0, (area.top + area.bottom + TICK.cap_height()) / 2.0);
-            canvas.text(&Text::new(&point.label, middle, TICK).anchor(Anchor::Middle).halo());
+            let label = words(&point.label);
+            canvas.text(&Text::new(&label, middle, TICK).anchor(Anchor::Middle).halo().whole(&point.label));
         }
         canvas.close("g");
     }
@@ -142,8 +149,8 @@ impl Sheet<'_> {
 }
 
 /// The label of a guide, shortened if need be: it takes its room from the plot.
-fn guide_label(guide: &Guide) -> String {
-    shorten(&guide.label, LONGEST_GUIDE, TICK)
+fn guide_label(guide: &Guide, page: ChartWidth) -> String {
+    shorten(&guide.label, page.choose(LONGEST_GUIDE.0, LONGEST_GUIDE.1), TICK)
 }
 
 /// Length of one unit of a linear scale that is so many px long.

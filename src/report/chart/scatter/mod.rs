@@ -6,7 +6,7 @@ mod labels;
 use super::ChartError;
 use super::figure::{Entry, Figure, Key, Words};
 use super::lines::Axis;
-use super::style::{Role, WIDTH};
+use super::style::{ChartWidth, Medium, Role};
 
 /// A figure of labelled points; both axes begin at zero or below.
 ///
@@ -86,12 +86,24 @@ impl ScatterChart {
     /// # Ok::<(), apportion::report::chart::ChartError>(())
     /// ```
     pub fn svg(&self) -> Result<String, ChartError> {
+        self.svg_at(ChartWidth::Wide)
+    }
+
+    /// The figure as an SVG document for `width`.
+    ///
+    /// # Errors
+    /// As [`svg`](Self::svg).
+    pub fn svg_at(&self, width: ChartWidth) -> Result<String, ChartError> {
+        self.drawn(width.into())
+    }
+
+    pub(super) fn drawn(&self, medium: Medium) -> Result<String, ChartError> {
         if self.series.is_empty() {
             return Err(ChartError::NoPanels { chart: self.title.clone() });
         }
         let words = Words { title: &self.title, caption: &self.caption };
-        let mut figure = Figure::begin(WIDTH, words, &self.legend());
-        let bottom = draw::plot(&mut figure, self);
+        let mut figure = Figure::begin(medium, words, &self.legend());
+        let bottom = draw::plot(&mut figure, self, medium.width);
         Ok(figure.finish(bottom, &self.description()))
     }
 
@@ -102,7 +114,7 @@ impl ScatterChart {
     }
 
     /// Axes and points in words.
-    fn description(&self) -> String {
+    pub(super) fn description(&self) -> String {
         let mut words = format!("Horizontal axis: {}. Vertical axis: {}.", self.x.title(0), self.y.title(0));
         for series in &self.series {
             for point in &series.points {

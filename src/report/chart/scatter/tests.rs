@@ -1,6 +1,7 @@
 use resvg::usvg::roxmltree::Document;
 
-use super::super::reading::{groups, number, only_finite, path_numbers, texts, y_axis};
+use super::super::Chart;
+use super::super::reading::{assert_narrow, groups, number, only_finite, path_numbers, texts, y_axis};
 use super::*;
 use proptest::prelude::*;
 
@@ -40,6 +41,15 @@ fn points_stand_at_their_values_and_guides_run_through_them() {
     }
     assert_eq!(texts(groups(&document, "labels")[0]), ["thickness", "length"]);
     assert_eq!(texts(groups(&document, "guides")[0]), ["σ = 0.5 μ*", "σ = 2 μ*"]);
+}
+
+#[test]
+fn a_phone_shows_everything_inside() {
+    let long = "the name of a factor that leaves no room for anything else";
+    let points = vec![point(40_000.0, 20.0, long), point(10.0, 20_000.0, "length"), point(40_000.0, 20_000.0, "width")];
+    for slopes in [&[][..], &[0.1, 0.5, 1.0, 1e3]] {
+        assert_narrow(&Chart::Scatter(chart(points.clone(), slopes)));
+    }
 }
 
 #[test]
