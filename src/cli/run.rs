@@ -7,8 +7,8 @@ use apportion::analyse;
 use apportion::report::chart::{Chart, png};
 use apportion::report::{
     OutputRecord, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv, indices_csv,
-    inputs_in_words, prepare_file, prepare_folder, result_json, second_order_csv, study_chart, summary,
-    write_atomically,
+    inputs_in_words, output_stem, prepare_file, prepare_folder, result_json, run_page, second_order_csv, study_chart,
+    summary, write_atomically,
 };
 use apportion::run::RunError;
 use apportion::study::Study;
@@ -89,6 +89,8 @@ pub struct ResultFileName {
 
 enum Kind {
     Text(fn(&ResultFile) -> String),
+    /// The page, which links to the other files.
+    Page,
     /// The chart of the output of that number, as SVG.
     Svg(Draw, usize),
     /// The same as PNG.
@@ -99,7 +101,8 @@ type Draw = fn(&ResultFile, &OutputRecord) -> Chart;
 
 /// The files that a run of `study` writes.
 pub fn files(study: &Study) -> Vec<ResultFileName> {
-    let mut files = Vec::new();
+    let page = format!("{}.html", study.name);
+    let mut files = vec![ResultFileName { name: page, content: "the result as a page, to read", kind: Kind::Page }];
     let mut table = |suffix: &str, content, text| {
         let name = format!("{}{suffix}", study.name);
         files.push(ResultFileName { name, content, kind: Kind::Text(text) });
@@ -120,8 +123,7 @@ pub fn files(study: &Study) -> Vec<ResultFileName> {
     ];
     let model = study.model();
     for (number, output) in model.outputs().iter().enumerate() {
-        let one = model.outputs().len() == 1;
-        let stem = if one { study.name.clone() } else { format!("{}-{}", study.name, output.name) };
+        let stem = output_stem(&study.name, &output.name, model.outputs().len());
         for (suffix, content, draw) in charts {
             let name = format!("{stem}{suffix}.svg");
             files.push(ResultFileName { name, content, kind: Kind::Svg(draw, number) });
@@ -136,9 +138,13 @@ fn write_files(folder: &Path, study: &Study, result: &ResultFile) -> Result<Vec<
     let drawn = |draw: Draw, number: usize| {
         draw(result, &result.outputs[number]).svg().map_err(|error| Failure::Run(error.into()))
     };
-    let mut written = Vec::new();
-    for file in files(study) {
+    let files = files(study);
+    let others = files.iter().filter(|file| !matches!(file.kind, Kind::Page)).map(|file| file.name.clone());
+    let others: Vec<String> = others.collect();
+    let mut written = Vec::with_capacity(files.len());
+    for file in files {
         let bytes = match file.kind {
+            Kind::Page => run_page(result, &others).html().map_err(|error| Failure::Run(error.into()))?.into_bytes(),
             Kind::Text(text) => text(result).into_bytes(),
             Kind::Svg(draw, number) => drawn(draw, number)?.into_bytes(),
             Kind::Png(draw, number) => png(&drawn(draw, number)?).map_err(|error| Failure::Run(error.into()))?.bytes,

@@ -3,6 +3,14 @@
 //! A [`Page`] is plain data; [`Page::html`] sets it. The page of a study's result and that of the reproduction are made
 //! of the same parts.
 
+mod anchors;
+mod drawing;
+mod html;
+mod symbols;
+
+pub use html::PageError;
+pub use symbols::symbols;
+
 use crate::report::chart::Chart;
 
 /// A page.
@@ -48,6 +56,17 @@ pub enum Part {
     Table(PageTable),
     /// Links to files beside the page.
     Links(Vec<Link>),
+    /// Sentences that must not be overlooked, set off by a mark.
+    Notice {
+        /// Good, mixed or bad news; a badge with its symbol.
+        mark: Mark,
+        /// What kind of news in a word or two, such as `warning`.
+        kind: String,
+        /// The sentences, a paragraph each.
+        texts: Vec<String>,
+    },
+    /// Lines to be read as they were typed, such as a study file.
+    Code(String),
     /// Another page set into this one, such as an animation, in a frame as high as its content; not printed.
     Frame {
         /// What it shows, for screen readers.
@@ -126,4 +145,16 @@ pub enum Mark {
     Mixed,
     /// As a badge of bad news.
     Bad,
+}
+
+impl Cell {
+    /// A cell of plain text.
+    pub fn plain(text: impl Into<String>) -> Self {
+        Self { text: text.into(), ..Self::default() }
+    }
+
+    /// A cell set off by `mark`.
+    pub fn marked(text: impl Into<String>, mark: Mark) -> Self {
+        Self { text: text.into(), mark, to: None }
+    }
 }

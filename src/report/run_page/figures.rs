@@ -1,0 +1,66 @@
+//! The charts of a run as figures of the page, numbered through.
+
+use super::beside::{Beside, output_stem};
+use super::words::{capital, the};
+use crate::report::chart::Chart;
+use crate::report::page::{PageFigure, Part};
+use crate::report::result::{OutputRecord, ResultFile};
+use crate::report::{convergence_chart, distribution_chart, study_chart};
+
+/// Draws the figures of one output after the other.
+pub(super) struct Figures<'a> {
+    pub result: &'a ResultFile,
+    pub beside: Beside<'a>,
+    /// Figures so far.
+    pub count: usize,
+}
+
+/// An output, and its number from 1.
+#[derive(Clone, Copy)]
+pub(super) struct Numbered<'a> {
+    pub output: &'a OutputRecord,
+    pub number: usize,
+}
+
+impl Figures<'_> {
+    pub fn shares(&mut self, of: Numbered<'_>) -> Part {
+        let mut chart = study_chart(self.result, of.output);
+        set_title(&mut chart, format!("Shares of {}", the(&of.output.name)));
+        self.figure(of, "", ("shares", chart))
+    }
+
+    pub fn convergence(&mut self, of: Numbered<'_>) -> Part {
+        self.figure(of, "-convergence", ("convergence", convergence_chart(self.result, of.output)))
+    }
+
+    pub fn distribution(&mut self, of: Numbered<'_>) -> Part {
+        self.figure(of, "-distribution", ("distribution", distribution_chart(self.result, of.output)))
+    }
+
+    fn figure(&mut self, of: Numbered<'_>, suffix: &str, (name, mut chart): (&str, Chart)) -> Part {
+        self.count += 1;
+        let stem = output_stem(self.beside.study, &of.output.name, self.result.outputs.len());
+        let study = &self.result.study;
+        let headline = format!("{}: ", study.title.as_ref().unwrap_or(&study.name));
+        // The page has the study's title at its top.
+        if let Some(title) = chart.title().strip_prefix(&headline).map(capital) {
+            set_title(&mut chart, title);
+        }
+        Part::Figure(Box::new(PageFigure {
+            id: format!("figure-{}-{name}", of.number),
+            label: format!("Figure {}", self.count),
+            beside: String::new(),
+            chart,
+            links: self.beside.pictures(&format!("{stem}{suffix}")),
+        }))
+    }
+}
+
+fn set_title(chart: &mut Chart, title: String) {
+    match chart {
+        Chart::Bars(chart) => chart.title = title,
+        Chart::Lines(chart) => chart.title = title,
+        Chart::Scatter(chart) => chart.title = title,
+        _ => (),
+    }
+}
