@@ -1,12 +1,135 @@
 //! The readings as charts.
 
-use super::Readings;
-use crate::report::chart::Chart;
+use super::catalogue::{BASE, SMALL_SAMPLES, symbol};
+use super::nearest::{ALIKE, Joint, distinct, joint};
+use super::{Effect, Estimators, Readings, SmallSample};
+use crate::model::AfmOutput;
+use crate::report::chart::{
+    Axis, Chart, LineChart, LinePanel, LineSeries, Range, RangeBars, RangeRow, Role, Spacing, Stroke,
+};
+use crate::report::fixed;
+use crate::reproduce::{GROUPS, published};
 
-pub fn distance_chart(_readings: &Readings) -> Chart {
-    todo!()
+/// Most readings that are drawn, the nearest ones.
+const MOST: usize = 32;
+
+/// How far every reading is from the printed percentages: a row for each, the nearest on the mean of the groups first, a
+/// bar for each group. Readings that are alike share a row.
+pub fn distance_chart(readings: &Readings) -> Chart {
+    let all = joint(readings).len();
+    let distinct = distinct(readings);
+    let drawn = &distinct[..distinct.len().min(MOST)];
+    let bar = |(group, distance): (usize, f64)| Range { role: Role::Other(group), from: 0.0, to: distance };
+    let row = |joint: &Joint<'_>| RangeRow {
+        name: joint.name(),
+        bars: joint.of_groups.iter().map(|reading| reading.distance).enumerate().map(bar).collect(),
+        interval: None,
+        note: match joint.alike.len() {
+            0 => format!("mean {}", fixed(joint.mean, 1)),
+            alike => format!("mean {}; {alike} more alike", fixed(joint.mean, 1)),
+        },
+    };
+    Chart::Ranges(RangeBars {
+        title: "How far each reading is from the printed percentages".to_owned(),
+        caption: caption(all, &distinct, drawn),
+        x: Axis { label: "distance to the printed percentages".into(), unit: "points".into(), ..Axis::default() },
+        reference: None,
+        series: GROUPS.iter().enumerate().map(|(number, group)| (printed(group.key), Role::Other(number))).collect(),
+        interval_label: String::new(),
+        rows: drawn.iter().map(row).collect(),
+    })
 }
 
-pub fn small_sample_chart(_readings: &Readings) -> Chart {
-    todo!()
+fn caption(all: usize, distinct: &[Joint<'_>], drawn: &[Joint<'_>]) -> String {
+    let seen = drawn.first().map_or_else(String::new, |nearest| {
+        format!(
+            "The nearest reading, {}, is still up to {} percentage points away",
+            nearest.name(),
+            fixed(nearest.largest(), 1)
+        )
+    });
+    let left_out = match distinct.len() - drawn.len() {
+        0 => String::new(),
+        more => format!(", and {more} farther ones are in the table alone"),
+    };
+    format!(
+        "{seen}; root mean square over the printed factors and all others together, {all} readings, of which those within \
+         {ALIKE} points of each other share a row{left_out}."
+    )
+}
+
+/// A group with what LG prints of it, such as `environmental: E 74, V 26 %`.
+fn printed(group: &str) -> String {
+    let shares = published(group, "lugre").shares.iter();
+    let shares: Vec<String> = shares.map(|(factor, share)| format!("{} {share}", letter(factor))).collect();
+    format!("{group}: {} %", shares.join(", "))
+}
+
+/// The symbol of a factor in the papers.
+fn letter(factor: &str) -> &str {
+    crate::afm::Parameter::from_name(factor).map_or(factor, |parameter| parameter.symbol)
+}
+
+/// How the percentage of the first printed factor of each group scatters with the size of the sample, in the base
+/// reading, by the estimators of Saltelli and Jansen: median and the middle 95 % of the repetitions.
+pub fn small_sample_chart(readings: &Readings) -> Chart {
+    let of_base = |sample: &&SmallSample| sample.variant == BASE && sample.estimators == Estimators::SaltelliJansen;
+    let samples: Vec<&SmallSample> = readings.small_samples.iter().filter(of_base).collect();
+    let repetitions = samples.first().map_or(0, |sample| sample.repetitions);
+    let panels = GROUPS.iter().map(|group| {
+        let of_group: Vec<&SmallSample> = samples.iter().copied().filter(|sample| sample.group == group.key).collect();
+        panel(group.key, &of_group)
+    });
+    Chart::Lines(LineChart {
+        title: "What chance makes of the percentages of small samples".to_owned(),
+        caption: format!(
+            "Medians and the middle 95 % of {repetitions} repetitions with N random base points under LuGre friction, \
+             estimators of Saltelli (2010) and Jansen (1999): the printed percentages lie within reach of chance where \
+             the dashed line runs through a band."
+        ),
+        x: Axis { label: "base samples N".into(), unit: String::new(), spacing: Spacing::Logarithmic },
+        panels: panels.collect(),
+    })
+}
+
+fn panel(group: &str, samples: &[&SmallSample]) -> LinePanel {
+    let Some((factor, value)) = published(group, "lugre").shares.first().copied() else {
+        return LinePanel { title: group.to_owned(), y: Axis::default(), series: Vec::new(), markers: Vec::new() };
+    };
+    let kinds = [
+        (Effect::FirstOrder, AfmOutput::CriticalForce),
+        (Effect::Total, AfmOutput::CriticalForce),
+        (Effect::FirstOrder, AfmOutput::LogCriticalForce),
+        (Effect::Total, AfmOutput::LogCriticalForce),
+    ];
+    let line = |(number, (effect, output)): (usize, (Effect, AfmOutput))| {
+        let of_kind = samples.iter().filter(|sample| (sample.effect, sample.output) == (effect, output));
+        let quantiles: Vec<(f64, [f64; 5])> = of_kind
+            .filter_map(|sample| {
+                let factor = sample.factors.iter().find(|candidate| candidate.factor == factor)?;
+                Some((sample.base_samples as f64, factor.quantiles?))
+            })
+            .collect();
+        LineSeries {
+            name: format!("{} of {}", effect.symbol(), symbol(output)),
+            role: Role::Other(number),
+            stroke: Stroke::SolidWithPoints,
+            points: quantiles.iter().map(|&(n, [_, _, median, _, _])| (n, median)).collect(),
+            band: quantiles.iter().map(|&(n, [low, _, _, _, high])| (n, low, high)).collect(),
+        }
+    };
+    let mut series: Vec<LineSeries> = kinds.into_iter().enumerate().map(line).collect();
+    series.push(LineSeries {
+        name: "printed".to_owned(),
+        role: Role::Reference,
+        stroke: Stroke::Dashed,
+        points: SMALL_SAMPLES.map(|n| (n as f64, value)).to_vec(),
+        band: Vec::new(),
+    });
+    LinePanel {
+        title: format!("{group}: {} {value} % printed", letter(factor)),
+        y: Axis { label: format!("share of {}", letter(factor)), unit: "%".into(), ..Axis::default() },
+        series,
+        markers: Vec::new(),
+    }
 }

@@ -8,6 +8,7 @@
 pub mod catalogue;
 mod charts;
 mod distance;
+mod nearest;
 mod one_at_a_time;
 mod shares;
 mod small_samples;

@@ -1,7 +1,177 @@
-//! What the readings say, in sentences.
+//! What the readings say, in sentences made from the numbers.
 
-use super::Readings;
+use super::catalogue::{BASE, variant};
+use super::nearest::{Joint, joint, name};
+use super::{Chance, Effect, Estimators, Reading, Readings, SmallSample};
+use crate::model::AfmOutput;
+use crate::report::fixed;
+use crate::reproduce::{GROUPS, published};
 
-pub fn summary(_readings: &Readings) -> Vec<String> {
-    Vec::new()
+/// Percentage points within which a reading meets a group: three times the rounding of the printed numbers.
+const MEETS: f64 = 1.5;
+
+/// What the readings say: the nearest of each group; whether one meets all three; what the printed percentages do not say
+/// and where they contradict each other; how probable they are by chance.
+pub fn summary(readings: &Readings) -> Vec<String> {
+    let mut sentences: Vec<String> = GROUPS.iter().filter_map(|group| nearest(readings, group.key)).collect();
+    sentences.extend(all_groups(readings));
+    sentences.extend(environment(readings));
+    sentences.push(unsaid());
+    sentences.extend(contradiction(readings));
+    sentences.extend(GROUPS.iter().flat_map(|group| chances(readings, group.key)));
+    sentences
+}
+
+/// The reading of a group that is nearest to what is printed.
+fn nearest(readings: &Readings, group: &str) -> Option<String> {
+    let of_group: Vec<&Reading> = readings.rows.iter().filter(|reading| reading.group == group).collect();
+    let nearest = of_group.iter().min_by(|a, b| a.distance.total_cmp(&b.distance))?;
+    Some(format!(
+        "{}: of {} readings the nearest is {}, {} points away: {}.",
+        capitalised(group),
+        of_group.len(),
+        name(nearest),
+        fixed(nearest.distance, 1),
+        against_printed(nearest)
+    ))
+}
+
+/// The shares of the printed factors beside the printed ones, such as `thickness 76.8 % (printed 76)`.
+fn against_printed(reading: &Reading) -> String {
+    let shares = published(reading.group, "lugre").shares.iter().filter_map(|(factor, printed)| {
+        let share = reading.shares.iter().find(|share| share.factor == *factor)?;
+        Some(format!("{} {} % (printed {printed})", factor.replace('_', " "), fixed(share.share, 1)))
+    });
+    shares.collect::<Vec<_>>().join(", ")
+}
+
+/// Whether one reading meets all groups.
+fn all_groups(readings: &Readings) -> Option<String> {
+    let joint = joint(readings);
+    let meeting: Vec<String> = joint.iter().filter(|reading| reading.largest() <= MEETS).map(Joint::name).collect();
+    if !meeting.is_empty() {
+        return Some(format!("All three groups are met to {MEETS} points by: {}.", meeting.join("; ")));
+    }
+    let nearest = joint.iter().min_by(|a, b| a.mean.total_cmp(&b.mean))?;
+    let distances: Vec<String> =
+        nearest.of_groups.iter().map(|reading| format!("{} {}", reading.group, fixed(reading.distance, 1))).collect();
+    Some(format!(
+        "No reading meets all three groups to {MEETS} points; the nearest on the mean is {}: {} points.",
+        nearest.name(),
+        distances.join(", ")
+    ))
+}
+
+/// What it takes for velocity to act beside the elastic modulus.
+fn environment(readings: &Readings) -> Option<String> {
+    const GROUP: &str = "environmental";
+    let of_group = || readings.rows.iter().filter(|reading| reading.group == GROUP);
+    let velocity = |reading: &Reading| reading.shares.iter().find(|s| s.factor == "velocity").map(|s| s.share);
+    let of_base = of_group().filter(|reading| reading.variant == BASE).filter_map(velocity).fold(0.0, f64::max);
+    let mut meeting: Vec<&str> = of_group()
+        .filter(|reading| reading.distance <= MEETS)
+        .map(|reading| variant(reading.variant).map_or(reading.variant, |variant| variant.name))
+        .collect();
+    meeting.dedup();
+    let meeting = if meeting.is_empty() { "no reading".to_owned() } else { meeting.join(", ") };
+    // The least that is printed as 1 %.
+    let of_base = if of_base < 0.5 { "less than 0.5".to_owned() } else { fixed(of_base, 1) };
+    Some(format!(
+        "With the printed constants and no error of marching, velocity has {of_base} % of the environmental study; the \
+         printed {} % is met to {MEETS} points by {meeting}, which rests on a number that is not printed (a viscous \
+         coefficient, a time step): it shows what could make the percentages, not what did.",
+        published(GROUP, "lugre").shares.iter().find(|(factor, _)| *factor == "velocity")?.1
+    ))
+}
+
+fn unsaid() -> String {
+    "LG does not print what the percentages are of: first-order or total indices, of which output, at which sample size, \
+     with which error."
+        .to_owned()
+}
+
+/// The thickness among thickness, length and width, which in a product is the same in both studies.
+fn contradiction(readings: &Readings) -> Option<String> {
+    let among = |share: &dyn Fn(&str) -> Option<f64>| -> Option<f64> {
+        let [t, l, w] = [share("thickness")?, share("length")?, share("width")?];
+        Some(100.0 * t / (t + l + w))
+    };
+    let printed = |group: &str, factor: &str| {
+        published(group, "lugre").shares.iter().find(|(name, _)| *name == factor).map(|(_, share)| *share)
+    };
+    let ours = |group: &str, effect: Effect, output: AfmOutput| {
+        let of = |reading: &&Reading| {
+            (reading.group, reading.variant, reading.effect, reading.output) == (group, BASE, effect, output)
+        };
+        let reading = readings.rows.iter().find(of)?;
+        among(&|factor| reading.shares.iter().find(|share| share.factor == factor).map(|share| share.share))
+    };
+    let both = |effect, output| {
+        Some(format!(
+            "{} and {}",
+            fixed(ours("dimensional", effect, output)?, 1),
+            fixed(ours("general", effect, output)?, 1)
+        ))
+    };
+    Some(format!(
+        "They contradict each other: where F_cr is a product of powers, thickness has the same part of the percentages of \
+         thickness, length and width in the dimensional and in the general study (ours under LuGre: {} % by S1, {} % by \
+         ST of F_cr, {} % by S1 of ln F_cr); printed are {} and {} %.",
+        both(Effect::FirstOrder, AfmOutput::CriticalForce)?,
+        both(Effect::Total, AfmOutput::CriticalForce)?,
+        both(Effect::FirstOrder, AfmOutput::LogCriticalForce)?,
+        fixed(printed("dimensional", "thickness")?, 0),
+        fixed(among(&|factor| printed("general", factor))?, 1)
+    ))
+}
+
+/// How probable the printed percentages of a group are in small samples, at most, for each variant and output.
+fn chances(readings: &Readings, group: &str) -> Vec<String> {
+    let mut kinds: Vec<(&str, AfmOutput)> = Vec::new();
+    for sample in readings.small_samples.iter().filter(|sample| sample.group == group) {
+        if !kinds.contains(&(sample.variant, sample.output)) {
+            kinds.push((sample.variant, sample.output));
+        }
+    }
+    let sentence = |(id, output): &(&str, AfmOutput)| {
+        let of_kind = |sample: &&SmallSample| (sample.group, sample.variant, sample.output) == (group, *id, *output);
+        let most = |chance: fn(&SmallSample) -> Chance| {
+            readings.small_samples.iter().filter(of_kind).max_by_key(|sample| chance(sample).count)
+        };
+        let (one, three) = (most(|sample| sample.within_1)?, most(|sample| sample.within_3)?);
+        Some(format!(
+            "{}, {}, {}: of {} random samples at most {} meet all printed percentages to 1 point{}, {} to 3 points{}.",
+            capitalised(group),
+            variant(id).map_or(*id, |variant| variant.name),
+            super::catalogue::symbol(*output),
+            one.repetitions,
+            in_percent(one.within_1),
+            circumstances(one, one.within_1),
+            in_percent(three.within_3),
+            circumstances(three, three.within_3)
+        ))
+    };
+    kinds.iter().filter_map(sentence).collect()
+}
+
+fn in_percent(chance: Chance) -> String {
+    let Chance { share, low, high, .. } = chance;
+    format!("{} % [{}, {}]", fixed(100.0 * share, 1), fixed(100.0 * low, 1), fixed(100.0 * high, 1))
+}
+
+/// Where the most of them occurred, if any did.
+fn circumstances(sample: &SmallSample, chance: Chance) -> String {
+    let estimators = match sample.estimators {
+        Estimators::SaltelliJansen => "centred",
+        Estimators::SobolHommaSaltelli => "uncentred",
+    };
+    match chance.count {
+        0 => String::new(),
+        _ => format!(" ({} at N = {}, {estimators})", sample.effect.symbol(), sample.base_samples),
+    }
+}
+
+fn capitalised(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -18,3 +18,19 @@ fn look() {
     std::fs::write("/tmp/rd/readings.csv", readings_csv(&all)).unwrap();
     std::fs::write("/tmp/rd/small.csv", small_samples_csv(&all)).unwrap();
 }
+
+#[test]
+fn look_charts() {
+    let effort = if std::env::var("FULL").is_ok() { Effort::Full } else { Effort::Quick };
+    let all = readings(effort, 0, &|_, _| ()).unwrap();
+    for line in summary(&all) {
+        eprintln!("{line}");
+    }
+    for (name, chart) in [("distance", distance_chart(&all)), ("small", small_sample_chart(&all))] {
+        let svg = chart.svg().unwrap();
+        std::fs::write(format!("/tmp/rd/{name}.png"), crate::report::chart::png(&svg).unwrap().bytes).unwrap();
+    }
+    std::fs::write("/tmp/rd/r.json", readings_json(&all)).unwrap();
+    std::fs::write("/tmp/rd/readings.csv", readings_csv(&all)).unwrap();
+    std::fs::write("/tmp/rd/small.csv", small_samples_csv(&all)).unwrap();
+}

@@ -1,5 +1,5 @@
 use super::*;
-use crate::report::chart::{Axis, Chart, Guide, Picture, Role, ScatterChart, ScatterPoint, ScatterSeries};
+use crate::report::chart::{Axis, Chart, Drawing, Guide, Picture, Role, ScatterChart, ScatterPoint, ScatterSeries};
 use crate::report::page::Section;
 
 fn scatter(title: &str) -> Chart {
@@ -123,7 +123,10 @@ fn a_chart_without_data_is_an_error_with_its_figure() {
 
 #[test]
 fn pictures_have_their_own_narrow_drawing() {
-    let picture = |svg: &str| format!("<svg role=\"img\"><title>T</title><text>{svg}</text></svg>");
+    let picture = |words: &str| {
+        let inline = format!("<svg role=\"img\"><title>T</title><text>{words}</text></svg>");
+        Drawing { document: String::new(), inline }
+    };
     let words = ("Mode diagram".to_owned(), "Caption.".to_owned());
     let chart = Chart::Picture(Picture {
         title: words.0,
