@@ -1,14 +1,9 @@
 //! Our shares beside the published ones: as a table for people, as CSV for programs.
 
+use super::order::{Agreement, Standing, VISIBLE, order_of, outweighing};
+use super::published::CLOSE;
 use super::{GROUPS, Published, Reproduced, published};
 use crate::report::{EffectRecord, IndexRecord, estimate, fixed, share, share_of_runs, table};
-
-/// A published percentage counts as ours if it lies within one percentage point.
-const CLOSE: f64 = 1.0;
-
-/// A factor counts as having a share from this many percent on: less would be printed as 0 in whole percents, which is
-/// how LG prints, and is hardly to be seen as a bar.
-const VISIBLE: f64 = 0.5;
 
 /// The table that `reproduce` prints: for each group of studies the shares of every factor under every friction model,
 /// then the order of the factors, ours and the published one, and whether they agree.
@@ -26,7 +21,7 @@ pub fn comparison_table(studies: &[Reproduced]) -> String {
         for member in members() {
             text.push_str(&verdict(member));
         }
-        text.extend(members().filter_map(outweighing));
+        text.extend(members().filter_map(weights));
         text.extend(members().map(validity));
         text.extend(members().flat_map(warnings));
     }
@@ -80,56 +75,31 @@ fn published_share(print: &Published, index: &IndexRecord) -> String {
     }
 }
 
-/// Factors with a visible total share, the largest first.
-fn ranking(member: &Reproduced) -> Vec<&str> {
-    let mut ranked: Vec<(&str, f64)> = indices(member)
-        .iter()
-        .filter_map(|index| Some((index.factor.as_str(), index.effect.share_total?)))
-        .filter(|(_, share)| *share >= VISIBLE)
-        .collect();
-    ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
-    ranked.into_iter().map(|(factor, _)| factor).collect()
-}
-
-/// How our order of the factors stands to a published one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Order {
-    /// The same factors in the same order.
-    Same,
-    /// Ours is the beginning of the published one; the factors after it have no visible share of ours.
-    Beginning,
-    /// Neither.
-    Other,
-}
-
-fn compare_order(ours: &[&str], published: &[&str]) -> Order {
-    match published.strip_prefix(ours) {
-        Some([]) => Order::Same,
-        Some(_) => Order::Beginning,
-        None => Order::Other,
-    }
-}
-
 /// What is to be said about one study: the order of its factors and its printed percentages against ours.
 fn verdict(member: &Reproduced) -> String {
-    let print = published(member.group.key, member.friction.key);
-    let ours = ranking(member);
-    let order = match compare_order(&ours, print.ranking) {
-        Order::Same => "the published order of",
-        Order::Beginning => "the beginning of the published order of",
-        Order::Other => "NOT the published order of",
+    let (order, print) = order_of(member);
+    let of_print = format!("{} ({})", print.source, print.ranking.join(" > "));
+    let names = |pairs: Vec<(&str, &str)>, joint: &str| {
+        pairs.iter().map(|(one, other)| format!("{one} {joint} {other}")).collect::<Vec<_>>().join(", ")
     };
-    let invisible: Vec<&str> = print.ranking.iter().copied().filter(|factor| !ours.contains(factor)).collect();
-    let without = match invisible[..] {
+    let stands = match order.agreement() {
+        Agreement::Same => format!("the published order of {of_print}"),
+        Agreement::Beginning => format!("the beginning of the published order of {of_print}"),
+        Agreement::Undecided => format!(
+            "not decided at this sample size whether the published order of {of_print}: the intervals of the total shares \
+             leave open {}",
+            names(order.pairs_that_are(Standing::Undecided), "before")
+        ),
+        Agreement::Other => format!("NOT the published order of {of_print}"),
+    };
+    let without = match order.unseen[..] {
         [] => String::new(),
-        _ => format!("; no total share of ours reaches {VISIBLE} % for {}", invisible.join(", ")),
+        _ => format!("; no total share of ours reaches {VISIBLE} % for {}", order.unseen.join(", ")),
     };
     format!(
-        "{}: {}: {order} {} ({}){without}.\n{}",
+        "{}: {}: {stands}{without}.\n{}",
         member.friction.name,
-        ours.join(" > "),
-        print.source,
-        print.ranking.join(" > "),
+        order.ours.join(" > "),
         printed_against_ours(member, &print)
     )
 }
@@ -155,21 +125,17 @@ fn printed_against_ours(member: &Reproduced, print: &Published) -> String {
 }
 
 /// Claim 20: whether the dimensions outweigh the environment, by the groups of the general study.
-fn outweighing(member: &Reproduced) -> Option<String> {
-    let groups = member.result.outputs[0].groups.as_ref()?;
-    let total = |name: &str| groups.iter().find(|group| group.group == name).map(|group| group.effect.total);
-    let (dimensional, environmental) = (total("dimensional")?, total("environmental")?);
-    let outweigh = if dimensional.estimate > environmental.estimate {
-        "outweigh the environment, as published"
-    } else {
-        "do NOT outweigh the environment, against what is published"
+fn weights(member: &Reproduced) -> Option<String> {
+    let (dimensional, environmental, standing) = outweighing(member)?;
+    let totals = format!("total indices {} against {}", estimate(dimensional, 4), estimate(environmental, 4));
+    let outweigh = match standing {
+        Standing::Kept => "the dimensions outweigh the environment, as published",
+        Standing::Broken => "the dimensions do NOT outweigh the environment, against what is published",
+        Standing::Undecided | Standing::Unseen => {
+            "not decided at this sample size whether the dimensions outweigh the environment"
+        }
     };
-    Some(format!(
-        "{}: the dimensions {outweigh}: total indices {} against {}.\n",
-        member.friction.name,
-        estimate(dimensional, 4),
-        estimate(environmental, 4)
-    ))
+    Some(format!("{}: {outweigh}: {totals}.\n", member.friction.name))
 }
 
 /// What a careful reader should know of the study's result.
@@ -225,18 +191,4 @@ pub fn shares_csv<'a>(studies: impl IntoIterator<Item = &'a Reproduced>) -> Stri
 pub(super) fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn orders_are_compared_without_mercy() {
-        let published = ["thickness", "length", "width", "height"];
-        assert_eq!(compare_order(&published, &published), Order::Same);
-        assert_eq!(compare_order(&["thickness", "length"], &published), Order::Beginning);
-        assert_eq!(compare_order(&["length", "thickness"], &published), Order::Other);
-        assert_eq!(compare_order(&["thickness", "width"], &published), Order::Other);
-    }
 }

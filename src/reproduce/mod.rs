@@ -3,6 +3,7 @@
 pub mod claims;
 mod compare;
 pub mod figures;
+mod order;
 mod published;
 pub mod readings;
 

@@ -1,6 +1,9 @@
 //! What the papers print about the shares. LG prints percentages in its text; CHK draws bars without numbers, of which
 //! only the order is taken. No definition of "percentage" is printed.
 
+/// A published percentage counts as ours if it lies within one percentage point.
+pub(super) const CLOSE: f64 = 1.0;
+
 /// What is published about one study.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Published {

@@ -215,7 +215,7 @@ fn reproduce_writes_nine_results_three_charts_and_a_table() {
     // The rankings of the papers' claims 17, 19 and 20 come out, that of 18 does not under Hurtado-Kim friction, and the
     // velocity has no share anywhere: the table says so.
     let count = |text: &str| table.matches(text).count();
-    assert_eq!(count("thickness > length > width: the beginning of the published order"), 3, "{table}");
+    assert_eq!(count("thickness > length > width: the published order"), 3, "{table}");
     assert_eq!(
         count("thickness > length > width > elastic_modulus: the beginning of the published order"),
         3,

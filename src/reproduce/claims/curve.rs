@@ -1,0 +1,100 @@
+//! The shape of a curve, as a statement about it says.
+
+use crate::sum;
+
+/// A quantity over a rising grid.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Curve {
+    pub x: Vec<f64>,
+    pub y: Vec<f64>,
+}
+
+/// `count` evenly spaced values from `low` to `high`, both included.
+pub(super) fn grid((low, high): (f64, f64), count: usize) -> Vec<f64> {
+    let last = (count - 1) as f64;
+    (0..count).map(|i| low + (high - low) * (i as f64 / last)).collect()
+}
+
+impl Curve {
+    pub fn first(&self) -> f64 {
+        self.y[0]
+    }
+
+    pub fn last(&self) -> f64 {
+        self.y[self.y.len() - 1]
+    }
+
+    /// Higher at every step.
+    pub fn rises(&self) -> bool {
+        self.y.windows(2).all(|pair| pair[1] > pair[0])
+    }
+
+    /// Lower at every step.
+    pub fn falls(&self) -> bool {
+        self.y.windows(2).all(|pair| pair[1] < pair[0])
+    }
+
+    /// The largest value less the smallest, in units of the mean.
+    pub fn spread(&self) -> f64 {
+        let mean = sum::mean(&self.y);
+        self.extent() / mean.abs()
+    }
+
+    fn extent(&self) -> f64 {
+        let (low, high) = self.y.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &y| (l.min(y), h.max(y)));
+        high - low
+    }
+
+    /// The largest increase of steepness from one step to the next, in units of the mean steepness; 0 where the curve
+    /// flattens all the way.
+    pub fn steepens(&self) -> f64 {
+        let steps: Vec<f64> =
+            self.x.windows(2).zip(self.y.windows(2)).map(|(x, y)| ((y[1] - y[0]) / (x[1] - x[0])).abs()).collect();
+        let mean = ((self.last() - self.first()) / (self.x[self.x.len() - 1] - self.x[0])).abs();
+        steps.windows(2).fold(0.0, |most: f64, pair| most.max((pair[1] - pair[0]) / mean))
+    }
+
+    /// The largest distance from the straight line of least squares, in units of the whole change; and R^2 of that line.
+    pub fn bend(&self) -> (f64, f64) {
+        let x = (&self.x[..], sum::mean(&self.x));
+        let y = (&self.y[..], sum::mean(&self.y));
+        let slope = sum::centred_product(x, y) / sum::centred_product(x, x);
+        let off: Vec<f64> = self.x.iter().zip(&self.y).map(|(x_i, y_i)| y_i - y.1 - slope * (x_i - x.1)).collect();
+        let rest = sum::centred_product((&off, 0.0), (&off, 0.0));
+        let farthest = off.iter().fold(0.0, |far: f64, off| far.max(off.abs()));
+        (farthest / self.extent(), 1.0 - rest / sum::centred_product(y, y))
+    }
+
+    /// The mean elasticity, ln(y_n/y_0)/ln(x_n/x_0): the power of x that joins the ends.
+    pub fn elasticity(&self) -> f64 {
+        (self.last() / self.first()).ln() / (self.x[self.x.len() - 1] / self.x[0]).ln()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(range: (f64, f64), f: impl Fn(f64) -> f64) -> Curve {
+        let x = grid(range, 21);
+        Curve { y: x.iter().map(|&x| f(x)).collect(), x }
+    }
+
+    #[test]
+    fn shapes_are_told_apart() {
+        let line = curve((1.0, 3.0), |x| 2.0 * x + 1.0);
+        assert!(line.rises() && !line.falls());
+        // Rounding alone bends a straight line.
+        assert!(line.bend().0 < 1e-14 && line.bend().1 > 1.0 - 1e-14 && line.steepens() < 1e-12);
+        let inverse = curve((1.0, 3.0), |x| 1.0 / (x * x));
+        assert!(inverse.falls() && inverse.steepens() == 0.0 && inverse.bend().0 > 0.05);
+        // x^3 has the elasticity 3 between any ends.
+        let cubic = curve((1.0, 3.0), |x| x * x * x);
+        assert!((cubic.elasticity() - 3.0).abs() < 1e-14 && cubic.steepens() > 0.1);
+        let flat = curve((0.0, 1.0), |x| 1.0 + 1e-6 * x);
+        assert!((flat.spread() - 1e-6).abs() < 1e-11);
+        let wave = curve((0.0, 6.0), f64::sin);
+        assert!(!wave.rises() && !wave.falls());
+        assert_eq!(grid((0.0, 1.0), 3), [0.0, 0.5, 1.0]);
+    }
+}

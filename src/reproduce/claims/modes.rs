@@ -1,0 +1,131 @@
+//! Claims about what else the particle may do than slide, and under which force: 4, 6.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::bench::{Bench, Region, Sweep, closed, exact};
+use super::curve::grid;
+use super::judge::judge;
+use super::words::{change, nano, number};
+use super::{Claim, ClaimsError, Verdict};
+use crate::afm::modes::{Mode, Onset, TipForce};
+use crate::afm::{Failure, FrictionLaw, Parameter, Scene};
+
+/// How far above the angle of friction the mode diagram begins (rad): at the angle itself F* has no bound.
+const ABOVE_FRICTION: f64 = 0.05;
+
+pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
+    Ok(vec![angle(bench)?, rolling(bench)?])
+}
+
+/// F*_ss (N) at each of the angles of the mode diagram; `None` where no force starts to slide the particle.
+fn diagram(bench: &Bench<'_>, scene: &Scene, adhesion_in_load: bool) -> Result<Vec<(f64, Option<f64>)>, Failure> {
+    let mut pushing = (bench.physics.pushing)(*scene);
+    pushing.adhesion_in_load = adhesion_in_load;
+    let lowest = pushing.scene.static_friction.atan() + ABOVE_FRICTION;
+    let angles = grid((lowest, FRAC_PI_2), bench.sizes.curve);
+    angles.into_iter().map(|angle| Ok((angle, pushing.critical_tip_force(Mode::Slide, angle)?))).collect()
+}
+
+/// Claim 4.
+fn angle(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+    let parameter = Parameter::from_name("contact_angle").ok_or(ClaimsError::NoRanges)?;
+    let sweep = Sweep { parameter, range: (0.0, FRAC_PI_2), count: 5 };
+    let options = exact(FrictionLaw::Coulomb);
+    let against_force_angle = |scene: &Scene| {
+        let mut falls = true;
+        for adhesion_in_load in [false, true] {
+            let points = diagram(bench, scene, adhesion_in_load)?;
+            falls &= points.windows(2).all(|pair| matches!((pair[0].1, pair[1].1), (Some(a), Some(b)) if b < a));
+        }
+        Ok(falls)
+    };
+    let against_contact_angle = |scene: &Scene| Ok(bench.curve(&sweep, scene, &options)?.falls());
+    let points = bench.sizes.slow_points;
+    let holdings = [
+        bench.holding("fall of F*_ss with the angle psi of the tip force", points, &against_force_angle)?,
+        bench.holding("fall of F_cr with the contact angle phi", points, &against_contact_angle)?,
+    ];
+    let nominal = Scene::default();
+    let ends = |adhesion_in_load| -> Result<String, Failure> {
+        let points = diagram(bench, &nominal, adhesion_in_load)?;
+        let words = |point: Option<&(f64, Option<f64>)>| {
+            point.map_or_else(String::new, |(angle, force)| {
+                let force = force.map_or_else(|| "no bound".to_owned(), |force| nano(force, "N"));
+                format!("{force} at {}", number(angle.to_degrees(), "deg"))
+            })
+        };
+        Ok(format!("{} to {}", words(points.first()), words(points.last())))
+    };
+    let unmoved = bench.curve(&sweep, &nominal, &options)?.spread();
+    Ok(Claim {
+        number: 4,
+        source: "TS04 fig. 12",
+        statement: "A larger angle lowers the force at which the particle slides.",
+        verdict: judge(&holdings),
+        finding: format!(
+            "At the nominal scene the mode diagram's F*_ss falls with psi from {} (with the pull-off force in the load: \
+             {}). The contact angle phi from 0 to 90 deg changes F_cr by {}: the preload sets the normal force.",
+            ends(false)?,
+            ends(true)?,
+            change(unmoved)
+        ),
+        setting: format!(
+            "Coulomb friction, JKR; F*_ss(psi) at {} angles from 2.9 deg above the angle of friction to 90 deg, with and \
+             without adhesion in the load; F_cr by exact geometry at {} contact angles; nominal scene and {points} points \
+             of the general study's box.",
+            bench.sizes.curve, sweep.count
+        ),
+        figures: &["ts04-12"],
+    })
+}
+
+/// Claim 6.
+fn rolling(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+    let options = closed(FrictionLaw::Coulomb);
+    let onsets = |scene: &Scene| -> Result<(Onset, Onset), Failure> {
+        let normal = (bench.physics.force)(scene, &options)?.normal_force;
+        let pushing = (bench.physics.pushing)(*scene);
+        Ok((pushing.onset(Mode::Slide, normal)?, pushing.onset(Mode::Roll, normal)?))
+    };
+    let slides_first = |scene: &Scene| onsets(scene).map(|(slide, roll)| slide < roll);
+    let nominal = Scene::default();
+    let share = bench.share(Region::General, bench.sizes.slow_points, &slides_first)?;
+    let verdict = match (slides_first(&nominal)?, share.everywhere()) {
+        (true, true) => Verdict::Reproduced,
+        (true, false) => Verdict::Partly { range: format!("at the nominal scene and on {}", share.words()) },
+        (false, _) => Verdict::Contradicts { own: "criterion for rolling".to_owned() },
+    };
+    let critical = (bench.physics.force)(&nominal, &options)?;
+    let force = TipForce { normal: critical.normal_force, lateral: critical.lateral_force };
+    let pushing = (bench.physics.pushing)(nominal);
+    let balance = pushing.balance(Mode::Roll, force)?;
+    let (slide, roll) = onsets(&nominal)?;
+    let at = |onset| match onset {
+        Onset::AtOnce => "under the preload alone".to_owned(),
+        Onset::At(lateral) => format!("at F_Y = {}", nano(lateral, "N")),
+        Onset::Never => "at no F_Y".to_owned(),
+    };
+    let femto = |moment: f64| number(moment * 1e15, "fN m");
+    Ok(Claim {
+        number: 6,
+        source: "TS04",
+        statement: "At this scale sliding precedes rolling.",
+        verdict,
+        finding: format!(
+            "By the criteria, at the nominal scene rolling sets in {}, sliding {}; where it slides, the tip drives rolling \
+             with {} against a resistance of {}. Sliding comes first on {}.",
+            at(roll),
+            at(slide),
+            femto(balance.drive),
+            femto(balance.resistance),
+            share.words()
+        ),
+        setting: format!(
+            "Tip force of constant F_Z and rising F_Y; Coulomb friction, JKR; rolling resisted at either contact by \
+             4 F_ad (a/a0)^1.5 xi with xi = {}; box of the general study, {} points.",
+            nano(pushing.constants.rolling_shift, "m"),
+            share.points
+        ),
+        figures: &["ts04-12"],
+    })
+}

@@ -1,0 +1,205 @@
+//! Whether our order of the factors is the published one, as far as our intervals decide it.
+
+use super::{Published, Reproduced, published};
+use crate::report::{EstimateRecord, IndexRecord};
+
+/// A factor counts as having a share from this many percent on: less would be printed as 0 in whole percents, which is
+/// how LG prints, and is hardly to be seen as a bar.
+pub(super) const VISIBLE: f64 = 0.5;
+
+/// A factor with its share in percent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct FactorShare<'a> {
+    pub factor: &'a str,
+    pub share: f64,
+    /// Low and high end of its interval; `None` where nothing is known of its error.
+    pub interval: Option<(f64, f64)>,
+}
+
+impl FactorShare<'_> {
+    fn bounds(&self) -> (f64, f64) {
+        self.interval.unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
+    }
+
+    /// No share that could be seen, whatever the true one in its interval.
+    fn unseen(&self) -> bool {
+        self.bounds().1 < VISIBLE
+    }
+}
+
+/// What our shares say of "this before that".
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Standing {
+    /// It is so: the intervals do not overlap.
+    Kept,
+    /// It is the other way round: they do not overlap either.
+    Broken,
+    /// The intervals overlap, or do not say whether there is anything to be seen.
+    Undecided,
+    /// Neither share could be seen.
+    Unseen,
+}
+
+/// What our shares say of `first` before `second`.
+pub(super) fn standing(first: &FactorShare<'_>, second: &FactorShare<'_>) -> Standing {
+    if first.unseen() && second.unseen() {
+        return Standing::Unseen;
+    }
+    let (one, other) = (first.bounds(), second.bounds());
+    if one.0 > other.1 && one.0 >= VISIBLE {
+        Standing::Kept
+    } else if other.0 > one.1 && other.0 >= VISIBLE {
+        Standing::Broken
+    } else {
+        Standing::Undecided
+    }
+}
+
+/// How our order stands to the published one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Agreement {
+    /// Every factor is before the next.
+    Same,
+    /// Every factor is before the next, up to a rest without visible shares.
+    Beginning,
+    /// Not decided by this sample: no pair is the other way round, but the intervals of some overlap.
+    Undecided,
+    /// Some pair is the other way round, or a factor that is not in the published order has a visible share.
+    Other,
+}
+
+/// Our order against a published one.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct OrderVerdict<'a> {
+    /// Our factors that may have a visible share, the largest share first.
+    pub ours: Vec<&'a str>,
+    /// Each neighbouring pair of the published order.
+    pub pairs: Vec<(&'a str, &'a str, Standing)>,
+    /// Factors with a visible share that are not in the published order.
+    pub intruders: Vec<&'a str>,
+    /// Published factors without a visible share of ours.
+    pub unseen: Vec<&'a str>,
+}
+
+/// Compares the shares with the published order, whose factors are among them.
+pub(super) fn order_verdict<'a>(shares: &[FactorShare<'a>], published: &[&str]) -> OrderVerdict<'a> {
+    let mut ranked: Vec<&FactorShare<'a>> = shares.iter().filter(|share| !share.unseen()).collect();
+    ranked.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let known: Vec<&FactorShare<'a>> =
+        published.iter().filter_map(|name| shares.iter().find(|share| share.factor == *name)).collect();
+    let pair = |pair: &[&FactorShare<'a>]| (pair[0].factor, pair[1].factor, standing(pair[0], pair[1]));
+    let stranger = |share: &&&FactorShare<'a>| share.bounds().0 >= VISIBLE && !published.contains(&share.factor);
+    OrderVerdict {
+        ours: ranked.iter().map(|share| share.factor).collect(),
+        pairs: known.windows(2).map(pair).collect(),
+        intruders: ranked.iter().filter(stranger).map(|share| share.factor).collect(),
+        unseen: known.iter().filter(|share| share.unseen()).map(|share| share.factor).collect(),
+    }
+}
+
+impl<'a> OrderVerdict<'a> {
+    pub fn agreement(&self) -> Agreement {
+        let any = |wanted: Standing| self.pairs.iter().any(|(.., standing)| *standing == wanted);
+        if any(Standing::Broken) || !self.intruders.is_empty() {
+            Agreement::Other
+        } else if any(Standing::Undecided) {
+            Agreement::Undecided
+        } else if any(Standing::Unseen) {
+            Agreement::Beginning
+        } else {
+            Agreement::Same
+        }
+    }
+
+    /// The pairs that stand so, as in `length and width`.
+    pub fn pairs_that_are(&self, wanted: Standing) -> Vec<(&'a str, &'a str)> {
+        self.pairs.iter().filter(|(.., standing)| *standing == wanted).map(|&(one, other, _)| (one, other)).collect()
+    }
+}
+
+/// The total shares of a study.
+fn total_shares(member: &Reproduced) -> Vec<FactorShare<'_>> {
+    let indices = member.result.outputs.first().and_then(|output| output.indices.as_deref()).unwrap_or_default();
+    indices
+        .iter()
+        .filter_map(|IndexRecord { factor, effect }| {
+            let interval = effect.share_total_interval.map(|i| (i.low, i.high));
+            Some(FactorShare { factor, share: effect.share_total?, interval })
+        })
+        .collect()
+}
+
+/// The order of a study's factors by total shares against the published one.
+pub(super) fn order_of(member: &Reproduced) -> (OrderVerdict<'_>, Published) {
+    let print = published(member.group.key, member.friction.key);
+    (order_verdict(&total_shares(member), print.ranking), print)
+}
+
+/// The total indices of the dimensional and the environmental factors of a general study, and whether the first is the
+/// larger; `None` where there are no groups.
+pub(super) fn outweighing(member: &Reproduced) -> Option<(EstimateRecord, EstimateRecord, Standing)> {
+    let groups = member.result.outputs.first()?.groups.as_ref()?;
+    let total = |name: &str| groups.iter().find(|group| group.group == name).map(|group| group.effect.total);
+    let (dimensional, environmental) = (total("dimensional")?, total("environmental")?);
+    let percent = |record: EstimateRecord| FactorShare {
+        factor: "",
+        share: 100.0 * record.estimate,
+        interval: record.low.zip(record.high).map(|(low, high)| (100.0 * low, 100.0 * high)),
+    };
+    Some((dimensional, environmental, standing(&percent(dimensional), &percent(environmental))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn share(factor: &str, share: f64, half_width: f64) -> FactorShare<'_> {
+        FactorShare { factor, share, interval: Some((share - half_width, share + half_width)) }
+    }
+
+    const PUBLISHED: [&str; 4] = ["thickness", "length", "width", "height"];
+
+    fn agreement(shares: &[FactorShare<'_>]) -> Agreement {
+        order_verdict(shares, &PUBLISHED).agreement()
+    }
+
+    #[test]
+    fn an_order_holds_where_neighbours_are_apart() {
+        let shares = [share("length", 34.0, 1.0), share("width", 19.0, 1.0), share("thickness", 47.0, 1.0)];
+        let with = |height| [&shares[..], &[height]].concat();
+        assert_eq!(agreement(&with(share("height", 3.0, 1.0))), Agreement::Same);
+        assert_eq!(agreement(&with(share("height", 0.0, 0.0))), Agreement::Same, "nothing is less than something");
+        assert_eq!(agreement(&with(share("height", 25.0, 1.0))), Agreement::Other);
+        let verdict = order_verdict(&with(share("height", 0.0, 0.0)), &PUBLISHED);
+        assert_eq!((verdict.ours, verdict.unseen), (vec!["thickness", "length", "width"], vec!["height"]));
+    }
+
+    /// At few points the intervals of length and thickness overlap: that decides nothing, least of all against.
+    #[test]
+    fn overlapping_neighbours_decide_nothing() {
+        let shares = [
+            share("length", 42.3, 3.9),
+            share("width", 17.5, 3.4),
+            share("thickness", 38.4, 3.9),
+            share("height", 0.0, 0.0),
+        ];
+        let verdict = order_verdict(&shares, &PUBLISHED);
+        assert_eq!(verdict.agreement(), Agreement::Undecided);
+        assert_eq!(verdict.pairs_that_are(Standing::Undecided), [("thickness", "length")]);
+        let unknown: Vec<_> = shares.iter().map(|share| FactorShare { interval: None, ..*share }).collect();
+        assert_eq!(agreement(&unknown), Agreement::Undecided);
+    }
+
+    #[test]
+    fn what_cannot_be_seen_has_no_order_and_what_is_not_published_must_not_be_seen() {
+        let tail = [share("thickness", 99.0, 0.5), share("length", 0.1, 0.01), share("width", 0.3, 0.01)];
+        let verdict = order_verdict(&tail, &PUBLISHED[..3]);
+        assert_eq!((verdict.agreement(), verdict.unseen), (Agreement::Beginning, vec!["length", "width"]));
+        let stranger = [share("thickness", 60.0, 1.0), share("length", 10.0, 1.0), share("velocity", 30.0, 1.0)];
+        assert_eq!(order_verdict(&stranger, &PUBLISHED[..2]).agreement(), Agreement::Other);
+        let faint = [share("thickness", 60.0, 1.0), share("length", 39.0, 1.0), share("velocity", 1.0, 0.8)];
+        assert_eq!(order_verdict(&faint, &PUBLISHED[..2]).agreement(), Agreement::Same);
+        // Whether there is anything to be seen is not known.
+        assert_eq!(standing(&share("a", 0.0, 0.0), &share("b", 0.5, 0.2)), Standing::Undecided);
+    }
+}
