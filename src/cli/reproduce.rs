@@ -1,41 +1,93 @@
-//! `apportion reproduce`: the papers' studies.
+//! `apportion reproduce`: the papers' figures and claims, on one page.
 
 use std::path::PathBuf;
+use std::sync::Mutex;
 
-use apportion::analyse;
+use anyhow::anyhow;
 use apportion::report::prepare_folder;
-use apportion::reproduce::{Reproduced, comparison_table, studies, write_all};
+use apportion::reproduce::{Effort, Event, ReproduceError, Request, Topic, in_words, reproduce as run, write_all};
 
 use super::progress::Meter;
-use super::{DesignChanges, Failure, Threads, print, say, say_notes};
+use super::{DesignChanges, Failure, Threads, print, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "results/reproduce")]
     out: PathBuf,
+    /// Fewer points and repetitions: a look within seconds
+    #[arg(long)]
+    quick: bool,
+    /// A single part of the page: the figures, the verdicts on the claims, or the readings of the published percentages
+    #[arg(long, value_name = "PART")]
+    only: Option<Part>,
     #[command(flatten)]
     design: DesignChanges,
     #[command(flatten)]
     threads: Threads,
 }
 
+#[derive(Clone, Copy, PartialEq, clap::ValueEnum)]
+enum Part {
+    Figures,
+    Claims,
+    Readings,
+}
+
+impl From<ReproduceError> for Failure {
+    fn from(error: ReproduceError) -> Self {
+        match error {
+            ReproduceError::Study(_) => Self::Input(error.into()),
+            _ => Self::Run(error.into()),
+        }
+    }
+}
+
 pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
-    let studies = studies(&arguments.design.overrides())?;
+    let overrides = arguments.design.overrides();
+    if arguments.only == Some(Part::Readings) && !overrides.is_empty() {
+        return Err(Failure::Input(anyhow!(
+            "--base-samples and --seed are for the nine studies, which --only readings does not run: leave them out"
+        )));
+    }
     prepare_folder(&arguments.out)?;
-    let count = studies.len();
-    if let Some((_, _, study)) = studies.first() {
-        say_notes(study);
-    }
-    let mut reproduced = Vec::with_capacity(count);
-    for (number, (group, friction, study)) in studies.iter().enumerate() {
-        let meter = Meter::new(&format!("{} of {count} {:<21}", number + 1, study.name), study.design.rows());
-        let result = analyse(study, arguments.threads.number(), &|progress| meter.update(progress))?;
-        meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
-        reproduced.push(Reproduced { friction: *friction, group: *group, result });
-    }
-    let files = write_all(&arguments.out, &reproduced).map_err(|error| Failure::Run(error.into()))?;
-    print(&comparison_table(&reproduced))?;
+    let request = Request {
+        effort: if arguments.quick { Effort::Quick } else { Effort::Full },
+        only: arguments.only.map(|part| match part {
+            Part::Figures => Topic::Figures,
+            Part::Claims => Topic::Claims,
+            Part::Readings => Topic::Readings,
+        }),
+        overrides,
+        threads: arguments.threads.number(),
+    };
+    let meters = Meters::default();
+    let reproduction = run(&request, &|event| meters.show(&event))?;
+    let files = write_all(&arguments.out, &reproduction)?;
+    print(&in_words(&reproduction))?;
     say(&format!("wrote {} files to {}", files.len(), arguments.out.display()));
+    if let Some(page) = files.first() {
+        say(&format!("open {} in a browser", page.display()));
+    }
     Ok(())
+}
+
+/// The meter of what goes on at present.
+#[derive(Default)]
+struct Meters {
+    study: Mutex<Option<Meter>>,
+}
+
+impl Meters {
+    fn show(&self, event: &Event<'_>) {
+        let Ok(mut current) = self.study.lock() else { return };
+        match event {
+            Event::StudyBegins { number: (number, count), name, runs } => {
+                *current = Some(Meter::new(&format!("{number} of {count} {name:<21}"), *runs));
+            }
+            Event::StudyGoesOn(progress) => current.iter().for_each(|meter| meter.update(*progress)),
+            Event::StudyEnds { runs, seconds } => current.iter().for_each(|meter| meter.finish(*runs, *seconds)),
+            Event::Part { name, share } => say(&format!("{name}: {:.0} %", 100.0 * share)),
+        }
+    }
 }

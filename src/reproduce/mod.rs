@@ -1,21 +1,31 @@
-//! The papers' studies, run and set beside what the papers print.
+//! The papers reproduced: their studies, figures and claims, and what their published percentages could mean.
+//!
+//! [`reproduce()`] computes, [`write_all`] writes the page and the files beside it, [`in_words`] says it on a terminal.
 
 pub mod claims;
 mod compare;
 pub mod figures;
+mod files;
 mod order;
+mod page;
 mod published;
 pub mod readings;
+mod reproduction;
+mod words;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use thiserror::Error;
 
 pub use compare::{comparison_table, shares_csv};
+pub use files::write_all;
 pub use published::{Published, published};
+pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
+pub use words::in_words;
 
-use crate::report::chart::{ChartError, PngError, png};
-use crate::report::{ResultFile, WriteError, result_json, write_atomically};
+use crate::report::chart::{ChartError, PngError};
+use crate::report::page::PageError;
+use crate::report::{ResultFile, WriteError};
 use crate::run::RunError;
 use crate::study::{Study, StudyError};
 
@@ -92,6 +102,18 @@ pub enum ReproduceError {
     /// A chart cannot be turned into a picture.
     #[error(transparent)]
     Png(#[from] PngError),
+    /// The page cannot be made.
+    #[error(transparent)]
+    Page(#[from] PageError),
+    /// A figure cannot be made.
+    #[error(transparent)]
+    Figures(#[from] figures::FiguresError),
+    /// A claim cannot be answered.
+    #[error(transparent)]
+    Claims(#[from] claims::ClaimsError),
+    /// The readings cannot be computed.
+    #[error(transparent)]
+    Readings(#[from] readings::ReadingsError),
 }
 
 /// One study that has been run.
@@ -122,31 +144,6 @@ pub fn studies(overrides: &[String]) -> Result<Vec<(StudyGroup, Friction, Study)
         }
     }
     Ok(studies)
-}
-
-/// Writes everything about the studies into `folder` and returns the files, in the order written.
-///
-/// # Errors
-/// [`ReproduceError`] if a chart cannot be drawn or a file cannot be written.
-pub fn write_all(folder: &Path, studies: &[Reproduced]) -> Result<Vec<PathBuf>, ReproduceError> {
-    let mut files = Vec::new();
-    let mut write = |name: String, bytes: &[u8]| -> Result<(), WriteError> {
-        let path = folder.join(name);
-        write_atomically(&path, bytes)?;
-        files.push(path);
-        Ok(())
-    };
-    for study in studies {
-        write(format!("{}-{}.json", study.friction.key, study.group.key), result_json(&study.result).as_bytes())?;
-    }
-    write("shares.csv".to_owned(), shares_csv(studies).as_bytes())?;
-    for group in GROUPS {
-        let members: Vec<&Reproduced> = studies.iter().filter(|study| study.group == group).collect();
-        let svg = figures::group_chart(group, &members).svg()?;
-        write(format!("{}.svg", group.key), svg.as_bytes())?;
-        write(format!("{}.png", group.key), &png(&svg)?.bytes)?;
-    }
-    Ok(files)
 }
 
 #[cfg(test)]

@@ -43,7 +43,11 @@ fn collect<'a>(parts: &'a [Part], (anchors, links): (&mut Vec<&'a str>, &mut Vec
                 anchors.push(&figure.id);
                 links.extend(figure.links.iter().map(|link| link.to.as_str()));
             }
-            Part::Table(table) => links.extend(table.rows.iter().flatten().filter_map(|cell| cell.to.as_deref())),
+            Part::Table(table) => {
+                let cells = || table.rows.iter().flatten();
+                links.extend(cells().filter_map(|cell| cell.to.as_deref()));
+                links.extend(cells().flat_map(|cell| &cell.links).map(|link| link.to.as_str()));
+            }
             Part::Links(list) => links.extend(list.iter().map(|link| link.to.as_str())),
             Part::Details { parts, .. } => collect(parts, (anchors, links)),
             Part::Text(_)

@@ -82,6 +82,7 @@ struct TableView {
     label: String,
     header: Vec<(String, bool)>,
     rows: Vec<Vec<CellView>>,
+    sentences: bool,
 }
 
 struct CellView {
@@ -90,6 +91,8 @@ struct CellView {
     mark: &'static str,
     symbol: &'static str,
     href: Option<String>,
+    note: String,
+    links: Vec<LinkView>,
 }
 
 struct LinkView {
@@ -201,6 +204,7 @@ fn table_view(table: &PageTable) -> TableView {
         label: clean(&table.caption),
         header: table.header.iter().enumerate().map(|(column, text)| (symbols(text), numeric(column))).collect(),
         rows: table.rows.iter().map(row).collect(),
+        sentences: table.sentences,
     }
 }
 
@@ -211,6 +215,8 @@ fn cell_view(cell: &Cell, numeric: bool) -> CellView {
         mark: cell.mark.class(),
         symbol: cell.mark.symbol(),
         href: cell.to.as_deref().map(href),
+        note: symbols(&cell.note),
+        links: link_views(&cell.links),
     }
 }
 

@@ -118,6 +118,8 @@ pub struct PageTable {
     pub numeric: Vec<usize>,
     /// The rows.
     pub rows: Vec<Vec<Cell>>,
+    /// Whether cells hold sentences: on a phone such a table is set as a list of its rows.
+    pub sentences: bool,
 }
 
 /// A cell of a table.
@@ -129,6 +131,10 @@ pub struct Cell {
     pub mark: Mark,
     /// Where its text leads, if anywhere.
     pub to: Option<String>,
+    /// What is said below it in small letters; may be empty.
+    pub note: String,
+    /// Further links, below the note.
+    pub links: Vec<Link>,
 }
 
 /// How a cell is set off; never by colour alone.
@@ -155,6 +161,6 @@ impl Cell {
 
     /// A cell set off by `mark`.
     pub fn marked(text: impl Into<String>, mark: Mark) -> Self {
-        Self { text: text.into(), mark, to: None }
+        Self { text: text.into(), mark, ..Self::default() }
     }
 }

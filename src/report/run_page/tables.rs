@@ -22,7 +22,7 @@ const FACTORS_OF_ESTIMATORS: usize = 20;
 /// A table of which all columns but the first `texts` are numbers.
 pub(super) fn table(caption: String, header: &[&str], (texts, rows): (usize, Vec<Vec<Cell>>)) -> Part {
     let header: Vec<String> = header.iter().map(|text| (*text).to_owned()).collect();
-    Part::Table(PageTable { caption, numeric: (texts..header.len()).collect(), header, rows })
+    Part::Table(PageTable { caption, numeric: (texts..header.len()).collect(), header, rows, sentences: false })
 }
 
 /// `which` of how many are shown, if not all.

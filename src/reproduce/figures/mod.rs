@@ -19,7 +19,6 @@ mod tests;
 use thiserror::Error;
 
 pub use animation::{ANIMATION_STEM, Animation, animation};
-pub(super) use shares::group_chart;
 
 use super::{Effort, Reproduced};
 use crate::afm::Failure;

@@ -22,6 +22,11 @@ pub fn summary(readings: &Readings) -> Vec<String> {
     sentences
 }
 
+/// The same in two sentences, for a page's top: whether one reading meets all groups, and what is not said.
+pub fn headline(readings: &Readings) -> Vec<String> {
+    all_groups(readings).into_iter().chain([unsaid()]).chain(contradiction(readings)).collect()
+}
+
 /// The reading of a group that is nearest to what is printed.
 fn nearest(readings: &Readings, group: &str) -> Option<String> {
     let of_group: Vec<&Reading> = readings.rows.iter().filter(|reading| reading.group == group).collect();

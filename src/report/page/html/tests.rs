@@ -49,9 +49,19 @@ fn every_part(text: &str) -> Vec<Part> {
             caption: t(),
             header: vec![t(), t()],
             numeric: vec![1],
+            sentences: false,
             rows: vec![
                 vec![Cell::plain(t()), Cell::plain(t())],
-                vec![Cell::marked(t(), Mark::Good), Cell { text: t(), mark: Mark::Bad, to: Some(t()) }],
+                vec![
+                    Cell::marked(t(), Mark::Good),
+                    Cell {
+                        text: t(),
+                        mark: Mark::Bad,
+                        to: Some(t()),
+                        note: t(),
+                        links: vec![Link { text: t(), to: t() }],
+                    },
+                ],
                 vec![Cell::marked(t(), Mark::Strong), Cell::default()],
             ],
         }),

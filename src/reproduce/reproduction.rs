@@ -1,0 +1,141 @@
+//! The whole reproduction: studies, figures, claims and readings, in this order.
+
+use std::time::Instant;
+
+use super::claims::{Claim, claims};
+use super::figures::{Animation, PaperFigure, animation, figures};
+use super::readings::{Readings, readings};
+use super::{Effort, ReproduceError, Reproduced, studies};
+use crate::analyse;
+use crate::run::Progress;
+
+/// What to reproduce.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Request {
+    /// How much is computed.
+    pub effort: Effort,
+    /// A single part; everything if `None`.
+    pub only: Option<Topic>,
+    /// Changes to the design of every study, such as `design.seed=1`. Under others they are no longer the papers' studies.
+    pub overrides: Vec<String>,
+    /// Threads; 0 stands for one per core. The results do not depend on it.
+    pub threads: usize,
+}
+
+/// A part of the reproduction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Topic {
+    /// The figures of the papers.
+    Figures,
+    /// The verdicts on their claims.
+    Claims,
+    /// What the published percentages could mean.
+    Readings,
+}
+
+/// Base samples of every study in a quick reproduction, unless the overrides say otherwise.
+const QUICK_BASE_SAMPLES: u64 = 8192;
+
+/// A reproduction that has taken place.
+#[derive(Debug, Clone)]
+pub struct Reproduction {
+    /// How much was computed.
+    pub effort: Effort,
+    /// The nine studies, group by group; none if only the readings were asked for.
+    pub studies: Vec<Reproduced>,
+    /// The figures of the papers, if asked for.
+    pub figures: Vec<PaperFigure>,
+    /// The animation, if figures were asked for.
+    pub animation: Option<Animation>,
+    /// The claims with their verdicts, if asked for.
+    pub claims: Vec<Claim>,
+    /// The readings of the published percentages, if asked for.
+    pub readings: Option<Readings>,
+    /// Seconds that each part took.
+    pub seconds: Vec<(&'static str, f64)>,
+}
+
+/// What happens during a reproduction.
+#[derive(Debug, Clone)]
+pub enum Event<'a> {
+    /// A study of so many model runs begins.
+    StudyBegins {
+        /// Its number from 1, and how many there are.
+        number: (usize, usize),
+        /// Its name.
+        name: &'a str,
+        /// Its model runs.
+        runs: u64,
+    },
+    /// How far the study has come.
+    StudyGoesOn(Progress),
+    /// The study is over after so many seconds.
+    StudyEnds {
+        /// Its model runs.
+        runs: u64,
+        /// Seconds.
+        seconds: f64,
+    },
+    /// So much of another part is done, from 0 to 1.
+    Part {
+        /// What it is about.
+        name: &'a str,
+        /// How much is done.
+        share: f64,
+    },
+}
+
+/// Reproduces what `request` asks for. `on_event` may be called from any thread.
+///
+/// # Errors
+/// [`ReproduceError`] if an override makes no sense, or a part cannot be computed.
+pub fn reproduce(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Result<Reproduction, ReproduceError> {
+    let Request { effort, only, threads, .. } = *request;
+    let asked = |topic: Topic| only.is_none_or(|only| only == topic);
+    let mut seconds = Vec::new();
+    let mut clock = Instant::now();
+    let mut lap = |part: &'static str| {
+        seconds.push((part, clock.elapsed().as_secs_f64()));
+        clock = Instant::now();
+    };
+    let mut studies = Vec::new();
+    if asked(Topic::Figures) || asked(Topic::Claims) {
+        studies = run_studies(request, on_event)?;
+        lap("studies");
+    }
+    let mut drawn = Vec::new();
+    let mut moving = None;
+    if asked(Topic::Figures) {
+        drawn = figures(&studies, effort)?;
+        moving = Some(animation()?);
+        lap("figures");
+    }
+    let mut answered = Vec::new();
+    if asked(Topic::Claims) {
+        answered = claims(&studies, effort)?;
+        lap("claims");
+    }
+    let mut read = None;
+    if asked(Topic::Readings) {
+        read = Some(readings(effort, threads, &|name, share| on_event(Event::Part { name, share }))?);
+        lap("readings");
+    }
+    Ok(Reproduction { effort, studies, figures: drawn, animation: moving, claims: answered, readings: read, seconds })
+}
+
+fn run_studies(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Result<Vec<Reproduced>, ReproduceError> {
+    let quick = (request.effort == Effort::Quick).then(|| format!("design.base_samples={QUICK_BASE_SAMPLES}"));
+    let overrides: Vec<String> = quick.into_iter().chain(request.overrides.iter().cloned()).collect();
+    let studies = studies(&overrides)?;
+    let count = studies.len();
+    let mut reproduced = Vec::with_capacity(count);
+    for (place, (group, friction, study)) in studies.iter().enumerate() {
+        let number = (place + 1, count);
+        on_event(Event::StudyBegins { number, name: &study.name, runs: study.design.rows() });
+        let result = analyse(study, request.threads, &|progress| on_event(Event::StudyGoesOn(progress)))?;
+        let provenance = &result.provenance;
+        on_event(Event::StudyEnds { runs: provenance.model_runs, seconds: provenance.wall_seconds });
+        reproduced.push(Reproduced { friction: *friction, group: *group, result });
+    }
+    Ok(reproduced)
+}
