@@ -50,7 +50,7 @@ pub(super) struct Sizes {
     pub points: u64,
     /// Points of the box where it takes a history or a search for equilibria.
     pub slow_points: u64,
-    /// Points of the box where it takes the ramps of LuGre friction, a third of a millisecond each.
+    /// Points of the box where it takes an integration of LuGre friction, a third of a millisecond each.
     pub ramp_points: u64,
     /// Points of a curve.
     pub curve: usize,
@@ -211,4 +211,9 @@ pub(super) fn closed(friction: FrictionLaw) -> Options {
 /// Exact geometry and the ramps of LuGre friction, to 1e-5 of the force: a thousandth of what any claim here asks.
 pub(super) fn exact(friction: FrictionLaw) -> Options {
     Options { friction, fidelity: Fidelity::QuasiStatic, tolerance: 1e-3, ..Options::default() }
+}
+
+/// The equations of motion, to 1e-6 of the force.
+pub(super) fn in_motion(friction: FrictionLaw) -> Options {
+    Options { friction, fidelity: Fidelity::Dynamic, ..Options::default() }
 }

@@ -144,7 +144,7 @@ fn thickness(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
 /// Claim 11. The closed form has no height in it, so that only exact geometry can say anything.
 fn height(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let sweep = Sweep { count: 4, ..bench.over("height")? };
-    let holdings = without_effect(bench, &sweep)?;
+    let holdings = without_effect(bench, &sweep, exact)?;
     let spreads = nominal_curves(bench, &sweep, (exact, &|curve| change(curve.spread())))?;
     Ok(Claim {
         number: 11,
@@ -152,31 +152,35 @@ fn height(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         statement: "The height of the tip has no effect on F_cr.",
         verdict: judge(&holdings),
         finding: format!("A height of {} changes F_cr by {spreads} at the nominal scene.", sweep.words()),
-        setting: exact_setting(bench, &sweep),
+        setting: effect_setting(bench, &sweep, "Exact geometry"),
         figures: &["chk-9", "lg-2d"],
     })
 }
 
-/// For each friction model, whether a sweep leaves F_cr as it is, by exact geometry.
-pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep) -> Result<Vec<Holding>, Failure> {
+/// For each friction model, whether a sweep leaves F_cr as it is.
+pub(super) fn without_effect(
+    bench: &Bench<'_>,
+    sweep: &Sweep,
+    options: fn(FrictionLaw) -> Options,
+) -> Result<Vec<Holding>, Failure> {
     LAWS.iter()
         .map(|(law, name)| {
-            let rule = |scene: &Scene| Ok(bench.curve(sweep, scene, &exact(*law))?.spread() < NO_EFFECT);
+            let rule = |scene: &Scene| Ok(bench.curve(sweep, scene, &options(*law))?.spread() < NO_EFFECT);
             bench.holding(*name, points_of(bench, *law), &rule)
         })
         .collect()
 }
 
-/// Points of the box for exact geometry under a friction law.
+/// Points of the box for what is not a closed formula under a friction law.
 fn points_of(bench: &Bench<'_>, law: FrictionLaw) -> u64 {
     if law == FrictionLaw::LuGre { bench.sizes.ramp_points } else { bench.sizes.slow_points }
 }
 
 /// The setting of [`without_effect`] in words.
-pub(super) fn exact_setting(bench: &Bench<'_>, sweep: &Sweep) -> String {
+pub(super) fn effect_setting(bench: &Bench<'_>, sweep: &Sweep, fidelity: &str) -> String {
     format!(
-        "Exact geometry, JKR; {} values of the {} from {}, at the nominal scene and at {} points of the general study's \
-         box ({} for LuGre, whose ramps are integrated); no effect means a change by less than {}.",
+        "{fidelity}, JKR; {} values of the {} from {}, at the nominal scene and at {} points of the general study's \
+         box ({} under LuGre friction); no effect means a change by less than {}.",
         sweep.count,
         sweep.parameter.name.replace('_', " "),
         sweep.words(),

@@ -1,8 +1,8 @@
 //! Claims about velocity, moduli and adhesion: 12 to 16.
 
-use super::bench::{Bench, LAWS, Sweep, closed, exact};
+use super::bench::{Bench, LAWS, Sweep, closed, exact, in_motion};
 use super::dimensions::{
-    NO_EFFECT, STRAIGHT, closed_setting, exact_setting, from_to, nominal_curves, straightness, without_effect,
+    NO_EFFECT, STRAIGHT, closed_setting, effect_setting, from_to, nominal_curves, straightness, without_effect,
 };
 use super::judge::{in_words, judge};
 use super::words::{change, nano};
@@ -23,14 +23,14 @@ pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
     Ok(vec![velocity(bench)?, elastic_modulus(bench)?, contact_modulus(bench)?, adhesion(bench)?, frozen(bench)?])
 }
 
-/// Claim 12.
+/// Claim 12. Only the equations of motion have the velocity in them under every friction model.
 fn velocity(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let whole = Sweep { count: 5, ..bench.over("velocity")? };
     let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
-    let holdings = without_effect(bench, &slow)?;
+    let holdings = without_effect(bench, &slow, in_motion)?;
     let spread = |curve: &super::curve::Curve| change(curve.spread());
-    let spreads = nominal_curves(bench, &slow, (exact, &spread))?;
-    let beyond = nominal_curves(bench, &whole, (exact, &spread))?;
+    let spreads = nominal_curves(bench, &slow, (in_motion, &spread))?;
+    let beyond = nominal_curves(bench, &whole, (in_motion, &spread))?;
     let nominal = Scene::default();
     let viscous = Scene { viscous_friction: VISCOUS, ..nominal };
     let viscous = bench.curve(&slow, &viscous, &exact(FrictionLaw::LuGre))?;
@@ -51,7 +51,7 @@ fn velocity(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(naive_curve.spread()),
             naive.step * 1e3
         ),
-        setting: exact_setting(bench, &slow),
+        setting: effect_setting(bench, &slow, "Equations of motion"),
         figures: &["chk-11", "lg-3a"],
     })
 }

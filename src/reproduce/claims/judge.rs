@@ -31,13 +31,18 @@ impl Share {
 
     /// As in `83.2 % [82.9, 83.5] of the box`; `all of the box` only where no point failed.
     pub fn words(&self) -> String {
+        self.words_of("the box")
+    }
+
+    /// The same of something else than `the box`.
+    pub fn words_of(&self, whole: &str) -> String {
         match (self.value, self.interval) {
-            (1.0, _) => format!("all of the box ({} points)", self.points),
-            (0.0, _) => format!("none of the box ({} points)", self.points),
+            (1.0, _) => format!("all of {whole} ({} points)", self.points),
+            (0.0, _) => format!("none of {whole} ({} points)", self.points),
             (value, Some(i)) if i.high > i.low => {
-                format!("{} % [{}, {}] of the box", percent_of(value), percent_of(i.low), percent_of(i.high))
+                format!("{} % [{}, {}] of {whole}", percent_of(value), percent_of(i.low), percent_of(i.high))
             }
-            (value, _) => format!("{} % of the box", percent_of(value)),
+            (value, _) => format!("{} % of {whole}", percent_of(value)),
         }
     }
 }

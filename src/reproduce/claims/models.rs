@@ -24,12 +24,12 @@ pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
         verdict: judge(&[holding]),
         finding: format!(
             "At the nominal scene F_cr is {} under Hurtado-Kim and {} under Coulomb friction. Hurtado-Kim friction gives \
-             the smaller force on {} of the general study, {} of the dimensional and {} of the environmental study.",
+             the smaller force on {}, {} and {}.",
             nano(bench.force(&nominal, &hurtado_kim)?, "N"),
             nano(bench.force(&nominal, &coulomb)?, "N"),
-            general.words(),
-            dimensional.words(),
-            environmental.words()
+            general.words_of("the box of the general study"),
+            dimensional.words_of("that of the dimensional study"),
+            environmental.words_of("that of the environmental study")
         ),
         setting: format!(
             "Closed form, JKR; shares with 95 % intervals from 8 scrambles of {} Sobol' points each.",

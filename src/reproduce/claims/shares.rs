@@ -85,7 +85,7 @@ impl<'a> Studies<'a> {
         let provenance = &study.result.provenance;
         let figures = GROUPS.iter().find(|known| known.key == group).map_or("", |known| known.figures);
         Ok(format!(
-            "The {group} studies (of {figures}), {} base points of {} under seed {}, 95 % intervals;",
+            "The {group} studies ({figures}), {} base points, sampler {}, seed {}, 95 % intervals;",
             provenance.base_samples, provenance.sampler, provenance.seed
         ))
     }
@@ -220,7 +220,7 @@ fn dimensional_percentage(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
     Ok(Claim {
         number: 17,
         source: "LG fig. 4a",
-        statement: "Under LuGre friction the thickness has 76 % of the share of the dimensions.",
+        statement: "Under LuGre friction the thickness has a share of 76 % among the dimensions.",
         verdict: percentages(indices, printed),
         finding: format!("Our shares by first order and by total index: {}.", side_by_side(indices, printed)),
         setting: percentage_setting(studies, "dimensional")?,
@@ -244,7 +244,7 @@ fn environmental_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result
     Ok(Claim {
         number: 18,
         source: "LG fig. 4b",
-        statement: "Under LuGre friction Young's modulus has 74 % and the velocity 26 % of the share of the environment.",
+        statement: "Under LuGre friction Young's modulus has a share of 74 % and the velocity one of 26 %.",
         verdict: percentages(indices, printed),
         finding: format!(
             "Our shares by first order and by total index: {}. Over its range Young's modulus changes F_cr by {}; for the \
@@ -316,8 +316,8 @@ fn general_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim
     Ok(Claim {
         number: 19,
         source: "LG fig. 4c",
-        statement: "Under LuGre friction the thickness has 80 %, the length 12 %, the width 5 % and Young's modulus 3 % of \
-                    the share of all factors.",
+        statement: "Under LuGre friction the shares of all factors are 80 % for the thickness, 12 % for the length, 5 % for \
+                    the width and 3 % for Young's modulus.",
         verdict,
         finding: format!(
             "Our shares by first order and by total index: {}. {consequence}.",

@@ -9,11 +9,15 @@ fn rounded(value: f64) -> f64 {
 
 /// An SI value in nano-units, with the unit: `631.3 nN`.
 pub(super) fn nano(value: f64, unit: &str) -> String {
-    with_unit(rounded(value * 1e9), &format!("n{unit}"))
+    number(value * 1e9, &format!("n{unit}"))
 }
 
-/// A plain number to four significant digits, with its unit if it has one.
+/// A plain number to four significant digits, with its unit if it has one; to two as a power of ten where it is tiny.
 pub(super) fn number(value: f64, unit: &str) -> String {
+    const TINY: f64 = 1e-4;
+    if value != 0.0 && value.abs() < TINY {
+        return format!("{value:.1e} {unit}").trim_end().to_owned();
+    }
     with_unit(rounded(value), unit)
 }
 
@@ -43,7 +47,7 @@ mod tests {
         assert_eq!(nano(631.3456e-9, "N"), "631.3 nN");
         assert_eq!(nano(-19.044e-9, "m"), "-19.04 nm");
         assert_eq!(number(0.209_47, "s"), "0.2095 s");
-        assert_eq!(number(2.99, ""), "2.99");
+        assert_eq!((number(2.99, ""), number(3.0411e-5, "nN")), ("2.99".into(), "3.0e-5 nN".into()));
         assert_eq!(
             (percent_of(0.8324), percent_of(0.99951), percent_of(1.0)),
             ("83.2".into(), "99.95".into(), "100".into())
