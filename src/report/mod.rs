@@ -9,6 +9,7 @@ pub mod given;
 pub mod page;
 mod result;
 mod run_charts;
+pub mod scatter;
 pub mod scene;
 pub mod screening;
 mod shares_chart;
@@ -21,7 +22,7 @@ pub use asked::{AskedFactor, AskedRecord, Drawing};
 pub use build::{FinishedRun, RunFacts, build_result, result_json};
 pub use build_output::{inputs_in_words, judgement};
 pub use result::*;
-pub use run_charts::{convergence_chart, distribution_chart};
+pub use run_charts::{convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart};
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
 pub use tables::{
     convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,
