@@ -1,7 +1,7 @@
 //! Any chart, for whoever lays out charts without caring what kind they are.
 
 use super::style::Medium;
-use super::{ChartError, ChartWidth, GroupedBars, LineChart, RangeBars, ScatterChart};
+use super::{ChartError, ChartWidth, CloudChart, GroupedBars, LineChart, RangeBars, ScatterChart};
 
 /// A chart of any kind.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +14,8 @@ pub enum Chart {
     Ranges(RangeBars),
     /// Labelled points.
     Scatter(ScatterChart),
+    /// Clouds of points.
+    Cloud(CloudChart),
     /// A picture that was drawn elsewhere.
     Picture(Picture),
 }
@@ -39,6 +41,7 @@ impl Chart {
             Self::Lines(chart) => &chart.title,
             Self::Ranges(chart) => &chart.title,
             Self::Scatter(chart) => &chart.title,
+            Self::Cloud(chart) => &chart.title,
             Self::Picture(picture) => &picture.title,
         }
     }
@@ -50,6 +53,7 @@ impl Chart {
             Self::Lines(chart) => &chart.caption,
             Self::Ranges(chart) => &chart.caption,
             Self::Scatter(chart) => &chart.caption,
+            Self::Cloud(chart) => &chart.caption,
             Self::Picture(picture) => &picture.caption,
         }
     }
@@ -105,6 +109,7 @@ impl Chart {
             Self::Lines(chart) => chart.description(),
             Self::Ranges(chart) => chart.description(),
             Self::Scatter(chart) => chart.description(),
+            Self::Cloud(chart) => chart.description(),
             Self::Picture(_) => String::new(),
         };
         format!("{} {data}", self.caption()).trim().to_owned()
@@ -116,6 +121,7 @@ impl Chart {
             Self::Lines(chart) => chart.drawn(medium),
             Self::Ranges(chart) => chart.drawn(medium),
             Self::Scatter(chart) => chart.drawn(medium),
+            Self::Cloud(chart) => chart.drawn(medium),
             Self::Picture(picture) => Ok(medium.width.choose(&picture.wide, &picture.narrow).clone()),
         }
     }

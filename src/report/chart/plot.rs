@@ -45,14 +45,25 @@ impl Plot {
         canvas.text(&Text::new(&line, (left, self.top - rise), PANEL_TITLE).whole(title));
     }
 
-    /// Horizontal grid lines and the labels of the vertical axis.
-    pub fn y_axis(&self, canvas: &mut Canvas, scale: &Scale) {
-        canvas.open("g", &[("class", &"y-axis"), ("stroke-width", &"1")]);
+    /// Horizontal grid lines, for a plot whose neighbour has the labels.
+    pub fn y_grid(&self, canvas: &mut Canvas, scale: &Scale) {
+        canvas.open("g", &[("class", &"y-grid"), ("stroke-width", &"1")]);
+        self.y_lines(canvas, scale);
+        canvas.close("g");
+    }
+
+    fn y_lines(&self, canvas: &mut Canvas, scale: &Scale) {
         grid(canvas, scale, |canvas, value| {
             if let Some(y) = self.y(scale, value) {
                 canvas.line((self.left, y), (self.right(), y));
             }
         });
+    }
+
+    /// Horizontal grid lines and the labels of the vertical axis.
+    pub fn y_axis(&self, canvas: &mut Canvas, scale: &Scale) {
+        canvas.open("g", &[("class", &"y-axis"), ("stroke-width", &"1")]);
+        self.y_lines(canvas, scale);
         for Tick { value, label } in &scale.ticks {
             if let Some(y) = self.y(scale, *value) {
                 let at = (self.left - TICK_GAP, y + TICK.cap_height() / 2.0);

@@ -54,6 +54,7 @@ fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> ScatterChart
             y: factor.sigma.map_or(f64::NAN, |estimate| estimate.estimate),
             // Those without effect all lie at the origin; the caption names them.
             label: reading.map_or_else(String::new, |_| words(&factor.factor)),
+            ..ScatterPoint::default()
         };
         ScatterSeries { name, role: role(reading), points: own.map(point).collect() }
     });

@@ -3,6 +3,7 @@
 mod draw;
 mod flags;
 mod path;
+pub(super) mod sheet;
 
 use super::ChartError;
 use super::figure::{Entry, Figure, Key, Words};
@@ -158,24 +159,9 @@ impl LineChart {
             return Err(ChartError::NoPanels { chart: self.title.clone() });
         }
         let words = Words { title: &self.title, caption: &self.caption };
-        let mut figure = Figure::begin(medium, words, &self.legend());
+        let mut figure = Figure::begin(medium, words, &legend_of(self.panels.iter().flat_map(|panel| &panel.series)));
         let bottom = draw::panels(&mut figure, self, medium.width);
         Ok(figure.finish(bottom, &self.description()))
-    }
-
-    /// Every name and look once; none for a single nameless series.
-    fn legend(&self) -> Vec<Entry> {
-        let mut entries: Vec<Entry> = Vec::new();
-        for series in self.panels.iter().flat_map(|panel| &panel.series) {
-            let LineSeries { role, stroke, .. } = series;
-            let (line, points) = (stroke.line(), stroke.points());
-            let key = Key::Line { role: *role, dash: stroke.dash(), line, points };
-            let entry = Entry { name: series.name.clone(), key };
-            if !series.name.trim().is_empty() && !entries.contains(&entry) {
-                entries.push(entry);
-            }
-        }
-        entries
     }
 
     /// Axes and series in words.
@@ -190,6 +176,20 @@ impl LineChart {
         }
         words
     }
+}
+
+/// Every name and look once; none for nameless series.
+pub(super) fn legend_of<'a>(series: impl Iterator<Item = &'a LineSeries>) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    for LineSeries { name, role, stroke, .. } in series {
+        let (line, points) = (stroke.line(), stroke.points());
+        let key = Key::Line { role: *role, dash: stroke.dash(), line, points };
+        let entry = Entry { name: name.clone(), key };
+        if !name.trim().is_empty() && !entries.contains(&entry) {
+            entries.push(entry);
+        }
+    }
+    entries
 }
 
 impl Axis {

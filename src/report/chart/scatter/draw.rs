@@ -2,6 +2,7 @@
 
 use super::super::bars::labels::Area;
 use super::super::figure::Figure;
+use super::super::marks::Ends;
 use super::super::plot::{Plot, TICK_GAP, tick_room, title_room};
 use super::super::scale::{Scale, Spacing, Wish};
 use super::super::style::{ChartWidth, MARGIN, MUTED, TICK};
@@ -25,8 +26,10 @@ const MOST_LABELS: usize = 60;
 pub(super) fn plot(figure: &mut Figure, chart: &ScatterChart, page: ChartWidth) -> f64 {
     let height = page.choose(HEIGHTS.0, HEIGHTS.1);
     let points = || chart.series.iter().flat_map(|series| &series.points);
-    let x = scale(points().map(|point| point.x), page.choose(6, 4));
-    let y = scale(points().map(|point| point.y), 6);
+    let ends = |interval: Option<(f64, f64)>| interval.into_iter().flat_map(|(low, high)| [low, high]);
+    let xs = points().flat_map(|point| ends(point.x_interval).chain([point.x]));
+    let ys = points().flat_map(|point| ends(point.y_interval).chain([point.y]));
+    let (x, y) = (scale(xs, page.choose(6, 4)), scale(ys, 6));
     let y_title = chart.y.title(y.exponent);
     let left = MARGIN + title_room(&y_title, height) + tick_room(&y);
     let beside = chart.guides.iter().map(|guide| TICK.width(&guide_label(guide, page)) + 4.0).fold(0.0, f64::max);
@@ -118,11 +121,25 @@ impl Sheet<'_> {
                 Wanted { at: *at, width, height: TICK.cap_height() }
             })
             .collect();
+        let whiskers: Vec<Area> = shown
+            .iter()
+            .flat_map(|(point, at)| {
+                let (level, upright) = self.whiskers(point);
+                let level = level.map(|(from, to)| Area {
+                    left: from.min(to),
+                    right: from.max(to),
+                    top: at.1 - 1.0,
+                    bottom: at.1 + 1.0,
+                });
+                let upright = upright.map(|(from, to)| Area::about(at.0, 1.0, (from, to)));
+                level.into_iter().chain(upright)
+            })
+            .collect();
         let plot = &self.plot;
         let bounds = Area { left: plot.left, right: plot.right() + 2.0, top: plot.top, bottom: plot.bottom() };
         canvas.open("g", &[("class", &"labels")]);
         for ((point, _), Place { area, leader }) in
-            shown.iter().zip(place(&wanted, bounds)).filter_map(|(shown, place)| Some((shown, place?)))
+            shown.iter().zip(place(&wanted, &whiskers, bounds)).filter_map(|(shown, place)| Some((shown, place?)))
         {
             if let Some([from, to]) = leader {
                 canvas.open("g", &[("stroke", &MUTED), ("stroke-width", &"0.7")]);
@@ -136,10 +153,20 @@ impl Sheet<'_> {
         canvas.close("g");
     }
 
+    /// The places of a point's interval ends, along the axes.
+    fn whiskers(&self, point: &ScatterPoint) -> (Ends, Ends) {
+        let x = |(low, high)| Some((self.plot.x(self.x, low)?, self.plot.x(self.x, high)?));
+        let y = |(low, high)| Some((self.plot.y(self.y, low)?, self.plot.y(self.y, high)?));
+        (point.x_interval.and_then(x), point.y_interval.and_then(y))
+    }
+
     fn points(&self, canvas: &mut Canvas) {
         for series in &self.chart.series {
             canvas.open("g", &[("class", &"series")]);
             canvas.content("title", &[], &series.name);
+            for (at, point) in series.points.iter().filter_map(|point| Some((self.at(point)?, point))) {
+                canvas.thin_whiskers(at, self.whiskers(point), series.role);
+            }
             for at in series.points.iter().filter_map(|point| self.at(point)) {
                 canvas.point(at, series.role);
             }
