@@ -1,11 +1,12 @@
 """Opens pages in a headless Chromium, at three sizes and on paper, and names what is wrong with them.
 
-    python tests/browser/check.py PAGE.html ... [--shots DIR] [--browser PATH]
+    python tests/browser/check.py PAGE.html ... [--shots DIR] [--browser PATH] [--expect-faults]
 
 Looked for: messages on the console, failed requests and requests beyond `file:`, images without alternative text or
 without a picture, charts without a title, anchors and links that lead nowhere, sideways scrolling, identifiers that are
 there twice, headings out of order, text too small or too pale to read, paper without pages. With `--shots` the pages are
-also written as PNG (whole and first view) and PDF. Exit code 1 if there is anything to name.
+also written as PNG (whole and first view) and PDF. Exit code 1 if there is anything to name. `--expect-faults` turns it
+round: every kind of fault in FAULTS must be found, so that a check that has gone blind is noticed.
 """
 
 import argparse
@@ -16,6 +17,24 @@ from urllib.parse import unquote, urlsplit
 from playwright.sync_api import sync_playwright
 
 SIZES = [(1280, 900), (768, 1024), (360, 740)]
+
+# What `faulty.html` does wrong, as the findings begin.
+FAULTS = [
+    "console: ",
+    "script: ",
+    "request beyond the file",
+    "image without alt",
+    "image without a picture",
+    "chart without a title",
+    "identifier twice",
+    "link to #nowhere",
+    "link to missing.csv",
+    "heading of level 2",
+    "no language",
+    "no title",
+    "scrolls sideways",
+    "contrast ",
+]
 
 # Everything that can be read off the document in place; returns a list of findings.
 LOOK = """
@@ -175,22 +194,28 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("pages", nargs="+", type=Path)
     parser.add_argument("--shots", type=Path, help="folder for pictures of the pages")
+    parser.add_argument("--expect-faults", action="store_true", help="fail unless every known kind of fault is found")
     parser.add_argument("--browser", default="/usr/bin/chromium", help="path of Chromium")
     arguments = parser.parse_args()
     if arguments.shots:
         arguments.shots.mkdir(parents=True, exist_ok=True)
-    wrong = 0
+    findings = []
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=arguments.browser, args=["--no-sandbox"])
         for page in arguments.pages:
             path = page.resolve()
             for size in SIZES:
                 for finding in open_page(browser, path, size, arguments.shots):
-                    print(f"{page} at {size[0]}: {finding}")
-                    wrong += 1
+                    findings.append(finding)
+                    if not arguments.expect_faults:
+                        print(f"{page} at {size[0]}: {finding}")
         browser.close()
-    if wrong:
-        print(f"{wrong} findings on {len(arguments.pages)} pages")
+    if arguments.expect_faults:
+        unseen = [fault for fault in FAULTS if not any(finding.startswith(fault) for finding in findings)]
+        print(f"faults not seen: {unseen}" if unseen else f"{len(FAULTS)} kinds of faults: all seen")
+        return 1 if unseen else 0
+    if findings:
+        print(f"{len(findings)} findings on {len(arguments.pages)} pages")
         return 1
     print(f"{len(arguments.pages)} pages at {len(SIZES)} sizes and on paper: nothing to find fault with")
     return 0

@@ -13,6 +13,7 @@ mod given;
 mod given_data;
 mod known;
 mod metamorphic;
+mod page;
 mod points;
 mod screening;
 mod workflows;

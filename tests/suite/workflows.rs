@@ -32,8 +32,8 @@ fn run_writes_what_check_announces() {
     for name in files(&out) {
         assert!(announced.contains(&name), "{name} was not announced");
     }
-    // Result, indices and convergence; shares, distribution and convergence of two outputs, each drawn twice.
-    assert_eq!(files(&out).len(), 3 + 2 * 6);
+    // Page, result, indices and convergence; shares, distribution and convergence of two outputs, each drawn twice.
+    assert_eq!(files(&out).len(), 4 + 2 * 6);
     assert!(table.contains("thickness") && table.contains("critical_time [s]"));
 }
 
