@@ -174,8 +174,11 @@ impl Sketch<'_> {
         let neck = (tip.0 - HEAD * along.0, tip.1 - HEAD * along.1);
         let half = 0.42 * HEAD;
         self.path(&[at, neck], false, Look::line(colour, 2.2));
-        let barbs =
-            [tip, (neck.0 - half * along.1, neck.1 + half * along.0), (neck.0 + half * along.1, neck.1 - half * along.0)];
+        let barbs = [
+            tip,
+            (neck.0 - half * along.1, neck.1 + half * along.0),
+            (neck.0 + half * along.1, neck.1 - half * along.0),
+        ];
         self.path(&barbs, true, Look::area(colour));
     }
 

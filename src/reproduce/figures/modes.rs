@@ -5,8 +5,8 @@ use super::{FiguresError, PaperFigure};
 use crate::afm::modes::Mode;
 use crate::afm::{Failure, Options, Scene, critical_force};
 use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Spacing, Stroke};
-use crate::report::scene::mode_diagram::mode_lines;
 use crate::report::scene::ModeDiagram;
+use crate::report::scene::mode_diagram::mode_lines;
 use crate::report::scene::words::{force, short};
 use crate::reproduce::Effort;
 use crate::simulation::{pushing, scene_modes};
@@ -14,7 +14,7 @@ use crate::simulation::{pushing, scene_modes};
 const NANO: f64 = 1e9;
 /// Contact angles: about the nominal 60 degrees.
 const CONTACT_ANGLES: (f64, f64) = (40.0, 70.0);
-const THEIRS: &str = "A larger angle lowers the force at which the particle slides, which it does before it rolls.";
+const THEIRS: &str = "A larger contact angle lowers the force at which the particle slides.";
 
 /// Both figures.
 pub(super) fn modes(effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
@@ -44,8 +44,12 @@ fn against_force_angle() -> Result<PaperFigure, FiguresError> {
 /// How the force of sliding goes with the angle.
 fn sliding(diagram: &ModeDiagram) -> Option<String> {
     let line = diagram.forces.iter().find(|line| line.mode == Mode::Slide.name())?;
-    let points: Vec<(f64, f64)> =
-        diagram.angle.iter().zip(&line.force).filter_map(|(angle, force)| Some((angle.to_degrees(), (*force)?))).collect();
+    let points: Vec<(f64, f64)> = diagram
+        .angle
+        .iter()
+        .zip(&line.force)
+        .filter_map(|(angle, force)| Some((angle.to_degrees(), (*force)?)))
+        .collect();
     let (first, last) = (points.first()?, points.last()?);
     let falls = points.windows(2).all(|pair| pair[1].1 <= pair[0].1);
     let verb = if falls { "falls" } else { "goes" };
@@ -136,7 +140,7 @@ fn chart(degrees: &[f64], lines: &[Against]) -> LineChart {
             title: String::new(),
             y: axis("Force at which the mode sets in", "nN", Spacing::Logarithmic),
             series: series.collect(),
-            markers: vec![Marker { x: nominal, label: format!("nominal: {}°", short(nominal)) }],
+            markers: vec![Marker { x: nominal, label: format!("nominal: {nominal:.0}°") }],
         }],
     }
 }
@@ -147,7 +151,7 @@ fn caption(lines: &[Against]) -> String {
     let (Some((first, last)), Some((along_first, along_last))) = (ends(&lines[0]), ends(&lines[1])) else {
         return "The scene has no critical force.".to_owned();
     };
-    let (from, to) = (short(CONTACT_ANGLES.0), short(CONTACT_ANGLES.1));
+    let (from, to) = CONTACT_ANGLES;
     // 1e-9: rounding; the contact angle does not enter the critical force.
     let own = if (last / first - 1.0).abs() < 1e-9 {
         format!("stays at {}", force(first))

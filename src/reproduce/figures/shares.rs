@@ -67,8 +67,11 @@ pub(super) fn shares(studies: &[Reproduced]) -> Vec<PaperFigure> {
         }
     }
     for group in GROUPS {
-        let paper =
-            Paper { stem: group.key, label: "All friction models", theirs: "The papers show them in separate figures." };
+        let paper = Paper {
+            stem: group.key,
+            label: "All friction models",
+            theirs: "The papers show them in separate figures.",
+        };
         figures.extend(figure(&paper, group, &members(group, |_| true)));
     }
     figures
@@ -128,7 +131,8 @@ fn leader<'a>(group: StudyGroup, member: &'a Reproduced) -> Option<Leader<'a>> {
 /// What is seen, in one sentence.
 fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
     let leaders: Vec<Leader<'_>> = members.iter().filter_map(|member| leader(group, member)).collect();
-    let shares = |l: &Leader<'_>| format!("{:.0} % of the first-order and {:.0} % of the total indices", l.shares.0, l.shares.1);
+    let shares =
+        |l: &Leader<'_>| format!("{:.0} % of the first-order and {:.0} % of the total indices", l.shares.0, l.shares.1);
     let seen = match &leaders[..] {
         [] => "No factor has a share".to_owned(),
         [one] => format!("The {} has the largest share, {}", words(one.factor), shares(one)),
@@ -138,14 +142,18 @@ fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
             format!("The {} has the largest total share under {every} ({})", words(one.factor), each.join("; "))
         }
         _ => {
-            let each: Vec<String> =
-                leaders.iter().map(|l| format!("{} under {} ({:.0} %)", words(l.factor), l.friction, l.shares.1)).collect();
+            let each: Vec<String> = leaders
+                .iter()
+                .map(|l| format!("{} under {} ({:.0} %)", words(l.factor), l.friction, l.shares.1))
+                .collect();
             capitalised(&format!("the largest total share belongs to {}", each.join(", ")))
         }
     };
-    let printed = leaders.iter().find_map(|l| l.published.map(|share| (share, l.friction)));
+    let printed = leaders.iter().find_map(|l| l.published.map(|share| (share, l)));
     match printed {
-        Some((share, friction)) => format!("{seen}; what is printed for {friction} gives it {share} % (diamonds)."),
+        Some((share, l)) => {
+            format!("{seen}; printed for {} are {share} % for the {} (diamonds).", l.friction, words(l.factor))
+        }
         None => format!("{seen}."),
     }
 }

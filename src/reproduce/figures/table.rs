@@ -44,7 +44,8 @@ mod tests {
 
     #[test]
     fn numbers_keep_their_bits_and_gaps_are_empty() {
-        let table = Table::default().with("x_um", [0.1, 1e-300]).with("y_nN", [f64::NAN]).with_words("mode", ["a", "b"]);
+        let table =
+            Table::default().with("x_um", [0.1, 1e-300]).with("y_nN", [f64::NAN]).with_words("mode", ["a", "b"]);
         assert_eq!(table.csv(), format!("x_um,y_nN,mode\n0.1,,a\n{},,b\n", 1e-300));
     }
 }
