@@ -98,7 +98,7 @@ fn write_files(arguments: &Arguments, result: &GivenFile) -> Result<Vec<PathBuf>
             before if before.contains(&names[place]) => format!("{stem}-{}-{}", names[place], place + 1),
             _ => format!("{stem}-{}", names[place]),
         };
-        let svg = given_chart(result, output).map_err(|error| Failure::Run(error.into()))?;
+        let svg = given_chart(result, output).svg().map_err(|error| Failure::Run(error.into()))?;
         write(format!("{name}.svg"), svg.as_bytes())?;
         let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
         write(format!("{name}.png"), &picture.bytes)?;

@@ -33,8 +33,9 @@ pub fn write(
         put(ending, text.as_bytes())?;
     }
     for chart in charts {
-        let picture = png(&chart.svg).map_err(|error| Failure::Run(error.into()))?;
-        put(&format!("{}.svg", chart.suffix), chart.svg.as_bytes())?;
+        let svg = chart.chart.svg().map_err(|error| Failure::Run(error.into()))?;
+        let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
+        put(&format!("{}.svg", chart.suffix), svg.as_bytes())?;
         put(&format!("{}.png", chart.suffix), &picture.bytes)?;
     }
     Ok(written)

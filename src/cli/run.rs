@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::analyse;
-use apportion::report::chart::{ChartError, png};
+use apportion::report::chart::{Chart, png};
 use apportion::report::{
     OutputRecord, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv, indices_csv,
     inputs_in_words, prepare_file, prepare_folder, result_json, second_order_csv, study_chart, summary,
@@ -95,7 +95,7 @@ enum Kind {
     Png(Draw, usize),
 }
 
-type Draw = fn(&ResultFile, &OutputRecord) -> Result<String, ChartError>;
+type Draw = fn(&ResultFile, &OutputRecord) -> Chart;
 
 /// The files that a run of `study` writes.
 pub fn files(study: &Study) -> Vec<ResultFileName> {
@@ -133,8 +133,9 @@ pub fn files(study: &Study) -> Vec<ResultFileName> {
 }
 
 fn write_files(folder: &Path, study: &Study, result: &ResultFile) -> Result<Vec<PathBuf>, Failure> {
-    let drawn =
-        |draw: Draw, number: usize| draw(result, &result.outputs[number]).map_err(|error| Failure::Run(error.into()));
+    let drawn = |draw: Draw, number: usize| {
+        draw(result, &result.outputs[number]).svg().map_err(|error| Failure::Run(error.into()))
+    };
     let mut written = Vec::new();
     for file in files(study) {
         let bytes = match file.kind {

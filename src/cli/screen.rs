@@ -93,7 +93,7 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
     let facts = RunFacts { threads, wall_seconds: start.elapsed().as_secs_f64() };
     meter.finish(screening.runs, facts.wall_seconds);
     let file = build_screening(&study, model.as_ref(), &screening, facts);
-    let charts = screening_charts(&file).map_err(|error| Failure::Run(error.into()))?;
+    let charts = screening_charts(&file);
     let tables = [("-screen.json", screening_json(&file)), ("-screen.csv", screening_csv(&file))];
     let files = write(&folder, &study.name, (&tables, &charts))?;
     print(&screening_summary(&file))?;

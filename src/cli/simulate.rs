@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use apportion::quantity::{Dimension, Quantity};
-use apportion::report::chart::png;
+use apportion::report::chart::{Chart, png};
 use apportion::report::scene::{PageParts, mode_diagram_chart, scene_charts, scene_csv, scene_json, scene_page};
 use apportion::report::{prepare_folder, with_unit, write_atomically};
 use apportion::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
@@ -58,7 +58,7 @@ pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
 
 fn tell(arguments: &Arguments, study: &Study, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let story = simulate_scene(study, arguments.duration)?;
-    let charts = scene_charts(&story).map_err(|error| Failure::Run(error.into()))?;
+    let charts = scene_charts(&story);
     let stem = format!("{}-scene", study.name);
     let (csv, json) = (format!("{stem}.csv"), format!("{stem}.json"));
     let parts = PageParts { charts: &charts, csv_file: &csv, json_file: &json };
@@ -69,7 +69,7 @@ fn tell(arguments: &Arguments, study: &Study, folder: &Path) -> Result<Vec<PathB
         (json, scene_json(&story).into_bytes()),
     ];
     for chart in &charts {
-        files.extend(pictures(&format!("{}-{}", study.name, chart.stem), &chart.svg)?);
+        files.extend(pictures(&format!("{}-{}", study.name, chart.stem), &chart.chart)?);
     }
     let critical = &story.critical;
     let nanonewtons = |force: f64| with_unit(force * 1e9, "nN");
@@ -89,7 +89,7 @@ fn tell(arguments: &Arguments, study: &Study, folder: &Path) -> Result<Vec<PathB
 
 fn draw_modes(study: &Study, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let diagram = mode_diagram(study)?;
-    let svg = mode_diagram_chart(&diagram).map_err(|error| Failure::Run(error.into()))?;
+    let chart = mode_diagram_chart(&diagram).map_err(|error| Failure::Run(error.into()))?;
     let mut csv = String::from("angle_rad");
     for line in &diagram.forces {
         csv.push_str(&format!(",{}_N", line.mode));
@@ -101,14 +101,15 @@ fn draw_modes(study: &Study, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     }
     let stem = format!("{}-modes", study.name);
     let mut files = vec![(format!("{stem}.csv"), csv.into_bytes())];
-    files.extend(pictures(&stem, &svg)?);
+    files.extend(pictures(&stem, &chart)?);
     write(folder, files)
 }
 
 /// A chart as its two files.
-fn pictures(stem: &str, svg: &str) -> Result<[(String, Vec<u8>); 2], Failure> {
-    let picture = png(svg).map_err(|error| Failure::Run(error.into()))?;
-    Ok([(format!("{stem}.svg"), svg.as_bytes().to_vec()), (format!("{stem}.png"), picture.bytes)])
+fn pictures(stem: &str, chart: &Chart) -> Result<[(String, Vec<u8>); 2], Failure> {
+    let svg = chart.svg().map_err(|error| Failure::Run(error.into()))?;
+    let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
+    Ok([(format!("{stem}.svg"), svg.into_bytes()), (format!("{stem}.png"), picture.bytes)])
 }
 
 fn write(folder: &Path, files: Vec<(String, Vec<u8>)>) -> Result<Vec<PathBuf>, Failure> {

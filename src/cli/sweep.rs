@@ -86,7 +86,7 @@ pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     prepare(&folder, &file_names(&study, &request, &outputs))?;
     let sweeps = sweep_factors(&study.space, model.as_ref(), &request)?;
     let file = build_sweep(&study, model.as_ref(), &sweeps);
-    let charts = sweep_charts(&file).map_err(|error| Failure::Run(error.into()))?;
+    let charts = sweep_charts(&file);
     let tables = [("-sweep.json", sweep_json(&file)), ("-sweep.csv", sweep_csv(&file))];
     let files = write(&folder, &study.name, (&tables, &charts))?;
     print(&sweep_summary(&file))?;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use super::chart::Chart;
 use super::result::{ConstantRecord, ValidityRecord};
 use crate::model::Model;
 use crate::study::Study;
@@ -43,13 +44,13 @@ pub struct AskedFactor {
     pub nominal: f64,
 }
 
-/// A drawn chart.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// A chart that becomes files.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
     /// What is added to the study's name for the names of its files.
     pub suffix: String,
-    /// The SVG document.
-    pub svg: String,
+    /// The chart.
+    pub chart: Chart,
 }
 
 pub(super) fn asked(study: &Study) -> AskedRecord {

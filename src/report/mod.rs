@@ -22,7 +22,6 @@ pub use build::{FinishedRun, RunFacts, build_result, result_json};
 pub use build_output::{inputs_in_words, judgement};
 pub use result::*;
 pub use run_charts::{convergence_chart, distribution_chart};
-pub(crate) use shares_chart::shares_bars;
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
 pub use tables::{
     convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,

@@ -1,7 +1,7 @@
 //! Charts of a run besides that of the shares: how the indices settled, and how the output is distributed.
 
 use super::asked::the;
-use super::chart::{Axis, ChartError, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
+use super::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
 use super::distribution::{DensityWords, density_chart};
 use super::result::{EstimateRecord, OutputRecord, ResultFile, StageIndexRecord, StageRecord};
 use super::shares_chart::{friction_role, label};
@@ -10,13 +10,9 @@ use super::significant;
 /// Factors with a line of their own: as many as there are colours.
 const LINES: usize = 8;
 
-/// Draws how the total indices and the half widths of their intervals changed with the number of model runs, for the
-/// factors with the largest total indices (at most eight), as an SVG document. With a target, its line stands among the
-/// half widths.
-///
-/// # Errors
-/// [`ChartError`] if the chart cannot be drawn.
-pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Result<String, ChartError> {
+/// How the total indices and the half widths of their intervals changed with the number of model runs, for the factors with
+/// the largest total indices (at most eight). With a target, its line stands among the half widths.
+pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let factors = largest(output);
     let stages = &output.convergence;
     let axis = |label: &str, spacing| Axis { label: label.to_owned(), unit: String::new(), spacing };
@@ -32,7 +28,7 @@ pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Result<S
         series,
         markers: Vec::new(),
     };
-    let chart = LineChart {
+    Chart::Lines(LineChart {
         title: format!("{}: how the indices of {} settled", headline(result), the(&output.name)),
         caption: caption(result, output, factors.len()),
         x: axis("model runs", Spacing::Logarithmic),
@@ -44,15 +40,11 @@ pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Result<S
                 widths,
             ),
         ],
-    };
-    chart.svg()
+    })
 }
 
-/// Draws the distribution of an output as an SVG document; without values, the reason.
-///
-/// # Errors
-/// [`ChartError`] if the chart cannot be drawn.
-pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Result<String, ChartError> {
+/// The distribution of an output; without values, the reason.
+pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let title = format!("{}: distribution of {}", headline(result), the(&output.name));
     let friction = result.study.settings.get("friction").and_then(serde_json::Value::as_str);
     let role = friction.map_or(Role::Other(0), friction_role);
@@ -62,13 +54,12 @@ pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Result<
     }
     let reason = output.reason.as_deref().unwrap_or("its values are beyond double precision in this unit");
     let y = Axis { label: "probability density".to_owned(), ..Axis::default() };
-    let chart = LineChart {
+    Chart::Lines(LineChart {
         title,
         caption: format!("No distribution of {}: {reason}.", the(&output.name)),
         x: Axis { label: output_words, ..Axis::default() },
         panels: vec![LinePanel { title: String::new(), y, series: Vec::new(), markers: Vec::new() }],
-    };
-    chart.svg()
+    })
 }
 
 fn headline(result: &ResultFile) -> &str {

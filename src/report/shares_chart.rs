@@ -1,6 +1,6 @@
 //! The chart of percentages: first-order and total shares of every factor, studies side by side.
 
-use super::chart::{Bar, ChartError, GroupedBars, Panel, Role, Series};
+use super::chart::{Bar, Chart, GroupedBars, Panel, Role, Series};
 use super::result::{EffectRecord, IntervalRecord, OutputRecord, ResultFile};
 
 /// One study in a chart of shares.
@@ -27,22 +27,14 @@ pub struct SharesWords {
     pub published: &'static str,
 }
 
-/// Draws the shares of `factors` in each of `series` as an SVG document: first order on the left, total on the right.
-///
-/// # Errors
-/// [`ChartError`] if there is nothing to draw.
-pub fn shares_chart(words: SharesWords, factors: &[&str], series: &[SharesSeries<'_>]) -> Result<String, ChartError> {
-    shares_bars(words, factors, series).svg()
-}
-
-/// The same before it is drawn.
-pub(crate) fn shares_bars(words: SharesWords, factors: &[&str], series: &[SharesSeries<'_>]) -> GroupedBars {
+/// The shares of `factors` in each of `series`: first order on the left, total on the right.
+pub fn shares_chart(words: SharesWords, factors: &[&str], series: &[SharesSeries<'_>]) -> Chart {
     let panel = |title: &str, share: ShareOf| Panel {
         title: title.to_owned(),
         categories: factors.iter().map(|factor| label(factor)).collect(),
         series: series.iter().map(|s| chart_series(s, factors, share)).collect(),
     };
-    GroupedBars {
+    Chart::Bars(GroupedBars {
         title: words.title,
         caption: words.caption,
         y_label: "share of the sum of indices (%)".to_owned(),
@@ -52,14 +44,11 @@ pub(crate) fn shares_bars(words: SharesWords, factors: &[&str], series: &[Shares
             panel("First-order indices", |e| (e.share_first_order, e.share_first_order_interval)),
             panel("Total indices", |e| (e.share_total, e.share_total_interval)),
         ],
-    }
+    })
 }
 
 /// The chart of one output of a single study.
-///
-/// # Errors
-/// [`ChartError`] if there is nothing to draw.
-pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Result<String, ChartError> {
+pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let factors: Vec<&str> = result.factors.iter().map(|factor| factor.name.as_str()).collect();
     let friction = result.study.settings.get("friction").and_then(serde_json::Value::as_str);
     let words = SharesWords {

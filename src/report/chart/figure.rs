@@ -1,10 +1,12 @@
 //! The frame of every figure: title and legend above, caption below, text for screen readers.
 
+use std::fmt::Display;
+
 use super::font::FAMILIES;
 use super::marks::DIAMOND;
-use super::style::{BODY, INK, MARGIN, MUTED, PAPER, Role, TITLE};
+use super::style::{BODY, INK, MARGIN, MUTED, Medium, PAPER, Role, TITLE};
 use super::svg::{Canvas, Px, Text};
-use super::text::{shorten, wrap};
+use super::text::{wrap, wrap_within};
 
 /// Gap between a key and its name, px.
 const KEY_GAP: f64 = 6.0;
@@ -54,52 +56,54 @@ pub(super) struct Figure<'a> {
     /// The upper edge of the room still free, px.
     pub top: f64,
     width: f64,
+    medium: Medium,
     words: Words<'a>,
 }
 
 impl<'a> Figure<'a> {
-    /// Draws title and legend of a figure `width` px wide.
-    pub fn begin(width: f64, words: Words<'a>, legend: &[Entry]) -> Self {
-        let mut figure = Self { canvas: Canvas::default(), top: MARGIN, width, words };
-        figure.canvas.open("g", &[("class", &"title")]);
-        for line in wrap(words.title, width - 2.0 * MARGIN, TITLE) {
-            figure.top += TITLE.leading();
-            let baseline = figure.top - 0.3 * TITLE.size;
-            figure.canvas.text(&Text::new(&line, (MARGIN, baseline), TITLE));
+    /// Draws title and legend of a figure as wide as its medium.
+    pub fn begin(medium: Medium, words: Words<'a>, legend: &[Entry]) -> Self {
+        Self::begin_grown((medium, medium.width.px()), words, legend)
+    }
+
+    /// Draws title and legend of a figure that has grown to `width` px.
+    pub fn begin_grown((medium, width): (Medium, f64), words: Words<'a>, legend: &[Entry]) -> Self {
+        let top = if medium.inline { 0.0 } else { MARGIN };
+        let mut figure = Self { canvas: Canvas::default(), top, width, medium, words };
+        if !medium.inline {
+            figure.title();
         }
-        figure.canvas.close("g");
         if !legend.is_empty() {
             figure.legend(legend);
         }
         figure
     }
 
+    fn title(&mut self) {
+        self.canvas.open("g", &[("class", &"title")]);
+        for line in wrap(self.words.title, self.width - 2.0 * MARGIN, TITLE) {
+            self.top += TITLE.leading();
+            let baseline = self.top - 0.3 * TITLE.size;
+            self.canvas.text(&Text::new(&line, (MARGIN, baseline), TITLE));
+        }
+        self.canvas.close("g");
+    }
+
     /// The caption under `bottom`, then the whole as an SVG document. `description` is read out by screen
     /// readers after the caption.
     pub fn finish(mut self, bottom: f64, description: &str) -> String {
-        let mut y = bottom;
-        let caption = wrap(self.words.caption, self.width - 2.0 * MARGIN, BODY);
-        self.canvas.open("g", &[("class", &"caption")]);
-        for (row, line) in caption.iter().enumerate() {
-            y += if row == 0 { 8.0 + BODY.size } else { BODY.leading() };
-            self.canvas.text(&Text::new(line, (MARGIN, y), BODY).fill(MUTED));
-        }
-        self.canvas.close("g");
-        let (width, height) = (self.width.ceil(), (y + MARGIN).ceil());
+        let bottom = if self.medium.inline { bottom } else { self.caption(bottom) + MARGIN };
+        let (width, height) = (self.width.ceil(), bottom.ceil());
         let view = format!("0 0 {width} {height}");
         let mut page = Canvas::default();
-        page.open(
-            "svg",
-            &[
-                ("xmlns", &"http://www.w3.org/2000/svg"),
-                ("width", &width),
-                ("height", &height),
-                ("viewBox", &view),
-                ("role", &"img"),
-                ("font-family", &FAMILIES),
-                ("fill", &INK),
-            ],
-        );
+        let size: &[(&str, &dyn Display)] = &[("width", &width), ("height", &height)];
+        let label: &[(&str, &dyn Display)] = &[("aria-label", &self.words.title)];
+        let mut attributes: Vec<(&str, &dyn Display)> = vec![("xmlns", &"http://www.w3.org/2000/svg")];
+        attributes.extend_from_slice(if self.medium.inline { &[] } else { size });
+        attributes.extend_from_slice(&[("viewBox", &view), ("role", &"img")]);
+        attributes.extend_from_slice(if self.medium.inline { label } else { &[] });
+        attributes.extend_from_slice(&[("font-family", &FAMILIES), ("fill", &INK)]);
+        page.open("svg", &attributes);
         page.content("title", &[], self.words.title);
         page.content("desc", &[], &format!("{} {description}", self.words.caption));
         page.leaf("rect", &[("width", &width), ("height", &height), ("fill", &PAPER)]);
@@ -108,20 +112,38 @@ impl<'a> Figure<'a> {
         page.into_string()
     }
 
+    /// Draws the caption; gives its last baseline.
+    fn caption(&mut self, bottom: f64) -> f64 {
+        let mut y = bottom;
+        let caption = wrap(self.words.caption, self.width - 2.0 * MARGIN, BODY);
+        self.canvas.open("g", &[("class", &"caption")]);
+        for (row, line) in caption.iter().enumerate() {
+            y += if row == 0 { 8.0 + BODY.size } else { BODY.leading() };
+            self.canvas.text(&Text::new(line, (MARGIN, y), BODY).fill(MUTED));
+        }
+        self.canvas.close("g");
+        y
+    }
+
     fn legend(&mut self, entries: &[Entry]) {
         let right = self.width - MARGIN;
         self.canvas.open("g", &[("class", &"legend")]);
         let (mut x, mut y) = (MARGIN, self.top + 5.0 + ROW / 2.0);
         for entry in entries {
             let key = entry.key.width() + KEY_GAP;
-            let name = shorten(&entry.name, right - MARGIN - key, BODY);
-            let length = key + BODY.width(&name);
+            let most = self.medium.width.choose(1, 3);
+            let name = wrap_within(&entry.name, (right - MARGIN - key, most), BODY);
+            let length = key + name.iter().map(|line| BODY.width(line)).fold(0.0, f64::max);
             if x > MARGIN && x + length > right {
                 (x, y) = (MARGIN, y + ROW);
             }
             self.key(entry.key, (x, y));
-            let at = (x + key, y + BODY.cap_height() / 2.0);
-            self.canvas.text(&Text::new(&name, at, BODY).whole(&entry.name));
+            for (row, line) in name.iter().enumerate() {
+                y += if row == 0 { 0.0 } else { BODY.leading() };
+                let at = (x + key, y + BODY.cap_height() / 2.0);
+                let text = Text::new(line, at, BODY);
+                self.canvas.text(&if name.len() == 1 { text.whole(&entry.name) } else { text });
+            }
             x += length + ENTRY_GAP;
         }
         self.canvas.close("g");

@@ -3,6 +3,9 @@
 use super::style::{INK, MUTED, PAPER, Role};
 use super::svg::{Canvas, Px};
 
+/// The ends of an interval, px.
+pub(super) type Ends = Option<(f64, f64)>;
+
 /// Half the diagonal of a diamond, px, where there is room for it.
 pub(super) const DIAMOND: f64 = 4.2;
 
@@ -37,6 +40,42 @@ impl Canvas {
         let (left, right, top, bottom) = (Px(x - 3.0), Px(x + 3.0), Px(y - 3.0), Px(y + 3.0));
         let d = format!("M{left} {top}L{right} {bottom}M{left} {bottom}L{right} {top}");
         self.leaf("path", &[("d", &d), ("fill", &"none"), ("stroke", &MUTED), ("stroke-width", &"1.2")]);
+    }
+
+    /// A cloud of small dots as one path: each is a line of no length with round ends. Coordinates have one decimal.
+    pub fn dots(&mut self, dots: &[(f64, f64)], role: Role) {
+        let mut d = String::with_capacity(14 * dots.len());
+        for (x, y) in dots {
+            let tenth = |v: &f64| Px((10.0 * v).round() / 10.0);
+            d.push_str(&format!("M{} {}h0", tenth(x), tenth(y)));
+        }
+        self.leaf(
+            "path",
+            &[
+                ("class", &"dots"),
+                ("d", &d),
+                ("fill", &"none"),
+                ("stroke", &role.colour()),
+                ("stroke-width", &"2.8"),
+                ("stroke-linecap", &"round"),
+                ("stroke-opacity", &"0.4"),
+            ],
+        );
+    }
+
+    /// Thin lines without caps from a point's interval ends, level and upright.
+    pub fn thin_whiskers(&mut self, (x, y): (f64, f64), (level, upright): (Ends, Ends), role: Role) {
+        let mut d = String::new();
+        if let Some((from, to)) = level {
+            d.push_str(&format!("M{} {}H{}", Px(from), Px(y), Px(to)));
+        }
+        if let Some((from, to)) = upright {
+            d.push_str(&format!("M{} {}V{}", Px(x), Px(from), Px(to)));
+        }
+        if !d.is_empty() {
+            let (stroke, class) = (role.colour(), "whisker");
+            self.leaf("path", &[("class", &class), ("d", &d), ("fill", &"none"), ("stroke", &stroke)]);
+        }
     }
 
     /// A filled point whose colour and, for print in grey, outline are the role's.

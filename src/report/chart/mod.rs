@@ -1,6 +1,6 @@
 //! Charts as SVG text and PNG pictures, all in one style.
 //!
-//! A chart is plain data, [`GroupedBars`], [`LineChart`], [`RangeBars`] or [`ScatterChart`]; its method `svg` draws it, and [`png()`] turns the
+//! A chart is plain data, [`GroupedBars`], [`LineChart`], [`RangeBars`], [`ScatterChart`] or [`CloudChart`]; its method `svg` draws it, and [`png()`] turns the
 //! SVG into a picture. Colours belong to a [`Role`], so a friction model looks the same in every chart.
 //! The same data give the same bytes. Text stays text, is escaped, and is laid out with the advances of
 //! the embedded faces, which are those of Arial. Numbers that cannot be drawn (not finite, or beyond
@@ -8,6 +8,7 @@
 
 mod any;
 mod bars;
+mod cloud;
 mod error;
 mod figure;
 mod font;
@@ -26,8 +27,9 @@ mod text;
 #[cfg(test)]
 mod reading;
 
-pub use any::{Chart, ChartWidth, Picture};
+pub use any::{Chart, Picture};
 pub use bars::{Bar, GroupedBars, Panel, Series};
+pub use cloud::{CloudChart, CloudPanel};
 pub use error::ChartError;
 pub use lines::{Axis, LineChart, LinePanel, LineSeries, Marker, Stroke};
 pub use png::{PNG_SCALE, Png, PngError, png};
@@ -35,4 +37,4 @@ pub use ranges::{Range, RangeBars, RangeRow, Reference};
 pub use scale::Spacing;
 pub use scatter::{Guide, ScatterChart, ScatterPoint, ScatterSeries};
 pub(in crate::report) use sheet::{Look, Sheet, Sketch};
-pub use style::Role;
+pub use style::{ChartWidth, Role};

@@ -1,12 +1,14 @@
 //! A plotting rectangle: grid, tick labels and axis titles around it.
 
 use super::scale::{Scale, Tick};
-use super::style::{BODY, FINE_GRID, GRID, INK, MUTED, PANEL_TITLE, TICK};
+use super::style::{BODY, ChartWidth, FINE_GRID, GRID, INK, MARGIN, MUTED, PANEL_TITLE, TICK};
 use super::svg::{Anchor, Canvas, Text};
-use super::text::{power_of_ten, shorten, wrap};
+use super::text::{power_of_ten, shorten, wrap, wrap_within};
 
 /// Room between an axis and its tick labels, px.
 pub(super) const TICK_GAP: f64 = 6.0;
+/// Most lines of a turned axis title.
+const TITLE_LINES: usize = 3;
 
 /// A rectangle with a scale on each side, in px.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,20 +38,32 @@ impl Plot {
         scale.place(value).map(|place| self.bottom() - place * self.height)
     }
 
-    /// The panel's title over the upper left corner, `rise` px above the rectangle.
-    pub fn title(&self, canvas: &mut Canvas, title: &str, rise: f64) {
-        let line = shorten(title, self.width, PANEL_TITLE);
-        canvas.text(&Text::new(&line, (self.left, self.top - rise), PANEL_TITLE).whole(title));
+    /// The panel's title over the upper left corner, `rise` px above the rectangle; on a phone from edge to edge.
+    pub fn title(&self, canvas: &mut Canvas, title: &str, (rise, width): (f64, ChartWidth)) {
+        let (left, room) = width.choose((self.left, self.width), (MARGIN, width.px() - 2.0 * MARGIN));
+        let line = shorten(title, room, PANEL_TITLE);
+        canvas.text(&Text::new(&line, (left, self.top - rise), PANEL_TITLE).whole(title));
     }
 
-    /// Horizontal grid lines and the labels of the vertical axis.
-    pub fn y_axis(&self, canvas: &mut Canvas, scale: &Scale) {
-        canvas.open("g", &[("class", &"y-axis"), ("stroke-width", &"1")]);
+    /// Horizontal grid lines, for a plot whose neighbour has the labels.
+    pub fn y_grid(&self, canvas: &mut Canvas, scale: &Scale) {
+        canvas.open("g", &[("class", &"y-grid"), ("stroke-width", &"1")]);
+        self.y_lines(canvas, scale);
+        canvas.close("g");
+    }
+
+    fn y_lines(&self, canvas: &mut Canvas, scale: &Scale) {
         grid(canvas, scale, |canvas, value| {
             if let Some(y) = self.y(scale, value) {
                 canvas.line((self.left, y), (self.right(), y));
             }
         });
+    }
+
+    /// Horizontal grid lines and the labels of the vertical axis.
+    pub fn y_axis(&self, canvas: &mut Canvas, scale: &Scale) {
+        canvas.open("g", &[("class", &"y-axis"), ("stroke-width", &"1")]);
+        self.y_lines(canvas, scale);
         for Tick { value, label } in &scale.ticks {
             if let Some(y) = self.y(scale, *value) {
                 let at = (self.left - TICK_GAP, y + TICK.cap_height() / 2.0);
@@ -91,7 +105,7 @@ impl Plot {
 
     /// The title of the vertical axis, turned, its last line's baseline at `x`.
     pub fn y_title(&self, canvas: &mut Canvas, title: &str, x: f64) {
-        let lines = wrap(title, self.height, BODY);
+        let lines = wrap_within(title, (self.height, TITLE_LINES), BODY);
         let middle = self.top + self.height / 2.0;
         for (back, line) in lines.iter().rev().enumerate() {
             let at = (x - back as f64 * BODY.leading(), middle);
@@ -122,7 +136,7 @@ pub(super) fn tick_room(scale: &Scale) -> f64 {
 
 /// Width that a turned axis title takes beside a plot of this height, px.
 pub(super) fn title_room(title: &str, height: f64) -> f64 {
-    let lines = wrap(title, height, BODY).len() as f64;
+    let lines = wrap_within(title, (height, TITLE_LINES), BODY).len() as f64;
     if lines == 0.0 { 0.0 } else { lines * BODY.leading() + 4.0 }
 }
 

@@ -93,6 +93,17 @@ pub fn png(svg: &str) -> Result<Png, PngError> {
     Ok(Png { bytes, width: pixels.width(), height: pixels.height(), missing })
 }
 
+/// The smallest rectangle that holds every mark and letter, as (left, top, right, bottom), px, and the size of the view.
+#[cfg(test)]
+pub(super) fn extent(svg: &str) -> ([f32; 4], [f32; 2]) {
+    let document = roxmltree::Document::parse(svg).expect("well-formed");
+    let options = Options { font_family: FAMILY.to_owned(), fontdb: FONTS.clone(), ..Options::default() };
+    let tree = Tree::from_xmltree(&document, &options).expect("an SVG");
+    let bounds = tree.root().abs_bounding_box();
+    let size = tree.size();
+    ([bounds.left(), bounds.top(), bounds.right(), bounds.bottom()], [size.width(), size.height()])
+}
+
 /// Characters of drawn text without a glyph.
 fn missing(document: &roxmltree::Document) -> Vec<char> {
     let mut missing = Vec::new();

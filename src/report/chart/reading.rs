@@ -3,7 +3,8 @@
 use resvg::tiny_skia::Pixmap;
 use resvg::usvg::roxmltree::{Document, Node};
 
-use super::png;
+use super::png::extent;
+use super::{Chart, ChartWidth, png};
 
 /// The groups of a class, in order.
 pub(super) fn groups<'a, 'i>(document: &'a Document<'i>, class: &str) -> Vec<Node<'a, 'i>> {
@@ -54,6 +55,22 @@ pub(super) fn dark_pixels(svg: &str, from: f64, to: f64) -> usize {
     let rows = (2.0 * from) as u32..(2.0 * to) as u32;
     let dark = |x: u32, y: u32| pixels.pixel(x, y).is_some_and(|p| p.red().max(p.green()).max(p.blue()) < 90);
     rows.map(|y| (0..pixels.width()).filter(|&x| dark(x, y)).count()).sum()
+}
+
+/// Asserts that a phone's drawing is 360 px wide and that nothing sticks out of it, as a document and on a page.
+#[track_caller]
+pub(super) fn assert_narrow(chart: &Chart) {
+    let inline = chart.inline(ChartWidth::Narrow).expect("a figure");
+    let root = inline.split('>').next().expect("a root");
+    assert!(root.contains("role=\"img\"") && root.contains("aria-label=") && !root.contains(" width="), "{root}");
+    for svg in [chart.svg_at(ChartWidth::Narrow).expect("a figure"), inline] {
+        let ([left, top, right, bottom], [width, height]) = extent(&svg);
+        assert_eq!(width, 360.0);
+        // 0.01 px: single precision.
+        let inside = left >= -0.01 && top >= -0.01 && right <= width + 0.01 && bottom <= height + 0.01;
+        assert!(inside, "{left} {top} {right} {bottom} in {width} x {height}: {svg}");
+        assert!(only_finite(&Document::parse(&svg).expect("well-formed")));
+    }
 }
 
 /// Whether no attribute holds a number that is not finite.

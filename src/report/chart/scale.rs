@@ -1,7 +1,10 @@
 //! Axes as numbers: from data to a fraction of the axis, and ticks at round values.
 
-use super::style::drawable;
+use super::style::{TICK, drawable};
 use super::text::{minus, power_of_ten};
+
+/// Least gap between the labels of a horizontal axis, px.
+const LABEL_GAP: f64 = 6.0;
 
 /// How an axis is divided.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -68,6 +71,40 @@ impl Scale {
                 (value.log10() - from) / (self.high.log10() - from)
             }
         })
+    }
+
+    /// The scale of an axis `length` px long whose labels stand clear of each other: those that would not keep their grid
+    /// lines alone. Labels of powers of ten, and of zero, stay longest.
+    pub fn with_room(mut self, length: f64) -> Self {
+        let clear = |kept: &Vec<Tick>| {
+            kept.windows(2).all(|pair| {
+                let [from, to] = [0, 1].map(|end| self.place(pair[end].value).map_or(f64::NAN, |place| place * length));
+                let widths = (TICK.width(&pair[0].label) + TICK.width(&pair[1].label)) / 2.0;
+                to - from >= widths + LABEL_GAP
+            })
+        };
+        if clear(&self.ticks) {
+            return self;
+        }
+        let is_decade = |tick: &&Tick| (tick.value.log10() - tick.value.log10().round()).abs() < 1e-9;
+        let mut ground: Vec<&Tick> = match self.spacing {
+            Spacing::Linear => Vec::new(),
+            Spacing::Logarithmic => self.ticks.iter().filter(is_decade).collect(),
+        };
+        if ground.is_empty() {
+            ground = self.ticks.iter().collect();
+        }
+        let zero = ground.iter().position(|tick| tick.value == 0.0).unwrap_or(0);
+        let every = |step: usize| -> Vec<Tick> {
+            let kept = ground.iter().enumerate().filter(|(number, _)| number.abs_diff(zero) % step == 0);
+            kept.map(|(_, tick)| (*tick).clone()).collect()
+        };
+        let kept = (1..=ground.len()).map(every).find(clear).unwrap_or_default();
+        let bare =
+            self.ticks.iter().map(|tick| tick.value).filter(|value| kept.iter().all(|tick| tick.value != *value));
+        self.minor.extend(bare.collect::<Vec<_>>());
+        self.ticks = kept;
+        self
     }
 
     fn linear(range: (f64, f64), wish: Wish) -> Self {
@@ -242,6 +279,19 @@ mod tests {
         // Both ends of f64's usable range: the ratio overflows, the places do not.
         let s = scale(&[1e-289, 1e300], Logarithmic, 0.0);
         assert!(s.place(1e-289).is_some_and(|p| p < 1e-3) && s.place(1e300).is_some_and(|p| p > 0.999));
+    }
+
+    #[test]
+    fn labels_without_room_leave_their_grid_lines() {
+        let s = scale(&[0.0, 50.0], Linear, 0.0);
+        assert_eq!(s.clone().with_room(300.0), s);
+        let short = s.with_room(60.0);
+        assert_eq!((labels(&short), short.minor.clone()), (vec!["0", "20", "40"], vec![10.0, 30.0, 50.0]));
+        let s = scale(&[0.05, 3.0], Logarithmic, 0.0);
+        assert_eq!(labels(&s.with_room(80.0)), ["0.1", "1"]);
+        let s = scale(&[1e-8, 1e-3], Logarithmic, 0.0);
+        assert_eq!(labels(&s.with_room(80.0)), ["10⁻⁸", "10⁻⁶", "10⁻⁴"]);
+        assert_eq!(labels(&scale(&[-2.0, 2.0], Linear, 0.0).with_room(1.0)).len(), 1);
     }
 
     #[test]

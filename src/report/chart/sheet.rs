@@ -1,13 +1,11 @@
 //! A sheet of frames in rows, each with two lines of text above it, as a film strip.
 
-use super::any::{ChartWidth, Picture};
+use super::any::Picture;
 use super::figure::{Figure, Words};
-use super::style::{BODY, MARGIN, MUTED, PANEL_TITLE, TICK, WIDTH};
+use super::style::{BODY, ChartWidth, MARGIN, MUTED, Medium, PANEL_TITLE, TICK};
 use super::svg::{Anchor, Canvas, Px, Text};
 use super::text::shorten;
 
-/// Width of a sheet for a phone, px.
-const NARROW: f64 = 360.0;
 /// Between frames, px.
 const GAP: f64 = 14.0;
 /// Room for the two lines above a frame, px.
@@ -33,23 +31,23 @@ pub(in crate::report) struct Sheet {
 impl Sheet {
     /// The sheet at both widths; `draw` draws the frame of a number.
     pub fn picture(&self, draw: impl Fn(usize, &mut Sketch)) -> Picture {
+        let svg = |width, inline| self.svg(Medium { width, inline }, &draw);
         Picture {
             title: self.title.clone(),
             caption: self.caption.clone(),
-            wide: self.svg(ChartWidth::Wide, &draw),
-            narrow: self.svg(ChartWidth::Narrow, &draw),
+            wide: svg(ChartWidth::Wide, false),
+            narrow: svg(ChartWidth::Narrow, false),
+            inline_wide: svg(ChartWidth::Wide, true),
+            inline_narrow: svg(ChartWidth::Narrow, true),
         }
     }
 
-    fn svg(&self, width: ChartWidth, draw: &impl Fn(usize, &mut Sketch)) -> String {
-        let (sheet, columns) = match width {
-            ChartWidth::Wide => (WIDTH, self.columns.0),
-            ChartWidth::Narrow => (NARROW, self.columns.1),
-        };
+    fn svg(&self, medium: Medium, draw: &impl Fn(usize, &mut Sketch)) -> String {
+        let (sheet, columns) = (medium.width.px(), medium.width.choose(self.columns.0, self.columns.1));
         let gaps = columns.saturating_sub(1) as f64 * GAP;
         let frame = (sheet - 2.0 * MARGIN - gaps) / columns.max(1) as f64;
         let height = (frame * self.aspect).round();
-        let mut figure = Figure::begin(sheet, Words { title: &self.title, caption: &self.caption }, &[]);
+        let mut figure = Figure::begin(medium, Words { title: &self.title, caption: &self.caption }, &[]);
         let top = figure.top + 2.0;
         let rows = self.frames.len().div_ceil(columns.max(1));
         for (number, (name, note)) in self.frames.iter().enumerate() {
@@ -233,6 +231,11 @@ mod tests {
                 assert!(number(&window, "y") + number(&window, "height") < height);
             }
             png(svg).unwrap();
+        }
+        for inline in [&picture.inline_wide, &picture.inline_narrow] {
+            let document = Document::parse(inline).unwrap();
+            assert!(document.root_element().attribute("width").is_none());
+            assert!(groups(&document, "title").is_empty() && groups(&document, "caption").is_empty());
         }
     }
 

@@ -2,8 +2,6 @@
 
 use super::font::Face;
 
-/// Width of a figure, px: at 96 px per inch that of a full page column (190 mm).
-pub(super) const WIDTH: f64 = 720.0;
 /// Room left free at every edge of a figure, px.
 pub(super) const MARGIN: f64 = 12.0;
 /// Numbers beyond this magnitude are drawn like missing ones: differences of two must not overflow.
@@ -20,6 +18,46 @@ pub(super) const MUTED: &str = "#6b6b6b";
 pub(super) const GRID: &str = "#e4e4e4";
 pub(super) const FINE_GRID: &str = "#f1f1f1";
 pub(super) const PAPER: &str = "#ffffff";
+
+/// For which room a chart is laid out; texts have the same size in both.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ChartWidth {
+    /// A page column, 720 px.
+    #[default]
+    Wide,
+    /// A phone, 360 px.
+    Narrow,
+}
+
+impl ChartWidth {
+    /// Width of a figure, px. The wide one is, at 96 px per inch, a full page column of 190 mm.
+    pub(super) fn px(self) -> f64 {
+        self.choose(720.0, 360.0)
+    }
+
+    /// The first for a page column, the second for a phone.
+    pub(super) fn choose<T>(self, wide: T, narrow: T) -> T {
+        match self {
+            Self::Wide => wide,
+            Self::Narrow => narrow,
+        }
+    }
+}
+
+/// What a chart is drawn for.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Medium {
+    pub width: ChartWidth,
+    /// Whether it becomes part of a page, which sets title and caption as text and scales the picture.
+    pub inline: bool,
+}
+
+impl From<ChartWidth> for Medium {
+    /// A document of its own.
+    fn from(width: ChartWidth) -> Self {
+        Self { width, inline: false }
+    }
+}
 
 /// What a colour stands for. The colours are those of Okabe and Ito (2008), which people with the usual
 /// colour vision deficiencies tell apart; their lightness differs too, for print in grey.

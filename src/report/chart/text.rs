@@ -50,6 +50,16 @@ pub(super) fn shorten(text: &str, width: f64, face: Face) -> String {
     format!("{}…", kept.trim_end())
 }
 
+/// At most `most` lines no wider than `width` px, the last one shortened if there is more.
+pub(super) fn wrap_within(text: &str, (width, most): (f64, usize), face: Face) -> Vec<String> {
+    let mut lines = wrap(text, width, face);
+    if lines.len() > most {
+        let rest = lines.split_off(most.saturating_sub(1)).join(" ");
+        lines.push(shorten(&rest, width, face));
+    }
+    lines
+}
+
 /// A share in percent with one decimal and a true minus sign; magnitudes from 1e5 as a power of ten.
 pub(super) fn percent(value: f64) -> String {
     let text = if value.abs() < 1e5 { format!("{value:.1}") } else { format!("{value:.1e}") };
@@ -93,6 +103,15 @@ mod tests {
         assert_eq!(shorten("tip", 0.0, FACE), "…");
         assert_eq!(shorten("", 0.0, FACE), "");
         assert_eq!(shorten(&"x".repeat(1_000_000), FACE.width("xx…"), FACE), "xx…");
+    }
+
+    #[test]
+    fn lines_beyond_the_most_end_in_an_ellipsis() {
+        let width = FACE.width("surface energy");
+        assert_eq!(wrap_within("surface energy of tip", (width, 2), FACE), ["surface energy", "of tip"]);
+        let three = wrap_within("surface energy of tip and particle and more", (width, 2), FACE);
+        assert_eq!(three[0], "surface energy");
+        assert!(three.len() == 2 && three[1].starts_with("of tip") && three[1].ends_with('…'), "{three:?}");
     }
 
     #[test]

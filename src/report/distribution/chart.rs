@@ -1,7 +1,7 @@
 //! Histogram and density of an output in one picture.
 
 use super::OutputDistribution;
-use crate::report::chart::{Axis, ChartError, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
 use crate::report::significant;
 
 /// The words and colour of a density chart.
@@ -15,12 +15,9 @@ pub struct DensityWords<'a> {
     pub role: Role,
 }
 
-/// Draws the distribution of an output as an SVG document: the histogram as a light area of steps, the kernel density as a
-/// line, and marks at the mean and at the 2.5, 50 and 97.5 % quantiles. A constant output has its mark alone.
-///
-/// # Errors
-/// [`ChartError`] if the chart cannot be drawn.
-pub fn density_chart(distribution: &OutputDistribution, words: &DensityWords<'_>) -> Result<String, ChartError> {
+/// The distribution of an output: the histogram as a light area of steps, the kernel density as a line, and marks at the
+/// mean and at the 2.5, 50 and 97.5 % quantiles. A constant output has its mark alone.
+pub fn density_chart(distribution: &OutputDistribution, words: &DensityWords<'_>) -> Chart {
     let symbol = match distribution.unit.symbol() {
         "1" => "",
         symbol => symbol,
@@ -31,7 +28,7 @@ pub fn density_chart(distribution: &OutputDistribution, words: &DensityWords<'_>
         product => format!("1/({product})"),
     };
     let axis = |label: &str, unit: &str| Axis { label: label.to_owned(), unit: unit.to_owned(), ..Axis::default() };
-    let chart = LineChart {
+    Chart::Lines(LineChart {
         title: words.title.to_owned(),
         caption: caption(distribution, words.output, symbol),
         x: axis(words.output, symbol),
@@ -41,8 +38,7 @@ pub fn density_chart(distribution: &OutputDistribution, words: &DensityWords<'_>
             series: vec![series(distribution, words.role)],
             markers: markers(distribution),
         }],
-    };
-    chart.svg()
+    })
 }
 
 fn series(distribution: &OutputDistribution, role: Role) -> LineSeries {

@@ -1,20 +1,17 @@
 //! The chart of first-order indices from given data.
 
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord};
-use crate::report::chart::{Bar, ChartError, GroupedBars, Panel, Role, Series};
+use crate::report::chart::{Bar, Chart, GroupedBars, Panel, Role, Series};
 use crate::report::result::EstimateRecord;
 
-/// Draws the indices of one output in percent of its variance, one bar per input and method, with their intervals.
-///
-/// # Errors
-/// [`ChartError`] if the chart cannot be drawn.
-pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Result<String, ChartError> {
+/// The indices of one output in percent of its variance, one bar per input and method, with their intervals.
+pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
     let rank = |index: &GivenIndexRecord| index.rank;
     let binned = |index: &GivenIndexRecord| index.binned.map(|binned| binned.estimate);
     let indices = output.indices.as_deref().unwrap_or_default();
     let series =
         [series("by ranks", Role::Other(0), indices, rank), series("by bins", Role::Other(2), indices, binned)];
-    let chart = GroupedBars {
+    Chart::Bars(GroupedBars {
         title: format!("First-order indices of {}", output.name),
         caption: caption(result, output),
         y_label: "first-order index (% of the variance)".to_owned(),
@@ -25,8 +22,7 @@ pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Result<Str
             categories: indices.iter().map(|index| index.input.clone()).collect(),
             series: series.into_iter().flatten().collect(),
         }],
-    };
-    chart.svg()
+    })
 }
 
 /// The bars of one method; `None` if it was not used.

@@ -2,15 +2,15 @@
 
 use super::words::{change, force, length, short, time};
 use super::{SceneSample, SceneStory};
-use crate::report::chart::{Axis, ChartError, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
 
-/// A drawn chart.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A chart of a scene.
+#[derive(Clone, Debug, PartialEq)]
 pub struct SceneChart {
     /// Name of its files, without extension.
     pub stem: &'static str,
-    /// The SVG document.
-    pub svg: String,
+    /// The chart.
+    pub chart: Chart,
 }
 
 /// The colours of the quantities, the same in the animation: the pushing force has that of the friction law.
@@ -26,12 +26,9 @@ const NANO: f64 = 1e9;
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 const MILLI: f64 = 1e3;
 
-/// Draws the story's charts: forces, pushing against critical force, positions, contacts, angles, each against time
+/// The story's charts: forces, pushing against critical force, positions, contacts, angles, each against time
 /// with the slip marked. The caption of each says in one sentence what came out.
-///
-/// # Errors
-/// [`ChartError`] if a chart cannot be drawn.
-pub fn scene_charts(story: &SceneStory) -> Result<Vec<SceneChart>, ChartError> {
+pub fn scene_charts(story: &SceneStory) -> Vec<SceneChart> {
     let charts = [
         ("scene-forces", forces(story)),
         ("scene-pushing", pushing(story)),
@@ -39,7 +36,7 @@ pub fn scene_charts(story: &SceneStory) -> Result<Vec<SceneChart>, ChartError> {
         ("scene-contacts", contacts(story)),
         ("scene-angles", angles(story)),
     ];
-    charts.into_iter().map(|(stem, chart)| Ok(SceneChart { stem, svg: chart.svg()? })).collect()
+    charts.into_iter().map(|(stem, chart)| SceneChart { stem, chart: Chart::Lines(chart) }).collect()
 }
 
 /// A quantity in a chart: its name, colour, and how to read it in the chart's unit.
@@ -260,10 +257,11 @@ mod tests {
 
     #[test]
     fn charts_are_sound_and_mark_the_slip() {
-        let charts = scene_charts(&fixture::story()).unwrap();
+        let charts = scene_charts(&fixture::story());
         assert_eq!(charts.len(), 5);
         for chart in &charts {
-            let document = Document::parse(&chart.svg).unwrap();
+            let svg = chart.chart.svg().unwrap();
+            let document = Document::parse(&svg).unwrap();
             assert!(document.descendants().any(|node| node.text() == Some("slip at 0.131 s")), "{}", chart.stem);
         }
     }
@@ -297,9 +295,10 @@ mod tests {
                 let mut story = whole.clone();
                 story.samples.truncate(count);
                 story.critical.time = time;
-                for chart in scene_charts(&story).unwrap() {
-                    Document::parse(&chart.svg).unwrap();
-                    assert!(!chart.svg.contains("NaN") && !chart.svg.contains("inf"), "{}", chart.svg);
+                for chart in scene_charts(&story) {
+                    let svg = chart.chart.svg().unwrap();
+                    Document::parse(&svg).unwrap();
+                    assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
                 }
             }
         }
@@ -312,8 +311,9 @@ mod tests {
         for (sample, whole) in story.samples.iter_mut().zip(broken).step_by(3) {
             *sample = SceneSample { tip_force: f64::NAN, tip_indentation: f64::INFINITY, twist: f64::NAN, ..whole };
         }
-        for chart in scene_charts(&story).unwrap() {
-            assert!(!chart.svg.contains("NaN") && !chart.svg.contains("inf"), "{}", chart.svg);
+        for chart in scene_charts(&story) {
+            let svg = chart.chart.svg().unwrap();
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         }
     }
 }

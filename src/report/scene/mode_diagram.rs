@@ -1,7 +1,7 @@
 //! The mode diagram: which force moves the particle in which way, against the angle of the force.
 
 use super::words::{force, short};
-use crate::report::chart::{Axis, ChartError, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
+use crate::report::chart::{Axis, Chart, ChartError, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
 
 /// The forces at which the modes set in, against the angle of the tip force (TS04 figure 12).
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub struct ModeLine {
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
-/// Draws the diagram, forces on a logarithmic axis.
+/// The diagram, forces on a logarithmic axis.
 ///
 /// # Errors
 /// [`ChartError::Length`] if a mode has not as many forces as there are angles.
@@ -40,14 +40,14 @@ const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 ///
 /// let sliding = ModeLine { mode: "sliding".into(), role: Role::Coulomb, force: vec![None, Some(80e-9), Some(9e-9)] };
 /// let diagram = ModeDiagram { angle: vec![0.5, 1.0, 1.5], forces: vec![sliding], current: Some((1.0, 50e-9)) };
-/// assert!(mode_diagram_chart(&diagram)?.contains("80.0 nN"));
+/// assert!(mode_diagram_chart(&diagram)?.caption().contains("80.0 nN"));
 /// # Ok::<(), apportion::report::chart::ChartError>(())
 /// ```
-pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Result<String, ChartError> {
-    mode_lines(diagram)?.svg()
+pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Result<Chart, ChartError> {
+    mode_lines(diagram).map(Chart::Lines)
 }
 
-/// The same before it is drawn.
+/// The same as lines.
 pub(crate) fn mode_lines(diagram: &ModeDiagram) -> Result<LineChart, ChartError> {
     const TITLE: &str = "Modes of motion";
     for line in &diagram.forces {
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn the_diagram_is_drawn_and_says_what_it_shows() {
-        let svg = mode_diagram_chart(&diagram()).unwrap();
+        let svg = mode_diagram_chart(&diagram()).unwrap().svg().unwrap();
         Document::parse(&svg).unwrap();
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         let said = caption(&diagram());
@@ -185,13 +185,13 @@ mod tests {
         assert!(said.contains("rolling from 0° to") && said.contains("sliding from"), "{said}");
         diagram.forces.clear();
         assert_eq!(caption(&diagram), "The least force sets in: no mode from 0° to 90.0°.");
-        mode_diagram_chart(&diagram).unwrap();
+        mode_diagram_chart(&diagram).unwrap().svg().unwrap();
     }
 
     #[test]
     fn an_empty_diagram_is_drawn_and_unequal_lengths_are_refused() {
         let empty = ModeDiagram { angle: Vec::new(), forces: Vec::new(), current: Some((0.1, f64::NAN)) };
-        assert!(!mode_diagram_chart(&empty).unwrap().contains("NaN"));
+        assert!(!mode_diagram_chart(&empty).unwrap().svg().unwrap().contains("NaN"));
         let mut unequal = diagram();
         unequal.forces[0].force.pop();
         let error = mode_diagram_chart(&unequal).unwrap_err();

@@ -8,7 +8,7 @@ use super::charts::{LATERAL, NORMAL, SUBSTRATE};
 use super::columns::scene_value;
 use super::view::View;
 use super::{SceneChart, SceneStory};
-use crate::report::chart::Role;
+use crate::report::chart::{ChartError, ChartWidth, Role};
 
 /// The parts of the page's script, each using those before it.
 const SCRIPT: [&str; 4] = [
@@ -20,8 +20,14 @@ const SCRIPT: [&str; 4] = [
 
 /// Why a page could not be made.
 #[derive(Debug, Error)]
-#[error("cannot make the page: {0}")]
-pub struct PageError(#[from] askama::Error);
+pub enum PageError {
+    /// The template cannot be rendered.
+    #[error("cannot make the page: {0}")]
+    Template(#[from] askama::Error),
+    /// A chart cannot be drawn.
+    #[error("cannot make the page: {0}")]
+    Chart(#[from] ChartError),
+}
 
 /// What a page shows beside the story itself.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +40,13 @@ pub struct PageParts<'a> {
     pub json_file: &'a str,
 }
 
+/// A chart as it stands on the page.
+struct PageChart {
+    stem: &'static str,
+    wide: String,
+    narrow: String,
+}
+
 /// The template escapes every text; what it takes as it is (`safe`) comes from this program: style, script, data made
 /// by [`script_json`] and charts, which escape their own texts.
 #[derive(Template)]
@@ -41,6 +54,7 @@ pub struct PageParts<'a> {
 struct Page<'a> {
     story: &'a SceneStory,
     parts: PageParts<'a>,
+    charts: Vec<PageChart>,
     outcome: String,
     exaggeration: String,
     colours: [(&'static str, &'static str); 5],
@@ -55,12 +69,17 @@ struct Page<'a> {
 /// the keyboard or on its own; the charts; the settings. It loads nothing from anywhere and works without a network.
 ///
 /// # Errors
-/// [`PageError`] if the template cannot be rendered.
+/// [`PageError`] if a chart cannot be drawn or the template cannot be rendered.
 pub fn scene_page(story: &SceneStory, parts: PageParts<'_>) -> Result<String, PageError> {
     let view = View::of(story);
+    let chart = |chart: &SceneChart| {
+        let (wide, narrow) = (chart.chart.svg_at(ChartWidth::Wide)?, chart.chart.svg_at(ChartWidth::Narrow)?);
+        Ok(PageChart { stem: chart.stem, wide, narrow })
+    };
     let page = Page {
         story,
         parts,
+        charts: parts.charts.iter().map(chart).collect::<Result<_, ChartError>>()?,
         outcome: unbroken(&story.outcome()),
         exaggeration: view.sentence(),
         colours: [
@@ -96,7 +115,7 @@ mod tests {
     use super::*;
 
     fn page(story: &SceneStory) -> String {
-        let charts = scene_charts(story).unwrap();
+        let charts = scene_charts(story);
         scene_page(story, PageParts { charts: &charts, csv_file: "scene.csv", json_file: "scene.json" }).unwrap()
     }
 
@@ -114,8 +133,12 @@ mod tests {
             assert!(!own.contains(outside), "{outside}");
         }
         assert!(page.contains("href=\"scene.csv\"") && page.contains("href=\"scene.json\""));
-        assert_eq!(page.matches("<svg xmlns").count(), 5);
-        assert_eq!(page.matches("<desc>").count(), 5);
+        // Each of the five charts for a page column and for a phone, one of which is shown.
+        assert_eq!(page.matches("<svg xmlns").count(), 2 * 5);
+        assert_eq!(page.matches("<desc>").count(), 2 * 5);
+        assert_eq!(page.matches("viewBox=\"0 0 720 ").count(), 5);
+        let narrow = page.split("<div class=\"narrow\">").skip(1).filter(|part| part.contains("viewBox=\"0 0 360 "));
+        assert_eq!(narrow.count(), 5);
         assert!(page.contains("The particle slips after 0.131\u{a0}s, at a tip force of 631\u{a0}nN."));
         assert!(page.contains("exaggerated 200 times"));
         assert!(page.contains("--push:#0072b2"));

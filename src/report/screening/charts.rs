@@ -2,7 +2,7 @@
 
 use super::super::asked::{Drawing, axis_unit, sentence, short_with_unit, the, words};
 use super::super::chart::{
-    Axis, ChartError, Guide, Range, RangeBars, RangeRow, Role, ScatterChart, ScatterPoint, ScatterSeries,
+    Axis, Chart, Guide, Range, RangeBars, RangeRow, Role, ScatterChart, ScatterPoint, ScatterSeries,
 };
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile};
 use crate::screening::{FIXABLE, Reading};
@@ -12,20 +12,17 @@ const MOST_BARS: usize = 40;
 
 /// The charts of every output: `-screen` (mu* against sigma) and `-screen-bars`, with the output's name in between
 /// where there are several.
-///
-/// # Errors
-/// [`ChartError`] if there is nothing to draw.
-pub fn screening_charts(file: &ScreeningFile) -> Result<Vec<Drawing>, ChartError> {
+pub fn screening_charts(file: &ScreeningFile) -> Vec<Drawing> {
     let mut drawings = Vec::with_capacity(2 * file.outputs.len());
     for output in &file.outputs {
         let suffix = match file.outputs.len() {
             1 => "-screen".to_owned(),
             _ => format!("-screen-{}", output.name),
         };
-        drawings.push(Drawing { svg: scatter(file, output).svg()?, suffix: suffix.clone() });
-        drawings.push(Drawing { svg: bars(file, output).svg()?, suffix: format!("{suffix}-bars") });
+        drawings.push(Drawing { chart: Chart::Scatter(scatter(file, output)), suffix: suffix.clone() });
+        drawings.push(Drawing { chart: Chart::Ranges(bars(file, output)), suffix: format!("{suffix}-bars") });
     }
-    Ok(drawings)
+    drawings
 }
 
 /// A reading's colour and shape: the calmest for the plainest.
@@ -57,6 +54,7 @@ fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> ScatterChart
             y: factor.sigma.map_or(f64::NAN, |estimate| estimate.estimate),
             // Those without effect all lie at the origin; the caption names them.
             label: reading.map_or_else(String::new, |_| words(&factor.factor)),
+            ..ScatterPoint::default()
         };
         ScatterSeries { name, role: role(reading), points: own.map(point).collect() }
     });

@@ -2,8 +2,7 @@
 
 use super::super::asked::{Drawing, axis_unit, printed, sentence, short_with_unit, the, words};
 use super::super::chart::{
-    Axis, ChartError, LineChart, LinePanel, LineSeries, Marker, Range, RangeBars, RangeRow, Reference, Role, Spacing,
-    Stroke,
+    Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Range, RangeBars, RangeRow, Reference, Role, Spacing, Stroke,
 };
 use super::super::friction_role;
 use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines};
@@ -20,22 +19,20 @@ const HIGH_END: Role = Role::Other(0);
 
 /// One line chart per factor, `-sweep-FACTOR`, with a panel per output; then per output the ranges of all factors,
 /// `-sweep-ranges`, with the output's name at the end where there are several.
-///
-/// # Errors
-/// [`ChartError`] if there is nothing to draw.
-pub fn sweep_charts(file: &SweepFile) -> Result<Vec<Drawing>, ChartError> {
+pub fn sweep_charts(file: &SweepFile) -> Vec<Drawing> {
     let mut drawings = Vec::with_capacity(file.sweeps.len() + file.nominal.len());
     for sweep in &file.sweeps {
-        drawings.push(Drawing { suffix: format!("-sweep-{}", sweep.factor), svg: lines(file, sweep).svg()? });
+        let chart = Chart::Lines(lines(file, sweep));
+        drawings.push(Drawing { suffix: format!("-sweep-{}", sweep.factor), chart });
     }
     for (number, nominal) in file.nominal.iter().enumerate() {
         let suffix = match file.nominal.len() {
             1 => "-sweep-ranges".to_owned(),
             _ => format!("-sweep-ranges-{}", nominal.output),
         };
-        drawings.push(Drawing { suffix, svg: ranges(file, (number, nominal)).svg()? });
+        drawings.push(Drawing { suffix, chart: Chart::Ranges(ranges(file, (number, nominal))) });
     }
-    Ok(drawings)
+    drawings
 }
 
 fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> LineChart {

@@ -2,7 +2,7 @@
 
 use super::PaperFigure;
 use crate::report::chart::Chart;
-use crate::report::{SharesSeries, SharesWords, friction_role, shares_bars};
+use crate::report::{SharesSeries, SharesWords, friction_role, shares_chart};
 use crate::reproduce::compare::capitalised;
 use crate::reproduce::{GROUPS, Reproduced, StudyGroup, published, shares_csv};
 
@@ -105,7 +105,7 @@ pub(in crate::reproduce) fn group_chart(group: StudyGroup, members: &[&Reproduce
         caption: caption(group, members),
         published: "published (LuGre)",
     };
-    Chart::Bars(shares_bars(words, &factors, &series))
+    shares_chart(words, &factors, &series)
 }
 
 /// The factor with the largest total index, with its shares of the first-order and of the total indices (%).

@@ -7,7 +7,7 @@ use super::super::style::{INK, TICK, VALUE};
 use super::super::svg::{Anchor, Canvas, Px, Text};
 use super::super::text::{percent, wrap};
 use super::labels::{Area, Wanted, place};
-use super::layout::{Layout, Names, turned_name};
+use super::layout::{Layout, Names};
 use super::{Bar, GroupedBars, Panel, Series};
 
 /// Gap between a panel and its title, px.
@@ -72,7 +72,7 @@ pub(super) fn panels(figure: &mut Figure, chart: &GroupedBars, layout: &Layout) 
         bottom = plot.bottom() + layout.names_room;
         let sheet = Sheet { chart, panel, layout, plot, slots: slots(panel, layout, &plot) };
         figure.canvas.open("g", &[("class", &"panel")]);
-        plot.title(&mut figure.canvas, &panel.title, TITLE_RISE);
+        plot.title(&mut figure.canvas, &panel.title, (TITLE_RISE, layout.page));
         plot.y_axis(&mut figure.canvas, &layout.scale);
         if column == 0 {
             let title = axis_title(&chart.y_label, "", layout.scale.exponent);
@@ -215,7 +215,7 @@ impl Sheet<'_> {
                     let (sin, cos) = degrees.to_radians().sin_cos();
                     let half = TICK.cap_height() / 2.0;
                     let at = (middle + half * sin, top + half * cos);
-                    let text = turned_name(name);
+                    let text = self.layout.turned_name(name);
                     let text = Text::new(&text, at, TICK).anchor(Anchor::End).turn(-degrees).whole(name);
                     canvas.text(&text);
                 }

@@ -2,12 +2,12 @@
 
 use super::super::plot::{Plot, axis_title, tick_room, title_room};
 use super::super::scale::{Scale, Spacing, Wish};
-use super::super::style::{MARGIN, TICK, VALUE, WIDTH};
+use super::super::style::{ChartWidth, MARGIN, TICK, VALUE};
 use super::super::text::{percent, shorten, widest_word, wrap};
 use super::{GroupedBars, Panel};
 
 /// Part of a group's pitch that its bars fill.
-const FILL: f64 = 0.84;
+pub(super) const FILL: f64 = 0.84;
 /// Part of a bar's slot that the bar fills.
 const BODY: f64 = 0.94;
 /// Widest bar, px.
@@ -16,8 +16,12 @@ const WIDEST: f64 = 44.0;
 const THINNEST: f64 = 4.0;
 /// Room kept for a value label above the highest bar, px.
 const HEADROOM: f64 = 18.0;
-/// Longest turned name, px; longer ones are shortened.
-const LONGEST_NAME: f64 = 150.0;
+/// Longest turned name, px, and the same on a phone; longer ones are shortened.
+const LONGEST_NAME: (f64, f64) = (150.0, 110.0);
+/// Heights of the plots of a figure with one row of panels and with several, px.
+const HEIGHTS: (f64, f64) = (250.0, 190.0);
+/// The same on a phone.
+const NARROW_HEIGHTS: (f64, f64) = (200.0, 150.0);
 /// Gap between panels, px.
 const GAP: f64 = 18.0;
 /// Room for a panel's title, px.
@@ -35,6 +39,7 @@ pub(super) enum Names {
 /// Lengths and scale common to all panels, px.
 pub(super) struct Layout {
     pub width: f64,
+    pub page: ChartWidth,
     pub columns: usize,
     pub scale: Scale,
     pub names: Names,
@@ -50,38 +55,39 @@ pub(super) struct Layout {
 impl Layout {
     /// The first arrangement, from panels side by side to one column, in which value labels and level names
     /// fit; one column if none does.
-    pub fn of(chart: &GroupedBars) -> Self {
-        let side_by_side = (2..=chart.panels.len().min(3)).rev();
+    pub fn of(chart: &GroupedBars, page: ChartWidth) -> Self {
+        let side_by_side = (2..=chart.panels.len().min(page.choose(3, 1))).rev();
         side_by_side
-            .map(|columns| Self::with(chart, columns))
+            .map(|columns| Self::with(chart, (columns, page)))
             .find(|layout| {
                 matches!(layout.names, Names::Level(_)) && layout.slot(chart.busiest()) >= labelled_slot(chart)
             })
-            .unwrap_or_else(|| Self::with(chart, 1))
+            .unwrap_or_else(|| Self::with(chart, (1, page)))
     }
 
-    fn with(chart: &GroupedBars, columns: usize) -> Self {
-        let alone = columns > 1 || chart.panels.len() == 1;
-        let plot_height = if alone { 250.0 } else { 190.0 };
+    fn with(chart: &GroupedBars, (columns, page): (usize, ChartWidth)) -> Self {
+        let heights = page.choose(HEIGHTS, NARROW_HEIGHTS);
+        let plot_height = if columns > 1 || chart.panels.len() == 1 { heights.0 } else { heights.1 };
         let scale = shared_scale(chart, plot_height);
         let tick_room = tick_room(&scale);
         let (groups, bars) = chart.busiest();
         let title = axis_title(&chart.y_label, "", scale.exponent);
         let mut left = MARGIN + title_room(&title, plot_height) + tick_room;
         let needed = (groups * bars) as f64 * THINNEST / FILL;
-        let width = |left: f64| WIDTH.max(left + needed + MARGIN);
+        let width = |left: f64| page.choose(page.px().max(left + needed + MARGIN), page.px());
         let between = (columns - 1) as f64 * (GAP + tick_room);
         let plot_width = |left: f64| (width(left) - left - MARGIN - between) / columns as f64;
         let names = name_style(chart, plot_width(left) / groups as f64);
         if let Names::Turned(degrees) = names {
-            left = left.max(left_for_turned(chart, degrees, width(left)));
+            left = left.max(left_for_turned(chart, degrees, (width(left), page)));
         }
         Self {
             width: width(left),
+            page,
             columns,
             scale,
             names,
-            names_room: names_room(chart, names),
+            names_room: names_room(chart, names, page),
             left,
             plot_width: plot_width(left),
             plot_height,
@@ -128,6 +134,11 @@ impl Layout {
         self.plot_width / panel.categories.len().max(1) as f64
     }
 
+    /// A turned name, shortened if need be.
+    pub fn turned_name(&self, name: &str) -> String {
+        turned_name(name, self.page)
+    }
+
     /// Whether value labels are narrow enough for the bars of a panel.
     pub fn labelled(&self, chart: &GroupedBars, panel: &Panel) -> bool {
         let slot = self.slot((panel.categories.len().max(1), panel.series.len().max(1)));
@@ -143,9 +154,8 @@ impl GroupedBars {
     }
 }
 
-/// A turned name, shortened if need be.
-pub(super) fn turned_name(name: &str) -> String {
-    shorten(name, LONGEST_NAME, TICK)
+fn turned_name(name: &str, page: ChartWidth) -> String {
+    shorten(name, page.choose(LONGEST_NAME.0, LONGEST_NAME.1), TICK)
 }
 
 /// The slot of a bar from which value labels are drawn: the mean label just fits.
@@ -172,13 +182,13 @@ fn name_style(chart: &GroupedBars, pitch: f64) -> Names {
 }
 
 /// Height that the names take below a plot, px.
-fn names_room(chart: &GroupedBars, names: Names) -> f64 {
+fn names_room(chart: &GroupedBars, names: Names, page: ChartWidth) -> f64 {
     const AIR: f64 = 10.0;
     match names {
         Names::Level(lines) => AIR + lines as f64 * TICK.leading(),
         Names::Turned(degrees) => {
             let (sin, cos) = degrees.to_radians().sin_cos();
-            let lengths = all_names(chart).map(|name| TICK.width(&turned_name(name)));
+            let lengths = all_names(chart).map(|name| TICK.width(&turned_name(name, page)));
             AIR + lengths.fold(0.0, f64::max) * sin + TICK.size * cos
         }
     }
@@ -186,12 +196,12 @@ fn names_room(chart: &GroupedBars, names: Names) -> f64 {
 
 /// The left edge of the plots, one below the other in a figure of this width, from which turned names, that
 /// reach to the left of their groups, stay inside the figure.
-fn left_for_turned(chart: &GroupedBars, degrees: f64, width: f64) -> f64 {
+fn left_for_turned(chart: &GroupedBars, degrees: f64, (width, page): (f64, ChartWidth)) -> f64 {
     let cos = degrees.to_radians().cos();
     let name = |panel: &Panel, i: usize| {
         // The group's middle is `left + part * (width - MARGIN - left)`; solved for `left`.
         let part = (i as f64 + 0.5) / panel.categories.len() as f64;
-        let reach = TICK.width(&turned_name(&panel.categories[i])) * cos;
+        let reach = TICK.width(&turned_name(&panel.categories[i], page)) * cos;
         (MARGIN + reach - part * (width - MARGIN)) / (1.0 - part)
     };
     let panels = chart.panels.iter();

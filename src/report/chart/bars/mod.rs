@@ -3,17 +3,19 @@
 mod draw;
 pub(super) mod labels;
 mod layout;
+mod narrow;
 
 use super::ChartError;
 use super::figure::{Entry, Figure, Key, Words};
-use super::style::{Role, drawable};
+use super::style::{ChartWidth, Medium, Role, drawable};
 use super::text::percent;
 use layout::Layout;
 
 /// A figure of grouped bars: one group per category, one bar per series, panels that share one scale.
 ///
 /// Panels stand side by side where their bars leave room for value labels, else one above the other;
-/// the figure grows wider only when bars would be thinner than a few pixels.
+/// the figure grows wider only when bars would be thinner than a few pixels. On a phone a panel whose bars would be too
+/// thin is broken into several, one above the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroupedBars {
     /// Headline.
@@ -131,12 +133,32 @@ impl GroupedBars {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn svg(&self) -> Result<String, ChartError> {
+        self.svg_at(ChartWidth::Wide)
+    }
+
+    /// The figure as an SVG document for `width`.
+    ///
+    /// # Errors
+    /// As [`svg`](Self::svg).
+    pub fn svg_at(&self, width: ChartWidth) -> Result<String, ChartError> {
+        self.drawn(width.into())
+    }
+
+    pub(super) fn drawn(&self, medium: Medium) -> Result<String, ChartError> {
         self.check()?;
-        let layout = Layout::of(self);
+        match medium.width {
+            ChartWidth::Wide => Ok(self.figure(self, medium)),
+            ChartWidth::Narrow => Ok(self.figure(&narrow::in_rows(self), medium)),
+        }
+    }
+
+    /// The figure with its own words and the panels of `laid_out`.
+    fn figure(&self, laid_out: &Self, medium: Medium) -> String {
+        let layout = Layout::of(laid_out, medium.width);
         let words = Words { title: &self.title, caption: &self.caption };
-        let mut figure = Figure::begin(layout.width, words, &self.legend());
-        let bottom = draw::panels(&mut figure, self, &layout);
-        Ok(figure.finish(bottom, &self.description()))
+        let mut figure = Figure::begin_grown((medium, layout.width), words, &self.legend());
+        let bottom = draw::panels(&mut figure, laid_out, &layout);
+        figure.finish(bottom, &self.description())
     }
 
     fn check(&self) -> Result<(), ChartError> {
@@ -182,7 +204,7 @@ impl GroupedBars {
     }
 
     /// All numbers in words.
-    fn description(&self) -> String {
+    pub(super) fn description(&self) -> String {
         let mut words = format!("{}.", self.y_label);
         for panel in &self.panels {
             words.push_str(&format!(" {}:", panel.title));

@@ -1,6 +1,7 @@
 use resvg::usvg::roxmltree::{Document, Node};
 
-use super::super::reading::{dark_pixels, groups, number, only_finite, path_numbers, texts, y_axis};
+use super::super::Chart;
+use super::super::reading::{assert_narrow, dark_pixels, groups, number, only_finite, path_numbers, texts, y_axis};
 use super::*;
 use proptest::prelude::*;
 
@@ -158,11 +159,38 @@ fn panels_stand_side_by_side_only_with_room() {
         let all = [Role::Coulomb, Role::HurtadoKim, Role::LuGre];
         panel(&names, all.iter().map(|&role| series("s", role, values.clone())).collect())
     };
-    let columns = |n: usize, name: &str| Layout::of(&figure(vec![full(n, name); 2])).columns;
+    let columns = |n: usize, name: &str| Layout::of(&figure(vec![full(n, name); 2]), ChartWidth::Wide).columns;
     assert_eq!((columns(4, "tip radius"), columns(8, "tip radius")), (2, 1));
     assert_eq!(columns(4, "interferometrically"), 1);
-    let wide = Layout::of(&figure(vec![full(100, "a name")]));
+    let wide = Layout::of(&figure(vec![full(100, "a name")]), ChartWidth::Wide);
     assert!(wide.width > 1000.0 && matches!(wide.names, layout::Names::Turned(_)));
+}
+
+#[test]
+fn on_a_phone_bars_keep_their_width_and_panels_break_into_rows() {
+    let roles = [Role::Coulomb, Role::HurtadoKim, Role::LuGre];
+    let full = |n: usize, count: usize| {
+        let names: Vec<String> = (0..n).map(|i| format!("equivalent modulus {i}")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let all = roles[..count].iter().map(|&role| series("Hurtado-Kim", role, vec![bar(10.0, 9.0, 11.0); n]));
+        panel(&names, all.collect())
+    };
+    // Factors, series, rows of panels: 264 px hold 20 names of 13 px, or 14 groups of three bars of 5 px / 0.84.
+    for (n, count, rows) in [(1, 1, 1), (8, 3, 1), (14, 3, 1), (15, 3, 2), (30, 2, 2), (100, 1, 5)] {
+        let chart = figure(vec![full(n, count), full(n, count)]);
+        assert_narrow(&Chart::Bars(chart.clone()));
+        let svg = chart.svg_at(ChartWidth::Narrow).expect("a figure");
+        let document = Document::parse(&svg).expect("well-formed");
+        assert_eq!(groups(&document, "panel").len(), 2 * rows, "{n} x {count}");
+        let bars = groups(&document, "bars").into_iter().flat_map(|g| g.children().filter(Node::is_element));
+        let widths: Vec<f64> = bars.map(|rect| number(&rect, "width")).collect();
+        assert_eq!(widths.len(), 2 * n * count);
+        assert!(widths.iter().all(|width| *width >= 4.0), "{n} x {count}: {widths:?}");
+        let titled = if rows == 1 { "Total".to_owned() } else { format!("Total (1 of {rows})") };
+        assert_eq!(texts(groups(&document, "panel")[0])[0], titled);
+    }
+    let svg = sample().svg_at(ChartWidth::Narrow).expect("a figure");
+    one_panel_checks(&sample(), &svg);
 }
 
 #[test]

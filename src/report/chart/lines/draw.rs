@@ -3,15 +3,15 @@
 use super::super::figure::Figure;
 use super::super::plot::{Plot, TICK_GAP, tick_room, title_room};
 use super::super::scale::{Scale, Wish};
-use super::super::style::{MARGIN, PANEL_TITLE, TICK, WIDTH};
+use super::super::style::{ChartWidth, MARGIN, PANEL_TITLE, TICK};
 use super::super::svg::Canvas;
-use super::path::{closed, open, runs, thin};
-use super::{LineChart, LinePanel, LineSeries, flags};
+use super::sheet::Sheet;
+use super::{LineChart, LinePanel, flags};
 
-/// Height of the plot of a lone panel, px.
-const LONE: f64 = 320.0;
-/// Height of each plot among several, px.
-const STACKED: f64 = 170.0;
+/// Heights of the plot of a lone panel and of each among several, px.
+const HEIGHTS: (f64, f64) = (320.0, 170.0);
+/// The same on a phone.
+const NARROW_HEIGHTS: (f64, f64) = (230.0, 150.0);
 /// Positive values whose ratio is below this are shown from zero on.
 const NEAR_ZERO: f64 = 0.4;
 /// Room above a plot without markers, px.
@@ -25,21 +25,26 @@ struct Common {
     height: f64,
     /// Where the titles of the vertical axes have their baseline.
     y_title: f64,
+    /// What it is drawn for.
+    page: ChartWidth,
 }
 
 /// Draws all panels from the figure's free room on; gives the lower edge.
-pub(super) fn panels(figure: &mut Figure, chart: &LineChart) -> f64 {
-    let height = if chart.panels.len() == 1 { LONE } else { STACKED };
-    let x = x_scale(chart);
-    let scales: Vec<Scale> = chart.panels.iter().map(|panel| y_scale(panel, &x, height)).collect();
+pub(super) fn panels(figure: &mut Figure, chart: &LineChart, page: ChartWidth) -> f64 {
+    let (lone, stacked) = page.choose(HEIGHTS, NARROW_HEIGHTS);
+    let alone = chart.panels.len() == 1;
+    let height = if alone { lone } else { stacked };
+    let x = x_scale(chart, page);
+    let scales: Vec<Scale> = chart.panels.iter().map(|panel| y_scale(panel, &x, alone)).collect();
     let titled = || chart.panels.iter().zip(&scales);
     let titles = titled().map(|(panel, y)| title_room(&panel.y.title(y.exponent), height)).fold(0.0, f64::max);
     let ticks = scales.iter().map(tick_room).fold(0.0, f64::max);
     let left = MARGIN + titles + ticks;
     // Half of the last tick label may reach beyond the plot.
     let overhang = x.ticks.last().map_or(0.0, |tick| TICK.width(&tick.label) / 2.0 + 4.0);
-    let width = WIDTH - left - MARGIN.max(overhang);
-    let common = Common { x, left, width, height, y_title: left - ticks - TICK_GAP };
+    let width = page.px() - left - MARGIN.max(overhang);
+    let x = if page == ChartWidth::Narrow { x.with_room(width) } else { x };
+    let common = Common { x, left, width, height, y_title: left - ticks - TICK_GAP, page };
 
     let mut top = figure.top + 4.0;
     let mut last = None;
@@ -54,16 +59,16 @@ pub(super) fn panels(figure: &mut Figure, chart: &LineChart) -> f64 {
     }
 }
 
-fn x_scale(chart: &LineChart) -> Scale {
+fn x_scale(chart: &LineChart, page: ChartWidth) -> Scale {
     let mut series = chart.panels.iter().flat_map(|panel| &panel.series);
     // Points need air at the ends; lines run from edge to edge.
     let air = if series.any(|series| series.stroke.points()) { 0.02 } else { 0.0 };
-    let wish = Wish { spacing: chart.x.spacing, air, steps: 7 };
+    let wish = Wish { spacing: chart.x.spacing, air, steps: page.choose(7, 4) };
     Scale::over(chart.panels.iter().flat_map(LinePanel::xs), wish)
 }
 
-fn y_scale(panel: &LinePanel, x: &Scale, height: f64) -> Scale {
-    let steps = if height == LONE { 6 } else { 4 };
+fn y_scale(panel: &LinePanel, x: &Scale, alone: bool) -> Scale {
+    let steps = if alone { 6 } else { 4 };
     let wish = Wish { spacing: panel.y.spacing, air: 0.05, steps };
     let (low, high) =
         panel.ys(x).filter(|y| y.is_finite()).fold((f64::INFINITY, 0.0_f64), |(l, h), y| (l.min(y), h.max(y)));
@@ -75,13 +80,13 @@ fn y_scale(panel: &LinePanel, x: &Scale, height: f64) -> Scale {
 impl Common {
     fn panel(&self, canvas: &mut Canvas, (panel, y): (&LinePanel, &Scale), top: f64) -> Plot {
         let mut plot = Plot { left: self.left, top, width: self.width, height: self.height };
-        let flags = flags::place(&panel.markers, &self.x, &plot);
+        let flags = flags::place(&panel.markers, &self.x, (&plot, self.page));
         let above = flags::room(&flags).max(HEAD);
         let title = !panel.title.trim().is_empty();
         plot.top += above + if title { PANEL_TITLE.leading() } else { 0.0 };
         canvas.open("g", &[("class", &"panel")]);
         if title {
-            plot.title(canvas, &panel.title, above);
+            plot.title(canvas, &panel.title, (above, self.page));
         }
         plot.x_grid(canvas, &self.x);
         plot.y_axis(canvas, y);
@@ -100,71 +105,5 @@ impl Common {
         }
         canvas.close("g");
         plot
-    }
-}
-
-/// A plot with both scales.
-struct Sheet<'a> {
-    plot: Plot,
-    x: &'a Scale,
-    y: &'a Scale,
-}
-
-impl Sheet<'_> {
-    fn at(&self, x: f64, y: f64) -> Option<(f64, f64)> {
-        Some((self.plot.x(self.x, x)?, self.plot.y(self.y, y)?))
-    }
-
-    /// Both edges of a band at a place.
-    fn edges(&self, &(x, low, high): &(f64, f64, f64)) -> Option<[(f64, f64); 2]> {
-        Some([self.at(x, low)?, self.at(x, high)?])
-    }
-
-    fn shows(&self, series: &LineSeries) -> bool {
-        series.points.iter().any(|&(x, y)| self.at(x, y).is_some())
-            || series.band.iter().any(|edges| self.edges(edges).is_some())
-    }
-
-    fn band(&self, canvas: &mut Canvas, series: &LineSeries) {
-        for run in runs(series.band.iter().map(|edges| self.edges(edges))) {
-            let lower: Vec<_> = run.iter().map(|edges| edges[0]).collect();
-            let upper: Vec<_> = run.iter().map(|edges| edges[1]).collect();
-            let d = closed(&thin(&lower), &thin(&upper));
-            let fill = series.role.colour();
-            canvas.leaf("path", &[("class", &"band"), ("d", &d), ("fill", &fill), ("fill-opacity", &"0.18")]);
-        }
-    }
-
-    fn series(&self, canvas: &mut Canvas, series: &LineSeries) {
-        let runs = runs(series.points.iter().map(|&(x, y)| self.at(x, y)));
-        canvas.open("g", &[("class", &"series")]);
-        canvas.content("title", &[], &series.name);
-        for run in &runs {
-            if series.stroke.line() && run.len() > 1 {
-                self.line(canvas, series, &open(&thin(run)));
-            }
-            // A point between two gaps would be invisible as a line.
-            if series.stroke.points() || run.len() == 1 {
-                for &point in run {
-                    canvas.point(point, series.role);
-                }
-            }
-        }
-        canvas.close("g");
-    }
-
-    fn line(&self, canvas: &mut Canvas, series: &LineSeries, d: &str) {
-        let width = if series.stroke.points() { "1.4" } else { "1.8" };
-        canvas.leaf(
-            "path",
-            &[
-                ("d", &d),
-                ("fill", &"none"),
-                ("stroke", &series.role.colour()),
-                ("stroke-width", &width),
-                ("stroke-linejoin", &"round"),
-                ("stroke-dasharray", &series.stroke.dash()),
-            ],
-        );
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::plot::Plot;
 use super::super::scale::Scale;
-use super::super::style::{MUTED, TICK};
+use super::super::style::{ChartWidth, MUTED, TICK};
 use super::super::svg::{Canvas, Text};
 use super::super::text::shorten;
 use super::Marker;
@@ -41,8 +41,8 @@ impl Flag<'_> {
 /// Places the flags of a panel, each in the lowest row in which it collides with none. Flags point right
 /// unless they would leave the plot or cross the pole of a flag that points left. Markers without a place
 /// on the axis have no flag.
-pub(super) fn place<'a>(markers: &'a [Marker], x: &Scale, plot: &Plot) -> Vec<Flag<'a>> {
-    let longest = LONGEST.min(plot.width / 3.0);
+pub(super) fn place<'a>(markers: &'a [Marker], x: &Scale, (plot, page): (&Plot, ChartWidth)) -> Vec<Flag<'a>> {
+    let longest = LONGEST.min(plot.width / page.choose(3.0, 2.0));
     let mut shown: Vec<_> =
         markers.iter().filter_map(|marker| Some((plot.x(x, marker.x)?, marker.label.as_str()))).collect();
     shown.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -104,7 +104,7 @@ mod tests {
 
     fn flags(markers: &[Marker]) -> Vec<Flag<'_>> {
         let x = Scale::over([0.0, 100.0], Wish { spacing: Spacing::Linear, air: 0.0, steps: 5 });
-        place(markers, &x, &Plot { left: 0.0, top: 100.0, width: 600.0, height: 50.0 })
+        place(markers, &x, (&Plot { left: 0.0, top: 100.0, width: 600.0, height: 50.0 }, ChartWidth::Wide))
     }
 
     fn marker(x: f64, label: &str) -> Marker {

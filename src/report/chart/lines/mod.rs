@@ -3,11 +3,12 @@
 mod draw;
 mod flags;
 mod path;
+pub(super) mod sheet;
 
 use super::ChartError;
 use super::figure::{Entry, Figure, Key, Words};
 use super::scale::{Scale, Spacing};
-use super::style::Role;
+use super::style::{ChartWidth, Medium, Role};
 
 /// A figure of lines; its panels stand one above the other and share the horizontal axis.
 ///
@@ -142,32 +143,29 @@ impl LineChart {
     /// # Ok::<(), apportion::report::chart::ChartError>(())
     /// ```
     pub fn svg(&self) -> Result<String, ChartError> {
+        self.svg_at(ChartWidth::Wide)
+    }
+
+    /// The figure as an SVG document for `width`.
+    ///
+    /// # Errors
+    /// As [`svg`](Self::svg).
+    pub fn svg_at(&self, width: ChartWidth) -> Result<String, ChartError> {
+        self.drawn(width.into())
+    }
+
+    pub(super) fn drawn(&self, medium: Medium) -> Result<String, ChartError> {
         if self.panels.is_empty() {
             return Err(ChartError::NoPanels { chart: self.title.clone() });
         }
         let words = Words { title: &self.title, caption: &self.caption };
-        let mut figure = Figure::begin(super::style::WIDTH, words, &self.legend());
-        let bottom = draw::panels(&mut figure, self);
+        let mut figure = Figure::begin(medium, words, &legend_of(self.panels.iter().flat_map(|panel| &panel.series)));
+        let bottom = draw::panels(&mut figure, self, medium.width);
         Ok(figure.finish(bottom, &self.description()))
     }
 
-    /// Every name and look once; none for a single nameless series.
-    fn legend(&self) -> Vec<Entry> {
-        let mut entries: Vec<Entry> = Vec::new();
-        for series in self.panels.iter().flat_map(|panel| &panel.series) {
-            let LineSeries { role, stroke, .. } = series;
-            let (line, points) = (stroke.line(), stroke.points());
-            let key = Key::Line { role: *role, dash: stroke.dash(), line, points };
-            let entry = Entry { name: series.name.clone(), key };
-            if !series.name.trim().is_empty() && !entries.contains(&entry) {
-                entries.push(entry);
-            }
-        }
-        entries
-    }
-
     /// Axes and series in words.
-    fn description(&self) -> String {
+    pub(super) fn description(&self) -> String {
         let mut words = format!("Horizontal axis: {}.", self.x.title(0));
         for panel in &self.panels {
             let names: Vec<_> = panel.series.iter().map(|series| series.name.as_str()).collect();
@@ -178,6 +176,20 @@ impl LineChart {
         }
         words
     }
+}
+
+/// Every name and look once; none for nameless series.
+pub(super) fn legend_of<'a>(series: impl Iterator<Item = &'a LineSeries>) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    for LineSeries { name, role, stroke, .. } in series {
+        let (line, points) = (stroke.line(), stroke.points());
+        let key = Key::Line { role: *role, dash: stroke.dash(), line, points };
+        let entry = Entry { name: name.clone(), key };
+        if !name.trim().is_empty() && !entries.contains(&entry) {
+            entries.push(entry);
+        }
+    }
+    entries
 }
 
 impl Axis {

@@ -1,6 +1,7 @@
 use resvg::usvg::roxmltree::{Document, Node};
 
-use super::super::reading::{dark_pixels, groups, only_finite, path_numbers, texts, y_axis};
+use super::super::Chart;
+use super::super::reading::{assert_narrow, dark_pixels, groups, only_finite, path_numbers, texts, y_axis};
 use super::*;
 use proptest::prelude::*;
 
@@ -98,6 +99,27 @@ fn logarithmic_axes_leave_out_what_has_no_logarithm() {
     let (first, second, last) = ((drawn[0][0], drawn[0][1]), (drawn[0][2], drawn[0][3]), (drawn[3][0], drawn[3][1]));
     assert!((last.0 - first.0 - 3.0 * (second.0 - first.0)).abs() < 0.05);
     assert!((last.1 - first.1 - 3.0 * (second.1 - first.1)).abs() < 0.05);
+}
+
+#[test]
+fn a_phone_shows_everything_inside() {
+    let series = |name: &str, points: Vec<(f64, f64)>| LineSeries {
+        stroke: Stroke::SolidWithPoints,
+        ..line(name, Role::Other(1), points)
+    };
+    let name = "whole range, where the ends are not the extremes of what is shown in the picture";
+    let mut one = panel(vec![series(name, vec![(64.0, -12_345.0), (1e6, 98_765.0)])]);
+    one.title = "Half widths of the intervals of the total indices and of those of first order".to_owned();
+    let mark = |x: f64| Marker { x, label: "97.5 % of all values lie below 1234.5".to_owned() };
+    one.markers = vec![mark(64.0), mark(80.0), mark(5e5), mark(1e6)];
+    for spacing in [Spacing::Linear, Spacing::Logarithmic] {
+        for panels in [1, 3] {
+            let mut figure = chart(vec![one.clone(); panels]);
+            figure.x = axis("Angle of the tip force from the vertical, and of what else there may be", "°", spacing);
+            figure.title = "A headline that takes more than a line on a phone, as most of them do".to_owned();
+            assert_narrow(&Chart::Lines(figure));
+        }
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ mod draw;
 use super::ChartError;
 use super::figure::{Entry, Figure, Key, Words};
 use super::lines::Axis;
-use super::style::{Role, WIDTH, drawable};
+use super::style::{ChartWidth, Medium, Role, drawable};
 
 /// A figure of level bars, such as a tornado.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,14 +108,31 @@ impl RangeBars {
     /// # Ok::<(), apportion::report::chart::ChartError>(())
     /// ```
     pub fn svg(&self) -> Result<String, ChartError> {
+        self.svg_at(ChartWidth::Wide)
+    }
+
+    /// The figure as an SVG document for `width`.
+    ///
+    /// # Errors
+    /// As [`svg`](Self::svg).
+    pub fn svg_at(&self, width: ChartWidth) -> Result<String, ChartError> {
+        self.drawn(width.into())
+    }
+
+    pub(super) fn drawn(&self, medium: Medium) -> Result<String, ChartError> {
         if self.rows.is_empty() {
             return Err(ChartError::NoPanels { chart: self.title.clone() });
         }
         let words = Words { title: &self.title, caption: &self.caption };
-        let mut figure = Figure::begin(WIDTH, words, &self.legend());
-        let bottom = draw::plot(&mut figure, self);
+        let mut figure = Figure::begin(medium, words, &self.legend());
+        let bottom = draw::plot(&mut figure, self, medium.width);
+        Ok(figure.finish(bottom, &self.description()))
+    }
+
+    /// Axis and rows in words.
+    pub(super) fn description(&self) -> String {
         let rows: Vec<String> = self.rows.iter().map(RangeRow::words).collect();
-        Ok(figure.finish(bottom, &format!("{}. {}.", self.x.title(0), rows.join("; "))))
+        format!("{}. {}.", self.x.title(0), rows.join("; "))
     }
 
     /// The series that occur, then the interval if there is one.

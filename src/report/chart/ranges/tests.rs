@@ -1,6 +1,7 @@
 use resvg::usvg::roxmltree::{Document, Node};
 
-use super::super::reading::{groups, number, only_finite, path_numbers, texts};
+use super::super::Chart;
+use super::super::reading::{assert_narrow, groups, number, only_finite, path_numbers, texts};
 use super::*;
 use proptest::prelude::*;
 
@@ -55,6 +56,25 @@ fn two_bars_share_a_row_about_the_reference() {
     let line = groups(&document, "reference")[0].first_element_child().expect("a line");
     assert!((number(&line, "x1") - end(&rects[0])).abs() < 0.02);
     assert!(texts(document.root()).contains(&"nominal"));
+}
+
+#[test]
+fn on_a_phone_names_and_notes_stand_above_their_bars() {
+    let long = "the name of a factor that leaves no room for anything else";
+    let rows = vec![
+        row("thickness", 40_000.0, Some((30.0, 50_000.0))),
+        RangeRow { note: "12.3 %: 120 to 200 GPa".to_owned(), ..row(long, -10.0, None) },
+        RangeRow { note: long.to_owned(), ..row(long, 1.0, None) },
+        row("none", f64::NAN, None),
+    ];
+    for label in ["nominal", long] {
+        let reference = Some(Reference { value: 40.0, label: label.repeat(2) });
+        let chart = RangeBars { reference, ..chart(rows.clone()) };
+        assert_narrow(&Chart::Ranges(chart.clone()));
+        let svg = chart.svg_at(ChartWidth::Narrow).expect("a figure");
+        let drawn = texts(Document::parse(&svg).expect("well-formed").root()).join("|");
+        assert!(drawn.contains("12.3 %: 120 to 200 GPa") && drawn.contains("thickness"), "{drawn}");
+    }
 }
 
 #[test]

@@ -2,41 +2,48 @@
 
 use super::super::bars::labels::Area;
 use super::super::figure::Figure;
+use super::super::marks::Ends;
 use super::super::plot::{Plot, TICK_GAP, tick_room, title_room};
 use super::super::scale::{Scale, Spacing, Wish};
-use super::super::style::{MARGIN, MUTED, TICK, WIDTH};
+use super::super::style::{ChartWidth, MARGIN, MUTED, TICK};
 use super::super::svg::{Anchor, Canvas, Text};
 use super::super::text::shorten;
 use super::labels::{Place, Wanted, place};
 use super::{Guide, ScatterChart, ScatterPoint};
 
-/// Height of the plot, px.
-const HEIGHT: f64 = 400.0;
+/// Height of the plot, px, and the same on a phone.
+const HEIGHTS: (f64, f64) = (400.0, 290.0);
 /// Room above the plot for the ends of steep guides, px.
 const HEAD: f64 = 18.0;
-/// Longest label of a guide, px.
-const LONGEST_GUIDE: f64 = 120.0;
+/// Longest label of a guide, px, and the same on a phone.
+const LONGEST_GUIDE: (f64, f64) = (120.0, 64.0);
+/// Longest label of a point on a phone, px.
+const LONGEST_LABEL: f64 = 110.0;
 /// Most points that are labelled: more would be a thicket.
 const MOST_LABELS: usize = 60;
 
 /// Draws the plot into the figure's free room; gives the lower edge.
-pub(super) fn plot(figure: &mut Figure, chart: &ScatterChart) -> f64 {
+pub(super) fn plot(figure: &mut Figure, chart: &ScatterChart, page: ChartWidth) -> f64 {
+    let height = page.choose(HEIGHTS.0, HEIGHTS.1);
     let points = || chart.series.iter().flat_map(|series| &series.points);
-    let x = scale(points().map(|point| point.x));
-    let y = scale(points().map(|point| point.y));
+    let ends = |interval: Option<(f64, f64)>| interval.into_iter().flat_map(|(low, high)| [low, high]);
+    let xs = points().flat_map(|point| ends(point.x_interval).chain([point.x]));
+    let ys = points().flat_map(|point| ends(point.y_interval).chain([point.y]));
+    let (x, y) = (scale(xs, page.choose(6, 4)), scale(ys, 6));
     let y_title = chart.y.title(y.exponent);
-    let left = MARGIN + title_room(&y_title, HEIGHT) + tick_room(&y);
-    let beside = chart.guides.iter().map(|guide| TICK.width(&guide_label(guide)) + 4.0).fold(0.0, f64::max);
+    let left = MARGIN + title_room(&y_title, height) + tick_room(&y);
+    let beside = chart.guides.iter().map(|guide| TICK.width(&guide_label(guide, page)) + 4.0).fold(0.0, f64::max);
     let overhang = x.ticks.last().map_or(0.0, |tick| TICK.width(&tick.label) / 2.0 + 4.0);
-    let width = WIDTH - left - MARGIN - beside.max(overhang);
-    let plot = Plot { left, top: figure.top + HEAD, width, height: HEIGHT };
+    let width = page.px() - left - MARGIN - beside.max(overhang);
+    let plot = Plot { left, top: figure.top + HEAD, width, height };
+    let x = if page == ChartWidth::Narrow { x.with_room(width) } else { x };
     let canvas = &mut figure.canvas;
     canvas.open("g", &[("class", &"panel")]);
     plot.x_grid(canvas, &x);
     plot.y_axis(canvas, &y);
     plot.y_title(canvas, &y_title, left - tick_room(&y) - TICK_GAP - 3.0);
     plot.axis_lines(canvas);
-    let sheet = Sheet { chart, plot, x: &x, y: &y };
+    let sheet = Sheet { chart, plot, x: &x, y: &y, page };
     sheet.guides(canvas);
     sheet.labels(canvas);
     sheet.points(canvas);
@@ -48,8 +55,8 @@ pub(super) fn plot(figure: &mut Figure, chart: &ScatterChart) -> f64 {
 }
 
 /// Zero belongs to both axes, and a little air above the largest value.
-fn scale(values: impl Iterator<Item = f64>) -> Scale {
-    Scale::over(values.chain([0.0]), Wish { spacing: Spacing::Linear, air: 0.06, steps: 6 })
+fn scale(values: impl Iterator<Item = f64>, steps: usize) -> Scale {
+    Scale::over(values.chain([0.0]), Wish { spacing: Spacing::Linear, air: 0.06, steps })
 }
 
 struct Sheet<'a> {
@@ -57,6 +64,7 @@ struct Sheet<'a> {
     plot: Plot,
     x: &'a Scale,
     y: &'a Scale,
+    page: ChartWidth,
 }
 
 impl Sheet<'_> {
@@ -87,7 +95,7 @@ impl Sheet<'_> {
             canvas.open("g", &[("stroke", &MUTED), ("stroke-width", &"1"), ("stroke-dasharray", &"5 4")]);
             canvas.line(origin, end);
             canvas.close("g");
-            let label = guide_label(guide);
+            let label = guide_label(guide, self.page);
             let text = if steep {
                 Text::new(&label, (end.0, end.1 - 4.0), TICK).anchor(Anchor::Middle)
             } else {
@@ -102,21 +110,36 @@ impl Sheet<'_> {
         let points = self.chart.series.iter().flat_map(|series| &series.points);
         let mut shown: Vec<_> = points.filter_map(|point| Some((point, self.at(point)?))).collect();
         shown.sort_by(|a, b| b.0.x.total_cmp(&a.0.x).then(b.0.y.total_cmp(&a.0.y)));
+        let words = |label: &str| self.page.choose(label.to_owned(), shorten(label, LONGEST_LABEL, TICK));
         let wanted: Vec<Wanted> = shown
             .iter()
             .enumerate()
             .map(|(number, (point, at))| {
                 // Without a label, or beyond the most labels, there is no room of any width.
                 let labelled = number < MOST_LABELS && !point.label.trim().is_empty();
-                let width = if labelled { TICK.width(&point.label) } else { f64::INFINITY };
+                let width = if labelled { TICK.width(&words(&point.label)) } else { f64::INFINITY };
                 Wanted { at: *at, width, height: TICK.cap_height() }
+            })
+            .collect();
+        let whiskers: Vec<Area> = shown
+            .iter()
+            .flat_map(|(point, at)| {
+                let (level, upright) = self.whiskers(point);
+                let level = level.map(|(from, to)| Area {
+                    left: from.min(to),
+                    right: from.max(to),
+                    top: at.1 - 1.0,
+                    bottom: at.1 + 1.0,
+                });
+                let upright = upright.map(|(from, to)| Area::about(at.0, 1.0, (from, to)));
+                level.into_iter().chain(upright)
             })
             .collect();
         let plot = &self.plot;
         let bounds = Area { left: plot.left, right: plot.right() + 2.0, top: plot.top, bottom: plot.bottom() };
         canvas.open("g", &[("class", &"labels")]);
         for ((point, _), Place { area, leader }) in
-            shown.iter().zip(place(&wanted, bounds)).filter_map(|(shown, place)| Some((shown, place?)))
+            shown.iter().zip(place(&wanted, &whiskers, bounds)).filter_map(|(shown, place)| Some((shown, place?)))
         {
             if let Some([from, to]) = leader {
                 canvas.open("g", &[("stroke", &MUTED), ("stroke-width", &"0.7")]);
@@ -124,15 +147,26 @@ impl Sheet<'_> {
                 canvas.close("g");
             }
             let middle = ((area.left + area.right) / 2.0, (area.top + area.bottom + TICK.cap_height()) / 2.0);
-            canvas.text(&Text::new(&point.label, middle, TICK).anchor(Anchor::Middle).halo());
+            let label = words(&point.label);
+            canvas.text(&Text::new(&label, middle, TICK).anchor(Anchor::Middle).halo().whole(&point.label));
         }
         canvas.close("g");
+    }
+
+    /// The places of a point's interval ends, along the axes.
+    fn whiskers(&self, point: &ScatterPoint) -> (Ends, Ends) {
+        let x = |(low, high)| Some((self.plot.x(self.x, low)?, self.plot.x(self.x, high)?));
+        let y = |(low, high)| Some((self.plot.y(self.y, low)?, self.plot.y(self.y, high)?));
+        (point.x_interval.and_then(x), point.y_interval.and_then(y))
     }
 
     fn points(&self, canvas: &mut Canvas) {
         for series in &self.chart.series {
             canvas.open("g", &[("class", &"series")]);
             canvas.content("title", &[], &series.name);
+            for (at, point) in series.points.iter().filter_map(|point| Some((self.at(point)?, point))) {
+                canvas.thin_whiskers(at, self.whiskers(point), series.role);
+            }
             for at in series.points.iter().filter_map(|point| self.at(point)) {
                 canvas.point(at, series.role);
             }
@@ -142,8 +176,8 @@ impl Sheet<'_> {
 }
 
 /// The label of a guide, shortened if need be: it takes its room from the plot.
-fn guide_label(guide: &Guide) -> String {
-    shorten(&guide.label, LONGEST_GUIDE, TICK)
+fn guide_label(guide: &Guide, page: ChartWidth) -> String {
+    shorten(&guide.label, page.choose(LONGEST_GUIDE.0, LONGEST_GUIDE.1), TICK)
 }
 
 /// Length of one unit of a linear scale that is so many px long.

@@ -45,8 +45,8 @@ pub(super) struct Place {
     pub leader: Option<[(f64, f64); 2]>,
 }
 
-/// A place inside `bounds` for each label in turn; `None` where there is no room.
-pub(super) fn place(wanted: &[Wanted], bounds: Area) -> Vec<Option<Place>> {
+/// A place inside `bounds` for each label in turn, clear of `marks` where it can be; `None` where there is no room.
+pub(super) fn place(wanted: &[Wanted], marks: &[Area], bounds: Area) -> Vec<Option<Place>> {
     let points: Vec<Area> =
         wanted.iter().map(|w| Area::about(w.at.0, POINT, (w.at.1 - POINT, w.at.1 + POINT))).collect();
     let mut places: Vec<Option<Place>> = Vec::with_capacity(wanted.len());
@@ -67,8 +67,12 @@ pub(super) fn place(wanted: &[Wanted], bounds: Area) -> Vec<Option<Place>> {
                     !others.clone().chain(taken.iter().map(|t| &t.area)).any(|other| crosses(leader, other))
                 })
         };
-        let candidates = DISTANCES.iter().flat_map(|d| DIRECTIONS.iter().map(move |direction| (*d, *direction)));
-        places.push(candidates.map(|(d, direction)| beside(label, d, direction)).find(free));
+        let candidates = || {
+            let all = DISTANCES.iter().flat_map(|d| DIRECTIONS.iter().map(move |direction| (*d, *direction)));
+            all.map(|(d, direction)| beside(label, d, direction)).filter(free)
+        };
+        let clear = |place: &Place| !marks.iter().any(|mark| mark.overlaps(&place.area));
+        places.push(candidates().find(clear).or_else(|| candidates().next()));
     }
     places
 }
@@ -111,16 +115,25 @@ mod tests {
 
     #[test]
     fn a_lone_label_stands_to_the_right_and_turns_at_the_edge() {
-        let places = place(&[wanted(100.0, 100.0)], BOUNDS);
+        let places = place(&[wanted(100.0, 100.0)], &[], BOUNDS);
         let area = places[0].unwrap().area;
         assert_eq!((area.left, area.top, area.bottom), (106.0 - AIR, 96.0 - AIR, 104.0 + AIR));
-        let edge = place(&[wanted(295.0, 100.0)], BOUNDS)[0].unwrap();
+        let edge = place(&[wanted(295.0, 100.0)], &[], BOUNDS)[0].unwrap();
         assert!(edge.area.right <= 300.0 && edge.leader.is_none());
     }
 
     #[test]
+    fn a_label_keeps_clear_of_marks_where_it_can() {
+        let level = Area { left: 50.0, right: 150.0, top: 99.0, bottom: 101.0 };
+        let beside = place(&[wanted(100.0, 100.0)], &[level], BOUNDS)[0].unwrap();
+        assert!(!beside.area.overlaps(&level) && beside.leader.is_none());
+        let everywhere = place(&[wanted(100.0, 100.0)], &[BOUNDS], BOUNDS);
+        assert_eq!(everywhere, place(&[wanted(100.0, 100.0)], &[], BOUNDS));
+    }
+
+    #[test]
     fn a_crowd_keeps_the_labels_that_fit() {
-        let places = place(&vec![wanted(150.0, 100.0); 60], BOUNDS);
+        let places = place(&vec![wanted(150.0, 100.0); 60], &[], BOUNDS);
         let placed = places.iter().flatten().count();
         // There is room on every side, but not for all.
         assert!((4..60).contains(&placed), "{placed}");
@@ -131,7 +144,7 @@ mod tests {
         #[test]
         fn labels_touch_nothing(points in prop::collection::vec((5.0..295.0, 5.0..195.0), 1..40)) {
             let labels: Vec<_> = points.iter().map(|&(x, y)| wanted(x, y)).collect();
-            let places: Vec<Place> = place(&labels, BOUNDS).into_iter().flatten().collect();
+            let places: Vec<Place> = place(&labels, &[], BOUNDS).into_iter().flatten().collect();
             for (i, placed) in places.iter().enumerate() {
                 let area = placed.area;
                 prop_assert!(area.left >= 0.0 && area.right <= 300.0 && area.top >= 0.0 && area.bottom <= 200.0);

@@ -6,12 +6,12 @@ mod labels;
 use super::ChartError;
 use super::figure::{Entry, Figure, Key, Words};
 use super::lines::Axis;
-use super::style::{Role, WIDTH};
+use super::style::{ChartWidth, Medium, Role};
 
 /// A figure of labelled points; both axes begin at zero or below.
 ///
 /// Labels never cover one another or a point: they stand beside their points, or a little off with a thin line; where
-/// there is no room, the points of smaller x go without.
+/// there is no room, the points of smaller x go without. They keep clear of intervals where they can.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScatterChart {
     /// Headline.
@@ -39,8 +39,8 @@ pub struct ScatterSeries {
     pub points: Vec<ScatterPoint>,
 }
 
-/// A point with its label.
-#[derive(Clone, Debug, PartialEq)]
+/// A point with its label and intervals.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScatterPoint {
     /// On the horizontal axis; a point with a coordinate that is not finite is not drawn.
     pub x: f64,
@@ -48,6 +48,10 @@ pub struct ScatterPoint {
     pub y: f64,
     /// Written beside it; may be empty.
     pub label: String,
+    /// Bounds of `x`, drawn as a thin line; bounds that are not finite are not drawn.
+    pub x_interval: Option<(f64, f64)>,
+    /// Bounds of `y`, likewise.
+    pub y_interval: Option<(f64, f64)>,
 }
 
 /// A dashed line y = slope x from the origin to the edge of the plot.
@@ -78,7 +82,7 @@ impl ScatterChart {
     ///     series: vec![ScatterSeries {
     ///         name: "monotone".into(),
     ///         role: Role::Other(0),
-    ///         points: vec![ScatterPoint { x: 40.0, y: 12.0, label: "thickness".into() }],
+    ///         points: vec![ScatterPoint { x: 40.0, y: 12.0, label: "thickness".into(), ..ScatterPoint::default() }],
     ///     }],
     ///     guides: vec![Guide { slope: 0.5, label: "σ = 0.5 μ*".into() }],
     /// };
@@ -86,12 +90,24 @@ impl ScatterChart {
     /// # Ok::<(), apportion::report::chart::ChartError>(())
     /// ```
     pub fn svg(&self) -> Result<String, ChartError> {
+        self.svg_at(ChartWidth::Wide)
+    }
+
+    /// The figure as an SVG document for `width`.
+    ///
+    /// # Errors
+    /// As [`svg`](Self::svg).
+    pub fn svg_at(&self, width: ChartWidth) -> Result<String, ChartError> {
+        self.drawn(width.into())
+    }
+
+    pub(super) fn drawn(&self, medium: Medium) -> Result<String, ChartError> {
         if self.series.is_empty() {
             return Err(ChartError::NoPanels { chart: self.title.clone() });
         }
         let words = Words { title: &self.title, caption: &self.caption };
-        let mut figure = Figure::begin(WIDTH, words, &self.legend());
-        let bottom = draw::plot(&mut figure, self);
+        let mut figure = Figure::begin(medium, words, &self.legend());
+        let bottom = draw::plot(&mut figure, self, medium.width);
         Ok(figure.finish(bottom, &self.description()))
     }
 
@@ -102,11 +118,16 @@ impl ScatterChart {
     }
 
     /// Axes and points in words.
-    fn description(&self) -> String {
+    pub(super) fn description(&self) -> String {
         let mut words = format!("Horizontal axis: {}. Vertical axis: {}.", self.x.title(0), self.y.title(0));
         for series in &self.series {
             for point in &series.points {
-                words.push_str(&format!(" {}, {}: {}, {};", point.label, series.name, point.x, point.y));
+                let interval = |interval: Option<(f64, f64)>| {
+                    interval.map_or_else(String::new, |(low, high)| format!(" ({low} to {high})"))
+                };
+                let (x, y) = (interval(point.x_interval), interval(point.y_interval));
+                let ScatterPoint { label, x: at, y: height, .. } = point;
+                words.push_str(&format!(" {label}, {}: {at}{x}, {height}{y};", series.name));
             }
         }
         words
