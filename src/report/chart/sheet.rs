@@ -233,6 +233,11 @@ mod tests {
             }
             png(svg).unwrap();
         }
+        for inline in [&picture.wide.inline, &picture.narrow.inline] {
+            let document = Document::parse(inline).unwrap();
+            assert!(document.root_element().attribute("width").is_none());
+            assert!(groups(&document, "title").is_empty() && groups(&document, "caption").is_empty());
+        }
     }
 
     #[test]

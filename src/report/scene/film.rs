@@ -56,7 +56,7 @@ pub fn film_strip(story: &SceneStory) -> Film {
     let picture = sheet.picture(|number, sketch| {
         let (width, height) = (sketch.width, sketch.height);
         let split = (height * PROBE_PART / (PROBE_PART + PARTICLE_PART)).round();
-        sketch.window((0.0, 0.0), (width, split - 4.0), |sketch| stage.probe(&frames[number], sketch));
+        sketch.window((0.0, 0.0), (width, split - 4.0), |sketch| stage.probe(&frames[number], number == 0, sketch));
         sketch.window((0.0, split), (width, height - split), |sketch| {
             stage.particle(&frames[number], number == 0, sketch)
         });
@@ -151,11 +151,12 @@ struct Stage<'a> {
 
 impl Stage<'_> {
     /// The end of the cantilever from the front.
-    fn probe(&self, frame: &SceneSample, sketch: &mut Sketch) {
+    fn probe(&self, frame: &SceneSample, named: bool, sketch: &mut Sketch) {
         let (width, height) = (sketch.width, sketch.height);
         let &SceneGeometry { height: tall, width: wide, thickness, .. } = self.geometry;
         let ground = height - 10.0;
-        let scale = ((ground - 20.0) / tall).min(0.86 * width / wide);
+        // The end of a bar that leans by a quarter of a radian, the most there is, stays in the picture too.
+        let scale = ((ground - 10.0) / (tall + thickness + 0.25 * 0.5 * wide)).min(0.86 * width / wide);
         let (tall, half, thick) = (tall * scale, 0.5 * wide * scale, (thickness * scale).max(2.0));
         sketch.path(&[(0.0, ground), (width, ground), (width, height), (0.0, height)], true, GROUND);
         sketch.path(&[(0.0, ground), (width, ground)], false, SURFACE);
@@ -181,6 +182,9 @@ impl Stage<'_> {
         // Too small to be to scale.
         let apex = (base.0 + tall * angle.sin(), ground - 2.5);
         sketch.circle((apex.0 - 2.5, apex.1), 2.5, GOLD);
+        if named {
+            sketch.words("cantilever, from the front", (0.5 * width, 11.0), true);
+        }
     }
 
     /// The particle between tip and substrate.
@@ -216,7 +220,7 @@ impl Stage<'_> {
         sketch.arrow((substrate, ground + 17.0), (x - substrate, 0.0), Role::Other(0).colour());
         if named {
             sketch.words("F_T", (contact.0 + push.0 - 26.0, contact.1 + 0.62 * push.1), false);
-            sketch.words("tip", (contact.0 + 0.30 * width, contact.1 - 4.0), true);
+            sketch.words("tip", (contact.0 + 0.18 * width, contact.1 - 4.0), false);
             sketch.words("particle", (x, ground - 0.24 * radius), true);
             sketch.words("substrate", (0.66 * width, ground + 24.0), false);
             sketch.arrow((0.66 * width, ground + 10.0), (40.0, 0.0), SUBSTRATE.colour());

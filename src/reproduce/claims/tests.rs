@@ -48,7 +48,10 @@ fn a_quick_look_gives_the_verdicts_of_the_full_answer() {
     if std::env::var_os("SHOW").is_some() {
         println!("{:?}", start.elapsed());
         for c in &full {
-            println!("{} [{}] {}\n   => {}\n   F: {}\n   S: {}\n", c.number, c.source, c.statement, c.verdict, c.finding, c.setting);
+            println!(
+                "{} [{}] {}\n   => {}\n   F: {}\n   S: {}\n",
+                c.number, c.source, c.statement, c.verdict, c.finding, c.setting
+            );
         }
     }
     assert_eq!(in_words(&full), in_words(&claims(&studies, Effort::Quick).unwrap()));

@@ -6,7 +6,7 @@ use super::{FiguresError, PaperFigure};
 use crate::afm::{Failure, FrictionLaw, Options, Scene};
 use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
 use crate::report::scene::charts::{contacts, forces, positions, pushing};
-use crate::report::scene::words::{force, length, short, time};
+use crate::report::scene::words::{force, length, time};
 use crate::report::scene::{SceneSample, SceneStory};
 use crate::simulation::scene_story;
 
@@ -43,7 +43,7 @@ pub(super) fn histories() -> Result<Vec<PaperFigure>, FiguresError> {
         PaperFigure {
             stem: "ts04-9",
             label: "TS04 fig. 9",
-            theirs: "The pushing force rises until it meets the critical force, at which the particle slides.",
+            theirs: "The pushing force rises to the critical force and stays there.",
             chart: Chart::Lines(pushing(&coulomb)),
             csv: table(&coulomb, &[TIP_FORCE])
                 .with("critical_force_nN", coulomb.samples.iter().map(|_| NANO * coulomb.critical.critical_force))
@@ -119,16 +119,18 @@ fn two_laws(coulomb: &SceneStory) -> Result<PaperFigure, FiguresError> {
     let softer = |law| story(law, |scene| scene.shear_modulus = Some(PRINTED_SHEAR_MODULUS));
     let printed = [softer(FrictionLaw::HurtadoKim)?, softer(FrictionLaw::Coulomb)?];
     let laws = [(coulomb, "Coulomb", Stroke::Solid), (&hk, "Hurtado-Kim", Stroke::Dashed)];
-    let mut lines = Vec::new();
-    let mut markers = Vec::new();
-    for (story, name, stroke) in laws {
-        let role = story.friction_role;
+    let tip_force = |&(story, name, stroke): &(&SceneStory, &str, Stroke)| {
+        series(format!("{name}, tip force"), (story.friction_role, stroke), curve(story, TIP_FORCE.1))
+    };
+    let level = |&(story, name, _): &(&SceneStory, &str, Stroke)| {
         let critical = NANO * story.critical.critical_force;
-        let level = curve(story, |_| critical);
-        lines.push(series(format!("{name}, critical force"), (role, Stroke::Dotted), level));
-        lines.push(series(format!("{name}, tip force"), (role, stroke), curve(story, TIP_FORCE.1)));
-        markers.extend(story.critical.time.map(|x| Marker { x, label: format!("slip, {name}") }));
-    }
+        series(format!("{name}, critical force"), (story.friction_role, Stroke::Dotted), curve(story, |_| critical))
+    };
+    let lines = laws.iter().map(tip_force).chain(laws.iter().map(level)).collect();
+    let marker = |(story, name, _): &(&SceneStory, &str, Stroke)| {
+        story.critical.time.map(|x| Marker { x, label: format!("slip, {name}") })
+    };
+    let markers = laws.iter().filter_map(marker).collect();
     let reached = |story: &SceneStory, law: &str| {
         format!("{} {} under {law} friction", force(story.critical.critical_force), slip(story))
     };
@@ -202,7 +204,7 @@ fn coefficients() -> Result<PaperFigure, FiguresError> {
     let mut times: Vec<(f64, f64)> =
         COEFFICIENTS.into_iter().zip(&told).map(|(mu, story)| (mu, story.critical.time.unwrap_or(f64::NAN))).collect();
     times.reverse();
-    let slips: Vec<String> = times.iter().map(|(mu, at)| format!("{} at {}", time(*at), short(*mu))).collect();
+    let slips: Vec<String> = times.iter().map(|(mu, at)| format!("{} at {mu}", time(*at))).collect();
     let later = times.windows(2).all(|pair| pair[1].1 > pair[0].1);
     let seen = if later {
         "The larger the coefficient of static friction, the later the particle slips"

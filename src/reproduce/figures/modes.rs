@@ -14,7 +14,7 @@ use crate::simulation::{pushing, scene_modes};
 const NANO: f64 = 1e9;
 /// Contact angles: about the nominal 60 degrees.
 const CONTACT_ANGLES: (f64, f64) = (40.0, 70.0);
-const THEIRS: &str = "A larger angle lowers the force at which the particle slides, which it does before it rolls.";
+const THEIRS: &str = "A larger contact angle lowers the force at which the particle slides.";
 
 /// Both figures.
 pub(super) fn modes(effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
@@ -140,7 +140,7 @@ fn chart(degrees: &[f64], lines: &[Against]) -> LineChart {
             title: String::new(),
             y: axis("Force at which the mode sets in", "nN", Spacing::Logarithmic),
             series: series.collect(),
-            markers: vec![Marker { x: nominal, label: format!("nominal: {}°", short(nominal)) }],
+            markers: vec![Marker { x: nominal, label: format!("nominal: {nominal:.0}°") }],
         }],
     }
 }
@@ -151,7 +151,7 @@ fn caption(lines: &[Against]) -> String {
     let (Some((first, last)), Some((along_first, along_last))) = (ends(&lines[0]), ends(&lines[1])) else {
         return "The scene has no critical force.".to_owned();
     };
-    let (from, to) = (short(CONTACT_ANGLES.0), short(CONTACT_ANGLES.1));
+    let (from, to) = CONTACT_ANGLES;
     // 1e-9: rounding; the contact angle does not enter the critical force.
     let own = if (last / first - 1.0).abs() < 1e-9 {
         format!("stays at {}", force(first))

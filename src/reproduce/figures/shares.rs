@@ -149,9 +149,11 @@ fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
             capitalised(&format!("the largest total share belongs to {}", each.join(", ")))
         }
     };
-    let printed = leaders.iter().find_map(|l| l.published.map(|share| (share, l.friction)));
+    let printed = leaders.iter().find_map(|l| l.published.map(|share| (share, l)));
     match printed {
-        Some((share, friction)) => format!("{seen}; what is printed for {friction} gives it {share} % (diamonds)."),
+        Some((share, l)) => {
+            format!("{seen}; printed for {} are {share} % for the {} (diamonds).", l.friction, words(l.factor))
+        }
         None => format!("{seen}."),
     }
 }

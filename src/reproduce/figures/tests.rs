@@ -4,6 +4,8 @@ use std::collections::HashSet;
 use std::sync::LazyLock;
 
 use super::*;
+use crate::afm::contact::Pair;
+use crate::afm::{ContactTheory, Scene};
 use crate::report::chart::{ChartWidth, png};
 use crate::reproduce::studies;
 
@@ -87,17 +89,21 @@ fn every_figure_is_there_once_and_in_order() {
         drawn_soundly(figure);
     }
     let dimensional = all.iter().find(|figure| figure.stem == "lg-4a").unwrap();
-    assert!(dimensional.chart.caption().contains("gives it 76 %"), "{}", dimensional.chart.caption());
+    let caption = dimensional.chart.caption();
+    assert!(caption.contains("printed for LuGre are") == caption.contains("The thickness"), "{caption}");
     assert_eq!(dimensional.csv.lines().count(), 5);
 }
 
 #[test]
 fn a_second_time_gives_the_same() {
-    assert_eq!(figures(&[], Effort::Quick).unwrap(), *QUICK);
-    assert_eq!(animation().unwrap(), animation().unwrap());
+    let again = figures(&[], Effort::Quick).unwrap();
+    for (one, other) in again.iter().zip(QUICK.iter()) {
+        assert!(one.csv == other.csv && one.chart.svg().unwrap() == other.chart.svg().unwrap(), "{}", one.stem);
+    }
+    assert!(animation().unwrap() == animation().unwrap());
 }
 
-/// Under Coulomb friction without its shear term F_cr is c E w t^3 L^-2; the term, tau pi a^2, is a hundredth of it.
+/// Under LuGre friction F_cr is c E w t^3 L^-2; Coulomb friction has its shear term tau pi a^2 besides.
 #[test]
 fn sweeps_follow_the_exact_laws() {
     let (header, rows) = data("lg-2b");
@@ -108,8 +114,9 @@ fn sweeps_follow_the_exact_laws() {
         let (_, rows) = data(stem);
         for row in &rows {
             let law = (row[0] / rows[0][0]).powf(exponent);
-            // LuGre friction at this velocity is a constant share of F_Z: 1e-12, rounding.
-            assert!((row[1] / rows[0][1] / law - 1.0).abs() < 1e-12, "{stem} at {}", row[0]);
+            // LuGre friction at this velocity is a constant share of F_Z, but for sigma2 V, which is 1e-14 N: 1e-6 of
+            // the least force here.
+            assert!((row[1] / rows[0][1] / law - 1.0).abs() < 2e-6, "{stem} at {}", row[0]);
         }
     };
     power("lg-2b", 1.0);
@@ -117,8 +124,14 @@ fn sweeps_follow_the_exact_laws() {
     power("lg-2a", -2.0);
     power("lg-3b", 1.0);
     let (_, coulomb) = data("chk-8");
-    let law = (2.5_f64 / 0.25).powi(3);
-    assert!((coulomb[40][1] / coulomb[0][1] / law - 1.0).abs() < 0.1);
+    for row in &coulomb {
+        let scene = Scene { thickness: row[0] * 1e-6, ..Scene::default() };
+        let &Scene { length, width, thickness, elastic_modulus, preload_angle, static_friction, .. } = &scene;
+        let normal = elastic_modulus * width * thickness.powi(3) * preload_angle.sin() / (4.0 * length * length);
+        let contact = ContactTheory::Jkr.contact(&Pair::substrate(&scene), normal).unwrap();
+        let held = static_friction * normal + scene.shear_strength * std::f64::consts::PI * contact.radius.powi(2);
+        assert!((row[1] * 1e-9 / normal.hypot(held) - 1.0).abs() < 1e-12, "rounding only");
+    }
 }
 
 #[test]
@@ -134,8 +147,8 @@ fn captions_say_what_the_data_hold() {
     for stem in ["chk-11", "lg-2d", "lg-3c"] {
         assert!(caption(stem).contains("stays at"), "{}", caption(stem));
     }
-    assert!(caption("chk-13").contains("stays at 631 nN under Coulomb"), "{}", caption("chk-13"));
-    assert!(caption("chk-13").contains("falls from"), "{}", caption("chk-13"));
+    assert!(caption("chk-14").contains("the two approach each other"), "{}", caption("chk-14"));
+    assert!(caption("chk-12").contains("the two diverge"), "{}", caption("chk-12"));
     let (_, rows) = data("chk-6");
     let ends = [rows[0][1], rows[40][1]].map(crate::report::scene::words::short);
     assert!(caption("chk-6").contains(&format!("falls from {} to {} nN under Coulomb", ends[0], ends[1])));
@@ -171,9 +184,10 @@ fn dump() {
     let start = std::time::Instant::now();
     let all = figures(&reproduced(), Effort::Full).unwrap();
     eprintln!("{:?}", start.elapsed());
-    let start = std::time::Instant::now();
+    let ticks = || std::fs::read_to_string("/proc/self/stat").unwrap().split(' ').nth(13).unwrap().to_owned();
+    let before = ticks();
     figures(&[], Effort::Full).unwrap();
-    eprintln!("computed alone {:?}", start.elapsed());
+    eprintln!("computed alone: user ticks {before} to {}", ticks());
     for f in &all {
         for (w, n) in [(ChartWidth::Wide, "wide"), (ChartWidth::Narrow, "narrow")] {
             let svg = f.chart.svg_at(w).unwrap();
