@@ -1,7 +1,7 @@
 //! The reproduction on a terminal.
 
 use super::claims::Claim;
-use super::readings::summary;
+use super::readings::{chances, summary};
 use super::{Reproduction, comparison_table};
 
 /// What came out, as text: the table of shares, a line for each verdict, and what the readings say; each if it was asked
@@ -16,7 +16,7 @@ pub fn in_words(reproduction: &Reproduction) -> String {
     }
     if let Some(readings) = &reproduction.readings {
         text.push_str("\nWhat the published percentages could mean\n");
-        for sentence in summary(readings) {
+        for sentence in summary(readings).into_iter().chain(chances(readings)) {
             text.push_str(&format!("- {sentence}\n"));
         }
     }

@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::anchors::{check, href};
 use super::drawing::{Drawings, drawings};
 use super::symbols::{clean, escaped, symbols};
-use super::{Cell, Link, Mark, Page, PageFigure, PageTable, Part};
+use super::{Cell, Link, Mark, OnPhone, Page, PageFigure, PageTable, Part};
 use crate::report::chart::ChartError;
 
 /// Why a page could not be made.
@@ -82,10 +82,11 @@ struct TableView {
     label: String,
     header: Vec<(String, bool)>,
     rows: Vec<Vec<CellView>>,
-    sentences: bool,
+    stack: &'static str,
 }
 
 struct CellView {
+    heading: String,
     html: String,
     numeric: bool,
     mark: &'static str,
@@ -198,18 +199,26 @@ fn link_views(links: &[Link]) -> Vec<LinkView> {
 
 fn table_view(table: &PageTable) -> TableView {
     let numeric = |column: usize| table.numeric.contains(&column);
-    let row = |row: &Vec<Cell>| row.iter().enumerate().map(|(column, cell)| cell_view(cell, numeric(column))).collect();
+    let heading = |column: usize| table.header.get(column).map_or_else(String::new, |text| clean(text));
+    let cell =
+        |(column, cell): (usize, &Cell)| CellView { heading: heading(column), ..cell_view(cell, numeric(column)) };
+    let row = |row: &Vec<Cell>| row.iter().enumerate().map(cell).collect();
     TableView {
         caption: symbols(&table.caption),
         label: clean(&table.caption),
         header: table.header.iter().enumerate().map(|(column, text)| (symbols(text), numeric(column))).collect(),
         rows: table.rows.iter().map(row).collect(),
-        sentences: table.sentences,
+        stack: match table.on_phone {
+            OnPhone::Scroll => "",
+            OnPhone::Stack => " stack",
+            OnPhone::StackLabelled => " stack labelled",
+        },
     }
 }
 
 fn cell_view(cell: &Cell, numeric: bool) -> CellView {
     CellView {
+        heading: String::new(),
         html: if numeric { number(&cell.text) } else { symbols(&cell.text) },
         numeric,
         mark: cell.mark.class(),

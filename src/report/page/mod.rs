@@ -118,8 +118,20 @@ pub struct PageTable {
     pub numeric: Vec<usize>,
     /// The rows.
     pub rows: Vec<Vec<Cell>>,
-    /// Whether cells hold sentences: on a phone such a table is set as a list of its rows.
-    pub sentences: bool,
+    /// What becomes of it where it is too wide.
+    pub on_phone: OnPhone,
+}
+
+/// How a table is set on a phone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OnPhone {
+    /// As it is, to be scrolled sideways inside its frame: for numbers.
+    #[default]
+    Scroll,
+    /// Every row as a block of its cells, one below the other: for sentences that need no heading.
+    Stack,
+    /// The same, each cell under the heading of its column.
+    StackLabelled,
 }
 
 /// A cell of a table.

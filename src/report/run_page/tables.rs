@@ -2,7 +2,7 @@
 
 use super::lead::by_total;
 use super::words::{give_or_take, grouped, half_width, name, share, value};
-use crate::report::page::{Cell, PageTable, Part};
+use crate::report::page::{Cell, OnPhone, PageTable, Part};
 use crate::report::result::{
     AggregateIndexRecord, EffectRecord, EstimateRecord, FailureRecord, IndexRecord, OtherIndexRecord, OutputRecord,
     PairRecord, ResultFile,
@@ -22,7 +22,13 @@ const FACTORS_OF_ESTIMATORS: usize = 20;
 /// A table of which all columns but the first `texts` are numbers.
 pub(super) fn table(caption: String, header: &[&str], (texts, rows): (usize, Vec<Vec<Cell>>)) -> Part {
     let header: Vec<String> = header.iter().map(|text| (*text).to_owned()).collect();
-    Part::Table(PageTable { caption, numeric: (texts..header.len()).collect(), header, rows, sentences: false })
+    Part::Table(PageTable {
+        caption,
+        numeric: (texts..header.len()).collect(),
+        header,
+        rows,
+        on_phone: OnPhone::Scroll,
+    })
 }
 
 /// `which` of how many are shown, if not all.

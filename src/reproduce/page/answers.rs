@@ -1,7 +1,7 @@
 //! The answer in short: which factor leads in each study, how sure that is, and in what order the rest follow.
 
 use super::cells::{plain, strong};
-use crate::report::page::{Cell, PageTable, Part};
+use crate::report::page::{Cell, OnPhone, PageTable, Part};
 use crate::report::{EffectRecord, IndexRecord, IntervalRecord, fixed, share_of_runs};
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup};
 
@@ -40,72 +40,96 @@ fn at_least_a_tenth(half_width: f64) -> String {
 /// How sure it is that the leader leads.
 fn certainty(effect: &EffectRecord) -> String {
     match effect.probability_first {
-        Some(p) if p > 0.999 => "certain (> 99.9 %)".to_owned(),
-        Some(p) => format!("{} %", fixed(100.0 * p, 1)),
-        None => "–".to_owned(),
+        Some(p) if p > 0.999 => "it leads for certain (> 99.9 %)".to_owned(),
+        Some(p) => format!("it leads with a probability of {} %", fixed(100.0 * p, 1)),
+        None => "one replicate cannot tell how sure that is".to_owned(),
     }
 }
 
-/// One row for each study: the leader with its shares, how sure it is that it leads, and the order of the others.
-pub(super) fn table(studies: &[Reproduced]) -> Vec<Vec<Cell>> {
-    let rows = studies.iter().map(|study| {
-        let ranked = ranked(study);
-        let Some((leader, _)) = ranked.first() else {
-            return vec![plain(study.group.key), plain(study.friction.name), plain("no indices")];
-        };
-        let effect = &leader.effect;
-        let order: Vec<String> =
-            ranked.iter().filter(|(_, share)| *share >= VISIBLE).map(|(index, _)| words(&index.factor)).collect();
-        vec![
-            plain(study.group.key),
-            plain(study.friction.name),
-            strong(&words(&leader.factor)),
-            plain(percent(effect.share_total, effect.share_total_interval)),
-            plain(percent(effect.share_first_order, effect.share_first_order_interval)),
-            plain(certainty(effect)),
-            plain(order.join(" > ")),
-        ]
-    });
-    rows.collect()
+/// A row for each group of studies, a column for each friction model: the leader, its shares, how sure it is, and who
+/// follows.
+pub(super) fn table(studies: &[Reproduced]) -> PageTable {
+    let cell = |group: StudyGroup, friction: Friction| {
+        let study = studies.iter().find(|study| (study.group, study.friction) == (group, friction));
+        study.map_or_else(|| plain("not run"), leader)
+    };
+    let row = |group: &StudyGroup| {
+        let cells = FRICTIONS.iter().map(|friction| cell(*group, *friction));
+        [strong(title(*group))].into_iter().chain(cells).collect()
+    };
+    PageTable {
+        caption: "The leading factor of each study: its share of the sum of the total indices and of the first-order \
+                  indices with 95 % intervals, how sure it is that it leads, and the factors that follow with their total \
+                  shares, if half a percent or more."
+            .to_owned(),
+        header: [String::new()].into_iter().chain(FRICTIONS.iter().map(|f| format!("{} friction", f.name))).collect(),
+        numeric: Vec::new(),
+        rows: GROUPS.iter().map(row).collect(),
+        on_phone: OnPhone::StackLabelled,
+    }
 }
 
-/// Sentences for the top of the page: who leads in each group of studies, and how much of it is beyond doubt.
-pub(super) fn sentences(studies: &[Reproduced]) -> Vec<String> {
-    GROUPS.iter().filter_map(|group| sentence(studies, *group)).collect()
+/// What varies in a group of studies.
+fn title(group: StudyGroup) -> &'static str {
+    match group.key {
+        "dimensional" => "the cantilever's dimensions",
+        "environmental" => "the environment",
+        _ => "all eight factors",
+    }
+}
+
+fn leader(study: &Reproduced) -> Cell {
+    let ranked = ranked(study);
+    let Some((first, rest)) = ranked.split_first() else { return plain("no indices") };
+    let effect = &first.0.effect;
+    let others = rest.iter().filter(|(_, share)| *share >= VISIBLE);
+    let others: Vec<String> =
+        others.map(|(index, share)| format!("{} {} %", words(&index.factor), fixed(*share, 1))).collect();
+    let followed = if others.is_empty() { "nothing else".to_owned() } else { others.join(", ") };
+    Cell {
+        note: format!(
+            "{} of the total and {} of the first-order indices; {}; then {followed}",
+            percent(effect.share_total, effect.share_total_interval),
+            percent(effect.share_first_order, effect.share_first_order_interval),
+            certainty(effect)
+        ),
+        ..strong(&words(&first.0.factor))
+    }
+}
+
+/// A paragraph for the top of the page: who leads in each group of studies.
+pub(super) fn paragraph(studies: &[Reproduced]) -> Option<String> {
+    let sentences: Vec<String> = [2, 0, 1].iter().filter_map(|&place| sentence(studies, GROUPS[place])).collect();
+    (!sentences.is_empty()).then(|| sentences.join(" "))
 }
 
 fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
-    let members: Vec<&Reproduced> = studies.iter().filter(|study| study.group == group).collect();
-    let leaders: Vec<(Friction, &IndexRecord, f64)> = members
+    let leaders: Vec<(Friction, &IndexRecord, f64)> = studies
         .iter()
+        .filter(|study| study.group == group)
         .filter_map(|study| ranked(study).first().map(|(index, share)| (study.friction, *index, *share)))
         .collect();
     let (_, first, _) = leaders.first()?;
     let among = match group.key {
-        "dimensional" => "Among the cantilever's dimensions",
-        "environmental" => "Among the factors of the environment",
-        _ => "Among all eight factors together",
+        "dimensional" => "Among the dimensions alone",
+        "environmental" => "Among the factors of the environment alone",
+        _ => "Of all eight factors together",
     };
-    let sure = leaders.iter().all(|(_, index, _)| index.effect.probability_first.is_some_and(|p| p > 0.999));
-    let sure = if sure { "; that they lead is beyond doubt in this model" } else { "" };
-    let alike = leaders.len() == FRICTIONS.len() && leaders.iter().all(|(_, index, _)| index.factor == first.factor);
+    let alike = leaders.iter().all(|(_, index, _)| index.factor == first.factor);
     let said: Vec<String> = leaders
         .iter()
         .map(|(friction, index, share)| match alike {
-            true => format!("{} % under {}", fixed(*share, 0), friction.name),
-            false => format!("the {} ({} %) under {}", words(&index.factor), fixed(*share, 0), friction.name),
+            true => format!("{} % ({})", fixed(*share, 0), friction.name),
+            false => format!("the {} under {} friction ({} %)", words(&index.factor), friction.name, fixed(*share, 0)),
         })
         .collect();
     Some(match alike {
-        true => {
-            let sure = if sure.is_empty() { "" } else { "; that it leads is beyond doubt in this model" };
-            format!(
-                "{among}, the {} decides the critical force, with {} of the sum of total indices{sure}.",
-                words(&first.factor),
-                listed(&said)
-            )
-        }
-        false => format!("{among}, the largest share of the sum of total indices belongs to {}{sure}.", listed(&said)),
+        true => format!(
+            "{among}, the {} decides the critical force: its share of the total indices is {}.",
+            words(&first.factor),
+            listed(&said)
+        ),
+        false => format!("{among}, it is {}.", listed(&said)),
     })
 }
 
@@ -177,7 +201,7 @@ pub(super) fn validity(studies: &[Reproduced]) -> Option<Part> {
         ),
         header: ["study".to_owned(), "friction".to_owned()].into_iter().chain(names).collect(),
         numeric: (2..2 + places.len()).collect(),
-        sentences: false,
+        on_phone: OnPhone::Scroll,
         rows: studies.iter().map(row).collect(),
     }))
 }

@@ -4,11 +4,12 @@ mod answers;
 mod cells;
 mod provenance;
 mod readings;
+mod typeset;
 mod verdicts;
 
 use super::Reproduction;
 use super::figures::{ANIMATION_STEM, PaperFigure};
-use crate::report::page::{Link, Page, PageFigure, PageTable, Part, Section};
+use crate::report::page::{Link, OnPhone, Page, PageFigure, PageTable, Part, Section};
 pub(super) use readings::charts as reading_charts;
 
 /// The page about `reproduction`; what was not asked for is left out.
@@ -34,11 +35,11 @@ pub fn page(reproduction: &Reproduction) -> Page {
 }
 
 fn lead(reproduction: &Reproduction) -> Vec<String> {
-    let mut lead = answers::sentences(&reproduction.studies);
+    let mut lead: Vec<String> = answers::paragraph(&reproduction.studies).into_iter().collect();
     if !reproduction.claims.is_empty() {
         lead.push(verdicts::sentence(&reproduction.claims));
     }
-    lead.extend(readings::sentences(reproduction));
+    lead.extend(readings::paragraph(reproduction));
     lead
 }
 
@@ -58,17 +59,8 @@ fn answers_section(reproduction: &Reproduction) -> Option<Section> {
     if reproduction.studies.is_empty() {
         return None;
     }
-    let table = PageTable {
-        caption: "The leading factor of each study, with its share of the sum of the total indices and of the \
-                  first-order indices (with 95 % intervals), and the order of all factors with at least half a percent of \
-                  the total shares."
-            .to_owned(),
-        header: header(&["study", "friction", "leader", "total share", "first-order share", "it leads", "order"]),
-        numeric: vec![3, 4],
-        sentences: false,
-        rows: answers::table(&reproduction.studies),
-    };
-    Some(section("answers", "Which factor matters most", vec![Part::Table(table)]))
+    let table = Part::Table(answers::table(&reproduction.studies));
+    Some(section("answers", "Which factor matters most", vec![table]))
 }
 
 fn claims_section(reproduction: &Reproduction) -> Option<Section> {
@@ -76,7 +68,8 @@ fn claims_section(reproduction: &Reproduction) -> Option<Section> {
         return None;
     }
     let parts = vec![
-        verdicts::table(&reproduction.claims, &reproduction.figures),
+        verdicts::table(&reproduction.claims),
+        verdicts::details(&reproduction.claims, &reproduction.figures),
         Part::Links(vec![link("verdicts as CSV", "claims.csv"), link("as JSON", "claims.json")]),
     ];
     Some(section("claims", "Are the papers right?", parts))
@@ -108,7 +101,10 @@ fn page_figure(figure: &PaperFigure) -> PageFigure {
     PageFigure {
         id: figure.stem.to_owned(),
         label: figure.label.to_owned(),
-        beside: figure.theirs.to_owned(),
+        beside: match figure.label.split_once(" fig") {
+            Some((paper, _)) => format!("{paper} shows: {}", figure.theirs),
+            None => figure.theirs.to_owned(),
+        },
         chart: figure.chart.clone(),
         links: ["svg", "png", "csv"].map(file).to_vec(),
     }
@@ -125,7 +121,7 @@ fn shares_section(reproduction: &Reproduction) -> Option<Section> {
             .to_owned(),
         header: header(&["study", "friction", "factor", "S_1", "S_T", "share of S_1", "share of S_T", "published"]),
         numeric: vec![3, 4, 5, 6, 7],
-        sentences: false,
+        on_phone: OnPhone::Scroll,
         rows: answers::all_shares(studies),
     };
     let mut parts = vec![Part::Table(table)];

@@ -1,7 +1,7 @@
 //! How the page came about.
 
 use super::cells::plain;
-use crate::report::page::{Cell, PageTable, Part};
+use crate::report::page::{Cell, OnPhone, PageTable, Part};
 use crate::reproduce::{Effort, Reproduced, Reproduction};
 
 /// Version, designs, estimators, intervals and cost, as a table of two columns.
@@ -35,7 +35,7 @@ pub(super) fn table(reproduction: &Reproduction) -> Part {
                 .to_owned(),
         header: Vec::new(),
         numeric: Vec::new(),
-        sentences: false,
+        on_phone: OnPhone::Scroll,
         rows: rows.into_iter().map(|(name, value)| vec![plain(name), plain(value)]).collect::<Vec<Vec<Cell>>>(),
     })
 }

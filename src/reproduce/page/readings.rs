@@ -4,8 +4,10 @@ use super::cells::plain;
 use super::{header, link};
 use crate::report::chart::Chart;
 use crate::report::fixed;
-use crate::report::page::{Cell, PageFigure, PageTable, Part, Section};
-use crate::reproduce::readings::{Chance, Reading, Readings, SmallSample, distance_chart, small_sample_chart, summary};
+use crate::report::page::{Cell, OnPhone, PageFigure, PageTable, Part, Section};
+use crate::reproduce::readings::{
+    Chance, Reading, Readings, SmallSample, chances, distance_chart, headline, small_sample_chart, summary,
+};
 use crate::reproduce::{GROUPS, Reproduction, published};
 
 /// The charts of the readings with the stems of their files.
@@ -14,8 +16,8 @@ pub(in crate::reproduce) fn charts(readings: &Readings) -> [(&'static str, Chart
 }
 
 /// What the top of the page says of the published percentages.
-pub(super) fn sentences(reproduction: &Reproduction) -> Vec<String> {
-    reproduction.readings.as_ref().map_or_else(Vec::new, crate::reproduce::readings::headline)
+pub(super) fn paragraph(reproduction: &Reproduction) -> Option<String> {
+    Some(headline(reproduction.readings.as_ref()?).join(" "))
 }
 
 pub(super) fn section(reproduction: &Reproduction) -> Option<Section> {
@@ -40,8 +42,8 @@ pub(super) fn section(reproduction: &Reproduction) -> Option<Section> {
         });
     }
     parts.push(Part::Details {
-        summary: "Every small sample".to_owned(),
-        parts: vec![Part::Table(small_samples(readings))],
+        summary: "Every small sample, and how probable the printed percentages are in it".to_owned(),
+        parts: vec![Part::List(chances(readings)), Part::Table(small_samples(readings))],
     });
     Some(super::section("readings", "What the published percentages could mean", parts))
 }
@@ -78,7 +80,7 @@ fn table(readings: &Readings, group: &str) -> PageTable {
         caption: format!("The readings of the {group} study, the nearest to the printed percentages first."),
         header: names.chain(["model runs".to_owned()]).collect(),
         numeric: (1..3 + printed.len()).collect(),
-        sentences: false,
+        on_phone: OnPhone::Scroll,
         rows: rows.iter().map(row).collect(),
     }
 }
@@ -135,7 +137,7 @@ fn small_samples(readings: &Readings) -> PageTable {
             "within 3",
         ]),
         numeric: (4..9).collect(),
-        sentences: false,
+        on_phone: OnPhone::Scroll,
         rows: readings.small_samples.iter().map(row).collect(),
     }
 }

@@ -1,7 +1,8 @@
 //! The verdicts on the claims: a table, and a sentence that counts them.
 
 use super::cells::plain;
-use crate::report::page::{Cell, Link, Mark, PageTable, Part};
+use super::typeset::typeset;
+use crate::report::page::{Cell, Link, Mark, OnPhone, PageTable, Part};
 use crate::reproduce::claims::{Claim, Verdict};
 use crate::reproduce::figures::PaperFigure;
 
@@ -15,40 +16,50 @@ fn badge(verdict: &Verdict) -> Cell {
     Cell::marked(verdict.word(), mark)
 }
 
-/// What the verdict adds to its word.
-fn detail(verdict: &Verdict) -> String {
-    match verdict {
-        Verdict::Reproduced | Verdict::NotReproduced => String::new(),
-        Verdict::Partly { range } => format!("Holds {range}. "),
-        Verdict::Contradicts { own } => format!("Contradicts the paper's own {own}. "),
-    }
+/// The table of verdicts, a line or two each.
+pub(super) fn table(claims: &[Claim]) -> Part {
+    let row = |claim: &Claim| {
+        let place = match &claim.verdict {
+            Verdict::Contradicts { own } => format!("the paper's own {own}"),
+            other => other.place().to_owned(),
+        };
+        vec![
+            plain(claim.number.to_string()),
+            Cell { note: claim.source.to_owned(), ..plain(typeset(claim.statement)) },
+            Cell { note: typeset(&place), ..badge(&claim.verdict) },
+        ]
+    };
+    Part::Table(PageTable {
+        caption: "Each claim of the papers, and our answer: computed, not typed in.".to_owned(),
+        header: ["", "claim", "verdict, and where"].map(str::to_owned).to_vec(),
+        numeric: Vec::new(),
+        rows: claims.iter().map(row).collect(),
+        on_phone: OnPhone::Stack,
+    })
 }
 
-/// The table of verdicts; figures that are on the page are linked.
-pub(super) fn table(claims: &[Claim], figures: &[PaperFigure]) -> Part {
+/// Our figures for every claim, the setting they hold in, and the figures of the page that show it.
+pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
     let row = |claim: &Claim| {
         let shown = claim.figures.iter().filter_map(|stem| figures.iter().find(|figure| figure.stem == *stem));
         let links = shown.map(|figure| Link { text: figure.label.to_owned(), to: format!("#{}", figure.stem) });
         vec![
             plain(claim.number.to_string()),
-            Cell { note: claim.source.to_owned(), ..plain(claim.statement) },
-            badge(&claim.verdict),
-            Cell {
-                note: claim.setting.clone(),
-                links: links.collect(),
-                ..plain(format!("{}{}", detail(&claim.verdict), claim.finding))
-            },
+            Cell { links: links.collect(), ..plain(typeset(claim.statement)) },
+            Cell { note: typeset(&claim.setting), ..plain(typeset(&claim.finding)) },
         ]
     };
-    Part::Table(PageTable {
-        caption: "Each claim of the papers, and what our computation answers. Every verdict is computed from the \
-                  figures beside it."
-            .to_owned(),
-        header: ["", "claim", "verdict", "our figures, and the setting they hold in"].map(str::to_owned).to_vec(),
+    let table = PageTable {
+        caption: "What the verdicts rest on.".to_owned(),
+        header: ["", "claim", "our figures, and the setting they hold in"].map(str::to_owned).to_vec(),
         numeric: Vec::new(),
-        sentences: true,
         rows: claims.iter().map(row).collect(),
-    })
+        on_phone: OnPhone::Stack,
+    };
+    Part::Details {
+        summary: "Our figures for every claim, and the settings they hold in".to_owned(),
+        parts: vec![Part::Table(table)],
+    }
 }
 
 /// `Of 20 claims, 12 are reproduced, 4 hold in part, ...`.

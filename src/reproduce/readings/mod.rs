@@ -26,7 +26,7 @@ pub use catalogue::{Axis, Effect, Variant};
 pub use charts::{distance_chart, small_sample_chart};
 pub use distance::{distance, printed_rest};
 pub use small_samples::{Chance, Estimators, SmallSample, SmallSampleFactor};
-pub use summary::{headline, summary};
+pub use summary::{chances, headline, summary};
 pub use tables::{readings_csv, readings_json, small_samples_csv};
 
 use super::{Effort, GROUPS, STUDIES};

@@ -11,20 +11,42 @@ use crate::reproduce::{GROUPS, published};
 const MEETS: f64 = 1.5;
 
 /// What the readings say: the nearest of each group; whether one meets all three; what the printed percentages do not say
-/// and where they contradict each other; how probable they are by chance.
+/// and where they contradict each other.
 pub fn summary(readings: &Readings) -> Vec<String> {
     let mut sentences: Vec<String> = GROUPS.iter().filter_map(|group| nearest(readings, group.key)).collect();
     sentences.extend(all_groups(readings));
     sentences.extend(environment(readings));
     sentences.push(unsaid());
     sentences.extend(contradiction(readings));
-    sentences.extend(GROUPS.iter().flat_map(|group| chances(readings, group.key)));
     sentences
 }
 
-/// The same in two sentences, for a page's top: whether one reading meets all groups, and what is not said.
+/// The same in short, for a page's top: what the printed percentages do not say, whether one reading meets all groups, and
+/// that they contradict each other.
 pub fn headline(readings: &Readings) -> Vec<String> {
-    all_groups(readings).into_iter().chain([unsaid()]).chain(contradiction(readings)).collect()
+    let [dimensional, general] = printed_thickness();
+    let contradiction = dimensional.zip(general).map(|(dimensional, general)| {
+        format!(
+            "They contradict each other: of thickness, length and width together, the thickness has {} % in one study and \
+             {} % in the other, where a product of powers would give the same.",
+            fixed(dimensional, 0),
+            fixed(general, 1)
+        )
+    });
+    [unsaid()].into_iter().chain(all_groups(readings)).chain(contradiction).collect()
+}
+
+/// The printed percentage of the thickness among thickness, length and width: in the dimensional study, where the height
+/// has none, and in the general one.
+fn printed_thickness() -> [Option<f64>; 2] {
+    let printed = |group: &str, factor: &str| {
+        published(group, "lugre").shares.iter().find(|(name, _)| *name == factor).map(|(_, share)| *share)
+    };
+    let among = || {
+        let [t, l, w] = ["thickness", "length", "width"].map(|factor| printed("general", factor));
+        Some(100.0 * t? / (t? + l? + w?))
+    };
+    [printed("dimensional", "thickness"), among()]
 }
 
 /// The reading of a group that is nearest to what is printed.
@@ -97,12 +119,10 @@ fn unsaid() -> String {
 
 /// The thickness among thickness, length and width, which in a product is the same in both studies.
 fn contradiction(readings: &Readings) -> Option<String> {
+    let [dimensional, general] = printed_thickness();
     let among = |share: &dyn Fn(&str) -> Option<f64>| -> Option<f64> {
         let [t, l, w] = [share("thickness")?, share("length")?, share("width")?];
         Some(100.0 * t / (t + l + w))
-    };
-    let printed = |group: &str, factor: &str| {
-        published(group, "lugre").shares.iter().find(|(name, _)| *name == factor).map(|(_, share)| *share)
     };
     let ours = |group: &str, effect: Effect, output: AfmOutput| {
         let of = |reading: &&Reading| {
@@ -125,13 +145,17 @@ fn contradiction(readings: &Readings) -> Option<String> {
         both(Effect::FirstOrder, AfmOutput::CriticalForce)?,
         both(Effect::Total, AfmOutput::CriticalForce)?,
         both(Effect::FirstOrder, AfmOutput::LogCriticalForce)?,
-        fixed(printed("dimensional", "thickness")?, 0),
-        fixed(among(&|factor| printed("general", factor))?, 1)
+        fixed(dimensional?, 0),
+        fixed(general?, 1)
     ))
 }
 
-/// How probable the printed percentages of a group are in small samples, at most, for each variant and output.
-fn chances(readings: &Readings, group: &str) -> Vec<String> {
+/// How probable the printed percentages are in small samples, at most: a sentence for each group, variant and output.
+pub fn chances(readings: &Readings) -> Vec<String> {
+    GROUPS.iter().flat_map(|group| chances_of(readings, group.key)).collect()
+}
+
+fn chances_of(readings: &Readings, group: &str) -> Vec<String> {
     let mut kinds: Vec<(&str, AfmOutput)> = Vec::new();
     for sample in readings.small_samples.iter().filter(|sample| sample.group == group) {
         if !kinds.contains(&(sample.variant, sample.output)) {

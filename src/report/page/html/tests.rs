@@ -1,6 +1,6 @@
 use super::*;
 use crate::report::chart::{Axis, Chart, Drawing, Guide, Picture, Role, ScatterChart, ScatterPoint, ScatterSeries};
-use crate::report::page::Section;
+use crate::report::page::{OnPhone, Section};
 
 fn scatter(title: &str) -> Chart {
     let point = ScatterPoint { x: 1.0, y: 2.0, label: "a point".to_owned(), x_interval: None, y_interval: None };
@@ -49,7 +49,7 @@ fn every_part(text: &str) -> Vec<Part> {
             caption: t(),
             header: vec![t(), t()],
             numeric: vec![1],
-            sentences: false,
+            on_phone: OnPhone::StackLabelled,
             rows: vec![
                 vec![Cell::plain(t()), Cell::plain(t())],
                 vec![
