@@ -18,6 +18,11 @@ pub(super) const STRAIGHT: f64 = 0.01;
 /// A factor has no effect if it changes F_cr by less than this share.
 pub(super) const NO_EFFECT: f64 = 0.01;
 
+/// The options under a friction law: those of a rung.
+type OptionsOf = fn(FrictionLaw) -> Options;
+/// A curve in words.
+type Words<'a> = &'a dyn Fn(&Curve) -> String;
+
 pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
     Ok(vec![length(bench)?, width(bench)?, thickness(bench)?, height(bench)?])
 }
@@ -36,7 +41,7 @@ fn under_each(bench: &Bench<'_>, sweep: &Sweep, shape: &dyn Fn(&Curve) -> bool) 
 pub(super) fn nominal_curves(
     bench: &Bench<'_>,
     sweep: &Sweep,
-    (options, words): (fn(FrictionLaw) -> Options, &dyn Fn(&Curve) -> String),
+    (options, words): (OptionsOf, Words<'_>),
 ) -> Result<String, Failure> {
     let each: Result<Vec<String>, Failure> = LAWS
         .iter()
@@ -158,11 +163,7 @@ fn height(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
 }
 
 /// For each friction model, whether a sweep leaves F_cr as it is.
-pub(super) fn without_effect(
-    bench: &Bench<'_>,
-    sweep: &Sweep,
-    options: fn(FrictionLaw) -> Options,
-) -> Result<Vec<Holding>, Failure> {
+pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsOf) -> Result<Vec<Holding>, Failure> {
     LAWS.iter()
         .map(|(law, name)| {
             let rule = |scene: &Scene| Ok(bench.curve(sweep, scene, &options(*law))?.spread() < NO_EFFECT);

@@ -51,7 +51,11 @@ fn velocity(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(naive_curve.spread()),
             naive.step * 1e3
         ),
-        setting: effect_setting(bench, &slow, "Equations of motion"),
+        setting: format!(
+            "{} The motion is solved to {} of the force: smaller changes are as good as none.",
+            effect_setting(bench, &slow, "Equations of motion"),
+            change(in_motion(FrictionLaw::LuGre).tolerance)
+        ),
         figures: &["chk-11", "lg-3a"],
     })
 }

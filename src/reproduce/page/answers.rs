@@ -21,20 +21,20 @@ fn words(factor: &str) -> String {
     factor.replace('_', " ")
 }
 
-/// `47.0 ± 0.2 %`; the share alone where it has no interval.
+/// `46.1 ± 0.2 %`, with a second decimal where the half width needs it; the share alone where it has no interval, or one
+/// that does not reach the last digit.
 pub(super) fn percent(share: Option<f64>, interval: Option<IntervalRecord>) -> String {
-    match (share, interval) {
-        (None, _) => "–".to_owned(),
-        (Some(share), None) => format!("{} %", fixed(share, 1)),
-        (Some(share), Some(IntervalRecord { low, high })) => {
-            format!("{} ± {} %", fixed(share, 1), at_least_a_tenth((high - low) / 2.0))
+    const LAST_DIGIT: f64 = 0.005;
+    let Some(share) = share else { return "–".to_owned() };
+    let half_width = interval.map(|IntervalRecord { low, high }| (high - low) / 2.0);
+    match half_width {
+        None => format!("{} %", fixed(share, 1)),
+        Some(half_width) if half_width < LAST_DIGIT => format!("{} %", fixed(share, 2)),
+        Some(half_width) => {
+            let digits = if half_width < 0.095 { 2 } else { 1 };
+            format!("{} ± {} %", fixed(share, digits), fixed(half_width, digits))
         }
     }
-}
-
-/// A half width that would be printed as 0.0 is not 0.
-fn at_least_a_tenth(half_width: f64) -> String {
-    if half_width > 0.0 && half_width < 0.1 { "<0.1".to_owned() } else { fixed(half_width, 1) }
 }
 
 /// How sure it is that the leader leads.

@@ -62,15 +62,20 @@ pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
     }
 }
 
-/// `Of 20 claims, 12 are reproduced, 4 hold in part, ...`.
+/// `The papers make 20 claims, some of two parts; of 24 answers 9 are reproduced, 10 partly so, ...`.
 pub(super) fn sentence(claims: &[Claim]) -> String {
     let count = |test: fn(&Verdict) -> bool| claims.iter().filter(|claim| test(&claim.verdict)).count();
     let parts = [
-        (count(|v| *v == Verdict::Reproduced), "reproduced"),
-        (count(|v| matches!(v, Verdict::Partly { .. })), "reproduced in part"),
+        (count(|v| *v == Verdict::Reproduced), "are reproduced"),
+        (count(|v| matches!(v, Verdict::Partly { .. })), "partly so"),
         (count(|v| *v == Verdict::NotReproduced), "not reproduced"),
-        (count(|v| matches!(v, Verdict::Contradicts { .. })), "in contradiction with what the papers themselves give"),
+        (count(|v| matches!(v, Verdict::Contradicts { .. })), "contradicted by what the papers themselves give"),
     ];
     let said: Vec<String> = parts.iter().filter(|(n, _)| *n > 0).map(|(n, words)| format!("{n} {words}")).collect();
-    format!("Of the papers' {} claims, ours are {}.", claims.len(), super::answers::listed(&said))
+    format!(
+        "The papers make {} claims, some of two parts; of {} answers {}.",
+        claims.last().map_or(0, |claim| claim.number),
+        claims.len(),
+        super::answers::listed(&said)
+    )
 }
