@@ -48,7 +48,7 @@ impl Sheet {
         let frame = (sheet - 2.0 * MARGIN - gaps) / columns.max(1) as f64;
         let height = (frame * self.aspect).round();
         let mut figure = Figure::begin(medium, Words { title: &self.title, caption: &self.caption }, &[]);
-        let top = figure.top + 2.0;
+        let top = figure.top + 6.0;
         let rows = self.frames.len().div_ceil(columns.max(1));
         for (number, (name, note)) in self.frames.iter().enumerate() {
             let left = MARGIN + (number % columns.max(1)) as f64 * (frame + GAP);
