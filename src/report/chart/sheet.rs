@@ -49,7 +49,7 @@ impl Sheet {
         let frame = (medium.width.px() - 2.0 * MARGIN - gaps) / columns as f64;
         let height = (frame * self.aspect).round();
         let mut figure = Figure::begin(medium, Words { title: &self.title, caption: &self.caption }, &[]);
-        let top = figure.top + 2.0;
+        let top = figure.top + 6.0;
         let rows = self.frames.len().div_ceil(columns);
         for (number, (name, note)) in self.frames.iter().enumerate() {
             let left = MARGIN + (number % columns) as f64 * (frame + GAP);

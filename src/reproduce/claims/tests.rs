@@ -44,18 +44,6 @@ fn the_verdicts_are_those_reviewed() {
 fn a_quick_look_gives_the_verdicts_of_the_full_answer() {
     let studies = nine_studies();
     let full = claims(&studies, Effort::Full).unwrap();
-<<<<<<< HEAD
-    if std::env::var_os("SHOW").is_some() {
-        println!("{:?}", start.elapsed());
-        for c in &full {
-            println!(
-                "{} [{}] {}\n   => {}\n   F: {}\n   S: {}\n",
-                c.number, c.source, c.statement, c.verdict, c.finding, c.setting
-            );
-        }
-    }
-=======
->>>>>>> claims
     assert_eq!(in_words(&full), in_words(&claims(&studies, Effort::Quick).unwrap()));
 }
 

@@ -177,23 +177,3 @@ fn the_animation_is_one_page_beside_its_data() {
     assert!(animation.csv.starts_with("time_s,"));
     assert!(animation.json.contains("apportion-scene"));
 }
-
-#[test]
-fn dump() {
-    let Ok(folder) = std::env::var("FIGURES_DUMP") else { return };
-    let start = std::time::Instant::now();
-    let all = figures(&reproduced(), Effort::Full).unwrap();
-    eprintln!("{:?}", start.elapsed());
-    let ticks = || std::fs::read_to_string("/proc/self/stat").unwrap().split(' ').nth(13).unwrap().to_owned();
-    let before = ticks();
-    figures(&[], Effort::Full).unwrap();
-    eprintln!("computed alone: user ticks {before} to {}", ticks());
-    for f in &all {
-        for (w, n) in [(ChartWidth::Wide, "wide"), (ChartWidth::Narrow, "narrow")] {
-            let svg = f.chart.svg_at(w).unwrap();
-            std::fs::write(format!("{folder}/{}-{n}.png", f.stem), png(&svg).unwrap().bytes).unwrap();
-        }
-        std::fs::write(format!("{folder}/{}.csv", f.stem), &f.csv).unwrap();
-        println!("{}: {}", f.label, f.chart.caption());
-    }
-}
