@@ -46,11 +46,17 @@ pub(super) fn plot(figure: &mut Figure, chart: &RangeBars, page: ChartWidth) -> 
     canvas.open("g", &[("class", &"panel")]);
     plot.x_grid(canvas, &x);
     let base = chart.reference.as_ref().map_or(0.0, |reference| reference.value);
+    let sheet = |number: usize| Sheet { plot, x: &x, bottom: plot.top + (number + 1) as f64 * pitch, page };
     for (number, row) in chart.rows.iter().enumerate() {
-        let sheet = Sheet { plot, x: &x, bottom: plot.top + (number + 1) as f64 * pitch, page };
-        sheet.row(canvas, row);
+        sheet(number).row(canvas, row);
     }
     reference(canvas, (chart, &plot), plot.x(&x, base));
+    if page == ChartWidth::Narrow {
+        // Over the reference's line, which may run through the names.
+        for (number, row) in chart.rows.iter().enumerate() {
+            sheet(number).heading(canvas, row);
+        }
+    }
     canvas.close("g");
     plot.x_labels(canvas, &x, &chart.x.title(x.exponent))
 }
@@ -127,9 +133,6 @@ impl Sheet<'_> {
                 canvas.text(&Text::new("no value", at, VALUE).fill(MUTED));
             }
             None => (),
-        }
-        if self.page == ChartWidth::Narrow {
-            self.heading(canvas, row);
         }
     }
 
