@@ -35,7 +35,9 @@ fn a_run_writes_a_page_that_needs_nothing_else() {
             None => assert!(folder.path().join(link).is_file(), "{link}"),
         }
     }
-    for file in ["coulomb-general.json", "coulomb-general.csv", "coulomb-general.svg", "coulomb-general-convergence.csv"] {
+    for file in
+        ["coulomb-general.json", "coulomb-general.csv", "coulomb-general.svg", "coulomb-general-convergence.csv"]
+    {
         assert!(links.contains(&file), "{file}");
     }
 }
@@ -53,7 +55,8 @@ fn an_evil_title_stays_a_title() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("evil.toml");
     let title = "</title></script><script>alert('1')</script><img src=x onerror=alert(2)> & \\\"quoted\\\"";
-    std::fs::write(&study, format!("title = \"{title}\"\nmodel = \"ishigami\"\n[design]\nbase_samples = 64\n")).unwrap();
+    std::fs::write(&study, format!("title = \"{title}\"\nmodel = \"ishigami\"\n[design]\nbase_samples = 64\n"))
+        .unwrap();
     let (page, _) = page_of(&study, &[]);
     assert!(page.contains("&lt;/title&gt;"), "the title is there as text");
     assert_eq!(page.matches("</script>").count(), 1);

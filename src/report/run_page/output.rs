@@ -1,7 +1,7 @@
 //! What the page says about one output, topic by topic.
 
 use super::figures::{Figures, Numbered};
-use super::lead::{answer, by_total, widest};
+use super::lead::{by_total, widest};
 use super::tables;
 use super::trend::width_after_doubling;
 use super::words::{capital, count, first, grouped, half_width, index, list, name, the};
@@ -22,7 +22,7 @@ pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> 
     let mut topics = vec![topic("mind", "What to mind", warnings(of.output))];
     if of.output.indices.is_some() {
         topics.push(topic("shares", "Shares", shares(figures, of)));
-        topics.push(topic("indices", "Indices", indices(result, of.output)));
+        topics.push(topic("indices", "Indices", indices(result, of)));
         topics.push(topic("interactions", "Interactions", interactions(of.output)));
         topics.push(topic("convergence", "How the indices settled", convergence(figures, of)));
     }
@@ -47,13 +47,13 @@ fn warnings(output: &OutputRecord) -> Vec<Part> {
     if output.runs_failed > 0 {
         let all = output.runs_ok + output.runs_failed;
         let share = crate::report::share_of_runs(output.runs_failed as f64 / all as f64);
-        let runs = count(output.runs_failed, "run", "runs");
-        parts.push(Part::Text(format!(
-            "{} of {} ({share}) had no value; every estimate rests on {} or more.",
-            capital(&runs),
-            grouped(all),
-            count(output.base_points_used, "base point", "base points")
-        )));
+        let mut text =
+            format!("{} of {} ({share}) had no value", grouped(output.runs_failed), count(all, "run", "runs"));
+        if output.indices.is_some() {
+            let points = count(output.base_points_used, "base point", "base points");
+            text.push_str(&format!("; every estimate rests on {points} or more"));
+        }
+        parts.push(Part::Text(text + "."));
     }
     parts.extend(tables::failures(&output.failures));
     parts
@@ -63,32 +63,36 @@ fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let text = "A factor's share is its index in percent of the sum of the indices of all factors: of the first-order \
                 indices S_1, which count what a factor does alone, or of the total indices S_T, which count what it does \
                 together with others too.";
-    let mut parts = vec![Part::Text(text.to_owned()), figures.shares(of)];
+    let mut parts = Vec::new();
+    parts.extend(of.is_first().then(|| Part::Text(text.to_owned())));
+    parts.push(figures.shares(of));
     if let Some(table) = tables::shares(of.output) {
         parts.push(Part::Details { summary: "The shares as numbers".to_owned(), parts: vec![table] });
     }
     parts
 }
 
-fn indices(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
+fn indices(result: &ResultFile, of: Numbered<'_>) -> Vec<Part> {
+    let mut parts = Vec::new();
+    parts.extend(of.is_first().then(|| Part::Text(definitions(result))));
+    parts.extend(tables::indices(result, of.output));
+    parts.extend(below_zero(of.output).map(Part::Text));
+    parts.extend(tables::joint(result, of.output));
+    parts
+}
+
+/// What the columns of the tables of indices mean.
+fn definitions(result: &ResultFile) -> String {
     let threshold = result.provenance.threshold;
-    let mut text = format!(
-        "S_1 is the part of the variance of {} that goes if a factor becomes known; S_T is the part that stays as long as it is \
-         unknown. P(largest) is the probability that a factor's total index is the largest, P(S_T > {threshold}) that it \
-         exceeds {threshold}.",
-        the(&output.name)
+    let text = format!(
+        "S_1 is the part of the variance of the output that goes if a factor becomes known; S_T is the part that stays as \
+         long as it is unknown. P(largest) is the probability that a factor's total index is the largest, \
+         P(S_T > {threshold}) that it exceeds {threshold}."
     );
     match &result.provenance.interval {
-        Some(words) => text.push_str(&format!(" Intervals: {words}.")),
-        None => text.push_str(" There are no intervals: a single replicate says nothing about its error."),
+        Some(words) => format!("{text} Intervals: {words}."),
+        None => format!("{text} There are no intervals: a single replicate says nothing about its error."),
     }
-    let mut parts = vec![Part::Text(text)];
-    parts.extend(tables::indices(result, output));
-    parts.extend(below_zero(output).map(Part::Text));
-    if let Some(table) = tables::joint(result, output) {
-        parts.push(table);
-    }
-    parts
 }
 
 /// Estimates below 0, which no index is, in words.
@@ -155,7 +159,6 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     if !output.convergence.is_empty() {
         parts.push(figures.convergence(of));
     }
-    parts.extend(figures.beside.table("-convergence.csv", "every stage as CSV").map(|link| Part::Links(vec![link])));
     if let Some(table) = tables::stages(output) {
         parts.push(Part::Details { summary: "The stages as numbers".to_owned(), parts: vec![table] });
     }
@@ -179,11 +182,6 @@ fn estimators(output: &OutputRecord) -> Vec<Part> {
         "The same runs through the other formulas that the study lists; the default ones are named in the provenance.";
     let details = Part::Details { summary: "Indices by estimator".to_owned(), parts };
     vec![Part::Text(text.to_owned()), details]
-}
-
-/// The answer for an output among several, at the top of its section.
-pub(super) fn opening(result: &ResultFile, output: &OutputRecord) -> Part {
-    Part::Text(answer(result, output))
 }
 
 /// An output's name and unit as a heading.

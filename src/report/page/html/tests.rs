@@ -3,7 +3,7 @@ use crate::report::chart::{Axis, Chart, Guide, Picture, Role, ScatterChart, Scat
 use crate::report::page::Section;
 
 fn scatter(title: &str) -> Chart {
-    let point = ScatterPoint { x: 1.0, y: 2.0, label: "a point".to_owned() };
+    let point = ScatterPoint { x: 1.0, y: 2.0, label: "a point".to_owned(), x_interval: None, y_interval: None };
     Chart::Scatter(ScatterChart {
         title: title.to_owned(),
         caption: "One point.".to_owned(),
