@@ -4,12 +4,13 @@ use serde_json::Value;
 
 use super::build_output::{estimate_record, output_record};
 use super::result::{
-    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, Provenance, ResultFile,
-    RungRecord, StoppingRecord, StudyRecord, ValidityRecord,
+    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, OutputRecord, Provenance,
+    ResultFile, RungRecord, StoppingRecord, StudyRecord, ValidityRecord,
 };
+use super::scatter::{FirstRows, Sampled, scatter_record};
 use crate::design::Design;
 use crate::estimate::{FirstOrder, MomentParts, Scaling, Total};
-use crate::model::Model;
+use crate::model::{Model, Output};
 use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::{AggregateIndices, IntervalMethod, aggregate_indices};
@@ -43,8 +44,15 @@ pub fn build_result(run: &FinishedRun<'_>, stopping: Option<StoppingRecord>) -> 
     let FinishedRun { study, model, replicates, .. } = *run;
     let mut whole = Totals::none(model);
     replicates.iter().for_each(|totals| whole.add_counts(totals));
-    let outputs =
-        model.outputs().iter().enumerate().map(|(number, output)| output_record(run, output, number, &whole)).collect();
+    let rows = FirstRows::of(run.design);
+    let sampled = Sampled { rows: &rows, space: &study.space, replicates };
+    let record = |(number, output): (usize, &Output)| {
+        let record = output_record(run, output, number, &whole);
+        let indices = record.indices.as_deref();
+        let scatter = indices.and_then(|indices| scatter_record(sampled, (number, &output.unit), indices));
+        OutputRecord { scatter, ..record }
+    };
+    let outputs = model.outputs().iter().enumerate().map(record).collect();
     let validity = model
         .flags()
         .iter()

@@ -54,6 +54,7 @@ pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usiz
         estimators: Vec::new(),
         convergence: Vec::new(),
         distribution: distribution_record(run.replicates, number, (&totals.values, unit)),
+        scatter: None,
         reason: None,
         warnings: Vec::new(),
     };

@@ -10,6 +10,7 @@ pub mod page;
 mod result;
 mod run_charts;
 mod run_page;
+pub mod scatter;
 pub mod scene;
 pub mod screening;
 mod shares_chart;
@@ -22,7 +23,7 @@ pub use asked::{AskedFactor, AskedRecord, Drawing};
 pub use build::{FinishedRun, RunFacts, build_result, result_json};
 pub use build_output::{inputs_in_words, judgement};
 pub use result::*;
-pub use run_charts::{convergence_chart, distribution_chart};
+pub use run_charts::{convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart};
 pub use run_page::{output_stem, run_page};
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
 pub use tables::{

@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::distribution::OutputDistribution;
+use super::scatter::ScatterRecord;
 
 /// A whole result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -164,6 +165,9 @@ pub struct OutputRecord {
     /// How its values are distributed; `null` if no run succeeded, or if a number is beyond double precision.
     #[serde(default)]
     pub distribution: Option<DistributionRecord>,
+    /// How it goes with its most influential factors; `null` without indices, or if a number is beyond double precision.
+    #[serde(default)]
+    pub scatter: Option<ScatterRecord>,
     /// Why there are no indices, where there are none.
     pub reason: Option<String>,
     /// What a careful reader should know.

@@ -5,7 +5,9 @@ use super::words::{capital, the};
 use crate::report::chart::Chart;
 use crate::report::page::{PageFigure, Part};
 use crate::report::result::{OutputRecord, ResultFile};
-use crate::report::{convergence_chart, distribution_chart, study_chart};
+use crate::report::{
+    convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart, study_chart,
+};
 
 /// Draws the figures of one output after the other.
 pub(super) struct Figures<'a> {
@@ -34,6 +36,18 @@ impl Figures<'_> {
         let mut chart = study_chart(self.result, of.output);
         set_title(&mut chart, format!("Shares of {}", the(&of.output.name)));
         self.figure(of, ("", ".csv"), ("shares", chart))
+    }
+
+    pub fn indices(&mut self, of: Numbered<'_>) -> Part {
+        self.figure(of, ("-indices", ".csv"), ("indices", indices_chart(self.result, of.output)))
+    }
+
+    pub fn interactions(&mut self, of: Numbered<'_>) -> Part {
+        self.figure(of, ("-interactions", ".csv"), ("interactions", interactions_chart(self.result, of.output)))
+    }
+
+    pub fn scatter(&mut self, of: Numbered<'_>) -> Part {
+        self.figure(of, ("-scatter", ""), ("scatter", scatter_chart(self.result, of.output)))
     }
 
     pub fn convergence(&mut self, of: Numbered<'_>) -> Part {

@@ -150,7 +150,9 @@ fn settled(result: &ResultFile) -> String {
     let runs = grouped(result.provenance.model_runs);
     let widths: Vec<f64> = result.outputs.iter().filter_map(widest).collect();
     let Some(widest) = widths.into_iter().reduce(f64::max) else {
-        return format!("The study took {runs} model runs; nothing is known of the error of what it found.");
+        let found = result.outputs.iter().any(|output| output.indices.is_some());
+        let error = if found { "; nothing is known of the error of the indices" } else { "" };
+        return format!("The study took {runs} model runs{error}.");
     };
     let mut sentence = format!("After {runs} model runs every index is known to ± {} or better", half_width(widest));
     if let Some(met) = result.stopping.as_ref().and_then(|stopping| stopping.target_met) {

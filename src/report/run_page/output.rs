@@ -8,6 +8,9 @@ use super::words::{capital, count, first, grouped, half_width, index, list, name
 use crate::report::page::{Mark, Part};
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 
+/// Most factors whose shares are drawn; of more, the chart of the indices shows the largest.
+const DRAWN: usize = 30;
+
 /// A topic: a section of its own where there is one output, a part of the output's section where there are several.
 pub(super) struct Topic {
     pub id: &'static str,
@@ -17,16 +20,19 @@ pub(super) struct Topic {
 
 /// All topics of an output; those of which there is nothing to say are left out.
 pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> {
-    let result = figures.result;
     let topic = |id, title, parts| Topic { id, title, parts };
     let mut topics = vec![topic("mind", "What to mind", warnings(of.output))];
     if of.output.indices.is_some() {
         topics.push(topic("shares", "Shares", shares(figures, of)));
-        topics.push(topic("indices", "Indices", indices(result, of)));
-        topics.push(topic("interactions", "Interactions", interactions(of.output)));
+        topics.push(topic("indices", "Indices", indices(figures, of)));
+        topics.push(topic("interactions", "Interactions", interactions(figures, of)));
         topics.push(topic("convergence", "How the indices settled", convergence(figures, of)));
     }
     topics.push(topic("distribution", "Distribution of the output", distribution(figures, of)));
+    if of.output.scatter.is_some() {
+        let scatter = vec![figures.scatter(of)];
+        topics.push(topic("scatter", "The output against its factors", scatter));
+    }
     topics.push(topic("estimators", "Other estimators", estimators(of.output)));
     topics.retain(|topic| !topic.parts.is_empty());
     topics
@@ -65,16 +71,20 @@ fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
                 together with others too.";
     let mut parts = Vec::new();
     parts.extend(of.is_first().then(|| Part::Text(text.to_owned())));
-    parts.push(figures.shares(of));
+    if figures.result.factors.len() <= DRAWN {
+        parts.push(figures.shares(of));
+    }
     if let Some(table) = tables::shares(of.output) {
         parts.push(Part::Details { summary: "The shares as numbers".to_owned(), parts: vec![table] });
     }
     parts
 }
 
-fn indices(result: &ResultFile, of: Numbered<'_>) -> Vec<Part> {
+fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let result = figures.result;
     let mut parts = Vec::new();
     parts.extend(of.is_first().then(|| Part::Text(definitions(result))));
+    parts.push(figures.indices(of));
     parts.extend(tables::indices(result, of.output));
     parts.extend(below_zero(of.output).map(Part::Text));
     parts.extend(tables::joint(result, of.output));
@@ -124,7 +134,8 @@ fn below_zero(output: &OutputRecord) -> Option<String> {
     Some(text)
 }
 
-fn interactions(output: &OutputRecord) -> Vec<Part> {
+fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let output = of.output;
     let Some(order) = by_total(output).filter(|order| order.len() > 1) else { return Vec::new() };
     let mut text = super::lead::interactions(output.sum_first_order);
     let difference = |index: &&&IndexRecord| index.effect.interaction.map_or(f64::NEG_INFINITY, |i| i.estimate);
@@ -135,7 +146,7 @@ fn interactions(output: &OutputRecord) -> Vec<Part> {
         let (factor, difference) = (name(&most.factor), index(gap));
         text.push_str(&format!(" Most of all, {factor} acts together with others: S_T − S_1 is {difference}."));
     }
-    let mut parts = vec![Part::Text(text)];
+    let mut parts = vec![Part::Text(text), figures.interactions(of)];
     parts.extend(tables::pairs(output));
     parts
 }

@@ -21,7 +21,7 @@ const LONGEST_NAME: (f64, f64) = (150.0, 110.0);
 /// Heights of the plots of a figure with one row of panels and with several, px.
 const HEIGHTS: (f64, f64) = (250.0, 190.0);
 /// The same on a phone.
-const NARROW_HEIGHTS: (f64, f64) = (200.0, 150.0);
+const NARROW_HEIGHTS: (f64, f64) = (200.0, 170.0);
 /// Gap between panels, px.
 const GAP: f64 = 18.0;
 /// Room for a panel's title, px.

@@ -27,7 +27,7 @@ pub(super) fn panels(figure: &mut Figure, chart: &CloudChart, page: ChartWidth) 
     let height = if chart.panels.len() == 1 { lone } else { several };
     let y = y_scale(chart, page);
     let y_title = chart.y.title(y.exponent);
-    let steps = page.choose(if columns == 1 { 7 } else { 4 }, if columns == 1 { 4 } else { 2 });
+    let steps = page.choose(if columns == 1 { 7 } else { 4 }, if columns == 1 { 4 } else { 3 });
     let scales: Vec<Scale> = chart.panels.iter().map(|panel| x_scale(panel, steps)).collect();
     let widest = scales.iter().flat_map(|x| &x.ticks).map(|tick| TICK.width(&tick.label)).fold(0.0, f64::max);
     let left = MARGIN + title_room(&y_title, height) + tick_room(&y);

@@ -1,11 +1,11 @@
-//! Charts of a run besides that of the shares: how the indices settled, and how the output is distributed.
+//! How the indices settled.
 
-use super::asked::the;
-use super::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
-use super::distribution::{DensityWords, density_chart};
-use super::result::{EstimateRecord, OutputRecord, ResultFile, StageIndexRecord, StageRecord};
-use super::shares_chart::{friction_role, label};
-use super::significant;
+use super::super::asked::the;
+use super::super::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
+use super::super::result::{EstimateRecord, OutputRecord, ResultFile, StageIndexRecord, StageRecord};
+use super::super::shares_chart::label;
+use super::super::significant;
+use super::headline;
 
 /// Factors with a line of their own: as many as there are colours.
 const LINES: usize = 8;
@@ -41,33 +41,6 @@ pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
             ),
         ],
     })
-}
-
-/// The distribution of an output; without values, the reason.
-pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
-    let title = format!("{}: distribution of {}", headline(result), the(&output.name));
-    let friction = result.study.settings.get("friction").and_then(serde_json::Value::as_str);
-    let role = friction.map_or(Role::Other(0), friction_role);
-    let output_words = words(&output.name);
-    if let Some(distribution) = &output.distribution {
-        return density_chart(&distribution.sample, &DensityWords { title: &title, output: &output_words, role });
-    }
-    let reason = output.reason.as_deref().unwrap_or("its values are beyond double precision in this unit");
-    let y = Axis { label: "probability density".to_owned(), ..Axis::default() };
-    Chart::Lines(LineChart {
-        title,
-        caption: format!("No distribution of {}: {reason}.", the(&output.name)),
-        x: Axis { label: output_words, ..Axis::default() },
-        panels: vec![LinePanel { title: String::new(), y, series: Vec::new(), markers: Vec::new() }],
-    })
-}
-
-fn headline(result: &ResultFile) -> &str {
-    result.study.title.as_deref().unwrap_or(&result.study.name)
-}
-
-fn words(name: &str) -> String {
-    name.replace('_', " ")
 }
 
 /// Numbers of the factors with the largest total indices, in the order of the study.

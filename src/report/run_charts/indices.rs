@@ -1,0 +1,168 @@
+//! The indices themselves: first order beside total, and total against first order.
+
+use super::super::asked::{sentence, the};
+use super::super::chart::{
+    Axis, Bar, Chart, GroupedBars, Guide, Panel, Role, ScatterChart, ScatterPoint, ScatterSeries, Series,
+};
+use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
+use super::super::shares_chart::label;
+use super::{headline, no_indices};
+
+/// Most factors in a chart; the caption counts the rest.
+const MOST: usize = 30;
+/// Most names in a caption.
+const MOST_NAMES: usize = 6;
+/// Colours of first-order and total indices.
+const FIRST_ORDER: Role = Role::Other(2);
+const TOTAL: Role = Role::Other(0);
+/// A factor acts almost alone from this part of its total index on, mostly with others below the other part.
+const ALONE: f64 = 0.9;
+const TOGETHER: f64 = 0.5;
+/// Points with a total index below this part of the largest are not told apart from the origin.
+const VISIBLE: f64 = 0.02;
+
+/// First-order and total index of every factor side by side, in percent of the output's variance, with their intervals.
+/// Of more than 30 factors, those with the largest total indices, in falling order; otherwise in the order of the study.
+pub fn indices_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
+    let drawn = drawn(output);
+    let series = |name: &str, role: Role, read: fn(&IndexRecord) -> EstimateRecord| Series {
+        name: name.to_owned(),
+        role,
+        values: drawn.iter().map(|index| Some(bar(read(index)))).collect(),
+        published: Vec::new(),
+    };
+    Chart::Bars(GroupedBars {
+        title: format!("{}: indices of {}", headline(result), the(&output.name)),
+        caption: indices_caption(output, drawn.len()),
+        y_label: "Sobol' index (% of the variance)".to_owned(),
+        interval_label: "95 % interval".to_owned(),
+        published_label: String::new(),
+        panels: vec![Panel {
+            title: String::new(),
+            categories: drawn.iter().map(|index| label(&index.factor)).collect(),
+            series: vec![
+                series("first order: alone", FIRST_ORDER, |index| index.effect.first_order),
+                series("total: with all interactions", TOTAL, |index| index.effect.total),
+            ],
+        }],
+    })
+}
+
+/// Every factor (at most 30, those with the largest total indices) by its first-order and its total index: on the dashed
+/// line it acts alone, above it together with others.
+pub fn interactions_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
+    let drawn = drawn(output);
+    let largest = drawn.iter().map(|index| index.effect.total.estimate).fold(0.0, f64::max);
+    let point = |index: &&IndexRecord| {
+        let (x, y) = (index.effect.first_order, index.effect.total);
+        ScatterPoint {
+            x: x.estimate,
+            y: y.estimate,
+            // At the origin points lie on one another: a label would stand for any of them. The caption names them.
+            label: if y.estimate > VISIBLE * largest { label(&index.factor) } else { String::new() },
+            x_interval: x.low.zip(x.high),
+            y_interval: y.low.zip(y.high),
+        }
+    };
+    let axis = |label: &str| Axis { label: label.to_owned(), ..Axis::default() };
+    Chart::Scatter(ScatterChart {
+        title: format!("{}: what acts on {} alone, what together", headline(result), the(&output.name)),
+        caption: interactions_caption(result, output, drawn.len()),
+        x: axis("first-order index S1: what the factor does alone"),
+        y: axis("total index ST: with all its interactions"),
+        series: vec![ScatterSeries {
+            name: "factor, with the 95 % intervals of both indices".to_owned(),
+            role: Role::Coulomb,
+            points: drawn.iter().map(point).collect(),
+        }],
+        guides: vec![Guide { slope: 1.0, label: "ST = S1".to_owned() }],
+    })
+}
+
+/// The factors that are drawn.
+fn drawn(output: &OutputRecord) -> Vec<&IndexRecord> {
+    let mut indices: Vec<&IndexRecord> = output.indices.iter().flatten().collect();
+    if indices.len() > MOST {
+        indices.sort_by(|a, b| b.effect.total.estimate.total_cmp(&a.effect.total.estimate));
+        indices.truncate(MOST);
+    }
+    indices
+}
+
+fn bar(index: EstimateRecord) -> Bar {
+    let interval = index.low.zip(index.high).map(|(low, high)| (100.0 * low, 100.0 * high));
+    Bar { value: 100.0 * index.estimate, interval }
+}
+
+/// What is seen, and which factors are left out.
+fn indices_caption(output: &OutputRecord, drawn: usize) -> String {
+    let indices = || output.indices.iter().flatten();
+    let Some(first) = indices().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate)) else {
+        return no_indices(output);
+    };
+    let (alone, all) = (first.effect.first_order.estimate, first.effect.total.estimate);
+    let mut caption = format!(
+        "{} decides most: alone it explains {:.1} % of the variance of {}, with all its interactions {:.1} %",
+        sentence(&the(&first.factor)),
+        100.0 * alone,
+        the(&output.name),
+        100.0 * all
+    );
+    if let Some(sum) = output.sum_first_order {
+        caption.push_str(&format!("; all factors alone explain {:.1} %", 100.0 * sum.estimate));
+    }
+    caption + "." + &left_out(indices().count(), drawn)
+}
+
+/// Which factors act alone, which together with others, in one sentence.
+fn interactions_caption(result: &ResultFile, output: &OutputRecord, drawn: usize) -> String {
+    let Some(indices) = &output.indices else { return no_indices(output) };
+    let threshold = result.provenance.threshold;
+    let mut kinds: [Vec<&str>; 3] = Default::default();
+    let mut idle = Vec::new();
+    for index in indices {
+        let (alone, all) = (index.effect.first_order.estimate, index.effect.total.estimate);
+        match alone / all {
+            _ if all <= threshold => idle.push(index.factor.as_str()),
+            part if part >= ALONE => kinds[0].push(&index.factor),
+            part if part >= TOGETHER => kinds[1].push(&index.factor),
+            _ => kinds[2].push(&index.factor),
+        }
+    }
+    let words = ["almost only alone", "partly alone, partly together with others", "mostly together with others"];
+    let said = kinds.iter().zip(words).filter(|(names, _)| !names.is_empty());
+    let act = |(names, how): (&Vec<&str>, &str)| {
+        format!("{} {} {how}", listed(names), if names.len() == 1 { "acts" } else { "act" })
+    };
+    let mut said: Vec<String> = said.map(act).collect();
+    match (idle.len(), said.is_empty()) {
+        (0, _) => (),
+        (_, true) => said.push(format!("no factor has a total index above {threshold}")),
+        (1, _) => said.push(format!("{} has a total index of at most {threshold}", listed(&idle))),
+        (many, _) if many > MOST_NAMES => said.push(format!("{many} others have a total index of at most {threshold}")),
+        _ => said.push(format!("{} have a total index of at most {threshold}", listed(&idle))),
+    }
+    let text = said.join("; ");
+    // A symbol at the beginning keeps its letter.
+    let symbol = kinds.iter().flatten().next().is_some_and(|name| text.starts_with(name) && sentence(name) == **name);
+    let text = if symbol { text } else { sentence(&text) };
+    text + "." + &left_out(indices.len(), drawn)
+}
+
+/// Factors as words; their number, if they are many.
+fn listed(names: &[&str]) -> String {
+    let (words, many) = (names.iter().map(|name| label(name)).collect::<Vec<_>>(), names.len());
+    match &words[..] {
+        _ if many > MOST_NAMES => format!("{many} factors"),
+        [only] => the(only),
+        [all @ .., last] => format!("{} and {last}", all.join(", ")),
+        [] => String::new(),
+    }
+}
+
+fn left_out(all: usize, drawn: usize) -> String {
+    if all == drawn {
+        return String::new();
+    }
+    format!(" Of {all} factors, the {drawn} with the largest total indices are drawn.")
+}

@@ -1,0 +1,36 @@
+//! Charts of a run besides that of the shares, all from the result alone: the indices, what acts together, the output
+//! over its factors, how it is distributed, and how the indices settled.
+
+mod convergence;
+mod distribution;
+mod indices;
+mod scatter;
+
+pub use convergence::convergence_chart;
+pub use distribution::distribution_chart;
+pub use indices::{indices_chart, interactions_chart};
+pub use scatter::scatter_chart;
+
+use super::asked::the;
+use super::chart::Role;
+use super::friction_role;
+use super::result::{OutputRecord, ResultFile};
+
+fn headline(result: &ResultFile) -> &str {
+    result.study.title.as_deref().unwrap_or(&result.study.name)
+}
+
+/// The colour of the friction law, where there is one.
+fn friction(result: &ResultFile) -> Role {
+    let friction = result.study.settings.get("friction").and_then(serde_json::Value::as_str);
+    friction.map_or(Role::Other(0), friction_role)
+}
+
+/// The caption of a chart that has nothing to show.
+fn no_indices(output: &OutputRecord) -> String {
+    let reason = output.reason.as_deref().unwrap_or("the result holds none");
+    format!("No indices of {}: {reason}.", the(&output.name))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,93 @@
+use std::path::Path;
+
+use resvg::usvg::roxmltree::Document;
+
+use super::*;
+use crate::report::chart::{Chart, ChartWidth};
+use crate::report::result_json;
+use crate::study::Study;
+
+type Draw = fn(&ResultFile, &OutputRecord) -> Chart;
+
+const CHARTS: [Draw; 5] = [indices_chart, interactions_chart, scatter_chart, distribution_chart, convergence_chart];
+
+fn analysed(text: &str) -> ResultFile {
+    let study = Study::parse(text, Path::new("charts.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
+    crate::analyse(&study, 0, &|_| ()).expect("a run")
+}
+
+#[test]
+fn charts_of_any_result_are_drawn_from_its_json_alone() {
+    let holes = "model = \"ishigami-holes\"\n[design]\nbase_samples = 256\n[analysis]\nmax_failed = ";
+    let studies = [
+        "model = \"ishigami\"\n[design]\nbase_samples = 256".to_owned(),
+        "model = \"constant\"\n[design]\nbase_samples = 256".to_owned(),
+        "model = \"linear\"\n[[factor]]\nname = \"x1\"\n[design]\nbase_samples = 256".to_owned(),
+        "model = \"sobol-g\"\n[function]\ndimension = 100\n[design]\nbase_samples = 256".to_owned(),
+        format!("{holes}0.1"),
+        format!("{holes}0.0"),
+        "model = \"ishigami\"\n[design]\nbase_samples = 2\nreplicates = 1".to_owned(),
+    ];
+    for text in &studies {
+        let result = analysed(text);
+        let read: ResultFile = serde_json::from_str(&result_json(&result)).expect("our own JSON");
+        for draw in CHARTS {
+            let chart = draw(&result, &result.outputs[0]);
+            assert!(chart.caption().ends_with('.'), "{}", chart.caption());
+            assert_eq!(draw(&read, &read.outputs[0]).caption(), chart.caption());
+            for width in [ChartWidth::Wide, ChartWidth::Narrow] {
+                let svg = chart.svg_at(width).expect("a chart");
+                assert_eq!(draw(&read, &read.outputs[0]).svg_at(width).expect("a chart"), svg);
+                Document::parse(&svg).expect("well-formed");
+                assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{svg}");
+            }
+        }
+    }
+}
+
+#[test]
+fn results_of_before_have_no_scatter_and_say_so() {
+    let mut value =
+        serde_json::to_value(analysed("model = \"ishigami\"\n[design]\nbase_samples = 256")).expect("plain data");
+    value["outputs"][0].as_object_mut().expect("an output").remove("scatter");
+    let result: ResultFile = serde_json::from_value(value).expect("a result of an earlier version");
+    let chart = scatter_chart(&result, &result.outputs[0]);
+    assert!(chart.svg().expect("a chart").contains("no value"));
+    assert!(chart.caption().starts_with("No scatter of ") && chart.caption().ends_with("holds none."));
+}
+
+#[test]
+fn captions_say_who_acts_alone_and_who_together() {
+    // S1 = 0.3139, 0.4424, 0 and ST = 0.5576, 0.4424, 0.2437.
+    let result = analysed("model = \"ishigami\"");
+    let output = &result.outputs[0];
+    let interactions = interactions_chart(&result, output);
+    assert_eq!(
+        interactions.caption(),
+        "x2 acts almost only alone; x1 acts partly alone, partly together with others; x3 acts mostly together with \
+         others."
+    );
+    let indices = indices_chart(&result, output);
+    assert!(indices.caption().starts_with("x1 decides most: alone it explains 31."), "{}", indices.caption());
+    assert!(indices.caption().contains("all its interactions 55."), "{}", indices.caption());
+    let scatter = scatter_chart(&result, output);
+    assert!(scatter.caption().starts_with("Over the range of x1 the mean of "), "{}", scatter.caption());
+    let result = analysed("model = \"sobol-g\"\n[function]\ndimension = 100\n[design]\nbase_samples = 1024");
+    let output = &result.outputs[0];
+    let all = [indices_chart, interactions_chart].map(|draw: Draw| draw(&result, output).caption().to_owned());
+    assert!(
+        all.iter().all(|caption| caption.ends_with("Of 100 factors, the 30 with the largest total indices are drawn.")),
+        "{all:?}"
+    );
+    assert!(all[1].contains("98 others have a total index of at most 0.05"), "{}", all[1]);
+    assert!(scatter_chart(&result, output).caption().contains("Of 100 factors, the 6 with the largest"));
+}
+
+#[test]
+fn a_study_in_which_nothing_stands_out_says_so() {
+    let result = analysed("model = \"constant\"");
+    for draw in [indices_chart, interactions_chart, scatter_chart] as [Draw; 3] {
+        let caption = draw(&result, &result.outputs[0]).caption().to_owned();
+        assert!(caption.contains("zero variance"), "{caption}");
+    }
+}

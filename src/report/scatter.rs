@@ -1,0 +1,229 @@
+//! The output over its most influential factors: a few points to look at, and the means over slices of each factor.
+
+use serde::{Deserialize, Serialize};
+
+use super::result::IndexRecord;
+use crate::design::Design;
+use crate::quantity::Unit;
+use crate::run::{SAMPLE, Totals};
+use crate::space::{Distribution, Factor, Space};
+use crate::sum::{centred_product, mean, rescaled};
+
+/// Factors that are looked at.
+const FACTORS: usize = 6;
+/// Most points that are kept to be drawn.
+const POINTS: u64 = 400;
+/// Slices of equal probability of a factor that is not discrete.
+const SLICES: usize = 20;
+/// Most values of a discrete factor that are slices of their own.
+const MOST_VALUES: usize = 50;
+/// Most base points that the means rest on, over all replicates.
+const MOST: u64 = 1 << 14;
+/// Fewest of them, however many columns the design has.
+const FEWEST: u64 = 1 << 10;
+/// Numbers of the design that are computed again for the means, beyond [`FEWEST`] points.
+const NUMBERS: u64 = 1 << 18;
+/// Half width of a 95 % interval of a mean of many values, in standard errors.
+const QUANTILE: f64 = 1.96;
+
+/// How an output goes with the factors of the largest total indices.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ScatterRecord {
+    /// At most six factors, the largest total index first.
+    pub factors: Vec<String>,
+    /// At most 400 rows A, the first of every replicate: the values of `factors` in their units, then the output's in its
+    /// own. Runs without a value are left out.
+    pub points: Vec<Vec<f64>>,
+    /// One entry for each of `factors`.
+    pub conditional_means: Vec<ConditionalMeansRecord>,
+}
+
+/// Means of the output over slices of a factor: an estimate of E[Y | X_i], whose variance is the numerator of the
+/// first-order index. They describe the scatter of the kept rows A and B; no index is computed from them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ConditionalMeansRecord {
+    /// The factor.
+    pub factor: String,
+    /// The median of each slice in the factor's unit, rising: 20 slices of equal probability, or each of the values of a
+    /// discrete factor (of at most 50).
+    pub x: Vec<f64>,
+    /// Mean of the output over the slice in its unit; `null` without values there.
+    pub mean: Vec<Option<f64>>,
+    /// Mean minus 1.96 standard errors; `null` for fewer than two values.
+    pub low: Vec<Option<f64>>,
+    /// Mean plus 1.96 standard errors.
+    pub high: Vec<Option<f64>>,
+}
+
+/// The points of the unit cube of the first rows A and B of every replicate: computed again from the design, which is a
+/// function of the row number.
+pub(super) struct FirstRows {
+    factors: usize,
+    /// For each replicate the columns of A, then those of B.
+    replicates: Vec<Vec<Vec<f64>>>,
+}
+
+impl FirstRows {
+    /// Those of at most 2^14 base points over all replicates: fewer for many factors, to stay quick.
+    pub fn of(design: &Design) -> Self {
+        let replicates = design.settings().replicates;
+        let most = (NUMBERS / design.columns().max(1) as u64).clamp(FEWEST, MOST).min(SAMPLE);
+        let points = (most / replicates).max(1).min(design.points_per_replicate()) as usize;
+        let rows = |replicate: u64| {
+            let mut columns = vec![vec![0.0; points]; design.columns()];
+            design.replicate(replicate).fill(0, &mut columns);
+            columns.truncate(2 * design.factors());
+            columns
+        };
+        Self { factors: design.factors(), replicates: (0..replicates).map(rows).collect() }
+    }
+
+    /// Coordinate `factor` of these rows: A and B of each base point in turn.
+    fn coordinates(&self, factor: usize) -> impl Iterator<Item = f64> {
+        self.replicates.iter().flat_map(move |columns| {
+            let (a, b) = (&columns[factor], &columns[self.factors + factor]);
+            a.iter().zip(b).flat_map(|(a, b)| [*a, *b])
+        })
+    }
+
+    /// The outputs of the same rows, NaN where a run failed; `outputs` are those of one replicate each.
+    fn outputs(&self, outputs: &[&[f64]]) -> Vec<f64> {
+        let rows = |columns: &Vec<Vec<f64>>| 2 * columns.first().map_or(0, Vec::len);
+        let of_replicate = |(columns, outputs): (&Vec<Vec<f64>>, &&[f64])| {
+            let outputs = outputs.iter().copied().chain(std::iter::repeat(f64::NAN));
+            outputs.take(rows(columns)).collect::<Vec<f64>>()
+        };
+        self.replicates.iter().zip(outputs).flat_map(of_replicate).collect()
+    }
+
+    /// The point of the unit cube and the output of the first rows A.
+    fn first(&self, outputs: &[&[f64]]) -> Vec<(Vec<f64>, f64)> {
+        let each = (POINTS / self.replicates.len() as u64).max(1) as usize;
+        let of_replicate = |(columns, outputs): (&Vec<Vec<f64>>, &&[f64])| {
+            let row = |(point, y): (usize, &f64)| {
+                let u = columns[..self.factors].iter().filter_map(|column| column.get(point).copied());
+                (u.collect::<Vec<_>>(), *y)
+            };
+            let length = columns.first().map_or(0, Vec::len);
+            let rows = outputs.iter().step_by(2).take(each.min(length)).enumerate();
+            rows.map(row).filter(|(_, y)| y.is_finite()).collect::<Vec<_>>()
+        };
+        let mut rows: Vec<_> = self.replicates.iter().zip(outputs).flat_map(of_replicate).collect();
+        rows.truncate(POINTS as usize);
+        rows
+    }
+}
+
+/// What the record of an output is made of.
+#[derive(Clone, Copy)]
+pub(super) struct Sampled<'a> {
+    pub rows: &'a FirstRows,
+    pub space: &'a Space,
+    pub replicates: &'a [Totals],
+}
+
+/// The record of output `number`, whose values are in `unit`, for the factors with the largest of `indices`. `None` where
+/// a number is beyond double precision in its unit.
+pub(super) fn scatter_record(
+    sampled: Sampled<'_>,
+    (number, unit): (usize, &Unit),
+    indices: &[IndexRecord],
+) -> Option<ScatterRecord> {
+    let outputs: Vec<&[f64]> =
+        sampled.replicates.iter().map(|totals| totals.outputs[number].sample.as_slice()).collect();
+    let factors = sampled.space.factors();
+    let chosen = largest(indices);
+    let points = sampled.rows.first(&outputs).into_iter().map(|(u, y)| {
+        let x = chosen.iter().map(|&factor| factors[factor].distribution().quantile(u[factor]));
+        x.chain([unit.from_si(y)]).collect::<Vec<_>>()
+    });
+    let all = sampled.rows.outputs(&outputs);
+    let known: Vec<f64> = all.iter().copied().filter(|y| y.is_finite()).collect();
+    let (scaled, exponent) = rescaled(&known);
+    let means_of = |&factor: &usize| {
+        let known = sampled.rows.coordinates(factor).zip(&all).filter(|(_, y)| y.is_finite());
+        let rows: Vec<(f64, f64)> = known.map(|(u, _)| u).zip(scaled.iter().copied()).collect();
+        conditional_means(&factors[factor], unit, (&rows, exponent))
+    };
+    let record = ScatterRecord {
+        factors: chosen.iter().map(|&factor| factors[factor].name.clone()).collect(),
+        points: points.collect(),
+        conditional_means: chosen.iter().map(means_of).collect(),
+    };
+    let numbers = record.points.iter().flatten();
+    let means = record.conditional_means.iter();
+    let means = means.flat_map(|m| m.mean.iter().chain(&m.low).chain(&m.high).flatten());
+    numbers.chain(means).all(|number| number.is_finite()).then_some(record)
+}
+
+/// Numbers of the factors with the largest total indices, the largest first.
+fn largest(indices: &[IndexRecord]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..indices.len()).collect();
+    order.sort_by(|&a, &b| indices[b].effect.total.estimate.total_cmp(&indices[a].effect.total.estimate));
+    order.truncate(FACTORS);
+    order
+}
+
+/// The slices into which the values of a factor are cut.
+enum Slices<'a> {
+    /// Of equal probability, with their medians.
+    Equal(Vec<f64>),
+    /// One for each value of a distribution.
+    Values(&'a Distribution, Vec<f64>),
+}
+
+impl<'a> Slices<'a> {
+    fn of(distribution: &'a Distribution) -> Self {
+        let values = match distribution {
+            Distribution::Discrete(discrete) => discrete.levels().into_iter().map(|(value, _)| value).collect(),
+            Distribution::Constant(_) => vec![distribution.median()],
+            _ => Vec::new(),
+        };
+        if (1..=MOST_VALUES).contains(&values.len()) {
+            return Self::Values(distribution, values);
+        }
+        Self::Equal((0..SLICES).map(|k| distribution.quantile((k as f64 + 0.5) / SLICES as f64)).collect())
+    }
+
+    fn middles(&self) -> &[f64] {
+        match self {
+            Self::Equal(middles) | Self::Values(_, middles) => middles,
+        }
+    }
+
+    /// The slice of a point of the unit interval.
+    fn number(&self, u: f64) -> usize {
+        match self {
+            Self::Equal(_) => ((u * SLICES as f64) as usize).min(SLICES - 1),
+            Self::Values(distribution, values) => {
+                let value = distribution.quantile(u);
+                values.partition_point(|v| *v < value).min(values.len() - 1)
+            }
+        }
+    }
+}
+
+/// `rows` are (coordinate, output times 2^-exponent), for outputs with a value.
+fn conditional_means(factor: &Factor, unit: &Unit, (rows, exponent): (&[(f64, f64)], i32)) -> ConditionalMeansRecord {
+    let slices = Slices::of(factor.distribution());
+    let mut values = vec![Vec::new(); slices.middles().len()];
+    for (u, y) in rows {
+        values[slices.number(*u)].push(*y);
+    }
+    let in_unit = |y: f64| unit.from_si(libm::scalbn(y, exponent));
+    let bound = |values: &Vec<f64>, side: f64| {
+        let (n, mean) = (values.len() as f64, mean(values));
+        let error = (centred_product((values, mean), (values, mean)) / (n - 1.0) / n).sqrt();
+        (n > 1.0).then(|| in_unit(mean + side * QUANTILE * error))
+    };
+    ConditionalMeansRecord {
+        factor: factor.name.clone(),
+        x: slices.middles().to_vec(),
+        mean: values.iter().map(|values| (!values.is_empty()).then(|| in_unit(mean(values)))).collect(),
+        low: values.iter().map(|values| bound(values, -1.0)).collect(),
+        high: values.iter().map(|values| bound(values, 1.0)).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests;
