@@ -6,9 +6,9 @@ use anyhow::anyhow;
 use apportion::analyse;
 use apportion::report::chart::{Chart, png};
 use apportion::report::{
-    OutputRecord, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv, indices_csv,
-    inputs_in_words, output_stem, prepare_file, prepare_folder, result_json, run_page, second_order_csv, study_chart,
-    summary, write_atomically,
+    OutputRecord, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv, indices_chart,
+    indices_csv, inputs_in_words, interactions_chart, output_stem, prepare_file, prepare_folder, result_json, run_page,
+    scatter_chart, second_order_csv, study_chart, summary, write_atomically,
 };
 use apportion::run::RunError;
 use apportion::study::Study;
@@ -116,8 +116,11 @@ pub fn files(study: &Study) -> Vec<ResultFileName> {
         table("-estimators.csv", "the indices by the other estimators", estimators_csv);
     }
     table("-convergence.csv", "the indices at every stage of the run", convergence_csv);
-    let charts: [(&str, &str, Draw); 3] = [
+    let charts: [(&str, &str, Draw); 6] = [
         ("", "chart of the shares", study_chart),
+        ("-indices", "chart of the first-order and total indices", indices_chart),
+        ("-interactions", "chart of first-order against total indices", interactions_chart),
+        ("-scatter", "chart of the output against its factors", scatter_chart),
         ("-distribution", "chart of the output's distribution", distribution_chart),
         ("-convergence", "chart of how the indices settled", convergence_chart),
     ];

@@ -32,8 +32,8 @@ fn run_writes_what_check_announces() {
     for name in files(&out) {
         assert!(announced.contains(&name), "{name} was not announced");
     }
-    // Page, result, indices and convergence; shares, distribution and convergence of two outputs, each drawn twice.
-    assert_eq!(files(&out).len(), 4 + 2 * 6);
+    // Page, result, indices and convergence; six charts of two outputs, each as SVG and PNG.
+    assert_eq!(files(&out).len(), 4 + 2 * 6 * 2);
     assert!(table.contains("thickness") && table.contains("critical_time [s]"));
 }
 

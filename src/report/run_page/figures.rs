@@ -5,7 +5,9 @@ use super::words::{capital, the};
 use crate::report::chart::Chart;
 use crate::report::page::{PageFigure, Part};
 use crate::report::result::{OutputRecord, ResultFile};
-use crate::report::{convergence_chart, distribution_chart, study_chart};
+use crate::report::{
+    convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart, study_chart,
+};
 
 /// Draws the figures of one output after the other.
 pub(super) struct Figures<'a> {
@@ -22,22 +24,43 @@ pub(super) struct Numbered<'a> {
     pub number: usize,
 }
 
+impl Numbered<'_> {
+    /// Whether it is the first output: what holds for all is said there.
+    pub fn is_first(self) -> bool {
+        self.number == 1
+    }
+}
+
 impl Figures<'_> {
     pub fn shares(&mut self, of: Numbered<'_>) -> Part {
         let mut chart = study_chart(self.result, of.output);
         set_title(&mut chart, format!("Shares of {}", the(&of.output.name)));
-        self.figure(of, "", ("shares", chart))
+        self.figure(of, ("", ".csv"), ("shares", chart))
+    }
+
+    pub fn indices(&mut self, of: Numbered<'_>) -> Part {
+        self.figure(of, ("-indices", ".csv"), ("indices", indices_chart(self.result, of.output)))
+    }
+
+    pub fn interactions(&mut self, of: Numbered<'_>) -> Part {
+        self.figure(of, ("-interactions", ".csv"), ("interactions", interactions_chart(self.result, of.output)))
+    }
+
+    pub fn scatter(&mut self, of: Numbered<'_>) -> Part {
+        self.figure(of, ("-scatter", ""), ("scatter", scatter_chart(self.result, of.output)))
     }
 
     pub fn convergence(&mut self, of: Numbered<'_>) -> Part {
-        self.figure(of, "-convergence", ("convergence", convergence_chart(self.result, of.output)))
+        let chart = convergence_chart(self.result, of.output);
+        self.figure(of, ("-convergence", "-convergence.csv"), ("convergence", chart))
     }
 
     pub fn distribution(&mut self, of: Numbered<'_>) -> Part {
-        self.figure(of, "-distribution", ("distribution", distribution_chart(self.result, of.output)))
+        self.figure(of, ("-distribution", ""), ("distribution", distribution_chart(self.result, of.output)))
     }
 
-    fn figure(&mut self, of: Numbered<'_>, suffix: &str, (name, mut chart): (&str, Chart)) -> Part {
+    /// The chart called `name`, with links to its pictures, whose names end in `suffix`, and to the table `csv`.
+    fn figure(&mut self, of: Numbered<'_>, (suffix, csv): (&str, &str), (name, mut chart): (&str, Chart)) -> Part {
         self.count += 1;
         let stem = output_stem(self.beside.study, &of.output.name, self.result.outputs.len());
         let study = &self.result.study;
@@ -46,12 +69,14 @@ impl Figures<'_> {
         if let Some(title) = chart.title().strip_prefix(&headline).map(capital) {
             set_title(&mut chart, title);
         }
+        let mut links = self.beside.pictures(&format!("{stem}{suffix}"));
+        links.extend(Some(csv).filter(|csv| !csv.is_empty()).and_then(|csv| self.beside.table(csv, "CSV")));
         Part::Figure(Box::new(PageFigure {
             id: format!("figure-{}-{name}", of.number),
             label: format!("Figure {}", self.count),
             beside: String::new(),
             chart,
-            links: self.beside.pictures(&format!("{stem}{suffix}")),
+            links,
         }))
     }
 }
@@ -61,6 +86,8 @@ fn set_title(chart: &mut Chart, title: String) {
         Chart::Bars(chart) => chart.title = title,
         Chart::Lines(chart) => chart.title = title,
         Chart::Scatter(chart) => chart.title = title,
-        _ => (),
+        Chart::Cloud(chart) => chart.title = title,
+        Chart::Ranges(chart) => chart.title = title,
+        Chart::Picture(picture) => picture.title = title,
     }
 }

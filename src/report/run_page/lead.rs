@@ -74,7 +74,10 @@ fn others(result: &ResultFile, order: &[&IndexRecord]) -> String {
     if order.len() < 2 {
         return String::new();
     }
-    let next = |index: &&IndexRecord| format!("{} ({:.2})", name(&index.factor), index.effect.total.estimate);
+    let next = |index: &&IndexRecord| match index.effect.total.estimate {
+        total if total < 0.005 => format!("{} (below 0.01)", name(&index.factor)),
+        total => format!("{} ({total:.2})", name(&index.factor)),
+    };
     let next: Vec<String> = order[1..].iter().take(2).map(next).collect();
     let verb = if next.len() == 1 { "comes" } else { "come" };
     let mut sentence = format!("Next {verb} {}", list(&next));
@@ -86,8 +89,10 @@ fn others(result: &ResultFile, order: &[&IndexRecord]) -> String {
         let open = chances.len() - yes - no;
         let threshold = result.provenance.threshold;
         sentence.push_str(&format!(
-            "; of the {} factors, {yes} surely exceed S_T = {threshold}, {no} surely do not",
-            chances.len()
+            "; of the {} factors, {yes} surely {} S_T = {threshold}, {no} surely {}",
+            chances.len(),
+            if yes == 1 { "exceeds" } else { "exceed" },
+            if no == 1 { "does not" } else { "do not" }
         ));
         if open > 0 {
             sentence.push_str(&format!(", and {open} may"));
@@ -145,7 +150,9 @@ fn settled(result: &ResultFile) -> String {
     let runs = grouped(result.provenance.model_runs);
     let widths: Vec<f64> = result.outputs.iter().filter_map(widest).collect();
     let Some(widest) = widths.into_iter().reduce(f64::max) else {
-        return format!("The study took {runs} model runs; nothing is known of the error of what it found.");
+        let found = result.outputs.iter().any(|output| output.indices.is_some());
+        let error = if found { "; nothing is known of the error of the indices" } else { "" };
+        return format!("The study took {runs} model runs{error}.");
     };
     let mut sentence = format!("After {runs} model runs every index is known to ± {} or better", half_width(widest));
     if let Some(met) = result.stopping.as_ref().and_then(|stopping| stopping.target_met) {

@@ -43,7 +43,7 @@ pub fn run_page(result: &ResultFile, files: &[String]) -> Page {
         if single {
             sections.extend(topics.into_iter().map(|Topic { id, title, parts }| section(id, title, parts)));
         } else {
-            let mut parts = vec![output::opening(result, output)];
+            let mut parts = Vec::new();
             for Topic { title, parts: more, .. } in topics {
                 parts.push(Part::Heading(title.to_owned()));
                 parts.extend(more);

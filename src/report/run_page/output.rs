@@ -1,12 +1,15 @@
 //! What the page says about one output, topic by topic.
 
 use super::figures::{Figures, Numbered};
-use super::lead::{answer, by_total, widest};
+use super::lead::{by_total, widest};
 use super::tables;
 use super::trend::width_after_doubling;
 use super::words::{capital, count, first, grouped, half_width, index, list, name, the};
 use crate::report::page::{Mark, Part};
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
+
+/// Most factors whose shares are drawn; of more, the chart of the indices shows the largest.
+const DRAWN: usize = 30;
 
 /// A topic: a section of its own where there is one output, a part of the output's section where there are several.
 pub(super) struct Topic {
@@ -17,16 +20,19 @@ pub(super) struct Topic {
 
 /// All topics of an output; those of which there is nothing to say are left out.
 pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> {
-    let result = figures.result;
     let topic = |id, title, parts| Topic { id, title, parts };
     let mut topics = vec![topic("mind", "What to mind", warnings(of.output))];
     if of.output.indices.is_some() {
         topics.push(topic("shares", "Shares", shares(figures, of)));
-        topics.push(topic("indices", "Indices", indices(result, of.output)));
-        topics.push(topic("interactions", "Interactions", interactions(of.output)));
+        topics.push(topic("indices", "Indices", indices(figures, of)));
+        topics.push(topic("interactions", "Interactions", interactions(figures, of)));
         topics.push(topic("convergence", "How the indices settled", convergence(figures, of)));
     }
     topics.push(topic("distribution", "Distribution of the output", distribution(figures, of)));
+    if of.output.scatter.is_some() {
+        let scatter = vec![figures.scatter(of)];
+        topics.push(topic("scatter", "The output against its factors", scatter));
+    }
     topics.push(topic("estimators", "Other estimators", estimators(of.output)));
     topics.retain(|topic| !topic.parts.is_empty());
     topics
@@ -47,13 +53,13 @@ fn warnings(output: &OutputRecord) -> Vec<Part> {
     if output.runs_failed > 0 {
         let all = output.runs_ok + output.runs_failed;
         let share = crate::report::share_of_runs(output.runs_failed as f64 / all as f64);
-        let runs = count(output.runs_failed, "run", "runs");
-        parts.push(Part::Text(format!(
-            "{} of {} ({share}) had no value; every estimate rests on {} or more.",
-            capital(&runs),
-            grouped(all),
-            count(output.base_points_used, "base point", "base points")
-        )));
+        let mut text =
+            format!("{} of {} ({share}) had no value", grouped(output.runs_failed), count(all, "run", "runs"));
+        if output.indices.is_some() {
+            let points = count(output.base_points_used, "base point", "base points");
+            text.push_str(&format!("; every estimate rests on {points} or more"));
+        }
+        parts.push(Part::Text(text + "."));
     }
     parts.extend(tables::failures(&output.failures));
     parts
@@ -63,32 +69,40 @@ fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let text = "A factor's share is its index in percent of the sum of the indices of all factors: of the first-order \
                 indices S_1, which count what a factor does alone, or of the total indices S_T, which count what it does \
                 together with others too.";
-    let mut parts = vec![Part::Text(text.to_owned()), figures.shares(of)];
+    let mut parts = Vec::new();
+    parts.extend(of.is_first().then(|| Part::Text(text.to_owned())));
+    if figures.result.factors.len() <= DRAWN {
+        parts.push(figures.shares(of));
+    }
     if let Some(table) = tables::shares(of.output) {
         parts.push(Part::Details { summary: "The shares as numbers".to_owned(), parts: vec![table] });
     }
     parts
 }
 
-fn indices(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
+fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let result = figures.result;
+    let mut parts = Vec::new();
+    parts.extend(of.is_first().then(|| Part::Text(definitions(result))));
+    parts.push(figures.indices(of));
+    parts.extend(tables::indices(result, of.output));
+    parts.extend(below_zero(of.output).map(Part::Text));
+    parts.extend(tables::joint(result, of.output));
+    parts
+}
+
+/// What the columns of the tables of indices mean.
+fn definitions(result: &ResultFile) -> String {
     let threshold = result.provenance.threshold;
-    let mut text = format!(
-        "S_1 is the part of the variance of {} that goes if a factor becomes known; S_T is the part that stays as long as it is \
-         unknown. P(largest) is the probability that a factor's total index is the largest, P(S_T > {threshold}) that it \
-         exceeds {threshold}.",
-        the(&output.name)
+    let text = format!(
+        "S_1 is the part of the variance of the output that goes if a factor becomes known; S_T is the part that stays as \
+         long as it is unknown. P(largest) is the probability that a factor's total index is the largest, \
+         P(S_T > {threshold}) that it exceeds {threshold}."
     );
     match &result.provenance.interval {
-        Some(words) => text.push_str(&format!(" Intervals: {words}.")),
-        None => text.push_str(" There are no intervals: a single replicate says nothing about its error."),
+        Some(words) => format!("{text} Intervals: {words}."),
+        None => format!("{text} There are no intervals: a single replicate says nothing about its error."),
     }
-    let mut parts = vec![Part::Text(text)];
-    parts.extend(tables::indices(result, output));
-    parts.extend(below_zero(output).map(Part::Text));
-    if let Some(table) = tables::joint(result, output) {
-        parts.push(table);
-    }
-    parts
 }
 
 /// Estimates below 0, which no index is, in words.
@@ -120,7 +134,8 @@ fn below_zero(output: &OutputRecord) -> Option<String> {
     Some(text)
 }
 
-fn interactions(output: &OutputRecord) -> Vec<Part> {
+fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let output = of.output;
     let Some(order) = by_total(output).filter(|order| order.len() > 1) else { return Vec::new() };
     let mut text = super::lead::interactions(output.sum_first_order);
     let difference = |index: &&&IndexRecord| index.effect.interaction.map_or(f64::NEG_INFINITY, |i| i.estimate);
@@ -131,7 +146,7 @@ fn interactions(output: &OutputRecord) -> Vec<Part> {
         let (factor, difference) = (name(&most.factor), index(gap));
         text.push_str(&format!(" Most of all, {factor} acts together with others: S_T − S_1 is {difference}."));
     }
-    let mut parts = vec![Part::Text(text)];
+    let mut parts = vec![Part::Text(text), figures.interactions(of)];
     parts.extend(tables::pairs(output));
     parts
 }
@@ -155,7 +170,6 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     if !output.convergence.is_empty() {
         parts.push(figures.convergence(of));
     }
-    parts.extend(figures.beside.table("-convergence.csv", "every stage as CSV").map(|link| Part::Links(vec![link])));
     if let Some(table) = tables::stages(output) {
         parts.push(Part::Details { summary: "The stages as numbers".to_owned(), parts: vec![table] });
     }
@@ -179,11 +193,6 @@ fn estimators(output: &OutputRecord) -> Vec<Part> {
         "The same runs through the other formulas that the study lists; the default ones are named in the provenance.";
     let details = Part::Details { summary: "Indices by estimator".to_owned(), parts };
     vec![Part::Text(text.to_owned()), details]
-}
-
-/// The answer for an output among several, at the top of its section.
-pub(super) fn opening(result: &ResultFile, output: &OutputRecord) -> Part {
-    Part::Text(answer(result, output))
 }
 
 /// An output's name and unit as a heading.

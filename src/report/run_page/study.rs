@@ -27,24 +27,19 @@ pub(super) fn validity(result: &ResultFile) -> Vec<Part> {
         return Vec::new();
     }
     let row = |flag: &ValidityRecord| {
-        let (text, mark) = match flag.runs {
-            0 => ("holds".to_owned(), Mark::Good),
-            _ if flag.share < 0.5 => ("in part".to_owned(), Mark::Mixed),
-            _ => ("mostly not".to_owned(), Mark::Bad),
+        let share = if flag.runs == 0 { "no run".to_owned() } else { share_of_runs(flag.share) };
+        let mark = match flag.runs {
+            0 => Mark::Good,
+            _ if flag.share < 0.5 => Mark::Mixed,
+            _ => Mark::Bad,
         };
-        let share = if flag.runs == 0 { "0 %".to_owned() } else { share_of_runs(flag.share) };
-        vec![
-            Cell::plain(flag.flag.replace('-', " ")),
-            Cell::plain(&flag.description),
-            Cell::marked(text, mark),
-            Cell::plain(share),
-        ]
+        vec![Cell::plain(flag.flag.replace('-', " ")), Cell::marked(share, mark), Cell::plain(&flag.description)]
     };
     let text = "Runs on which an assumption of the model does not hold count all the same; their share says how much of the \
                 result rests on them.";
-    let caption = "Assumptions of the model, and the share of the runs on which each fails.".to_owned();
+    let caption = "Flags that the model raises, with the share of the runs on which it does.".to_owned();
     let rows = result.validity.iter().map(row).collect();
-    vec![Part::Text(text.to_owned()), table(caption, &["flag", "what it means", "assumption", "runs"], (3, rows))]
+    vec![Part::Text(text.to_owned()), table(caption, &["flag", "raised on", "what it means"], (3, rows))]
 }
 
 /// What the run took.

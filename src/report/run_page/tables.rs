@@ -14,6 +14,8 @@ use crate::report::tables::chance;
 const FACTORS: usize = 50;
 /// Most pairs of factors.
 const PAIRS: usize = 20;
+/// Quantiles in the table, in percent; the JSON file has more.
+const QUANTILES: [f64; 7] = [2.5, 5.0, 25.0, 50.0, 75.0, 95.0, 97.5];
 /// Most estimators side by side.
 const ESTIMATORS: usize = 6;
 /// Most factors in a table of estimators.
@@ -100,8 +102,13 @@ pub(super) fn joint(result: &ResultFile, output: &OutputRecord) -> Option<Part> 
     let subsets = output.subsets.iter().flatten().map(|subset| effect_row(names(&subset.factors), &subset.effect));
     let dummy = output.dummy.iter().map(|effect| effect_row("dummy, which does nothing".to_owned(), effect));
     let rows: Vec<Vec<Cell>> = groups.chain(subsets).chain(dummy).take(FACTORS).collect();
-    let caption =
-        "Joint indices of groups and subsets of the factors: S_1 includes the interactions inside them.".to_owned();
+    let alone = output.groups.iter().flatten().count() + output.subsets.iter().flatten().count() == 0;
+    let caption = if alone {
+        "Indices of a factor that does nothing, run along: what is not 0 is noise."
+    } else {
+        "Joint indices of groups and subsets of the factors: S_1 includes the interactions inside them."
+    }
+    .to_owned();
     (!rows.is_empty()).then(|| effect_table(result, caption, ("factors", rows)))
 }
 
@@ -163,13 +170,13 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
     add("excess kurtosis", sample.excess_kurtosis.map(|x| value(x, "")));
     add("smallest", Some(number(sample.min)));
     if sample.histogram.is_some() {
-        for quantile in &sample.quantiles {
+        for quantile in sample.quantiles.iter().filter(|quantile| QUANTILES.contains(&quantile.percent)) {
             add(&format!("{} % quantile", significant(quantile.percent)), Some(number(quantile.value)));
         }
     }
     add("largest", Some(number(sample.max)));
     let rows = rows.into_iter().map(|(label, text)| vec![Cell::plain(label), Cell::plain(text)]).collect();
-    let caption = "Moments and range from all values, quantiles from those that were kept.".to_owned();
+    let caption = "Moments and range are those of all values, the mean with its 95 % interval; quantiles are those of the values that were kept.".to_owned();
     Some(table(caption, &[], (0, rows)))
 }
 

@@ -21,7 +21,7 @@ const SMALL: &str = "\n[design]\nbase_samples = 256\n";
 
 #[test]
 fn the_leading_factor_stands_at_the_top() {
-    let result = result(&format!("model = \"linear\"\n[function]\ncoefficients = [1.0, 4.0, 2.0]{SMALL}"));
+    let result = result(&format!("model = \"linear\"\n[function]\nc = [1.0, 4.0, 2.0]{SMALL}"));
     let page = page(&result);
     assert!(page.lead[0].starts_with("x2 matters most for y"), "{}", page.lead[0]);
     assert!(page.lead[0].contains("No interactions are seen"), "{}", page.lead[0]);
@@ -53,7 +53,10 @@ fn degenerate_results_have_pages() {
     (output.runs_failed, output.runs_ok, output.base_points_used) = (512, 0, 0);
     output.reason = Some("no run succeeded".to_owned());
     let html = page(&failed).html().unwrap();
-    assert!(html.contains("no run succeeded") && html.contains("512 of 512 (100.0\u{a0}%) had no value"), "{html}");
+    assert!(
+        html.contains("no run succeeded") && html.contains("512 of 512 runs (100.0\u{a0}%) had no value"),
+        "{html}"
+    );
     assert!(html.contains("There are no values of y"));
     failed.outputs.clear();
     page(&failed).html().unwrap();

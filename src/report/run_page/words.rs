@@ -1,7 +1,7 @@
 //! Names and numbers in the sentences of the page.
 
 use crate::report::result::{EstimateRecord, IntervalRecord};
-use crate::report::{fixed, significant, tables};
+use crate::report::{fixed, significant};
 
 /// A name of the study as words; a symbol such as `F_cr` stays one.
 pub(super) fn name(name: &str) -> String {
@@ -89,6 +89,7 @@ pub(super) fn value(value: f64, unit: &str) -> String {
 
 /// An index and the half width of its interval for a table, with four decimals: the files have all digits.
 pub(super) fn give_or_take(record: EstimateRecord) -> String {
+    const DIGITS: usize = 4;
     const LEAST: f64 = 1e-4;
     let bounds = [record.estimate, record.low.unwrap_or(record.estimate), record.high.unwrap_or(record.estimate)];
     if bounds.iter().all(|bound| *bound == 0.0) {
@@ -97,11 +98,15 @@ pub(super) fn give_or_take(record: EstimateRecord) -> String {
     if bounds.iter().all(|bound| bound.abs() < LEAST) {
         return if bounds.iter().all(|bound| *bound > 0.0) { "< 0.0001" } else { "0 ± < 0.0001" }.to_owned();
     }
-    match (record.low, record.high) {
-        (Some(low), Some(high)) if (high - low) / 2.0 < LEAST / 2.0 => {
-            format!("{} ± < 0.0001", fixed(record.estimate, 4))
-        }
-        _ => tables::give_or_take(record),
+    let estimate = fixed(record.estimate, DIGITS);
+    let (Some(low), Some(high)) = (record.low, record.high) else { return estimate };
+    let width = (high - low) / 2.0;
+    if (low + high - 2.0 * record.estimate).abs() > 0.01 * (high - low) {
+        format!("{estimate} [{}, {}]", fixed(low, DIGITS), fixed(high, DIGITS))
+    } else if width < LEAST / 2.0 {
+        format!("{estimate} ± < 0.0001")
+    } else {
+        format!("{estimate} ± {}", fixed(width, DIGITS))
     }
 }
 
@@ -150,6 +155,8 @@ mod tests {
         assert_eq!(give_or_take(estimate(-2e-5, 1e-5, 4e-5)), "0 ± < 0.0001");
         assert_eq!(give_or_take(estimate(0.012_34, 0.012_35, 0.012_36)), "0.0123 ± < 0.0001");
         assert_eq!(give_or_take(estimate(0.48, 0.5, 0.52)), "0.5000 ± 0.0200");
+        assert_eq!(give_or_take(estimate(-4e-5, 5e-5, 14e-5)), "0.0001 ± 0.0001");
+        assert_eq!(give_or_take(estimate(0.4, 0.5, 0.52)), "0.5000 [0.4000, 0.5200]");
         assert_eq!(half_width(0.012_345), "0.012");
         assert_eq!(list(&["a", "b", "c"].map(str::to_owned)), "a, b and c");
     }
