@@ -24,14 +24,8 @@ pub enum Effect {
 
 impl Effect {
     /// All of them.
-    pub const ALL: [Self; 6] = [
-        Self::FirstOrder,
-        Self::Total,
-        Self::PlainFirstOrder,
-        Self::PlainTotal,
-        Self::VarianceAlone,
-        Self::RangeAlone,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::FirstOrder, Self::Total, Self::PlainFirstOrder, Self::PlainTotal, Self::VarianceAlone, Self::RangeAlone];
 
     /// The name in tables and in the ids of readings.
     pub fn name(self) -> &'static str {
@@ -173,7 +167,11 @@ pub const VARIANTS: &[Variant] = &[
     },
     Variant {
         settings: &["afm.friction=coulomb"],
-        ..friction("coulomb", "Coulomb", "Coulomb friction with adhesive shear, as in CHK: the percentages might be its")
+        ..friction(
+            "coulomb",
+            "Coulomb",
+            "Coulomb friction with adhesive shear, as in CHK: the percentages might be its",
+        )
     },
     Variant {
         settings: &["afm.friction=hk"],
@@ -279,11 +277,7 @@ pub const VARIANTS: &[Variant] = &[
     },
     Variant {
         axis: Axis::Probe,
-        settings: held!(
-            "afm.fidelity=quasi-static",
-            "afm.elastic_modulus=102.87 GPa",
-            "afm.shear_modulus=40.5 GPa"
-        ),
+        settings: held!("afm.fidelity=quasi-static", "afm.elastic_modulus=102.87 GPa", "afm.shear_modulus=40.5 GPa"),
         base_samples: MANY,
         ..fidelity(
             "lg-probe",
