@@ -1,6 +1,6 @@
 //! The readings as charts.
 
-use super::catalogue::{BASE, SMALL_SAMPLES, symbol};
+use super::catalogue::{BASE, BOTH, SMALL_SAMPLES, symbol};
 use super::nearest::{ALIKE, Joint, distinct, joint};
 use super::{Effect, Estimators, Readings, SmallSample};
 use crate::model::AfmOutput;
@@ -24,10 +24,7 @@ pub fn distance_chart(readings: &Readings) -> Chart {
         name: joint.name(),
         bars: joint.of_groups.iter().map(|reading| reading.distance).enumerate().map(bar).collect(),
         interval: None,
-        note: match joint.alike.len() {
-            0 => format!("mean {}", fixed(joint.mean, 1)),
-            alike => format!("mean {}; {alike} more alike", fixed(joint.mean, 1)),
-        },
+        note: note(joint),
     };
     Chart::Ranges(RangeBars {
         title: "How far each reading is from the printed percentages".to_owned(),
@@ -38,6 +35,17 @@ pub fn distance_chart(readings: &Readings) -> Chart {
         interval_label: String::new(),
         rows: drawn.iter().map(row).collect(),
     })
+}
+
+/// The mean distance, and for how many others the row stands.
+fn note(joint: &Joint<'_>) -> String {
+    let mean = fixed(joint.mean, 1);
+    let error = joint.mean_error().filter(|error| *error >= 0.05);
+    let error = error.map_or_else(String::new, |error| format!(" ± {}", fixed(error, 1)));
+    match joint.alike.len() {
+        0 => format!("mean {mean}{error}"),
+        alike => format!("mean {mean}{error}; {alike} more alike"),
+    }
 }
 
 fn caption(all: usize, distinct: &[Joint<'_>], drawn: &[Joint<'_>]) -> String {
@@ -84,8 +92,8 @@ pub fn small_sample_chart(readings: &Readings) -> Chart {
         title: "What chance makes of the percentages of small samples".to_owned(),
         caption: format!(
             "Medians and the middle 95 % of {repetitions} repetitions with N random base points under LuGre friction, \
-             estimators of Saltelli (2010) and Jansen (1999): the printed percentages lie within reach of chance where \
-             the dashed line runs through a band."
+             estimators of Saltelli (2010) and Jansen (1999): where the dashed line runs through a band, chance could have \
+             made that one percentage; how often it makes all of a group stands above each panel."
         ),
         x: Axis { label: "base samples N".into(), unit: String::new(), spacing: Spacing::Logarithmic },
         panels: panels.collect(),
@@ -100,7 +108,6 @@ fn panel(group: &str, samples: &[&SmallSample]) -> LinePanel {
         (Effect::FirstOrder, AfmOutput::CriticalForce),
         (Effect::Total, AfmOutput::CriticalForce),
         (Effect::FirstOrder, AfmOutput::LogCriticalForce),
-        (Effect::Total, AfmOutput::LogCriticalForce),
     ];
     let line = |(number, (effect, output)): (usize, (Effect, AfmOutput))| {
         let of_kind = samples.iter().filter(|sample| (sample.effect, sample.output) == (effect, output));
@@ -127,9 +134,20 @@ fn panel(group: &str, samples: &[&SmallSample]) -> LinePanel {
         band: Vec::new(),
     });
     LinePanel {
-        title: format!("{group}: {} {value} % printed", letter(factor)),
+        title: format!("{group}: {} {value} % printed{}", letter(factor), all_met(samples)),
         y: Axis { label: format!("share of {}", letter(factor)), unit: "%".into(), ..Axis::default() },
         series,
         markers: Vec::new(),
     }
+}
+
+/// How often all printed percentages of the group are met to 3 points, at most, for each output.
+fn all_met(samples: &[&SmallSample]) -> String {
+    let most = |output: AfmOutput| {
+        let of_output = samples.iter().filter(|sample| sample.output == output);
+        let share = of_output.map(|sample| sample.within_3.share).max_by(f64::total_cmp)?;
+        Some(format!("{} % ({})", fixed(100.0 * share, 1), symbol(output)))
+    };
+    let most: Vec<String> = BOTH.into_iter().filter_map(most).collect();
+    if most.is_empty() { String::new() } else { format!("; all met to 3 points in at most {}", most.join(", ")) }
 }

@@ -24,6 +24,7 @@ use thiserror::Error;
 
 pub use catalogue::{Axis, Effect, Variant};
 pub use charts::{distance_chart, small_sample_chart};
+use distance::distance_error;
 pub use distance::{distance, printed_rest};
 pub use small_samples::{Chance, Estimators, SmallSample, SmallSampleFactor};
 pub use summary::{chances, headline, summary};
@@ -74,6 +75,9 @@ pub struct Reading {
     pub shares: Vec<Share>,
     /// From the printed percentages, in percentage points: see [`distance()`].
     pub distance: f64,
+    /// How far off the distance is at most while every share lies in its interval; `None` for shares without intervals,
+    /// which are exact to less than 0.01.
+    pub distance_error: Option<f64>,
     /// Model runs.
     pub runs: u64,
     /// Those without a value.
@@ -151,12 +155,21 @@ pub fn readings(
     threads: usize,
     on_progress: &(dyn Fn(&str, f64) + Sync),
 ) -> Result<Readings, ReadingsError> {
+    compute((VARIANTS, &SMALL_SAMPLE_VARIANTS), (effort, threads), on_progress)
+}
+
+/// The readings of some variants, and the small samples of others.
+fn compute(
+    (variants, small): (&'static [Variant], &[&'static str]),
+    (effort, threads): (Effort, usize),
+    on_progress: &(dyn Fn(&str, f64) + Sync),
+) -> Result<Readings, ReadingsError> {
     let start = Instant::now();
     // The small samples take about a third of the time.
-    let steps = VARIANTS.len() * 3 / 2;
-    let part = |done: usize| done as f64 / steps as f64;
+    let steps = variants.len() * 3 / 2;
+    let part = |done: usize| done as f64 / steps.max(1) as f64;
     let mut rows = Vec::new();
-    for (number, variant) in VARIANTS.iter().enumerate() {
+    for (number, variant) in variants.iter().enumerate() {
         on_progress(variant.name, part(number));
         let of_groups: Vec<Vec<Reading>> =
             GROUPS.iter().map(|group| of_variant(variant, (group.key, effort), threads)).collect::<Result<_, _>>()?;
@@ -170,17 +183,16 @@ pub fn readings(
         .build()
         .map_err(|source| RunError::Threads { threads: threads_in_force(threads), source })?;
     let mut small_samples = Vec::new();
-    let count = SMALL_SAMPLE_VARIANTS.len() * GROUPS.len();
-    for (number, id) in SMALL_SAMPLE_VARIANTS.into_iter().enumerate() {
-        let Some(variant) = variant(id) else { continue };
+    let count = small.len() * GROUPS.len();
+    for (number, variant) in small.iter().filter_map(|id| variant(id)).enumerate() {
         for (group_number, group) in GROUPS.iter().enumerate() {
             let done = (number * GROUPS.len() + group_number) as f64 / count as f64;
-            on_progress("small samples", part(VARIANTS.len()) + (1.0 - part(VARIANTS.len())) * done);
+            on_progress("small samples", part(variants.len()) + (1.0 - part(variants.len())) * done);
             let study = study(variant, group.key, &[])?;
-            small_samples.extend(small_samples::of_study(&study, (id, group.key), (effort, &pool))?);
+            small_samples.extend(small_samples::of_study(&study, (variant.id, group.key), (effort, &pool))?);
         }
     }
-    on_progress("done", 1.0);
+    on_progress("readings", 1.0);
     let wall_seconds = start.elapsed().as_secs_f64();
     Ok(Readings { rows, small_samples, threads: threads_in_force(threads), wall_seconds })
 }
@@ -224,6 +236,7 @@ fn of_variant(
                 effect,
                 output,
                 distance: distance(group, shares.iter().map(|share| (share.factor.as_str(), share.share))),
+                distance_error: distance_error(group, &shares),
                 shares,
                 runs,
                 runs_failed,

@@ -25,6 +25,12 @@ impl Joint<'_> {
         self.of_groups.first().map_or_else(String::new, |reading| name(reading))
     }
 
+    /// How far off the mean distance is at most while every share lies in its interval; `None` for shares without.
+    pub fn mean_error(&self) -> Option<f64> {
+        let errors: Vec<f64> = self.of_groups.iter().map(|reading| reading.distance_error).collect::<Option<_>>()?;
+        Some(errors.iter().sum::<f64>() / errors.len() as f64)
+    }
+
     /// The largest distance of any group.
     pub fn largest(&self) -> f64 {
         self.of_groups.iter().map(|reading| reading.distance).fold(0.0, f64::max)

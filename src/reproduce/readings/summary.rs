@@ -1,6 +1,6 @@
 //! What the readings say, in sentences made from the numbers.
 
-use super::catalogue::{BASE, variant};
+use super::catalogue::{BASE, BOTH, SMALL_SAMPLES, symbol, variant};
 use super::nearest::{Joint, joint, name};
 use super::{Chance, Effect, Estimators, Reading, Readings, SmallSample};
 use crate::model::AfmOutput;
@@ -94,7 +94,7 @@ fn environment(readings: &Readings) -> Option<String> {
     const GROUP: &str = "environmental";
     let of_group = || readings.rows.iter().filter(|reading| reading.group == GROUP);
     let velocity = |reading: &Reading| reading.shares.iter().find(|s| s.factor == "velocity").map(|s| s.share);
-    let of_base = of_group().filter(|reading| reading.variant == BASE).filter_map(velocity).fold(0.0, f64::max);
+    let of_base = of_group().filter(|reading| reading.variant == BASE).filter_map(velocity).max_by(f64::total_cmp)?;
     let mut meeting: Vec<&str> = of_group()
         .filter(|reading| reading.distance <= MEETS)
         .map(|reading| variant(reading.variant).map_or(reading.variant, |variant| variant.name))
@@ -150,37 +150,42 @@ fn contradiction(readings: &Readings) -> Option<String> {
     ))
 }
 
-/// How probable the printed percentages are in small samples, at most: a sentence for each group, variant and output.
+/// How probable the printed percentages are in small samples, at most: a sentence for each group and variant.
 pub fn chances(readings: &Readings) -> Vec<String> {
     GROUPS.iter().flat_map(|group| chances_of(readings, group.key)).collect()
 }
 
 fn chances_of(readings: &Readings, group: &str) -> Vec<String> {
-    let mut kinds: Vec<(&str, AfmOutput)> = Vec::new();
-    for sample in readings.small_samples.iter().filter(|sample| sample.group == group) {
-        if !kinds.contains(&(sample.variant, sample.output)) {
-            kinds.push((sample.variant, sample.output));
-        }
-    }
-    let sentence = |(id, output): &(&str, AfmOutput)| {
-        let of_kind = |sample: &&SmallSample| (sample.group, sample.variant, sample.output) == (group, *id, *output);
-        let most = |chance: fn(&SmallSample) -> Chance| {
-            readings.small_samples.iter().filter(of_kind).max_by_key(|sample| chance(sample).count)
-        };
-        let (one, three) = (most(|sample| sample.within_1)?, most(|sample| sample.within_3)?);
+    let mut variants: Vec<&str> = readings.small_samples.iter().map(|sample| sample.variant).collect();
+    variants.dedup();
+    variants.iter().filter_map(|id| chance_sentence(readings, (group, id))).collect()
+}
+
+fn chance_sentence(readings: &Readings, (group, id): (&str, &str)) -> Option<String> {
+    let of_output = |output: AfmOutput| {
+        let samples =
+            || readings.small_samples.iter().filter(|s| (s.group, s.variant, s.output) == (group, id, output));
+        let one = samples().max_by_key(|sample| sample.within_1.count)?;
+        let three = samples().max_by_key(|sample| sample.within_3.count)?;
         Some(format!(
-            "{}, {}, {}: of {} random samples at most {} meet all printed percentages to 1 point{}, {} to 3 points{}.",
-            capitalised(group),
-            variant(id).map_or(*id, |variant| variant.name),
-            super::catalogue::symbol(*output),
-            one.repetitions,
+            "of {} to 1 point in {}{}, to 3 points in {}{}",
+            symbol(output),
             in_percent(one.within_1),
             circumstances(one, one.within_1),
             in_percent(three.within_3),
             circumstances(three, three.within_3)
         ))
     };
-    kinds.iter().filter_map(sentence).collect()
+    let outputs: Vec<String> = BOTH.into_iter().filter_map(of_output).collect();
+    let repetitions = readings.small_samples.first()?.repetitions;
+    Some(format!(
+        "Chance, {group} study, {}: over {repetitions} samples of {} to {} random base points each, all printed percentages \
+         are met at most: {}.",
+        variant(id).map_or(id, |variant| variant.name),
+        SMALL_SAMPLES.first()?,
+        SMALL_SAMPLES.last()?,
+        outputs.join("; ")
+    ))
 }
 
 fn in_percent(chance: Chance) -> String {

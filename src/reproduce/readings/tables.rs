@@ -9,7 +9,7 @@ use super::small_samples::QUANTILES;
 /// distances in percent, empty where there is none.
 pub fn readings_csv(readings: &Readings) -> String {
     let mut text = String::from(
-        "group,reading,axis,settings,effect,output,factor,share,share_low,share_high,published,distance,model_runs,runs_failed\n",
+        "group,reading,axis,settings,effect,output,factor,share,share_low,share_high,published,distance,distance_error,model_runs,runs_failed\n",
     );
     for reading in &readings.rows {
         let settings = reading.settings.join("; ");
@@ -28,6 +28,7 @@ pub fn readings_csv(readings: &Readings) -> String {
                 cell(share.interval.map(|interval| interval.1)),
                 cell(share.published),
                 reading.distance.to_string(),
+                cell(reading.distance_error),
                 reading.runs.to_string(),
                 reading.runs_failed.to_string(),
             ];
