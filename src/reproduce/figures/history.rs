@@ -181,7 +181,7 @@ fn with_printed(story: &SceneStory, printed: &SceneStory) -> LineChart {
 }
 
 fn positions_csv(story: &SceneStory, printed: &SceneStory) -> String {
-    let both = [("E/(2(1+nu))".to_owned(), story), ("40.5 GPa".to_owned(), printed)];
+    let both = [("E/(2(1+nu))".to_owned(), story), (format!("{} GPa", PRINTED_SHEAR_MODULUS / 1e9), printed)];
     stacked("shear_modulus", &both, &[SUBSTRATE, PARTICLE, RELATIVE, BASE])
 }
 
