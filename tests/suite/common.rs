@@ -1,5 +1,6 @@
 //! What several test files share.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
@@ -19,6 +20,24 @@ pub fn stderr(output: &Output) -> String {
 /// Standard output of a program run as text.
 pub fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+/// A path as text.
+pub fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// What a run of the program printed that ends well.
+#[track_caller]
+pub fn succeed(arguments: &[&str]) -> String {
+    let output = apportion(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+    stdout(&output)
+}
+
+/// Names of the files in a folder.
+pub fn files(folder: &Path) -> BTreeSet<String> {
+    std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
 /// A study of this repository.

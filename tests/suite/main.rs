@@ -15,5 +15,7 @@ mod known;
 mod metamorphic;
 mod page;
 mod points;
+mod reproduce;
+mod scenes;
 mod screening;
 mod workflows;
