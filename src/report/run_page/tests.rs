@@ -26,9 +26,16 @@ fn the_leading_factor_stands_at_the_top() {
     assert!(page.lead[0].starts_with("x2 matters most for y"), "{}", page.lead[0]);
     assert!(page.lead[0].contains("No interactions are seen"), "{}", page.lead[0]);
     assert!(page.lead[1].starts_with("After 1280 model runs"), "{}", page.lead[1]);
-    let expected =
-        ["Shares", "Indices", "Interactions", "How the indices settled", "Distribution of the output", "Cost"];
-    assert_eq!(titles(&page)[..6], expected);
+    let expected = [
+        "Shares",
+        "Indices",
+        "Interactions",
+        "How the indices settled",
+        "Distribution of the output",
+        "The output against its factors",
+        "Cost",
+    ];
+    assert_eq!(titles(&page)[..7], expected);
     let html = page.html().unwrap();
     assert!(html.contains("href=\"small.svg\"") && !html.contains("href=\"small.png\""));
 }
