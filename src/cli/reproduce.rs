@@ -1,13 +1,13 @@
 //! `apportion reproduce`: the papers' figures and claims, on one page.
 
 use std::path::PathBuf;
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 
 use anyhow::anyhow;
 use apportion::report::prepare_folder;
 use apportion::reproduce::{Effort, Event, ReproduceError, Request, Topic, in_words, reproduce as run, write_all};
 
-use super::progress::Meter;
+use super::progress::{Meter, PartMeter};
 use super::{DesignChanges, Failure, Threads, print, say};
 
 #[derive(clap::Args)]
@@ -76,6 +76,7 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
 #[derive(Default)]
 struct Meters {
     study: Mutex<Option<Meter>>,
+    part: OnceLock<PartMeter>,
 }
 
 impl Meters {
@@ -87,7 +88,9 @@ impl Meters {
             }
             Event::StudyGoesOn(progress) => current.iter().for_each(|meter| meter.update(*progress)),
             Event::StudyEnds { runs, seconds } => current.iter().for_each(|meter| meter.finish(*runs, *seconds)),
-            Event::Part { name, share } => say(&format!("{name}: {:.0} %", 100.0 * share)),
+            Event::Readings { name, share } => {
+                self.part.get_or_init(|| PartMeter::new("readings")).update(name, *share)
+            }
         }
     }
 }

@@ -76,9 +76,9 @@ pub enum Event<'a> {
         /// Seconds.
         seconds: f64,
     },
-    /// So much of another part is done, from 0 to 1.
-    Part {
-        /// What it is about.
+    /// So much of the readings is done, from 0 to 1.
+    Readings {
+        /// What comes next.
         name: &'a str,
         /// How much is done.
         share: f64,
@@ -117,7 +117,7 @@ pub fn reproduce(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Re
     }
     let mut read = None;
     if asked(Topic::Readings) {
-        read = Some(readings(effort, threads, &|name, share| on_event(Event::Part { name, share }))?);
+        read = Some(readings(effort, threads, &|name, share| on_event(Event::Readings { name, share }))?);
         lap("readings");
     }
     Ok(Reproduction { effort, studies, figures: drawn, animation: moving, claims: answered, readings: read, seconds })
