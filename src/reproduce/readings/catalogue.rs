@@ -181,7 +181,7 @@ pub const VARIANTS: &[Variant] = &[
         settings: &["afm.viscous_friction=0.3 N s/m"],
         ..friction(
             "lugre-viscous",
-            "LuGre, viscous",
+            "viscous LuGre",
             "LuGre friction with a viscous coefficient of 0.3 N s/m instead of 1e-7: the size at which velocity acts \
              beside the elastic modulus, as LG prints it",
         )
@@ -190,7 +190,7 @@ pub const VARIANTS: &[Variant] = &[
         settings: &["afm.lugre_parameters=contact"],
         ..friction(
             "lugre-contact",
-            "LuGre of the contact",
+            "contact LuGre",
             "LuGre friction whose bristles have the stiffness of the contact instead of the frozen one: modulus and \
              adhesion would act through them if they could",
         )

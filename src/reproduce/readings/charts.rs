@@ -51,7 +51,7 @@ fn note(joint: &Joint<'_>) -> String {
 fn caption(all: usize, distinct: &[Joint<'_>], drawn: &[Joint<'_>]) -> String {
     let seen = drawn.first().map_or_else(String::new, |nearest| {
         format!(
-            "The nearest reading, {}, is still up to {} percentage points away",
+            "The reading nearest on the mean, {}, is still {} percentage points away in one group",
             nearest.name(),
             fixed(nearest.largest(), 1)
         )
@@ -93,7 +93,8 @@ pub fn small_sample_chart(readings: &Readings) -> Chart {
         caption: format!(
             "Medians and the middle 95 % of {repetitions} repetitions with N random base points under LuGre friction, \
              estimators of Saltelli (2010) and Jansen (1999): where the dashed line runs through a band, chance could have \
-             made that one percentage; how often it makes all of a group stands above each panel."
+             made that one percentage; above each panel stands how often, at the size and index where it is most frequent, it \
+             makes all of the group."
         ),
         x: Axis { label: "base samples N".into(), unit: String::new(), spacing: Spacing::Logarithmic },
         panels: panels.collect(),

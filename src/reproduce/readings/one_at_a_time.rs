@@ -11,8 +11,8 @@ use crate::sum::{centred_product, mean};
 /// smooth function is then good to about 1e-6.
 const VALUES: usize = 1024;
 
-/// The ends of the unit interval, as far as distributions go.
-const ENDS: [f64; 2] = [f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0];
+/// The ends of the unit interval, as far as distributions go: 2^-64 and 1 - 2^-53.
+const ENDS: [f64; 2] = [f64::EPSILON / 4096.0, 1.0 - f64::EPSILON / 2.0];
 
 /// The percentages of the factors of `study` in its output number `output` by variance or by range alone, and the model
 /// runs that took; `None` if no factor by itself moves the output.
@@ -24,10 +24,10 @@ pub(super) fn shares(
     let model = study.model();
     let factors = study.space.factors();
     let mut sizes = Vec::with_capacity(factors.len());
-    for number in 0..factors.len() {
+    for (number, factor) in factors.iter().enumerate() {
         let values = curve(study, model.as_ref(), number).map_err(|reason| ReadingsError::NoValue {
             group,
-            factor: factors[number].name.clone(),
+            factor: factor.name.clone(),
             reason,
         })?;
         let y = &values[output];
@@ -43,7 +43,6 @@ pub(super) fn shares(
         });
     }
     let runs = (factors.len() * (VALUES + ENDS.len())) as u64;
-    // Relative to the largest: variances of forces are as small as 1e-13 N2 and less.
     let percents = estimate::shares(&sizes);
     let with_names = |percents: Vec<f64>| {
         let share = |(factor, share): (&crate::space::Factor, f64)| Share {

@@ -2,7 +2,7 @@
 
 use super::catalogue::{BASE, BOTH, SMALL_SAMPLES, symbol, variant};
 use super::nearest::{Joint, joint, name};
-use super::{Chance, Effect, Estimators, Reading, Readings, SmallSample};
+use super::{Chance, Effect, Estimators, Reading, Readings, SmallSample, Variant};
 use crate::model::AfmOutput;
 use crate::report::fixed;
 use crate::reproduce::{GROUPS, published};
@@ -95,19 +95,30 @@ fn environment(readings: &Readings) -> Option<String> {
     let of_group = || readings.rows.iter().filter(|reading| reading.group == GROUP);
     let velocity = |reading: &Reading| reading.shares.iter().find(|s| s.factor == "velocity").map(|s| s.share);
     let of_base = of_group().filter(|reading| reading.variant == BASE).filter_map(velocity).max_by(f64::total_cmp)?;
-    let mut meeting: Vec<&str> = of_group()
-        .filter(|reading| reading.distance <= MEETS)
-        .map(|reading| variant(reading.variant).map_or(reading.variant, |variant| variant.name))
-        .collect();
-    meeting.dedup();
-    let meeting = if meeting.is_empty() { "no reading".to_owned() } else { meeting.join(", ") };
+    let met_by: Vec<&Variant> =
+        of_group().filter(|reading| reading.distance <= MEETS).filter_map(|reading| variant(reading.variant)).collect();
+    let mut names: Vec<&str> = met_by.iter().map(|variant| variant.name).collect();
+    names.dedup();
+    let printed = published(GROUP, "lugre").shares.iter().find(|(factor, _)| *factor == "velocity")?.1;
     // The least that is printed as 1 %.
     let of_base = if of_base < 0.5 { "less than 0.5".to_owned() } else { fixed(of_base, 1) };
+    let met = match names[..] {
+        [] => format!("no reading meets the printed {printed} % to {MEETS} points"),
+        _ => format!("the printed {printed} % is met to {MEETS} points by: {}", names.join(", ")),
+    };
+    let unprinted = ["afm.viscous_friction", "afm.step"];
+    let is_assumed = |setting: &&str| unprinted.iter().any(|key| setting.starts_with(key));
+    let assumed = !met_by.is_empty() && met_by.iter().all(|variant| variant.settings.iter().any(is_assumed));
+    let caution = match assumed {
+        true => {
+            "; each rests on a number that is not printed (a viscous coefficient, a time step) and shows what could make \
+             the percentages, not what did"
+        }
+        false => "",
+    };
     Some(format!(
-        "With the printed constants and no error of marching, velocity has {of_base} % of the environmental study; the \
-         printed {} % is met to {MEETS} points by {meeting}, which rests on a number that is not printed (a viscous \
-         coefficient, a time step): it shows what could make the percentages, not what did.",
-        published(GROUP, "lugre").shares.iter().find(|(factor, _)| *factor == "velocity")?.1
+        "With the printed constants and no error of marching, velocity has {of_base} % of the environmental study; \
+         {met}{caution}."
     ))
 }
 
