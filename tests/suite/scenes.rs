@@ -1,6 +1,6 @@
 //! The nanoparticle model through the program: scenes in time, and every choice of its physics.
 
-use crate::common::{apportion, stderr, study_path, succeed, text};
+use crate::common::{apportion, files, stderr, study_path, succeed, text};
 
 #[test]
 fn simulate_tells_a_scene_from_sticking_to_slipping() {

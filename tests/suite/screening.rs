@@ -1,28 +1,12 @@
 //! Screenings and sweeps through the program: files, formats, bad input.
 
-use std::collections::BTreeSet;
 use std::path::Path;
 
 use apportion::report::screening::{ScreeningFile, screening_json};
 use apportion::report::sweep::{SweepFile, sweep_json};
 use apportion::screening::Reading;
 
-use crate::common::{apportion, stderr, stdout, study_path};
-
-fn text(path: &Path) -> &str {
-    path.to_str().unwrap()
-}
-
-#[track_caller]
-fn succeed(arguments: &[&str]) -> String {
-    let output = apportion(arguments);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
-    stdout(&output)
-}
-
-fn files(folder: &Path) -> BTreeSet<String> {
-    std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
-}
+use crate::common::{apportion, files, stderr, study_path, succeed, text};
 
 fn read(folder: &Path, name: &str) -> String {
     std::fs::read_to_string(folder.join(name)).unwrap()

@@ -1,6 +1,5 @@
 //! What a user does, through the program: run, evaluate, check, models.
 
-use std::collections::BTreeSet;
 use std::path::Path;
 
 use apportion::report::ResultFile;
