@@ -1,8 +1,8 @@
 //! Bad input through the program: each has its clear error, the place of the fault, and exit code 2.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use crate::common::{apportion, stderr, study_path};
+use crate::common::{apportion, stderr, study_path, text};
 
 /// A study that is right, to be spoilt line by line.
 const GOOD: &str = r#"outputs = ["critical_force"]
@@ -38,10 +38,6 @@ impl Folder {
         std::fs::write(&path, content).unwrap();
         path
     }
-}
-
-fn text(path: &Path) -> &str {
-    path.to_str().unwrap()
 }
 
 /// Runs `check` on a spoilt study and expects exit code 2 with every one of `expected` in the message.

@@ -1,10 +1,10 @@
 //! `apportion given-data` through the program.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use apportion::report::given::GivenFile;
 
-use crate::common::{apportion, stderr, stdout};
+use crate::common::{apportion, stderr, stdout, text};
 use crate::points::{Columns, random, saltelli, sobol};
 
 /// A table of the columns and of their linear combination 3, 2, 1, ... as `y`.
@@ -51,10 +51,6 @@ impl Run {
         assert_eq!(self.output.status.code(), Some(0), "{}", stderr(&self.output));
         serde_json::from_slice(&std::fs::read(self.out().join("table.json")).unwrap()).unwrap()
     }
-}
-
-fn text(path: &Path) -> &str {
-    path.to_str().unwrap()
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Screenings and sweeps through the program: files, formats, bad input.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use apportion::report::screening::{ScreeningFile, screening_json};
