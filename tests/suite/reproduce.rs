@@ -101,6 +101,9 @@ fn the_whole_is_the_same_on_any_number_of_threads_and_its_page_leads_nowhere_els
         // The framed animation has links of its own, escaped.
         assert!(!file || one.path().join(target).is_file(), "{target}");
     }
+    // Links inside the frame start from the page too.
+    let linked = page.matches("ts04-14-animation.csv").count();
+    assert!(linked >= 2 && page.matches("figures/ts04-14-animation.csv").count() == linked);
     assert!(!page.contains("src=\"http") && !page.contains("url(http") && !page.contains("@import"));
     for expected in ["Which factor matters most", "Are the papers right?", "CHK fig. 16", "LG fig. 4c", "TS04 fig. 13"]
     {

@@ -83,7 +83,9 @@ fn figures_section(reproduction: &Reproduction, (prefix, id, title): (&str, &str
     for figure in &figures {
         parts.push(Part::Figure(Box::new(page_figure(figure))));
         if let Some(animation) = reproduction.animation.as_ref().filter(|_| figure.stem == "ts04-14") {
-            let html = animation.html.clone();
+            // A frame's links start from this page, one folder above the animation's own.
+            let own = format!("href=\"{ANIMATION_STEM}");
+            let html = animation.html.replace(&own, &format!("href=\"figures/{ANIMATION_STEM}"));
             parts.push(Part::Frame { title: "TS04 fig. 14 as an animation".to_owned(), html });
             let file = |ending: &str| format!("figures/{ANIMATION_STEM}.{ending}");
             parts.push(Part::Links(vec![
