@@ -3,7 +3,7 @@
 use super::order::{Agreement, Standing, VISIBLE, order_of, outweighing};
 use super::published::CLOSE;
 use super::{GROUPS, Published, Reproduced, published};
-use crate::report::{EffectRecord, IndexRecord, estimate, fixed, share, share_of_runs, table};
+use crate::report::{EffectRecord, IndexRecord, capitalised, estimate, fixed, share, share_of_runs, table};
 
 /// The table that `reproduce` prints: for each group of studies the shares of every factor under every friction model,
 /// then the order of the factors, ours and the published one, and whether they agree.
@@ -185,10 +185,4 @@ pub fn shares_csv<'a>(studies: impl IntoIterator<Item = &'a Reproduced>) -> Stri
         }
     }
     text
-}
-
-/// With a capital at the beginning.
-pub(super) fn capitalised(word: &str) -> String {
-    let mut letters = word.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -4,6 +4,7 @@ use super::super::asked::{sentence, the};
 use super::super::chart::{
     Axis, Bar, Chart, GroupedBars, Guide, Panel, Role, ScatterChart, ScatterPoint, ScatterSeries, Series,
 };
+use super::super::language::listed;
 use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 use super::super::shares_chart::label;
 use super::{headline, no_indices};
@@ -132,15 +133,15 @@ fn interactions_caption(result: &ResultFile, output: &OutputRecord, drawn: usize
     let words = ["almost only alone", "partly alone, partly together with others", "mostly together with others"];
     let said = kinds.iter().zip(words).filter(|(names, _)| !names.is_empty());
     let act = |(names, how): (&Vec<&str>, &str)| {
-        format!("{} {} {how}", listed(names), if names.len() == 1 { "acts" } else { "act" })
+        format!("{} {} {how}", named(names), if names.len() == 1 { "acts" } else { "act" })
     };
     let mut said: Vec<String> = said.map(act).collect();
     match (idle.len(), said.is_empty()) {
         (0, _) => (),
         (_, true) => said.push(format!("no factor has a total index above {threshold}")),
-        (1, _) => said.push(format!("{} has a total index of at most {threshold}", listed(&idle))),
+        (1, _) => said.push(format!("{} has a total index of at most {threshold}", named(&idle))),
         (many, _) if many > MOST_NAMES => said.push(format!("{many} others have a total index of at most {threshold}")),
-        _ => said.push(format!("{} have a total index of at most {threshold}", listed(&idle))),
+        _ => said.push(format!("{} have a total index of at most {threshold}", named(&idle))),
     }
     let text = said.join("; ");
     // A symbol at the beginning keeps its letter.
@@ -150,13 +151,11 @@ fn interactions_caption(result: &ResultFile, output: &OutputRecord, drawn: usize
 }
 
 /// Factors as words; their number, if they are many.
-fn listed(names: &[&str]) -> String {
-    let (words, many) = (names.iter().map(|name| label(name)).collect::<Vec<_>>(), names.len());
-    match &words[..] {
-        _ if many > MOST_NAMES => format!("{many} factors"),
-        [only] => the(only),
-        [all @ .., last] => format!("{} and {last}", all.join(", ")),
-        [] => String::new(),
+fn named(names: &[&str]) -> String {
+    match names {
+        _ if names.len() > MOST_NAMES => format!("{} factors", names.len()),
+        [only] => the(&label(only)),
+        _ => listed(&names.iter().map(|name| label(name)).collect::<Vec<_>>()),
     }
 }
 

@@ -1,9 +1,9 @@
 //! What a hurried reader should take along: which factor matters most, how sure that is, and what to mind.
 
 use super::trend::width_after_doubling;
-use super::words::{capital, count, first, grouped, half_width, index, list, name, percent, the};
+use super::words::{capital, count, first, grouped, half_width, index, name, percent, the};
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
-use crate::report::share_of_runs;
+use crate::report::{listed, share_of_runs};
 
 /// Outputs with a paragraph of their own at the top.
 const OUTPUTS: usize = 6;
@@ -80,7 +80,7 @@ fn others(result: &ResultFile, order: &[&IndexRecord]) -> String {
     };
     let next: Vec<String> = order[1..].iter().take(2).map(next).collect();
     let verb = if next.len() == 1 { "comes" } else { "come" };
-    let mut sentence = format!("Next {verb} {}", list(&next));
+    let mut sentence = format!("Next {verb} {}", listed(&next));
     let above = |index: &&IndexRecord| index.effect.probability_above_threshold;
     let chances: Vec<f64> = order.iter().filter_map(above).collect();
     if order.len() > 3 && chances.len() == order.len() {

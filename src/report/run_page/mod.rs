@@ -14,6 +14,7 @@ pub use beside::output_stem;
 use figures::{Figures, Numbered};
 use output::Topic;
 
+use super::listed;
 use super::page::{Page, Part, Section};
 use super::result::{AggregateRecord, ResultFile};
 
@@ -80,7 +81,7 @@ fn section(id: &str, title: &str, parts: Vec<Part>) -> Section {
 /// The indices over all outputs together, or why there are none.
 fn together(aggregate: &AggregateRecord) -> Vec<Part> {
     let outputs: Vec<String> = aggregate.outputs.iter().map(|output| words::name(output)).collect();
-    let mut parts = vec![Part::Text(format!("Of {}: {}.", words::list(&outputs), aggregate.weighting))];
+    let mut parts = vec![Part::Text(format!("Of {}: {}.", listed(&outputs), aggregate.weighting))];
     match (&aggregate.indices, &aggregate.reason) {
         (Some(indices), _) => parts.push(tables::aggregate(indices)),
         (None, Some(reason)) => parts.push(Part::Text(format!("There are no such indices: {reason}."))),

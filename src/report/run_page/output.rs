@@ -4,7 +4,8 @@ use super::figures::{Figures, Numbered};
 use super::lead::{by_total, widest};
 use super::tables;
 use super::trend::width_after_doubling;
-use super::words::{capital, count, first, grouped, half_width, index, list, name, the};
+use super::words::{capital, count, first, grouped, half_width, index, name, the};
+use crate::report::listed;
 use crate::report::page::{Mark, Part};
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 
@@ -124,7 +125,7 @@ fn below_zero(output: &OutputRecord) -> Option<String> {
     if more > 0 {
         names.push(format!("{more} more"));
     }
-    let mut text = format!("{} {} below 0, which no index can be: ", list(&names), if one { "is" } else { "are" });
+    let mut text = format!("{} {} below 0, which no index can be: ", listed(&names), if one { "is" } else { "are" });
     text.push_str(match (outside, unknown) {
         (0, 0) if one => "0 is within the interval, so the index is 0 to within its error.",
         (0, 0) => "0 is within the intervals, so these indices are 0 to within their errors.",

@@ -121,15 +121,6 @@ fn minus(text: String) -> String {
     plain
 }
 
-/// A list as people say it: `a, b and c`.
-pub(super) fn list(items: &[String]) -> String {
-    match items {
-        [] => String::new(),
-        [one] => one.clone(),
-        [most @ .., last] => format!("{} and {last}", most.join(", ")),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -158,6 +149,5 @@ mod tests {
         assert_eq!(give_or_take(estimate(-4e-5, 5e-5, 14e-5)), "0.0001 ± 0.0001");
         assert_eq!(give_or_take(estimate(0.4, 0.5, 0.52)), "0.5000 [0.4000, 0.5200]");
         assert_eq!(half_width(0.012_345), "0.012");
-        assert_eq!(list(&["a", "b", "c"].map(str::to_owned)), "a, b and c");
     }
 }

@@ -78,15 +78,6 @@ pub(super) fn crossing(points: &[(f64, f64)], level: f64) -> Option<f64> {
     })
 }
 
-/// "a", "a and b", "a, b and c".
-pub(super) fn list(parts: &[String]) -> String {
-    match parts {
-        [] => String::new(),
-        [one] => one.clone(),
-        [rest @ .., last] => format!("{} and {last}", rest.join(", ")),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -114,6 +105,5 @@ mod tests {
     fn crossings_and_lists() {
         assert_eq!(crossing(&[(0.0, 1.0), (2.0, 3.0)], 2.0), Some(1.0));
         assert_eq!(crossing(&[(0.0, 1.0), (1.0, f64::NAN), (2.0, 3.0)], 2.0), None);
-        assert_eq!(list(&["a".into(), "b".into(), "c".into()]), "a, b and c");
     }
 }

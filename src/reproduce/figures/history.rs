@@ -1,10 +1,10 @@
 //! The scene in time: CHK figure 5 and the histories of TS04.
 
-use super::curve::list;
 use super::table::Table;
 use super::{FiguresError, PaperFigure};
 use crate::afm::{Failure, FrictionLaw, Options, Scene};
 use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use crate::report::listed;
 use crate::report::scene::charts::{contacts, forces, positions, pushing};
 use crate::report::scene::words::{force, length, time};
 use crate::report::scene::{SceneSample, SceneStory};
@@ -218,7 +218,7 @@ fn coefficients() -> Result<PaperFigure, FiguresError> {
         theirs: "A higher coefficient of friction delays the slip.",
         chart: Chart::Lines(LineChart {
             title: "Effect of the coefficient of friction".to_owned(),
-            caption: format!("{seen}: after {}.", list(&slips)),
+            caption: format!("{seen}: after {}.", listed(&slips)),
             x: axis("Time", "s"),
             panels: vec![
                 panel(axis("Tip force F_T", "nN"), TIP_FORCE.1),

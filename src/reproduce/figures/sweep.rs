@@ -2,14 +2,14 @@
 
 use rayon::prelude::*;
 
-use super::curve::{Curve, crossing, list};
+use super::curve::{Curve, crossing};
 use super::sweep_list::{Line, SWEEPS, SweepFigure, Variant};
 use super::table::Table;
 use super::{FiguresError, PaperFigure, edge};
 use crate::afm::{Fidelity, Options, Parameter, critical_force};
 use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Stroke};
 use crate::report::scene::words::short;
-use crate::reproduce::compare::capitalised;
+use crate::report::{capitalised, listed};
 use crate::reproduce::{Effort, STUDIES};
 use crate::space::{Factor, Space};
 use crate::study::Study;
@@ -157,7 +157,7 @@ impl Swept<'_> {
         let mut text = format!(
             "From {from} to {to}{unit} of {}, the critical force {}",
             self.parameter.description,
-            list(&courses)
+            listed(&courses)
         );
         if let [one, other, ..] = lines
             && self.figure.lines[0].law != self.figure.lines[1].law

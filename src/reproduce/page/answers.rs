@@ -2,11 +2,9 @@
 
 use super::cells::{plain, strong};
 use crate::report::page::{Cell, OnPhone, PageTable, Part};
-use crate::report::{EffectRecord, IndexRecord, IntervalRecord, fixed, share_of_runs};
+use crate::report::{EffectRecord, IndexRecord, IntervalRecord, fixed, listed, share_of_runs};
+use crate::reproduce::order::VISIBLE;
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup};
-
-/// A factor with a smaller total share is not named in an order: in whole percents, as the papers print, it would be 0.
-const VISIBLE: f64 = 0.5;
 
 /// The factors of a study, the largest total share first.
 fn ranked(study: &Reproduced) -> Vec<(&IndexRecord, f64)> {
@@ -131,15 +129,6 @@ fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
         ),
         false => format!("{among}, it is {}.", listed(&said)),
     })
-}
-
-/// `a`, `a and b`, `a, b and c`.
-pub(super) fn listed(words: &[String]) -> String {
-    match words {
-        [] => String::new(),
-        [one] => one.clone(),
-        [rest @ .., last] => format!("{} and {last}", rest.join(", ")),
-    }
 }
 
 /// Every share of every study beside the published one, for the table of all shares.

@@ -76,6 +76,6 @@ pub(super) fn sentence(claims: &[Claim]) -> String {
         "The papers make {} claims, some of two parts; of {} answers {}.",
         claims.last().map_or(0, |claim| claim.number),
         claims.len(),
-        super::answers::listed(&said)
+        crate::report::listed(&said)
     )
 }

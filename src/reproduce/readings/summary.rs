@@ -4,7 +4,7 @@ use super::catalogue::{BASE, BOTH, SMALL_SAMPLES, symbol, variant};
 use super::nearest::{Joint, joint, name};
 use super::{Chance, Effect, Estimators, Reading, Readings, SmallSample, Variant};
 use crate::model::AfmOutput;
-use crate::report::fixed;
+use crate::report::{capitalised, fixed};
 use crate::reproduce::{GROUPS, published};
 
 /// Percentage points within which a reading meets a group: three times the rounding of the printed numbers.
@@ -214,9 +214,4 @@ fn circumstances(sample: &SmallSample, chance: Chance) -> String {
         0 => String::new(),
         _ => format!(" ({} at N = {}, {estimators})", sample.effect.symbol(), sample.base_samples),
     }
-}
-
-fn capitalised(word: &str) -> String {
-    let mut letters = word.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
