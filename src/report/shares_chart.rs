@@ -1,5 +1,6 @@
 //! The chart of percentages: first-order and total shares of every factor, studies side by side.
 
+use super::asked::the;
 use super::chart::{Bar, Chart, GroupedBars, Panel, Role, Series};
 use super::result::{EffectRecord, IntervalRecord, OutputRecord, ResultFile};
 
@@ -63,17 +64,17 @@ pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
 
 /// What is seen, in one sentence.
 fn caption(output: &OutputRecord) -> String {
-    let name = output.name.replace('_', " ");
+    let name = the(&output.name);
     let largest =
         output.indices.iter().flatten().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate));
     match (largest, &output.reason) {
         (Some(index), _) => format!(
-            "Of all factors, {} has the largest total effect on the {name}: its total index is {:.3}.",
+            "Of all factors, {} has the largest total effect on {name}: its total index is {:.3}.",
             label(&index.factor),
             index.effect.total.estimate
         ),
-        (None, Some(reason)) => format!("No shares of the {name}: {reason}."),
-        (None, None) => format!("No shares of the {name}."),
+        (None, Some(reason)) => format!("No shares of {name}: {reason}."),
+        (None, None) => format!("No shares of {name}."),
     }
 }
 

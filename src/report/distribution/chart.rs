@@ -1,6 +1,7 @@
 //! Histogram and density of an output in one picture.
 
 use super::OutputDistribution;
+use crate::report::asked::the;
 use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
 use crate::report::significant;
 
@@ -103,13 +104,14 @@ fn short(x: f64) -> String {
 fn caption(distribution: &OutputDistribution, output: &str, symbol: &str) -> String {
     let unit = if symbol.is_empty() { String::new() } else { format!(" {symbol}") };
     let n = distribution.count;
+    let output = the(output);
     let (Some(histogram), Some(low), Some(high)) =
         (&distribution.histogram, distribution.quantile(2.5), distribution.quantile(97.5))
     else {
-        return format!("All {n} values of the {output} are {}{unit}.", significant(distribution.mean));
+        return format!("All {n} values of {output} are {}{unit}.", significant(distribution.mean));
     };
     let mut caption = format!(
-        "95 % of the {n} values of the {output} lie between {} and {}{unit}, the mean is {}{unit}",
+        "95 % of the {n} values of {output} lie between {} and {}{unit}, the mean is {}{unit}",
         short(low),
         short(high),
         short(distribution.mean)
