@@ -121,8 +121,9 @@ fn rolling(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             share.words()
         ),
         setting: format!(
-            "Tip force of constant F_Z and rising F_Y, each motion from where its drive first exceeds its resistance; Coulomb friction, JKR; rolling resisted at either contact by \
-             4 F_ad (a/a0)^1.5 xi with xi = {}; box of the general study, {} points.",
+            "Tip force of constant F_Z and rising F_Y, each motion from where its drive first exceeds its resistance; \
+             Coulomb friction, JKR; rolling resisted at either contact by 4 F_ad (a/a0)^1.5 xi with xi = {}; box of the \
+             general study, {} points.",
             nano(pushing.constants.rolling_shift, "m"),
             share.points
         ),
