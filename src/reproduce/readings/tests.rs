@@ -231,7 +231,7 @@ fn tables_and_charts(readings: &Readings) {
     for chart in [distance_chart(readings), small_sample_chart(readings)] {
         assert!(png(&chart.svg().unwrap()).unwrap().width > 0);
     }
-    let summary = summary(readings).join("\n");
+    let summary = [summary(readings), chances(readings)].concat().join("\n");
     for words in ["Dimensional: of 16 readings", "No reading meets all three groups", "82.5 %", "Chance, general study"]
     {
         assert!(summary.contains(words), "{words}: {summary}");
