@@ -35,6 +35,20 @@ fn the_orders_of_the_papers_come_out_or_do_not() {
     );
     assert_eq!(count("no total share of ours reaches 0.5 % for velocity"), 6, "{table}");
     assert!(table.contains("thickness 76 % (ours "), "{table}");
+    // What the README says of the verdicts is what they are.
+    let mut claims = csv::Reader::from_path(folder.path().join("claims.csv")).unwrap();
+    let verdicts: Vec<String> = claims.records().map(|record| record.unwrap()[3].to_owned()).collect();
+    let count = |verdict: &str| verdicts.iter().filter(|word| *word == verdict).count();
+    let said = format!(
+        "Of {} answers to their 20 claims, {} are reproduced, {} partly, {} not reproduced, and {} are",
+        verdicts.len(),
+        count("reproduced"),
+        count("partly"),
+        count("not reproduced"),
+        count("contradicts")
+    );
+    let readme = include_str!("../../README.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(readme.contains(&said), "{said}");
 }
 
 /// Intervals that overlap decide nothing: only what is the other way round is called so.

@@ -98,7 +98,22 @@ fn leader(study: &Reproduced) -> Cell {
 /// A paragraph for the top of the page: who leads in each group of studies.
 pub(super) fn paragraph(studies: &[Reproduced]) -> Option<String> {
     let sentences: Vec<String> = [2, 0, 1].iter().filter_map(|&place| sentence(studies, GROUPS[place])).collect();
-    (!sentences.is_empty()).then(|| sentences.join(" "))
+    (!sentences.is_empty()).then(|| format!("{}{}", sentences.join(" "), sureness(studies)))
+}
+
+/// How sure it is that the leaders lead, as far as the error of sampling goes.
+fn sureness(studies: &[Reproduced]) -> String {
+    let probability = |study: &Reproduced| ranked(study).first().and_then(|(index, _)| index.effect.probability_first);
+    match studies.iter().map(probability).collect::<Option<Vec<f64>>>() {
+        Some(all) if all.iter().all(|p| *p > 0.999) => {
+            format!(" Each of these {} leads is certain to more than 99.9 %, as far as sampling goes.", all.len())
+        }
+        Some(all) => {
+            let least = all.iter().copied().fold(1.0, f64::min);
+            format!(" The least certain of these leads has a probability of {} %.", fixed(100.0 * least, 1))
+        }
+        None => String::new(),
+    }
 }
 
 fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
