@@ -32,11 +32,16 @@ pub(crate) fn length(metres: f64) -> String {
     format!("{} nm", short(metres * 1e9))
 }
 
-/// A change as a part, said in percent with its sign; `None` if it is not finite.
-pub(crate) fn change(part: f64) -> Option<String> {
-    let percent = short(100.0 * part);
+/// A change as a part, said in percent with its sign; its direction alone where it is too small to be read; `None` if it is
+/// not finite.
+pub(super) fn change(part: f64) -> Option<String> {
+    const LEAST: f64 = 1e-3;
+    let percent = 100.0 * part;
+    if percent != 0.0 && percent.abs() < LEAST {
+        return Some(format!("less than {LEAST} % ({})", if percent > 0.0 { "up" } else { "down" }));
+    }
     let sign = if part > 0.0 { "+" } else { "" };
-    part.is_finite().then(|| format!("{sign}{percent} %"))
+    part.is_finite().then(|| format!("{sign}{} %", short(percent)))
 }
 
 #[cfg(test)]
@@ -63,6 +68,7 @@ mod tests {
         assert_eq!(force(631.2e-9), "631 nN");
         assert_eq!(change(0.0123).as_deref(), Some("+1.23 %"));
         assert_eq!(change(-0.5).as_deref(), Some("\u{2212}50.0 %"));
+        assert_eq!(change(-5e-7).as_deref(), Some("less than 0.001 % (down)"));
         assert_eq!(change(f64::NAN), None);
     }
 }
