@@ -150,6 +150,24 @@ pub enum Problem {
         /// What is wrong.
         source: DistributionError,
     },
+    /// A nominal value that the distribution does not have.
+    #[error("factor `{factor}`: its nominal value is {found}, which is not one of its values")]
+    NotAValue {
+        /// The factor's name.
+        factor: String,
+        /// The nominal value.
+        found: String,
+        /// The values.
+        values: String,
+    },
+    /// A file of measured values that cannot be read.
+    #[error("{place}: {reason}")]
+    Measured {
+        /// The file, with the line where there is one.
+        place: String,
+        /// What is wrong.
+        reason: String,
+    },
     /// A text that is no unit or quantity.
     #[error(transparent)]
     Unit(#[from] UnitError),
@@ -230,6 +248,10 @@ impl Problem {
             Self::NoOutputs => Some("name at least one output, or leave `outputs` out".to_owned()),
             Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => {
                 Some(format!("it takes {takes}"))
+            }
+            Self::NotAValue { values, .. } => Some(format!("it takes {values}")),
+            Self::Measured { .. } => {
+                Some("the file is a table in CSV, or one number a line; its path is relative to the study".to_owned())
             }
             Self::UnitOfOwn { .. } => Some("remove the unit, or give the distribution too".to_owned()),
             Self::MissingUnit { example, .. } | Self::WrongUnit { example, .. } => Some(format!("write {example}")),

@@ -71,7 +71,7 @@ pub(super) struct FactorSection {
     pub distribution: Option<At<String>>,
     pub unit: Option<At<String>>,
     pub group: Option<At<String>>,
-    pub nominal: Option<At<f64>>,
+    pub nominal: Option<At<Nominal>>,
     pub min: Option<At<f64>>,
     pub max: Option<At<f64>>,
     pub mean: Option<At<f64>>,
@@ -84,9 +84,31 @@ pub(super) struct FactorSection {
     pub shape: Option<At<f64>>,
     pub scale: Option<At<f64>>,
     pub location: Option<At<f64>>,
+    pub p01: Option<At<f64>>,
+    pub p05: Option<At<f64>>,
+    pub p10: Option<At<f64>>,
+    pub p25: Option<At<f64>>,
+    pub p50: Option<At<f64>>,
+    pub p75: Option<At<f64>>,
+    pub p90: Option<At<f64>>,
+    pub p95: Option<At<f64>>,
+    pub p99: Option<At<f64>>,
+    pub probability: Option<At<f64>>,
     pub value: Option<At<f64>>,
     pub values: Option<At<Vec<f64>>>,
     pub weights: Option<At<Vec<f64>>>,
+    pub labels: Option<At<Vec<String>>>,
+    pub file: Option<At<String>>,
+    pub column: Option<At<String>>,
+}
+
+/// Where a factor stands when it does not vary: a number, a category, or true or false.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+pub(super) enum Nominal {
+    Truth(bool),
+    Number(f64),
+    Label(String),
 }
 
 impl StudyFile {

@@ -8,6 +8,8 @@ mod distribution;
 mod error;
 mod file;
 mod function;
+mod measured;
+mod nominal;
 mod options;
 mod overrides;
 mod resolve;

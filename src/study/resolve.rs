@@ -7,7 +7,7 @@ use super::error::{Diagnostic, Problem, nearest};
 use super::file::{At, Choices, DesignSection, FactorSection, StudyFile};
 use super::options::{self, AnalysisOptions, Stopping};
 use super::subject::{AfmSubject, KnownSubject, Subject};
-use super::{Study, constants, distribution, function};
+use super::{Study, constants, distribution, function, nominal};
 use crate::design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler};
 use crate::model::{AfmOutput, Input, ModelKind, known_inputs};
 use crate::quantity::Unit;
@@ -232,16 +232,20 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
         }
     }
     let nominal = match &fields.nominal {
-        Some(nominal) if !in_domain(*nominal.get_ref()) || !nominal.get_ref().is_finite() => {
-            let value = with_unit(*nominal.get_ref(), unit.symbol());
-            return Err(outside(nominal.span(), format!("its nominal value is {value}")));
-        }
-        Some(nominal) => *nominal.get_ref(),
         None => default_nominal(input, &unit, &distribution),
+        Some(typed) => {
+            let value = nominal::value(&input.name, &distribution, typed.get_ref())
+                .map_err(|problem| context.fault(typed.span(), problem))?;
+            if !in_domain(value) || !value.is_finite() {
+                return Err(outside(typed.span(), format!("its nominal value is {}", with_unit(value, unit.symbol()))));
+            }
+            value
+        }
     };
     let mut factor = made(input, unit, distribution).map_err(|problem| context.fault(place, problem))?;
     factor.nominal = nominal;
     factor.group = fields.group.as_ref().map(|group| group.get_ref().clone());
+    factor.determined = distribution::is_determined(fields);
     Ok(factor)
 }
 
@@ -269,11 +273,12 @@ pub(super) fn with_unit(value: f64, unit: &str) -> String {
     if matches!(unit, "" | "1") { value.to_string() } else { format!("{value} {unit}") }
 }
 
-/// The model's own nominal value, or the median where that lies outside the distribution's range.
+/// The model's own nominal value, or the middle of the distribution where that is none of its values.
 fn default_nominal(input: &Input, unit: &Unit, distribution: &Distribution) -> f64 {
     let (low, high) = distribution.support();
     let nominal = unit.from_si(input.unit.to_si(input.nominal));
-    if low <= nominal && nominal <= high { nominal } else { distribution.quantile(0.5) }
+    let fits = low <= nominal && nominal <= high && nominal::is_value(distribution, nominal);
+    if fits { nominal } else { distribution.central() }
 }
 
 fn unit(context: &Context<'_>, fields: &FactorSection, input: &Input) -> Result<Unit, Fault> {
