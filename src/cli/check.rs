@@ -46,7 +46,10 @@ fn subject(study: &Study) -> String {
     }
     text.push_str(&format!("\nmodel {}: {}\n", study.subject.kind().name(), study.subject.kind().description()));
     for (name, value) in study.settings() {
-        text.push_str(&format!("  {name} = {}\n", shortened(&value)));
+        match value.as_object() {
+            Some(table) => table.iter().for_each(|(key, value)| text.push_str(&format!("  {name}.{key} = {value}\n"))),
+            None => text.push_str(&format!("  {name} = {}\n", shortened(&value))),
+        }
     }
     let model = study.model();
     let outputs: Vec<String> = model.outputs().iter().map(|o| format!("{} [{}]", o.name, o.unit)).collect();

@@ -20,12 +20,22 @@ pub(super) struct StudyFile {
     pub outputs: Option<At<Vec<At<String>>>>,
     pub afm: Option<At<Choices>>,
     pub function: Option<At<Choices>>,
+    pub expression: Option<At<ExpressionSection>>,
     #[serde(default)]
     pub design: DesignSection,
     #[serde(default)]
     pub analysis: AnalysisSection,
     #[serde(default)]
     pub factor: Vec<At<FactorSection>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ExpressionSection {
+    #[serde(default)]
+    pub outputs: Choices,
+    #[serde(default)]
+    pub constants: Choices,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -113,6 +123,6 @@ pub(super) enum Nominal {
 
 impl StudyFile {
     /// The keys it can have.
-    pub(super) const KEYS: [&str; 9] =
-        ["name", "title", "model", "outputs", "afm", "function", "design", "analysis", "factor"];
+    pub(super) const KEYS: [&str; 10] =
+        ["name", "title", "model", "outputs", "afm", "function", "expression", "design", "analysis", "factor"];
 }

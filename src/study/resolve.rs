@@ -7,7 +7,7 @@ use super::error::{Diagnostic, Problem, nearest};
 use super::file::{At, Choices, DesignSection, FactorSection, StudyFile};
 use super::options::{self, AnalysisOptions, Stopping};
 use super::subject::{AfmSubject, KnownSubject, Subject};
-use super::{Study, constants, distribution, function, nominal};
+use super::{Study, constants, distribution, expression, function, nominal};
 use crate::design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler};
 use crate::model::{AfmOutput, Input, ModelKind, known_inputs};
 use crate::quantity::Unit;
@@ -34,17 +34,33 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
     let function = match kind {
-        ModelKind::Afm => None,
+        ModelKind::Afm | ModelKind::Expression => None,
         ModelKind::Known(answer) => Some(function::known(context, answer, file.function.as_ref())?),
     };
-    let inputs = function.as_ref().map_or_else(|| kind.inputs(), known_inputs);
-    let space = space(context, &inputs, &file.factor)?;
-    let outputs = outputs(context, kind, file.outputs.as_ref())?;
-    let subject = match function {
-        Some(function) => Subject::Known(KnownSubject { function }),
-        None => afm(context, file.afm.as_ref(), outputs, &space)?,
+    let inputs = match (&function, kind) {
+        (Some(function), _) => known_inputs(function),
+        (None, ModelKind::Expression) => expression::inputs(context, &file.factor)?,
+        (None, _) => kind.inputs(),
     };
-    let Plan { design, analysis, stopping, mut notes } = plan(context, &file, &space)?;
+    let space = space(context, &inputs, &file.factor)?;
+    let (subject, unused) = match function {
+        Some(function) => {
+            outputs(context, kind, file.outputs.as_ref())?;
+            (Subject::Known(KnownSubject { function }), Vec::new())
+        }
+        None if kind == ModelKind::Expression => {
+            let asked = file.outputs.as_ref();
+            let (formulas, notes) = expression::subject(context, file.expression.as_ref(), asked, &space)?;
+            (Subject::Expression(formulas), notes)
+        }
+        None => {
+            let outputs = outputs(context, kind, file.outputs.as_ref())?;
+            (afm(context, file.afm.as_ref(), outputs, &space)?, Vec::new())
+        }
+    };
+    let Plan { design, analysis, stopping, mut notes } =
+        plan(context, &file, &space, subject.model(&space).outputs().len())?;
+    notes.extend(unused);
     if let (Subject::Afm(afm), Some(table)) = (&subject, &file.afm) {
         notes.extend(constants::idle(table.get_ref(), &afm.options));
     }
@@ -122,15 +138,26 @@ fn name(context: &Context<'_>, name: Option<&At<String>>) -> Result<String, Faul
     Ok(name.get_ref().clone())
 }
 
-/// `[afm]` and `[function]` belong to one kind of model each.
+/// `[afm]`, `[function]` and `[expression]` belong to one kind of model each.
 fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyFile) -> Result<(), Fault> {
-    let (name, table) = match kind {
-        ModelKind::Afm => ("function", &file.function),
-        ModelKind::Known(_) => ("afm", &file.afm),
+    let own = match kind {
+        ModelKind::Afm => "afm",
+        ModelKind::Expression => "expression",
+        ModelKind::Known(_) => "function",
     };
-    let Some(table) = table else { return Ok(()) };
-    let expected = StudyFile::KEYS.into_iter().filter(|key| *key != name).map(str::to_owned).collect();
-    Err(context.fault(table.span(), Problem::UnknownKey { name: name.to_owned(), nearest: None, expected }))
+    let tables = [
+        ("afm", file.afm.as_ref().map(At::span)),
+        ("function", file.function.as_ref().map(At::span)),
+        ("expression", file.expression.as_ref().map(At::span)),
+    ];
+    let foreign = |name: &str| name != own && tables.iter().any(|(table, _)| *table == name);
+    let Some((name, span)) =
+        tables.iter().find_map(|(name, span)| Some((*name, span.clone().filter(|_| foreign(name))?)))
+    else {
+        return Ok(());
+    };
+    let expected = StudyFile::KEYS.into_iter().filter(|key| !foreign(key)).map(str::to_owned).collect();
+    Err(context.fault(span, Problem::UnknownKey { name: name.to_owned(), nearest: None, expected }))
 }
 
 fn afm(
@@ -308,7 +335,7 @@ struct Plan {
     notes: Vec<String>,
 }
 
-fn plan(context: &Context<'_>, file: &StudyFile, space: &Space) -> Result<Plan, Fault> {
+fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outputs: usize) -> Result<Plan, Fault> {
     let section = &file.design;
     let defaults = DesignSettings::default();
     let sampler = match &section.sampler {
@@ -357,7 +384,7 @@ fn plan(context: &Context<'_>, file: &StudyFile, space: &Space) -> Result<Plan, 
             design.settings().base_samples
         ));
     }
-    if analysis.aggregate && file.outputs.as_ref().is_none_or(|outputs| outputs.get_ref().len() < 2) {
+    if analysis.aggregate && outputs < 2 {
         notes.push("`aggregate` has no effect with a single output".to_owned());
     }
     Ok(Plan { design, analysis, stopping, notes })

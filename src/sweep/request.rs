@@ -280,6 +280,9 @@ fn in_unit(quantity: &Quantity, factor: &Factor) -> Result<f64, SweepError> {
 }
 
 fn example(factor: &Factor) -> String {
+    if let Some(labels) = factor.distribution().labels() {
+        return format!("\"{}={}\"", factor.name, labels.join(","));
+    }
     let (low, high) = range(factor.distribution());
     let unit = match factor.unit().symbol() {
         "" | "1" => String::new(),
