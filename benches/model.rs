@@ -1,4 +1,5 @@
-//! How many critical forces per second, under each friction law, on one thread, over the papers' box?
+//! How many critical forces per second, under each friction law, on one thread, over the papers' box? And how much
+//! slower is a function as a formula in the study file?
 
 use std::hint::black_box;
 
@@ -22,20 +23,17 @@ fn columns(study: &Study) -> Vec<Vec<f64>> {
     values
 }
 
-fn closed_form(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("closed-form");
+/// A group of studies, each by the runs of its model.
+fn group(criterion: &mut Criterion, title: &str, studies: &[(&str, &str)]) {
+    let mut group = criterion.benchmark_group(title);
     group.throughput(Throughput::Elements(ROWS as u64));
-    for (friction, text) in [
-        ("coulomb", include_str!("../studies/coulomb-general.toml")),
-        ("hk", include_str!("../studies/hk-general.toml")),
-        ("lugre", include_str!("../studies/lugre-general.toml")),
-    ] {
-        let study = Study::parse(text, friction.as_ref(), &[]).expect("a study of this repository");
+    for (name, text) in studies {
+        let study = Study::parse(text, name.as_ref(), &[]).expect("a study of this repository");
         let (model, columns) = (study.model(), columns(&study));
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let mut worker = model.worker();
         let mut batch = Batch::of(model.as_ref());
-        group.bench_function(friction, |bencher| {
+        group.bench_function(name, |bencher| {
             bencher.iter(|| {
                 batch.reset(ROWS);
                 worker.run(black_box(&inputs), &mut batch);
@@ -46,5 +44,22 @@ fn closed_form(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, closed_form);
+fn closed_form(criterion: &mut Criterion) {
+    let studies = [
+        ("coulomb", include_str!("../studies/coulomb-general.toml")),
+        ("hk", include_str!("../studies/hk-general.toml")),
+        ("lugre", include_str!("../studies/lugre-general.toml")),
+    ];
+    group(criterion, "closed-form", &studies);
+}
+
+fn ishigami(criterion: &mut Criterion) {
+    let built_in = include_str!("../studies/ishigami.toml");
+    let formula = "model = \"expression\"\n[expression]\nconstants = { a = 7, b = 0.1 }\n\
+                   outputs.y = \"sin(x1) + a*sin(x2)^2 + b*x3^4*sin(x1)\"\n";
+    let formula = built_in.replace("model = \"ishigami\"\n", formula);
+    group(criterion, "ishigami", &[("built-in", built_in), ("formula", &formula)]);
+}
+
+criterion_group!(benches, closed_form, ishigami);
 criterion_main!(benches);

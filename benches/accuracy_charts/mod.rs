@@ -52,6 +52,7 @@ fn samplers(all: &[Curve]) -> LineChart {
         Some(LineSeries { name, role, stroke, points: curve.points.clone(), band: Vec::new() })
     };
     LineChart {
+        names: Vec::new(),
         title: "Error of the indices by sampler".into(),
         caption: format!(
             "Root mean square error over the factors and {SEEDS} seeds against the number of base points. First order by \
@@ -85,6 +86,7 @@ fn estimators(all: &[Curve], index: &str) -> LineChart {
         shown.then(|| LineSeries { name: name.into(), role, stroke, points, band: Vec::new() })
     };
     LineChart {
+        names: Vec::new(),
         title: format!("Error of {index} indices on Sobol' points by estimator"),
         caption: format!(
             "Root mean square error over the factors and {SEEDS} seeds against the model runs of a study that asks for \

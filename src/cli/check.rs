@@ -7,6 +7,8 @@ use apportion::design::{Companions, Design, DesignSettings, Sampler};
 use apportion::estimate::{FirstOrder, Total};
 use apportion::report::{significant, table, with_unit};
 use apportion::run::{BLOCK, FailurePolicy, Job, run};
+use apportion::space::distribution::Parameter;
+use apportion::space::{Distribution, Factor};
 use apportion::study::{Stopping, Study};
 use apportion::uncertainty::IntervalMethod;
 
@@ -44,7 +46,10 @@ fn subject(study: &Study) -> String {
     }
     text.push_str(&format!("\nmodel {}: {}\n", study.subject.kind().name(), study.subject.kind().description()));
     for (name, value) in study.settings() {
-        text.push_str(&format!("  {name} = {}\n", shortened(&value)));
+        match value.as_object() {
+            Some(table) => table.iter().for_each(|(key, value)| text.push_str(&format!("  {name}.{key} = {value}\n"))),
+            None => text.push_str(&format!("  {name} = {}\n", shortened(&value))),
+        }
     }
     let model = study.model();
     let outputs: Vec<String> = model.outputs().iter().map(|o| format!("{} [{}]", o.name, o.unit)).collect();
@@ -78,23 +83,46 @@ fn factors(study: &Study) -> String {
         &["factor", "distribution", "mean", "sd", "5 %", "median", "95 %", "nominal", "unit", "group"],
         &[0, 1, 8, 9],
     );
+    let mut below = String::new();
     for factor in study.space.factors() {
         let law = factor.distribution();
-        let quantile = |u| significant(law.quantile(u));
+        // The numbers that stand for categories have no mean.
+        let quantile = |u| factor.in_words(law.quantile(u), significant);
+        let moment = |value| if law.name() == "categorical" { "-".to_owned() } else { significant(value) };
+        if let Distribution::Categorical(categories) = law {
+            let shares: Vec<String> = categories
+                .categories()
+                .map(|(label, _, share)| format!("{label} {} %", significant(100.0 * share)))
+                .collect();
+            below.push_str(&format!("{}: {}\n", factor.name, shares.join(", ")));
+        }
+        if factor.determined {
+            below.push_str(&format!("{}: {} with {}\n", factor.name, law.name(), parameters(factor)));
+        }
         table.add_row([
             factor.name.clone(),
             law.name().to_owned(),
-            significant(law.mean()),
-            significant(law.sd()),
+            moment(law.mean()),
+            moment(law.sd()),
             quantile(0.05),
             quantile(0.5),
             quantile(0.95),
-            significant(factor.nominal),
+            factor.in_words(factor.nominal, significant),
             factor.unit().to_string(),
             factor.group.clone().unwrap_or_default(),
         ]);
     }
-    format!("{table}\n")
+    format!("{table}\n{below}")
+}
+
+/// The parameters of a factor's distribution with all their digits.
+fn parameters(factor: &Factor) -> String {
+    let parameters = factor.distribution().parameters();
+    let words = parameters.iter().filter_map(|(name, value)| match value {
+        Parameter::Number(number) => Some(format!("{name} = {number}")),
+        _ => None,
+    });
+    words.collect::<Vec<_>>().join(", ")
 }
 
 fn design(study: &Study) -> Result<String, Failure> {

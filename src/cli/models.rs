@@ -2,7 +2,9 @@
 
 use apportion::design::Companions;
 use apportion::estimate::{Estimator, FirstOrder, Total};
-use apportion::model::{Basis, Exact, ExactIndices, Input, KnownAnswer, KnownFunction, ModelKind, known_inputs};
+use apportion::model::{
+    Basis, Exact, ExactIndices, Expression, Input, KnownAnswer, KnownFunction, ModelKind, known_inputs,
+};
 use apportion::report::{significant, table};
 use apportion::study::{Problem, nearest};
 
@@ -25,6 +27,7 @@ pub fn models(arguments: &Arguments) -> Result<(), Failure> {
     let kind = ModelKind::from_name(name).ok_or_else(|| unknown(name))?;
     print(&match kind {
         ModelKind::Afm => flagship(),
+        ModelKind::Expression => expression(),
         ModelKind::Known(answer) => function(answer),
     })
 }
@@ -86,9 +89,27 @@ fn unknown(name: &str) -> Failure {
 fn list() -> String {
     let mut models = table(&["model", "inputs", "what it is"], &[0, 2]);
     for kind in ModelKind::all() {
-        models.add_row([kind.name(), &kind.inputs().len().to_string(), kind.description()]);
+        let inputs = match kind {
+            ModelKind::Expression => "any".to_owned(),
+            _ => kind.inputs().len().to_string(),
+        };
+        models.add_row([kind.name(), &inputs, kind.description()]);
     }
     format!("{models}\n\n`apportion models NAME` shows one of them in full.\n")
+}
+
+fn expression() -> String {
+    let kind = ModelKind::Expression;
+    format!(
+        "{}: {}\n\n  model = \"expression\"\n\n  [expression]\n  outputs.y = \"sin(x1) + a*sin(x2)^2 + b*x3^4*sin(x1)\"\n  \
+         outputs.k = {{ formula = \"x1/x2\", unit = \"N/m\" }}\n  constants.a = 7\n  constants.b = \"0.1 um\"\n\n\
+         Factors are those of the study. Formulas have all values in SI units, and give theirs in SI units.\n\
+         Operators: + - * / ^, and < <= > >= == != (1 if it holds, else 0); -x^2 is -(x^2), 2^3^2 is 2^9.\n\
+         Functions and numbers: {}\n",
+        kind.name(),
+        kind.description(),
+        Expression::vocabulary().join(", ")
+    )
 }
 
 fn flagship() -> String {

@@ -50,6 +50,20 @@ pub enum PointsError {
         /// The cell.
         found: String,
     },
+    /// A cell that is no category of its factor.
+    #[error("line {line}: column {column} (`{name}`): expected one of {known}, not {found:?}")]
+    NoCategory {
+        /// Line of the file, from 1.
+        line: u64,
+        /// Number of the column, from 1.
+        column: usize,
+        /// Its header.
+        name: String,
+        /// The labels of the factor.
+        known: String,
+        /// The cell.
+        found: String,
+    },
     /// A line with too many or too few cells.
     #[error("line {line}: expected {expected} cells as in the header, not {found}")]
     WrongLength {
@@ -159,18 +173,29 @@ impl<R: Read> PointsReader<R> {
                 column.push(factor.nominal);
             }
             for (number, (cell, &factor)) in self.record.iter().zip(&self.columns).enumerate() {
-                columns[factor][row] = cell.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
-                    PointsError::NotANumber {
-                        line,
-                        column: number + 1,
-                        name: factors[factor].name.clone(),
-                        unit: factors[factor].unit().to_string(),
-                        found: cell.to_owned(),
+                columns[factor][row] = value_of(&factors[factor], cell).ok_or_else(|| {
+                    let (column, name, found) = (number + 1, factors[factor].name.clone(), cell.to_owned());
+                    match factors[factor].distribution().labels() {
+                        Some(labels) => PointsError::NoCategory { line, column, name, known: labels.join(", "), found },
+                        None => {
+                            let unit = factors[factor].unit().to_string();
+                            PointsError::NotANumber { line, column, name, unit, found }
+                        }
                     }
                 })?;
             }
         }
         Ok(rows)
+    }
+}
+
+/// The finite number in `cell`; of a factor of categories, the number of the label there, or the number of a label.
+fn value_of(factor: &Factor, cell: &str) -> Option<f64> {
+    let law = factor.distribution();
+    let number = || cell.parse().ok().filter(|value: &f64| value.is_finite());
+    match law.labels() {
+        Some(_) => law.value_of(cell).or_else(|| number().filter(|value| law.label(*value).is_some())),
+        None => number(),
     }
 }
 

@@ -12,6 +12,8 @@ use crate::space::Distribution;
 pub enum ModelKind {
     /// The critical pushing force of a nanoparticle: the default.
     Afm,
+    /// Formulas of the study's own factors.
+    Expression,
     /// A function with known indices.
     Known(KnownAnswer),
 }
@@ -38,13 +40,14 @@ pub struct Input {
 impl ModelKind {
     /// Every model, the default first.
     pub fn all() -> Vec<Self> {
-        std::iter::once(Self::Afm).chain(KnownAnswer::all().map(Self::Known)).collect()
+        [Self::Afm, Self::Expression].into_iter().chain(KnownAnswer::all().map(Self::Known)).collect()
     }
 
     /// The name in study files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Afm => "afm",
+            Self::Expression => "expression",
             Self::Known(function) => function.name(),
         }
     }
@@ -58,14 +61,17 @@ impl ModelKind {
     pub fn description(self) -> &'static str {
         match self {
             Self::Afm => "critical force with which an AFM tip pushes a nanoparticle over a substrate",
+            Self::Expression => "formulas in the study file, of factors of its own",
             Self::Known(function) => function.description(),
         }
     }
 
-    /// The inputs, the main ones first; of a function, those it has with its default parameters.
+    /// The inputs, the main ones first; of a function, those it has with its default parameters; none of formulas, whose
+    /// inputs are the factors of a study.
     pub fn inputs(self) -> Vec<Input> {
         match self {
             Self::Afm => Parameter::ALL.iter().map(afm_input).collect(),
+            Self::Expression => Vec::new(),
             Self::Known(answer) => known_inputs(&answer.default_function()),
         }
     }
@@ -90,14 +96,15 @@ impl ModelKind {
                 ("step (fixed-step)", vec!["a time, \"10 ms\""]),
                 ("step_budget (marched rungs)", vec!["a whole number, 1000000"]),
             ],
-            Self::Known(_) => Vec::new(),
+            Self::Expression | Self::Known(_) => Vec::new(),
         }
     }
 
-    /// The outputs, the default one first.
+    /// The outputs, the default one first; none of formulas, which a study names.
     pub fn outputs(self) -> Vec<Output> {
         match self {
             Self::Afm => AfmOutput::ALL.iter().map(|output| output.info()).collect(),
+            Self::Expression => Vec::new(),
             Self::Known(_) => vec![KnownModel::output()],
         }
     }

@@ -7,11 +7,13 @@
 mod afm;
 mod batch;
 mod catalogue;
+mod expression;
 mod known;
 
 pub use afm::{AfmModel, AfmOutput, edge_unit};
 pub use batch::{Batch, Effort, RowFailure};
 pub use catalogue::{Input, ModelKind, known_inputs};
+pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
 pub use known::{
     Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, KnownModel, MAX_INPUTS, ParameterError,
     ParameterInfo, ParameterValue, SecondOrder,

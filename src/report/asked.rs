@@ -104,6 +104,11 @@ pub(super) fn validity_lines(validity: &[ValidityRecord]) -> String {
         .collect()
 }
 
+/// A value of a factor, in its unit: a number, or the label of a category.
+pub(super) fn input_value(factor: &crate::space::Factor, value: f64) -> Value {
+    factor.distribution().label(value).map_or_else(|| Value::from(value), Value::from)
+}
+
 /// A name of the study as words.
 pub(super) fn words(name: &str) -> String {
     name.replace('_', " ")

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value};
 
+use super::asked::input_value;
 use super::build::FinishedRun;
 use super::distribution::OutputDistribution;
 use super::result::{
@@ -227,7 +228,7 @@ fn distribution_record(
 fn failure_record(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> FailureRecord {
     let first_row = tally.first.row(run.design);
     let values = row_inputs(run.study, run.design, tally.first);
-    let named = |(factor, value): (&crate::space::Factor, f64)| (factor.name.clone(), Value::from(value));
+    let named = |(factor, value): (&crate::space::Factor, f64)| (factor.name.clone(), input_value(factor, value));
     let first_inputs: Map<String, Value> = run.study.space.factors().iter().zip(values).map(named).collect();
     FailureRecord { reason: failure.to_string(), runs: tally.count, first_row, first_inputs }
 }

@@ -175,9 +175,8 @@ enum Slices<'a> {
 impl<'a> Slices<'a> {
     fn of(distribution: &'a Distribution) -> Self {
         let values = match distribution {
-            Distribution::Discrete(discrete) => discrete.levels().into_iter().map(|(value, _)| value).collect(),
             Distribution::Constant(_) => vec![distribution.median()],
-            _ => Vec::new(),
+            other => other.levels().unwrap_or_default().into_iter().map(|(value, _)| value).collect(),
         };
         if (1..=MOST_VALUES).contains(&values.len()) {
             return Self::Values(distribution, values);

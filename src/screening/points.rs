@@ -154,11 +154,11 @@ fn half_way_round(u: f64) -> f64 {
 
 impl Grid {
     fn of(factor: &Factor, design: ScreeningDesign) -> Self {
+        if let Some(levels) = factor.distribution().levels() {
+            let levels: Vec<f64> = levels.iter().map(|(_, u)| *u).collect();
+            return if levels.len() < 2 { Self::Continuous } else { Self::Levels(levels) };
+        }
         match (factor.distribution(), design) {
-            (Distribution::Discrete(discrete), _) => {
-                let levels: Vec<f64> = discrete.levels().iter().map(|(_, u)| *u).collect();
-                if levels.len() < 2 { Self::Continuous } else { Self::Levels(levels) }
-            }
             (Distribution::Constant(_), _) | (_, ScreeningDesign::Radial { .. }) => Self::Continuous,
             (distribution, ScreeningDesign::Trajectory { levels }) => {
                 let (low, high) = distribution.support();

@@ -17,6 +17,8 @@ pub struct Factor {
     pub nominal: f64,
     /// The group whose joint effect is asked for, if any.
     pub group: Option<String>,
+    /// Whether the parameters of its distribution were found from something else that is known of it.
+    pub determined: bool,
     unit: Unit,
     distribution: Distribution,
     /// The distribution in SI units, so that no value has to be converted during a run.
@@ -24,14 +26,14 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// A factor in no group that varies by `distribution`, in `unit`, around its median.
+    /// A factor in no group that varies by `distribution`, in `unit`, around its [`central`](Distribution::central) value.
     ///
     /// # Errors
     /// [`DistributionError`] if the distribution leaves the range of doubles when converted to SI units.
     pub fn new(name: &str, unit: Unit, distribution: Distribution) -> Result<Self, DistributionError> {
         let si = distribution.to_si(&unit)?;
-        let nominal = distribution.median();
-        Ok(Self { name: name.to_owned(), nominal, group: None, unit, distribution, si })
+        let nominal = distribution.central();
+        Ok(Self { name: name.to_owned(), nominal, group: None, determined: false, unit, distribution, si })
     }
 
     /// The unit of the distribution's parameters and of the nominal value.
@@ -42,6 +44,11 @@ impl Factor {
     /// How the factor varies, in its unit.
     pub fn distribution(&self) -> &Distribution {
         &self.distribution
+    }
+
+    /// `value`, which is in the factor's unit, as people read it: the label of a category, else the number by `number`.
+    pub fn in_words(&self, value: f64, number: impl Fn(f64) -> String) -> String {
+        self.distribution.label(value).map_or_else(|| number(value), str::to_owned)
     }
 
     /// Points of the unit interval to SI values, by the inverse of the distribution function. Both slices have one

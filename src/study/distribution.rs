@@ -4,53 +4,115 @@ use std::ops::Range;
 
 use super::error::{Problem, nearest};
 use super::file::{At, FactorSection};
+use super::measured;
 use super::resolve::{Context, Fault};
+use crate::space::distribution::{Law, Statistic};
 use crate::space::{Distribution, DistributionError};
 
 /// How each distribution is written, the default first.
-const LAWS: [Law; 12] = [
-    Law { name: "uniform", takes: "min, max" },
-    Law { name: "log-uniform", takes: "min, max" },
-    Law { name: "normal", takes: "mean, sd" },
-    Law { name: "truncated-normal", takes: "mean, sd (before truncation), min, max" },
-    Law { name: "log-normal", takes: "mean, sd of the factor itself, or log_mean, log_sd of its logarithm" },
-    Law { name: "triangular", takes: "min, mode, max" },
-    Law { name: "beta", takes: "alpha, beta, min, max" },
-    Law { name: "weibull", takes: "shape, scale, and location (default 0)" },
-    Law { name: "gumbel", takes: "location, scale" },
-    Law { name: "truncated-gumbel", takes: "location, scale (before truncation), min, max" },
-    Law { name: "discrete", takes: "values, and weights (default equal)" },
-    Law { name: "constant", takes: "value" },
+const FORMS: [Form; 16] = [
+    Form { name: "uniform", own: &["min", "max"], takes: Takes::Law(Law::Uniform) },
+    Form { name: "log-uniform", own: &["min", "max"], takes: Takes::Law(Law::LogUniform) },
+    Form { name: "normal", own: &["mean", "sd"], takes: Takes::Law(Law::Normal) },
+    Form { name: "truncated-normal", own: &["mean", "sd", "min", "max"], takes: Takes::Law(Law::TruncatedNormal) },
+    Form { name: "log-normal", own: &["mean", "sd"], takes: Takes::Law(Law::LogNormal) },
+    Form { name: "triangular", own: &["min", "mode", "max"], takes: Takes::Law(Law::Triangular) },
+    Form { name: "beta", own: &["alpha", "beta", "min", "max"], takes: Takes::Law(Law::Beta) },
+    Form { name: "weibull", own: &["shape", "scale", "location"], takes: Takes::Law(Law::Weibull) },
+    Form { name: "gumbel", own: &["location", "scale"], takes: Takes::Law(Law::Gumbel) },
+    Form {
+        name: "truncated-gumbel",
+        own: &["location", "scale", "min", "max"],
+        takes: Takes::Law(Law::TruncatedGumbel),
+    },
+    Form { name: "discrete", own: &[], takes: Takes::Keys("values, and weights (default equal)") },
+    Form { name: "integer", own: &[], takes: Takes::Keys("min and max, whole numbers, both included") },
+    Form { name: "boolean", own: &[], takes: Takes::Keys("probability of true (default 0.5)") },
+    Form {
+        name: "categorical",
+        own: &[],
+        takes: Takes::Keys(
+            "labels, weights (default equal) and values (what the model gets; default 0, 1, 2 and so on)",
+        ),
+    },
+    Form {
+        name: "empirical",
+        own: &[],
+        takes: Takes::Keys("values, or file, a table in CSV, and its column (where it has several)"),
+    },
+    Form { name: "constant", own: &[], takes: Takes::Keys("value") },
 ];
 
+/// One distribution in a study file.
 #[derive(Clone, Copy)]
-struct Law {
+struct Form {
     name: &'static str,
-    takes: &'static str,
+    /// The parameters by which it is computed; any other determination is solved for them.
+    own: &'static [&'static str],
+    takes: Takes,
+}
+
+#[derive(Clone, Copy)]
+enum Takes {
+    /// What determines the family.
+    Law(Law),
+    /// Keys in words.
+    Keys(&'static str),
+}
+
+impl Takes {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Law(law) => law.needs(),
+            Self::Keys(words) => words,
+        }
+    }
 }
 
 /// Whether a factor's table says nothing of its distribution.
 pub(super) fn is_unsaid(fields: &FactorSection) -> bool {
     fields.distribution.is_none()
         && numbers(fields).iter().all(|(_, value)| value.is_none())
-        && lists(fields).iter().all(|(_, value)| value.is_none())
+        && others(fields).into_iter().all(|(_, span)| span.is_none())
+}
+
+/// Whether a factor's distribution is given by something else than its own parameters.
+pub(super) fn is_determined(fields: &FactorSection) -> bool {
+    form(fields).is_some_and(|form| !statements(fields, form).is_empty())
+}
+
+fn form(fields: &FactorSection) -> Option<Form> {
+    let typed = fields.distribution.as_ref().map_or(FORMS[0].name, |name| name.get_ref());
+    FORMS.into_iter().find(|form| form.name == typed)
+}
+
+/// What is stated of a distribution, where that is more than its own parameters; else nothing.
+fn statements(fields: &FactorSection, form: Form) -> Vec<(&At<f64>, Statistic)> {
+    let Takes::Law(law) = form.takes else { return Vec::new() };
+    let given = || numbers(fields).into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?)));
+    let statistic = |key: &str| Statistic::ALL.into_iter().find(|statistic| statistic.name() == key);
+    let logs = law == Law::LogNormal && given().any(|(key, _)| key.starts_with("log_"));
+    let own: &[&str] = if logs { &["log_mean", "log_sd"] } else { form.own };
+    let stated = given().filter_map(|(key, value)| Some((value, statistic(key).filter(|s| law.takes(*s))?)));
+    let stated: Vec<(&At<f64>, Statistic)> = stated.collect();
+    if stated.iter().all(|(_, statistic)| own.contains(&statistic.name())) { Vec::new() } else { stated }
 }
 
 /// The distribution of a factor.
 pub(super) fn of(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distribution, Fault> {
     let fields = section.get_ref();
-    let typed = fields.distribution.as_ref().map_or(LAWS[0].name, |name| name.get_ref());
-    let Some(law) = LAWS.into_iter().find(|law| law.name == typed) else {
-        let span = fields.distribution.as_ref().map_or(0..0, At::span);
+    let Some(form) = form(fields) else {
+        let (typed, span) =
+            fields.distribution.as_ref().map_or(("", 0..0), |name| (name.get_ref().as_str(), name.span()));
         let problem = Problem::UnknownName {
             what: "distribution",
             name: typed.to_owned(),
-            nearest: nearest(typed, LAWS.iter().map(|law| law.name)),
-            expected: LAWS.iter().map(|law| law.name.to_owned()).collect(),
+            nearest: nearest(typed, FORMS.iter().map(|form| form.name)),
+            expected: FORMS.iter().map(|form| form.name.to_owned()).collect(),
         };
         return Err(context.fault(span, problem));
     };
-    let mut keys = Keys { context, fields, law, used: Vec::new() };
+    let mut keys = Keys { context, fields, form, used: Vec::new() };
     let made = keys.make()?;
     keys.refuse_others()?;
     made.map_err(|error| {
@@ -63,13 +125,16 @@ pub(super) fn of(context: &Context<'_>, section: &At<FactorSection>) -> Result<D
 struct Keys<'a> {
     context: &'a Context<'a>,
     fields: &'a FactorSection,
-    law: Law,
+    form: Form,
     used: Vec<(&'static str, Range<usize>)>,
 }
 
 impl Keys<'_> {
     fn make(&mut self) -> Result<Result<Distribution, DistributionError>, Fault> {
-        Ok(match self.law.name {
+        if let Some(statements) = self.statements() {
+            return statements;
+        }
+        Ok(match self.form.name {
             "uniform" => Distribution::uniform(self.number("min")?, self.number("max")?),
             "log-uniform" => Distribution::log_uniform(self.number("min")?, self.number("max")?),
             "normal" => Distribution::normal(self.number("mean")?, self.number("sd")?),
@@ -100,8 +165,40 @@ impl Keys<'_> {
                 let weights = if self.fields.weights.is_some() { Some(self.list("weights")?) } else { None };
                 Distribution::discrete(&values, weights.as_deref())
             }
+            "integer" => Distribution::integer(self.number("min")?, self.number("max")?),
+            "boolean" => {
+                Distribution::boolean(if self.fields.probability.is_some() { self.number("probability")? } else { 0.5 })
+            }
+            "categorical" => {
+                let labels = self.labels()?;
+                let values = if self.fields.values.is_some() { Some(self.list("values")?) } else { None };
+                let weights = if self.fields.weights.is_some() { Some(self.list("weights")?) } else { None };
+                Distribution::categorical(&labels, values.as_deref(), weights.as_deref())
+            }
+            "empirical" => match &self.fields.file {
+                Some(file) => {
+                    self.used.push(("file", file.span()));
+                    self.used.extend(self.fields.column.iter().map(|column| ("column", column.span())));
+                    let (values, source) = measured::read(self.context, file, self.fields.column.as_ref())?;
+                    Distribution::empirical(&values, Some(source))
+                }
+                None => Distribution::empirical(&self.list("values")?, None),
+            },
             _ => Distribution::constant(self.number("value")?),
         })
+    }
+
+    /// The distribution by what is stated of it, if that is more than its own parameters.
+    fn statements(&mut self) -> Option<Result<Result<Distribution, DistributionError>, Fault>> {
+        let Takes::Law(law) = self.form.takes else { return None };
+        let stated = statements(self.fields, self.form);
+        if stated.is_empty() {
+            return None;
+        }
+        self.used.extend(stated.iter().map(|(value, statistic)| (statistic.name(), value.span())));
+        let statements: Vec<(Statistic, f64)> =
+            stated.iter().map(|(value, statistic)| (*statistic, *value.get_ref())).collect();
+        Some(self.refuse_others().map(|()| Distribution::stated(law, &statements)))
     }
 
     fn number(&mut self, key: &'static str) -> Result<f64, Fault> {
@@ -119,8 +216,14 @@ impl Keys<'_> {
         Ok(value.get_ref().clone())
     }
 
+    fn labels(&mut self) -> Result<Vec<String>, Fault> {
+        let labels = self.fields.labels.as_ref().ok_or_else(|| self.missing("labels"))?;
+        self.used.push(("labels", labels.span()));
+        Ok(labels.get_ref().clone())
+    }
+
     fn missing(&self, parameter: &'static str) -> Fault {
-        let Law { name: distribution, takes } = self.law;
+        let (distribution, takes) = (self.form.name, self.form.takes.words());
         let factor = self.fields.name.get_ref().clone();
         let problem = Problem::MissingParameter { factor, distribution, parameter, takes };
         self.context.fault(self.fields.name.span(), problem)
@@ -129,11 +232,11 @@ impl Keys<'_> {
     /// A parameter that stands in the table but that the distribution does not have is a mistake, not a decoration.
     fn refuse_others(&self) -> Result<(), Fault> {
         let numbers = numbers(self.fields).into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?.span())));
-        let lists = lists(self.fields).into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?.span())));
-        match numbers.chain(lists).find(|(key, _)| self.used.iter().all(|(used, _)| used != key)) {
+        let others = others(self.fields).into_iter().filter_map(|(key, span)| Some((key, span?)));
+        match numbers.chain(others).find(|(key, _)| self.used.iter().all(|(used, _)| used != key)) {
             None => Ok(()),
             Some((parameter, span)) => {
-                let Law { name: distribution, takes } = self.law;
+                let (distribution, takes) = (self.form.name, self.form.takes.words());
                 let factor = self.fields.name.get_ref().clone();
                 Err(self.context.fault(span, Problem::ForeignParameter { factor, distribution, parameter, takes }))
             }
@@ -152,7 +255,15 @@ fn blamed_key(error: &DistributionError) -> Option<&'static str> {
     match error {
         DistributionError::NotFinite { parameter, .. }
         | DistributionError::NotPositive { parameter, .. }
-        | DistributionError::OutOfRange { parameter, .. } => Some(parameter),
+        | DistributionError::OutOfRange { parameter, .. }
+        | DistributionError::NotWhole { parameter, .. } => Some(parameter),
+        DistributionError::NotStated { statistic, .. } | DistributionError::StatedTwice { statistic } => {
+            Some(statistic)
+        }
+        DistributionError::NoSuchDistribution { first, .. } => Some(first),
+        DistributionError::Order { upper, .. } => Some(upper),
+        DistributionError::EmptyLabel { .. } | DistributionError::RepeatedLabel { .. } => Some("labels"),
+        DistributionError::Labels { .. } | DistributionError::RepeatedValue { .. } => Some("values"),
         DistributionError::Bounds { .. }
         | DistributionError::Truncation { .. }
         | DistributionError::GumbelTruncation { .. } => Some("min"),
@@ -162,11 +273,11 @@ fn blamed_key(error: &DistributionError) -> Option<&'static str> {
         DistributionError::Lengths { .. }
         | DistributionError::NegativeWeight { .. }
         | DistributionError::ZeroWeights => Some("weights"),
-        DistributionError::Overflow { .. } => None,
+        DistributionError::Overflow { .. } | DistributionError::Determined { .. } => None,
     }
 }
 
-type Numbers<'a> = [(&'static str, &'a Option<At<f64>>); 13];
+type Numbers<'a> = [(&'static str, &'a Option<At<f64>>); 23];
 
 fn numbers(fields: &FactorSection) -> Numbers<'_> {
     [
@@ -182,10 +293,31 @@ fn numbers(fields: &FactorSection) -> Numbers<'_> {
         ("shape", &fields.shape),
         ("scale", &fields.scale),
         ("location", &fields.location),
+        ("p01", &fields.p01),
+        ("p05", &fields.p05),
+        ("p10", &fields.p10),
+        ("p25", &fields.p25),
+        ("p50", &fields.p50),
+        ("p75", &fields.p75),
+        ("p90", &fields.p90),
+        ("p95", &fields.p95),
+        ("p99", &fields.p99),
+        ("probability", &fields.probability),
         ("value", &fields.value),
     ]
 }
 
 fn lists(fields: &FactorSection) -> [(&'static str, &Option<At<Vec<f64>>>); 2] {
     [("values", &fields.values), ("weights", &fields.weights)]
+}
+
+/// The places of the keys that are no numbers.
+fn others(fields: &FactorSection) -> [(&'static str, Option<Range<usize>>); 5] {
+    [
+        ("values", fields.values.as_ref().map(At::span)),
+        ("weights", fields.weights.as_ref().map(At::span)),
+        ("labels", fields.labels.as_ref().map(At::span)),
+        ("file", fields.file.as_ref().map(At::span)),
+        ("column", fields.column.as_ref().map(At::span)),
+    ]
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use crate::design::DesignError;
-use crate::model::ParameterError;
+use crate::model::{ExpressionError, ParameterError};
 use crate::quantity::UnitError;
 use crate::space::DistributionError;
 
@@ -115,6 +115,19 @@ pub enum Problem {
     /// The study has no factor.
     #[error("the study has no factor: there is nothing to vary")]
     NoFactors,
+    /// Formulas are the model, and there are none.
+    #[error("the study has no formula: model = \"expression\" needs a table [expression] with an output")]
+    NoFormulas,
+    /// A formula that cannot be read.
+    #[error("{source}{}", suggestion(.nearest))]
+    Expression {
+        /// What is wrong.
+        source: ExpressionError,
+        /// The nearest known name.
+        nearest: Option<String>,
+        /// All names that could stand here; empty where no name is wrong.
+        expected: String,
+    },
     /// The list of outputs is empty.
     #[error("`outputs` is empty: there is nothing to study")]
     NoOutputs,
@@ -149,6 +162,24 @@ pub enum Problem {
         factor: String,
         /// What is wrong.
         source: DistributionError,
+    },
+    /// A nominal value that the distribution does not have.
+    #[error("factor `{factor}`: its nominal value is {found}, which is not one of its values")]
+    NotAValue {
+        /// The factor's name.
+        factor: String,
+        /// The nominal value.
+        found: String,
+        /// The values.
+        values: String,
+    },
+    /// A file of measured values that cannot be read.
+    #[error("{place}: {reason}")]
+    Measured {
+        /// The file, with the line where there is one.
+        place: String,
+        /// What is wrong.
+        reason: String,
     },
     /// A text that is no unit or quantity.
     #[error(transparent)]
@@ -227,9 +258,15 @@ impl Problem {
             Self::UnfitInterval { serving, .. } => Some(format!("these do: {serving}")),
             Self::CannotGrow => Some("sampler = \"sobol\" and \"random\" can grow".to_owned()),
             Self::NoFactors => Some("add one or more [[factor]] tables with name, min, max and unit".to_owned()),
+            Self::NoFormulas => Some("write, for instance: [expression], then outputs.y = \"x1 + 2*x2\"".to_owned()),
+            Self::Expression { expected, .. } => Some(expected.clone()).filter(|known| !known.is_empty()),
             Self::NoOutputs => Some("name at least one output, or leave `outputs` out".to_owned()),
             Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => {
                 Some(format!("it takes {takes}"))
+            }
+            Self::NotAValue { values, .. } => Some(format!("it takes {values}")),
+            Self::Measured { .. } => {
+                Some("the file is a table in CSV, or one number a line; its path is relative to the study".to_owned())
             }
             Self::UnitOfOwn { .. } => Some("remove the unit, or give the distribution too".to_owned()),
             Self::MissingUnit { example, .. } | Self::WrongUnit { example, .. } => Some(format!("write {example}")),

@@ -20,12 +20,22 @@ pub(super) struct StudyFile {
     pub outputs: Option<At<Vec<At<String>>>>,
     pub afm: Option<At<Choices>>,
     pub function: Option<At<Choices>>,
+    pub expression: Option<At<ExpressionSection>>,
     #[serde(default)]
     pub design: DesignSection,
     #[serde(default)]
     pub analysis: AnalysisSection,
     #[serde(default)]
     pub factor: Vec<At<FactorSection>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ExpressionSection {
+    #[serde(default)]
+    pub outputs: Choices,
+    #[serde(default)]
+    pub constants: Choices,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -71,7 +81,7 @@ pub(super) struct FactorSection {
     pub distribution: Option<At<String>>,
     pub unit: Option<At<String>>,
     pub group: Option<At<String>>,
-    pub nominal: Option<At<f64>>,
+    pub nominal: Option<At<Nominal>>,
     pub min: Option<At<f64>>,
     pub max: Option<At<f64>>,
     pub mean: Option<At<f64>>,
@@ -84,13 +94,35 @@ pub(super) struct FactorSection {
     pub shape: Option<At<f64>>,
     pub scale: Option<At<f64>>,
     pub location: Option<At<f64>>,
+    pub p01: Option<At<f64>>,
+    pub p05: Option<At<f64>>,
+    pub p10: Option<At<f64>>,
+    pub p25: Option<At<f64>>,
+    pub p50: Option<At<f64>>,
+    pub p75: Option<At<f64>>,
+    pub p90: Option<At<f64>>,
+    pub p95: Option<At<f64>>,
+    pub p99: Option<At<f64>>,
+    pub probability: Option<At<f64>>,
     pub value: Option<At<f64>>,
     pub values: Option<At<Vec<f64>>>,
     pub weights: Option<At<Vec<f64>>>,
+    pub labels: Option<At<Vec<String>>>,
+    pub file: Option<At<String>>,
+    pub column: Option<At<String>>,
+}
+
+/// Where a factor stands when it does not vary: a number, a category, or true or false.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+pub(super) enum Nominal {
+    Truth(bool),
+    Number(f64),
+    Label(String),
 }
 
 impl StudyFile {
     /// The keys it can have.
-    pub(super) const KEYS: [&str; 9] =
-        ["name", "title", "model", "outputs", "afm", "function", "design", "analysis", "factor"];
+    pub(super) const KEYS: [&str; 10] =
+        ["name", "title", "model", "outputs", "afm", "function", "expression", "design", "analysis", "factor"];
 }

@@ -6,8 +6,11 @@
 mod constants;
 mod distribution;
 mod error;
+mod expression;
 mod file;
 mod function;
+mod measured;
+mod nominal;
 mod options;
 mod overrides;
 mod resolve;
@@ -19,7 +22,7 @@ use sha2::{Digest, Sha256};
 
 pub use error::{Diagnostic, OverrideProblem, Problem, StudyError, nearest};
 pub use options::{AnalysisOptions, Stopping};
-pub use subject::{AfmSubject, KnownSubject, Subject};
+pub use subject::{AfmSubject, ExpressionConstant, ExpressionSubject, Formula, KnownSubject, Subject};
 
 use crate::design::Design;
 use crate::model::Model;

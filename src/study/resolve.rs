@@ -7,7 +7,7 @@ use super::error::{Diagnostic, Problem, nearest};
 use super::file::{At, Choices, DesignSection, FactorSection, StudyFile};
 use super::options::{self, AnalysisOptions, Stopping};
 use super::subject::{AfmSubject, KnownSubject, Subject};
-use super::{Study, constants, distribution, function};
+use super::{Study, constants, distribution, expression, function, nominal};
 use crate::design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler};
 use crate::model::{AfmOutput, Input, ModelKind, known_inputs};
 use crate::quantity::Unit;
@@ -34,17 +34,33 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
     let function = match kind {
-        ModelKind::Afm => None,
+        ModelKind::Afm | ModelKind::Expression => None,
         ModelKind::Known(answer) => Some(function::known(context, answer, file.function.as_ref())?),
     };
-    let inputs = function.as_ref().map_or_else(|| kind.inputs(), known_inputs);
-    let space = space(context, &inputs, &file.factor)?;
-    let outputs = outputs(context, kind, file.outputs.as_ref())?;
-    let subject = match function {
-        Some(function) => Subject::Known(KnownSubject { function }),
-        None => afm(context, file.afm.as_ref(), outputs, &space)?,
+    let inputs = match (&function, kind) {
+        (Some(function), _) => known_inputs(function),
+        (None, ModelKind::Expression) => expression::inputs(context, &file.factor)?,
+        (None, _) => kind.inputs(),
     };
-    let Plan { design, analysis, stopping, mut notes } = plan(context, &file, &space)?;
+    let space = space(context, &inputs, &file.factor)?;
+    let (subject, unused) = match function {
+        Some(function) => {
+            outputs(context, kind, file.outputs.as_ref())?;
+            (Subject::Known(KnownSubject { function }), Vec::new())
+        }
+        None if kind == ModelKind::Expression => {
+            let asked = file.outputs.as_ref();
+            let (formulas, notes) = expression::subject(context, file.expression.as_ref(), asked, &space)?;
+            (Subject::Expression(formulas), notes)
+        }
+        None => {
+            let outputs = outputs(context, kind, file.outputs.as_ref())?;
+            (afm(context, file.afm.as_ref(), outputs, &space)?, Vec::new())
+        }
+    };
+    let Plan { design, analysis, stopping, mut notes } =
+        plan(context, &file, &space, subject.model(&space).outputs().len())?;
+    notes.extend(unused);
     if let (Subject::Afm(afm), Some(table)) = (&subject, &file.afm) {
         notes.extend(constants::idle(table.get_ref(), &afm.options));
     }
@@ -122,15 +138,26 @@ fn name(context: &Context<'_>, name: Option<&At<String>>) -> Result<String, Faul
     Ok(name.get_ref().clone())
 }
 
-/// `[afm]` and `[function]` belong to one kind of model each.
+/// `[afm]`, `[function]` and `[expression]` belong to one kind of model each.
 fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyFile) -> Result<(), Fault> {
-    let (name, table) = match kind {
-        ModelKind::Afm => ("function", &file.function),
-        ModelKind::Known(_) => ("afm", &file.afm),
+    let own = match kind {
+        ModelKind::Afm => "afm",
+        ModelKind::Expression => "expression",
+        ModelKind::Known(_) => "function",
     };
-    let Some(table) = table else { return Ok(()) };
-    let expected = StudyFile::KEYS.into_iter().filter(|key| *key != name).map(str::to_owned).collect();
-    Err(context.fault(table.span(), Problem::UnknownKey { name: name.to_owned(), nearest: None, expected }))
+    let tables = [
+        ("afm", file.afm.as_ref().map(At::span)),
+        ("function", file.function.as_ref().map(At::span)),
+        ("expression", file.expression.as_ref().map(At::span)),
+    ];
+    let foreign = |name: &str| name != own && tables.iter().any(|(table, _)| *table == name);
+    let Some((name, span)) =
+        tables.iter().find_map(|(name, span)| Some((*name, span.clone().filter(|_| foreign(name))?)))
+    else {
+        return Ok(());
+    };
+    let expected = StudyFile::KEYS.into_iter().filter(|key| !foreign(key)).map(str::to_owned).collect();
+    Err(context.fault(span, Problem::UnknownKey { name: name.to_owned(), nearest: None, expected }))
 }
 
 fn afm(
@@ -232,16 +259,20 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
         }
     }
     let nominal = match &fields.nominal {
-        Some(nominal) if !in_domain(*nominal.get_ref()) || !nominal.get_ref().is_finite() => {
-            let value = with_unit(*nominal.get_ref(), unit.symbol());
-            return Err(outside(nominal.span(), format!("its nominal value is {value}")));
-        }
-        Some(nominal) => *nominal.get_ref(),
         None => default_nominal(input, &unit, &distribution),
+        Some(typed) => {
+            let value = nominal::value(&input.name, &distribution, typed.get_ref())
+                .map_err(|problem| context.fault(typed.span(), problem))?;
+            if !in_domain(value) || !value.is_finite() {
+                return Err(outside(typed.span(), format!("its nominal value is {}", with_unit(value, unit.symbol()))));
+            }
+            value
+        }
     };
     let mut factor = made(input, unit, distribution).map_err(|problem| context.fault(place, problem))?;
     factor.nominal = nominal;
     factor.group = fields.group.as_ref().map(|group| group.get_ref().clone());
+    factor.determined = distribution::is_determined(fields);
     Ok(factor)
 }
 
@@ -269,11 +300,12 @@ pub(super) fn with_unit(value: f64, unit: &str) -> String {
     if matches!(unit, "" | "1") { value.to_string() } else { format!("{value} {unit}") }
 }
 
-/// The model's own nominal value, or the median where that lies outside the distribution's range.
+/// The model's own nominal value, or the middle of the distribution where that is none of its values.
 fn default_nominal(input: &Input, unit: &Unit, distribution: &Distribution) -> f64 {
     let (low, high) = distribution.support();
     let nominal = unit.from_si(input.unit.to_si(input.nominal));
-    if low <= nominal && nominal <= high { nominal } else { distribution.quantile(0.5) }
+    let fits = low <= nominal && nominal <= high && nominal::is_value(distribution, nominal);
+    if fits { nominal } else { distribution.central() }
 }
 
 fn unit(context: &Context<'_>, fields: &FactorSection, input: &Input) -> Result<Unit, Fault> {
@@ -303,7 +335,7 @@ struct Plan {
     notes: Vec<String>,
 }
 
-fn plan(context: &Context<'_>, file: &StudyFile, space: &Space) -> Result<Plan, Fault> {
+fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outputs: usize) -> Result<Plan, Fault> {
     let section = &file.design;
     let defaults = DesignSettings::default();
     let sampler = match &section.sampler {
@@ -352,7 +384,7 @@ fn plan(context: &Context<'_>, file: &StudyFile, space: &Space) -> Result<Plan, 
             design.settings().base_samples
         ));
     }
-    if analysis.aggregate && file.outputs.as_ref().is_none_or(|outputs| outputs.get_ref().len() < 2) {
+    if analysis.aggregate && outputs < 2 {
         notes.push("`aggregate` has no effect with a single output".to_owned());
     }
     Ok(Plan { design, analysis, stopping, notes })

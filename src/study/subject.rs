@@ -4,8 +4,10 @@ use serde_json::{Value, json};
 
 use crate::afm::{Options, Parameter, Scene};
 use crate::model::{
-    AfmModel, AfmOutput, KnownFunction, KnownModel, Model, ModelKind, ParameterValue, edge_unit, known_inputs,
+    AfmModel, AfmOutput, Expression, ExpressionModel, KnownFunction, KnownModel, Model, ModelKind, Output,
+    ParameterValue, edge_unit, known_inputs,
 };
+use crate::quantity::{Quantity, Unit};
 use crate::space::Space;
 
 /// A model with its choices made.
@@ -13,6 +15,8 @@ use crate::space::Space;
 pub enum Subject {
     /// The nanoparticle model.
     Afm(Box<AfmSubject>),
+    /// Formulas.
+    Expression(ExpressionSubject),
     /// A function with known indices.
     Known(KnownSubject),
 }
@@ -35,11 +39,41 @@ pub struct KnownSubject {
     pub function: KnownFunction,
 }
 
+/// Formulas of the factors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExpressionSubject {
+    /// The outputs asked for.
+    pub formulas: Vec<Formula>,
+    /// What formulas can name beside the factors.
+    pub constants: Vec<ExpressionConstant>,
+}
+
+/// An output by its formula.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Formula {
+    /// The output's name.
+    pub name: String,
+    /// The unit in which it is reported; the formula gives it in SI.
+    pub unit: Unit,
+    /// The formula of the factors' SI values, in the order of the space.
+    pub expression: Expression,
+}
+
+/// A constant of formulas.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExpressionConstant {
+    /// Its name.
+    pub name: String,
+    /// Its value as typed; formulas have it in SI.
+    pub quantity: Quantity,
+}
+
 impl Subject {
     /// The model's entry in the catalogue.
     pub fn kind(&self) -> ModelKind {
         match self {
             Self::Afm(_) => ModelKind::Afm,
+            Self::Expression(_) => ModelKind::Expression,
             Self::Known(known) => ModelKind::Known(known.function.answer()),
         }
     }
@@ -50,6 +84,12 @@ impl Subject {
             Self::Afm(afm) => {
                 let factors = names().filter_map(Parameter::from_name).collect();
                 Box::new(AfmModel::new(afm.scene, afm.options, factors, afm.outputs.clone()))
+            }
+            Self::Expression(ExpressionSubject { formulas, .. }) => {
+                let output = |formula: &Formula| {
+                    (Output::new(formula.name.clone(), formula.unit.clone(), "a formula"), formula.expression.clone())
+                };
+                Box::new(ExpressionModel::new(formulas.iter().map(output).collect()))
             }
             Self::Known(KnownSubject { function }) => {
                 let inputs = known_inputs(function);
@@ -72,6 +112,10 @@ impl Subject {
                 ("step", json!(format!("{} s", afm.options.step))),
                 ("step_budget", json!(afm.options.step_budget)),
             ],
+            Self::Expression(ExpressionSubject { formulas, .. }) => {
+                let texts = formulas.iter().map(|formula| (formula.name.clone(), json!(formula.expression.text())));
+                vec![("formulas", Value::Object(texts.collect()))]
+            }
             Self::Known(known) => {
                 known.function.parameters().into_iter().map(|(name, value)| (name, in_json(value))).collect()
             }
@@ -89,6 +133,9 @@ impl Subject {
                 .map(|p| (p, edge_unit(p)))
                 .map(|(p, unit)| constant(p.name, unit.from_si((p.get)(&afm.scene)), unit.to_string()))
                 .collect(),
+            Self::Expression(ExpressionSubject { constants, .. }) => {
+                constants.iter().map(|c| constant(&c.name, c.quantity.value, c.quantity.unit.to_string())).collect()
+            }
             Self::Known(KnownSubject { function }) => known_inputs(function)
                 .iter()
                 .filter(|input| !is_factor(&input.name))

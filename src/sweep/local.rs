@@ -51,9 +51,12 @@ pub(super) fn local(
 ) -> Vec<Result<LocalSensitivity, NoDerivative>> {
     let distribution = factor.distribution();
     let x = factor.nominal;
-    // A discrete or constant factor is asked at its nominal value alone.
+    // A factor of single values is asked at its nominal value alone.
     let points = match distribution {
-        Distribution::Discrete(_) | Distribution::Constant(_) => None,
+        Distribution::Discrete(_)
+        | Distribution::Integer(_)
+        | Distribution::Categorical(_)
+        | Distribution::Constant(_) => None,
         _ => Some(Points::of(x, distribution)),
     };
     let values = points.as_ref().map_or_else(|| vec![x], |points| points.values.clone());

@@ -87,6 +87,24 @@ pub enum SweepError {
         /// A request that would be right.
         example: String,
     },
+    /// A value that is no category of the factor.
+    #[error("`{value}` is no category of factor `{name}`: it takes {known}")]
+    NoCategory {
+        /// The value as typed.
+        value: String,
+        /// The factor.
+        name: String,
+        /// The labels of its categories.
+        known: String,
+    },
+    /// A value between whole numbers.
+    #[error("{value} is no whole number, but factor `{name}` takes whole numbers only")]
+    NotWhole {
+        /// The value.
+        value: f64,
+        /// The factor.
+        name: String,
+    },
     /// A number of points that makes no sweep.
     #[error("{points} points: a sweep needs from 2 to {MAX_POINTS}")]
     Points {
@@ -128,7 +146,8 @@ impl SweepRequest {
 impl FactorValues {
     /// `points` values over the range of factor number `factor`: from the least to the largest value, or between the
     /// quantiles [`TAIL`] and 1 - [`TAIL`] on an unbounded side; at equal ratios for a log-uniform or log-normal factor,
-    /// else at equal distances. A discrete factor takes each of its values, a constant its only one.
+    /// else at equal distances. A discrete or categorical factor takes each of its values, one of whole numbers each of
+    /// them or `points` of them, a constant its only one.
     ///
     /// # Errors
     /// [`SweepError::Points`] for fewer than 2 points or more than [`MAX_POINTS`].
@@ -156,9 +175,14 @@ impl FactorValues {
             }
         };
         let values = match distribution {
-            Distribution::Discrete(discrete) => discrete.levels().into_iter().map(|(value, _)| value).collect(),
             Distribution::Constant(_) => vec![low],
-            _ => (0..points).map(between).collect(),
+            Distribution::Integer(_) if high - low >= points as f64 => {
+                (0..points).map(|i| between(i).round()).collect()
+            }
+            _ => match distribution.levels() {
+                Some(levels) => levels.into_iter().map(|(value, _)| value).collect(),
+                None => (0..points).map(between).collect(),
+            },
         };
         Ok(Self { factor, values })
     }
@@ -184,13 +208,30 @@ impl FactorValues {
         if list.trim().is_empty() {
             return Err(SweepError::NoValues { example: example(factor) });
         }
+        if let Distribution::Categorical(categories) = factor.distribution() {
+            let value = |text: &str| {
+                let number = text.parse().ok().filter(|number| categories.label(*number).is_some());
+                categories.value_of(text).or(number).ok_or_else(|| SweepError::NoCategory {
+                    value: text.to_owned(),
+                    name: factor.name.clone(),
+                    known: categories.labels().join(", "),
+                })
+            };
+            let values = list.split(',').map(|text| value(text.trim())).collect::<Result<_, _>>()?;
+            return Ok(Self { factor: number, values });
+        }
         let mut quantities = list.split(',').map(Quantity::parse).collect::<Result<Vec<_>, _>>()?;
         for i in (1..quantities.len()).rev() {
             if quantities[i - 1].unit.symbol().is_empty() {
                 quantities[i - 1].unit = quantities[i].unit.clone();
             }
         }
-        let values = quantities.iter().map(|quantity| in_unit(quantity, factor)).collect::<Result<_, _>>()?;
+        let values = quantities.iter().map(|quantity| in_unit(quantity, factor)).collect::<Result<Vec<f64>, _>>()?;
+        if let (Distribution::Integer(_), Some(value)) =
+            (factor.distribution(), values.iter().find(|v| v.fract() != 0.0))
+        {
+            return Err(SweepError::NotWhole { value: *value, name: factor.name.clone() });
+        }
         Ok(Self { factor: number, values })
     }
 }
@@ -239,6 +280,9 @@ fn in_unit(quantity: &Quantity, factor: &Factor) -> Result<f64, SweepError> {
 }
 
 fn example(factor: &Factor) -> String {
+    if let Some(labels) = factor.distribution().labels() {
+        return format!("\"{}={}\"", factor.name, labels.join(","));
+    }
     let (low, high) = range(factor.distribution());
     let unit = match factor.unit().symbol() {
         "" | "1" => String::new(),

@@ -1,7 +1,7 @@
 //! Axes as numbers: from data to a fraction of the axis, and ticks at round values.
 
 use super::style::{TICK, drawable};
-use super::text::{minus, power_of_ten};
+use super::text::{minus, power_of_ten, shorten};
 
 /// Least gap between the labels of a horizontal axis, px.
 const LABEL_GAP: f64 = 6.0;
@@ -57,6 +57,20 @@ impl Scale {
             Spacing::Logarithmic if low > high => Self::logarithmic((1.0, 10.0)),
             Spacing::Logarithmic => Self::logarithmic((low, high)),
         }
+    }
+
+    /// A scale of the places 0, 1, 2 and so on, with their names and half a place of air at the ends.
+    pub fn named(names: &[String]) -> Self {
+        let ticks = names.iter().enumerate().map(|(place, name)| Tick { value: place as f64, label: name.clone() });
+        let (low, high) = (-0.5, names.len().max(1) as f64 - 0.5);
+        Self { spacing: Spacing::Linear, low, high, ticks: ticks.collect(), minor: Vec::new(), exponent: 0 }
+    }
+
+    /// The scale of an axis `length` px long whose names are shortened to the room between two places.
+    pub fn with_names_within(mut self, length: f64) -> Self {
+        let room = length / (self.high - self.low) - LABEL_GAP;
+        self.ticks.iter_mut().for_each(|tick| tick.label = shorten(&tick.label, room, TICK));
+        self
     }
 
     /// The place of a value: 0 at the low end, 1 at the high end; `None` if it cannot be shown.
@@ -292,6 +306,18 @@ mod tests {
         let s = scale(&[1e-8, 1e-3], Logarithmic, 0.0);
         assert_eq!(labels(&s.with_room(80.0)), ["10⁻⁸", "10⁻⁶", "10⁻⁴"]);
         assert_eq!(labels(&scale(&[-2.0, 2.0], Linear, 0.0).with_room(1.0)).len(), 1);
+    }
+
+    #[test]
+    fn names_stand_at_their_places_and_keep_clear() {
+        let names = ["steel", "a very long name of a material"].map(str::to_owned);
+        let scale = Scale::named(&names).with_names_within(200.0);
+        assert_eq!(
+            scale.ticks.iter().map(|tick| scale.place(tick.value)).collect::<Vec<_>>(),
+            [Some(0.25), Some(0.75)]
+        );
+        assert_eq!(labels(&scale)[0], "steel");
+        assert!(TICK.width(labels(&scale)[1]) <= 94.0 && labels(&scale)[1].ends_with('…'), "{:?}", labels(&scale));
     }
 
     #[test]

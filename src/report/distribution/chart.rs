@@ -30,6 +30,7 @@ pub fn density_chart(distribution: &OutputDistribution, words: &DensityWords<'_>
     };
     let axis = |label: &str, unit: &str| Axis { label: label.to_owned(), unit: unit.to_owned(), ..Axis::default() };
     Chart::Lines(LineChart {
+        names: Vec::new(),
         title: words.title.to_owned(),
         caption: caption(distribution, words.output, symbol),
         x: axis(words.output, symbol),

@@ -29,6 +29,7 @@ pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
         markers: Vec::new(),
     };
     Chart::Lines(LineChart {
+        names: Vec::new(),
         title: format!("{}: how the indices of {} settled", headline(result), the(&output.name)),
         caption: caption(result, output, factors.len()),
         x: axis("model runs", Spacing::Logarithmic),

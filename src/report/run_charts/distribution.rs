@@ -17,6 +17,7 @@ pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let reason = output.reason.as_deref().unwrap_or("its values are beyond double precision in this unit");
     let y = Axis { label: "probability density".to_owned(), ..Axis::default() };
     Chart::Lines(LineChart {
+        names: Vec::new(),
         title,
         caption: format!("No distribution of {}: {reason}.", the(&output.name)),
         x: Axis { label: output_words, ..Axis::default() },

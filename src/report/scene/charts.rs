@@ -63,7 +63,7 @@ fn panel(story: &SceneStory, y: Axis, curves: &[Curve<'_>]) -> LinePanel {
 }
 
 fn chart(title: &str, caption: String, panels: Vec<LinePanel>) -> LineChart {
-    LineChart { title: title.to_owned(), caption, x: axis("Time", "s"), panels }
+    LineChart { names: Vec::new(), title: title.to_owned(), caption, x: axis("Time", "s"), panels }
 }
 
 /// TS04 figure 8, CHK figure 5.

@@ -71,6 +71,7 @@ pub(crate) fn mode_lines(diagram: &ModeDiagram) -> Result<LineChart, ChartError>
     }));
     let axis = |label: &str, unit: &str, spacing| Axis { label: label.to_owned(), unit: unit.to_owned(), spacing };
     Ok(LineChart {
+        names: Vec::new(),
         title: TITLE.to_owned(),
         caption: caption(diagram),
         x: axis("Angle of the tip force from the vertical, ψ", "°", Spacing::Linear),

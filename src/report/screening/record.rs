@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::super::asked::{AskedRecord, asked, validity};
+use super::super::asked::{AskedRecord, asked, input_value, validity};
 use super::super::result::{EstimateRecord, ValidityRecord};
 use super::super::{RunFacts, with_unit};
 use crate::design::Sampler;
@@ -215,7 +215,7 @@ fn failure_record(study: &Study, failure: &ScreeningFailure) -> ScreeningFailure
     ScreeningFailureRecord {
         reason: failure.reason.to_string(),
         runs: failure.runs,
-        first_inputs: inputs.map(|(factor, value)| (factor.name.clone(), Value::from(*value))).collect(),
+        first_inputs: inputs.map(|(factor, value)| (factor.name.clone(), input_value(factor, *value))).collect(),
     }
 }
 
@@ -224,7 +224,11 @@ fn notes(study: &Study) -> Vec<String> {
     let bent = factors.iter().filter(|factor| {
         !matches!(
             factor.distribution(),
-            Distribution::Uniform(_) | Distribution::Discrete(_) | Distribution::Constant(_)
+            Distribution::Uniform(_)
+                | Distribution::Discrete(_)
+                | Distribution::Integer(_)
+                | Distribution::Categorical(_)
+                | Distribution::Constant(_)
         )
     });
     let bent: Vec<String> = bent.map(|factor| format!("{} ({})", factor.name, factor.distribution().name())).collect();

@@ -47,7 +47,10 @@ fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> LineChart {
             spacing: if is_wide(drawn, number) { Spacing::Logarithmic } else { Spacing::Linear },
         },
         series: drawn.iter().enumerate().map(|(place, curve)| series(file, (sweep, curve), (place, number))).collect(),
-        markers: if number == 0 { vec![Marker { x: sweep.nominal, label: "nominal".to_owned() }] } else { Vec::new() },
+        markers: match (number, place_of(sweep, sweep.nominal)) {
+            (0, Some(x)) => vec![Marker { x, label: "nominal".to_owned() }],
+            _ => Vec::new(),
+        },
     });
     LineChart {
         title: format!("{}: {}", file.study.headline(), words(&sweep.factor)),
@@ -57,7 +60,16 @@ fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> LineChart {
             unit: axis_unit(&sweep.unit),
             spacing: if logarithmic { Spacing::Logarithmic } else { Spacing::Linear },
         },
+        names: sweep.labels.clone().unwrap_or_default(),
         panels: panels.collect(),
+    }
+}
+
+/// Where a value stands on the horizontal axis: categories side by side, numbers where they are.
+fn place_of(sweep: &FactorSweepRecord, value: f64) -> Option<f64> {
+    match &sweep.labels {
+        Some(_) => sweep.values.iter().position(|other| *other == value).map(|place| place as f64),
+        None => Some(value),
     }
 }
 
@@ -79,7 +91,7 @@ fn series(
     let (name, role, stroke) = match &curve.against {
         None => (String::new(), friction.map_or(Role::Other(0), friction_role), Stroke::Solid),
         Some(against) => (
-            format!("{} = {}", words(&against.factor), short_with_unit(against.value, &against.unit)),
+            format!("{} = {}", words(&against.factor), against.value_in_words()),
             Role::Other(place),
             [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][place % 3],
         ),
@@ -87,8 +99,13 @@ fn series(
     LineSeries {
         name,
         role,
-        stroke: if few { Stroke::SolidWithPoints } else { stroke },
-        points: points.map(|(x, y)| (*x, y.unwrap_or(f64::NAN))).collect(),
+        stroke: match (&sweep.labels, few) {
+            // There is nothing between two categories.
+            (Some(_), _) => Stroke::Points,
+            (None, true) => Stroke::SolidWithPoints,
+            (None, false) => stroke,
+        },
+        points: points.filter_map(|(x, y)| Some((place_of(sweep, *x)?, y.unwrap_or(f64::NAN)))).collect(),
         band: Vec::new(),
     }
 }
@@ -129,6 +146,9 @@ fn caption(sweep: &FactorSweepRecord) -> String {
 
 /// The ends of a sweep with their unit.
 fn from_to(sweep: &FactorSweepRecord) -> String {
+    if let Some(labels) = &sweep.labels {
+        return labels.join(", ");
+    }
     let (Some(from), Some(to)) = (sweep.values.first(), sweep.values.last()) else { return String::new() };
     let unit = axis_unit(&sweep.unit);
     let space = if unit.is_empty() { "" } else { " " };

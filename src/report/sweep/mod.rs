@@ -32,10 +32,10 @@ pub fn sweep_csv(file: &SweepFile) -> String {
                     rows.push(vec![
                         sweep.factor.clone(),
                         sweep.unit.clone(),
-                        cell(Some(*x)),
+                        sweep.labels.as_ref().map_or_else(|| cell(Some(*x)), |labels| labels[place].clone()),
                         text(|a| &a.factor),
                         text(|a| &a.unit),
-                        cell(against.map(|a| a.value)),
+                        against.map_or_else(String::new, |a| a.label.clone().unwrap_or_else(|| cell(Some(a.value)))),
                         output.name.clone(),
                         output.unit.clone(),
                         cell(*y),
@@ -71,11 +71,10 @@ pub fn sweep_summary(file: &SweepFile) -> String {
         sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
         for (sweep, effect) in sweeps {
             let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), short);
-            let end = |value: Option<&f64>| value.map_or_else(String::new, |x| short_with_unit(*x, &sweep.unit));
             table.add_row([
                 sweep.factor.clone(),
-                end(sweep.values.first()),
-                end(sweep.values.last()),
+                sweep.value_in_words(0),
+                sweep.value_in_words(sweep.values.len().saturating_sub(1)),
                 number(effect.first),
                 number(effect.last),
                 number(effect.low),

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::super::asked::{AskedRecord, asked, validity};
+use super::super::asked::{AskedRecord, asked, short_with_unit, validity};
 use super::super::result::ValidityRecord;
 use crate::model::Model;
 use crate::study::Study;
@@ -65,6 +65,9 @@ pub struct FactorSweepRecord {
     pub spacing: String,
     /// Its values in `unit`.
     pub values: Vec<f64>,
+    /// What the values stand for, of a factor of categories.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub labels: Option<Vec<String>>,
     /// The outputs over the values: first with all other factors nominal, then the curves of the family, if any.
     pub curves: Vec<CurveRecord>,
     /// One entry per output: how far it goes over the first curve, and its slope at the nominal point.
@@ -87,6 +90,9 @@ pub struct AgainstRecord {
     pub factor: String,
     /// Its value in `unit`.
     pub value: f64,
+    /// What the value stands for, of a factor of categories.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
     /// Its unit.
     pub unit: String,
 }
@@ -142,6 +148,24 @@ pub struct SweepEffectRecord {
     pub reason: Option<String>,
 }
 
+impl FactorSweepRecord {
+    /// The value at `place`, or what it stands for, with its unit.
+    pub(super) fn value_in_words(&self, place: usize) -> String {
+        match (&self.labels, self.values.get(place)) {
+            (Some(labels), Some(_)) => labels[place].clone(),
+            (None, Some(value)) => short_with_unit(*value, &self.unit),
+            (_, None) => String::new(),
+        }
+    }
+}
+
+impl AgainstRecord {
+    /// The value, or what it stands for, with its unit.
+    pub(super) fn value_in_words(&self) -> String {
+        self.label.clone().unwrap_or_else(|| short_with_unit(self.value, &self.unit))
+    }
+}
+
 impl SweepEffectRecord {
     /// How far the output goes; below every width where it has no value.
     pub(super) fn width(&self) -> f64 {
@@ -191,6 +215,7 @@ fn factor_record(study: &Study, model: &dyn Model, sweep: &Sweep) -> FactorSweep
         against: Some(AgainstRecord {
             factor: factors[curve.factor].name.clone(),
             value: curve.value,
+            label: factors[curve.factor].distribution().label(curve.value).map(str::to_owned),
             unit: factors[curve.factor].unit().to_string(),
         }),
         outputs: outputs(&curve.outputs),
@@ -203,6 +228,7 @@ fn factor_record(study: &Study, model: &dyn Model, sweep: &Sweep) -> FactorSweep
         nominal: factor.nominal,
         spacing: spacing.to_owned(),
         values: sweep.values.clone(),
+        labels: sweep.values.iter().map(|value| factor.distribution().label(*value).map(str::to_owned)).collect(),
         curves: std::iter::once(at_nominal).chain(family).collect(),
         effects: (0..model.outputs().len()).map(|number| effect(model, sweep, number)).collect(),
     }

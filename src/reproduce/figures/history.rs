@@ -135,6 +135,7 @@ fn two_laws(coulomb: &SceneStory) -> Result<PaperFigure, FiguresError> {
         format!("{} {} under {law} friction", force(story.critical.critical_force), slip(story))
     };
     let chart = LineChart {
+        names: Vec::new(),
         title: "Tip force against time".to_owned(),
         caption: format!(
             "The tip force rises from {} until the particle slips, at {} and at {}; with the shear modulus of {} GPa that \
@@ -217,6 +218,7 @@ fn coefficients() -> Result<PaperFigure, FiguresError> {
         label: "TS04 fig. 11",
         theirs: "A higher coefficient of friction delays the slip.",
         chart: Chart::Lines(LineChart {
+            names: Vec::new(),
             title: "Effect of the coefficient of friction".to_owned(),
             caption: format!("{seen}: after {}.", listed(&slips)),
             x: axis("Time", "s"),

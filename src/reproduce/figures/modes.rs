@@ -133,6 +133,7 @@ fn chart(degrees: &[f64], lines: &[Against]) -> LineChart {
     let axis = |label: &str, unit: &str, spacing| Axis { label: label.to_owned(), unit: unit.to_owned(), spacing };
     let nominal = Scene::default().contact_angle.to_degrees();
     LineChart {
+        names: Vec::new(),
         title: "Modes of motion against the contact angle".to_owned(),
         caption: caption(lines),
         x: axis("Angle of the contact between tip and particle from the vertical, φ", "°", Spacing::Linear),

@@ -125,6 +125,7 @@ impl Swept<'_> {
             }
         }
         LineChart {
+            names: Vec::new(),
             title: format!("Critical force against {}", self.parameter.description),
             caption: self.caption(lines, range),
             x: Axis {

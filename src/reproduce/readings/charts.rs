@@ -89,6 +89,7 @@ pub fn small_sample_chart(readings: &Readings) -> Chart {
         panel(group.key, &of_group)
     });
     Chart::Lines(LineChart {
+        names: Vec::new(),
         title: "What chance makes of the percentages of small samples".to_owned(),
         caption: format!(
             "Medians and the middle 95 % of {repetitions} repetitions with N random base points under LuGre friction, \

@@ -42,6 +42,12 @@ impl Distribution {
     /// # Ok::<(), apportion::space::distribution::DistributionError>(())
     /// ```
     pub fn discrete(values: &[f64], weights: Option<&[f64]>) -> Result<Self, DistributionError> {
+        Self::Discrete(Discrete::new(values, weights)?).finite()
+    }
+}
+
+impl Discrete {
+    pub(super) fn new(values: &[f64], weights: Option<&[f64]>) -> Result<Self, DistributionError> {
         if values.is_empty() {
             return Err(DistributionError::NoValues);
         }
@@ -75,18 +81,28 @@ impl Distribution {
         if total.is_infinite() {
             return Err(DistributionError::Overflow { distribution: "discrete" });
         }
-        Self::Discrete(Discrete {
+        Ok(Self {
             values: values.to_vec(),
             weights: weights.map(<[f64]>::to_vec),
             sorted: pairs.iter().map(|(value, _)| *value).collect(),
             probabilities: pairs.iter().map(|(_, weight)| weight / total).collect(),
             cumulative: partial.iter().map(|sum| sum / total).collect(),
         })
-        .finite()
     }
-}
 
-impl Discrete {
+    pub(super) fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    pub(super) fn weights(&self) -> Option<&[f64]> {
+        self.weights.as_deref()
+    }
+
+    /// The probability of `value`, which stands in the list once at most.
+    pub(super) fn probability(&self, value: f64) -> f64 {
+        self.sorted.iter().position(|other| *other == value).map_or(0.0, |place| self.probabilities[place])
+    }
+
     /// The distinct values that occur, in ascending order, each with a `u` at which it is the quantile: the middle of
     /// its part of the unit interval.
     ///

@@ -111,6 +111,88 @@ pub enum DistributionError {
     /// All weights are zero.
     #[error("all `weights` are 0, but at least one must be greater")]
     ZeroWeights,
+    /// A bound of whole numbers that is none.
+    #[error("`{parameter}` is {value:?}, but must be a whole number between -2^53 and 2^53")]
+    NotWhole {
+        /// Its name.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A category without a label.
+    #[error("`labels[{index}]` is empty, but every category needs a label")]
+    EmptyLabel {
+        /// The entry, from 0.
+        index: usize,
+    },
+    /// Two categories of one label.
+    #[error("the label \"{label}\" stands in `labels` twice")]
+    RepeatedLabel {
+        /// The label.
+        label: String,
+    },
+    /// Categories with more or fewer numbers than labels.
+    #[error("there are {values} `values` for {labels} `labels`, but there must be one value for each label")]
+    Labels {
+        /// How many labels.
+        labels: usize,
+        /// How many values.
+        values: usize,
+    },
+    /// Two categories of one number.
+    #[error("`values[{index}]` is {value}, as is one before it, but every label needs a value of its own")]
+    RepeatedValue {
+        /// The entry, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// Something is stated that the family does not have.
+    #[error("a {distribution} distribution cannot be given by `{statistic}`")]
+    NotStated {
+        /// The name of the family.
+        distribution: &'static str,
+        /// What was stated.
+        statistic: &'static str,
+    },
+    /// The same thing is stated twice.
+    #[error("`{statistic}` is stated twice")]
+    StatedTwice {
+        /// What was stated.
+        statistic: &'static str,
+    },
+    /// Too little or too much is stated.
+    #[error("a {distribution} distribution is determined by {needed}, but {given} of these {verb} given", verb = if *.given == 1 { "is" } else { "are" })]
+    Determined {
+        /// The name of the family.
+        distribution: &'static str,
+        /// How many statements of which it takes, in words.
+        needed: &'static str,
+        /// How many there are.
+        given: usize,
+    },
+    /// Two values that are the wrong way round.
+    #[error("`{lower}` is {low} and `{upper}` is {high}, but `{lower}` must be below `{upper}`")]
+    Order {
+        /// What should be lower.
+        lower: &'static str,
+        /// Its value.
+        low: f64,
+        /// What should be higher.
+        upper: &'static str,
+        /// Its value.
+        high: f64,
+    },
+    /// The statements contradict each other, or say one thing twice.
+    #[error("there is no {distribution} distribution, or more than one, with {statements}")]
+    NoSuchDistribution {
+        /// The name of the family.
+        distribution: &'static str,
+        /// What was stated.
+        statements: String,
+        /// What was stated first.
+        first: &'static str,
+    },
     /// The parameters are sound one by one, but lead beyond the range of `f64`.
     #[error(
         "a {distribution} distribution with these parameters has values, a mean or a standard deviation \

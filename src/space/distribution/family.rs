@@ -13,6 +13,10 @@ pub enum Parameter {
     Number(f64),
     /// A list of numbers.
     List(Vec<f64>),
+    /// A text.
+    Text(String),
+    /// A list of texts.
+    Texts(Vec<String>),
 }
 
 impl From<f64> for Parameter {

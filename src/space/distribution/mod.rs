@@ -8,15 +8,19 @@
 //! variant below; one case in `tests/oracle/distributions.py`.
 
 mod beta;
+mod categorical;
 mod constant;
 mod discrete;
+mod empirical;
 mod error;
 mod family;
 mod gumbel;
+mod integer;
 mod log_normal;
 mod log_uniform;
 mod normal;
 mod quadrature;
+mod stated;
 mod triangular;
 mod truncated_gumbel;
 mod truncated_normal;
@@ -29,14 +33,18 @@ use crate::quantity::Unit;
 use family::Family;
 
 pub use beta::Beta;
+pub use categorical::Categorical;
 pub use constant::Constant;
 pub use discrete::Discrete;
+pub use empirical::{Empirical, MeasuredFile};
 pub use error::DistributionError;
 pub use family::Parameter;
 pub use gumbel::Gumbel;
+pub use integer::Integer;
 pub use log_normal::LogNormal;
 pub use log_uniform::LogUniform;
 pub use normal::Normal;
+pub use stated::{Law, Statistic};
 pub use triangular::Triangular;
 pub use truncated_gumbel::TruncatedGumbel;
 pub use truncated_normal::TruncatedNormal;
@@ -89,6 +97,12 @@ pub enum Distribution {
     TruncatedGumbel(TruncatedGumbel),
     /// See [`Distribution::discrete`].
     Discrete(Discrete),
+    /// See [`Distribution::integer`].
+    Integer(Integer),
+    /// See [`Distribution::categorical`] and [`Distribution::boolean`].
+    Categorical(Categorical),
+    /// See [`Distribution::empirical`].
+    Empirical(Empirical),
     /// See [`Distribution::constant`].
     Constant(Constant),
 }
@@ -108,6 +122,9 @@ macro_rules! each {
             Distribution::Gumbel($family) => $body,
             Distribution::TruncatedGumbel($family) => $body,
             Distribution::Discrete($family) => $body,
+            Distribution::Integer($family) => $body,
+            Distribution::Categorical($family) => $body,
+            Distribution::Empirical($family) => $body,
             Distribution::Constant($family) => $body,
         }
     };
@@ -117,7 +134,7 @@ impl Distribution {
     /// The quantile function (inverse of the cumulative distribution function) at `u` in the open interval (0, 1).
     ///
     /// Finite from [`SMALLEST_U`] to [`LARGEST_U`], inside [`support`](Self::support), and non-decreasing: exactly
-    /// so for the uniform, triangular, discrete and constant distributions, else up to the last few bits of the
+    /// so for the uniform, triangular, discrete, integer, categorical, empirical and constant distributions, else up to the last few bits of the
     /// result. Outside (0, 1) it means nothing, but does not panic.
     pub fn quantile(&self, u: f64) -> f64 {
         each!(self, family => family.quantile(u))
@@ -151,6 +168,50 @@ impl Distribution {
     /// The smallest closed interval that holds every value; its ends may be infinite.
     pub fn support(&self) -> (f64, f64) {
         each!(self, family => family.support())
+    }
+
+    /// The values of a factor that takes single ones by design, ascending, each with a `u` at which it is the quantile:
+    /// of a discrete or categorical one, and of up to 1024 whole numbers. `None` of any other: measured values stand
+    /// for the range between them.
+    pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
+        match self {
+            Self::Discrete(discrete) => Some(discrete.levels()),
+            Self::Categorical(categorical) => Some(categorical.levels()),
+            Self::Integer(integer) => integer.levels(),
+            _ => None,
+        }
+    }
+
+    /// The labels of a categorical or boolean distribution, as given.
+    pub fn labels(&self) -> Option<&[String]> {
+        match self {
+            Self::Categorical(categorical) => Some(categorical.labels()),
+            _ => None,
+        }
+    }
+
+    /// The label that `value` stands for, in a categorical or boolean distribution.
+    pub fn label(&self, value: f64) -> Option<&str> {
+        match self {
+            Self::Categorical(categorical) => categorical.label(value),
+            _ => None,
+        }
+    }
+
+    /// The value that stands for `label`, in a categorical or boolean distribution.
+    pub fn value_of(&self, label: &str) -> Option<f64> {
+        match self {
+            Self::Categorical(categorical) => categorical.value_of(label),
+            _ => None,
+        }
+    }
+
+    /// Where a factor stands that nobody placed: the most probable category, else the median.
+    pub fn central(&self) -> f64 {
+        match self {
+            Self::Categorical(categorical) => categorical.most_probable(),
+            other => other.median(),
+        }
     }
 
     /// The name of the family, as in study files: `log-uniform`.

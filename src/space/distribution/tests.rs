@@ -25,6 +25,10 @@ fn samples() -> Vec<Distribution> {
         Distribution::truncated_gumbel(1.0, 2.0, 0.5, 6.0),
         Distribution::discrete(&[3.0, 1.0, 2.0], Some(&[1.0, 0.0, 3.0])),
         Distribution::discrete(&[3.0, 1.0], None),
+        Distribution::integer(-2.0, 5.0),
+        Distribution::categorical(&["a", "b c"], Some(&[3.0, 1.5]), Some(&[1.0, 4.0])),
+        Distribution::boolean(0.25),
+        Distribution::empirical(&[3.0, 1.0, 3.0], None),
         Distribution::constant(225.0),
     ]
     .into_iter()
@@ -63,6 +67,19 @@ fn what_cannot_be_is_refused_by_name() {
         (Distribution::discrete(&[1.0, 2.0], Some(&[0.0, 0.0])), Error::ZeroWeights),
         (Distribution::discrete(&[1.0, 2.0], Some(&[1e308, 1e308])), Error::Overflow { distribution: "discrete" }),
         (Distribution::discrete(&[-1e200, 1e200], None), Error::Overflow { distribution: "discrete" }),
+        (Distribution::integer(0.5, 2.0), Error::NotWhole { parameter: "min", value: 0.5 }),
+        (Distribution::integer(3.0, 2.0), Error::Bounds { min: 3.0, max: 2.0 }),
+        (Distribution::integer(0.0, 1e16), Error::NotWhole { parameter: "max", value: 1e16 }),
+        (Distribution::boolean(1.5), Error::OutOfRange { parameter: "probability", value: 1.5, min: 0.0, max: 1.0 }),
+        (Distribution::categorical::<&str>(&[], None, None), Error::NoValues),
+        (Distribution::categorical(&["a", ""], None, None), Error::EmptyLabel { index: 1 }),
+        (Distribution::categorical(&["a", "a"], None, None), Error::RepeatedLabel { label: "a".to_owned() }),
+        (Distribution::categorical(&["a"], Some(&[1.0, 2.0]), None), Error::Labels { labels: 1, values: 2 }),
+        (
+            Distribution::categorical(&["a", "b"], Some(&[1.0, 1.0]), None),
+            Error::RepeatedValue { index: 1, value: 1.0 },
+        ),
+        (Distribution::empirical(&[], None), Error::NoValues),
         (Distribution::constant(infinite), Error::NotFinite { parameter: "value", value: infinite }),
     ];
     for (result, expected) in cases {
@@ -95,7 +112,7 @@ fn truncation_where_nothing_is_left_is_refused() {
 fn names_are_those_of_study_files() {
     let mut names: Vec<_> = samples().iter().map(Distribution::name).collect();
     names.dedup();
-    let expected = "uniform log-uniform normal truncated-normal log-normal triangular beta weibull gumbel truncated-gumbel discrete constant";
+    let expected = "uniform log-uniform normal truncated-normal log-normal triangular beta weibull gumbel truncated-gumbel discrete integer categorical boolean empirical constant";
     assert_eq!(names.join(" "), expected);
 }
 
@@ -117,6 +134,10 @@ fn json_holds_the_name_and_the_parameters_as_given() {
     {"name":"truncated-gumbel","location":1.0,"scale":2.0,"min":0.5,"max":6.0}
     {"name":"discrete","values":[3.0,1.0,2.0],"weights":[1.0,0.0,3.0]}
     {"name":"discrete","values":[3.0,1.0]}
+    {"name":"integer","min":-2.0,"max":5.0}
+    {"name":"categorical","labels":["a","b c"],"values":[3.0,1.5],"weights":[1.0,4.0]}
+    {"name":"boolean","probability":0.25}
+    {"name":"empirical","values":[3.0,1.0,3.0]}
     {"name":"constant","value":225.0}
     "#);
 }
@@ -130,6 +151,26 @@ fn discrete_values_have_their_exact_shares() {
     assert_eq!((grades.mean(), grades.sd(), grades.support()), (1.75, 0.6875f64.sqrt(), (1.0, 3.0)));
     let even = made(Distribution::discrete(&[5.0; 7], None));
     assert_eq!((even.quantile(LARGEST_U), even.sd()), (5.0, 0.0));
+}
+
+#[test]
+fn whole_numbers_and_categories_have_their_exact_shares() {
+    let die = made(Distribution::integer(1.0, 6.0));
+    assert_eq!([SMALLEST_U, (1.0f64 / 6.0).next_down(), 0.5, LARGEST_U].map(|u| die.quantile(u)), [1.0, 1.0, 4.0, 6.0]);
+    assert_eq!((die.mean(), die.sd(), die.support()), (3.5, (35.0f64 / 12.0).sqrt(), (1.0, 6.0)));
+    assert_eq!(die.levels().map(|levels| levels.len()), Some(6));
+    for (value, u) in die.levels().unwrap_or_default() {
+        assert_eq!(die.quantile(u), value);
+    }
+    let many = made(Distribution::integer(-1e15, 1e15));
+    assert_eq!((many.levels(), many.quantile(LARGEST_U), many.quantile(0.5)), (None, 1e15, 0.0));
+    let probe = made(Distribution::categorical(&["x", "y", "z"], Some(&[5.0, 1.0, 3.0]), Some(&[1.0, 2.0, 0.0])));
+    assert_eq!((probe.label(probe.quantile(0.66)), probe.label(probe.quantile(0.67))), (Some("y"), Some("x")));
+    assert_eq!(
+        (probe.central(), probe.value_of("z"), probe.value_of("w"), probe.label(2.0)),
+        (1.0, Some(3.0), None, None)
+    );
+    assert_eq!(made(Distribution::boolean(1.0)).central(), 1.0);
 }
 
 #[test]
@@ -214,6 +255,10 @@ proptest! {
             Distribution::truncated_gumbel(a, b.abs(), c.min(d), c.max(d)),
             Distribution::discrete(&list, None),
             Distribution::discrete(&p, Some(&list)),
+            Distribution::integer(a.round(), b.round()),
+            Distribution::boolean(a),
+            Distribution::categorical(&["a", "b", "c", "d"], Some(&p), None),
+            Distribution::empirical(&list, None),
         ];
         for distribution in results.into_iter().flatten() {
             let (low, high) = distribution.support();

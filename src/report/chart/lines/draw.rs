@@ -43,7 +43,11 @@ pub(super) fn panels(figure: &mut Figure, chart: &LineChart, page: ChartWidth) -
     // Half of the last tick label may reach beyond the plot.
     let overhang = x.ticks.last().map_or(0.0, |tick| TICK.width(&tick.label) / 2.0 + 4.0);
     let width = page.px() - left - MARGIN.max(overhang);
-    let x = if page == ChartWidth::Narrow { x.with_room(width) } else { x };
+    let x = match page {
+        _ if !chart.names.is_empty() => x.with_names_within(width),
+        ChartWidth::Narrow => x.with_room(width),
+        ChartWidth::Wide => x,
+    };
     let common = Common { x, left, width, height, y_title: left - ticks - TICK_GAP, page };
 
     let mut top = figure.top + 4.0;
@@ -60,6 +64,9 @@ pub(super) fn panels(figure: &mut Figure, chart: &LineChart, page: ChartWidth) -
 }
 
 fn x_scale(chart: &LineChart, page: ChartWidth) -> Scale {
+    if !chart.names.is_empty() {
+        return Scale::named(&chart.names);
+    }
     let mut series = chart.panels.iter().flat_map(|panel| &panel.series);
     // Points need air at the ends; lines run from edge to edge.
     let air = if series.any(|series| series.stroke.points()) { 0.02 } else { 0.0 };

@@ -22,6 +22,8 @@ pub struct LineChart {
     pub caption: String,
     /// The horizontal axis of all panels.
     pub x: Axis,
+    /// Names of the places 0, 1, 2 and so on of the horizontal axis, for categories; empty for an axis of numbers.
+    pub names: Vec<String>,
     /// At least one.
     pub panels: Vec<LinePanel>,
 }
@@ -123,6 +125,7 @@ impl LineChart {
     ///     label: label.into(), unit: unit.into(), spacing: Spacing::Linear,
     /// };
     /// let figure = LineChart {
+    ///     names: Vec::new(),
     ///     title: "Pushing".into(),
     ///     caption: "Pushing force until the particle slides.".into(),
     ///     x: axis("Time", "ms"),
@@ -167,11 +170,15 @@ impl LineChart {
     /// Axes and series in words.
     pub(super) fn description(&self) -> String {
         let mut words = format!("Horizontal axis: {}.", self.x.title(0));
+        if !self.names.is_empty() {
+            words.push_str(&format!(" Places: {}.", self.names.join(", ")));
+        }
         for panel in &self.panels {
             let names: Vec<_> = panel.series.iter().map(|series| series.name.as_str()).collect();
             words.push_str(&format!(" {} {}: {}.", panel.title, panel.y.title(0), names.join(", ")));
             for marker in &panel.markers {
-                words.push_str(&format!(" {} at {}.", marker.label, marker.x));
+                let named = self.names.get(marker.x as usize).cloned();
+                words.push_str(&format!(" {} at {}.", marker.label, named.unwrap_or_else(|| marker.x.to_string())));
             }
         }
         words

@@ -19,6 +19,7 @@ fn panel(series: Vec<LineSeries>) -> LinePanel {
 
 fn chart(panels: Vec<LinePanel>) -> LineChart {
     LineChart {
+        names: Vec::new(),
         title: "A push in time".to_owned(),
         caption: "Force until the particle slides.".to_owned(),
         x: axis("Time", "ms", Spacing::Linear),
@@ -168,7 +169,7 @@ proptest! {
             series: vec![LineSeries { stroke: Stroke::Points, ..series.clone() }, series],
             markers,
         };
-        let figure = LineChart { title: text.clone(), caption: text.clone(), x: axis(&text, &text, spacing(logs.0)), panels: vec![one; panels] };
+        let figure = LineChart { names: Vec::new(), title: text.clone(), caption: text.clone(), x: axis(&text, &text, spacing(logs.0)), panels: vec![one; panels] };
         let svg = figure.svg().expect("a figure");
         let document = Document::parse(&svg).expect("well-formed");
         prop_assert!(only_finite(&document));

@@ -1,0 +1,240 @@
+//! From tokens to a program, by recursive descent.
+
+use std::ops::Range;
+
+use super::Symbol;
+use super::error::{ExpressionError, ExpressionProblem};
+use super::functions::{self, Function};
+use super::program::{Comparison, Program, Step};
+use super::token::{Token, tokens};
+
+/// Things inside each other: enough for any formula, and far from the end of the thread's stack.
+const DEEPEST: u32 = 200;
+/// Whole exponents up to this are multiplications.
+const LARGEST_POWER: f64 = 64.0;
+
+pub(super) fn parse(text: &str, symbol: &dyn Fn(&str) -> Option<Symbol>) -> Result<Program, ExpressionError> {
+    let mut parser = Parser { tokens: tokens(text)?, at: 0, symbol, program: Program::default(), depth: 0 };
+    if parser.tokens.len() == 1 {
+        return Err(ExpressionError { problem: ExpressionProblem::Empty, place: 0..text.len() });
+    }
+    parser.comparison()?;
+    match parser.peek() {
+        Token::End => Ok(parser.program),
+        Token::Sign("<" | "<=" | ">" | ">=" | "==" | "!=") => Err(parser.wrong(ExpressionProblem::SecondComparison)),
+        _ => Err(parser.expected("an operator or the end of the formula")),
+    }
+}
+
+struct Parser<'a> {
+    tokens: Vec<(Token, Range<usize>)>,
+    at: usize,
+    symbol: &'a dyn Fn(&str) -> Option<Symbol>,
+    program: Program,
+    depth: u32,
+}
+
+type Parsed = Result<(), ExpressionError>;
+
+impl Parser<'_> {
+    fn peek(&self) -> &Token {
+        &self.tokens[self.at].0
+    }
+
+    fn place(&self) -> Range<usize> {
+        self.tokens[self.at].1.clone()
+    }
+
+    /// Goes on; the end stays where it is.
+    fn advance(&mut self) {
+        self.at = (self.at + 1).min(self.tokens.len() - 1);
+    }
+
+    fn take(&mut self, sign: &str) -> bool {
+        let found = matches!(self.peek(), Token::Sign(other) if *other == sign);
+        if found {
+            self.advance();
+        }
+        found
+    }
+
+    fn wrong(&self, problem: ExpressionProblem) -> ExpressionError {
+        ExpressionError { problem, place: self.place() }
+    }
+
+    fn expected(&self, expected: &'static str) -> ExpressionError {
+        let found = match self.peek() {
+            Token::Number(number) => format!("the number {number}"),
+            Token::Name(name) => format!("`{name}`"),
+            Token::Sign(sign) => format!("`{sign}`"),
+            Token::End => "the end of the formula".to_owned(),
+        };
+        self.wrong(ExpressionProblem::Expected { expected, found })
+    }
+
+    fn deeper(&mut self, inside: impl FnOnce(&mut Self) -> Parsed) -> Parsed {
+        if self.depth == DEEPEST {
+            return Err(self.wrong(ExpressionProblem::TooDeep));
+        }
+        self.depth += 1;
+        inside(self)?;
+        self.depth -= 1;
+        Ok(())
+    }
+
+    fn comparison(&mut self) -> Parsed {
+        self.sum()?;
+        let comparison = match self.peek() {
+            Token::Sign("<") => Comparison::Less,
+            Token::Sign("<=") => Comparison::LessOrEqual,
+            Token::Sign(">") => Comparison::Greater,
+            Token::Sign(">=") => Comparison::GreaterOrEqual,
+            Token::Sign("==") => Comparison::Equal,
+            Token::Sign("!=") => Comparison::NotEqual,
+            _ => return Ok(()),
+        };
+        self.advance();
+        self.sum()?;
+        self.program.push(Step::Compare(comparison));
+        Ok(())
+    }
+
+    fn sum(&mut self) -> Parsed {
+        self.product()?;
+        loop {
+            let step = match self.peek() {
+                Token::Sign("+") => Step::Add,
+                Token::Sign("-") => Step::Subtract,
+                _ => return Ok(()),
+            };
+            self.advance();
+            self.product()?;
+            self.program.push(step);
+        }
+    }
+
+    fn product(&mut self) -> Parsed {
+        self.signed()?;
+        loop {
+            let step = match self.peek() {
+                Token::Sign("*") => Step::Multiply,
+                Token::Sign("/") => Step::Divide,
+                _ => return Ok(()),
+            };
+            self.advance();
+            self.signed()?;
+            self.program.push(step);
+        }
+    }
+
+    fn signed(&mut self) -> Parsed {
+        if self.take("-") {
+            self.deeper(Self::signed)?;
+            self.program.push(Step::Negate);
+            Ok(())
+        } else if self.take("+") {
+            self.deeper(Self::signed)
+        } else {
+            self.power()
+        }
+    }
+
+    fn power(&mut self) -> Parsed {
+        self.primary()?;
+        if !self.take("^") {
+            return Ok(());
+        }
+        self.deeper(Self::signed)?;
+        match self.program.last_number() {
+            Some(power) if power.fract() == 0.0 && (2.0..=LARGEST_POWER).contains(&power.abs()) => {
+                self.program.pop();
+                self.program.push(Step::Power(power as i32));
+            }
+            _ => self.program.push(Step::Raise),
+        }
+        Ok(())
+    }
+
+    fn primary(&mut self) -> Parsed {
+        match self.peek().clone() {
+            Token::Number(number) => {
+                self.advance();
+                self.program.push(Step::Number(number));
+                Ok(())
+            }
+            Token::Name(name) => {
+                let place = self.place();
+                self.advance();
+                if self.take("(") { self.call(&name, place) } else { self.name(&name, place) }
+            }
+            Token::Sign("(") => {
+                self.advance();
+                self.deeper(Self::comparison)?;
+                if self.take(")") { Ok(()) } else { Err(self.expected("an operator or `)`")) }
+            }
+            _ => Err(self.expected("a number, a name or `(`")),
+        }
+    }
+
+    fn name(&mut self, name: &str, place: Range<usize>) -> Parsed {
+        let number = functions::number(name).map(Symbol::Number);
+        let problem = match (number.or_else(|| (self.symbol)(name)), functions::named(name)) {
+            (Some(symbol), _) => {
+                self.program.push(match symbol {
+                    Symbol::Input(number) => Step::Input(number),
+                    Symbol::Number(number) => Step::Number(number),
+                });
+                return Ok(());
+            }
+            (None, Some(function)) => {
+                ExpressionProblem::NoArguments { name: name.to_owned(), arguments: function.arguments() }
+            }
+            (None, None) => ExpressionProblem::UnknownName(name.to_owned()),
+        };
+        Err(ExpressionError { problem, place })
+    }
+
+    /// The arguments of a function, after `(`.
+    fn call(&mut self, name: &str, place: Range<usize>) -> Parsed {
+        let Some(function) = functions::named(name) else {
+            let problem = match name {
+                "log" => ExpressionProblem::Log,
+                _ if functions::number(name).is_some() || (self.symbol)(name).is_some() => {
+                    ExpressionProblem::NotAFunction(name.to_owned())
+                }
+                _ => ExpressionProblem::UnknownFunction(name.to_owned()),
+            };
+            return Err(ExpressionError { problem, place });
+        };
+        let mut count = 0;
+        if !self.take(")") {
+            loop {
+                self.deeper(Self::comparison)?;
+                count += 1;
+                if let (Function::Several(of_two), 2..) = (function, count) {
+                    self.program.push(Step::Two(of_two));
+                }
+                if self.take(")") {
+                    break;
+                }
+                if !self.take(",") {
+                    return Err(self.expected("an operator, `,` or `)`"));
+                }
+            }
+        }
+        if !function.takes(count) {
+            let (name, expected) = (name.to_owned(), function.arity());
+            return Err(ExpressionError {
+                problem: ExpressionProblem::Arity { name, expected, found: count },
+                place: place.start..self.tokens[self.at - 1].1.end,
+            });
+        }
+        match function {
+            Function::One(of_one) => self.program.push(Step::One(of_one)),
+            Function::Two(of_two) => self.program.push(Step::Two(of_two)),
+            Function::Select => self.program.push(Step::Select),
+            Function::Several(_) => (),
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,82 @@
+//! A formula as words and signs.
+
+use std::ops::Range;
+
+use super::error::{ExpressionError, ExpressionProblem};
+
+/// A word or sign.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Token {
+    Number(f64),
+    Name(String),
+    Sign(&'static str),
+    End,
+}
+
+/// Longer signs first, so that `**` is not read as two.
+const SIGNS: [&str; 17] =
+    ["**", "<=", ">=", "==", "!=", "+", "-", "*", "/", "^", "(", ")", ",", "<", ">", "\u{2212}", "\u{b7}"];
+
+pub(super) fn begins_name(c: char) -> bool {
+    c.is_alphabetic() || c == '_'
+}
+
+pub(super) fn in_name(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// All tokens with their places, and the end.
+pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, ExpressionError> {
+    let mut tokens = Vec::new();
+    let mut at = 0;
+    while let Some(first) = text[at..].chars().next() {
+        let rest = &text[at..];
+        let wrong = |length: usize, problem| Err(ExpressionError { problem, place: at..at + length });
+        let length = if first.is_whitespace() {
+            first.len_utf8()
+        } else if first.is_ascii_digit() || first == '.' {
+            let length = number_length(rest);
+            match rest[..length].parse().ok().filter(|number: &f64| number.is_finite()) {
+                Some(number) => tokens.push((Token::Number(number), at..at + length)),
+                None => return wrong(length, ExpressionProblem::Number(rest[..length].to_owned())),
+            }
+            length
+        } else if begins_name(first) {
+            let length = rest.find(|c| !in_name(c)).unwrap_or(rest.len());
+            tokens.push((Token::Name(rest[..length].to_owned()), at..at + length));
+            length
+        } else if let Some(sign) = SIGNS.into_iter().find(|sign| rest.starts_with(sign)) {
+            let plain = match sign {
+                "**" => "^",
+                "\u{2212}" => "-",
+                "\u{b7}" => "*",
+                other => other,
+            };
+            tokens.push((Token::Sign(plain), at..at + sign.len()));
+            sign.len()
+        } else if first == '=' {
+            return wrong(1, ExpressionProblem::Assignment);
+        } else {
+            return wrong(first.len_utf8(), ExpressionProblem::Character(first));
+        };
+        at += length;
+    }
+    tokens.push((Token::End, text.len()..text.len()));
+    Ok(tokens)
+}
+
+/// Bytes of the number at the beginning of `text`, with all digits and points that follow: `1.2.3` is one wrong number.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits =
+        |from: usize| from + bytes[from..].iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.').count();
+    let end = digits(0);
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        let stop = digits((end + 1 + sign).min(bytes.len()));
+        if stop > end + 1 + sign {
+            return stop;
+        }
+    }
+    end
+}

@@ -1,0 +1,157 @@
+//! Categories: labels with probabilities, for the model a number each.
+
+use super::discrete::Discrete;
+use super::error::within;
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// Labels with their probabilities and the numbers that stand for them in the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Categorical {
+    labels: Vec<String>,
+    /// The number of each label, distinct.
+    values: Vec<f64>,
+    law: Discrete,
+    /// The probability of `true`, of the two categories false and true.
+    truth: Option<f64>,
+}
+
+impl Distribution {
+    /// Each of `labels` with a probability proportional to its weight, equal ones without `weights`. The model gets
+    /// the number of the label in `values`, or else 0 for the first, 1 for the second and so on.
+    ///
+    /// Mean, standard deviation and quantiles are those of the numbers. A Sobol' index does not depend on which
+    /// numbers stand for the labels as long as the model tells them apart.
+    ///
+    /// # Errors
+    ///
+    /// As [`discrete`](Self::discrete); also if a label is empty or stands twice, or two labels have one number.
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// let probe = Distribution::categorical(&["silicon", "nitride"], None, Some(&[3.0, 1.0]))?;
+    /// assert_eq!(probe.label(probe.quantile(0.7)), Some("silicon"));
+    /// assert_eq!(probe.value_of("nitride"), Some(1.0));
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn categorical<S: AsRef<str>>(
+        labels: &[S],
+        values: Option<&[f64]>,
+        weights: Option<&[f64]>,
+    ) -> Result<Self, DistributionError> {
+        let labels: Vec<String> = labels.iter().map(|label| label.as_ref().to_owned()).collect();
+        for (index, label) in labels.iter().enumerate() {
+            if label.trim().is_empty() {
+                return Err(DistributionError::EmptyLabel { index });
+            }
+            if labels[..index].contains(label) {
+                return Err(DistributionError::RepeatedLabel { label: label.clone() });
+            }
+        }
+        let places = || (0..labels.len()).map(|place| place as f64).collect();
+        let values: Vec<f64> = values.map_or_else(places, <[f64]>::to_vec);
+        if values.len() != labels.len() {
+            return Err(DistributionError::Labels { labels: labels.len(), values: values.len() });
+        }
+        if let Some(index) = (1..values.len()).find(|&index| values[..index].contains(&values[index])) {
+            return Err(DistributionError::RepeatedValue { index, value: values[index] });
+        }
+        let law = Discrete::new(&values, weights)?;
+        Self::Categorical(Categorical { labels, values, law, truth: None }).finite()
+    }
+
+    /// 1 (`true`) with this probability, else 0 (`false`).
+    ///
+    /// # Errors
+    ///
+    /// If `probability` lies outside [0, 1].
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// let wet = Distribution::boolean(0.25)?;
+    /// assert_eq!((wet.mean(), wet.label(wet.quantile(0.8))), (0.25, Some("true")));
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn boolean(probability: f64) -> Result<Self, DistributionError> {
+        within("probability", probability, (0.0, 1.0))?;
+        let values = vec![0.0, 1.0];
+        let law = Discrete::new(&values, Some(&[1.0 - probability, probability]))?;
+        let labels = vec!["false".to_owned(), "true".to_owned()];
+        Self::Categorical(Categorical { labels, values, law, truth: Some(probability) }).finite()
+    }
+}
+
+impl Categorical {
+    /// The labels as given.
+    pub fn labels(&self) -> &[String] {
+        &self.labels
+    }
+
+    /// Each label with its number and its probability, as given.
+    pub fn categories(&self) -> impl Iterator<Item = (&str, f64, f64)> {
+        self.labels.iter().zip(&self.values).map(|(label, &value)| (label.as_str(), value, self.law.probability(value)))
+    }
+
+    /// The numbers of the labels that occur, in ascending order, each with a `u` at which it is the quantile.
+    pub fn levels(&self) -> Vec<(f64, f64)> {
+        self.law.levels()
+    }
+
+    /// The label whose number is `value`.
+    pub fn label(&self, value: f64) -> Option<&str> {
+        let place = self.values.iter().position(|other| *other == value)?;
+        self.labels.get(place).map(String::as_str)
+    }
+
+    /// The number of `label`.
+    pub fn value_of(&self, label: &str) -> Option<f64> {
+        let place = self.labels.iter().position(|other| other == label)?;
+        self.values.get(place).copied()
+    }
+
+    /// The number of the most probable label, the first one of equals: where a factor stands that nobody placed.
+    pub fn most_probable(&self) -> f64 {
+        let largest = self.categories().map(|(_, _, share)| share).fold(0.0, f64::max);
+        self.categories().find(|(_, _, share)| *share == largest).map_or(f64::NAN, |(_, value, _)| value)
+    }
+}
+
+impl Family for Categorical {
+    fn name(&self) -> &'static str {
+        if self.truth.is_some() { "boolean" } else { "categorical" }
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        self.law.quantile(u)
+    }
+
+    fn mean(&self) -> f64 {
+        self.law.mean()
+    }
+
+    fn sd(&self) -> f64 {
+        self.law.sd()
+    }
+
+    fn support(&self) -> (f64, f64) {
+        self.law.support()
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        if let Some(probability) = self.truth {
+            return vec![("probability", probability.into())];
+        }
+        let mut parameters = vec![("labels", Parameter::Texts(self.labels.clone()))];
+        parameters.extend(self.law.parameters());
+        parameters
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        let values: Vec<f64> = self.values.iter().map(|&value| unit.to_si(value)).collect();
+        let law = Discrete::new(&values, self.law.weights())?;
+        Ok(Distribution::Categorical(Self { labels: self.labels.clone(), values, law, truth: self.truth }))
+    }
+}

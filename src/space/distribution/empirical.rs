@@ -1,0 +1,88 @@
+//! The empirical distribution: values that were measured.
+
+use super::discrete::Discrete;
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// Measured values, each as likely as any other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Empirical {
+    law: Discrete,
+    source: Option<MeasuredFile>,
+}
+
+/// The file that measured values come from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeasuredFile {
+    /// Its path as given.
+    pub file: String,
+    /// The name of its column; none for a file of bare numbers.
+    pub column: Option<String>,
+    /// SHA-256 of the file in hexadecimal.
+    pub sha256: String,
+}
+
+impl Distribution {
+    /// Each of the measured `values` with equal probability; a value measured twice counts twice.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// quantile(u) = x_(k),   k = floor(n u) + 1,   x_(1) <= x_(2) <= ... <= x_(n)
+    /// mean = sum x_i / n,   sd = sqrt(sum (x_i - mean)^2 / n)
+    /// ```
+    ///
+    /// The inverse of the empirical distribution function: nothing between the values, nothing beyond them.
+    ///
+    /// # Errors
+    ///
+    /// If there are no values, or one is not finite.
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// let radius = Distribution::empirical(&[52.0, 48.0, 49.0, 51.0], None)?;
+    /// assert_eq!((radius.quantile(0.1), radius.quantile(0.6), radius.mean()), (48.0, 51.0, 50.0));
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn empirical(values: &[f64], source: Option<MeasuredFile>) -> Result<Self, DistributionError> {
+        Self::Empirical(Empirical { law: Discrete::new(values, None)?, source }).finite()
+    }
+}
+
+impl Family for Empirical {
+    fn name(&self) -> &'static str {
+        "empirical"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        self.law.quantile(u)
+    }
+
+    fn mean(&self) -> f64 {
+        self.law.mean()
+    }
+
+    fn sd(&self) -> f64 {
+        self.law.sd()
+    }
+
+    fn support(&self) -> (f64, f64) {
+        self.law.support()
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        let Some(MeasuredFile { file, column, sha256 }) = &self.source else { return self.law.parameters() };
+        let mut parameters = vec![("file", Parameter::Text(file.clone()))];
+        parameters.extend(column.iter().map(|column| ("column", Parameter::Text(column.clone()))));
+        parameters.push(("count", (self.law.values().len() as f64).into()));
+        parameters.push(("sha256", Parameter::Text(sha256.clone())));
+        parameters
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        let values: Vec<f64> = self.law.values().iter().map(|&value| unit.to_si(value)).collect();
+        Distribution::empirical(&values, self.source.clone())
+    }
+}

@@ -1,0 +1,107 @@
+//! The uniform distribution on whole numbers.
+
+use super::error::finite;
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// The largest whole number up to which every whole number is an `f64`, 2^53.
+const LARGEST: f64 = (1u64 << 53) as f64;
+
+/// Every whole number between two, both included, is equally likely.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Integer {
+    min: f64,
+    count: f64,
+    /// What turns the whole numbers into values, one after the other; empty for the whole numbers themselves.
+    units: Vec<Unit>,
+}
+
+impl Distribution {
+    /// Every whole number from `min` to `max`, both included, with equal probability.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// quantile(u) = min + floor(n u),   n = max - min + 1
+    /// mean = (min + max) / 2,   sd = sqrt((n^2 - 1) / 12)
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If a bound is not a whole number from -2^53 to 2^53, or `min > max`.
+    ///
+    /// ```
+    /// use apportion::space::distribution::Distribution;
+    ///
+    /// let die = Distribution::integer(1.0, 6.0)?;
+    /// assert_eq!((die.quantile(0.16), die.quantile(0.17), die.mean()), (1.0, 2.0, 3.5));
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn integer(min: f64, max: f64) -> Result<Self, DistributionError> {
+        for (parameter, value) in [("min", min), ("max", max)] {
+            finite(parameter, value)?;
+            if value.fract() != 0.0 || value.abs() > LARGEST {
+                return Err(DistributionError::NotWhole { parameter, value });
+            }
+        }
+        if min > max {
+            return Err(DistributionError::Bounds { min, max });
+        }
+        Self::Integer(Integer { min, count: max - min + 1.0, units: Vec::new() }).finite()
+    }
+}
+
+impl Integer {
+    /// Whole numbers up to so many are gone through one by one where a distribution is drawn or screened.
+    const FEW: f64 = 1024.0;
+
+    /// The values in ascending order, each with a `u` at which it is the quantile; `None` if they are more than 1024.
+    pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
+        let level = |k: u32| {
+            let k = f64::from(k);
+            (self.in_unit(self.min + k), (k + 0.5) / self.count)
+        };
+        (self.count <= Self::FEW).then(|| (0..self.count as u32).map(level).collect())
+    }
+
+    fn in_unit(&self, whole: f64) -> f64 {
+        self.units.iter().fold(whole, |value, unit| unit.to_si(value))
+    }
+
+    fn max(&self) -> f64 {
+        self.min + (self.count - 1.0)
+    }
+}
+
+impl Family for Integer {
+    fn name(&self) -> &'static str {
+        "integer"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        // The product may be rounded up to the count itself.
+        self.in_unit(self.min + (self.count * u).floor().clamp(0.0, self.count - 1.0))
+    }
+
+    fn mean(&self) -> f64 {
+        self.in_unit(self.min + (self.count - 1.0) / 2.0)
+    }
+
+    fn sd(&self) -> f64 {
+        self.in_unit(((self.count - 1.0) * (self.count + 1.0) / 12.0).sqrt())
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (self.in_unit(self.min), self.in_unit(self.max()))
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        vec![("min", self.in_unit(self.min).into()), ("max", self.in_unit(self.max()).into())]
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        let units = self.units.iter().chain([unit]).cloned().collect();
+        Distribution::Integer(Self { units, ..*self }).finite()
+    }
+}

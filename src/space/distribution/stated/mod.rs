@@ -1,0 +1,353 @@
+//! Distributions by what people know of a factor: its mean and scatter, its mode, two of its quantiles.
+
+mod bounded;
+mod root;
+mod scaled;
+
+use std::fmt::Write;
+
+use super::{Distribution, DistributionError};
+
+/// A family that what is known of a factor can determine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Law {
+    /// [`Distribution::uniform`], by two.
+    Uniform,
+    /// [`Distribution::log_uniform`], by two.
+    LogUniform,
+    /// [`Distribution::normal`], by two.
+    Normal,
+    /// [`Distribution::log_normal`], by two.
+    LogNormal,
+    /// [`Distribution::gumbel`], by two.
+    Gumbel,
+    /// [`Distribution::weibull`], by two and location 0, or by three.
+    Weibull,
+    /// [`Distribution::triangular`], by three.
+    Triangular,
+    /// [`Distribution::beta`], by its bounds and two.
+    Beta,
+    /// [`Distribution::truncated_normal`], by its bounds and two.
+    TruncatedNormal,
+    /// [`Distribution::truncated_gumbel`], by its bounds and two.
+    TruncatedGumbel,
+}
+
+/// Something known of a factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Statistic {
+    /// The least value.
+    Min,
+    /// The largest value.
+    Max,
+    /// The mean; of a truncated normal distribution, before truncation.
+    Mean,
+    /// The standard deviation; of a truncated normal distribution, before truncation.
+    Sd,
+    /// The most probable value.
+    Mode,
+    /// The 1 % quantile, and so on.
+    P01,
+    /// The 5 % quantile.
+    P05,
+    /// The 10 % quantile.
+    P10,
+    /// The 25 % quantile.
+    P25,
+    /// The median.
+    P50,
+    /// The 75 % quantile.
+    P75,
+    /// The 90 % quantile.
+    P90,
+    /// The 95 % quantile.
+    P95,
+    /// The 99 % quantile.
+    P99,
+    /// The location of a Gumbel or Weibull distribution.
+    Location,
+    /// The scale of a Gumbel or Weibull distribution.
+    Scale,
+    /// The shape of a Weibull distribution.
+    Shape,
+    /// The first shape of a beta distribution.
+    Alpha,
+    /// The second shape of a beta distribution.
+    Beta,
+    /// The mean of the logarithm, of a log-normal distribution.
+    LogMean,
+    /// The standard deviation of the logarithm, of a log-normal distribution.
+    LogSd,
+}
+
+impl Statistic {
+    /// All of them.
+    pub const ALL: [Self; 21] = [
+        Self::Min,
+        Self::Max,
+        Self::Mean,
+        Self::Sd,
+        Self::Mode,
+        Self::P01,
+        Self::P05,
+        Self::P10,
+        Self::P25,
+        Self::P50,
+        Self::P75,
+        Self::P90,
+        Self::P95,
+        Self::P99,
+        Self::Location,
+        Self::Scale,
+        Self::Shape,
+        Self::Alpha,
+        Self::Beta,
+        Self::LogMean,
+        Self::LogSd,
+    ];
+
+    /// The key in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Min => "min",
+            Self::Max => "max",
+            Self::Mean => "mean",
+            Self::Sd => "sd",
+            Self::Mode => "mode",
+            Self::P01 => "p01",
+            Self::P05 => "p05",
+            Self::P10 => "p10",
+            Self::P25 => "p25",
+            Self::P50 => "p50",
+            Self::P75 => "p75",
+            Self::P90 => "p90",
+            Self::P95 => "p95",
+            Self::P99 => "p99",
+            Self::Location => "location",
+            Self::Scale => "scale",
+            Self::Shape => "shape",
+            Self::Alpha => "alpha",
+            Self::Beta => "beta",
+            Self::LogMean => "log_mean",
+            Self::LogSd => "log_sd",
+        }
+    }
+
+    /// The probability below it, of a quantile; 0 and 1 of the bounds.
+    fn probability(self) -> Option<f64> {
+        Some(match self {
+            Self::Min => 0.0,
+            Self::P01 => 0.01,
+            Self::P05 => 0.05,
+            Self::P10 => 0.10,
+            Self::P25 => 0.25,
+            Self::P50 => 0.5,
+            Self::P75 => 0.75,
+            Self::P90 => 0.90,
+            Self::P95 => 0.95,
+            Self::P99 => 0.99,
+            Self::Max => 1.0,
+            _ => return None,
+        })
+    }
+
+    fn is_quantile(self) -> bool {
+        self.probability().is_some_and(|p| 0.0 < p && p < 1.0)
+    }
+}
+
+/// What is stated, each with its value.
+type Statement = (Statistic, f64);
+
+impl Law {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::Uniform,
+        Self::LogUniform,
+        Self::Normal,
+        Self::LogNormal,
+        Self::Gumbel,
+        Self::Weibull,
+        Self::Triangular,
+        Self::Beta,
+        Self::TruncatedNormal,
+        Self::TruncatedGumbel,
+    ];
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::LogUniform => "log-uniform",
+            Self::Normal => "normal",
+            Self::LogNormal => "log-normal",
+            Self::Gumbel => "gumbel",
+            Self::Weibull => "weibull",
+            Self::Triangular => "triangular",
+            Self::Beta => "beta",
+            Self::TruncatedNormal => "truncated-normal",
+            Self::TruncatedGumbel => "truncated-gumbel",
+        }
+    }
+
+    /// Whether `statistic` can be stated of the family.
+    pub fn takes(self, statistic: Statistic) -> bool {
+        use Statistic::{Alpha, Beta, Location, LogMean, LogSd, Max, Mean, Min, Mode, Scale, Sd, Shape};
+        let others: &[Statistic] = match self {
+            Self::Uniform | Self::LogUniform => &[Min, Max, Mean, Sd],
+            Self::Normal => &[Mean, Sd, Mode],
+            Self::LogNormal => &[Mean, Sd, Mode, LogMean, LogSd],
+            Self::Gumbel => &[Location, Scale, Mean, Sd, Mode],
+            Self::Weibull => &[Location, Scale, Shape, Mean, Sd, Mode],
+            Self::Triangular => &[Min, Mode, Max, Mean, Sd],
+            Self::Beta => &[Min, Max, Alpha, Beta, Mean, Sd, Mode],
+            Self::TruncatedNormal => &[Min, Max, Mean, Sd, Mode],
+            Self::TruncatedGumbel => &[Min, Max, Location, Scale, Mode],
+        };
+        statistic.is_quantile() || others.contains(&statistic)
+    }
+
+    /// What it takes to determine a distribution of the family, in words.
+    pub fn needs(self) -> &'static str {
+        match self {
+            Self::Uniform | Self::LogUniform => {
+                "two of min, max, mean, sd, p01, p05, p10, p25, p50, p75, p90, p95, p99"
+            }
+            Self::Normal => "two of mean, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99",
+            Self::LogNormal => "two of mean, sd, mode, log_mean, log_sd, p01, p05, p10, p25, p50, p75, p90, p95, p99",
+            Self::Gumbel => "two of location, scale, mean, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99",
+            Self::Weibull => {
+                "two (location 0) or three of location, scale, shape, mean, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99"
+            }
+            Self::Triangular => "three of min, mode, max, mean, sd, p01, p05, p10, p25, p50, p75, p90, p95, p99",
+            Self::Beta => {
+                "min, max and two of alpha, beta, mean, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99"
+            }
+            Self::TruncatedNormal => {
+                "min, max and two of mean, sd, mode (all three before truncation), p01, p05, p10, p25, p50, p75, p90, p95, p99"
+            }
+            Self::TruncatedGumbel => {
+                "min, max and two of location, scale, mode (all three before truncation), p01, p05, p10, p25, p50, p75, p90, p95, p99"
+            }
+        }
+    }
+
+    fn is_enough(self, stated: &[Statement]) -> bool {
+        let states = |statistic| stated.iter().any(|(other, _)| *other == statistic);
+        match self {
+            Self::Uniform | Self::LogUniform | Self::Normal | Self::LogNormal | Self::Gumbel => stated.len() == 2,
+            Self::Weibull => stated.len() == 3 || stated.len() == 2 && !states(Statistic::Location),
+            Self::Triangular => stated.len() == 3,
+            Self::Beta | Self::TruncatedNormal | Self::TruncatedGumbel => {
+                stated.len() == 4 && states(Statistic::Min) && states(Statistic::Max)
+            }
+        }
+    }
+}
+
+impl Distribution {
+    /// The distribution of the family `law` of which all of `stated` is true.
+    ///
+    /// Closed forms where a location and a scale are asked for; else a root in the one or two shapes, to the last
+    /// digits: each statement then holds to 1e-9 standard deviations. Where several distributions of the family fit
+    /// (a log-normal one of given mean and 95 % quantile may be narrow or wide), it is the narrowest.
+    ///
+    /// # Errors
+    ///
+    /// If something is stated that the family does not have, or twice; too little or too much is stated
+    /// ([`Law::needs`]); quantiles and bounds are not in order; no distribution of the family fits; or as the
+    /// constructor of the family.
+    ///
+    /// ```
+    /// use apportion::space::distribution::{Distribution, Law, Statistic};
+    ///
+    /// let roughness = Distribution::stated(Law::LogNormal, &[(Statistic::P05, 1.0), (Statistic::P95, 4.0)])?;
+    /// assert!((roughness.median() - 2.0).abs() < 1e-12);
+    /// let length = Distribution::stated(Law::Triangular, &[(Statistic::Mode, 3.0), (Statistic::P05, 1.0), (Statistic::P95, 5.0)])?;
+    /// assert!((length.mean() - 3.0).abs() < 1e-9);
+    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// ```
+    pub fn stated(law: Law, stated: &[(Statistic, f64)]) -> Result<Self, DistributionError> {
+        check(law, stated)?;
+        let found = match law {
+            Law::Beta | Law::TruncatedNormal | Law::TruncatedGumbel => bounded::solve(law, stated),
+            _ => scaled::solve(law, stated),
+        };
+        found.ok_or_else(|| DistributionError::NoSuchDistribution {
+            distribution: law.name(),
+            statements: in_words(stated),
+            first: stated[0].0.name(),
+        })
+    }
+}
+
+fn check(law: Law, stated: &[Statement]) -> Result<(), DistributionError> {
+    for (place, (statistic, value)) in stated.iter().enumerate() {
+        let (distribution, parameter) = (law.name(), statistic.name());
+        if !law.takes(*statistic) {
+            return Err(DistributionError::NotStated { distribution, statistic: parameter });
+        }
+        if stated[..place].iter().any(|(other, _)| other == statistic) {
+            return Err(DistributionError::StatedTwice { statistic: parameter });
+        }
+        super::error::finite(parameter, *value)?;
+        let positive = matches!(law, Law::LogNormal | Law::LogUniform) && *statistic != Statistic::LogMean;
+        let spread = matches!(statistic, Statistic::Sd | Statistic::Scale | Statistic::Shape | Statistic::LogSd);
+        if positive || spread {
+            super::error::positive(parameter, *value)?;
+        }
+    }
+    if !law.is_enough(stated) {
+        return Err(DistributionError::Determined {
+            distribution: law.name(),
+            needed: law.needs(),
+            given: stated.len(),
+        });
+    }
+    let mut ordered: Vec<(f64, Statement)> =
+        stated.iter().filter_map(|statement| Some((statement.0.probability()?, *statement))).collect();
+    ordered.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for pair in ordered.windows(2) {
+        let ((_, (lower, low)), (_, (upper, high))) = (pair[0], pair[1]);
+        if low >= high {
+            return Err(DistributionError::Order { lower: lower.name(), low, upper: upper.name(), high });
+        }
+    }
+    Ok(())
+}
+
+fn in_words(stated: &[Statement]) -> String {
+    let mut text = String::new();
+    for (place, (statistic, value)) in stated.iter().enumerate() {
+        let joint = match place {
+            0 => "",
+            _ if place + 1 == stated.len() => " and ",
+            _ => ", ",
+        };
+        let _ = write!(text, "{joint}{} = {value}", statistic.name());
+    }
+    text
+}
+
+/// Whether `distribution` is what was stated: to 1e-9 of its standard deviation, to which the last digits of a value
+/// far from 0 may add a few.
+fn is_as_stated(
+    distribution: &Distribution,
+    value_of: impl Fn(Statistic) -> Option<f64>,
+    stated: &[Statement],
+) -> bool {
+    let scale = distribution.sd();
+    stated.iter().all(|(statistic, value)| {
+        let Some(found) = value_of(*statistic) else { return false };
+        // Of pure numbers, such as shapes, the relative error counts.
+        let tolerance = match statistic {
+            Statistic::Shape | Statistic::Alpha | Statistic::Beta | Statistic::LogSd => 1e-9 * value.abs(),
+            Statistic::LogMean => 1e-9,
+            _ => 1e-9 * scale + 1e-13 * value.abs(),
+        };
+        (found - value).abs() <= tolerance
+    })
+}
+
+#[cfg(test)]
+mod tests;

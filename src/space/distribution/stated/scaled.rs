@@ -1,0 +1,178 @@
+//! Families of a location, a scale and at most one shape: x = location + scale z, with z of the standard distribution.
+//!
+//! Every statement is linear in location and scale: a + b z-statistic = value. Two statements give both; a third one
+//! gives the shape, at which the determinant of the three lines (1 or 0, z-statistic, value) vanishes.
+
+use super::super::Distribution;
+use super::root::{evenly, first_zero};
+use super::{Law, Statement, Statistic, is_as_stated};
+
+/// A statement of the standard distribution: coefficients of location and scale, and the value.
+type Line = [f64; 3];
+
+pub(super) fn solve(law: Law, stated: &[Statement]) -> Option<Distribution> {
+    let accept = |shape: f64| {
+        let (location, scale) = Lines::of(law, shape, stated)?.located()?;
+        let found = made(law, (location, scale, shape), stated)?;
+        is_as_stated(&found, |statistic| statistic_of(law, &found, statistic, shape), stated).then_some(found)
+    };
+    if let Some((_, shape)) = stated.iter().find(|(statistic, _)| is_shape(*statistic)) {
+        return accept(*shape);
+    }
+    // From narrow to wide.
+    let logs: (f64, f64, u32) = match law {
+        Law::LogNormal => (1e-9, 26.0, 500),
+        Law::LogUniform => (1e-9, 700.0, 500),
+        Law::Weibull => (1e4, 0.015, 500),
+        Law::Triangular => {
+            return first_zero(evenly(0.0, 1.0, 401), |shape| determinant(law, shape, stated), accept);
+        }
+        _ => return accept(f64::NAN),
+    };
+    let (from, to, count) = logs;
+    let by_log = |log: f64| determinant(law, log.exp(), stated);
+    first_zero(evenly(from.ln(), to.ln(), count), by_log, |log| accept(log.exp()))
+}
+
+fn is_shape(statistic: Statistic) -> bool {
+    matches!(statistic, Statistic::Shape | Statistic::LogSd)
+}
+
+/// The distribution of location 0 (or least value 0) and scale 1.
+fn standard(law: Law, shape: f64) -> Option<Distribution> {
+    match law {
+        Law::Uniform => Distribution::uniform(0.0, 1.0),
+        Law::Normal => Distribution::normal(0.0, 1.0),
+        Law::Gumbel => Distribution::gumbel(0.0, 1.0),
+        Law::LogUniform => Distribution::log_uniform(1.0, shape.exp()),
+        Law::LogNormal => Distribution::log_normal_of_logs(0.0, shape),
+        Law::Weibull => Distribution::weibull(shape, 1.0, 0.0),
+        Law::Triangular => Distribution::triangular(0.0, shape, 1.0),
+        Law::Beta | Law::TruncatedNormal | Law::TruncatedGumbel => return None,
+    }
+    .ok()
+}
+
+fn statistic_of(law: Law, distribution: &Distribution, statistic: Statistic, shape: f64) -> Option<f64> {
+    Some(match statistic {
+        Statistic::Mean => distribution.mean(),
+        Statistic::Sd => distribution.sd(),
+        Statistic::Mode | Statistic::Location | Statistic::Scale | Statistic::LogMean => {
+            return parameter_of(law, distribution, statistic, shape);
+        }
+        Statistic::Shape | Statistic::LogSd => shape,
+        other => distribution.quantile(other.probability()?),
+    })
+}
+
+/// What only the parameters of a distribution tell.
+fn parameter_of(law: Law, distribution: &Distribution, statistic: Statistic, shape: f64) -> Option<f64> {
+    let parameters = distribution.parameters();
+    let parameter = |name: &str| {
+        parameters.iter().find(|(other, _)| *other == name).and_then(|(_, value)| match value {
+            super::super::Parameter::Number(number) => Some(*number),
+            _ => None,
+        })
+    };
+    match (law, statistic) {
+        (Law::Normal, Statistic::Mode) => parameter("mean"),
+        (Law::Triangular, Statistic::Mode) => parameter("mode"),
+        (Law::Gumbel, Statistic::Mode) => parameter("location"),
+        (Law::LogNormal, Statistic::LogMean) => parameter("log_mean"),
+        // exp(mu - sigma^2), the mode of a log-normal distribution.
+        (Law::LogNormal, Statistic::Mode) => parameter("log_mean").map(|log_mean| (log_mean - shape * shape).exp()),
+        (Law::Weibull, Statistic::Mode) => {
+            let (location, scale) = parameter("location").zip(parameter("scale"))?;
+            Some(location + scale * weibull_mode(shape))
+        }
+        (_, Statistic::Location) => parameter("location"),
+        (_, Statistic::Scale) => parameter("scale"),
+        _ => None,
+    }
+}
+
+/// The mode of a Weibull distribution at location 0 and scale 1: ((k - 1)/k)^(1/k), 0 for shapes k up to 1.
+fn weibull_mode(shape: f64) -> f64 {
+    if shape > 1.0 { ((-shape.recip()).ln_1p() / shape).exp() } else { 0.0 }
+}
+
+/// The statements as lines, for one shape.
+struct Lines {
+    lines: Vec<Line>,
+    /// What was taken off the values, so that those far from 0 keep their digits.
+    origin: f64,
+}
+
+impl Lines {
+    fn of(law: Law, shape: f64, stated: &[Statement]) -> Option<Self> {
+        let standard = standard(law, shape)?;
+        let mut lines = Vec::with_capacity(3);
+        let at_zero = matches!(law, Law::LogNormal | Law::LogUniform) || law == Law::Weibull && stated.len() == 2;
+        if at_zero {
+            lines.push([1.0, 0.0, 0.0]);
+        }
+        for (statistic, value) in stated {
+            lines.push(match statistic {
+                Statistic::Sd => [0.0, standard.sd(), *value],
+                Statistic::Scale => [0.0, 1.0, *value],
+                Statistic::Location => [1.0, 0.0, *value],
+                // The scale of a log-normal distribution is exp(log_mean).
+                Statistic::LogMean => [0.0, 1.0, value.exp()],
+                Statistic::Shape | Statistic::LogSd => continue,
+                other => [1.0, statistic_of(law, &standard, *other, shape)?, *value],
+            });
+        }
+        let origin = lines.iter().find(|line| line[0] == 1.0).map_or(0.0, |line| line[2]);
+        lines.iter_mut().for_each(|line| line[2] -= line[0] * origin);
+        Some(Self { lines, origin })
+    }
+
+    /// Location and scale from the two lines that determine them best.
+    fn located(&self) -> Option<(f64, f64)> {
+        let lines = &self.lines;
+        let pairs = (0..lines.len()).flat_map(|i| (i + 1..lines.len()).map(move |j| (i, j)));
+        let (_, i, j) = pairs
+            .map(|(i, j)| ((lines[i][0] * lines[j][1] - lines[i][1] * lines[j][0]).abs(), i, j))
+            // The coefficients are of order 1: lines of no more angle than this are one line.
+            .filter(|(size, ..)| *size > 1e-12)
+            .max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let ([a, b, v], [c, d, w]) = (lines[i], lines[j]);
+        let size = a * d - b * c;
+        let (location, scale) = ((v * d - b * w) / size, (a * w - v * c) / size);
+        (scale > 0.0 && scale.is_finite()).then_some((self.origin + location, scale))
+    }
+}
+
+/// Zero where three statements agree; NaN where the standard distribution does not exist.
+fn determinant(law: Law, shape: f64, stated: &[Statement]) -> f64 {
+    let Some(Lines { lines, .. }) = Lines::of(law, shape, stated) else { return f64::NAN };
+    let [a, b, c] = lines[..] else { return f64::NAN };
+    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+}
+
+/// The distribution, its own parameters as stated where they are stated.
+fn made(law: Law, (location, scale, shape): (f64, f64, f64), stated: &[Statement]) -> Option<Distribution> {
+    let or = |statistic: Statistic, value: f64| {
+        stated.iter().find(|(other, _)| *other == statistic).map_or(value, |(_, stated)| *stated)
+    };
+    match law {
+        Law::Uniform => Distribution::uniform(or(Statistic::Min, location), or(Statistic::Max, location + scale)),
+        Law::Normal => {
+            Distribution::normal(or(Statistic::Mean, or(Statistic::Mode, location)), or(Statistic::Sd, scale))
+        }
+        Law::Gumbel => {
+            Distribution::gumbel(or(Statistic::Location, or(Statistic::Mode, location)), or(Statistic::Scale, scale))
+        }
+        Law::LogUniform => {
+            Distribution::log_uniform(or(Statistic::Min, scale), or(Statistic::Max, scale * shape.exp()))
+        }
+        Law::LogNormal => Distribution::log_normal_of_logs(or(Statistic::LogMean, scale.ln()), shape),
+        Law::Weibull => Distribution::weibull(shape, or(Statistic::Scale, scale), or(Statistic::Location, location)),
+        Law::Triangular => {
+            let (min, max) = (or(Statistic::Min, location), or(Statistic::Max, location + scale));
+            Distribution::triangular(min, or(Statistic::Mode, location + scale * shape).clamp(min, max), max)
+        }
+        Law::Beta | Law::TruncatedNormal | Law::TruncatedGumbel => return None,
+    }
+    .ok()
+}

@@ -1,0 +1,253 @@
+//! Factors as people have them, through the program: named statistics, whole numbers, categories, measured values.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::common::{apportion, stderr, stdout};
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn with(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.path(name);
+        std::fs::write(&path, content).unwrap();
+        path
+    }
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// A study with a factor of every kind; its model gives what it gets.
+const STUDY: &str = r#"model = "expression"
+[expression]
+outputs.y = "d + n + wet + 10*material + r"
+[design]
+base_samples = 256
+replicates = 4
+[[factor]]
+name = "d"
+distribution = "triangular"
+mode = 3
+p05 = 1
+p95 = 5
+[[factor]]
+name = "n"
+distribution = "integer"
+min = 1
+max = 6
+[[factor]]
+name = "wet"
+distribution = "boolean"
+probability = 0.25
+[[factor]]
+name = "material"
+distribution = "categorical"
+labels = ["steel", "brass", "soft, pure copper"]
+weights = [5, 2, 1]
+[[factor]]
+name = "r"
+distribution = "empirical"
+file = "measured.csv"
+column = "radius"
+"#;
+
+const MEASURED: &str = "\u{feff}run, radius\r\n1, 52\r\n2, 48\r\n\r\n3, 49\r\n4, 51";
+
+fn studied() -> (Folder, PathBuf) {
+    let folder = Folder::new();
+    folder.with("measured.csv", MEASURED);
+    let study = folder.with("study.toml", STUDY);
+    (folder, study)
+}
+
+#[track_caller]
+fn succeed(arguments: &[&str]) -> String {
+    let output = apportion(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+    stdout(&output)
+}
+
+/// The cells of the line of check's table that begins with `factor`.
+fn line(table: &str, factor: &str) -> Vec<String> {
+    let lines = table.lines().map(|line| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>());
+    lines.into_iter().find(|cells| cells.first().is_some_and(|cell| cell == factor)).unwrap_or_default()
+}
+
+#[test]
+fn check_prints_what_is_implied() {
+    let (_folder, study) = studied();
+    let table = succeed(&["check", text(&study)]);
+    // Mean, sd, 5 %, median, 95 %, nominal.
+    assert_eq!(line(&table, "n")[..8], ["n", "integer", "3.5", "1.70783", "1", "4", "6", "4"]);
+    assert_eq!(line(&table, "wet")[..8], ["wet", "boolean", "0.25", "0.433013", "false", "false", "true", "false"]);
+    let material = ["material", "categorical", "-", "-", "steel", "steel", "soft,"];
+    assert_eq!(line(&table, "material")[..7], material);
+    assert_eq!(line(&table, "r")[..8], ["r", "empirical", "50", "1.58114", "48", "51", "52", "51"]);
+    let d = line(&table, "d");
+    assert_eq!((d[4].as_str(), d[5].as_str(), d[6].as_str()), ("1", "3", "5"));
+    assert!(table.contains("material: steel 62.5 %, brass 25 %, soft, pure copper 12.5 %"), "{table}");
+    assert!(table.contains("d: triangular with min = ") && table.contains("mode = 3, max = "), "{table}");
+}
+
+#[test]
+fn labels_are_kept_in_results_points_and_sweeps() {
+    let (folder, study) = studied();
+    let out = folder.path("out");
+    succeed(&["run", text(&study), "--out", text(&out)]);
+    let result: Value = serde_json::from_str(&std::fs::read_to_string(out.join("study.json")).unwrap()).unwrap();
+    let factors = &result["study"]["factors"];
+    assert_eq!(factors[3]["distribution"]["labels"][2], "soft, pure copper");
+    assert_eq!(factors[4]["distribution"]["file"], "measured.csv");
+    assert_eq!(factors[4]["distribution"]["sha256"].as_str().unwrap().len(), 64);
+
+    // Points by label, or by the number of one.
+    let points = folder.with("points.csv", "material,d,wet\nbrass,0,true\n\"soft, pure copper\",0,false\n0,0,0\n");
+    let values = folder.path("values.csv");
+    succeed(&["evaluate", text(&study), text(&points), "-o", text(&values)]);
+    // n and r are left out: they stand at 4 and 51.
+    assert_eq!(std::fs::read_to_string(&values).unwrap(), "y\n66\n75\n55\n");
+
+    succeed(&["sweep", text(&study), "--factor", "material", "--against", "wet=false,true", "--out", text(&out)]);
+    let csv = std::fs::read_to_string(out.join("study-sweep.csv")).unwrap();
+    assert!(csv.contains("material,1,steel,,,,y,") && csv.contains("material,1,brass,wet,1,true,y,"), "{csv}");
+    let json = std::fs::read_to_string(out.join("study-sweep.json")).unwrap();
+    let json: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["sweeps"][0]["labels"][1], "brass");
+    assert_eq!(json["sweeps"][0]["curves"][2]["against"]["label"], "true");
+    let chart = std::fs::read_to_string(out.join("study-sweep-material.svg")).unwrap();
+    for label in ["steel", "brass", "soft, pure copper", "wet = true"] {
+        assert!(chart.contains(&format!(">{label}<")), "{label}");
+    }
+    // Whole numbers are swept one by one.
+    succeed(&["sweep", text(&study), "--factor", "n", "--out", text(&out)]);
+    let csv = std::fs::read_to_string(out.join("study-sweep.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 1 + 6, "{csv}");
+}
+
+#[test]
+fn a_failed_run_names_its_category() {
+    let (folder, _) = studied();
+    let study = folder.with("fail.toml", STUDY.replace("10*material", "ln(1 - material)"));
+    let out = folder.path("out");
+    let output = apportion(&["run", text(&study), "--out", text(&out), "--set", "analysis.max_failed=1"]);
+    assert!(output.status.code().is_some(), "{}", stderr(&output));
+    let result: Value = serde_json::from_str(&std::fs::read_to_string(out.join("fail.json")).unwrap()).unwrap();
+    let failures = result["outputs"][0]["failures"].as_array().unwrap();
+    let reasons: Vec<&str> = failures.iter().filter_map(|failure| failure["reason"].as_str()).collect();
+    assert!(reasons.iter().any(|reason| reason.starts_with("the formula is infinite")), "{reasons:?}");
+    assert!(reasons.iter().any(|reason| reason.starts_with("the formula has no value")), "{reasons:?}");
+    let labels: Vec<&Value> = failures.iter().map(|failure| &failure["first_inputs"]["material"]).collect();
+    assert!(labels.iter().all(|label| *label == "brass" || *label == "soft, pure copper"), "{labels:?}");
+}
+
+/// Replaces `from` in the study and expects exit code 2 with all of `expected` in the message.
+#[track_caller]
+fn refused(from: &str, to: &str, expected: &[&str]) {
+    let (folder, _) = studied();
+    assert!(STUDY.contains(from), "{from}");
+    let study = folder.with("study.toml", STUDY.replacen(from, to, 1));
+    let output = apportion(&["check", text(&study)]);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for part in expected {
+        assert!(message.contains(part), "no {part:?} in:\n{message}");
+    }
+}
+
+#[test]
+fn what_determines_nothing_is_refused_with_its_place() {
+    refused("p95 = 5\n", "", &["study.toml:10:8:", "is determined by three of min, mode, max", "2 of these are given"]);
+    refused("p95 = 5", "p95 = 5\nmean = 3", &["study.toml:10:8:", "but 4 of these are given"]);
+    refused("p95 = 5", "p95 = 0.5", &["study.toml:12:7:", "`p05` is 1 and `p95` is 0.5"]);
+    refused(
+        "mode = 3",
+        "mode = 5.5",
+        &["study.toml:10:8:", "no triangular distribution", "mode = 5.5, p05 = 1 and p95 = 5"],
+    );
+    refused("p05 = 1", "p06 = 1", &["study.toml:11:1:", "unknown key `p06`: did you mean `p0"]);
+    refused("p05 = 1", "log_sd = 1", &["study.toml:11:10:", "has no `log_sd`", "it takes three of min, mode, max"]);
+    refused("min = 1", "min = 1.5", &["study.toml:16:7:", "`min` is 1.5, but must be a whole number"]);
+    refused("max = 6", "max = 0", &["study.toml:16:7:", "`min` must be below `max`"]);
+    refused("probability = 0.25", "probability = 25", &["study.toml:21:15:", "must lie between 0.0 and 1.0"]);
+    refused(
+        "probability = 0.25",
+        "values = [0, 1]",
+        &["study.toml:21:10:", "the boolean distribution has no `values`"],
+    );
+    refused("\"brass\"", "\"steel\"", &["study.toml:25:10:", "the label \"steel\" stands in `labels` twice"]);
+    refused("\"brass\"", "\" \"", &["study.toml:25:10:", "`labels[1]` is empty"]);
+    refused("[5, 2, 1]", "[5, 2]", &["study.toml:26:11:", "2 `weights` for 3 `values`"]);
+    refused(
+        "weights = [5, 2, 1]",
+        "values = [5, 2, 5]",
+        &["study.toml:26:10:", "every label needs a value of its own"],
+    );
+    refused("labels = [\"steel\", \"brass\", \"soft, pure copper\"]\n", "", &["study.toml:23:8:", "needs `labels`"]);
+    let nominal = |value: &str| format!("weights = [5, 2, 1]\nnominal = {value}");
+    refused("weights = [5, 2, 1]", &nominal("\"gold\""), &["study.toml:27:11:", "is \"gold\"", "steel (0), brass (1)"]);
+    refused("weights = [5, 2, 1]", &nominal("0.5"), &["study.toml:27:11:", "is 0.5, which is not one of its values"]);
+    refused(
+        "max = 6",
+        "max = 6\nnominal = 2.5",
+        &["study.toml:18:11:", "which is not one of its values", "whole numbers"],
+    );
+}
+
+#[test]
+fn measured_values_are_refused_with_their_line() {
+    refused("measured.csv", "measurd.csv", &["study.toml:30:8:", "measurd.csv: cannot read the measured values"]);
+    refused("\"radius\"", "\"radios\"", &["study.toml:31:10:", "unknown column `radios`: did you mean `radius`?"]);
+    refused("column = \"radius\"\n", "", &["study.toml:30:8:", "measured.csv:1: there are several columns"]);
+    let with = |measured: &[u8], expected: &str| {
+        let (folder, study) = studied();
+        folder.with("measured.csv", measured);
+        let output = apportion(&["check", text(&study)]);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(expected), "no {expected:?} in:\n{message}");
+    };
+    with(b"radius\n1\n\nnan\n", "measured.csv:4: expected a finite number, not \"nan\"");
+    with(b"radius,b\n1,2\n3\n", "measured.csv:3: expected 2 cells as in the first line, not 1");
+    with(b"radius\n", "measured.csv:1: there are no values after the header");
+    with(b"", "measured.csv: the file is empty");
+    with(b"radius\n\xff\n", "measured.csv: the file is not text in UTF-8");
+    // Bare numbers need no header.
+    let (folder, _) = studied();
+    folder.with("measured.csv", "1\n2\n6\n");
+    let bare = folder.with("bare.toml", STUDY.replace("column = \"radius\"\n", ""));
+    assert_eq!(line(&succeed(&["check", text(&bare)]), "r")[2], "3");
+}
+
+#[test]
+fn points_and_sweeps_of_no_category_are_refused() {
+    let (folder, study) = studied();
+    let values = folder.path("values.csv");
+    for cell in ["gold", "0.5", "nan"] {
+        let points = folder.with("points.csv", format!("d,material\n1,steel\n1,{cell}\n"));
+        let output = apportion(&["evaluate", text(&study), text(&points), "-o", text(&values)]);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(
+            message.contains("line 3: column 2 (`material`): expected one of steel, brass, soft, pure copper"),
+            "{message}"
+        );
+    }
+    for (request, expected) in
+        [("material=gold", "`gold` is no category of factor `material`"), ("n=1,1.5", "1.5 is no whole number")]
+    {
+        let output = apportion(&["sweep", text(&study), "--factor", request, "--out", text(&folder.path("out"))]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    }
+}
