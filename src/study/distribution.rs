@@ -8,7 +8,7 @@ use super::resolve::{Context, Fault};
 use crate::space::{Distribution, DistributionError};
 
 /// How each distribution is written, the default first.
-const LAWS: [Law; 12] = [
+pub(super) const LAWS: [Law; 12] = [
     Law { name: "uniform", takes: "min, max" },
     Law { name: "log-uniform", takes: "min, max" },
     Law { name: "normal", takes: "mean, sd" },
@@ -24,8 +24,8 @@ const LAWS: [Law; 12] = [
 ];
 
 #[derive(Clone, Copy)]
-struct Law {
-    name: &'static str,
+pub(super) struct Law {
+    pub name: &'static str,
     takes: &'static str,
 }
 

@@ -3,6 +3,7 @@
 //! A study is read once and checked once; after that nothing re-validates. Everything wrong with a file is reported
 //! with its line and column.
 
+mod at;
 mod constants;
 mod distribution;
 mod error;
@@ -11,7 +12,9 @@ mod function;
 mod options;
 mod overrides;
 mod resolve;
+mod schema;
 mod subject;
+mod template;
 
 use std::path::{Path, PathBuf};
 
@@ -19,7 +22,9 @@ use sha2::{Digest, Sha256};
 
 pub use error::{Diagnostic, OverrideProblem, Problem, StudyError, nearest};
 pub use options::{AnalysisOptions, Stopping};
+pub use schema::study_schema;
 pub use subject::{AfmSubject, KnownSubject, Subject};
+pub use template::{TemplateRequest, template};
 
 use crate::design::Design;
 use crate::model::Model;

@@ -3,6 +3,7 @@
 mod accuracy;
 mod afm_contact_oracle;
 mod analytic;
+mod commands;
 mod common;
 mod degenerate;
 mod distributions;
@@ -15,5 +16,6 @@ mod known;
 mod metamorphic;
 mod page;
 mod points;
+mod schema;
 mod screening;
 mod workflows;
