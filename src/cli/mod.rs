@@ -1,13 +1,19 @@
 //! The command line: arguments, progress, messages and exit codes. Everything else is the library's.
 
 mod check;
+mod compare;
+mod completions;
 mod evaluate;
 mod given_data;
+mod man;
 mod models;
+mod new;
 mod pictures;
 mod progress;
+mod report;
 mod reproduce;
 mod run;
+mod schema;
 mod screen;
 mod simulate;
 mod sweep;
@@ -16,9 +22,9 @@ use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use apportion::report::WriteError;
+use apportion::report::{ReadError, WriteError};
 use apportion::run::RunError;
 use apportion::study::{Study, StudyError};
 
@@ -34,10 +40,16 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Write a study file to begin with, whose comments explain it
+    New(new::Arguments),
     /// Run the papers' nine studies and set their percentages beside the published ones
     Reproduce(reproduce::Arguments),
     /// Run a study: design, model runs, indices, charts
     Run(run::Arguments),
+    /// Draw the page, tables and charts of a result again, from its JSON file alone
+    Report(report::Arguments),
+    /// Set two results side by side: by how much the indices differ, and whether that is more than their errors
+    Compare(compare::Arguments),
     /// Screen many factors for those that matter, by elementary effects: a few runs for each factor
     Screen(screen::Arguments),
     /// Move one factor at a time around the nominal point: curves, ranges and slopes of every output
@@ -52,6 +64,12 @@ enum Command {
     Simulate(simulate::Arguments),
     /// List what can be studied, or show one model in full: formula, factors, outputs, exact indices
     Models(models::Arguments),
+    /// Print the JSON Schema of study or result files, for editors and programs
+    Schema(schema::Arguments),
+    /// Print the script with which a shell completes commands and options
+    Completions(completions::Arguments),
+    /// Print a page of the manual, or write all of them
+    Man(man::Arguments),
 }
 
 /// A study file and the changes to it that the command line makes.
@@ -145,6 +163,12 @@ impl From<StudyError> for Failure {
     }
 }
 
+impl From<ReadError> for Failure {
+    fn from(error: ReadError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
 impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
         Self::Run(error.into())
@@ -167,8 +191,11 @@ impl From<std::io::Error> for Failure {
 pub fn main() -> ExitCode {
     // Usage errors leave through clap, with exit code 2.
     let outcome = match Cli::parse().command {
+        Command::New(arguments) => new::new(&arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Run(arguments) => run::run(&arguments),
+        Command::Report(arguments) => report::report(&arguments),
+        Command::Compare(arguments) => compare::compare(&arguments),
         Command::Screen(arguments) => screen::screen(&arguments),
         Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
@@ -176,6 +203,9 @@ pub fn main() -> ExitCode {
         Command::Check(arguments) => check::check(&arguments),
         Command::Simulate(arguments) => simulate::simulate(&arguments),
         Command::Models(arguments) => models::models(&arguments),
+        Command::Schema(arguments) => schema::schema(&arguments),
+        Command::Completions(arguments) => completions::completions(&arguments),
+        Command::Man(arguments) => man::man(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
@@ -193,6 +223,17 @@ fn fail(error: &anyhow::Error, code: u8) -> ExitCode {
 
 fn is_broken_pipe(error: &anyhow::Error) -> bool {
     error.downcast_ref::<std::io::Error>().is_some_and(|e| e.kind() == std::io::ErrorKind::BrokenPipe)
+}
+
+/// The command line as clap knows it.
+fn command() -> clap::Command {
+    Cli::command()
+}
+
+/// Writes what the program itself has made, for other programs, to standard output.
+fn print_raw(bytes: &[u8]) -> Result<(), Failure> {
+    std::io::stdout().write_all(bytes)?;
+    Ok(())
 }
 
 /// Writes `text` to standard output without panicking when nobody reads it.

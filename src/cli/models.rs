@@ -24,8 +24,7 @@ pub fn models(arguments: &Arguments) -> Result<(), Failure> {
         return print(&estimators());
     }
     let Some(name) = &arguments.name else { return print(&list()) };
-    let kind = ModelKind::from_name(name).ok_or_else(|| unknown(name))?;
-    print(&match kind {
+    print(&match find_model(name)? {
         ModelKind::Afm => flagship(),
         ModelKind::Expression => expression(),
         ModelKind::Known(answer) => function(answer),
@@ -72,6 +71,11 @@ fn estimators() -> String {
         "{rows}\nd counts factors, groups, subsets and the dummy. Ask for them in a study by [analysis] estimators = \
          [\"azzini\", \"jansen\"]; the default ones are always there.\n\n{sources}"
     )
+}
+
+/// The model of that name, or the names that there are.
+pub fn find_model(name: &str) -> Result<ModelKind, Failure> {
+    ModelKind::from_name(name).ok_or_else(|| unknown(name))
 }
 
 fn unknown(name: &str) -> Failure {

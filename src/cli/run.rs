@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let result = analyse(&study, arguments.threads.number(), &|progress| meter.update(progress))
         .map_err(|error| with_inputs(&study, error))?;
     meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
-    let written = write_files(&folder, &study, &result)?;
+    let written = write_files(&folder, &files(&study), &result)?;
     print(&summary(&result))?;
     for file in written {
         say(&format!("wrote {}", file.display()));
@@ -87,7 +87,16 @@ pub struct ResultFileName {
     kind: Kind,
 }
 
+impl ResultFileName {
+    /// Whether it is the result itself, from which all others can be drawn.
+    pub fn is_result(&self) -> bool {
+        matches!(self.kind, Kind::Result)
+    }
+}
+
 enum Kind {
+    /// The result itself.
+    Result,
     Text(fn(&ResultFile) -> String),
     /// The page, which links to the other files.
     Page,
@@ -99,20 +108,44 @@ enum Kind {
 
 type Draw = fn(&ResultFile, &OutputRecord) -> Chart;
 
+/// What decides which files there are.
+pub struct Contents<'a> {
+    /// Name of the study.
+    pub name: &'a str,
+    /// Names of the outputs.
+    pub outputs: Vec<&'a str>,
+    /// Whether there are second-order indices.
+    pub second_order: bool,
+    /// Whether there are indices by other estimators.
+    pub estimators: bool,
+}
+
 /// The files that a run of `study` writes.
 pub fn files(study: &Study) -> Vec<ResultFileName> {
-    let page = format!("{}.html", study.name);
-    let mut files = vec![ResultFileName { name: page, content: "the result as a page, to read", kind: Kind::Page }];
-    let mut table = |suffix: &str, content, text| {
-        let name = format!("{}{suffix}", study.name);
-        files.push(ResultFileName { name, content, kind: Kind::Text(text) });
-    };
-    table(".json", "the result, for programs", result_json);
+    let model = study.model();
+    files_of(&Contents {
+        name: &study.name,
+        outputs: model.outputs().iter().map(|output| &*output.name).collect(),
+        second_order: study.analysis.second_order,
+        estimators: !study.analysis.estimators.is_empty(),
+    })
+}
+
+/// The files of a result with these contents.
+pub fn files_of(contents: &Contents<'_>) -> Vec<ResultFileName> {
+    let Contents { name: study, outputs, .. } = contents;
+    let file = |name: String, content, kind| ResultFileName { name, content, kind };
+    let mut files = vec![
+        file(format!("{study}.html"), "the result as a page, to read", Kind::Page),
+        file(format!("{study}.json"), "the result, for programs", Kind::Result),
+    ];
+    let mut table =
+        |suffix: &str, content, text| files.push(file(format!("{study}{suffix}"), content, Kind::Text(text)));
     table(".csv", "the indices, for spreadsheets", indices_csv);
-    if study.analysis.second_order {
+    if contents.second_order {
         table("-second-order.csv", "the second-order indices of all pairs", second_order_csv);
     }
-    if !study.analysis.estimators.is_empty() {
+    if contents.estimators {
         table("-estimators.csv", "the indices by the other estimators", estimators_csv);
     }
     table("-convergence.csv", "the indices at every stage of the run", convergence_csv);
@@ -124,35 +157,42 @@ pub fn files(study: &Study) -> Vec<ResultFileName> {
         ("-distribution", "chart of the output's distribution", distribution_chart),
         ("-convergence", "chart of how the indices settled", convergence_chart),
     ];
-    let model = study.model();
-    for (number, output) in model.outputs().iter().enumerate() {
-        let stem = output_stem(&study.name, &output.name, model.outputs().len());
+    for (number, output) in outputs.iter().enumerate() {
+        let stem = output_stem(study, output, outputs.len());
         for (suffix, content, draw) in charts {
-            let name = format!("{stem}{suffix}.svg");
-            files.push(ResultFileName { name, content, kind: Kind::Svg(draw, number) });
-            let name = format!("{stem}{suffix}.png");
-            files.push(ResultFileName { name, content: "the same as a picture", kind: Kind::Png(draw, number) });
+            files.push(file(format!("{stem}{suffix}.svg"), content, Kind::Svg(draw, number)));
+            files.push(file(format!("{stem}{suffix}.png"), "the same as a picture", Kind::Png(draw, number)));
         }
     }
     files
 }
 
-fn write_files(folder: &Path, study: &Study, result: &ResultFile) -> Result<Vec<PathBuf>, Failure> {
+/// Writes `files` of `result` to `folder`; the page links to all of them.
+pub fn write_files(folder: &Path, files: &[ResultFileName], result: &ResultFile) -> Result<Vec<PathBuf>, Failure> {
+    write_selected(folder, files, (result, &|_| true))
+}
+
+/// Writes those of `files` that are `wanted`; the page links to all of them.
+pub fn write_selected(
+    folder: &Path,
+    files: &[ResultFileName],
+    (result, wanted): (&ResultFile, &dyn Fn(&ResultFileName) -> bool),
+) -> Result<Vec<PathBuf>, Failure> {
     let drawn = |draw: Draw, number: usize| {
         draw(result, &result.outputs[number]).svg().map_err(|error| Failure::Run(error.into()))
     };
-    let files = files(study);
     let others = files.iter().filter(|file| !matches!(file.kind, Kind::Page)).map(|file| file.name.clone());
     let others: Vec<String> = others.collect();
     let mut written = Vec::with_capacity(files.len());
-    for file in files {
+    for file in files.iter().filter(|file| wanted(file)) {
         let bytes = match file.kind {
             Kind::Page => run_page(result, &others).html().map_err(|error| Failure::Run(error.into()))?.into_bytes(),
+            Kind::Result => result_json(result).into_bytes(),
             Kind::Text(text) => text(result).into_bytes(),
             Kind::Svg(draw, number) => drawn(draw, number)?.into_bytes(),
             Kind::Png(draw, number) => png(&drawn(draw, number)?).map_err(|error| Failure::Run(error.into()))?.bytes,
         };
-        let path = folder.join(file.name);
+        let path = folder.join(&file.name);
         write_atomically(&path, &bytes)?;
         written.push(path);
     }

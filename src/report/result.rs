@@ -3,17 +3,31 @@
 //! Format `apportion-result`, version 1, described key by key in `docs/result-format.md`. Later versions of the program
 //! only add keys. Numbers are in the unit that stands beside them; a number that does not exist is `null`.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::distribution::OutputDistribution;
 use super::scatter::ScatterRecord;
 
-/// A whole result.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// The JSON Schema (draft 7, which editors understand) of result files.
+///
+/// ```
+/// let schema = apportion::report::result_schema();
+/// assert_eq!(schema["properties"]["format"]["type"], "string");
+/// ```
+pub fn result_schema() -> serde_json::Value {
+    schemars::generate::SchemaSettings::draft07().into_generator().into_root_schema_for::<ResultFile>().to_value()
+}
+
+/// The result of a run of apportion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "apportion result")]
 pub struct ResultFile {
     /// Always `apportion-result`.
+    #[schemars(extend("const" = "apportion-result"))]
     pub format: String,
     /// Version of the format.
+    #[schemars(extend("const" = 1))]
     pub version: u32,
     /// What was asked.
     pub study: StudyRecord,
@@ -37,7 +51,7 @@ pub struct ResultFile {
 }
 
 /// What was asked.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StudyRecord {
     /// Name of the study.
     pub name: String,
@@ -56,7 +70,7 @@ pub struct StudyRecord {
 }
 
 /// An input fixed in the study.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ConstantRecord {
     /// The input.
     pub name: String,
@@ -67,7 +81,7 @@ pub struct ConstantRecord {
 }
 
 /// How the answer came about.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Provenance {
     /// Version of the program.
     pub apportion_version: String,
@@ -102,7 +116,7 @@ pub struct Provenance {
 }
 
 /// A factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FactorRecord {
     /// Its name.
     pub name: String,
@@ -117,7 +131,7 @@ pub struct FactorRecord {
 }
 
 /// Everything about one output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OutputRecord {
     /// Its name.
     pub name: String,
@@ -175,7 +189,7 @@ pub struct OutputRecord {
 }
 
 /// How the values of an output are distributed, as far as the rows A and B tell.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DistributionRecord {
     /// Values that mean, standard deviation, skewness, kurtosis and range rest on: those of all rows A and B.
     pub values: u64,
@@ -185,7 +199,7 @@ pub struct DistributionRecord {
 }
 
 /// An interval by itself.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IntervalRecord {
     /// Lower bound.
     pub low: f64,
@@ -194,7 +208,7 @@ pub struct IntervalRecord {
 }
 
 /// An estimate with its interval.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EstimateRecord {
     /// The estimate.
     pub estimate: f64,
@@ -205,7 +219,7 @@ pub struct EstimateRecord {
 }
 
 /// The indices of one factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IndexRecord {
     /// The factor.
     pub factor: String,
@@ -215,7 +229,7 @@ pub struct IndexRecord {
 }
 
 /// The indices of one group of factors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GroupRecord {
     /// The group.
     pub group: String,
@@ -227,7 +241,7 @@ pub struct GroupRecord {
 }
 
 /// First-order and total index, and what they are of the sum over all factors (or groups) in percent.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EffectRecord {
     /// First-order index.
     pub first_order: EstimateRecord,
@@ -253,7 +267,7 @@ pub struct EffectRecord {
 }
 
 /// The joint indices of a subset of the factors that the study lists.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SubsetRecord {
     /// Its factors.
     pub factors: Vec<String>,
@@ -263,7 +277,7 @@ pub struct SubsetRecord {
 }
 
 /// The second-order index of two factors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PairRecord {
     /// The two factors.
     pub factors: [String; 2],
@@ -272,7 +286,7 @@ pub struct PairRecord {
 }
 
 /// Indices by one estimator besides the default ones.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EstimatorRecord {
     /// Its name in study files.
     pub estimator: String,
@@ -285,7 +299,7 @@ pub struct EstimatorRecord {
 }
 
 /// Indices of one factor, group or subset by an estimator besides the default ones.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OtherIndexRecord {
     /// The factor, the group, or the factors of the subset joined by " + ".
     pub name: String,
@@ -296,7 +310,7 @@ pub struct OtherIndexRecord {
 }
 
 /// The indices as they were when the run had so many base points.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StageRecord {
     /// Base points in all.
     pub base_samples: u64,
@@ -309,7 +323,7 @@ pub struct StageRecord {
 }
 
 /// The indices of one factor at a stage.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StageIndexRecord {
     /// The factor.
     pub factor: String,
@@ -320,7 +334,7 @@ pub struct StageIndexRecord {
 }
 
 /// Indices over several outputs together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AggregateRecord {
     /// The outputs.
     pub outputs: Vec<String>,
@@ -333,7 +347,7 @@ pub struct AggregateRecord {
 }
 
 /// The aggregated indices of one factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AggregateIndexRecord {
     /// The factor.
     pub factor: String,
@@ -344,7 +358,7 @@ pub struct AggregateIndexRecord {
 }
 
 /// Why a growing run ended.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StoppingRecord {
     /// In words.
     pub reason: String,
@@ -359,7 +373,7 @@ pub struct StoppingRecord {
 }
 
 /// A reason for which runs failed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FailureRecord {
     /// The reason.
     pub reason: String,
@@ -372,7 +386,7 @@ pub struct FailureRecord {
 }
 
 /// A validity flag.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ValidityRecord {
     /// Its name.
     pub flag: String,
@@ -385,7 +399,7 @@ pub struct ValidityRecord {
 }
 
 /// What a model with a ladder of fidelities spent.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EffortRecord {
     /// The rungs that answered, and how many runs each.
     pub rungs: Vec<RungRecord>,
@@ -396,7 +410,7 @@ pub struct EffortRecord {
 }
 
 /// How many runs a rung answered.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RungRecord {
     /// The rung.
     pub rung: String,

@@ -1,5 +1,6 @@
 //! The output over its most influential factors: a few points to look at, and the means over slices of each factor.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::result::IndexRecord;
@@ -27,7 +28,7 @@ const NUMBERS: u64 = 1 << 18;
 const QUANTILE: f64 = 1.96;
 
 /// How an output goes with the factors of the largest total indices.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ScatterRecord {
     /// At most six factors, the largest total index first.
     pub factors: Vec<String>,
@@ -40,7 +41,7 @@ pub struct ScatterRecord {
 
 /// Means of the output over slices of a factor: an estimate of E[Y | X_i], whose variance is the numerator of the
 /// first-order index. They describe the scatter of the kept rows A and B; no index is computed from them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ConditionalMeansRecord {
     /// The factor.
     pub factor: String,

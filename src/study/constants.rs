@@ -11,7 +11,7 @@ use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options,
 use crate::model::edge_unit;
 use crate::quantity::{Dimension, Quantity, Unit};
 
-const CHOICES: [&str; 9] = [
+pub(super) const CHOICES: [&str; 9] = [
     "friction",
     "contact",
     "fidelity",

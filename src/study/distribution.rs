@@ -10,7 +10,7 @@ use crate::space::distribution::{Law, Statistic};
 use crate::space::{Distribution, DistributionError};
 
 /// How each distribution is written, the default first.
-const FORMS: [Form; 16] = [
+pub(super) const FORMS: [Form; 16] = [
     Form { name: "uniform", own: &["min", "max"], takes: Takes::Law(Law::Uniform) },
     Form { name: "log-uniform", own: &["min", "max"], takes: Takes::Law(Law::LogUniform) },
     Form { name: "normal", own: &["mean", "sd"], takes: Takes::Law(Law::Normal) },
@@ -45,8 +45,8 @@ const FORMS: [Form; 16] = [
 
 /// One distribution in a study file.
 #[derive(Clone, Copy)]
-struct Form {
-    name: &'static str,
+pub(super) struct Form {
+    pub name: &'static str,
     /// The parameters by which it is computed; any other determination is solved for them.
     own: &'static [&'static str],
     takes: Takes,

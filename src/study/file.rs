@@ -1,119 +1,208 @@
-//! What was typed: the study file as TOML sees it, every value with its place in the text.
+//! What was typed: the study file as TOML sees it, every value with its place in the text. The comments on its fields are
+//! what editors show, by the schema.
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
-use toml::Spanned;
 
-/// A number, string or list with its byte range in the file.
-pub(super) type At<T> = Spanned<T>;
+pub(super) use super::at::At;
+use super::schema;
 
 /// A table of choices by name.
 pub(super) type Choices = BTreeMap<At<String>, At<toml::Value>>;
 
-#[derive(Debug, Deserialize)]
+/// A study of apportion: a model, the factors whose influence is asked for, and how many runs answer it.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(title = "apportion study")]
 pub(super) struct StudyFile {
+    /// Name after which result files are called; by default that of the file without its ending.
     pub name: Option<At<String>>,
+    /// Title for people.
     pub title: Option<String>,
+    /// What is studied; `apportion models` lists what there is.
+    #[schemars(extend("enum" = schema::models(), "default" = "afm"))]
     pub model: Option<At<String>>,
+    /// Outputs that are asked for; the model's first by default.
+    #[schemars(length(min = 1))]
     pub outputs: Option<At<Vec<At<String>>>>,
+    /// The physics of the nanoparticle model: choices by name, and inputs that are fixed, with their units.
+    #[serde(default)]
+    #[schemars(schema_with = "schema::afm")]
     pub afm: Option<At<Choices>>,
+    /// Parameters of a function with known indices.
+    #[serde(default)]
+    #[schemars(schema_with = "schema::function")]
     pub function: Option<At<Choices>>,
+    /// Formulas in the factors.
+    #[serde(default)]
     pub expression: Option<At<ExpressionSection>>,
+    /// The points at which the model runs.
     #[serde(default)]
     pub design: DesignSection,
+    /// What is asked of the runs beside first-order and total indices.
     #[serde(default)]
     pub analysis: AnalysisSection,
+    /// The inputs whose influence is asked for; their order assigns the dimensions of the sequence.
     #[serde(default)]
     pub factor: Vec<At<FactorSection>>,
 }
 
-#[derive(Debug, Deserialize)]
+/// Formulas in the factors.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ExpressionSection {
+    /// A formula for each output, or a table of `formula` and `unit`.
     #[serde(default)]
+    #[schemars(schema_with = "schema::formulas")]
     pub outputs: Choices,
+    /// Numbers, or quantities with their units, that formulas may name.
     #[serde(default)]
+    #[schemars(schema_with = "schema::expression_constants")]
     pub constants: Choices,
 }
 
-#[derive(Debug, Default, Deserialize)]
+/// The points at which the model runs.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DesignSection {
+    /// How points are chosen.
+    #[schemars(extend("enum" = schema::samplers(), "default" = "sobol"))]
     pub sampler: Option<At<String>>,
+    /// Base samples in all, best a power of two for each replicate; a run costs base_samples x (2 + factors).
     pub base_samples: Option<At<u64>>,
+    /// Independent randomisations that share the base samples.
     pub replicates: Option<At<u64>>,
+    /// Seed of the design; 0 is one like any other.
     pub seed: Option<At<u64>>,
+    /// Double the run until every index is known to this.
     pub target: Option<At<TargetSection>>,
+    /// Time after which the run is not doubled once more, as in "30 s".
     pub budget: Option<At<String>>,
+    /// Model runs that are not exceeded.
     pub max_runs: Option<At<u64>>,
 }
 
-#[derive(Debug, Deserialize)]
+/// When every index is known well enough.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TargetSection {
+    /// Half width that the 95 % interval of every first-order and total index must reach.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub half_width: At<f64>,
 }
 
 /// Names, each with its place.
 pub(super) type NameList = At<Vec<At<String>>>;
 
-#[derive(Debug, Default, Deserialize)]
+/// What is asked of the runs beside first-order and total indices.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct AnalysisSection {
+    /// Estimators whose indices stand beside those of the default ones.
+    #[schemars(extend("items" = schema::estimators()))]
     pub estimators: Option<At<Vec<At<String>>>>,
+    /// Second-order indices of all pairs; nearly twice the runs.
     pub second_order: Option<At<bool>>,
+    /// Sets of factors whose joint indices are asked for.
     pub subsets: Option<At<Vec<NameList>>>,
+    /// Indices over all outputs together.
     pub aggregate: Option<At<bool>>,
+    /// A factor that does nothing is run along: its indices are the noise of the model.
     pub dummy: Option<At<bool>>,
+    /// How intervals are found; by default as the sampler allows.
+    #[schemars(extend("enum" = schema::intervals()))]
     pub intervals: Option<At<String>>,
+    /// Resamples of a bootstrap.
+    #[schemars(range(min = 100, max = 1_000_000))]
     pub resamples: Option<At<u64>>,
+    /// Total index above which a factor counts as one that matters.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub threshold: Option<At<f64>>,
+    /// What happens when a run fails.
+    #[schemars(extend("enum" = schema::failure_policies()))]
     pub failures: Option<At<String>>,
+    /// Largest share of the runs that may fail before there are no indices.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub max_failed: Option<At<f64>>,
 }
 
-#[derive(Debug, Deserialize)]
+/// An input whose influence is asked for, and how it varies.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FactorSection {
+    /// The input of the model.
     pub name: At<String>,
+    /// How it varies.
+    #[schemars(extend("enum" = schema::distributions(), "default" = "uniform"))]
     pub distribution: Option<At<String>>,
+    /// Unit of all numbers of this factor, as in "um".
     pub unit: Option<At<String>>,
+    /// Factors of one group also get joint indices.
     pub group: Option<At<String>>,
+    /// Value at which it stands in scenes and sweeps of other factors; of a category its label.
     pub nominal: Option<At<Nominal>>,
+    /// Lower bound.
     pub min: Option<At<f64>>,
+    /// Upper bound.
     pub max: Option<At<f64>>,
+    /// Mean: of the factor itself; before truncation of a truncated distribution.
     pub mean: Option<At<f64>>,
+    /// Standard deviation, as the mean.
     pub sd: Option<At<f64>>,
+    /// Mean of the natural logarithm, of a log-normal distribution.
     pub log_mean: Option<At<f64>>,
+    /// Standard deviation of the natural logarithm, of a log-normal distribution.
     pub log_sd: Option<At<f64>>,
+    /// The most probable value.
     pub mode: Option<At<f64>>,
+    /// First shape parameter of a beta distribution.
     pub alpha: Option<At<f64>>,
+    /// Second shape parameter of a beta distribution.
     pub beta: Option<At<f64>>,
+    /// Shape parameter of a Weibull distribution.
     pub shape: Option<At<f64>>,
+    /// Scale parameter of a Weibull or Gumbel distribution.
     pub scale: Option<At<f64>>,
+    /// Location parameter of a Weibull or Gumbel distribution.
     pub location: Option<At<f64>>,
+    /// Quantile: 1 % of the values lie below it.
     pub p01: Option<At<f64>>,
+    /// Quantile: 5 % of the values lie below it.
     pub p05: Option<At<f64>>,
+    /// Quantile: 10 % of the values lie below it.
     pub p10: Option<At<f64>>,
+    /// Quantile: 25 % of the values lie below it.
     pub p25: Option<At<f64>>,
+    /// Quantile: half of the values lie below it.
     pub p50: Option<At<f64>>,
+    /// Quantile: 75 % of the values lie below it.
     pub p75: Option<At<f64>>,
+    /// Quantile: 90 % of the values lie below it.
     pub p90: Option<At<f64>>,
+    /// Quantile: 95 % of the values lie below it.
     pub p95: Option<At<f64>>,
+    /// Quantile: 99 % of the values lie below it.
     pub p99: Option<At<f64>>,
+    /// Probability of true, of a boolean.
     pub probability: Option<At<f64>>,
+    /// The one value of a constant.
     pub value: Option<At<f64>>,
+    /// The values of a discrete distribution.
     pub values: Option<At<Vec<f64>>>,
+    /// The weights of the values; equal by default.
     pub weights: Option<At<Vec<f64>>>,
+    /// The labels of the categories.
     pub labels: Option<At<Vec<String>>>,
+    /// A file of measured values, relative to the study.
     pub file: Option<At<String>>,
+    /// The column of that file, where it has several.
     pub column: Option<At<String>>,
 }
 
 /// Where a factor stands when it does not vary: a number, a category, or true or false.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum Nominal {
     Truth(bool),

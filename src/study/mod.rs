@@ -3,6 +3,7 @@
 //! A study is read once and checked once; after that nothing re-validates. Everything wrong with a file is reported
 //! with its line and column.
 
+mod at;
 mod constants;
 mod distribution;
 mod error;
@@ -14,7 +15,9 @@ mod nominal;
 mod options;
 mod overrides;
 mod resolve;
+mod schema;
 mod subject;
+mod template;
 
 use std::path::{Path, PathBuf};
 
@@ -22,7 +25,9 @@ use sha2::{Digest, Sha256};
 
 pub use error::{Diagnostic, OverrideProblem, Problem, StudyError, nearest};
 pub use options::{AnalysisOptions, Stopping};
+pub use schema::study_schema;
 pub use subject::{AfmSubject, ExpressionConstant, ExpressionSubject, Formula, KnownSubject, Subject};
+pub use template::{TemplateRequest, template};
 
 use crate::design::Design;
 use crate::model::Model;

@@ -251,9 +251,12 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
         context.fault(span, Problem::OutOfDomain { name: format!("factor `{}`", input.name), domain, found })
     };
     let (low, high) = distribution.support();
-    for (bound, field) in [(low, &fields.min), (high, &fields.max)] {
+    // Values of these come close to the lower bound without reaching it.
+    let open = matches!(distribution, Distribution::LogNormal(_) | Distribution::Weibull(_));
+    let least = if open { low.next_up() } else { low };
+    for (bound, reached, field) in [(low, least, &fields.min), (high, high, &fields.max)] {
         // Unbounded distributions reach everywhere: their rare rows outside the domain fail by name and are counted.
-        if bound.is_finite() && !in_domain(bound) {
+        if bound.is_finite() && !in_domain(reached) {
             let span = field.as_ref().map_or(place.clone(), At::span);
             return Err(outside(span, format!("its values reach {}", with_unit(bound, unit.symbol()))));
         }

@@ -3,6 +3,7 @@
 mod accuracy;
 mod afm_contact_oracle;
 mod analytic;
+mod commands;
 mod common;
 mod degenerate;
 mod distributions;
@@ -19,5 +20,6 @@ mod page;
 mod points;
 mod reproduce;
 mod scenes;
+mod schema;
 mod screening;
 mod workflows;

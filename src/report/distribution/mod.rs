@@ -5,6 +5,7 @@ mod density;
 mod histogram;
 mod quantile;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -15,9 +16,10 @@ use crate::quantity::Unit;
 use crate::sum::{mean, rescaled};
 
 /// The distribution of one output over a sample, as it stands in result files. Numbers are in `unit`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OutputDistribution {
     /// The unit of the numbers.
+    #[schemars(with = "String")]
     pub unit: Unit,
     /// Number of values n.
     pub count: u64,
@@ -42,7 +44,7 @@ pub struct OutputDistribution {
 }
 
 /// A quantile.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct QuantileRecord {
     /// Its probability in percent.
     pub percent: f64,
@@ -56,7 +58,7 @@ pub struct QuantileRecord {
 /// a few far values would else leave all others in one bin. They are counted in `below` and `above`. The width is that
 /// of Freedman and Diaconis (1981), 2 IQR n^(-1/3), or where the IQR is 0 that of Scott (1979), 3.49 sd n^(-1/3), and not
 /// less than a hundredth of the whole.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Histogram {
     /// Edges of the bins, ascending, one more than bins. A value on an inner edge belongs to the bin above it.
     pub edges: Vec<f64>,
@@ -72,7 +74,7 @@ pub struct Histogram {
 ///
 /// Kernels that would reach beyond the smallest or largest value are reflected there, so that no density lies where there
 /// are no values and that of a bounded output does not sag at its bounds.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Density {
     /// Standard deviation of the kernel.
     pub bandwidth: f64,
@@ -85,7 +87,7 @@ pub struct Density {
 }
 
 /// How the bandwidth of a kernel density was chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BandwidthRule {
     /// Direct plug-in of two stages (Sheather and Jones 1991, J. R. Statist. Soc. B 53, 683-690, in the form of R's

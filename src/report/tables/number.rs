@@ -25,7 +25,7 @@ pub fn estimate(record: EstimateRecord, digits: usize) -> String {
 
 /// `0.3374 ± 0.0024`, the estimate and half of its interval, with four decimals or as many as the half width needs; both
 /// bounds where they are not symmetric about the estimate, the estimate alone where there is no interval.
-pub(super) fn give_or_take(record: EstimateRecord) -> String {
+pub(in crate::report) fn give_or_take(record: EstimateRecord) -> String {
     const FEWEST: usize = 4;
     const MOST: f64 = 7.0;
     let (Some(low), Some(high)) = (record.low, record.high) else { return fixed(record.estimate, FEWEST) };

@@ -1,0 +1,75 @@
+//! `apportion compare`: two results side by side.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use apportion::report::comparison::{
+    compare_results, comparison_charts, comparison_csv, comparison_json, comparison_summary,
+};
+use apportion::report::read_result;
+
+use super::pictures::{prepare, say_written, write};
+use super::run::default_folder;
+use super::{Failure, print};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The result of a run (NAME.json)
+    #[arg(value_name = "A.json")]
+    a: PathBuf,
+    /// The result of another run
+    #[arg(value_name = "B.json")]
+    b: PathBuf,
+    /// What A is called in tables and charts [default: its study, or what tells the two files apart]
+    #[arg(long, value_name = "TEXT")]
+    label_a: Option<String>,
+    /// What B is called in tables and charts
+    #[arg(long, value_name = "TEXT")]
+    label_b: Option<String>,
+    /// Folder for tables and charts [default: results/A-vs-B]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
+    let (a, b) = (read_result(&arguments.a)?, read_result(&arguments.b)?);
+    let [told_a, told_b] = told_apart([(&a.study.name, &arguments.a), (&b.study.name, &arguments.b)]);
+    let label_a = arguments.label_a.as_deref().unwrap_or(&told_a);
+    let label_b = arguments.label_b.as_deref().unwrap_or(&told_b);
+    let files = [&arguments.a, &arguments.b].map(|path| path.display().to_string());
+    let file = compare_results((&a, label_a, &files[0]), (&b, label_b, &files[1]))
+        .map_err(|error| Failure::Input(anyhow!("A is {}, B is {}: {error}", files[0], files[1])))?;
+    let name = format!("{}-vs-{}", file_part(&told_a), file_part(&told_b));
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&name));
+    let charts = comparison_charts(&file);
+    let tables = [(".json", comparison_json(&file)), (".csv", comparison_csv(&file))];
+    let endings = tables.iter().map(|(ending, _)| (*ending).to_owned());
+    let pictures = charts.iter().flat_map(|c| [format!("{}.svg", c.suffix), format!("{}.png", c.suffix)]);
+    let planned: Vec<PathBuf> = endings.chain(pictures).map(|ending| format!("{name}{ending}").into()).collect();
+    prepare(&folder, &planned)?;
+    let written = write(&folder, &name, (&tables, &charts))?;
+    print(&comparison_summary(&file))?;
+    say_written(&written);
+    Ok(())
+}
+
+/// Two names that are not the same: the studies', the files', their folders', or else A and B.
+fn told_apart(sides: [(&String, &PathBuf); 2]) -> [String; 2] {
+    let part = |part: Option<&std::ffi::OsStr>| part.map(|part| part.to_string_lossy().into_owned());
+    let folder = |path: &Path| path.canonicalize().ok().and_then(|path| part(path.parent()?.file_name()));
+    let candidates = [
+        sides.map(|(study, _)| Some(study.clone())),
+        sides.map(|(_, path)| part(path.file_stem())),
+        sides.map(|(_, path)| folder(path)),
+    ];
+    let told = candidates.into_iter().find_map(|names| match names {
+        [Some(a), Some(b)] if a != b && !a.is_empty() && !b.is_empty() => Some([a, b]),
+        _ => None,
+    });
+    told.unwrap_or_else(|| ["A".to_owned(), "B".to_owned()])
+}
+
+/// A name as part of a file's name.
+fn file_part(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() || matches!(c, '/' | '\\' | ':') { '-' } else { c }).collect()
+}

@@ -1,0 +1,64 @@
+//! `apportion new`: a study file to begin with.
+
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+use apportion::model::ModelKind;
+use apportion::report::write_atomically;
+use apportion::study::{Problem, Study, TemplateRequest, template};
+
+use super::models::find_model;
+use super::{Failure, say};
+
+#[derive(clap::Args)]
+#[command(after_help = "Example: apportion new my-study.toml --factors thickness,velocity --outputs critical_force")]
+pub struct Arguments {
+    /// The study file to write (TOML)
+    study: PathBuf,
+    /// The model: afm, or a function of `apportion models`
+    #[arg(long, value_name = "NAME", default_value = "afm")]
+    model: String,
+    /// Inputs that become factors, separated by commas [default: the main ones; of a function all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    factors: Vec<String>,
+    /// Outputs, separated by commas [default: the main one]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    outputs: Vec<String>,
+    /// Title of the study
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+    /// Overwrite a file that exists
+    #[arg(long)]
+    force: bool,
+}
+
+pub fn new(arguments: &Arguments) -> Result<(), Failure> {
+    let path = &arguments.study;
+    let model = find_model(&arguments.model)?;
+    let request = TemplateRequest {
+        model,
+        title: arguments.title.clone(),
+        factors: arguments.factors.clone(),
+        outputs: arguments.outputs.clone(),
+    };
+    let text = template(&request).map_err(|problem| wrong(&problem, model))?;
+    let study = Study::parse(&text, path, &[])?;
+    if !arguments.force && path.exists() {
+        return Err(Failure::Input(anyhow!("{} exists already: give another name, or add --force", path.display())));
+    }
+    write_atomically(path, text.as_bytes())?;
+    let (factors, runs) = (study.space.factors().len(), study.design.rows());
+    let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
+    say(&format!("wrote {}: {factors}, {runs} runs", path.display()));
+    say(&format!("next: edit it, then `apportion check {0}` and `apportion run {0}`", path.display()));
+    Ok(())
+}
+
+fn wrong(problem: &Problem, model: ModelKind) -> Failure {
+    let option = match problem {
+        Problem::UnknownName { what: "output", .. } | Problem::Repeated { what: "output", .. } => "--outputs",
+        _ => "--factors",
+    };
+    let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
+    Failure::Input(anyhow!("{option}: {problem} (model {}){help}", model.name()))
+}

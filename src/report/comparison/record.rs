@@ -1,0 +1,228 @@
+//! The comparison as a record.
+
+use serde::{Deserialize, Serialize};
+
+use super::error::CompareError;
+use super::index::ComparedIndex;
+use super::settings::{SettingDifference, differences};
+use crate::quantity::Unit;
+use crate::report::result::{EffectRecord, OutputRecord, ResultFile};
+
+/// Two results compared, as described in `docs/comparison-format.md`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ComparisonFile {
+    /// `"apportion-comparison"`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
+    /// The first result.
+    pub a: ComparedSide,
+    /// The second result.
+    pub b: ComparedSide,
+    /// What the studies say differently.
+    pub settings: Vec<SettingDifference>,
+    /// Whether both use the same points: errors then have much in common, and the intervals of differences are too wide.
+    pub shared_points: bool,
+    /// Outputs that only one of them has.
+    pub outputs_left_out: OneSided,
+    /// Factors that only one of them has.
+    pub factors_left_out: OneSided,
+    /// The outputs that both have, in the order of A.
+    pub outputs: Vec<ComparedOutput>,
+}
+
+/// One of the two results.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ComparedSide {
+    /// What it is called in tables and charts.
+    pub label: String,
+    /// Its study.
+    pub study: String,
+    /// Title of the study, if it has one.
+    pub title: Option<String>,
+    /// Its file.
+    pub file: String,
+    /// SHA-256 of the study file in hexadecimal.
+    pub study_sha256: String,
+}
+
+/// What only one of the results has.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct OneSided {
+    /// Names that only A has.
+    pub a: Vec<String>,
+    /// Names that only B has.
+    pub b: Vec<String>,
+}
+
+/// An output in both results.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ComparedOutput {
+    /// The output.
+    pub name: String,
+    /// Unit of the moments: that of A.
+    pub unit: String,
+    /// Mean in A and in B, in `unit`; `null` where there is none.
+    pub mean: [Option<f64>; 2],
+    /// Standard deviation in A and in B, in `unit`.
+    pub sd: [Option<f64>; 2],
+    /// Every factor, in the order of A and then of B, then the groups that both have.
+    pub factors: Vec<ComparedFactor>,
+    /// Why there are no indices in A, in B.
+    pub reasons: [Option<String>; 2],
+}
+
+/// The indices of a factor or group in both results.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ComparedFactor {
+    /// Its name.
+    pub name: String,
+    /// Whether it is a group of factors.
+    pub group: bool,
+    /// First-order index.
+    pub first_order: ComparedIndex,
+    /// Total index.
+    pub total: ComparedIndex,
+}
+
+/// Compares two results, output by output and factor by factor.
+///
+/// ```
+/// use std::path::Path;
+/// use apportion::report::comparison::{ComparedSide, compare_results};
+/// use apportion::{analyse, study::Study};
+///
+/// let result = |choice: &str| -> Result<_, Box<dyn std::error::Error>> {
+///     let text = format!("model = \"ishigami\"\n[function]\n{choice}\n[design]\nbase_samples = 4096");
+///     Ok(analyse(&Study::parse(&text, Path::new("a.toml"), &[])?, 0, &|_| ())?)
+/// };
+/// let (a, b) = (result("b = 0.1")?, result("b = 0.2")?);
+/// let file = compare_results((&a, "A", "a.json"), (&b, "B", "b.json"))?;
+/// // x3 acts only together with x1, the more so the larger b is.
+/// let x3 = &file.outputs[0].factors[2];
+/// assert_eq!((x3.first_order.differs, x3.total.differs), (Some(false), Some(true)));
+/// assert_eq!(file.settings[0].what, "b");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Each result comes with its label for tables and charts and with the name of its file.
+///
+/// # Errors
+/// [`CompareError`] if they have no output or no factor in common, or an output of one name is a quantity of another kind.
+pub fn compare_results(
+    a: (&ResultFile, &str, &str),
+    b: (&ResultFile, &str, &str),
+) -> Result<ComparisonFile, CompareError> {
+    let (first, second) = (a.0, b.0);
+    let outputs_left_out = one_sided(&output_names(first), &output_names(second));
+    let factors_left_out = one_sided(&factor_names(first), &factor_names(second));
+    if outputs_left_out.a.len() == first.outputs.len() {
+        let (a, b) = (listed(&output_names(first)), listed(&output_names(second)));
+        return Err(CompareError::NoCommonOutput { a, b });
+    }
+    if factors_left_out.a.len() == first.factors.len() {
+        let (a, b) = (listed(&factor_names(first)), listed(&factor_names(second)));
+        return Err(CompareError::NoCommonFactor { a, b });
+    }
+    let names: Vec<String> = factor_names(first).into_iter().chain(factors_left_out.b.iter().cloned()).collect();
+    let mut outputs = Vec::new();
+    for output in &first.outputs {
+        if let Some(other) = second.outputs.iter().find(|other| other.name == output.name) {
+            outputs.push(compared(&names, output, other)?);
+        }
+    }
+    Ok(ComparisonFile {
+        format: "apportion-comparison".to_owned(),
+        version: 1,
+        a: side(a),
+        b: side(b),
+        settings: differences(first, second),
+        shared_points: shared_points(first, second),
+        outputs_left_out,
+        factors_left_out,
+        outputs,
+    })
+}
+
+/// Whether two results rest on the same points: the same sampler, seed and size, and as many factors.
+pub fn shared_points(a: &ResultFile, b: &ResultFile) -> bool {
+    let design = |result: &ResultFile| {
+        let p = &result.provenance;
+        (p.sampler.clone(), p.seed, p.base_samples, p.replicates, result.factors.len())
+    };
+    design(a) == design(b)
+}
+
+fn side((result, label, file): (&ResultFile, &str, &str)) -> ComparedSide {
+    ComparedSide {
+        label: label.to_owned(),
+        study: result.study.name.clone(),
+        title: result.study.title.clone(),
+        file: file.to_owned(),
+        study_sha256: result.provenance.study_sha256.clone(),
+    }
+}
+
+fn output_names(result: &ResultFile) -> Vec<String> {
+    result.outputs.iter().map(|output| output.name.clone()).collect()
+}
+
+fn factor_names(result: &ResultFile) -> Vec<String> {
+    result.factors.iter().map(|factor| factor.name.clone()).collect()
+}
+
+fn listed(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
+fn one_sided(a: &[String], b: &[String]) -> OneSided {
+    let without = |all: &[String], others: &[String]| all.iter().filter(|n| !others.contains(n)).cloned().collect();
+    OneSided { a: without(a, b), b: without(b, a) }
+}
+
+fn compared(names: &[String], a: &OutputRecord, b: &OutputRecord) -> Result<ComparedOutput, CompareError> {
+    let other_quantity =
+        || CompareError::OtherQuantity { output: a.name.clone(), a: a.unit.clone(), b: b.unit.clone() };
+    // A unit that is not understood is at least the same text.
+    let scale = match (Unit::parse(&a.unit), Unit::parse(&b.unit)) {
+        (Ok(of_a), Ok(of_b)) if of_a.compatible(&of_b) => of_b.to_si(1.0) / of_a.to_si(1.0),
+        _ if a.unit == b.unit => 1.0,
+        _ => return Err(other_quantity()),
+    };
+    let sd = |output: &OutputRecord| output.variance.filter(|variance| *variance >= 0.0).map(f64::sqrt);
+    let factor = |name: &String| {
+        let of = |output: &OutputRecord| {
+            output.indices.iter().flatten().find(|index| index.factor == *name).map(|index| index.effect)
+        };
+        factor((name, false), of(a), of(b))
+    };
+    let group = |name: &String| {
+        let of = |output: &OutputRecord| {
+            output.groups.iter().flatten().find(|group| group.group == *name).map(|group| group.effect)
+        };
+        of(b).is_some().then(|| self::factor((name, true), of(a), of(b)))
+    };
+    let factors = names.iter().map(factor);
+    let groups = a.groups.iter().flatten().filter_map(|record| group(&record.group));
+    Ok(ComparedOutput {
+        name: a.name.clone(),
+        unit: a.unit.clone(),
+        mean: [a.mean, b.mean.map(|mean| mean * scale)],
+        sd: [sd(a), sd(b).map(|sd| sd * scale)],
+        factors: factors.chain(groups).collect(),
+        reasons: [a, b].map(|output| output.indices.is_none().then(|| reason(output))),
+    })
+}
+
+fn reason(output: &OutputRecord) -> String {
+    output.reason.clone().unwrap_or_else(|| "the result holds none".to_owned())
+}
+
+fn factor((name, group): (&str, bool), a: Option<EffectRecord>, b: Option<EffectRecord>) -> ComparedFactor {
+    ComparedFactor {
+        name: name.to_owned(),
+        group,
+        first_order: ComparedIndex::new(a.map(|e| e.first_order), b.map(|e| e.first_order)),
+        total: ComparedIndex::new(a.map(|e| e.total), b.map(|e| e.total)),
+    }
+}

@@ -1,0 +1,113 @@
+//! Whether the parts of a result fit together: what draws a result relies on it.
+
+use serde_json::Value;
+
+use crate::report::distribution::OutputDistribution;
+use crate::report::result::{OutputRecord, ResultFile};
+use crate::report::scatter::ScatterRecord;
+
+/// A key, and what is wrong there.
+type Fault = (String, String);
+
+/// What the types of the keys do not say.
+pub(super) fn check(result: &ResultFile) -> Result<(), Fault> {
+    file_name("study.name", &result.study.name)?;
+    for (place, output) in result.outputs.iter().enumerate() {
+        let key = format!("outputs[{place}]");
+        file_name(&format!("{key}.name"), &output.name)?;
+        if result.outputs[..place].iter().any(|other| other.name == output.name) {
+            return Err((format!("{key}.name"), format!("the output {:?} is there twice", output.name)));
+        }
+        indices(&key, result, output)?;
+        if let Some(distribution) = &output.distribution {
+            of_distribution(&format!("{key}.distribution"), &distribution.sample)?;
+        }
+        if let Some(scatter) = &output.scatter {
+            of_scatter(&format!("{key}.scatter"), scatter)?;
+        }
+    }
+    Ok(())
+}
+
+/// Files are named after the study and its outputs: a name must not lead to another folder.
+fn file_name(key: &str, name: &str) -> Result<(), Fault> {
+    let leads_away = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
+    if name.is_empty() || name.contains(leads_away) {
+        let problem = format!("files are named after it, so it cannot be {name:?}: expected a name without / \\ :");
+        return Err((key.to_owned(), problem));
+    }
+    Ok(())
+}
+
+/// Largest count: up to here sums of a few counts, and the counts as numbers, are exact.
+const MOST: u64 = 1 << 53;
+
+/// Numbers that are no counts.
+const NO_COUNTS: [&str; 2] = ["seed", "first_row"];
+
+/// Every whole number is a count that can be reckoned with, but for seeds and row numbers.
+pub(super) fn counts(value: &Value, key: &str) -> Result<(), Fault> {
+    match value {
+        Value::Object(map) => map
+            .iter()
+            .filter(|(name, _)| !NO_COUNTS.contains(&name.as_str()))
+            .try_for_each(|(name, value)| counts(value, &joined(key, name))),
+        Value::Array(list) => {
+            list.iter().enumerate().try_for_each(|(place, value)| counts(value, &format!("{key}[{place}]")))
+        }
+        Value::Number(number) => match number.as_u64() {
+            Some(count) if count > MOST => Err((key.to_owned(), format!("expected a count up to 2^53, found {count}"))),
+            _ => Ok(()),
+        },
+        _ => Ok(()),
+    }
+}
+
+fn joined(key: &str, name: &str) -> String {
+    if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") }
+}
+
+/// There is an index for each factor, or none at all.
+fn indices(key: &str, result: &ResultFile, output: &OutputRecord) -> Result<(), Fault> {
+    let Some(indices) = &output.indices else { return Ok(()) };
+    let names = || indices.iter().map(|index| &index.factor);
+    if indices.is_empty() || !names().eq(result.factors.iter().map(|factor| &factor.name)) {
+        let problem = "expected one entry for each of the factors, in their order, or null";
+        return Err((format!("{key}.indices"), problem.to_owned()));
+    }
+    Ok(())
+}
+
+fn of_distribution(key: &str, sample: &OutputDistribution) -> Result<(), Fault> {
+    if let Some(histogram) = &sample.histogram {
+        let problem = || (format!("{key}.histogram"), "expected rising edges, one more than counts".to_owned());
+        let rising = histogram.edges.windows(2).all(|ends| ends[0] < ends[1]);
+        if histogram.counts.is_empty() || histogram.edges.len() != histogram.counts.len() + 1 || !rising {
+            return Err(problem());
+        }
+    }
+    match &sample.density {
+        Some(density) => same(&format!("{key}.density"), &[density.x.len(), density.density.len()]),
+        None => Ok(()),
+    }
+}
+
+fn of_scatter(key: &str, scatter: &ScatterRecord) -> Result<(), Fault> {
+    if scatter.points.iter().any(|point| point.len() != scatter.factors.len() + 1) {
+        let problem = "expected the values of `factors`, then the output, in each point";
+        return Err((format!("{key}.points"), problem.to_owned()));
+    }
+    for (place, means) in scatter.conditional_means.iter().enumerate() {
+        let lengths = [means.x.len(), means.mean.len(), means.low.len(), means.high.len()];
+        same(&format!("{key}.conditional_means[{place}]"), &lengths)?;
+    }
+    Ok(())
+}
+
+fn same(key: &str, lengths: &[usize]) -> Result<(), Fault> {
+    if lengths.windows(2).all(|pair| pair[0] == pair[1]) {
+        return Ok(());
+    }
+    let lengths: Vec<String> = lengths.iter().map(usize::to_string).collect();
+    Err((key.to_owned(), format!("expected lists of one length, found {}", lengths.join(", "))))
+}

@@ -1,0 +1,107 @@
+//! Result files read back: what is no result is refused, with what is wrong and where.
+
+mod coherence;
+#[cfg(test)]
+mod tests;
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use thiserror::Error;
+
+use super::result::ResultFile;
+
+/// The newest version of the format that is understood.
+const VERSION: u32 = 1;
+const FORMAT: &str = "apportion-result";
+
+/// Why a file is not the result of a run.
+#[derive(Debug, Error)]
+#[error("{path}: {problem}", path = path.display())]
+pub struct ReadError {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong with it.
+    pub problem: ReadProblem,
+}
+
+/// What is wrong with a result file.
+#[derive(Debug, Error)]
+pub enum ReadProblem {
+    /// It cannot be read at all.
+    #[error("cannot read the result: {0}")]
+    Unreadable(#[from] std::io::Error),
+    /// It is no JSON, or not this JSON; line and column are in the message.
+    #[error("not a result of `apportion run`: {0}")]
+    Malformed(#[from] serde_json::Error),
+    /// It is JSON of another kind.
+    #[error(
+        "not a result of `apportion run`: its \"format\" is {found:?}, expected \"{FORMAT}\" (the file NAME.json of a run)"
+    )]
+    Format {
+        /// The format it says it has.
+        found: String,
+    },
+    /// It comes from a later version of the program.
+    #[error("version {found} of the format is not known to this program, which reads version {VERSION}")]
+    Version {
+        /// The version it says it has.
+        found: u32,
+    },
+    /// Its parts do not fit together.
+    #[error("`{key}`: {problem}")]
+    Incoherent {
+        /// The place in the file, as in `outputs[0].scatter`.
+        key: String,
+        /// What is wrong there.
+        problem: String,
+    },
+}
+
+/// What every file of this program says of itself.
+#[derive(Deserialize)]
+struct Header {
+    format: String,
+    version: u32,
+}
+
+/// Reads the result of a run from its JSON file.
+///
+/// # Errors
+/// [`ReadError`] with what is wrong: a file that cannot be read, that is no JSON or JSON of another kind, a version of the
+/// format that is not known, or parts that do not fit together.
+pub fn read_result(path: &Path) -> Result<ResultFile, ReadError> {
+    let read = || parse_result(&std::fs::read(path)?);
+    read().map_err(|problem| ReadError { path: path.to_owned(), problem })
+}
+
+/// Reads the result of a run from JSON, as [`result_json`](super::result_json) writes it. Keys that are not known, of a
+/// later version of the program, are left out.
+///
+/// ```
+/// use std::path::Path;
+/// use apportion::report::{parse_result, result_json};
+/// use apportion::{analyse, study::Study};
+///
+/// let study = Study::parse("model = \"ishigami\"", Path::new("a.toml"), &["design.base_samples=256".to_owned()])?;
+/// let result = analyse(&study, 0, &|_| ())?;
+/// assert_eq!(parse_result(result_json(&result).as_bytes())?, result);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`ReadProblem`], as for [`read_result`].
+pub fn parse_result(json: &[u8]) -> Result<ResultFile, ReadProblem> {
+    let Header { format, version } = serde_json::from_slice(json)?;
+    if format != FORMAT {
+        return Err(ReadProblem::Format { found: format });
+    }
+    if version != VERSION {
+        return Err(ReadProblem::Version { found: version });
+    }
+    let result = serde_json::from_slice(json)?;
+    let incoherent = |(key, problem)| ReadProblem::Incoherent { key, problem };
+    coherence::counts(&serde_json::from_slice(json)?, "").map_err(incoherent)?;
+    coherence::check(&result).map_err(incoherent)?;
+    Ok(result)
+}

@@ -1,0 +1,138 @@
+//! The JSON Schema of study files: their structure comes from the types that read them, names from the lists they are
+//! checked against.
+
+use schemars::generate::SchemaSettings;
+use schemars::transform::RecursiveTransform;
+use schemars::{Schema, SchemaGenerator};
+use serde_json::{Map, Value, json};
+
+use super::constants::CHOICES;
+use super::distribution::FORMS;
+use super::file::StudyFile;
+use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
+use crate::design::Sampler;
+use crate::estimate::Estimator;
+use crate::model::{KnownAnswer, ModelKind, edge_unit};
+use crate::run::FailurePolicy;
+use crate::uncertainty::IntervalMethod;
+
+/// The JSON Schema (draft 7, which editors understand) of study files. It knows every key and every name, not what the
+/// parts of a study mean together: that is what [`Study::parse`](super::Study::parse) checks.
+///
+/// ```
+/// let schema = apportion::study::study_schema();
+/// assert_eq!(schema["properties"]["design"]["$ref"], "#/definitions/DesignSection");
+/// ```
+pub fn study_schema() -> Value {
+    let settings = SchemaSettings::draft07().with_transform(RecursiveTransform(without_null));
+    settings.into_generator().into_root_schema_for::<StudyFile>().to_value()
+}
+
+/// TOML has no null: what is not said is left out.
+fn without_null(schema: &mut Schema) {
+    let Some(object) = schema.as_object_mut() else { return };
+    if let Some(Value::Array(types)) = object.get_mut("type") {
+        types.retain(|kind| kind != "null");
+        if let [only] = &types[..] {
+            let only = only.clone();
+            object.insert("type".to_owned(), only);
+        }
+    }
+    // A reference that may be null is the reference.
+    if let Some(Value::Array(any)) = object.get_mut("anyOf") {
+        any.retain(|one| one.get("type") != Some(&json!("null")));
+        if let [Value::Object(only)] = &any[..] {
+            let only = only.clone();
+            object.remove("anyOf");
+            object.insert("allOf".to_owned(), json!([only]));
+        }
+    }
+    object.remove("format");
+}
+
+pub(super) fn models() -> Vec<&'static str> {
+    ModelKind::all().into_iter().map(ModelKind::name).collect()
+}
+
+pub(super) fn samplers() -> Vec<&'static str> {
+    names(&Sampler::ALL, Sampler::name)
+}
+
+/// The schema of an estimator's name.
+pub(super) fn estimators() -> Value {
+    json!({ "enum": names(&Estimator::ALL, Estimator::name) })
+}
+
+pub(super) fn intervals() -> Vec<&'static str> {
+    names(&IntervalMethod::ALL, IntervalMethod::name)
+}
+
+pub(super) fn failure_policies() -> Vec<&'static str> {
+    names(&FailurePolicy::ALL, FailurePolicy::name)
+}
+
+pub(super) fn distributions() -> Vec<&'static str> {
+    FORMS.iter().map(|form| form.name).collect()
+}
+
+fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
+    all.iter().map(|&choice| name(choice)).collect()
+}
+
+/// `[afm]`: the choices, and every parameter as a quantity.
+pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
+    let choice = |key: &str| match key {
+        "friction" => json!({ "enum": names(FrictionLaw::ALL, FrictionLaw::name) }),
+        "contact" => json!({ "enum": names(ContactTheory::ALL, ContactTheory::name) }),
+        "fidelity" => json!({ "enum": names(Fidelity::ALL, Fidelity::name) }),
+        "torsion" => json!({ "enum": names(Torsion::ALL, Torsion::name) }),
+        "lugre_parameters" => json!({ "enum": names(LuGreParameters::ALL, LuGreParameters::name) }),
+        "adhesion_in_load" => json!({ "type": "boolean" }),
+        "step" => json!({ "type": "string", "description": "A time, as in \"10 ms\"." }),
+        "step_budget" => json!({ "type": "integer", "minimum": 1 }),
+        _ => json!({ "type": "number", "exclusiveMinimum": 0 }),
+    };
+    let mut properties: Map<String, Value> = CHOICES.iter().map(|key| ((*key).to_owned(), choice(key))).collect();
+    for parameter in Parameter::ALL {
+        let unit = edge_unit(parameter);
+        let (kinds, example) = match unit.symbol() {
+            "1" => (json!(["number", "string"]), String::new()),
+            symbol => (json!("string"), format!("; with its unit, as in \"1 {symbol}\"")),
+        };
+        let description = format!("{} ({}){example}", parameter.description, parameter.symbol);
+        properties.insert(parameter.name.to_owned(), json!({ "type": kinds, "description": description }));
+    }
+    object(properties)
+}
+
+/// `[function]`: the parameters of all functions.
+pub(super) fn function(_: &mut SchemaGenerator) -> Schema {
+    let number_or_list = || json!([{ "type": "number" }, { "type": "array", "items": { "type": "number" } }]);
+    let mut properties = Map::new();
+    for parameter in KnownAnswer::all().flat_map(KnownAnswer::parameters) {
+        properties
+            .entry(parameter.name)
+            .or_insert_with(|| json!({ "anyOf": number_or_list(), "description": parameter.description }));
+    }
+    object(properties)
+}
+
+/// `[expression] outputs`: formulas by the names of their outputs.
+pub(super) fn formulas(_: &mut SchemaGenerator) -> Schema {
+    let table = json!({
+        "type": "object",
+        "properties": { "formula": { "type": "string" }, "unit": { "type": "string" } },
+        "required": ["formula"],
+        "additionalProperties": false
+    });
+    schemars::json_schema!({ "type": "object", "additionalProperties": { "anyOf": [{ "type": "string" }, table] } })
+}
+
+/// `[expression] constants`: numbers, or quantities with their units.
+pub(super) fn expression_constants(_: &mut SchemaGenerator) -> Schema {
+    schemars::json_schema!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } })
+}
+
+fn object(properties: Map<String, Value>) -> Schema {
+    schemars::json_schema!({ "type": "object", "properties": properties, "additionalProperties": false })
+}

@@ -1,0 +1,275 @@
+//! What a user does with results and studies beside running them: report, compare.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use crate::common::{apportion, stderr, stdout, study_path};
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[track_caller]
+fn succeed(arguments: &[&str]) -> String {
+    let output = apportion(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+    stdout(&output)
+}
+
+/// What it says on standard error when the input is wrong.
+#[track_caller]
+fn refused(arguments: &[&str]) -> String {
+    let output = apportion(arguments);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+    assert!(output.stdout.is_empty());
+    stderr(&output)
+}
+
+fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entry = |entry: std::io::Result<std::fs::DirEntry>| {
+        let path = entry.unwrap().path();
+        (path.file_name().unwrap().to_str().unwrap().to_owned(), std::fs::read(path).unwrap())
+    };
+    std::fs::read_dir(folder).unwrap().map(entry).collect()
+}
+
+fn run(study: &str, folder: &Path, changes: &[&str]) {
+    let path = study_path(study);
+    let mut arguments = vec!["run", text(&path), "--out", text(folder), "--base-samples", "256"];
+    changes.iter().for_each(|change| arguments.extend(["--set", change]));
+    succeed(&arguments);
+}
+
+#[test]
+fn report_draws_every_file_of_a_run_again_to_the_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    for (study, changes) in
+        [("soft-cantilever", vec![]), ("ishigami-second-order", vec!["analysis.estimators=['jansen']"])]
+    {
+        let (original, copy) = (folder.path().join(study), folder.path().join(format!("{study}-again")));
+        run(study, &original, &changes);
+        let before = contents(&original);
+        let json = original.join(format!("{study}.json"));
+        let said = succeed(&["report", text(&json), "--out", text(&copy)]);
+        assert!(said.contains("first order S1"), "{said}");
+        assert_eq!(contents(&copy), before);
+        // In its own folder: all but the result comes again.
+        for name in before.keys().filter(|name| !name.ends_with(&format!("{study}.json"))) {
+            std::fs::remove_file(original.join(name)).unwrap();
+        }
+        succeed(&["report", text(&json)]);
+        assert_eq!(contents(&original), before);
+    }
+}
+
+#[test]
+fn report_overwrites_no_other_result_and_keeps_unknown_keys() {
+    let folder = tempfile::tempdir().unwrap();
+    let (a, b) = (folder.path().join("a"), folder.path().join("b"));
+    run("ishigami", &a, &[]);
+    run("ishigami", &b, &["design.seed=7"]);
+    let before = contents(&b);
+    let json = a.join("ishigami.json");
+    let message = refused(&["report", text(&json), "--out", text(&b)]);
+    assert!(message.contains("is another result") && message.contains("--out"), "{message}");
+    assert_eq!(contents(&b), before);
+    // A key of a later version comes along, since the result is copied word for word.
+    let later = std::fs::read_to_string(&json).unwrap().replacen('{', "{\n  \"later\": 1,", 1);
+    std::fs::write(&json, &later).unwrap();
+    let c = folder.path().join("c");
+    succeed(&["report", text(&json), "--out", text(&c)]);
+    assert_eq!(std::fs::read_to_string(c.join("ishigami.json")).unwrap(), later);
+}
+
+#[test]
+fn what_is_no_result_is_refused_with_file_and_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("x.json");
+    let missing = refused(&["report", text(&path)]);
+    assert!(missing.contains("x.json: cannot read the result: "), "{missing}");
+    for (content, expected) in [
+        ("{\n  \"format\": 3\n}", "line 2 column 13"),
+        ("\u{feff}", "line 1 column 1"),
+        (
+            "{\"format\": \"apportion-screening\", \"version\": 1}",
+            "\"apportion-screening\", expected \"apportion-result\"",
+        ),
+        ("{\"format\": \"apportion-result\", \"version\": 9}", "version 9 of the format is not known"),
+    ] {
+        std::fs::write(&path, content).unwrap();
+        for command in [vec!["report", text(&path)], vec!["compare", text(&path), text(&path)]] {
+            let message = refused(&command);
+            assert!(message.contains("x.json: ") && message.contains(expected), "{message}");
+        }
+    }
+    run("ishigami", folder.path(), &[]);
+    let json = std::fs::read_to_string(folder.path().join("ishigami.json")).unwrap();
+    std::fs::write(&path, json.replacen("\"name\": \"ishigami\"", "\"name\": \"../escaped\"", 1)).unwrap();
+    assert!(refused(&["report", text(&path)]).contains("`study.name`: files are named after it"));
+    std::fs::write(&path, &json.as_bytes()[..json.len() / 2]).unwrap();
+    assert!(refused(&["report", text(&path)]).contains("EOF while parsing"));
+    std::fs::write(&path, [0xff, 0xfe, 0x00]).unwrap();
+    assert!(refused(&["report", text(&path)]).contains("x.json: not a result"));
+}
+
+#[test]
+fn compare_tells_what_differs_and_by_how_much() {
+    let folder = tempfile::tempdir().unwrap();
+    let (a, b, out) = (folder.path().join("a"), folder.path().join("b"), folder.path().join("out"));
+    run("soft-cantilever", &a, &[]);
+    run("soft-cantilever", &b, &["afm.friction=hk", "factor.thickness.max=2.8", "design.seed=2"]);
+    let (a, b) = (a.join("soft-cantilever.json"), b.join("soft-cantilever.json"));
+    let said = succeed(&["compare", text(&a), text(&b), "--out", text(&out)]);
+    for expected in
+        ["friction", "coulomb", "hk", "factor thickness", "max 2.8", "seed", "leaves out 0", "critical_time [s]"]
+    {
+        assert!(said.contains(expected), "{expected}: {said}");
+    }
+    // The studies have one name and the files too: their folders tell them apart.
+    let written = contents(&out);
+    let charts = ["critical_force", "critical_force-differences", "critical_time", "critical_time-differences"];
+    for chart in charts.iter().flat_map(|chart| [format!("a-vs-b-{chart}.svg"), format!("a-vs-b-{chart}.png")]) {
+        assert!(written.contains_key(&chart), "{chart}: {:?}", written.keys());
+    }
+    assert_eq!(written.len(), 2 + 8);
+    let json: serde_json::Value = serde_json::from_slice(&written["a-vs-b.json"]).unwrap();
+    assert_eq!((&json["format"], &json["version"]), (&"apportion-comparison".into(), &1.into()));
+    // Every number of the table is that of the results.
+    let csv = String::from_utf8(written["a-vs-b.csv"].clone()).unwrap();
+    let index = |json: &Path| {
+        let result: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
+        result["outputs"][0]["indices"][0]["total"]["estimate"].as_f64().unwrap()
+    };
+    let line = csv.lines().find(|line| line.starts_with("critical_force,factor,thickness,total,")).unwrap();
+    let cells: Vec<f64> = line.split(',').skip(4).take(9).map(|cell| cell.parse().unwrap()).collect();
+    assert_eq!((cells[0], cells[3], cells[6]), (index(&a), index(&b), index(&b) - index(&a)));
+    // Labels of the user's own.
+    let said = succeed(&["compare", text(&a), text(&b), "--out", text(&out), "--label-a", "dry", "--label-b", "humid"]);
+    assert!(said.contains("A: dry") && said.contains("B: humid"), "{said}");
+}
+
+#[test]
+fn compare_refuses_other_outputs_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    run("ishigami", folder.path(), &[]);
+    run("coulomb-dimensional", folder.path(), &[]);
+    let (a, b) = (folder.path().join("ishigami.json"), folder.path().join("coulomb-dimensional.json"));
+    let out = folder.path().join("out");
+    let message = refused(&["compare", text(&a), text(&b), "--out", text(&out)]);
+    assert!(message.contains("no output in common: A has y, B has critical_force"), "{message}");
+    assert!(message.contains("ishigami.json") && !out.exists());
+}
+
+/// The commands that the program's own help lists.
+fn commands() -> Vec<String> {
+    let help = succeed(&["--help"]);
+    let listed = help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+    let names = listed.filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    let names = names.filter_map(|line| line.split_whitespace().next()).filter(|name| *name != "help");
+    names.map(str::to_owned).collect()
+}
+
+#[test]
+fn completions_know_every_command() {
+    let commands = commands();
+    assert!(commands.len() > 10, "{commands:?}");
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = succeed(&["completions", shell]);
+        for name in &commands {
+            assert!(script.contains(name.as_str()), "{shell}: {name}");
+        }
+    }
+    assert!(refused(&["completions", "tcsh"]).contains("possible values: bash"));
+}
+
+/// The script is one that bash takes, and it completes.
+#[test]
+#[cfg(unix)]
+fn bash_completes_with_the_script() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = folder.path().join("apportion.bash");
+    std::fs::write(&script, succeed(&["completions", "bash"])).unwrap();
+    let ask = format!(
+        "source {}; COMP_WORDS=(apportion comp); COMP_CWORD=1; _apportion apportion comp apportion; echo ${{COMPREPLY[@]}}",
+        text(&script)
+    );
+    let Ok(answer) = std::process::Command::new("bash").args(["-c", &ask]).output() else { return };
+    assert_eq!(String::from_utf8(answer.stdout).unwrap().trim(), "compare completions", "{:?}", answer.stderr);
+}
+
+#[test]
+fn man_has_a_page_for_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    succeed(&["man", "--out", text(folder.path())]);
+    let pages = contents(folder.path());
+    let mut expected: Vec<String> = commands().iter().map(|name| format!("apportion-{name}.1")).collect();
+    expected.push("apportion.1".to_owned());
+    expected.sort();
+    assert_eq!(pages.keys().cloned().collect::<Vec<_>>(), expected);
+    assert_eq!(succeed(&["man"]).as_bytes(), pages["apportion.1"]);
+    let run = succeed(&["man", "run"]);
+    assert_eq!(run.as_bytes(), pages["apportion-run.1"]);
+    assert!(run.contains(".TH") && run.contains("\\-\\-base\\-samples") && run.contains("apportion\\-run"), "{run}");
+    let message = refused(&["man", "rum"]);
+    assert!(message.contains("no command `rum`, did you mean `run`?"), "{message}");
+}
+
+#[test]
+fn a_new_study_runs_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    for (name, more) in [
+        ("force.toml", vec!["--factors", "thickness,velocity", "--outputs", "critical_force,critical_time"]),
+        ("g.toml", vec!["--model", "sobol-g"]),
+        ("quoted.toml", vec!["--title", "the \"first\" try"]),
+    ] {
+        let study = folder.path().join(name);
+        succeed(&[&["new", text(&study)][..], &more].concat());
+        let checked = apportion(&["check", text(&study)]);
+        assert_eq!(checked.status.code(), Some(0), "{}", stderr(&checked));
+        assert!(!stderr(&checked).contains("note:"), "{}", stderr(&checked));
+        let said = succeed(&["run", text(&study), "--out", text(&out), "--base-samples", "256"]);
+        assert!(said.contains("first order S1"), "{said}");
+    }
+    let written = std::fs::read_to_string(folder.path().join("force.toml")).unwrap();
+    assert!(
+        written.contains("outputs = [\"critical_force\", \"critical_time\"]")
+            && written.contains("# the nominal value is")
+    );
+}
+
+#[test]
+fn new_overwrites_nothing_and_names_what_it_does_not_know() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = folder.path().join("study.toml");
+    std::fs::write(&study, "mine").unwrap();
+    let message = refused(&["new", text(&study)]);
+    assert!(message.contains("exists already") && message.contains("--force"), "{message}");
+    assert_eq!(std::fs::read_to_string(&study).unwrap(), "mine");
+    succeed(&["new", text(&study), "--force"]);
+    assert!(std::fs::read_to_string(&study).unwrap().contains("[[factor]]"));
+
+    let other = folder.path().join("other.toml");
+    let message = refused(&["new", text(&other), "--factors", "thicknes"]);
+    assert!(message.contains("--factors: unknown factor `thicknes`: did you mean `thickness`?"), "{message}");
+    let message = refused(&["new", text(&other), "--outputs", "critical_force,critical_force"]);
+    assert!(message.contains("--outputs: output `critical_force` stands here twice"), "{message}");
+    assert!(refused(&["new", text(&other), "--model", "ishigam"]).contains("did you mean `ishigami`?"));
+    assert!(!other.exists());
+    let nowhere = apportion(&["new", text(&folder.path().join("none/study.toml"))]);
+    assert_eq!(nowhere.status.code(), Some(1));
+    assert!(stderr(&nowhere).contains("cannot write"), "{}", stderr(&nowhere));
+}
+
+/// A positive input may be log-normal, whose values come close to 0 without reaching it.
+#[test]
+fn a_positive_input_may_be_log_normal() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = folder.path().join("study.toml");
+    let factor = "[[factor]]\nname = 'adhesion'\nunit = 'mJ/m2'\n";
+    std::fs::write(&study, format!("{factor}distribution = 'log-normal'\nmean = 200\nsd = 40")).unwrap();
+    succeed(&["check", text(&study)]);
+    std::fs::write(&study, format!("{factor}distribution = 'weibull'\nshape = 2\nscale = 200\nlocation = -1")).unwrap();
+    let message = refused(&["check", text(&study)]);
+    assert!(message.contains("its values reach -1 mJ/m2"), "{message}");
+}

@@ -1,0 +1,135 @@
+//! The schemas accept what the program reads and writes, and refuse what it refuses.
+
+use jsonschema::Validator;
+use serde_json::{Value, json};
+
+use crate::common::{analysed, apportion, stderr, stdout, study_path};
+
+fn validator(kind: &str) -> Validator {
+    let output = apportion(&["schema", kind]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let schema: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    jsonschema::draft7::meta::validate(&schema).unwrap();
+    jsonschema::draft7::new(&schema).unwrap()
+}
+
+fn complaints(validator: &Validator, value: &Value) -> Vec<String> {
+    validator.iter_errors(value).map(|error| format!("{}: {error}", error.instance_path())).collect()
+}
+
+/// A study file as the JSON that a schema is about.
+fn study(text: &str) -> Value {
+    serde_json::to_value(toml::from_str::<toml::Table>(text).unwrap()).unwrap()
+}
+
+#[test]
+fn every_study_of_the_repository_fits_the_schema() {
+    let validator = validator("study");
+    let folder = study_path("any").parent().unwrap().to_owned();
+    let mut seen = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            let value = study(&std::fs::read_to_string(&path).unwrap());
+            assert_eq!(complaints(&validator, &value), Vec::<String>::new(), "{}", path.display());
+            seen += 1;
+        }
+    }
+    assert!(seen > 10, "{seen} studies");
+}
+
+#[test]
+fn new_studies_of_all_models_fit_the_schema() {
+    let (validator, folder) = (validator("study"), tempfile::tempdir().unwrap());
+    for model in apportion::model::ModelKind::all() {
+        let path = folder.path().join(format!("{}.toml", model.name()));
+        let output = apportion(&["new", path.to_str().unwrap(), "--model", model.name()]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let value = study(&std::fs::read_to_string(&path).unwrap());
+        assert_eq!(complaints(&validator, &value), Vec::<String>::new(), "{}", model.name());
+    }
+}
+
+/// What the program refuses by its keys and names, the schema refuses too.
+#[test]
+fn wrong_keys_names_and_types_are_refused() {
+    let validator = validator("study");
+    for wrong in [
+        "model = \"ishigam\"",
+        "titel = \"x\"",
+        "outputs = []",
+        "[design]\nsampler = \"halton\"",
+        "[design]\nbase_samples = -1",
+        "[design]\nbase_samples = \"many\"",
+        "[design]\ntarget = { half_width = 0 }",
+        "[design]\ntarget = {}",
+        "[analysis]\nthreshold = 2",
+        "[analysis]\nestimators = [\"jansn\"]",
+        "[analysis]\nsubsets = [\"x1\"]",
+        "[analysis]\nresamples = 1",
+        "[afm]\nfriction = \"dry\"",
+        "[afm]\nlength = 225",
+        "[afm]\nlenght = \"225 um\"",
+        "[function]\na = \"1\"",
+        "[factor]\nname = \"length\"",
+        "[[factor]]\nmin = 1",
+        "[[factor]]\nname = \"length\"\ndistribution = \"gauss\"",
+        "[[factor]]\nname = \"length\"\nminimum = 1",
+        "[[factor]]\nname = \"length\"\nmin = \"1\"",
+    ] {
+        assert!(!validator.is_valid(&study(wrong)), "{wrong}");
+        let path = std::path::Path::new("wrong.toml");
+        assert!(apportion::study::Study::parse(wrong, path, &[]).is_err(), "{wrong}");
+    }
+}
+
+/// Editors show a sentence for every key.
+#[test]
+fn every_key_of_a_study_is_described() {
+    let schema: Value = serde_json::from_str(&stdout(&apportion(&["schema", "study"]))).unwrap();
+    let tables = schema["definitions"].as_object().unwrap().values().chain([&schema]);
+    let mut seen = 0;
+    for (key, property) in tables.flat_map(|table| table["properties"].as_object().unwrap()) {
+        assert!(property["description"].as_str().is_some_and(|text| text.len() > 10), "{key}: {property}");
+        seen += 1;
+    }
+    assert!(seen > 40, "{seen} keys");
+}
+
+#[test]
+fn results_fit_the_schema() {
+    let validator = validator("result");
+    let more = "analysis.subsets=[['x1','x2']]";
+    for (name, overrides) in [
+        (
+            "ishigami-second-order",
+            vec!["design.base_samples=256", "analysis.estimators=['jansen']", "analysis.dummy=true", more],
+        ),
+        (
+            "lugre-dimensional",
+            vec![
+                "design.base_samples=64",
+                "afm.fidelity=auto",
+                "outputs=['critical_force','critical_time']",
+                "analysis.aggregate=true",
+            ],
+        ),
+        ("sobol-g-target", vec!["design.max_runs=4096"]),
+        ("coulomb-general", vec!["design.base_samples=64"]),
+    ] {
+        let result = analysed(name, &overrides);
+        let value: Value = serde_json::from_str(&apportion::report::result_json(&result)).unwrap();
+        assert_eq!(complaints(&validator, &value), Vec::<String>::new(), "{name}");
+        for (pointer, wrong) in [
+            ("/format", json!("apportion-sweep")),
+            ("/version", json!(2)),
+            ("/outputs/0/indices/0/total", json!("large")),
+            ("/provenance/seed", json!(-1)),
+            ("/factors", json!(null)),
+        ] {
+            let mut changed = value.clone();
+            *changed.pointer_mut(pointer).unwrap() = wrong;
+            assert!(!validator.is_valid(&changed), "{pointer}");
+        }
+    }
+}
