@@ -29,7 +29,7 @@ pub enum SimulationError {
 /// [`SimulationError::NoScene`] if the study is not about the nanoparticle model.
 fn scene_of(study: &Study) -> Result<(Scene, Options), SimulationError> {
     let Subject::Afm(afm) = &study.subject else {
-        return Err(SimulationError::NoScene(study.subject.kind().name()));
+        return Err(SimulationError::NoScene(study.subject.name()));
     };
     let mut scene = afm.scene;
     for factor in study.space.factors() {

@@ -44,7 +44,8 @@ fn subject(study: &Study) -> String {
     if let Some(title) = &study.title {
         text.push_str(&format!(": {title}"));
     }
-    text.push_str(&format!("\nmodel {}: {}\n", study.subject.kind().name(), study.subject.kind().description()));
+    let about = study.subject.kind().map_or_else(String::new, |kind| format!(": {}", kind.description()));
+    text.push_str(&format!("\nmodel {}{about}\n", study.subject.name()));
     for (name, value) in study.settings() {
         match value.as_object() {
             Some(table) => table.iter().for_each(|(key, value)| text.push_str(&format!("  {name}.{key} = {value}\n"))),

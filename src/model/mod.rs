@@ -8,18 +8,21 @@ mod afm;
 mod batch;
 mod catalogue;
 mod expression;
+mod function;
 mod known;
 
 pub use afm::{AfmModel, AfmOutput, edge_unit};
 pub use batch::{Batch, Effort, RowFailure};
 pub use catalogue::{Input, ModelKind, known_inputs};
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
+pub use function::{FunctionModel, function_model};
 pub use known::{
     Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, KnownModel, MAX_INPUTS, ParameterError,
     ParameterInfo, ParameterValue, SecondOrder,
 };
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use crate::quantity::Unit;
 
@@ -68,6 +71,24 @@ pub trait Model: Send + Sync {
 
     /// A worker for one thread.
     fn worker(&self) -> Box<dyn Worker + '_>;
+}
+
+impl<M: Model + ?Sized> Model for Arc<M> {
+    fn outputs(&self) -> &[Output] {
+        (**self).outputs()
+    }
+
+    fn flags(&self) -> &[Flag] {
+        (**self).flags()
+    }
+
+    fn rungs(&self) -> &[&'static str] {
+        (**self).rungs()
+    }
+
+    fn worker(&self) -> Box<dyn Worker + '_> {
+        (**self).worker()
+    }
 }
 
 /// The part of a model that one thread owns.

@@ -65,7 +65,7 @@ pub(super) fn asked(study: &Study) -> AskedRecord {
     AskedRecord {
         name: study.name.clone(),
         title: study.title.clone(),
-        model: study.subject.kind().name().to_owned(),
+        model: study.subject.name().to_owned(),
         settings: study.settings().into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
         constants: constants.collect(),
         factors: study.space.factors().iter().map(factor).collect(),

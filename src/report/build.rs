@@ -99,7 +99,7 @@ fn study_record(study: &Study) -> StudyRecord {
     StudyRecord {
         name: study.name.clone(),
         title: study.title.clone(),
-        model: study.subject.kind().name().to_owned(),
+        model: study.subject.name().to_owned(),
         settings: study.settings().into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
         constants: constants.collect(),
         overrides: study.overrides.clone(),

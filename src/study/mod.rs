@@ -4,6 +4,7 @@
 //! with its line and column.
 
 mod at;
+mod builder;
 mod constants;
 mod distribution;
 mod error;
@@ -20,13 +21,15 @@ mod subject;
 mod template;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
+pub use builder::{BuildError, StudyBuilder};
 pub use error::{Diagnostic, OverrideProblem, Problem, StudyError, nearest};
 pub use options::{AnalysisOptions, Stopping};
 pub use schema::study_schema;
-pub use subject::{AfmSubject, ExpressionConstant, ExpressionSubject, Formula, KnownSubject, Subject};
+pub use subject::{AfmSubject, CustomSubject, ExpressionConstant, ExpressionSubject, Formula, KnownSubject, Subject};
 pub use template::{TemplateRequest, template};
 
 use crate::design::Design;
@@ -113,6 +116,30 @@ impl Study {
         text.clone_into(&mut study.source);
         study.sha256 = Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
         Ok(study)
+    }
+
+    /// Begins a study of a model that is part of a program: a function (see
+    /// [`function_model`](crate::model::function_model) and [`FunctionModel`](crate::model::FunctionModel)), or any other
+    /// [`Model`]. Result files are named after `name`.
+    ///
+    /// ```
+    /// use apportion::model::function_model;
+    /// use apportion::space::Distribution;
+    /// use apportion::{analyse, study::Study};
+    ///
+    /// let study = Study::builder("product", function_model("y", |x| x[0] * x[1]))
+    ///     .factor("a", Distribution::uniform(1.0, 2.0)?)
+    ///     .factor("b", Distribution::uniform(1.0, 5.0)?)
+    ///     .base_samples(1024)
+    ///     .build()?;
+    /// let result = analyse(&study, 0, &|_| ())?;
+    /// let indices = result.outputs[0].indices.as_ref().ok_or("no indices")?;
+    /// // With c^2 = variance / mean^2 (1/27 and 4/27): S_a = c_a^2 / ((1 + c_a^2) (1 + c_b^2) - 1).
+    /// assert!((indices[0].effect.first_order.estimate - 27.0 / 139.0).abs() < 0.002);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn builder(name: &str, model: impl Model + 'static) -> StudyBuilder {
+        StudyBuilder::new(name, Arc::new(model))
     }
 
     /// The model, ready to run on this study's factors.

@@ -35,6 +35,24 @@ pub struct AnalysisOptions {
     pub max_failed: f64,
 }
 
+impl AnalysisOptions {
+    /// Nothing beside first-order and total indices, with the intervals that serve points of `sampler` best.
+    pub fn for_sampler(sampler: Sampler) -> Self {
+        Self {
+            estimators: Vec::new(),
+            second_order: false,
+            subsets: Vec::new(),
+            aggregate: false,
+            dummy: false,
+            intervals: IntervalMethod::default_for(sampler),
+            resamples: DEFAULT_RESAMPLES,
+            threshold: DEFAULT_THRESHOLD,
+            failures: FailurePolicy::DropBlock,
+            max_failed: DEFAULT_MAX_FAILED,
+        }
+    }
+}
+
 /// When a run that grows by doubling ends; one that asks for none of these has the size that the design says.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Stopping {

@@ -125,17 +125,25 @@ pub(super) fn unknown_name<'a>(
 fn name(context: &Context<'_>, name: Option<&At<String>>) -> Result<String, Fault> {
     let stem = || context.path.file_stem().map_or_else(|| "study".to_owned(), |s| s.to_string_lossy().into_owned());
     let Some(name) = name else { return Ok(stem()) };
-    let fits = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
-    if name.get_ref().trim().is_empty() || name.get_ref().starts_with('.') || !name.get_ref().chars().all(fits) {
+    if !names_files(name.get_ref()) {
         let problem = Problem::WrongType {
             key: "name".to_owned(),
-            expected: "letters, digits, '-', '_', '.' and spaces, not starting with a dot (files are named after it)"
-                .to_owned(),
+            expected: NAME_RULE.to_owned(),
             found: format!("{:?}", name.get_ref()),
         };
         return Err(context.fault(name.span(), problem));
     }
     Ok(name.get_ref().clone())
+}
+
+/// What the name of a study may be.
+pub(super) const NAME_RULE: &str =
+    "letters, digits, '-', '_', '.' and spaces, not starting with a dot (files are named after it)";
+
+/// Whether `name` keeps to [`NAME_RULE`].
+pub(super) fn names_files(name: &str) -> bool {
+    let fits = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
+    !name.trim().is_empty() && !name.starts_with('.') && name.chars().all(fits)
 }
 
 /// `[afm]`, `[function]` and `[expression]` belong to one kind of model each.
@@ -439,7 +447,7 @@ fn whole_nets(settings: DesignSettings, notes: &mut Vec<String>) -> DesignSettin
 }
 
 /// The rows for what is asked: the factors, the groups, the subsets, the dummy.
-fn rows(analysis: &AnalysisOptions, space: &Space) -> Rows {
+pub(super) fn rows(analysis: &AnalysisOptions, space: &Space) -> Rows {
     let single = (0..space.factors().len()).map(|number| vec![number]);
     let groups = space.groups().into_iter().map(|group| group.factors);
     let dummy = analysis.dummy.then(Vec::new);

@@ -1,5 +1,8 @@
 //! What a study is about: a model with its choices made.
 
+use std::fmt;
+use std::sync::Arc;
+
 use serde_json::{Value, json};
 
 use crate::afm::{Options, Parameter, Scene};
@@ -19,6 +22,8 @@ pub enum Subject {
     Expression(ExpressionSubject),
     /// A function with known indices.
     Known(KnownSubject),
+    /// A model that is part of a program.
+    Custom(CustomSubject),
 }
 
 /// The nanoparticle model with its choices made.
@@ -68,14 +73,40 @@ pub struct ExpressionConstant {
     pub quantity: Quantity,
 }
 
+/// A model that is part of a program.
+#[derive(Clone)]
+pub struct CustomSubject {
+    /// The model.
+    pub model: Arc<dyn Model>,
+}
+
+impl fmt::Debug for CustomSubject {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("CustomSubject").field("outputs", &self.model.outputs()).finish_non_exhaustive()
+    }
+}
+
+/// The same model, not only one like it.
+impl PartialEq for CustomSubject {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.model, &other.model)
+    }
+}
+
 impl Subject {
-    /// The model's entry in the catalogue.
-    pub fn kind(&self) -> ModelKind {
+    /// The model's entry in the catalogue; `None` for one that is part of a program.
+    pub fn kind(&self) -> Option<ModelKind> {
         match self {
-            Self::Afm(_) => ModelKind::Afm,
-            Self::Expression(_) => ModelKind::Expression,
-            Self::Known(known) => ModelKind::Known(known.function.answer()),
+            Self::Afm(_) => Some(ModelKind::Afm),
+            Self::Expression(_) => Some(ModelKind::Expression),
+            Self::Known(known) => Some(ModelKind::Known(known.function.answer())),
+            Self::Custom(_) => None,
         }
+    }
+
+    /// The model's name in study files; `custom` for one that is part of a program.
+    pub fn name(&self) -> &'static str {
+        self.kind().map_or("custom", ModelKind::name)
     }
 
     pub(super) fn model(&self, space: &Space) -> Box<dyn Model> {
@@ -96,6 +127,7 @@ impl Subject {
                 let factors = names().filter_map(|name| inputs.iter().position(|i| i.name == name)).collect();
                 Box::new(KnownModel::new(function.clone(), inputs.iter().map(|i| i.nominal).collect(), factors))
             }
+            Self::Custom(custom) => Box::new(custom.model.clone()),
         }
     }
 
@@ -119,6 +151,7 @@ impl Subject {
             Self::Known(known) => {
                 known.function.parameters().into_iter().map(|(name, value)| (name, in_json(value))).collect()
             }
+            Self::Custom(_) => Vec::new(),
         }
     }
 
@@ -141,6 +174,7 @@ impl Subject {
                 .filter(|input| !is_factor(&input.name))
                 .map(|input| constant(&input.name, input.nominal, input.unit.to_string()))
                 .collect(),
+            Self::Custom(_) => Vec::new(),
         }
     }
 }

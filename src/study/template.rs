@@ -296,7 +296,7 @@ mod tests {
     fn every_model_has_a_study_to_begin_with() {
         for model in ModelKind::all() {
             let study = studied(&request(model));
-            assert_eq!(study.subject.kind(), model);
+            assert_eq!(study.subject.kind(), Some(model));
             assert!(!study.space.factors().is_empty());
         }
     }

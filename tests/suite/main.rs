@@ -3,11 +3,13 @@
 mod accuracy;
 mod afm_contact_oracle;
 mod analytic;
+mod builder;
 mod commands;
 mod common;
 mod degenerate;
 mod distributions;
 mod estimators;
+mod examples;
 mod expression;
 mod extremes;
 mod factors;

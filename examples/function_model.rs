@@ -1,0 +1,37 @@
+//! A Rust function as a model: which of three numbers decides its value?
+//!
+//!     cargo run --release --example function_model
+
+use std::error::Error;
+use std::f64::consts::PI;
+
+use apportion::analyse;
+use apportion::model::function_model;
+use apportion::space::Distribution;
+use apportion::study::Study;
+
+pub fn main() -> Result<(), Box<dyn Error>> {
+    // The function of Ishigami and Homma (1990), whose indices are known.
+    let ishigami = |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
+    let angle = || Distribution::uniform(-PI, PI);
+    let study = Study::builder("ishigami", function_model("y", ishigami))
+        .factor("x1", angle()?)
+        .factor("x2", angle()?)
+        .factor("x3", angle()?)
+        .base_samples(4096)
+        .seed(1)
+        .build()?;
+
+    let result = analyse(&study, 0, &|_| ())?;
+    let indices = result.outputs[0].indices.as_ref().ok_or("no indices")?;
+    for index in indices {
+        let (alone, all) = (index.effect.first_order, index.effect.total);
+        println!("{}: alone {:.3}, with all interactions {:.3}", index.factor, alone.estimate, all.estimate);
+    }
+    // x3 does nothing alone, but a quarter of the variance together with x1.
+    for (index, exact) in indices.iter().zip([(0.3139, 0.5576), (0.4424, 0.4424), (0.0, 0.2437)]) {
+        assert!((index.effect.first_order.estimate - exact.0).abs() < 0.01);
+        assert!((index.effect.total.estimate - exact.1).abs() < 0.01);
+    }
+    Ok(())
+}

@@ -1,0 +1,97 @@
+//! Functions of the program that uses the library, as models.
+
+use super::{Batch, Model, Output, RowFailure, Worker};
+use crate::quantity::Unit;
+
+/// A Rust function as a model.
+///
+/// It gets the values of one row, one per factor, in SI units and in the order of the factors (a factor without a unit has
+/// its own numbers), and is called from several threads at once. It must answer with the same numbers for the same values,
+/// else results are not repeatable. A panic of it ends the run with that panic.
+pub struct FunctionModel<F> {
+    outputs: Vec<Output>,
+    function: F,
+}
+
+impl<F> FunctionModel<F>
+where
+    F: Fn(&[f64], &mut [f64]) -> Result<(), RowFailure> + Send + Sync,
+{
+    /// The model of `function`, which sets the values of all `outputs` of a row, in SI units, or says why there are none. A
+    /// value that is not finite is a failure of that output alone.
+    ///
+    /// ```
+    /// use apportion::model::{FunctionModel, Output, RowFailure};
+    /// use apportion::quantity::Unit;
+    ///
+    /// let force = Output::new("force", Unit::parse("nN")?, "force on the spring");
+    /// let energy = Output::new("energy", Unit::parse("nJ")?, "energy of the spring");
+    /// let spring = FunctionModel::new(vec![force, energy], |x: &[f64], y: &mut [f64]| {
+    ///     let (stiffness, way) = (x[0], x[1]);
+    ///     if stiffness < 0.0 {
+    ///         return Err(RowFailure::new("the stiffness is negative"));
+    ///     }
+    ///     y[0] = stiffness * way;
+    ///     y[1] = stiffness * way * way / 2.0;
+    ///     Ok(())
+    /// });
+    /// # Ok::<(), apportion::quantity::UnitError>(())
+    /// ```
+    pub fn new(outputs: Vec<Output>, function: F) -> Self {
+        Self { outputs, function }
+    }
+}
+
+/// The model of a function with a single output, a pure number called `output`. An answer that is not finite is a failed
+/// row.
+///
+/// ```
+/// use apportion::model::{Model, function_model};
+///
+/// let product = function_model("y", |x| x[0] * x[1]);
+/// assert_eq!(product.outputs()[0].name, "y");
+/// ```
+pub fn function_model(output: &str, function: impl Fn(&[f64]) -> f64 + Send + Sync + 'static) -> impl Model + 'static {
+    let output = Output::new(output.to_owned(), Unit::dimensionless(), "");
+    FunctionModel::new(vec![output], move |x: &[f64], y: &mut [f64]| {
+        y[0] = function(x);
+        Ok(())
+    })
+}
+
+impl<F> Model for FunctionModel<F>
+where
+    F: Fn(&[f64], &mut [f64]) -> Result<(), RowFailure> + Send + Sync,
+{
+    fn outputs(&self) -> &[Output] {
+        &self.outputs
+    }
+
+    fn worker(&self) -> Box<dyn Worker + '_> {
+        Box::new(FunctionWorker { function: &self.function, x: Vec::new(), y: vec![f64::NAN; self.outputs.len()] })
+    }
+}
+
+struct FunctionWorker<'a, F> {
+    function: &'a F,
+    x: Vec<f64>,
+    y: Vec<f64>,
+}
+
+impl<F> Worker for FunctionWorker<'_, F>
+where
+    F: Fn(&[f64], &mut [f64]) -> Result<(), RowFailure> + Send + Sync,
+{
+    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
+        for row in 0..batch.rows() {
+            self.x.clear();
+            self.x.extend(inputs.iter().map(|column| column[row]));
+            // What the function does not set has no value.
+            self.y.fill(f64::NAN);
+            match (self.function)(&self.x, &mut self.y) {
+                Ok(()) => self.y.iter().enumerate().for_each(|(output, y)| batch.set(row, output, *y)),
+                Err(failure) => batch.fail_row(row, &failure),
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Studies built in code.
+
+use apportion::analyse;
+use apportion::design::Sampler;
+use apportion::estimate::Estimator;
+use apportion::model::{FunctionModel, Output, function_model};
+use apportion::quantity::Unit;
+use apportion::report::parse_result;
+use apportion::space::{Distribution, Factor};
+use apportion::study::{AnalysisOptions, BuildError, Study, StudyBuilder};
+use apportion::uncertainty::IntervalMethod;
+
+fn unit() -> Distribution {
+    Distribution::uniform(0.0, 1.0).unwrap()
+}
+
+fn sum() -> StudyBuilder {
+    Study::builder("sum", function_model("y", |x| x.iter().sum()))
+}
+
+/// The same function, points and options, once in code and once by its name in a file: the same bits.
+#[test]
+fn a_built_study_gives_the_bits_of_the_file() {
+    let angle = || Distribution::uniform(-std::f64::consts::PI, std::f64::consts::PI).unwrap();
+    let known = apportion::model::KnownAnswer::from_name("ishigami").unwrap().default_function();
+    let study = Study::builder("ishigami", function_model("y", move |x| known.value(x)));
+    let study = ["x1", "x2", "x3"].into_iter().fold(study, |study, name| study.factor(name, angle()));
+    let built = analyse(&study.base_samples(1024).seed(3).build().unwrap(), 2, &|_| ()).unwrap();
+    let path = std::path::Path::new("ishigami.toml");
+    let typed = Study::parse("model = \"ishigami\"\n[design]\nbase_samples = 1024\nseed = 3", path, &[]).unwrap();
+    let typed = analyse(&typed, 1, &|_| ()).unwrap();
+    assert_eq!(built.outputs[0].indices, typed.outputs[0].indices);
+    assert_eq!((built.study.model.as_str(), built.provenance.study_sha256.len()), ("custom", 64));
+    // What is written of it is read back like any result.
+    let json = apportion::report::result_json(&built);
+    assert_eq!(parse_result(json.as_bytes()).unwrap(), built);
+}
+
+#[test]
+fn factors_reach_the_function_in_si_and_in_order() {
+    let model =
+        FunctionModel::new(vec![Output::new("way", Unit::parse("um").unwrap(), "")], |x: &[f64], y: &mut [f64]| {
+            assert_eq!(x.len(), 2);
+            assert!((2e-6..=4e-6).contains(&x[0]) && (0.0..=1.0).contains(&x[1]), "{x:?}");
+            y[0] = x[0];
+            Ok(())
+        });
+    let um = Unit::parse("um").unwrap();
+    let mut share = Factor::new("share", Unit::dimensionless(), unit()).unwrap();
+    share.group = Some("rest".to_owned());
+    let study =
+        Study::builder("units", model).title("Units").factor_in("a", um, Distribution::uniform(2.0, 4.0).unwrap());
+    let result = analyse(&study.add(share).base_samples(256).build().unwrap(), 1, &|_| ()).unwrap();
+    let output = &result.outputs[0];
+    // Evenly spread points: the mean of 256 is known to 1e-3 of the range.
+    assert!((output.mean.unwrap() - 3.0).abs() < 2e-3 && output.unit == "um");
+    assert_eq!(output.groups.as_ref().unwrap()[0].factors, ["share"]);
+}
+
+#[test]
+fn what_the_function_leaves_out_is_a_failed_run() {
+    let outputs = || ["set", "unset"].map(|name| Output::new(name, Unit::dimensionless(), "")).to_vec();
+    let model = FunctionModel::new(outputs(), |x: &[f64], y: &mut [f64]| {
+        y[0] = x[0];
+        Ok(())
+    });
+    let study = Study::builder("half", model).factor("x", unit()).base_samples(64).build().unwrap();
+    let result = analyse(&study, 1, &|_| ()).unwrap();
+    assert_eq!((result.outputs[0].runs_failed, result.outputs[1].runs_ok), (0, 0));
+    assert!(result.outputs[1].failures[0].reason.contains("not finite"));
+}
+
+#[test]
+fn options_ask_for_more() {
+    let options = AnalysisOptions {
+        second_order: true,
+        estimators: vec![Estimator::Default],
+        subsets: vec![vec![1, 0, 1]],
+        ..AnalysisOptions::for_sampler(Sampler::Sobol)
+    };
+    let study = sum().factor("a", unit()).factor("b", unit()).base_samples(256).analysis(options).build().unwrap();
+    let output = &analyse(&study, 1, &|_| ()).unwrap().outputs[0];
+    assert_eq!(output.second_order.as_ref().unwrap().len(), 1);
+    assert_eq!(output.subsets.as_ref().unwrap()[0].factors, ["a", "b"]);
+    assert!(output.estimators.is_empty());
+}
+
+#[test]
+fn what_cannot_be_built_says_why() {
+    let two = || sum().factor("a", unit()).factor("b", unit());
+    let reason = |builder: StudyBuilder| builder.build().unwrap_err().to_string();
+    assert_eq!(reason(sum()), "a design needs at least one factor");
+    assert_eq!(reason(two().factor("a", unit())), "factor `a` is there twice");
+    assert!(reason(two().base_samples(2)).contains("base_samples = 2 is too few for 4 replicates"));
+    assert!(reason(two().replicates(0)).contains("replicates = 0"));
+    let nameless = Study::builder("a/b", function_model("y", |x| x[0])).factor("x", unit());
+    assert!(reason(nameless).starts_with("the name \"a/b\" of the study: expected letters"));
+    let none = FunctionModel::new(Vec::new(), |_: &[f64], _: &mut [f64]| Ok(()));
+    assert_eq!(Study::builder("none", none).factor("x", unit()).build().unwrap_err(), BuildError::NoOutputs);
+    let with = |change: fn(&mut AnalysisOptions)| {
+        let mut options = AnalysisOptions::for_sampler(Sampler::Sobol);
+        change(&mut options);
+        reason(two().analysis(options))
+    };
+    assert!(
+        with(|o| o.intervals = IntervalMethod::Bca).contains("\"bca\" do not hold for points of the sampler \"sobol\"")
+    );
+    assert!(with(|o| o.subsets = vec![vec![2]]).contains("subset [2]: expected numbers of factors"));
+    assert!(with(|o| o.subsets = vec![vec![]]).contains("subset []"));
+    assert!(with(|o| o.threshold = f64::NAN).contains("threshold = NaN: expected a number from 0 to 1"));
+}
