@@ -87,9 +87,10 @@ fn factors(study: &Study) -> String {
     let mut below = String::new();
     for factor in study.space.factors() {
         let law = factor.distribution();
-        // The numbers that stand for categories have no mean.
         let quantile = |u| factor.in_words(law.quantile(u), significant);
-        let moment = |value| if law.name() == "categorical" { "-".to_owned() } else { significant(value) };
+        // The places of categories in their list have no mean.
+        let is_place = matches!(law, Distribution::Categorical(c) if law.name() == "categorical" && c.are_places());
+        let moment = |value| if is_place { "-".to_owned() } else { significant(value) };
         if let Distribution::Categorical(categories) = law {
             let shares: Vec<String> = categories
                 .categories()

@@ -245,6 +245,11 @@ impl Keys<'_> {
 
     /// The place of the parameter that `error` names, or else of the first one.
     fn blamed(&self, error: &DistributionError) -> Range<usize> {
+        if let DistributionError::Determined { .. } = error {
+            // What stands beside the usual parameters: perhaps too much, perhaps not enough.
+            let beside = self.used.iter().find(|(key, _)| !self.form.own.contains(key));
+            return beside.map_or_else(|| self.fields.name.span(), |(_, span)| span.clone());
+        }
         let named = self.used.iter().find(|(key, _)| Some(*key) == blamed_key(error));
         named.or(self.used.first()).map_or_else(|| self.fields.name.span(), |(_, span)| span.clone())
     }

@@ -106,7 +106,7 @@ fn labels_are_kept_in_results_points_and_sweeps() {
     let out = folder.path("out");
     succeed(&["run", text(&study), "--out", text(&out)]);
     let result: Value = serde_json::from_str(&std::fs::read_to_string(out.join("study.json")).unwrap()).unwrap();
-    let factors = &result["study"]["factors"];
+    let factors = &result["factors"];
     assert_eq!(factors[3]["distribution"]["labels"][2], "soft, pure copper");
     assert_eq!(factors[4]["distribution"]["file"], "measured.csv");
     assert_eq!(factors[4]["distribution"]["sha256"].as_str().unwrap().len(), 64);
@@ -167,8 +167,8 @@ fn refused(from: &str, to: &str, expected: &[&str]) {
 
 #[test]
 fn what_determines_nothing_is_refused_with_its_place() {
-    refused("p95 = 5\n", "", &["study.toml:10:8:", "is determined by three of min, mode, max", "2 of these are given"]);
-    refused("p95 = 5", "p95 = 5\nmean = 3", &["study.toml:10:8:", "but 4 of these are given"]);
+    refused("p95 = 5\n", "", &["study.toml:11:7:", "is determined by three of min, mode, max", "2 of these are given"]);
+    refused("p95 = 5", "p95 = 5\nmean = 3", &["study.toml:13:8:", "but 4 of these are given"]);
     refused("p95 = 5", "p95 = 0.5", &["study.toml:12:7:", "`p05` is 1 and `p95` is 0.5"]);
     refused(
         "mode = 3",

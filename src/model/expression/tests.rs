@@ -77,10 +77,11 @@ fn columns_of_any_length_are_their_rows() {
     batch.settle();
     for row in 0..rows {
         let alone = expression.value(&[x[row], y[row]]);
-        assert_eq!(batch.column(0)[row].to_bits(), if row == 0 { f64::NAN } else { alone }.to_bits());
+        assert_eq!(batch.column(0)[row].to_bits(), if alone.is_finite() { alone } else { f64::NAN }.to_bits());
     }
     let reasons: Vec<String> = batch.failures().iter().map(|(_, _, reason)| reason.to_string()).collect();
-    assert_eq!(reasons, ["the formula is infinite"]);
+    // Of ln(0), which is met more than once.
+    assert!(!reasons.is_empty() && reasons.iter().all(|reason| reason == "the formula is infinite"), "{reasons:?}");
 }
 
 #[test]

@@ -57,7 +57,8 @@ fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> LineChart {
         caption: caption(sweep),
         x: Axis {
             label: words(&sweep.factor),
-            unit: axis_unit(&sweep.unit),
+            // Names have no unit.
+            unit: if sweep.labels.is_some() { String::new() } else { axis_unit(&sweep.unit) },
             spacing: if logarithmic { Spacing::Logarithmic } else { Spacing::Linear },
         },
         names: sweep.labels.clone().unwrap_or_default(),
@@ -110,17 +111,22 @@ fn series(
     }
 }
 
+/// The values that are seen, for the caption.
+fn values_seen(sweep: &FactorSweepRecord) -> String {
+    if sweep.labels.is_some() { format!("one of {}", from_to(sweep)) } else { from_to(sweep) }
+}
+
 /// What is seen: how far each output goes, its slope, and what is missing.
 fn caption(sweep: &FactorSweepRecord) -> String {
     let factor = sentence(&words(&sweep.factor));
     let mut text = match sweep.curves.iter().find_map(|curve| curve.against.as_ref()) {
         Some(against) => format!(
             "{factor}, {}, for {} values of {}; percentages are for its nominal value. Every other factor is nominal.",
-            from_to(sweep),
+            values_seen(sweep),
             sweep.curves.len() - 1,
             the(&against.factor)
         ),
-        None => format!("{factor}, {}; every other factor is nominal.", from_to(sweep)),
+        None => format!("{factor}, {}; every other factor is nominal.", values_seen(sweep)),
     };
     for effect in &sweep.effects {
         let output = sentence(&the(&effect.output));

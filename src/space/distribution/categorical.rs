@@ -95,6 +95,11 @@ impl Categorical {
         self.labels.iter().zip(&self.values).map(|(label, &value)| (label.as_str(), value, self.law.probability(value)))
     }
 
+    /// Whether the numbers are the places of the labels, 0, 1, 2 and so on, which measure nothing.
+    pub fn are_places(&self) -> bool {
+        self.values.iter().enumerate().all(|(place, value)| *value == place as f64)
+    }
+
     /// The numbers of the labels that occur, in ascending order, each with a `u` at which it is the quantile.
     pub fn levels(&self) -> Vec<(f64, f64)> {
         self.law.levels()
