@@ -42,7 +42,7 @@ struct Cli {
 enum Command {
     /// Write a study file to begin with, whose comments explain it
     New(new::Arguments),
-    /// Run the papers' nine studies and set their percentages beside the published ones
+    /// Reproduce the papers: figures, a verdict on every claim, what their percentages could mean, on one page
     Reproduce(reproduce::Arguments),
     /// Run a study: design, model runs, indices, charts
     Run(run::Arguments),
