@@ -112,7 +112,7 @@ impl StudyBuilder {
 
     /// One more factor, made before: with a group, or a nominal value other than its median.
     #[must_use]
-    pub fn add(mut self, factor: Factor) -> Self {
+    pub fn with_factor(mut self, factor: Factor) -> Self {
         self.factors.push(Ok(factor));
         self
     }

@@ -50,7 +50,7 @@ fn factors_reach_the_function_in_si_and_in_order() {
     share.group = Some("rest".to_owned());
     let study =
         Study::builder("units", model).title("Units").factor_in("a", um, Distribution::uniform(2.0, 4.0).unwrap());
-    let result = analyse(&study.add(share).base_samples(256).build().unwrap(), 1, &|_| ()).unwrap();
+    let result = analyse(&study.with_factor(share).base_samples(256).build().unwrap(), 1, &|_| ()).unwrap();
     let output = &result.outputs[0];
     // Evenly spread points: the mean of 256 is known to 1e-3 of the range.
     assert!((output.mean.unwrap() - 3.0).abs() < 2e-3 && output.unit == "um");
