@@ -15,6 +15,7 @@ mod run_charts;
 mod run_page;
 pub mod scatter;
 pub mod scene;
+mod schema;
 pub mod screening;
 mod shares_chart;
 pub mod sweep;
@@ -30,6 +31,7 @@ pub use read::{ReadError, ReadProblem, parse_result, read_result};
 pub use result::*;
 pub use run_charts::{convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart};
 pub use run_page::{output_stem, run_page};
+pub use schema::result_schema;
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
 pub use tables::{
     convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,

@@ -9,16 +9,6 @@ use serde::{Deserialize, Serialize};
 use super::distribution::OutputDistribution;
 use super::scatter::ScatterRecord;
 
-/// The JSON Schema (draft 7, which editors understand) of result files.
-///
-/// ```
-/// let schema = apportion::report::result_schema();
-/// assert_eq!(schema["properties"]["format"]["type"], "string");
-/// ```
-pub fn result_schema() -> serde_json::Value {
-    schemars::generate::SchemaSettings::draft07().into_generator().into_root_schema_for::<ResultFile>().to_value()
-}
-
 /// The result of a run of apportion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(title = "apportion result")]

@@ -1,0 +1,15 @@
+//! The JSON Schema of result files, from the types that write them.
+
+use schemars::generate::SchemaSettings;
+
+use super::result::ResultFile;
+
+/// The JSON Schema (draft 7, which editors understand) of result files.
+///
+/// ```
+/// let schema = apportion::report::result_schema();
+/// assert_eq!(schema["properties"]["format"]["type"], "string");
+/// ```
+pub fn result_schema() -> serde_json::Value {
+    SchemaSettings::draft07().into_generator().into_root_schema_for::<ResultFile>().to_value()
+}
