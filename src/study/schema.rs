@@ -21,7 +21,7 @@ use crate::uncertainty::IntervalMethod;
 ///
 /// ```
 /// let schema = apportion::study::study_schema();
-/// assert_eq!(schema["properties"]["design"]["$ref"], "#/definitions/DesignSection");
+/// assert_eq!(schema["properties"]["title"]["type"], "string");
 /// ```
 pub fn study_schema() -> Value {
     let settings = SchemaSettings::draft07().with_transform(RecursiveTransform(without_null));
