@@ -3,18 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::common::{apportion, stderr, stdout, study_path};
-
-fn text(path: &Path) -> &str {
-    path.to_str().unwrap()
-}
-
-#[track_caller]
-fn succeed(arguments: &[&str]) -> String {
-    let output = apportion(arguments);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
-    stdout(&output)
-}
+use crate::common::{apportion, stderr, study_path, succeed, text};
 
 /// What it says on standard error when the input is wrong.
 #[track_caller]

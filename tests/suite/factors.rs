@@ -1,10 +1,10 @@
 //! Factors as people have them, through the program: named statistics, whole numbers, categories, measured values.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::Value;
 
-use crate::common::{apportion, stderr, stdout};
+use crate::common::{apportion, stderr, succeed, text};
 
 struct Folder(tempfile::TempDir);
 
@@ -22,10 +22,6 @@ impl Folder {
         std::fs::write(&path, content).unwrap();
         path
     }
-}
-
-fn text(path: &Path) -> &str {
-    path.to_str().unwrap()
 }
 
 /// A study with a factor of every kind; its model gives what it gets.
@@ -69,13 +65,6 @@ fn studied() -> (Folder, PathBuf) {
     folder.with("measured.csv", MEASURED);
     let study = folder.with("study.toml", STUDY);
     (folder, study)
-}
-
-#[track_caller]
-fn succeed(arguments: &[&str]) -> String {
-    let output = apportion(arguments);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
-    stdout(&output)
 }
 
 /// The cells of the line of check's table that begins with `factor`.
