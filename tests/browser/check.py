@@ -26,6 +26,7 @@ FAULTS = [
     "image without alt",
     "image without a picture",
     "chart without a title",
+    "picture not cut off",
     "identifier twice",
     "link to #nowhere",
     "link to missing.csv",
@@ -52,6 +53,9 @@ LOOK = """
     const title = svg.querySelector(":scope > title");
     const label = svg.getAttribute("aria-label");
     if (!(title && title.textContent.trim()) && !(label && label.trim())) found.push(`chart without a title: ${words(svg)}`);
+  }
+  for (const inner of all("svg svg[overflow=hidden]")) {
+    if (getComputedStyle(inner).overflowX === "visible") found.push(`picture not cut off at its frame: ${words(inner)}`);
   }
   const ids = new Map();
   for (const element of all("[id]")) ids.set(element.id, (ids.get(element.id) || 0) + 1);
