@@ -20,6 +20,11 @@ impl RowFailure {
     pub fn not_finite() -> Self {
         Self::new("the model returned a value that is not finite")
     }
+
+    /// The run was ended before the row was answered.
+    pub fn interrupted() -> Self {
+        Self::new("the run was interrupted")
+    }
 }
 
 impl fmt::Display for RowFailure {
@@ -63,6 +68,7 @@ pub struct Batch {
     failures: Vec<(usize, usize, RowFailure)>,
     flags: Vec<u64>,
     effort: Effort,
+    given_up: Option<RowFailure>,
 }
 
 impl Batch {
@@ -86,6 +92,7 @@ impl Batch {
         self.failures.clear();
         self.flags.fill(0);
         self.effort = Effort::none(self.effort.rungs.len());
+        self.given_up = None;
     }
 
     /// Number of rows.
@@ -116,6 +123,17 @@ impl Batch {
         }
     }
 
+    /// The model cannot go on, with these rows or any others: those that have neither value nor failure have none for
+    /// this reason, and the run ends.
+    pub fn give_up(&mut self, reason: RowFailure) {
+        self.given_up = Some(reason);
+    }
+
+    /// Why the model cannot go on, if it cannot.
+    pub fn given_up(&self) -> Option<&RowFailure> {
+        self.given_up.as_ref()
+    }
+
     /// Counts one raised validity flag.
     pub fn raise(&mut self, flag: usize) {
         self.flags[flag] += 1;
@@ -128,9 +146,10 @@ impl Batch {
         self.effort.largest_error = self.effort.largest_error.max(error_estimate);
     }
 
-    /// Names every value that is not finite and has no failure yet [`RowFailure::not_finite`], and puts the failures in
-    /// order. To be called once after the worker.
+    /// Names every value that is not finite and has no failure yet [`RowFailure::not_finite`], or the reason why the model
+    /// gave up, and puts the failures in order. To be called once after the worker.
     pub fn settle(&mut self) {
+        let unnamed = self.given_up.clone().unwrap_or_else(RowFailure::not_finite);
         self.failures.sort_unstable();
         let named = self.failures.len();
         for (output, column) in self.columns.iter().enumerate() {
@@ -143,7 +162,7 @@ impl Batch {
                     matches!(self.failures[..named].get(place), Some((o, r, _)) if (*o, *r) == (output, row))
                 };
                 if !value.is_finite() && !is_named() {
-                    self.failures.push((output, row, RowFailure::not_finite()));
+                    self.failures.push((output, row, unnamed.clone()));
                 }
             }
         }
@@ -168,6 +187,12 @@ impl Batch {
     /// What was spent on the rows.
     pub fn effort(&self) -> &Effort {
         &self.effort
+    }
+
+    /// Counts flags that were raised, and effort that was spent, when rows of this batch were evaluated earlier.
+    pub fn add_counts(&mut self, flags: &[u64], effort: &Effort) {
+        self.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
+        self.effort.merge(effort);
     }
 }
 

@@ -69,6 +69,16 @@ pub trait Model: Send + Sync {
         &[]
     }
 
+    /// How many workers are best kept busy at once, where that is not one for each thread. A model that answers takes
+    /// its time over a row: its rows are shared out in pieces that grow only as fast as they are answered.
+    fn concurrency(&self) -> Option<usize> {
+        None
+    }
+
+    /// Asks the workers to end soon what they are at, from any thread; they then [give up](Batch::give_up) with
+    /// [`RowFailure::interrupted`]. A model whose rows take no time worth speaking of need not listen.
+    fn interrupt(&self) {}
+
     /// A worker for one thread.
     fn worker(&self) -> Box<dyn Worker + '_>;
 }
@@ -84,6 +94,14 @@ impl<M: Model + ?Sized> Model for Arc<M> {
 
     fn rungs(&self) -> &[&'static str] {
         (**self).rungs()
+    }
+
+    fn concurrency(&self) -> Option<usize> {
+        (**self).concurrency()
+    }
+
+    fn interrupt(&self) {
+        (**self).interrupt();
     }
 
     fn worker(&self) -> Box<dyn Worker + '_> {
