@@ -13,6 +13,7 @@ mod progress;
 mod report;
 mod reproduce;
 mod run;
+mod sample;
 mod schema;
 mod screen;
 mod simulate;
@@ -26,7 +27,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use apportion::report::{ReadError, WriteError};
 use apportion::run::RunError;
-use apportion::study::{Study, StudyError};
+use apportion::study::{Study, StudyError, Subject};
 
 /// Sobol' global sensitivity analysis: which factor decides an output, and by how many percent.
 ///
@@ -54,6 +55,8 @@ enum Command {
     Screen(screen::Arguments),
     /// Move one factor at a time around the nominal point: curves, ranges and slopes of every output
     Sweep(sweep::Arguments),
+    /// Write the points of a study to a file, for a model outside
+    Sample(sample::Arguments),
     /// Evaluate a study's model at points from a CSV file
     Evaluate(evaluate::Arguments),
     /// First-order indices from a table of inputs and outputs that exists already
@@ -112,11 +115,23 @@ impl StudyArguments {
         self.load_with(&[])
     }
 
-    /// The study with the changes of `--set`, then `more`.
+    /// The study with the changes of `--set`, then `more`; its model can be run.
     fn load_with(&self, more: &[String]) -> Result<Study, Failure> {
-        let study = Study::load(&self.study, &[&self.set, more].concat())?;
+        let study = self.load_any(more)?;
+        if matches!(study.subject, Subject::External(_)) {
+            return Err(Failure::Input(anyhow::anyhow!(
+                "{}: its model runs outside of this program: write the points by `apportion sample`, and read its outputs \
+                 by `apportion analyze`",
+                self.study.display()
+            )));
+        }
         say_notes(&study);
         Ok(study)
+    }
+
+    /// The study with the changes of `--set`, then `more`, whether or not its model can be run.
+    fn load_any(&self, more: &[String]) -> Result<Study, Failure> {
+        Ok(Study::load(&self.study, &[&self.set, more].concat())?)
     }
 }
 
@@ -194,6 +209,7 @@ pub fn main() -> ExitCode {
         Command::New(arguments) => new::new(&arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Run(arguments) => run::run(&arguments),
+        Command::Sample(arguments) => sample::sample(&arguments),
         Command::Report(arguments) => report::report(&arguments),
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Screen(arguments) => screen::screen(&arguments),

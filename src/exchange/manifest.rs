@@ -110,7 +110,9 @@ pub enum ManifestError {
     #[error("the study in the manifest: {0}")]
     Study(#[from] StudyError),
     /// The study in it has been changed.
-    #[error("the study in the manifest has been changed since `sample` wrote it: its SHA-256 is {found}, not {expected}")]
+    #[error(
+        "the study in the manifest has been changed since `sample` wrote it: its SHA-256 is {found}, not {expected}"
+    )]
     ChangedStudy {
         /// SHA-256 that it has.
         found: String,

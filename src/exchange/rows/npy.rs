@@ -239,7 +239,8 @@ impl RowWriter for NpyWriter<'_> {
                 self.out.write_all(&column[row].to_le_bytes())?;
             }
         }
-        self.left = self.left.checked_sub(rows as u64).ok_or_else(|| std::io::Error::other("more rows than announced"))?;
+        self.left =
+            self.left.checked_sub(rows as u64).ok_or_else(|| std::io::Error::other("more rows than announced"))?;
         Ok(())
     }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::column::writer::ColumnWriter;
-use parquet::data_type::{ByteArray, DataType, DoubleType, ByteArrayType};
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType};
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
@@ -152,8 +152,12 @@ fn read_cells(reader: &mut ColumnReader, count: usize, place: Place<'_>, into: &
     };
     match reader {
         ColumnReader::DoubleColumnReader(reader) => cells(reader, count, into, |row, value| number(row, *value)),
-        ColumnReader::FloatColumnReader(reader) => cells(reader, count, into, |row, value| number(row, (*value).into())),
-        ColumnReader::Int32ColumnReader(reader) => cells(reader, count, into, |row, value| number(row, (*value).into())),
+        ColumnReader::FloatColumnReader(reader) => {
+            cells(reader, count, into, |row, value| number(row, (*value).into()))
+        }
+        ColumnReader::Int32ColumnReader(reader) => {
+            cells(reader, count, into, |row, value| number(row, (*value).into()))
+        }
         ColumnReader::Int64ColumnReader(reader) => cells(reader, count, into, |row, value| number(row, *value as f64)),
         ColumnReader::BoolColumnReader(reader) => cells(reader, count, into, |row, value| {
             let by_label = place.kind.value_of(if *value { "true" } else { "false" });
