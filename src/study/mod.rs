@@ -11,6 +11,7 @@ mod error;
 mod expression;
 mod file;
 mod function;
+mod identity;
 mod measured;
 mod nominal;
 mod options;
