@@ -74,7 +74,7 @@ fn with_inputs(study: &Study, error: RunError) -> Failure {
         RunError::RowFailed { row, .. } => {
             Failure::Run(anyhow!("{error}\nthe run's inputs: {}", inputs_in_words(study, *row)))
         }
-        RunError::Threads { .. } | RunError::TooManyOutputs { .. } => error.into(),
+        _ => error.into(),
     }
 }
 

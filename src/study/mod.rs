@@ -12,6 +12,7 @@ mod expression;
 mod external;
 mod file;
 mod function;
+mod identity;
 mod measured;
 mod nominal;
 mod options;
