@@ -1,5 +1,6 @@
 //! The command line: arguments, progress, messages and exit codes. Everything else is the library's.
 
+mod analyze;
 mod check;
 mod compare;
 mod completions;
@@ -57,6 +58,8 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Write the points of a study to a file, for a model outside
     Sample(sample::Arguments),
+    /// Indices from the outputs that a model outside computed at the points of `sample`, or of SALib
+    Analyze(analyze::Arguments),
     /// Evaluate a study's model at points from a CSV file
     Evaluate(evaluate::Arguments),
     /// First-order indices from a table of inputs and outputs that exists already
@@ -210,6 +213,7 @@ pub fn main() -> ExitCode {
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Sample(arguments) => sample::sample(&arguments),
+        Command::Analyze(arguments) => analyze::analyze(&arguments),
         Command::Report(arguments) => report::report(&arguments),
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Screen(arguments) => screen::screen(&arguments),

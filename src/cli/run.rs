@@ -37,21 +37,23 @@ pub fn default_folder(name: &str) -> PathBuf {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load_with(&arguments.design.overrides())?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
-    prepare_folder(&folder)?;
-    for file in files(&study) {
-        prepare_file(&folder.join(file.name))?;
-    }
+    prepare_results(&study, &folder)?;
     let meter = Meter::new(&study.name, study.design.rows());
     let result = analyse(&study, arguments.threads.number(), &|progress| meter.update(progress))
         .map_err(|error| with_inputs(&study, error))?;
     meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
-    let written = write_files(&folder, &files(&study), &result)?;
-    print(&summary(&result))?;
+    report_result(&study, &folder, &result)
+}
+
+/// Writes the files of `result`, prints its summary, and fails if outputs have no indices because runs failed.
+pub fn report_result(study: &Study, folder: &Path, result: &ResultFile) -> Result<(), Failure> {
+    let written = write_files(folder, &files(study), result)?;
+    print(&summary(result))?;
     for file in written {
         say(&format!("wrote {}", file.display()));
     }
     let lost: Vec<&str> =
-        result.outputs.iter().filter(|output| lost(&study, output)).map(|output| output.name.as_str()).collect();
+        result.outputs.iter().filter(|output| lost(study, output)).map(|output| output.name.as_str()).collect();
     if lost.is_empty() {
         return Ok(());
     }
@@ -59,6 +61,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         "no indices of {}: too many runs failed (the result says which and why)",
         lost.join(", ")
     )))
+}
+
+/// Makes sure that the files of a result can be written.
+pub fn prepare_results(study: &Study, folder: &Path) -> Result<(), Failure> {
+    prepare_folder(folder)?;
+    for file in files(study) {
+        prepare_file(&folder.join(file.name))?;
+    }
+    Ok(())
 }
 
 /// Whether an output has no indices because runs failed, and not because it does not vary.
@@ -69,7 +80,7 @@ fn lost(study: &Study, output: &OutputRecord) -> bool {
 }
 
 /// A row that failed is of use to the user by its inputs.
-fn with_inputs(study: &Study, error: RunError) -> Failure {
+pub fn with_inputs(study: &Study, error: RunError) -> Failure {
     match &error {
         RunError::RowFailed { row, .. } => {
             Failure::Run(anyhow!("{error}\nthe run's inputs: {}", inputs_in_words(study, *row)))

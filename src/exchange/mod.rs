@@ -1,5 +1,6 @@
 //! Tables of points and outputs as files: what joins the steps of a study when other programs take part.
 
+mod answers;
 mod design_rows;
 mod evaluate;
 mod manifest;
@@ -8,6 +9,7 @@ mod rows;
 mod sample;
 mod table;
 
+pub use answers::{Answers, AnswersError, AnswersRequest, MissingOutputs, read_answers};
 pub use design_rows::{DesignRows, RowBlock};
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::{

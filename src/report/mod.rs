@@ -13,6 +13,7 @@ mod read;
 mod result;
 mod run_charts;
 mod run_page;
+pub mod salib;
 pub mod scatter;
 pub mod scene;
 mod schema;
