@@ -15,6 +15,7 @@ mod measured;
 mod nominal;
 mod options;
 mod overrides;
+mod plan;
 mod resolve;
 mod schema;
 mod subject;
