@@ -16,6 +16,7 @@ mod measured;
 mod nominal;
 mod options;
 mod overrides;
+mod plan;
 mod resolve;
 mod schema;
 mod subject;
