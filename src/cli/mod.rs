@@ -11,6 +11,7 @@ mod models;
 mod new;
 mod pictures;
 mod progress;
+mod record;
 mod report;
 mod reproduce;
 mod run;
@@ -18,6 +19,7 @@ mod sample;
 mod schema;
 mod screen;
 mod simulate;
+mod stop;
 mod sweep;
 
 use std::io::{IsTerminal, Write};

@@ -7,6 +7,7 @@ mod manifest;
 mod points;
 mod rows;
 mod sample;
+mod save;
 mod table;
 
 pub use answers::{Answers, AnswersError, AnswersRequest, MissingOutputs, read_answers};
@@ -18,4 +19,5 @@ pub use manifest::{
 pub use points::{PointsError, PointsReader};
 pub use rows::{ColumnKind, Format, RowReader, RowWriter, RowsError, open_rows, row_writer, rows_of_bytes};
 pub use sample::sample;
+pub use save::{SaveError, save_outputs};
 pub use table::{DroppedRows, Missing, Selection, Table, TableError, read_table};

@@ -17,6 +17,7 @@ mod measured;
 mod nominal;
 mod options;
 mod overrides;
+mod plan;
 mod resolve;
 mod schema;
 mod subject;

@@ -1,5 +1,7 @@
 //! What a study is about: a model with its choices made.
 
+use std::path::PathBuf;
+
 use std::fmt;
 use std::sync::Arc;
 
@@ -111,6 +113,13 @@ impl Subject {
             Self::External(_) => Some(ModelKind::External),
             Self::Known(known) => Some(ModelKind::Known(known.function.answer())),
             Self::Custom(_) => None,
+        }
+    }
+
+    /// Files of the user, beside the study itself, that the outputs depend on, as far as the study names them.
+    pub fn files(&self) -> Vec<PathBuf> {
+        match self {
+            Self::Afm(_) | Self::Expression(_) | Self::External(_) | Self::Known(_) | Self::Custom(_) => Vec::new(),
         }
     }
 

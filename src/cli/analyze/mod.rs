@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use apportion::exchange::{AnswersRequest, Manifest, MissingOutputs, open_rows, read_answers};
 use apportion::quantity::Unit;
+use apportion::report::prepare_folder;
 use apportion::{Running, analyse_with};
 
-use super::run::{default_folder, prepare_results, report_result, with_inputs};
+use super::run::{default_folder, deliver, prepare_files, with_inputs};
 use super::{Failure, Threads, say, say_notes};
 
 #[derive(clap::Args)]
@@ -75,10 +76,11 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
         _ => say("the points in the file are those of the design, in its order"),
     }
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
-    prepare_results(study, &folder)?;
+    prepare_folder(&folder)?;
+    prepare_files(study, &folder)?;
     let running = Running { store: Some(&answers.store), ..Running::on(arguments.threads.number()) };
     let result = analyse_with(study, running).map_err(|error| with_inputs(study, error))?;
-    report_result(study, &folder, &result)
+    deliver(study, &folder, &result)
 }
 
 /// The manifest that was named, or the one beside the points.
