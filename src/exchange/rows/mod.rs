@@ -192,7 +192,8 @@ pub trait RowReader {
     fn width(&self) -> usize;
 
     /// Reads the next rows, at most `rows`, of some columns into `into`, one vector for each of `wanted` (number of the
-    /// column below [`width`](Self::width), what it holds), and returns how many there were; 0 at the end.
+    /// column below [`width`](Self::width), what it holds; the
+    /// same ones in every call), and returns how many there were; 0 at the end.
     ///
     /// # Errors
     /// [`RowsError`] with the place of the first fault.

@@ -1,0 +1,92 @@
+//! Which columns of a file of outputs are what, and which model they are the outputs of.
+
+use super::{AnswersError, AnswersRequest};
+use crate::exchange::design_rows::factor_column;
+use crate::exchange::{ColumnKind, RowReader};
+use crate::model::Output;
+use crate::quantity::Unit;
+use crate::space::Space;
+use crate::study::{ExternalSubject, Study, Subject, nearest};
+
+/// Which columns of the file are what.
+pub(super) struct Columns {
+    /// Outputs: the column and its name.
+    pub outputs: Vec<(usize, String)>,
+    /// Factors: the column and the number of the factor.
+    pub factors: Vec<(usize, usize)>,
+}
+
+impl Columns {
+    pub fn of(reader: &dyn RowReader, study: &Study, request: &AnswersRequest<'_>) -> Result<Self, AnswersError> {
+        let own: Vec<String> = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
+        let factors = study.space.factors();
+        let Some(names) = reader.names() else {
+            let outputs = if request.outputs.is_empty() { own } else { request.outputs.to_vec() };
+            let (width, count) = (reader.width(), factors.len());
+            let first = match width.checked_sub(outputs.len()) {
+                Some(0) => 0,
+                Some(before) if before == count => count,
+                _ => return Err(AnswersError::WrongWidth { width, factors: count, outputs: outputs.len() }),
+            };
+            let factors = (0..first).map(|place| (place, place)).collect();
+            return Ok(Self { outputs: (first..).zip(outputs).collect(), factors });
+        };
+        let is_factor = |name: &str| factors.iter().position(|factor| factor.name == name);
+        let place = |name: &String| {
+            names.iter().position(|known| known == name).ok_or_else(|| AnswersError::UnknownOutput {
+                name: name.clone(),
+                nearest: nearest(name, names.iter().map(String::as_str)),
+                known: names.join(", "),
+            })
+        };
+        let own_are_there = own.iter().all(|name| names.contains(name) && is_factor(name).is_none());
+        let asked = match request.outputs {
+            [] if own_are_there || matches!(study.subject, Subject::External(_)) => own,
+            [] => names.iter().filter(|name| is_factor(name).is_none()).cloned().collect(),
+            asked => asked.to_vec(),
+        };
+        if asked.is_empty() {
+            return Err(AnswersError::FactorsOnly { known: names.join(", ") });
+        }
+        for (number, name) in asked.iter().enumerate() {
+            if is_factor(name).is_some() || asked[..number].contains(name) {
+                return Err(AnswersError::NoOutput { name: name.clone(), factor: is_factor(name).is_some() });
+            }
+        }
+        let outputs = asked.into_iter().map(|name| Ok((place(&name)?, name))).collect::<Result<_, AnswersError>>()?;
+        let factors = names.iter().enumerate().filter_map(|(place, name)| Some((place, is_factor(name)?))).collect();
+        Ok(Self { outputs, factors })
+    }
+
+    /// What to read of the file.
+    pub fn wanted(&self, space: &Space) -> Vec<(usize, ColumnKind)> {
+        let outputs = self.outputs.iter().map(|(place, name)| (*place, ColumnKind::numbers(name)));
+        let factors = self.factors.iter().map(|(place, factor)| (*place, factor_column(&space.factors()[*factor])));
+        outputs.chain(factors).collect()
+    }
+}
+
+/// The study's own model if the outputs are its own, else a model outside with these outputs.
+pub(super) fn subject(
+    study: &Study,
+    columns: &[(usize, String)],
+    request: &AnswersRequest<'_>,
+) -> Result<Subject, AnswersError> {
+    let model = study.model();
+    let own = model.outputs();
+    if let Some((name, _)) = request.units.iter().find(|(name, _)| columns.iter().all(|(_, column)| column != name)) {
+        let known = columns.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>().join(", ");
+        return Err(AnswersError::UnitOfNone { name: name.clone(), known });
+    }
+    let names = columns.iter().map(|(_, name)| name);
+    if request.units.is_empty() && names.clone().eq(own.iter().map(|output| &*output.name)) {
+        return Ok(study.subject.clone());
+    }
+    let output = |name: &String| {
+        let stated = own.iter().find(|output| output.name == *name);
+        let unit = request.units.iter().find(|(known, _)| known == name).map(|(_, unit)| unit.clone());
+        let unit = unit.or_else(|| stated.map(|output| output.unit.clone())).unwrap_or_else(Unit::dimensionless);
+        Output::new(name.clone(), unit, "read from a file")
+    };
+    Ok(Subject::External(ExternalSubject { outputs: names.map(output).collect() }))
+}

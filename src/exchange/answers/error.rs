@@ -1,0 +1,124 @@
+//! What can be wrong with a file of outputs.
+
+use thiserror::Error;
+
+use crate::exchange::{ManifestError, RowsError};
+
+/// What is wrong with a file of outputs.
+#[derive(Debug, Error)]
+pub enum AnswersError {
+    /// The manifest.
+    #[error(transparent)]
+    Manifest(#[from] ManifestError),
+    /// The file.
+    #[error(transparent)]
+    Rows(#[from] RowsError),
+    /// An output that is no column.
+    #[error("no column is called `{name}`{}; the columns are {known}", hint(.nearest))]
+    UnknownOutput {
+        /// The output.
+        name: String,
+        /// The nearest column.
+        nearest: Option<String>,
+        /// All columns.
+        known: String,
+    },
+    /// A factor asked for as an output, or an output twice.
+    #[error("`{name}` is asked for as an output{}", if *.factor { ", but is a factor of the study" } else { " twice" })]
+    NoOutput {
+        /// The column.
+        name: String,
+        /// Whether it is a factor.
+        factor: bool,
+    },
+    /// All columns are factors.
+    #[error("the file holds no outputs: its columns are the factors {known}")]
+    FactorsOnly {
+        /// All columns.
+        known: String,
+    },
+    /// A unit for something that is no output.
+    #[error("a unit is given for `{name}`, which is no output; the outputs are {known}")]
+    UnitOfNone {
+        /// The name.
+        name: String,
+        /// The outputs.
+        known: String,
+    },
+    /// A file without names of another width.
+    #[error(
+        "the file has {width} columns, without names: expected {outputs} (the outputs) or {} (the {factors} factors, then \
+         the outputs)",
+        .factors + .outputs
+    )]
+    WrongWidth {
+        /// Columns of the file.
+        width: usize,
+        /// Factors of the study.
+        factors: usize,
+        /// Outputs expected.
+        outputs: usize,
+    },
+    /// A value that is not the one of the design.
+    #[error(
+        "row {row}, column `{name}`: {found} stands where the design has {expected}: the points have been changed, or \
+         belong to another design"
+    )]
+    ChangedValue {
+        /// Row of the file, from 1.
+        row: u64,
+        /// The factor.
+        name: String,
+        /// In the file.
+        found: String,
+        /// In the design.
+        expected: String,
+    },
+    /// As many rows as the design has, in another order.
+    #[error("the rows are in another order than those of the design: row {row} of the file is row {is} of the design")]
+    Reordered {
+        /// Row of the file, from 1.
+        row: u64,
+        /// Row of the design, from 1.
+        is: u64,
+    },
+    /// Fewer rows than the design has.
+    #[error("{} of the {expected} rows of the design {} missing: the file has {found}{place}", .expected - .found,
+        if .expected - .found == 1 { "is" } else { "are" })]
+    MissingRows {
+        /// Rows of the file.
+        found: u64,
+        /// Rows of the design.
+        expected: u64,
+        /// Where the first one is missing, in words.
+        place: String,
+    },
+    /// More rows than the design has.
+    #[error("the file has {} row{} more than the {expected} of the design: {place}", .found - .expected,
+        if .found - .expected == 1 { "" } else { "s" })]
+    ExtraRows {
+        /// Rows of the file.
+        found: u64,
+        /// Rows of the design.
+        expected: u64,
+        /// Which the first one is, in words.
+        place: String,
+    },
+    /// A row without an output.
+    #[error(
+        "row {row}, column `{name}`: {}; --missing-as-failed counts such rows as runs that failed",
+        if .found.is_nan() { "the value is missing".to_owned() } else { format!("{found} is no finite number") }
+    )]
+    MissingOutput {
+        /// Row of the file, from 1.
+        row: u64,
+        /// The output.
+        name: String,
+        /// What stands there.
+        found: f64,
+    },
+}
+
+fn hint(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
+}

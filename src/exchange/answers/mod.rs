@@ -1,0 +1,211 @@
+//! The outputs of a design from a file, checked against the points that they belong to.
+
+mod columns;
+mod error;
+
+pub use error::AnswersError;
+
+use columns::{Columns, subject};
+
+use super::design_rows::{DesignRows, RowBlock, RowsDigest};
+use super::manifest::Manifest;
+use super::rows::{ColumnKind, RowReader};
+use crate::model::{Model, RowFailure};
+use crate::quantity::{Unit, is_same};
+use crate::run::{Piece, Store};
+use crate::study::{Study, Subject};
+
+/// Rows counted at a time.
+const COUNTED: usize = 1 << 13;
+
+/// What becomes of a row without a finite output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum MissingOutputs {
+    /// The file is refused.
+    #[default]
+    Refuse,
+    /// The row counts as a run that failed.
+    Failed,
+}
+
+/// What is read from a file of outputs.
+#[derive(Debug, Clone, Copy)]
+pub struct AnswersRequest<'a> {
+    /// Whose outputs they are.
+    pub manifest: &'a Manifest,
+    /// Columns that are outputs; none for the study's own if they are there, or else for all that are no factors.
+    pub outputs: &'a [String],
+    /// Units of outputs, by column; others are in the unit that the study says, or in none.
+    pub units: &'a [(String, Unit)],
+    /// What becomes of rows without an output.
+    pub missing: MissingOutputs,
+}
+
+/// The outputs of all rows of a design.
+#[derive(Debug)]
+pub struct Answers {
+    /// The study: that of the manifest, of a model outside unless the outputs are the ones of its own model.
+    pub study: Study,
+    /// The outputs.
+    pub store: Store,
+    /// Names of the factors whose values in the file were compared with the design.
+    pub compared: Vec<String>,
+}
+
+/// Reads the outputs of the design that the manifest of `request` describes. Where the file holds columns of factors too,
+/// their values are compared with the design ([`is_same`]: they may have been printed by another program).
+///
+/// # Errors
+/// [`AnswersError`] if manifest and file do not belong together, with the first place where that shows; if an output is
+/// missing and such rows are refused.
+pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) -> Result<Answers, AnswersError> {
+    let mut study = request.manifest.study()?;
+    let columns = Columns::of(reader, &study, request)?;
+    study.subject = subject(&study, &columns.outputs, request)?;
+    let model = study.model();
+    let store = Store::new(&study.design, model.as_ref());
+    let wanted = columns.wanted(&study.space);
+    let mut reading = Reading { reader, study: &study, model: model.as_ref(), columns: &columns, wanted, row: 0 };
+    let sha256 = reading.all(&store, request.missing)?;
+    // Values that agree to ten digits may still be another version's: those of the study are the ones in force.
+    request.manifest.check_points(&sha256)?;
+    if !model.flags().is_empty() && !matches!(study.subject, Subject::External(_)) {
+        let note = "the file holds no validity flags of the model: none are counted".to_owned();
+        study.notes.push(note);
+    }
+    drop(model);
+    let compared = columns.factors.iter().map(|&(_, factor)| study.space.factors()[factor].name.clone()).collect();
+    Ok(Answers { study, store, compared })
+}
+
+/// A file on its way into a store.
+struct Reading<'a> {
+    reader: &'a mut dyn RowReader,
+    study: &'a Study,
+    model: &'a dyn Model,
+    columns: &'a Columns,
+    /// The outputs, then the factors.
+    wanted: Vec<(usize, ColumnKind)>,
+    /// Rows read and found right.
+    row: u64,
+}
+
+impl Reading<'_> {
+    /// Reads all rows; the SHA-256 of the design's numbers.
+    fn all(&mut self, store: &Store, missing: MissingOutputs) -> Result<String, AnswersError> {
+        let (space, design) = (&self.study.space, &self.study.design);
+        let mut cells = vec![Vec::new(); self.wanted.len()];
+        let mut points = vec![Vec::new(); design.factors()];
+        let (mut rows, mut digest) = (DesignRows::new(space, design), RowsDigest::default());
+        while let Some(block) = rows.next_block(&mut points) {
+            digest.add(&points);
+            let count = self.reader.read(&self.wanted, block.rows, &mut cells)?;
+            let (answers, found) = cells.split_at(self.columns.outputs.len());
+            self.compare(&points, found, count)?;
+            if count < block.rows {
+                let (found, place) = (self.row + count as u64, String::new());
+                return Err(AnswersError::MissingRows { found, expected: design.rows(), place });
+            }
+            store.insert(&self.piece(block, answers, missing)?);
+            self.row += count as u64;
+        }
+        let more = self.count_rest();
+        if more > 0 {
+            let (found, expected) = (self.row + more, design.rows());
+            let place = format!("row {} is the first of them", expected + 1);
+            return Err(AnswersError::ExtraRows { found, expected, place });
+        }
+        Ok(digest.finish())
+    }
+
+    /// The outputs of a block.
+    fn piece(&self, block: RowBlock, answers: &[Vec<f64>], missing: MissingOutputs) -> Result<Piece, AnswersError> {
+        let outputs = self.model.outputs();
+        let reason = RowFailure::new("the file of outputs has no finite number for it");
+        let mut piece = Piece { replicate: block.replicate, first: block.first, ..Piece::default() };
+        piece.values.reserve(block.rows * outputs.len());
+        for row in 0..block.rows {
+            for (number, (column, output)) in answers.iter().zip(outputs).enumerate() {
+                let si = output.unit.to_si(column[row]);
+                if !si.is_finite() {
+                    if missing == MissingOutputs::Refuse {
+                        let (row, found) = (self.row + row as u64 + 1, column[row]);
+                        return Err(AnswersError::MissingOutput { row, name: output.name.to_string(), found });
+                    }
+                    piece.failures.push((row as u32, number as u32, reason.clone()));
+                }
+                piece.values.push(if si.is_finite() { si } else { f64::NAN });
+            }
+        }
+        Ok(piece)
+    }
+
+    /// Whether the first `count` rows found are those of the design.
+    fn compare(&mut self, points: &[Vec<f64>], found: &[Vec<f64>], count: usize) -> Result<(), AnswersError> {
+        let differs = |row: usize| {
+            let pairs = self.columns.factors.iter().zip(found);
+            pairs.into_iter().find(|((_, factor), column)| !is_same(column[row], points[*factor][row]))
+        };
+        let Some((row, ((_, factor), column))) = (0..count).find_map(|row| Some((row, differs(row)?))) else {
+            return Ok(());
+        };
+        let number = *factor;
+        let factor = &self.study.space.factors()[number];
+        let words = |value: f64| match value.is_nan() {
+            true => "nothing".to_owned(),
+            false => factor.in_words(value, |number| number.to_string()),
+        };
+        let changed = AnswersError::ChangedValue {
+            row: self.row + row as u64 + 1,
+            name: factor.name.clone(),
+            found: words(column[row]),
+            expected: words(points[number][row]),
+        };
+        let there: Vec<f64> = found.iter().map(|column| column[row]).collect();
+        let Some(is) = self.find(&there) else { return Err(changed) };
+        let (row, is) = (self.row + row as u64 + 1, is + 1);
+        let (total, expected) = (self.row + count as u64 + self.count_rest(), self.study.design.rows());
+        let words = format!("row {row} of the file is row {is} of the design");
+        Err(match total.cmp(&expected) {
+            std::cmp::Ordering::Less if is > row => AnswersError::MissingRows {
+                found: total,
+                expected,
+                place: format!("; the first is row {row}: {words}"),
+            },
+            std::cmp::Ordering::Greater if is < row => {
+                AnswersError::ExtraRows { found: total, expected, place: format!("{words} again") }
+            }
+            _ => AnswersError::Reordered { row, is },
+        })
+    }
+
+    /// The row of the design with these values of the factors in the file, from 0.
+    fn find(&self, there: &[f64]) -> Option<u64> {
+        let mut rows = DesignRows::new(&self.study.space, &self.study.design);
+        let mut points = vec![Vec::new(); self.study.design.factors()];
+        let mut before = 0;
+        while let Some(block) = rows.next_block(&mut points) {
+            let is_it = |row: &usize| {
+                self.columns
+                    .factors
+                    .iter()
+                    .zip(there)
+                    .all(|((_, factor), value)| is_same(*value, points[*factor][*row]))
+            };
+            if let Some(row) = (0..block.rows).find(is_it) {
+                return Some(before + row as u64);
+            }
+            before += block.rows as u64;
+        }
+        None
+    }
+
+    /// Rows of the file that have not been read, as far as they can be.
+    fn count_rest(&mut self) -> u64 {
+        let (mut rest, mut cells) = (0, vec![Vec::new(); self.wanted.len()]);
+        while let Ok(rows @ 1..) = self.reader.read(&self.wanted, COUNTED, &mut cells) {
+            rest += rows as u64;
+        }
+        rest
+    }
+}
