@@ -40,7 +40,7 @@ pub struct Arguments {
     #[arg(long, value_name = "LAYOUT", value_parser = ["salib"])]
     layout: Option<String>,
     #[command(flatten)]
-    salib: salib::Arguments,
+    salib: salib::SalibArguments,
     /// Folder for the results [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,

@@ -16,7 +16,7 @@ use super::super::run::default_folder;
 use super::super::{Failure, print, say};
 
 #[derive(clap::Args)]
-pub struct Arguments {
+pub struct SalibArguments {
     /// SALib's problem as JSON (names, groups), or a study (.toml) with the same inputs in the same order
     #[arg(long, value_name = "FILE", requires = "layout", conflicts_with = "names")]
     problem: Option<PathBuf>,
@@ -60,7 +60,7 @@ pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
     drop(bytes);
     let Table { problem, inputs, outputs } = table(arguments)?;
     let (rows, d) = (outputs[0].values.len(), problem.members.len());
-    let Arguments { second_order, first_order_only, resamples, seed, .. } = arguments.salib;
+    let SalibArguments { second_order, first_order_only, resamples, seed, .. } = arguments.salib;
     let asked = match (second_order, first_order_only) {
         (true, _) => Some(SalibLayout::SecondOrder),
         (_, true) => Some(SalibLayout::FirstOrder),
@@ -86,7 +86,7 @@ pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
 }
 
 /// What the problem file says, if there is one.
-fn problem(arguments: &Arguments) -> Result<Option<SalibProblem>, Failure> {
+fn problem(arguments: &SalibArguments) -> Result<Option<SalibProblem>, Failure> {
     let wrong = |path: &Path, error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", path.display()));
     let Some(path) = &arguments.problem else {
         if arguments.names.is_empty() {
