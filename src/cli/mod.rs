@@ -6,6 +6,7 @@ mod completions;
 mod evaluate;
 mod given_data;
 mod man;
+mod merge;
 mod models;
 mod new;
 mod pictures;
@@ -48,6 +49,8 @@ enum Command {
     Reproduce(reproduce::Arguments),
     /// Run a study: design, model runs, indices, charts
     Run(run::Arguments),
+    /// Join the parts of a run (run --shard I/N) into its result
+    Merge(merge::Arguments),
     /// Draw the page, tables and charts of a result again, from its JSON file alone
     Report(report::Arguments),
     /// Set two results side by side: by how much the indices differ, and whether that is more than their errors
@@ -196,6 +199,7 @@ pub fn main() -> ExitCode {
         Command::New(arguments) => new::new(&arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Run(arguments) => run::run(&arguments),
+        Command::Merge(arguments) => merge::merge(&arguments),
         Command::Report(arguments) => report::report(&arguments),
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Screen(arguments) => screen::screen(&arguments),

@@ -64,6 +64,14 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
     }
 }
 
+/// Opens the record of `study` at `path` as [`open`] does, however quick its runs are.
+pub fn open_always(study: &Study, path: &Path, how: Use) -> Result<Record, Failure> {
+    match open(study, path, (how, None))? {
+        Some(record) => Ok(record),
+        None => begin(study, path, None),
+    }
+}
+
 /// Opens the record of `study` at `path`. A journal of something else, or one that is not wanted, is moved aside. `None`
 /// if there is none and the runs are quicker than it is worth.
 pub fn open(study: &Study, path: &Path, (how, shard): (Use, Option<Shard>)) -> Result<Option<Record>, Failure> {
@@ -146,9 +154,13 @@ fn fresh(study: &Study, path: &Path, shard: Option<Shard>) -> Result<Option<Reco
     if shard.is_none() && model.concurrency().is_none() && bytes > LARGE && seconds(study)? < QUICK {
         return Ok(None);
     }
-    let store = Store::new(&study.design, model.as_ref());
+    begin(study, path, shard).map(Some)
+}
+
+fn begin(study: &Study, path: &Path, shard: Option<Shard>) -> Result<Record, Failure> {
+    let store = Store::new(&study.design, study.model().as_ref());
     let journal = Journal::create(path, &header(study, shard)).map_err(wrong)?;
-    Ok(Some(Record { store, journal }))
+    Ok(Record { store, journal })
 }
 
 /// What the whole run will take, in seconds, by its first runs.

@@ -16,6 +16,7 @@ mod factors;
 mod failures;
 mod given;
 mod given_data;
+mod journal;
 mod known;
 mod metamorphic;
 mod page;
