@@ -9,6 +9,7 @@ mod man;
 mod merge;
 mod models;
 mod new;
+mod outlook;
 mod pictures;
 mod progress;
 mod record;

@@ -148,13 +148,21 @@ pub fn filled(study: &Study, contents: &Contents) -> Store {
     store
 }
 
+/// Rows of the design that are in `store`.
+pub fn rows_on_record(study: &Study, store: &Store) -> u64 {
+    let rows = study.design.points_per_replicate() * study.design.rows_per_point();
+    (0..study.design.settings().replicates).map(|replicate| store.count(replicate, 0..rows).0).sum()
+}
+
 fn fresh(study: &Study, path: &Path, shard: Option<Shard>) -> Result<Option<Record>, Failure> {
+    if shard.is_some() || keeps_journal(study)? { begin(study, path, shard).map(Some) } else { Ok(None) }
+}
+
+/// Whether a run of `study` keeps a journal: not a large one of quick runs.
+pub fn keeps_journal(study: &Study) -> Result<bool, Failure> {
     let model = study.model();
     let bytes = study.design.rows().saturating_mul(8 * model.outputs().len() as u64);
-    if shard.is_none() && model.concurrency().is_none() && bytes > LARGE && seconds(study)? < QUICK {
-        return Ok(None);
-    }
-    begin(study, path, shard).map(Some)
+    Ok(model.concurrency().is_some() || bytes <= LARGE || seconds(study)? >= QUICK)
 }
 
 fn begin(study: &Study, path: &Path, shard: Option<Shard>) -> Result<Record, Failure> {

@@ -20,6 +20,7 @@ pub mod screening;
 mod shares_chart;
 pub mod sweep;
 mod tables;
+mod trend;
 mod warnings;
 mod write;
 
@@ -37,4 +38,5 @@ pub use tables::{
     convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,
     summary, table, with_unit,
 };
+pub use trend::{widest_interval, width_after_doubling};
 pub use write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};

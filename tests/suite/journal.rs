@@ -238,7 +238,8 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
     let small = ["--base-samples", "1024"];
     ishigami_runs(&whole, &small);
     let study = study_path("ishigami");
-    let merge = |more: &[&str]| apportion(&[&["merge", text(&study), "--out", text(&parts)], &small[..], more].concat());
+    let merge =
+        |more: &[&str]| apportion(&[&["merge", text(&study), "--out", text(&parts)], &small[..], more].concat());
     for shard in ["3/3", "1/3"] {
         ishigami_runs(&parts, &[&small[..], &["--shard", shard]].concat());
     }
@@ -308,7 +309,8 @@ fn a_job_array_on_one_machine() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
     ishigami_runs(&whole, &["--base-samples", "1024"]);
-    let has = |program: &str| Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success());
+    let has =
+        |program: &str| Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success());
     let run = "run \"$STUDY\" --base-samples 1024 --threads 1 --out \"$OUT\" --shard";
     let line = if has("parallel") {
         format!("parallel --will-cite --jobs 2 '\"$APPORTION\" {run} {{}}/4' ::: 1 2 3 4")

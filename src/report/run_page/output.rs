@@ -3,11 +3,10 @@
 use super::figures::{Figures, Numbered};
 use super::lead::{by_total, widest};
 use super::tables;
-use super::trend::width_after_doubling;
 use super::words::{capital, count, first, grouped, half_width, index, name, the};
-use crate::report::listed;
 use crate::report::page::{Mark, Part};
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
+use crate::report::{listed, width_after_doubling};
 
 /// Most factors whose shares are drawn; of more, the chart of the indices shows the largest.
 const DRAWN: usize = 30;
