@@ -5,6 +5,7 @@ use super::resolve::{unknown_name, with_unit};
 use crate::afm::Options;
 use crate::design::DesignSettings;
 use crate::model::{Input, KnownAnswer, ModelKind, Output};
+use crate::words::capitalised;
 
 /// What a study to begin with is about.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,7 +75,7 @@ pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
 /// What stands at the top: what the file is for, title and model.
 fn heading(request: &TemplateRequest) -> String {
     let model = request.model;
-    let title = request.title.clone().unwrap_or_else(|| sentence(model.description()));
+    let title = request.title.clone().unwrap_or_else(|| capitalised(model.description()));
     format!(
         "# A study of apportion: which inputs of a model decide its output, and by how many percent.\n\
          # `apportion check FILE` explains it and tells what it will cost, `apportion run FILE` runs it,\n\
@@ -266,11 +267,6 @@ fn range(input: &Input) -> (f64, f64) {
 /// Four significant digits: people will change it.
 fn short(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
-}
-
-fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]
