@@ -27,6 +27,7 @@
 //! | [`report`] | results as JSON, CSV, text and charts; files written whole or not at all |
 //! | [`simulation`] | one scene of a study in time |
 //! | [`exchange`] | tables of points and outputs, for other programs |
+//! | [`salib`] | indices of outputs at the points of SALib, by its own formulas |
 //! | [`reproduce`] | the papers' studies beside what the papers print |
 //!
 //! # An example
@@ -74,6 +75,7 @@ pub mod quantity;
 pub mod report;
 pub mod reproduce;
 pub mod run;
+pub mod salib;
 pub mod screening;
 pub mod simulation;
 pub mod space;

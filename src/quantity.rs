@@ -2,12 +2,14 @@
 
 mod dimension;
 mod error;
+mod same;
 mod unit;
 
 use std::fmt;
 
 pub use dimension::Dimension;
 pub use error::UnitError;
+pub use same::{SAME_VALUE, is_same};
 pub use unit::Unit;
 
 /// A value with its unit, as typed.

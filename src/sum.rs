@@ -8,7 +8,7 @@ pub const LANES: usize = 8;
 
 /// Sum of `f(i)` for `i` in `0..n`, in the fixed shape.
 #[inline(always)]
-fn sum_by(n: usize, f: impl Fn(usize) -> f64) -> f64 {
+pub(crate) fn sum_by(n: usize, f: impl Fn(usize) -> f64) -> f64 {
     let mut lanes = [0.0; LANES];
     let whole = n - n % LANES;
     let mut i = 0;

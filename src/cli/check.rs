@@ -9,12 +9,12 @@ use apportion::report::{significant, table, with_unit};
 use apportion::run::{BLOCK, FailurePolicy, Job, run};
 use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, Factor};
-use apportion::study::{Stopping, Study};
+use apportion::study::{Stopping, Study, Subject};
 use apportion::uncertainty::IntervalMethod;
 
 use super::outlook::outlook;
 use super::run::{default_folder, files};
-use super::{DesignChanges, Failure, StudyArguments, print};
+use super::{DesignChanges, Failure, StudyArguments, print, say_notes};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -28,7 +28,8 @@ pub struct Arguments {
 }
 
 pub fn check(arguments: &Arguments) -> Result<(), Failure> {
-    let study = arguments.study.load_with(&arguments.design.overrides())?;
+    let study = arguments.study.load_any(&arguments.design.overrides())?;
+    say_notes(&study);
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     let mut text = subject(&study);
     text.push_str(&factors(&study));
@@ -134,10 +135,16 @@ fn design(study: &Study) -> Result<String, Failure> {
     let settings = design.settings();
     let stopping = stopping(study);
     let size = if study.stopping.grows() { "begins with " } else { "" };
-    let pilot = pilot(study)?;
+    let time = match study.subject {
+        Subject::External(_) => "outside of this program".to_owned(),
+        _ => {
+            let pilot = pilot(study)?;
+            format!("about {} on this machine (by {} runs of it)", duration(pilot.seconds), pilot.runs)
+        }
+    };
     let mut text = format!(
         "\ndesign: {} points, {size}{} base samples in {} replicate{} of {}, seed {}\n{}{}\
-         cost: {size}{} base samples x {} = {} model runs, about {} on this machine (by {} runs of it)\n{stopping}",
+         cost: {size}{} base samples x {} = {} model runs, {time}\n{stopping}",
         settings.sampler.name(),
         settings.base_samples,
         settings.replicates,
@@ -148,9 +155,7 @@ fn design(study: &Study) -> Result<String, Failure> {
         rows(study),
         settings.base_samples,
         design.rows_per_point(),
-        design.rows(),
-        duration(pilot.seconds),
-        pilot.runs
+        design.rows()
     );
     text.push_str(&memory(study));
     for warning in warnings(study) {

@@ -1,5 +1,6 @@
 //! The command line: arguments, progress, messages and exit codes. Everything else is the library's.
 
+mod analyze;
 mod check;
 mod compare;
 mod completions;
@@ -16,6 +17,7 @@ mod record;
 mod report;
 mod reproduce;
 mod run;
+mod sample;
 mod schema;
 mod screen;
 mod simulate;
@@ -30,7 +32,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use apportion::report::{ReadError, WriteError};
 use apportion::run::RunError;
-use apportion::study::{Study, StudyError};
+use apportion::study::{Study, StudyError, Subject};
 
 /// Sobol' global sensitivity analysis: which factor decides an output, and by how many percent.
 ///
@@ -60,6 +62,10 @@ enum Command {
     Screen(screen::Arguments),
     /// Move one factor at a time around the nominal point: curves, ranges and slopes of every output
     Sweep(sweep::Arguments),
+    /// Write the points of a study to a file, for a model outside
+    Sample(sample::Arguments),
+    /// Indices from the outputs that a model outside computed at the points of `sample`, or of SALib
+    Analyze(analyze::Arguments),
     /// Evaluate a study's model at points from a CSV file
     Evaluate(evaluate::Arguments),
     /// First-order indices from a table of inputs and outputs that exists already
@@ -118,11 +124,23 @@ impl StudyArguments {
         self.load_with(&[])
     }
 
-    /// The study with the changes of `--set`, then `more`.
+    /// The study with the changes of `--set`, then `more`; its model can be run.
     fn load_with(&self, more: &[String]) -> Result<Study, Failure> {
-        let study = Study::load(&self.study, &[&self.set, more].concat())?;
+        let study = self.load_any(more)?;
+        if matches!(study.subject, Subject::External(_)) {
+            return Err(Failure::Input(anyhow::anyhow!(
+                "{}: its model runs outside of this program: write the points by `apportion sample`, and read its outputs \
+                 by `apportion analyze`",
+                self.study.display()
+            )));
+        }
         say_notes(&study);
         Ok(study)
+    }
+
+    /// The study with the changes of `--set`, then `more`, whether or not its model can be run.
+    fn load_any(&self, more: &[String]) -> Result<Study, Failure> {
+        Ok(Study::load(&self.study, &[&self.set, more].concat())?)
     }
 }
 
@@ -201,6 +219,8 @@ pub fn main() -> ExitCode {
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Merge(arguments) => merge::merge(&arguments),
+        Command::Sample(arguments) => sample::sample(&arguments),
+        Command::Analyze(arguments) => analyze::analyze(&arguments),
         Command::Report(arguments) => report::report(&arguments),
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Screen(arguments) => screen::screen(&arguments),

@@ -27,6 +27,7 @@ pub fn models(arguments: &Arguments) -> Result<(), Failure> {
     print(&match find_model(name)? {
         ModelKind::Afm => flagship(),
         ModelKind::Expression => expression(),
+        ModelKind::External => external(),
         ModelKind::Known(answer) => function(answer),
     })
 }
@@ -94,7 +95,7 @@ fn list() -> String {
     let mut models = table(&["model", "inputs", "what it is"], &[0, 2]);
     for kind in ModelKind::all() {
         let inputs = match kind {
-            ModelKind::Expression => "any".to_owned(),
+            ModelKind::Expression | ModelKind::External => "any".to_owned(),
             _ => kind.inputs().len().to_string(),
         };
         models.add_row([kind.name(), &inputs, kind.description()]);
@@ -113,6 +114,18 @@ fn expression() -> String {
         kind.name(),
         kind.description(),
         Expression::vocabulary().join(", ")
+    )
+}
+
+fn external() -> String {
+    let kind = ModelKind::External;
+    format!(
+        "{}: {}\n\n  model = \"external\"\n\n  [external]\n  outputs.force = \"nN\"\n  outputs.ratio = \"1\"\n\n\
+         Factors are those of the study, with names and units of its own. The three steps:\n\n  \
+         apportion sample STUDY.toml -o design.csv\n  (the model computes its outputs, row by row, into outputs.csv)\n  \
+         apportion analyze outputs.csv --design design.csv\n\nFiles are CSV, Parquet or NPY, by their ending.\n",
+        kind.name(),
+        kind.description()
     )
 }
 

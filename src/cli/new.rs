@@ -50,7 +50,8 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
     let (factors, runs) = (study.space.factors().len(), study.design.rows());
     let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
     say(&format!("wrote {}: {factors}, {runs} runs", path.display()));
-    say(&format!("next: edit it, then `apportion check {0}` and `apportion run {0}`", path.display()));
+    let step = if model == ModelKind::External { "sample" } else { "run" };
+    say(&format!("next: edit it, then `apportion check {0}` and `apportion {step} {0}`", path.display()));
     Ok(())
 }
 

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
+use apportion::exchange::{Format, save_outputs};
 use apportion::report::chart::{Chart, png};
 use apportion::report::{
     OutputRecord, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv, indices_chart,
     indices_csv, inputs_in_words, interactions_chart, output_stem, prepare_file, prepare_folder, read_result,
-    result_json, run_page, scatter_chart, second_order_csv, study_chart, summary, write_atomically,
+    result_json, run_page, scatter_chart, second_order_csv, stream_atomically, study_chart, summary, write_atomically,
 };
-use apportion::run::{Keep, Piece, RunError, Shard};
+use apportion::run::{Keep, Piece, RunError, Shard, Store};
 use apportion::study::Study;
 use apportion::{Running, analyse_with, evaluate_shard};
 
@@ -28,6 +29,9 @@ pub struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     threads: Threads,
+    /// Also write the points and outputs of all runs to a file (.csv, .parquet or .npy)
+    #[arg(long, value_name = "FILE", conflicts_with = "shard")]
+    save_outputs: Option<PathBuf>,
     #[command(flatten)]
     record: RecordArguments,
 }
@@ -84,17 +88,28 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         let why = "a study with a target, a budget or max_runs has no size that could be shared out beforehand";
         return Err(Failure::Input(anyhow!("--shard: {why}")));
     }
+    let saved = match &arguments.save_outputs {
+        None => None,
+        Some(path) => {
+            let format = Format::of(path).map_err(|error| Failure::Input(error.into()))?;
+            prepare_file(path)?;
+            Some((path.as_path(), format))
+        }
+    };
     let record = if asked.no_journal {
         None
     } else {
         record::open(&study, &journal_path(&folder, &study.name, asked.shard), (asked.how(), asked.shard))?
     };
+    // Without a journal there is a store only for what is to be saved from it.
+    let own = (record.is_none() && saved.is_some()).then(|| Store::new(&study.design, study.model().as_ref()));
+    let store = record.as_ref().map(|record| &record.store).or(own.as_ref());
     let meter = Meter::new(&study.name, study.design.rows());
     let on_progress = |progress| meter.update(progress);
     let keep = |piece: &Piece| record.as_ref().map_or(Ok(()), |record| record.keep(piece));
     let running = Running {
         on_progress: &on_progress,
-        store: record.as_ref().map(|record| &record.store),
+        store,
         keep: record.as_ref().map(|_| &keep as Keep<'_>),
         stop: Some(stop),
         ..Running::on(arguments.threads.number())
@@ -119,7 +134,20 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         result.provenance.model_runs - on_record.min(result.provenance.model_runs),
         result.provenance.wall_seconds,
     );
+    if let Some((target, store)) = saved.zip(store) {
+        save(&study, &result, store, target)?;
+    }
     deliver(&study, &folder, &result)
+}
+
+/// Writes points and outputs of all runs, which may be more than the study began with.
+fn save(study: &Study, result: &ResultFile, store: &Store, (path, format): (&Path, Format)) -> Result<(), Failure> {
+    let settings = study.design.settings();
+    let points = result.provenance.base_samples / settings.replicates;
+    let design = study.design.with_points(points).map_err(|error| Failure::Run(error.into()))?;
+    stream_atomically(path, |out| Ok(save_outputs(study, (&design, store), format, out)?))?;
+    say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
+    Ok(())
 }
 
 /// The study, with the changes that the command line makes to it.
@@ -196,7 +224,7 @@ fn lost(study: &Study, output: &OutputRecord) -> bool {
 }
 
 /// A row that failed is of use to the user by its inputs.
-fn with_inputs(study: &Study, error: RunError) -> Failure {
+pub fn with_inputs(study: &Study, error: RunError) -> Failure {
     match &error {
         RunError::RowFailed { row, .. } => {
             Failure::Run(anyhow!("{error}\nthe run's inputs: {}", inputs_in_words(study, *row)))

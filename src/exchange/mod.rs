@@ -1,9 +1,23 @@
 //! Tables of points and outputs as files: what joins the steps of a study when other programs take part.
 
+mod answers;
+mod design_rows;
 mod evaluate;
+mod manifest;
 mod points;
+mod rows;
+mod sample;
+mod save;
 mod table;
 
+pub use answers::{Answers, AnswersError, AnswersRequest, MissingOutputs, read_answers};
+pub use design_rows::{DesignRows, RowBlock};
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
+pub use manifest::{
+    Manifest, ManifestDesign, ManifestError, ManifestFactor, ManifestRun, ManifestStudy, design_sha256,
+};
 pub use points::{PointsError, PointsReader};
+pub use rows::{ColumnKind, Format, RowReader, RowWriter, RowsError, open_rows, row_writer, rows_of_bytes};
+pub use sample::sample;
+pub use save::{SaveError, save_outputs};
 pub use table::{DroppedRows, Missing, Selection, Table, TableError, read_table};

@@ -32,7 +32,7 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 ///
 /// # Errors
 /// [`NoVariance`] if nothing is left but zeros or rounding errors.
-pub(super) fn centred(values: &[f64]) -> Result<Vec<f64>, NoVariance> {
+pub(crate) fn centred(values: &[f64]) -> Result<Vec<f64>, NoVariance> {
     if values.windows(2).all(|pair| pair[0] == pair[1]) {
         return Err(NoVariance::Constant);
     }

@@ -23,7 +23,7 @@ pub use evenness::{Evidence, PointSet};
 pub use outcome::{InputIndices, OutputIndices};
 pub use rank::rank_first_order;
 
-use column::centred;
+pub(crate) use column::centred;
 use order::Order;
 
 /// Fewest rows that are analysed: below, an interval is wider than the range of an index.

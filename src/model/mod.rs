@@ -8,6 +8,7 @@ mod afm;
 mod batch;
 mod catalogue;
 mod expression;
+mod external;
 mod function;
 mod known;
 
@@ -15,6 +16,7 @@ pub use afm::{AfmModel, AfmOutput, edge_unit};
 pub use batch::{Batch, Effort, RowFailure};
 pub use catalogue::{Input, ModelKind, known_inputs};
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
+pub use external::ExternalModel;
 pub use function::{FunctionModel, function_model};
 pub use known::{
     Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, KnownModel, MAX_INPUTS, ParameterError,

@@ -12,6 +12,7 @@ mod read;
 mod result;
 mod run_charts;
 mod run_page;
+pub mod salib;
 pub mod scatter;
 pub mod scene;
 mod schema;
@@ -33,6 +34,7 @@ pub use run_charts::{convergence_chart, distribution_chart, indices_chart, inter
 pub use run_page::{output_stem, run_page};
 pub use schema::result_schema;
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
+pub(crate) use tables::csv_field;
 pub use tables::{
     convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,
     summary, table, with_unit,

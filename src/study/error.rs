@@ -118,6 +118,9 @@ pub enum Problem {
     /// Formulas are the model, and there are none.
     #[error("the study has no formula: model = \"expression\" needs a table [expression] with an output")]
     NoFormulas,
+    /// The model runs outside, and nobody says what it computes.
+    #[error("the study has no output: model = \"external\" needs a table [external] with the outputs and their units")]
+    NoExternalOutputs,
     /// A formula that cannot be read.
     #[error("{source}{}", suggestion(.nearest))]
     Expression {
@@ -258,6 +261,7 @@ impl Problem {
             Self::UnfitInterval { serving, .. } => Some(format!("these do: {serving}")),
             Self::CannotGrow => Some("sampler = \"sobol\" and \"random\" can grow".to_owned()),
             Self::NoFactors => Some("add one or more [[factor]] tables with name, min, max and unit".to_owned()),
+            Self::NoExternalOutputs => Some("write, for instance: [external], then outputs.force = \"nN\"".to_owned()),
             Self::NoFormulas => Some("write, for instance: [expression], then outputs.y = \"x1 + 2*x2\"".to_owned()),
             Self::Expression { expected, .. } => Some(expected.clone()).filter(|known| !known.is_empty()),
             Self::NoOutputs => Some("name at least one output, or leave `outputs` out".to_owned()),

@@ -15,18 +15,23 @@ use crate::space::Space;
 /// The inputs of formulas: the factors of the study, each in its own unit.
 pub(super) fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
     let input = |section: &At<FactorSection>| {
-        let fields = section.get_ref();
-        refuse_name(context, "factor", &fields.name)?;
-        let unit = match &fields.unit {
-            None => Unit::dimensionless(),
-            Some(typed) => Unit::parse(typed.get_ref()).map_err(|error| context.fault(typed.span(), error.into()))?,
-        };
-        let (name, symbol) = (fields.name.get_ref().clone(), fields.name.get_ref().clone());
-        // Not a number: nobody but the study says where it stands.
-        let (nominal, description) = (f64::NAN, "a factor of the study".to_owned());
-        Ok(Input { name, symbol, unit, nominal, domain: None, distribution: None, description })
+        refuse_name(context, "factor", &section.get_ref().name)?;
+        input(context, section)
     };
     factors.iter().map(input).collect()
+}
+
+/// An input that is what the study says of its factor.
+pub(super) fn input(context: &Context<'_>, section: &At<FactorSection>) -> Result<Input, Fault> {
+    let fields = section.get_ref();
+    let unit = match &fields.unit {
+        None => Unit::dimensionless(),
+        Some(typed) => Unit::parse(typed.get_ref()).map_err(|error| context.fault(typed.span(), error.into()))?,
+    };
+    let (name, symbol) = (fields.name.get_ref().clone(), fields.name.get_ref().clone());
+    // Not a number: nobody but the study says where it stands.
+    let (nominal, description) = (f64::NAN, "a factor of the study".to_owned());
+    Ok(Input { name, symbol, unit, nominal, domain: None, distribution: None, description })
 }
 
 fn refuse_name(context: &Context<'_>, what: &'static str, name: &At<String>) -> Result<(), Fault> {

@@ -38,6 +38,9 @@ pub(super) struct StudyFile {
     /// Formulas in the factors.
     #[serde(default)]
     pub expression: Option<At<ExpressionSection>>,
+    /// The outputs of a model outside of this program.
+    #[serde(default)]
+    pub external: Option<At<ExternalSection>>,
     /// The points at which the model runs.
     #[serde(default)]
     pub design: DesignSection,
@@ -61,6 +64,16 @@ pub(super) struct ExpressionSection {
     #[serde(default)]
     #[schemars(schema_with = "schema::expression_constants")]
     pub constants: Choices,
+}
+
+/// The outputs of a model outside of this program.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ExternalSection {
+    /// The unit of each output, as in "nN"; "1" for none.
+    #[serde(default)]
+    #[schemars(schema_with = "schema::external_outputs")]
+    pub outputs: Choices,
 }
 
 /// The points at which the model runs.
@@ -212,6 +225,17 @@ pub(super) enum Nominal {
 
 impl StudyFile {
     /// The keys it can have.
-    pub(super) const KEYS: [&str; 10] =
-        ["name", "title", "model", "outputs", "afm", "function", "expression", "design", "analysis", "factor"];
+    pub(super) const KEYS: [&str; 11] = [
+        "name",
+        "title",
+        "model",
+        "outputs",
+        "afm",
+        "function",
+        "expression",
+        "external",
+        "design",
+        "analysis",
+        "factor",
+    ];
 }

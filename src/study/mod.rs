@@ -9,6 +9,7 @@ mod constants;
 mod distribution;
 mod error;
 mod expression;
+mod external;
 mod file;
 mod function;
 mod identity;
@@ -31,7 +32,9 @@ pub use builder::{BuildError, StudyBuilder};
 pub use error::{Diagnostic, OverrideProblem, Problem, StudyError, nearest};
 pub use options::{AnalysisOptions, Stopping};
 pub use schema::study_schema;
-pub use subject::{AfmSubject, CustomSubject, ExpressionConstant, ExpressionSubject, Formula, KnownSubject, Subject};
+pub use subject::{
+    AfmSubject, CustomSubject, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula, KnownSubject, Subject,
+};
 pub use template::{TemplateRequest, template};
 
 use crate::design::Design;

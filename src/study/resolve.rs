@@ -7,7 +7,7 @@ use super::error::{Diagnostic, Problem, nearest};
 use super::file::{At, Choices, FactorSection, StudyFile};
 use super::plan::{Plan, plan};
 use super::subject::{AfmSubject, KnownSubject, Subject};
-use super::{Study, constants, distribution, expression, function, nominal};
+use super::{Study, constants, distribution, expression, external, function, nominal};
 use crate::model::{AfmOutput, Input, ModelKind, known_inputs};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor, Space};
@@ -33,12 +33,13 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
     let function = match kind {
-        ModelKind::Afm | ModelKind::Expression => None,
+        ModelKind::Afm | ModelKind::Expression | ModelKind::External => None,
         ModelKind::Known(answer) => Some(function::known(context, answer, file.function.as_ref())?),
     };
     let inputs = match (&function, kind) {
         (Some(function), _) => known_inputs(function),
         (None, ModelKind::Expression) => expression::inputs(context, &file.factor)?,
+        (None, ModelKind::External) => external::inputs(context, &file.factor)?,
         (None, _) => kind.inputs(),
     };
     let space = space(context, &inputs, &file.factor)?;
@@ -51,6 +52,10 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
             let asked = file.outputs.as_ref();
             let (formulas, notes) = expression::subject(context, file.expression.as_ref(), asked, &space)?;
             (Subject::Expression(formulas), notes)
+        }
+        None if kind == ModelKind::External => {
+            let subject = external::subject(context, file.external.as_ref(), file.outputs.as_ref())?;
+            (Subject::External(subject), Vec::new())
         }
         None => {
             let outputs = outputs(context, kind, file.outputs.as_ref())?;
@@ -145,17 +150,19 @@ pub(super) fn names_files(name: &str) -> bool {
     !name.trim().is_empty() && !name.starts_with('.') && name.chars().all(fits)
 }
 
-/// `[afm]`, `[function]` and `[expression]` belong to one kind of model each.
+/// `[afm]`, `[function]`, `[expression]` and `[external]` belong to one kind of model each.
 fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyFile) -> Result<(), Fault> {
     let own = match kind {
         ModelKind::Afm => "afm",
         ModelKind::Expression => "expression",
+        ModelKind::External => "external",
         ModelKind::Known(_) => "function",
     };
     let tables = [
         ("afm", file.afm.as_ref().map(At::span)),
         ("function", file.function.as_ref().map(At::span)),
         ("expression", file.expression.as_ref().map(At::span)),
+        ("external", file.external.as_ref().map(At::span)),
     ];
     let foreign = |name: &str| name != own && tables.iter().any(|(table, _)| *table == name);
     let Some((name, span)) =

@@ -133,6 +133,11 @@ pub(super) fn expression_constants(_: &mut SchemaGenerator) -> Schema {
     schemars::json_schema!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } })
 }
 
+/// `[external] outputs`: units by the names of the outputs.
+pub(super) fn external_outputs(_: &mut SchemaGenerator) -> Schema {
+    schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "string" } })
+}
+
 fn object(properties: Map<String, Value>) -> Schema {
     schemars::json_schema!({ "type": "object", "properties": properties, "additionalProperties": false })
 }

@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 
 use crate::afm::{Options, Parameter, Scene};
 use crate::model::{
-    AfmModel, AfmOutput, Expression, ExpressionModel, KnownFunction, KnownModel, Model, ModelKind, Output,
-    ParameterValue, edge_unit, known_inputs,
+    AfmModel, AfmOutput, Expression, ExpressionModel, ExternalModel, KnownFunction, KnownModel, Model, ModelKind,
+    Output, ParameterValue, edge_unit, known_inputs,
 };
 use crate::quantity::{Quantity, Unit};
 use crate::space::Space;
@@ -22,6 +22,8 @@ pub enum Subject {
     Afm(Box<AfmSubject>),
     /// Formulas.
     Expression(ExpressionSubject),
+    /// A model outside of this program.
+    External(ExternalSubject),
     /// A function with known indices.
     Known(KnownSubject),
     /// A model that is part of a program.
@@ -75,6 +77,13 @@ pub struct ExpressionConstant {
     pub quantity: Quantity,
 }
 
+/// A model outside of this program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExternalSubject {
+    /// What it computes.
+    pub outputs: Vec<Output>,
+}
+
 /// A model that is part of a program.
 #[derive(Clone)]
 pub struct CustomSubject {
@@ -101,6 +110,7 @@ impl Subject {
         match self {
             Self::Afm(_) => Some(ModelKind::Afm),
             Self::Expression(_) => Some(ModelKind::Expression),
+            Self::External(_) => Some(ModelKind::External),
             Self::Known(known) => Some(ModelKind::Known(known.function.answer())),
             Self::Custom(_) => None,
         }
@@ -109,7 +119,7 @@ impl Subject {
     /// Files of the user, beside the study itself, that the outputs depend on, as far as the study names them.
     pub fn files(&self) -> Vec<PathBuf> {
         match self {
-            Self::Afm(_) | Self::Expression(_) | Self::Known(_) | Self::Custom(_) => Vec::new(),
+            Self::Afm(_) | Self::Expression(_) | Self::External(_) | Self::Known(_) | Self::Custom(_) => Vec::new(),
         }
     }
 
@@ -131,6 +141,7 @@ impl Subject {
                 };
                 Box::new(ExpressionModel::new(formulas.iter().map(output).collect()))
             }
+            Self::External(ExternalSubject { outputs }) => Box::new(ExternalModel::new(outputs.clone())),
             Self::Known(KnownSubject { function }) => {
                 let inputs = known_inputs(function);
                 let factors = names().filter_map(|name| inputs.iter().position(|i| i.name == name)).collect();
@@ -160,7 +171,7 @@ impl Subject {
             Self::Known(known) => {
                 known.function.parameters().into_iter().map(|(name, value)| (name, in_json(value))).collect()
             }
-            Self::Custom(_) => Vec::new(),
+            Self::External(_) | Self::Custom(_) => Vec::new(),
         }
     }
 
@@ -183,7 +194,7 @@ impl Subject {
                 .filter(|input| !is_factor(&input.name))
                 .map(|input| constant(&input.name, input.nominal, input.unit.to_string()))
                 .collect(),
-            Self::Custom(_) => Vec::new(),
+            Self::External(_) | Self::Custom(_) => Vec::new(),
         }
     }
 }

@@ -49,8 +49,8 @@ const LAWS: &str = "# uniform; or normal, log-normal, triangular, beta, categori
 /// [`Problem::UnknownName`] for a factor or output that the model does not have, [`Problem::Repeated`] for one named twice.
 pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
     let model = request.model;
-    if model == ModelKind::Expression {
-        return formula_template(request);
+    if matches!(model, ModelKind::Expression | ModelKind::External) {
+        return free_template(request);
     }
     let (inputs, known_outputs) = (model.inputs(), model.outputs());
     let factors = factors(request, &inputs)?;
@@ -60,7 +60,7 @@ pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
     text.push_str(&match model {
         ModelKind::Afm => afm_table(&inputs, &factors),
         ModelKind::Known(answer) => function_table(answer),
-        ModelKind::Expression => String::new(),
+        ModelKind::Expression | ModelKind::External => String::new(),
     });
     text.push_str(&design_table(factors.len()));
     text.push_str(&format!(
@@ -87,8 +87,9 @@ fn heading(request: &TemplateRequest) -> String {
     )
 }
 
-/// A study of formulas to be replaced: each output is the sum of the factors.
-fn formula_template(request: &TemplateRequest) -> Result<String, Problem> {
+/// A study with factors and outputs of its own: of a model outside, or of formulas to be replaced, each the sum of the
+/// factors.
+fn free_template(request: &TemplateRequest) -> Result<String, Problem> {
     refuse_repeated("factor", &request.factors)?;
     refuse_repeated("output", &request.outputs)?;
     let named = |names: &[String], default: &[&str]| -> Vec<String> {
@@ -96,6 +97,18 @@ fn formula_template(request: &TemplateRequest) -> Result<String, Problem> {
     };
     let (factors, outputs) = (named(&request.factors, &["x1", "x2"]), named(&request.outputs, &["y"]));
     let mut text = heading(request);
+    if request.model == ModelKind::External {
+        text.push_str(
+            "\n# The model runs outside: `apportion sample FILE -o design.csv` writes the points, and when it has computed its\n\
+             # outputs there, `apportion analyze outputs.csv --design design.csv` reads them. The unit of each output:\n\
+             [external]\n",
+        );
+        outputs.iter().for_each(|output| text.push_str(&format!("outputs.{output} = \"1\"\n")));
+        text.push_str(&design_table(factors.len()));
+        text.push_str(&format!("\n# The inputs of the model.\n{GROUPS}"));
+        text.push_str(&free_factors(&factors));
+        return Ok(text);
+    }
     text.push_str(
         "\n# Formulas in the factors and the constants, all in SI units; `apportion models expression` lists the\n\
          # functions.\n[expression]\n",
@@ -106,10 +119,14 @@ fn formula_template(request: &TemplateRequest) -> Result<String, Problem> {
     text.push_str("# constants.a = 7    # a number, or a quantity as in \"10 nm\"\n");
     text.push_str(&design_table(factors.len()));
     text.push_str(&format!("\n# The inputs of the formulas.\n{GROUPS}"));
-    for factor in &factors {
-        text.push_str(&format!("\n[[factor]]\nname = \"{factor}\"\n{LAWS}\nmin = 0\nmax = 1\n"));
-    }
+    text.push_str(&free_factors(&factors));
     Ok(text)
+}
+
+/// Factors that are uniform from 0 to 1.
+fn free_factors(names: &[String]) -> String {
+    let table = |name: &String| format!("\n[[factor]]\nname = \"{name}\"\n{LAWS}\nmin = 0\nmax = 1\n");
+    names.iter().map(table).collect()
 }
 
 fn factors<'a>(request: &TemplateRequest, inputs: &'a [Input]) -> Result<Vec<&'a Input>, Problem> {
@@ -121,7 +138,7 @@ fn factors<'a>(request: &TemplateRequest, inputs: &'a [Input]) -> Result<Vec<&'a
     match request.model {
         _ if !request.factors.is_empty() => request.factors.iter().map(|name| find(name)).collect(),
         ModelKind::Afm => AFM_FACTORS.iter().map(|name| find(name)).collect(),
-        ModelKind::Known(_) | ModelKind::Expression => Ok(inputs.iter().collect()),
+        ModelKind::Known(_) | ModelKind::Expression | ModelKind::External => Ok(inputs.iter().collect()),
     }
 }
 

@@ -86,7 +86,7 @@ fn deviation(values: &[f64], estimate: f64) -> f64 {
 
 /// The quantile at `p` of R sorted values, the (R + 1) p-th of them (Davison and Hinkley 1997, Bootstrap Methods and
 /// their Application, section 5.2), on the line between neighbours.
-fn quantile(sorted: &[f64], p: f64) -> f64 {
+pub(crate) fn quantile(sorted: &[f64], p: f64) -> f64 {
     let place = ((sorted.len() + 1) as f64 * p - 1.0).clamp(0.0, (sorted.len() - 1) as f64);
     let below = place as usize;
     let above = (below + 1).min(sorted.len() - 1);

@@ -20,6 +20,7 @@ mod ranks;
 mod special;
 
 pub use aggregate::{AggregateIndices, aggregate_indices};
+pub(crate) use by_points::quantile;
 pub use convergence::{Stage, stages};
 pub use estimates::Layout;
 pub use influence::{Influences, Outputs};

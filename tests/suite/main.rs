@@ -11,6 +11,7 @@ mod degenerate;
 mod distributions;
 mod estimators;
 mod examples;
+mod exchange;
 mod expression;
 mod extremes;
 mod factors;

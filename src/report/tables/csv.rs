@@ -150,6 +150,6 @@ fn line(texts: &[&str], numbers: impl IntoIterator<Item = Option<f64>>) -> Vec<S
 }
 
 /// A text as a CSV field, quoted where it must be (RFC 4180).
-pub(in crate::report) fn csv_field(text: &str) -> String {
+pub(crate) fn csv_field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

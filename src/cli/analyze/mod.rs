@@ -1,0 +1,102 @@
+//! `apportion analyze`: indices from the outputs of a model outside.
+
+mod salib;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use apportion::exchange::{AnswersRequest, Manifest, MissingOutputs, open_rows, read_answers};
+use apportion::quantity::Unit;
+use apportion::report::prepare_folder;
+use apportion::{Running, analyse_with};
+
+use super::run::{default_folder, deliver, prepare_files, with_inputs};
+use super::{Failure, Threads, say, say_notes};
+
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  apportion analyze outputs.csv --design design.csv\n  \
+                        apportion analyze design.csv --outputs y      (the design file with a column y added)\n  \
+                        apportion analyze y.npy --layout salib --names x1,x2,x3")]
+pub struct Arguments {
+    /// The outputs, a row for each point in the order of the points, with or without the points themselves (.csv,
+    /// .parquet or .npy)
+    data: PathBuf,
+    /// The file of points that `sample` wrote, with its manifest beside it [default: DATA]
+    #[arg(long, value_name = "FILE", conflicts_with = "layout")]
+    design: Option<PathBuf>,
+    /// The manifest, if it does not lie beside the points
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["design", "layout"])]
+    manifest: Option<PathBuf>,
+    /// Columns that are outputs, separated by commas [default: those of the study, or all that are no factors]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    outputs: Vec<String>,
+    /// Unit of an output, where it is not the one that the study says: force=nN
+    #[arg(long, value_name = "NAME=UNIT", value_delimiter = ',', value_parser = output_unit, conflicts_with = "layout")]
+    units: Vec<(String, Unit)>,
+    /// Count rows without a finite output as runs that failed, instead of refusing the file
+    #[arg(long, conflicts_with = "layout")]
+    missing_as_failed: bool,
+    /// Points made by another program: `salib` for SALib's sample.sobol and sample.saltelli
+    #[arg(long, value_name = "LAYOUT", value_parser = ["salib"])]
+    layout: Option<String>,
+    #[command(flatten)]
+    salib: salib::Arguments,
+    /// Folder for the results [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    threads: Threads,
+}
+
+fn output_unit(text: &str) -> Result<(String, Unit), String> {
+    let (name, unit) = text.split_once('=').ok_or("expected NAME=UNIT, as in force=nN")?;
+    let unit = Unit::parse(unit.trim()).map_err(|error| error.to_string())?;
+    Ok((name.trim().to_owned(), unit))
+}
+
+pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.layout.is_some() {
+        return salib::analyze(arguments);
+    }
+    let data = arguments.data.display();
+    let path = manifest_path(arguments)?;
+    let of_manifest = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", path.display()));
+    let text =
+        std::fs::read_to_string(&path).map_err(|error| of_manifest(&format!("cannot read the manifest: {error}")))?;
+    let manifest = Manifest::parse(&text).map_err(|error| of_manifest(&error))?;
+    let missing = if arguments.missing_as_failed { MissingOutputs::Failed } else { MissingOutputs::Refuse };
+    let request = AnswersRequest { manifest: &manifest, outputs: &arguments.outputs, units: &arguments.units, missing };
+    let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{data}: {error}"));
+    let mut reader = open_rows(&arguments.data).map_err(|error| wrong(&error))?;
+    let answers = read_answers(reader.as_mut(), &request).map_err(|error| wrong(&error))?;
+    let study = &answers.study;
+    say_notes(study);
+    match answers.compared.len() {
+        0 => say("note: the file holds no points: its rows are taken in the order of the design"),
+        _ => say("the points in the file are those of the design, in its order"),
+    }
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    prepare_folder(&folder)?;
+    prepare_files(study, &folder)?;
+    let running = Running { store: Some(&answers.store), ..Running::on(arguments.threads.number()) };
+    let result = analyse_with(study, running).map_err(|error| with_inputs(study, error))?;
+    deliver(study, &folder, &result)
+}
+
+/// The manifest that was named, or the one beside the points.
+fn manifest_path(arguments: &Arguments) -> Result<PathBuf, Failure> {
+    if let Some(manifest) = &arguments.manifest {
+        return Ok(manifest.clone());
+    }
+    let points: &Path = arguments.design.as_deref().unwrap_or(&arguments.data);
+    let beside = Manifest::path_beside(points);
+    if beside.exists() {
+        return Ok(beside);
+    }
+    Err(Failure::Input(anyhow!(
+        "{}: there is no {} that would say whose points these are: name the file that `apportion sample` wrote (--design) \
+         or its manifest (--manifest); for points made by SALib, --layout salib",
+        arguments.data.display(),
+        beside.display()
+    )))
+}

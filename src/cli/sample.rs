@@ -1,0 +1,57 @@
+//! `apportion sample`: the points of a study as a file, for a model outside.
+
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+use apportion::exchange::{Format, Manifest, sample as write_sample};
+use apportion::report::{prepare_file, stream_atomically, write_atomically};
+
+use super::{DesignChanges, Failure, StudyArguments, say, say_notes};
+
+#[derive(clap::Args)]
+#[command(
+    after_help = "Beside FILE, FILE.manifest.json says whose points they are: keep them together. When the outputs \
+                        are there: apportion analyze OUTPUTS --design FILE"
+)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    #[command(flatten)]
+    design: DesignChanges,
+    /// The file for the points, .csv, .parquet or .npy [default: NAME-design.csv]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load_any(&arguments.design.overrides())?;
+    say_notes(&study);
+    let default = || PathBuf::from(format!("{}-design.csv", study.name));
+    let path = arguments.output.clone().unwrap_or_else(default);
+    let format = Format::of(&path).map_err(|error| Failure::Input(error.into()))?;
+    let beside = Manifest::path_beside(&path);
+    prepare_file(&path)?;
+    prepare_file(&beside)?;
+    if study.stopping.grows() {
+        say("note: the study grows until it knows enough, but a file does not: these are the points it begins with");
+    }
+    // A manifest of other points must not outlive them.
+    match std::fs::remove_file(&beside) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            return Err(Failure::Run(anyhow!("cannot replace {}: {error}", beside.display())));
+        }
+        _ => (),
+    }
+    let mut manifest = None;
+    stream_atomically(&path, |out| {
+        manifest = Some(write_sample(&study, &arguments.study.study, format, out)?);
+        Ok(())
+    })?;
+    if let Some(manifest) = &manifest {
+        write_atomically(&beside, manifest.json().as_bytes())?;
+    }
+    let (rows, factors) = (study.design.rows(), study.space.factors().len());
+    say(&format!("wrote {rows} points of {factors} factors to {}", path.display()));
+    say(&format!("wrote {}", beside.display()));
+    Ok(())
+}

@@ -1,0 +1,285 @@
+//! What says whose points a design file holds: written beside it, and all that `analyze` needs beside the outputs.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::design_rows::{DesignRows, RowsDigest};
+use crate::design::{Design, Matrix, Run};
+use crate::space::Space;
+use crate::study::{Stopping, Study, StudyError};
+
+/// The manifest of a design file, as described in `docs/exchange-formats.md`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// `"apportion-design"`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
+    /// Version of the program that wrote it.
+    pub apportion_version: String,
+    /// The study.
+    pub study: ManifestStudy,
+    /// The rows of the design file.
+    pub design: ManifestDesign,
+    /// The columns of the design file.
+    pub factors: Vec<ManifestFactor>,
+}
+
+/// The study of a design file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ManifestStudy {
+    /// Its name.
+    pub name: String,
+    /// Its file, as named on the command line.
+    pub file: String,
+    /// SHA-256 of the file.
+    pub sha256: String,
+    /// Changes made on the command line.
+    pub overrides: Vec<String>,
+    /// The file, word for word.
+    pub text: String,
+}
+
+/// The rows of a design file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ManifestDesign {
+    /// Where the points come from.
+    pub sampler: String,
+    /// The seed.
+    pub seed: u64,
+    /// Independent randomisations.
+    pub replicates: u64,
+    /// Base points in all.
+    pub base_samples: u64,
+    /// Rows of each base point.
+    pub rows_per_point: u64,
+    /// Rows in all.
+    pub rows: u64,
+    /// The order of the rows, in words.
+    pub order: String,
+    /// The rows of a base point.
+    pub layout: Vec<ManifestRun>,
+    /// SHA-256 of the numbers, row by row, each as a little-endian double.
+    pub sha256: String,
+}
+
+/// A row of a base point: that of the matrix `base`, but `columns` of the matrix `from`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ManifestRun {
+    /// A, B or C.
+    pub base: String,
+    /// Names of factors.
+    pub columns: Vec<String>,
+    /// A, B or C.
+    pub from: String,
+}
+
+/// A column of a design file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ManifestFactor {
+    /// The factor, and the header of its column.
+    pub name: String,
+    /// The unit of its values.
+    pub unit: String,
+    /// The labels of a factor of categories.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub labels: Option<Vec<String>>,
+}
+
+/// What is wrong with a manifest.
+#[derive(Debug, Error)]
+pub enum ManifestError {
+    /// No JSON, or not of a manifest.
+    #[error("not a manifest of a design: {0}")]
+    NotOne(#[from] serde_json::Error),
+    /// JSON of something else.
+    #[error("not a manifest of a design: its format is {found:?}, expected \"{FORMAT}\"")]
+    OtherFormat {
+        /// What it says it is.
+        found: String,
+    },
+    /// A later version of the format.
+    #[error("version {found} of the manifest's format is not known here (up to {VERSION} is)")]
+    Newer {
+        /// Its version.
+        found: u32,
+    },
+    /// The study in it cannot be read.
+    #[error("the study in the manifest: {0}")]
+    Study(#[from] StudyError),
+    /// The study in it has been changed.
+    #[error(
+        "the study in the manifest has been changed since `sample` wrote it: its SHA-256 is {found}, not {expected}"
+    )]
+    ChangedStudy {
+        /// SHA-256 that it has.
+        found: String,
+        /// SHA-256 that it says.
+        expected: String,
+    },
+    /// The study makes another design than the manifest says.
+    #[error("{what}: the manifest says {stated}, but its study means {meant}")]
+    OtherDesign {
+        /// Which part of the design.
+        what: &'static str,
+        /// In the manifest.
+        stated: String,
+        /// By the study.
+        meant: String,
+    },
+    /// The study makes other points than those of the file.
+    #[error(
+        "the points of this manifest are not those that version {here} makes of its study (it was written by version \
+         {written}): analyse them with that version, or sample again"
+    )]
+    OtherPoints {
+        /// This version.
+        here: String,
+        /// That of the manifest.
+        written: String,
+    },
+}
+
+const FORMAT: &str = "apportion-design";
+const VERSION: u32 = 1;
+
+impl Manifest {
+    /// The manifest of the design of `study`, read from `file`, whose numbers have this SHA-256.
+    pub fn new(study: &Study, file: &Path, sha256: String) -> Self {
+        let settings = study.design.settings();
+        let column = |column: &usize| study.space.factors()[*column].name.clone();
+        let run = |run: &Run| ManifestRun {
+            base: matrix(run.base).to_owned(),
+            columns: run.columns.iter().map(column).collect(),
+            from: matrix(run.from).to_owned(),
+        };
+        let factors = study.space.factors().iter().map(|factor| ManifestFactor {
+            name: factor.name.clone(),
+            unit: factor.unit().to_string(),
+            labels: factor.distribution().labels().map(<[String]>::to_vec),
+        });
+        Self {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
+            study: ManifestStudy {
+                name: study.name.clone(),
+                file: file.display().to_string(),
+                sha256: study.sha256.clone(),
+                overrides: study.overrides.clone(),
+                text: study.source.clone(),
+            },
+            design: ManifestDesign {
+                sampler: settings.sampler.name().to_owned(),
+                seed: settings.seed,
+                replicates: settings.replicates,
+                base_samples: settings.base_samples,
+                rows_per_point: study.design.rows_per_point(),
+                rows: study.design.rows(),
+                order: "replicate by replicate, base point by base point, the rows of `layout` of each: the row of \
+                        matrix `base` with `columns` of matrix `from`"
+                    .to_owned(),
+                layout: study.design.runs().iter().map(run).collect(),
+                sha256,
+            },
+            factors: factors.collect(),
+        }
+    }
+
+    /// Where the manifest of the design file `design` lies: beside it.
+    ///
+    /// ```
+    /// # use apportion::exchange::Manifest;
+    /// assert_eq!(Manifest::path_beside("a/x.csv".as_ref()), std::path::Path::new("a/x.csv.manifest.json"));
+    /// ```
+    pub fn path_beside(design: &Path) -> PathBuf {
+        let mut name = design.as_os_str().to_owned();
+        name.push(".manifest.json");
+        name.into()
+    }
+
+    /// Reads a manifest from its text.
+    ///
+    /// # Errors
+    /// [`ManifestError`] if it is none, or of a later version.
+    pub fn parse(text: &str) -> Result<Self, ManifestError> {
+        #[derive(Deserialize)]
+        struct Head {
+            format: String,
+            version: u32,
+        }
+        let head: Head = serde_json::from_str(text)?;
+        if head.format != FORMAT {
+            return Err(ManifestError::OtherFormat { found: head.format });
+        }
+        if head.version > VERSION {
+            return Err(ManifestError::Newer { found: head.version });
+        }
+        Ok(serde_json::from_str(text)?)
+    }
+
+    /// The manifest as JSON, ending in a line feed.
+    pub fn json(&self) -> String {
+        // Serialisation fails on maps without text keys only, of which there is none.
+        serde_json::to_string_pretty(self).expect("a manifest is plain data") + "\n"
+    }
+
+    /// The study whose design this is; it does not grow beyond the rows of the file.
+    ///
+    /// # Errors
+    /// [`ManifestError`] if the manifest contradicts itself.
+    pub fn study(&self) -> Result<Study, ManifestError> {
+        let ManifestStudy { file, text, overrides, sha256, .. } = &self.study;
+        let mut study = Study::parse(text, Path::new(file), overrides)?;
+        if study.sha256 != *sha256 {
+            return Err(ManifestError::ChangedStudy { found: study.sha256, expected: sha256.clone() });
+        }
+        let (stated, meant) = (&self.design, Self::new(&study, Path::new(file), self.design.sha256.clone()).design);
+        let parts: [(&'static str, String, String); 6] = [
+            ("sampler", stated.sampler.clone(), meant.sampler.clone()),
+            ("seed", stated.seed.to_string(), meant.seed.to_string()),
+            ("replicates", stated.replicates.to_string(), meant.replicates.to_string()),
+            ("base samples", stated.base_samples.to_string(), meant.base_samples.to_string()),
+            ("rows", stated.rows.to_string(), meant.rows.to_string()),
+            ("rows of a base point", format!("{:?}", stated.layout), format!("{:?}", meant.layout)),
+        ];
+        if let Some((what, stated, meant)) = parts.into_iter().find(|(_, stated, meant)| stated != meant) {
+            return Err(ManifestError::OtherDesign { what, stated, meant });
+        }
+        study.stopping = Stopping::default();
+        Ok(study)
+    }
+
+    /// Whether the numbers of the design of `study` are those that the manifest was written for.
+    ///
+    /// # Errors
+    /// [`ManifestError::OtherPoints`] if they are not.
+    pub fn check_points(&self, sha256: &str) -> Result<(), ManifestError> {
+        if self.design.sha256 == sha256 {
+            return Ok(());
+        }
+        let (here, written) = (env!("CARGO_PKG_VERSION").to_owned(), self.apportion_version.clone());
+        Err(ManifestError::OtherPoints { here, written })
+    }
+}
+
+/// SHA-256 of the numbers of a design in the units of its factors, row by row.
+pub fn design_sha256(space: &Space, design: &Design) -> String {
+    let mut rows = DesignRows::new(space, design);
+    let mut columns = vec![Vec::new(); design.factors()];
+    let mut digest = RowsDigest::default();
+    while rows.next_block(&mut columns).is_some() {
+        digest.add(&columns);
+    }
+    digest.finish()
+}
+
+fn matrix(matrix: Matrix) -> &'static str {
+    match matrix {
+        Matrix::A => "A",
+        Matrix::B => "B",
+        Matrix::C => "C",
+    }
+}

@@ -1,0 +1,281 @@
+//! Tables of numbers by rows, in three formats behind one interface: CSV, Parquet and NPY.
+//!
+//! Every cell is a number. A value that is missing is NaN; a label of a category is the number that stands for it, by
+//! the labels that the caller knows of the column. Readers and writers take blocks of rows, so that a file may be
+//! larger than memory.
+
+mod csv_rows;
+mod npy;
+mod parquet_rows;
+#[cfg(test)]
+mod tests;
+
+use std::fs::File;
+use std::io::{Cursor, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// How a table is written down.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Text: a header of names, then one line per row.
+    Csv,
+    /// Apache Parquet: columns by name.
+    Parquet,
+    /// NumPy's array file: numbers in rows and columns, without names.
+    Npy,
+}
+
+impl Format {
+    /// All formats, each known by the ending of a file's name.
+    pub const ALL: [Self; 3] = [Self::Csv, Self::Parquet, Self::Npy];
+
+    /// The ending of file names, without the dot.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Csv => "csv",
+            Self::Parquet => "parquet",
+            Self::Npy => "npy",
+        }
+    }
+
+    /// The format that the ending of `path` says, in capitals or not.
+    ///
+    /// ```
+    /// use apportion::exchange::Format;
+    ///
+    /// assert_eq!(Format::of("runs/design.CSV".as_ref())?, Format::Csv);
+    /// assert!(Format::of("design.xlsx".as_ref()).is_err());
+    /// # Ok::<(), apportion::exchange::RowsError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RowsError::UnknownEnding`] for any other.
+    pub fn of(path: &Path) -> Result<Self, RowsError> {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let known = |format: &Self| ending.as_deref() == Some(format.ending());
+        Self::ALL.into_iter().find(known).ok_or_else(|| RowsError::UnknownEnding { path: path.to_owned() })
+    }
+}
+
+/// What is wrong with a file of rows.
+#[derive(Debug, Error)]
+pub enum RowsError {
+    /// The name does not say the format.
+    #[error("{}: the ending of the name tells the format: expected .csv, .parquet or .npy", path.display())]
+    UnknownEnding {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The operating system cannot read it.
+    #[error("cannot read the file: {0}")]
+    Unreadable(#[from] std::io::Error),
+    /// There is not even a header.
+    #[error("the file is empty: expected a header of column names, then one line per row")]
+    Empty,
+    /// Text that is no CSV in UTF-8.
+    #[error("line {line}: {source}")]
+    NoCsv {
+        /// Line of the file, from 1.
+        line: u64,
+        /// What the reader said.
+        source: csv::Error,
+    },
+    /// A line with too many or too few cells.
+    #[error("line {line}: expected {expected} cells as in the header, not {found}")]
+    WrongLength {
+        /// Line of the file, from 1.
+        line: u64,
+        /// Cells in the header.
+        expected: u64,
+        /// Cells in this line.
+        found: u64,
+    },
+    /// A column without a name.
+    #[error("column {column} has no name")]
+    Nameless {
+        /// Number of the column, from 1.
+        column: usize,
+    },
+    /// Two columns of one name.
+    #[error("column {column}: `{name}` is also the name of column {first}")]
+    RepeatedColumn {
+        /// Number of the column, from 1.
+        column: usize,
+        /// The name.
+        name: String,
+        /// Number of the first column of that name.
+        first: usize,
+    },
+    /// A cell that is neither a number nor a label known of its column.
+    #[error("row {row}: column `{name}`: expected {expected}, not {found:?}")]
+    WrongCell {
+        /// Row of the table, from 1, the header not counted.
+        row: u64,
+        /// The column.
+        name: String,
+        /// What would be right.
+        expected: String,
+        /// The cell.
+        found: String,
+    },
+    /// A file that is no Parquet, or damaged, or written in a way that is not read here.
+    #[error("not a Parquet file that can be read: {0}")]
+    NoParquet(String),
+    /// A Parquet column of something else than numbers or text.
+    #[error("column `{name}` is {found}; columns of numbers (double, float, integer, boolean) and of text are read")]
+    WrongColumn {
+        /// The column.
+        name: String,
+        /// Its type in words.
+        found: String,
+    },
+    /// A file that is no NPY, or holds something else than a table of numbers.
+    #[error("not an NPY file that can be read: {0}")]
+    NoNpy(String),
+}
+
+/// A column to be written or read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ColumnKind {
+    /// Its name.
+    pub name: String,
+    /// The labels of a column of categories, each with the number that stands for it; none for a column of numbers.
+    pub labels: Vec<(String, f64)>,
+    /// Whether values may be missing (NaN).
+    pub optional: bool,
+}
+
+impl ColumnKind {
+    /// A column of numbers, none of which is missing.
+    pub fn numbers(name: &str) -> Self {
+        Self { name: name.to_owned(), ..Self::default() }
+    }
+
+    fn label(&self, value: f64) -> Option<&str> {
+        self.labels.iter().find(|(_, number)| *number == value).map(|(label, _)| label.as_str())
+    }
+
+    fn value_of(&self, label: &str) -> Option<f64> {
+        self.labels.iter().find(|(known, _)| known == label).map(|(_, value)| *value)
+    }
+
+    /// The number in a cell of text: that of a label, or of a label's number; of a column of numbers any number,
+    /// infinities too. `None` if it is neither; NaN if the value is missing.
+    fn value(&self, cell: &str) -> Option<f64> {
+        const MISSING: [&str; 8] = ["", "nan", "-nan", "na", "n/a", "null", "none", "-"];
+        if let Some(value) = self.value_of(cell) {
+            return Some(value);
+        }
+        if MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) {
+            return Some(f64::NAN);
+        }
+        cell.parse().ok().filter(|value| self.labels.is_empty() || self.label(*value).is_some())
+    }
+
+    fn expected(&self) -> String {
+        if self.labels.is_empty() {
+            return "a number".to_owned();
+        }
+        let labels: Vec<&str> = self.labels.iter().map(|(label, _)| label.as_str()).collect();
+        format!("one of {}", labels.join(", "))
+    }
+}
+
+/// Reads a table block by block.
+pub trait RowReader {
+    /// Names of all columns, in order; `None` for a format without names.
+    fn names(&self) -> Option<&[String]>;
+
+    /// Number of all columns.
+    fn width(&self) -> usize;
+
+    /// Reads the next rows, at most `rows`, of some columns into `into`, one vector for each of `wanted` (number of the
+    /// column below [`width`](Self::width), what it holds), and returns how many there were; 0 at the end.
+    ///
+    /// # Errors
+    /// [`RowsError`] with the place of the first fault.
+    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>]) -> Result<usize, RowsError>;
+}
+
+/// Opens the table in `path`, in the format that its ending says.
+///
+/// # Errors
+/// [`RowsError`] if the ending is unknown, or the file cannot be read or is not of that format.
+pub fn open_rows(path: &Path) -> Result<Box<dyn RowReader>, RowsError> {
+    let format = Format::of(path)?;
+    let file = File::open(path)?;
+    if file.metadata()?.is_dir() {
+        return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
+    }
+    Ok(match format {
+        Format::Csv => Box::new(csv_rows::CsvRows::new(file)?),
+        Format::Parquet => Box::new(parquet_rows::ParquetRows::new(file)?),
+        Format::Npy => Box::new(npy::NpyRows::new(file)?),
+    })
+}
+
+/// The table in `bytes`.
+///
+/// # Errors
+/// [`RowsError`] if they are not of that format.
+pub fn rows_of_bytes(format: Format, bytes: Vec<u8>) -> Result<Box<dyn RowReader>, RowsError> {
+    Ok(match format {
+        Format::Csv => Box::new(csv_rows::CsvRows::new(Cursor::new(bytes))?),
+        Format::Parquet => Box::new(parquet_rows::ParquetRows::new(bytes::Bytes::from(bytes))?),
+        Format::Npy => Box::new(npy::NpyRows::new(Cursor::new(bytes))?),
+    })
+}
+
+/// Writes a table block by block.
+pub trait RowWriter {
+    /// Writes rows: one slice for each column, all of one length.
+    ///
+    /// # Errors
+    /// Whatever the file's system says.
+    fn write(&mut self, columns: &[&[f64]]) -> std::io::Result<()>;
+
+    /// Writes what is left to be written.
+    ///
+    /// # Errors
+    /// Whatever the file's system says; or if the rows are not as many as were announced.
+    fn finish(self: Box<Self>) -> std::io::Result<()>;
+}
+
+/// A writer of `rows` rows of these columns to `out`. Numbers come back from reading as the same bits.
+///
+/// Labels are written as text in CSV and Parquet, as their numbers in NPY; a missing value is an empty cell, a null, or
+/// NaN.
+///
+/// # Errors
+/// Whatever the file's system says.
+pub fn row_writer<'a>(
+    format: Format,
+    out: &'a mut (dyn Write + Send),
+    columns: Vec<ColumnKind>,
+    rows: u64,
+) -> std::io::Result<Box<dyn RowWriter + 'a>> {
+    Ok(match format {
+        Format::Csv => Box::new(csv_rows::CsvWriter::new(out, columns)?),
+        Format::Parquet => Box::new(parquet_rows::ParquetWriter::new(out, columns)?),
+        Format::Npy => Box::new(npy::NpyWriter::new(out, (rows, columns.len()))?),
+    })
+}
+
+/// Names that are all there and all different.
+fn check_names(names: &[String]) -> Result<(), RowsError> {
+    if names.iter().all(String::is_empty) {
+        return Err(RowsError::Empty);
+    }
+    for (place, name) in names.iter().enumerate() {
+        let column = place + 1;
+        if name.is_empty() {
+            return Err(RowsError::Nameless { column });
+        }
+        if let Some(first) = names[..place].iter().position(|other| other == name) {
+            return Err(RowsError::RepeatedColumn { column, name: name.clone(), first: first + 1 });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,137 @@
+use proptest::prelude::*;
+
+use super::*;
+
+fn written(format: Format, columns: &[ColumnKind], values: &[Vec<f64>]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut writer = row_writer(format, &mut bytes, columns.to_vec(), values[0].len() as u64).unwrap();
+    let half = values[0].len() / 2;
+    for part in [0..half, half..values[0].len()] {
+        let slices: Vec<&[f64]> = values.iter().map(|column| &column[part.clone()]).collect();
+        writer.write(&slices).unwrap();
+    }
+    writer.finish().unwrap();
+    bytes
+}
+
+/// All rows of all columns, in blocks of `block`.
+fn read(format: Format, bytes: &[u8], kinds: &[ColumnKind], block: usize) -> Result<Vec<Vec<f64>>, RowsError> {
+    let mut reader = rows_of_bytes(format, bytes.to_vec())?;
+    let width = reader.width();
+    let kind = |place: usize| kinds.get(place).cloned().unwrap_or_default();
+    let wanted: Vec<_> = (0..width).map(|place| (place, kind(place))).collect();
+    let (mut all, mut part) = (vec![Vec::new(); width], vec![Vec::new(); width]);
+    while reader.read(&wanted, block, &mut part)? > 0 {
+        all.iter_mut().zip(&part).for_each(|(all, part)| all.extend_from_slice(part));
+    }
+    Ok(all)
+}
+
+fn bits(columns: &[Vec<f64>]) -> Vec<Vec<u64>> {
+    // A NaN is a missing value, whatever its bits.
+    let bits = |value: &f64| if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() };
+    columns.iter().map(|column| column.iter().map(bits).collect()).collect()
+}
+
+fn probe() -> ColumnKind {
+    let labels = vec![("silicon, doped".to_owned(), 0.0), ("nitride".to_owned(), 7.5)];
+    ColumnKind { labels, ..ColumnKind::numbers("probe") }
+}
+
+fn optional(name: &str) -> ColumnKind {
+    ColumnKind { optional: true, ..ColumnKind::numbers(name) }
+}
+
+#[test]
+fn labels_are_text_where_there_is_text() {
+    let columns = [probe(), optional("y, \"z\"")];
+    let values = [vec![7.5, 0.0], vec![f64::NAN, 1e-300]];
+    for format in Format::ALL {
+        let bytes = written(format, &columns, &values);
+        assert_eq!(bits(&read(format, &bytes, &columns, 5).unwrap()), bits(&values), "{format:?}");
+        let has_text = String::from_utf8_lossy(&bytes).contains("nitride");
+        assert_eq!(has_text, format != Format::Npy, "{format:?}");
+    }
+    let csv = written(Format::Csv, &columns, &values);
+    assert_eq!(String::from_utf8(csv).unwrap(), "probe,\"y, \"\"z\"\"\"\nnitride,\n\"silicon, doped\",1e-300\n");
+}
+
+/// A file of NumPy with this dictionary and data.
+fn npy(header: &str, data: &[u8]) -> Vec<u8> {
+    let mut bytes = b"\x93NUMPY\x02\x00".to_vec();
+    bytes.extend_from_slice(&(header.len() as u32).to_le_bytes());
+    bytes.extend_from_slice(header.as_bytes());
+    bytes.extend_from_slice(data);
+    bytes
+}
+
+#[test]
+fn arrays_of_other_types_and_orders_are_read() {
+    let plain = |bytes: &[u8]| read(Format::Npy, bytes, &[], 2).unwrap();
+    let data: Vec<u8> = [1.5f32, -2.0, 3.25, 4.0, 5.0, 6.0].iter().flat_map(|x| x.to_be_bytes()).collect();
+    let header = "{\"descr\": \">f4\", 'fortran_order': True, 'shape': (3, 2)}\n";
+    assert_eq!(plain(&npy(header, &data)), [[1.5, -2.0, 3.25], [4.0, 5.0, 6.0]]);
+    let data: Vec<u8> = [-1i16, 300, 2].iter().flat_map(|x| x.to_le_bytes()).collect();
+    assert_eq!(plain(&npy("{'descr': '<i2', 'fortran_order': False, 'shape': (3,), }", &data)), [[-1.0, 300.0, 2.0]]);
+    assert_eq!(plain(&npy("{'descr': '|b1', 'fortran_order': False, 'shape': (1, 2), }", &[1, 0])), [[1.0], [0.0]]);
+}
+
+#[track_caller]
+fn refused(format: Format, bytes: &[u8], expected: &str) {
+    let message = read(format, bytes, &[optional("a"), probe()], 9).unwrap_err().to_string();
+    assert!(message.contains(expected), "no {expected:?} in {message:?}");
+}
+
+#[test]
+fn faults_are_named_with_their_place() {
+    refused(Format::Csv, b"", "the file is empty");
+    refused(Format::Csv, b"a,,b\n", "column 2 has no name");
+    refused(Format::Csv, b"a,b,a\n", "column 3: `a` is also the name of column 1");
+    refused(Format::Csv, b"a,b\n1,0\n\n2\n", "line 4: expected 2 cells as in the header, not 1");
+    refused(Format::Csv, b"a,b\n1,0\nred,0\n", "row 2: column `a`: expected a number, not \"red\"");
+    refused(Format::Csv, b"a,b\n1,3\n", "row 1: column `b`: expected one of silicon, doped, nitride, not \"3\"");
+    refused(Format::Parquet, b"a,b\n1,3\n", "not a Parquet file that can be read");
+    refused(Format::Npy, b"a,b\n1,3,4,5\n", "not an NPY file that can be read: it does not begin as one");
+    refused(Format::Npy, &npy("{'descr': '<c16', 'fortran_order': False, 'shape': (1,)}", &[]), "numbers are \"<c16\"");
+    refused(Format::Npy, &npy("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 1)}", &[]), "3 dimensions");
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (18446744073709551615, 2)}";
+    refused(Format::Npy, &npy(header, &[0; 7]), "should follow the header, but 7 bytes do");
+    let message = Format::of("a.xlsx".as_ref()).unwrap_err().to_string();
+    assert!(message.ends_with("expected .csv, .parquet or .npy"), "{message}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn every_number_comes_back_as_the_same_bits(
+        values in prop::collection::vec((any::<f64>(), any::<f64>()), 0..20), block in 1usize..25,
+    ) {
+        let (a, b): (Vec<f64>, Vec<f64>) = values.into_iter().unzip();
+        let columns = [optional("a"), optional("b")];
+        for format in Format::ALL {
+            let bytes = written(format, &columns, &[a.clone(), b.clone()]);
+            prop_assert_eq!(bits(&read(format, &bytes, &columns, block).unwrap()), bits(&[a.clone(), b.clone()]));
+        }
+    }
+
+    #[test]
+    fn no_file_panics(bytes in prop::collection::vec(any::<u8>(), 0..80), near in "[a,b\n\r\"0-9.e-]{0,40}") {
+        for format in Format::ALL {
+            let _ = (read(format, &bytes, &[], 3), read(format, near.as_bytes(), &[probe()], 3));
+        }
+    }
+
+    #[test]
+    fn no_damaged_file_panics(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6)) {
+        let columns = [optional("a"), probe()];
+        for format in Format::ALL {
+            let mut bytes = written(format, &columns, &[vec![1.0, f64::NAN, 3.0], vec![0.0, 7.5, 0.0]]);
+            for (place, byte) in &changes {
+                let place = place.index(bytes.len());
+                bytes[place] = *byte;
+            }
+            let _ = read(format, &bytes, &columns, 2);
+        }
+    }
+}

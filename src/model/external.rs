@@ -1,0 +1,42 @@
+//! A model outside of this program, whose outputs come from a file.
+
+use super::{Batch, Model, Output, RowFailure, Worker};
+
+/// A model that runs elsewhere: it has outputs with names and units, but every row asked of it fails by name. Its
+/// outputs are read from a file, into a [`Store`](crate::run::Store).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExternalModel {
+    outputs: Vec<Output>,
+}
+
+impl ExternalModel {
+    /// A model of these outputs.
+    pub fn new(outputs: Vec<Output>) -> Self {
+        Self { outputs }
+    }
+
+    /// Why a row of it has no value here.
+    pub fn elsewhere() -> RowFailure {
+        RowFailure::new("the model runs outside of this program, and the row's outputs have not been read")
+    }
+}
+
+impl Model for ExternalModel {
+    fn outputs(&self) -> &[Output] {
+        &self.outputs
+    }
+
+    fn worker(&self) -> Box<dyn Worker + '_> {
+        Box::new(Elsewhere)
+    }
+}
+
+struct Elsewhere;
+
+impl Worker for Elsewhere {
+    fn run(&mut self, _inputs: &[&[f64]], batch: &mut Batch) {
+        for row in 0..batch.rows() {
+            batch.fail_row(row, &ExternalModel::elsewhere());
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! Whether two numbers are the same value, one of which may have been printed by another program.
+
+/// Largest relative difference of two numbers that are the same value: ten digits are enough.
+pub const SAME_VALUE: f64 = 1e-9;
+
+/// Whether `found` is `expected` to [`SAME_VALUE`], or both are the same infinity; NaN is no value.
+///
+/// ```
+/// use apportion::quantity::is_same;
+///
+/// assert!(is_same(0.333_333_333_33, 1.0 / 3.0));
+/// assert!(!is_same(0.333, 1.0 / 3.0));
+/// ```
+pub fn is_same(found: f64, expected: f64) -> bool {
+    found == expected || (found - expected).abs() <= SAME_VALUE * found.abs().max(expected.abs())
+}

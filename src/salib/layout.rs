@@ -1,0 +1,193 @@
+//! Which rows a table made by SALib has, and whether they are what they should be.
+
+use thiserror::Error;
+
+use crate::quantity::is_same;
+
+/// The rows of a base point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SalibLayout {
+    /// A, AB_1 ... AB_d, B (`calc_second_order=False`).
+    FirstOrder,
+    /// A, AB_1 ... AB_d, BA_1 ... BA_d, B (`calc_second_order=True`, SALib's default).
+    SecondOrder,
+}
+
+impl SalibLayout {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::SecondOrder, Self::FirstOrder];
+
+    /// Rows of a base point, for `d` inputs or groups.
+    pub fn rows_per_point(self, d: usize) -> usize {
+        match self {
+            Self::FirstOrder => d + 2,
+            Self::SecondOrder => 2 * d + 2,
+        }
+    }
+
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FirstOrder => "first-order",
+            Self::SecondOrder => "second-order",
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::FirstOrder => "without second order (calc_second_order=False)",
+            Self::SecondOrder => "with second order (calc_second_order=True)",
+        }
+    }
+
+    fn option(self) -> &'static str {
+        match self {
+            Self::FirstOrder => "--first-order-only",
+            Self::SecondOrder => "--second-order",
+        }
+    }
+
+    /// What row `row` of a base point is, in words.
+    fn row_name(self, row: usize, d: usize) -> String {
+        match row {
+            0 => "A".to_owned(),
+            row if row <= d => format!("AB_{row}"),
+            row if row + 1 < self.rows_per_point(d) => format!("BA_{}", row - d),
+            _ => "B".to_owned(),
+        }
+    }
+}
+
+/// Why a table is not one of SALib's.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum LayoutError {
+    /// The number of rows fits no layout, or not the one asked for.
+    #[error("{rows} rows are no whole number of base points: for {d} inputs or groups there are {expected}")]
+    NoMultiple {
+        /// Rows of the table.
+        rows: usize,
+        /// Inputs or groups.
+        d: usize,
+        /// Rows of a base point, in words.
+        expected: String,
+    },
+    /// The number of rows fits both layouts.
+    #[error(
+        "{rows} rows can be read in two ways: {} base points {} or {} base points {}: say which it is, by {} or {}",
+        rows / SalibLayout::SecondOrder.rows_per_point(*.d), SalibLayout::SecondOrder.words(),
+        rows / SalibLayout::FirstOrder.rows_per_point(*.d), SalibLayout::FirstOrder.words(),
+        SalibLayout::SecondOrder.option(), SalibLayout::FirstOrder.option()
+    )]
+    Ambiguous {
+        /// Rows of the table.
+        rows: usize,
+        /// Inputs or groups.
+        d: usize,
+    },
+    /// Fewer than two base points.
+    #[error("{rows} rows are a single base point: two or more are needed")]
+    OnePoint {
+        /// Rows of the table.
+        rows: usize,
+    },
+    /// A row that is not what its place in the layout says.
+    #[error(
+        "row {row} should be the row {kind} of its base point (rows {first} to {last}), {layout}, but its {input} is {found} \
+         where {from} has {expected}: the rows are in another order, or the points are not those of SALib"
+    )]
+    WrongRow {
+        /// Row of the table, from 1.
+        row: usize,
+        /// What it should be.
+        kind: String,
+        /// First row of the base point, from 1.
+        first: usize,
+        /// Last row of the base point.
+        last: usize,
+        /// The layout, in words.
+        layout: &'static str,
+        /// The input.
+        input: String,
+        /// Its value.
+        found: String,
+        /// A or B.
+        from: &'static str,
+        /// The value there.
+        expected: String,
+    },
+}
+
+/// The layout of `rows` rows for `d` inputs or groups: the one `asked` for, or the only one that the number of rows
+/// fits, or the one that `fits` says of those it fits.
+///
+/// # Errors
+/// [`LayoutError`] if the number fits none, or both and nothing tells which.
+pub fn recognise(
+    (rows, d): (usize, usize),
+    asked: Option<SalibLayout>,
+    fits: Option<&dyn Fn(SalibLayout) -> Result<(), LayoutError>>,
+) -> Result<SalibLayout, LayoutError> {
+    let candidates: Vec<SalibLayout> = asked.map_or(SalibLayout::ALL.to_vec(), |asked| vec![asked]);
+    let whole = |layout: &SalibLayout| rows > 0 && rows.is_multiple_of(layout.rows_per_point(d));
+    let possible: Vec<SalibLayout> = candidates.iter().copied().filter(whole).collect();
+    let Some(&first) = possible.first() else {
+        let words = |layout: &SalibLayout| format!("{} rows each {}", layout.rows_per_point(d), layout.words());
+        let expected = candidates.iter().map(words).collect::<Vec<_>>().join(", ");
+        return Err(LayoutError::NoMultiple { rows, d, expected });
+    };
+    let fitting: Vec<SalibLayout> = match fits {
+        None => possible,
+        Some(fits) => {
+            let fitting: Vec<SalibLayout> = possible.iter().copied().filter(|layout| fits(*layout).is_ok()).collect();
+            if fitting.is_empty() {
+                fits(first)?;
+            }
+            fitting
+        }
+    };
+    match fitting[..] {
+        [layout] if rows == layout.rows_per_point(d) => Err(LayoutError::OnePoint { rows }),
+        [layout] => Ok(layout),
+        _ => Err(LayoutError::Ambiguous { rows, d }),
+    }
+}
+
+/// Whether the points are laid out so: in every base point the rows between A and B are those of one with the inputs of
+/// their member from the other. `inputs` are columns with their names, `members` the numbers of the inputs of every index.
+///
+/// # Errors
+/// [`LayoutError::WrongRow`] with the first row that is not.
+pub fn check_points(
+    inputs: &[(String, Vec<f64>)],
+    members: &[(String, Vec<usize>)],
+    layout: SalibLayout,
+) -> Result<(), LayoutError> {
+    let (d, step) = (members.len(), layout.rows_per_point(members.len()));
+    let rows = inputs.first().map_or(0, |(_, column)| column.len());
+    for first in (0..rows).step_by(step) {
+        let (a, b) = (first, first + step - 1);
+        for row in first + 1..b {
+            let number = row - first - 1;
+            let swapped = &members[number % d].1;
+            let (base, other) = if number < d { ((a, "A"), (b, "B")) } else { ((b, "B"), (a, "A")) };
+            for (place, (name, column)) in inputs.iter().enumerate() {
+                let (source, from) = if swapped.contains(&place) { other } else { base };
+                let (found, expected) = (column[row], column[source]);
+                if !is_same(found, expected) {
+                    return Err(LayoutError::WrongRow {
+                        row: row + 1,
+                        kind: layout.row_name(row - first, d),
+                        first: first + 1,
+                        last: b + 1,
+                        layout: layout.words(),
+                        input: format!("`{name}`"),
+                        found: found.to_string(),
+                        from,
+                        expected: expected.to_string(),
+                    });
+                }
+            }
+        }
+    }
+    Ok(())
+}

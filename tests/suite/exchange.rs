@@ -1,0 +1,392 @@
+//! The three steps joined by files, through the program: `sample`, a model outside, `analyze`.
+
+use std::path::{Path, PathBuf};
+
+use apportion::exchange::{ColumnKind, Format, open_rows, row_writer};
+use apportion::report::salib::SalibFile;
+use apportion::report::{ResultFile, read_result};
+
+use crate::common::{apportion, files, stderr, study_path, succeed, text};
+
+/// A folder with the design of a small study.
+struct Sampled {
+    folder: tempfile::TempDir,
+}
+
+impl Sampled {
+    fn new(study: &str, design: &str) -> Self {
+        let sampled = Self { folder: tempfile::tempdir().unwrap() };
+        std::fs::write(sampled.path("s.toml"), study).unwrap();
+        succeed(&["sample", &sampled.name("s.toml"), "-o", &sampled.name(design)]);
+        sampled
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn name(&self, name: &str) -> String {
+        text(&self.path(name)).to_owned()
+    }
+
+    /// `analyze` of `data` in the folder.
+    fn analyze(&self, data: &str, more: &[&str]) -> std::process::Output {
+        let (data, out) = (self.name(data), self.name("out"));
+        apportion(&[&["analyze", &data, "--out", &out], more].concat())
+    }
+
+    fn result(&self, name: &str) -> ResultFile {
+        read_result(&self.path("out").join(format!("{name}.json"))).unwrap()
+    }
+
+    #[track_caller]
+    fn refused(&self, data: &str, more: &[&str], expected: &str) {
+        let output = self.analyze(data, more);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(expected), "no {expected:?} in {message:?}");
+    }
+
+    /// The lines of a CSV file.
+    fn lines(&self, name: &str) -> Vec<String> {
+        std::fs::read_to_string(self.path(name)).unwrap().lines().map(str::to_owned).collect()
+    }
+
+    fn write(&self, name: &str, lines: &[String]) {
+        std::fs::write(self.path(name), lines.join("\n") + "\n").unwrap();
+    }
+}
+
+/// A model outside of two factors: 2 base points in each of 4 replicates, 4 rows each.
+const OUTSIDE: &str = r#"
+    model = "external"
+    external.outputs.force = "nN"
+    design = { base_samples = 64, seed = 3 }
+    factor = [
+        { name = "a", min = 1, max = 3, unit = "um" },
+        { name = "b", min = -1, max = 1 },
+        { name = "probe", distribution = "categorical", labels = ["silicon", "nitride, doped"] },
+    ]
+"#;
+
+/// The design of [`OUTSIDE`] with force = a + 2 b + 1 for the second probe, as `data.csv`.
+fn answered() -> Sampled {
+    let sampled = Sampled::new(OUTSIDE, "design.csv");
+    let mut lines = sampled.lines("design.csv");
+    for (row, line) in lines.iter_mut().enumerate() {
+        let numbers: Vec<&str> = line.split(',').collect();
+        let force = match numbers[0].parse::<f64>() {
+            Ok(a) => (a + 2.0 * numbers[1].parse::<f64>().unwrap() + f64::from(u8::from(line.contains("nitride"))))
+                .to_string(),
+            Err(_) => "force".to_owned(),
+        };
+        assert_eq!(row == 0, force == "force");
+        *line = format!("{line},{force}");
+    }
+    sampled.write("data.csv", &lines);
+    std::fs::copy(sampled.path("design.csv.manifest.json"), sampled.path("data.csv.manifest.json")).unwrap();
+    sampled
+}
+
+/// Reads all columns of a file of numbers.
+fn columns(path: &Path) -> Vec<Vec<f64>> {
+    let mut reader = open_rows(path).unwrap();
+    let wanted: Vec<_> = (0..reader.width()).map(|place| (place, ColumnKind::numbers(""))).collect();
+    let mut columns = vec![Vec::new(); wanted.len()];
+    reader.read(&wanted, usize::MAX >> 8, &mut columns).unwrap();
+    columns
+}
+
+fn write_columns(path: &Path, names: &[&str], columns: &[Vec<f64>]) {
+    let mut bytes = Vec::new();
+    let kinds = names.iter().map(|name| ColumnKind::numbers(name)).collect();
+    let mut writer = row_writer(Format::of(path).unwrap(), &mut bytes, kinds, columns[0].len() as u64).unwrap();
+    writer.write(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).unwrap();
+    writer.finish().unwrap();
+    std::fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn three_steps_give_the_bits_of_one_run_in_every_format() {
+    let study = study_path("ishigami");
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let run = ["run", text(&study), "--base-samples", "512", "--no-journal", "--out", text(&at("run"))];
+    succeed(&run);
+    let whole = read_result(&at("run").join("ishigami.json")).unwrap();
+    succeed(&["sample", text(&study), "--base-samples", "512", "-o", text(&at("design.csv"))]);
+    succeed(&["evaluate", text(&study), text(&at("design.csv")), "-o", text(&at("y.csv"))]);
+    let (points, y) = (columns(&at("design.csv")), columns(&at("y.csv")));
+    for format in Format::ALL {
+        let ending = format.ending();
+        let (design, outputs) = (at(&format!("d.{ending}")), at(&format!("outputs.{ending}")));
+        succeed(&["sample", text(&study), "--base-samples", "512", "-o", text(&design)]);
+        assert_eq!(columns(&design), points, "{format:?}");
+        // Outputs alone, then the design with the outputs in it.
+        write_columns(&outputs, &["y"], &y);
+        let out = at("analyzed");
+        succeed(&["analyze", text(&outputs), "--design", text(&design), "--out", text(&out)]);
+        assert_eq!(read_result(&out.join("ishigami.json")).unwrap().outputs, whole.outputs, "{format:?}");
+        assert_eq!(files(&out), files(&at("run")));
+        let names = ["x1", "x2", "x3", "y"];
+        write_columns(&design, &names, &[points.clone(), y.clone()].concat());
+        succeed(&["analyze", text(&design), "--out", text(&out)]);
+        assert_eq!(read_result(&out.join("ishigami.json")).unwrap().outputs, whole.outputs, "{format:?}");
+    }
+}
+
+#[test]
+fn a_model_outside_is_sampled_and_analyzed_but_not_run() {
+    let sampled = answered();
+    let output = sampled.analyze("data.csv", &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stderr(&output).contains("the points in the file are those of the design"), "{}", stderr(&output));
+    let result = sampled.result("s");
+    assert_eq!(result.outputs[0].name, "force");
+    // a + 2 b + probe: variances 1/3, 4/3 and 1/4; 16 points in each of 4 nets leave less than 0.05.
+    let first: Vec<f64> =
+        result.outputs[0].indices.as_ref().unwrap().iter().map(|index| index.effect.first_order.estimate).collect();
+    for (found, exact) in first.iter().zip([4.0 / 23.0, 16.0 / 23.0, 3.0 / 23.0]) {
+        assert!((found - exact).abs() < 0.05, "{first:?}");
+    }
+    for command in ["run", "screen", "evaluate"] {
+        let study = sampled.name("s.toml");
+        let points: &[&str] = if command == "evaluate" { &["points.csv", "-o", "y.csv"] } else { &[] };
+        let output = apportion(&[&[command, &study], points].concat());
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("its model runs outside of this program"), "{}", stderr(&output));
+    }
+    assert!(succeed(&["check", &sampled.name("s.toml")]).contains("model runs, outside of this program"));
+}
+
+#[test]
+fn names_and_units_of_outputs_can_be_chosen() {
+    let sampled = answered();
+    let lines = sampled.lines("data.csv");
+    let twice: Vec<String> = lines.iter().map(|line| format!("{line},{}", line.rsplit(',').next().unwrap())).collect();
+    let header = "a,b,probe,force,energy".to_owned();
+    sampled.write("data.csv", &[&[header], &twice[1..]].concat());
+    let units = ["--outputs", "energy,force", "--units", "energy=fJ"];
+    assert_eq!(sampled.analyze("data.csv", &units).status.code(), Some(2), "no such prefix");
+    let output = sampled.analyze("data.csv", &["--outputs", "energy,force", "--units", "energy=nJ"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let found: Vec<(String, String)> =
+        sampled.result("s").outputs.iter().map(|o| (o.name.clone(), o.unit.clone())).collect();
+    assert_eq!(found, [("energy".to_owned(), "nJ".to_owned()), ("force".to_owned(), "nN".to_owned())]);
+    sampled.refused("data.csv", &["--outputs", "energi"], "no column is called `energi`: did you mean `energy`?");
+    sampled.refused("data.csv", &["--outputs", "a"], "`a` is asked for as an output, but is a factor");
+    sampled.refused("data.csv", &["--units", "energy=nJ"], "a unit is given for `energy`, which is no output");
+}
+
+#[test]
+fn a_file_that_does_not_belong_to_the_design_is_refused_with_the_reason() {
+    let sampled = answered();
+    let good = sampled.lines("data.csv");
+    let refused = |lines: &[String], expected: &str| {
+        sampled.write("data.csv", lines);
+        sampled.refused("data.csv", &[], expected);
+    };
+    let changed = |row: usize, text: &str| {
+        let mut lines = good.clone();
+        lines[row] = text.to_owned();
+        lines
+    };
+    let rest = |row: usize| good[row].split_once(',').unwrap().1.to_owned();
+    refused(&changed(5, &format!("2.0,{}", rest(5))), "row 5, column `a`: 2 stands where the design has");
+    refused(&changed(5, &format!(",{}", rest(5))), "row 5, column `a`: nothing stands where the design has");
+    let other = if good[7].contains("nitride") {
+        good[7].replace("\"nitride, doped\"", "silicon")
+    } else {
+        good[7].replace("silicon", "\"nitride, doped\"")
+    };
+    refused(&changed(7, &other), "row 7, column `probe`: ");
+    refused(
+        &changed(7, &good[7].replace("silicon", "steel").replace("nitride", "steel")),
+        "expected one of silicon, nitride, doped, not",
+    );
+    let mut swapped = good.clone();
+    swapped.swap(5, 17);
+    refused(
+        &swapped,
+        "the rows are in another order than those of the design: row 5 of the file is row 17 of the design",
+    );
+    let mut missing = good.clone();
+    missing.remove(5);
+    refused(
+        &missing,
+        "1 of the 320 rows of the design is missing: the file has 319; the first is row 5: row 5 of the file is row 6",
+    );
+    refused(&good[..good.len() - 2], "2 of the 320 rows of the design are missing: the file has 318");
+    let mut repeated = good.clone();
+    repeated.insert(9, good[4].clone());
+    refused(
+        &repeated,
+        "the file has 1 row more than the 320 of the design: row 9 of the file is row 4 of the design again",
+    );
+    let more = [&good[..], &[good[1].clone(), good[2].clone()]].concat();
+    refused(&more, "the file has 2 rows more than the 320 of the design: row 321 is the first of them");
+    refused(
+        &good.iter().map(|line| line.rsplit_once(',').unwrap().0.to_owned()).collect::<Vec<_>>(),
+        "no column is called `force`",
+    );
+}
+
+#[test]
+fn values_that_another_program_printed_are_the_same_values() {
+    let sampled = answered();
+    let lines = sampled.lines("data.csv");
+    let printed = |line: &String| {
+        let (a, rest) = line.split_once(',').unwrap();
+        a.parse::<f64>().map_or_else(|_| line.clone(), |a| format!("{a:.11e},{rest}"))
+    };
+    sampled.write("data.csv", &lines.iter().map(printed).collect::<Vec<_>>());
+    let output = sampled.analyze("data.csv", &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+#[test]
+fn rows_without_an_output_are_refused_or_counted_as_failed() {
+    let sampled = answered();
+    let mut lines = sampled.lines("data.csv");
+    for (row, word) in [(3, ""), (9, "NaN"), (20, "inf")] {
+        lines[row] = format!("{},{word}", lines[row].rsplit_once(',').unwrap().0);
+    }
+    sampled.write("data.csv", &lines);
+    sampled.refused("data.csv", &[], "row 3, column `force`: the value is missing; --missing-as-failed");
+    let output = sampled.analyze("data.csv", &["--missing-as-failed"]);
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", stderr(&output));
+    let result = sampled.result("s");
+    assert_eq!((result.outputs[0].runs_failed, result.outputs[0].runs_ok), (3, 317));
+}
+
+#[test]
+fn a_manifest_that_does_not_fit_is_refused() {
+    let sampled = answered();
+    let manifest = std::fs::read_to_string(sampled.path("data.csv.manifest.json")).unwrap();
+    let refused = |text: &str, expected: &str| {
+        std::fs::write(sampled.path("data.csv.manifest.json"), text).unwrap();
+        sampled.refused("data.csv", &[], expected);
+    };
+    refused(&manifest.replace("max = 3,", "max = 4,"), "the study in the manifest has been changed");
+    refused(&manifest.replace("\"seed\": 3", "\"seed\": 4"), "seed: the manifest says 4, but its study means 3");
+    refused(&manifest.replace("apportion-design", "else"), "its format is \"else\"");
+    refused(&manifest.replace("\"version\": 1", "\"version\": 2"), "version 2 of the manifest's format is not known");
+    refused("{", "not a manifest of a design");
+    let digest = manifest.rsplit_once("\"sha256\": \"").unwrap().1[..8].to_owned();
+    refused(&manifest.replace(&digest, "00000000"), "the points of this manifest are not those that version");
+    std::fs::remove_file(sampled.path("data.csv.manifest.json")).unwrap();
+    sampled.refused("data.csv", &[], "there is no ");
+    sampled.refused("data.csv", &["--manifest", &sampled.name("none.json")], "cannot read the manifest");
+}
+
+#[test]
+fn formats_are_known_by_their_endings() {
+    let sampled = answered();
+    let output = apportion(&["sample", &sampled.name("s.toml"), "-o", &sampled.name("d.xlsx")]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("expected .csv, .parquet or .npy"), "{}", stderr(&output));
+    std::fs::write(sampled.path("data.npy"), b"a,b\n").unwrap();
+    sampled.refused("data.npy", &["--design", &sampled.name("design.csv")], "not an NPY file that can be read");
+    std::fs::write(sampled.path("data.parquet"), b"a,b\n").unwrap();
+    sampled.refused("data.parquet", &["--design", &sampled.name("design.csv")], "not a Parquet file that can be read");
+    write_columns(&sampled.path("data.npy"), &["p", "q"], &[vec![1.0; 320], vec![2.0; 320]]);
+    let expected =
+        "the file has 2 columns, without names: expected 1 (the outputs) or 4 (the 3 factors, then the outputs)";
+    sampled.refused("data.npy", &["--design", &sampled.name("design.csv")], expected);
+}
+
+#[test]
+fn points_and_outputs_of_a_run_are_saved_in_every_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study_path("ishigami");
+    let mut all = Vec::new();
+    for format in Format::ALL {
+        let saved = folder.path().join(format!("saved.{}", format.ending()));
+        let out = folder.path().join("out");
+        let journal: &[&str] = if format == Format::Csv { &["--no-journal"] } else { &[] };
+        let run = ["run", text(&study), "--base-samples", "256", "--out", text(&out), "--save-outputs", text(&saved)];
+        succeed(&[&run[..], journal].concat());
+        all.push(columns(&saved));
+    }
+    assert!(all.iter().all(|columns| *columns == all[0]));
+    let mut points = tempfile::NamedTempFile::with_suffix_in(".csv", folder.path()).unwrap();
+    use std::io::Write;
+    writeln!(points, "x1,x2,x3").unwrap();
+    for row in 0..all[0][0].len() {
+        writeln!(points, "{},{},{}", all[0][0][row], all[0][1][row], all[0][2][row]).unwrap();
+    }
+    let y = folder.path().join("y.csv");
+    succeed(&["evaluate", text(&study), text(points.path()), "-o", text(&y)]);
+    assert_eq!(columns(&y)[0], all[0][3]);
+}
+
+/// A table of SALib's layout of two inputs with y = x1 + 2 x2 + x1 x2; twelve rows of each pattern.
+fn salib_table(second_order: bool) -> Vec<String> {
+    let mut lines = vec!["x1,x2,y".to_owned()];
+    let points = if second_order { 8 } else { 12 };
+    let value = |k: usize| (k as f64 * 0.618_033_988_749).fract();
+    for point in 0..points {
+        let (a, b) = ([value(4 * point), value(4 * point + 1)], [value(4 * point + 2), value(4 * point + 3)]);
+        let ab = [[b[0], a[1]], [a[0], b[1]]];
+        let ba = [[a[0], b[1]], [b[0], a[1]]];
+        let rows = if second_order { [&[a][..], &ab, &ba, &[b]].concat() } else { [&[a][..], &ab, &[b]].concat() };
+        lines.extend(rows.iter().map(|[x, z]| format!("{x},{z},{}", x + 2.0 * z + x * z)));
+    }
+    lines
+}
+
+#[test]
+fn tables_of_salib_are_recognised_checked_and_analysed() {
+    let sampled = answered();
+    let salib = ["--layout", "salib", "--outputs", "y", "--resamples", "100"];
+    for second_order in [true, false] {
+        let lines = salib_table(second_order);
+        sampled.write("t.csv", &lines);
+        let output = sampled.analyze("t.csv", &salib);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let json = std::fs::read_to_string(sampled.path("out").join("t.json")).unwrap();
+        let result: SalibFile = serde_json::from_str(&json).unwrap();
+        assert_eq!(result.table.layout, if second_order { "second-order" } else { "first-order" });
+        assert!(result.table.points_checked);
+        assert_eq!(result.outputs[0].second_order.as_ref().map(Vec::len), second_order.then_some(1));
+        let index = result.outputs[0].indices.as_ref().unwrap()[1].first_order;
+        assert!(index.low.unwrap() < index.estimate && index.estimate < index.high.unwrap());
+        // The outputs alone: 48 rows are both 12 times 4 and 8 times 6.
+        let alone: Vec<String> = lines.iter().map(|line| line.rsplit_once(',').unwrap().1.to_owned()).collect();
+        sampled.write("y.csv", &alone);
+        let names = ["--layout", "salib", "--names", "x1,x2", "--resamples", "0"];
+        let expected = "48 rows can be read in two ways: 8 base points with second order (calc_second_order=True) or 12 base points";
+        sampled.refused("y.csv", &names, expected);
+        let option = if second_order { "--second-order" } else { "--first-order-only" };
+        assert_eq!(sampled.analyze("y.csv", &[&names[..], &[option]].concat()).status.code(), Some(0));
+        let json = std::fs::read_to_string(sampled.path("out").join("y.json")).unwrap();
+        let again: SalibFile = serde_json::from_str(&json).unwrap();
+        let estimates = |result: &SalibFile| -> Vec<f64> {
+            result.outputs[0]
+                .indices
+                .iter()
+                .flatten()
+                .flat_map(|i| [i.first_order.estimate, i.total.estimate])
+                .collect()
+        };
+        assert_eq!(estimates(&again), estimates(&result));
+    }
+    let mut shuffled = salib_table(true);
+    shuffled.swap(8, 12);
+    sampled.write("t.csv", &shuffled);
+    sampled.refused("t.csv", &salib, "row 8 should be the row AB_1 of its base point (rows 7 to 12)");
+    sampled.write("t.csv", &salib_table(true)[..48]);
+    sampled.refused(
+        "t.csv",
+        &salib,
+        "47 rows are no whole number of base points: for 2 inputs or groups there are 6 rows each",
+    );
+    let mut missing = salib_table(true);
+    missing[5] = "0.1,0.2,nan".to_owned();
+    sampled.write("t.csv", &missing);
+    sampled.refused("t.csv", &salib, "row 5, column `y`: the value is missing");
+    sampled.refused("t.csv", &["--layout", "salib"], "which columns are outputs?");
+    std::fs::write(sampled.path("p.json"), "{\"names\": [\"x1\"], \"num_vars\": 2}").unwrap();
+    let problem = sampled.name("p.json");
+    sampled.refused("t.csv", &["--layout", "salib", "--problem", &problem], "`num_vars` is 2, but `names` has 1");
+}
