@@ -14,6 +14,8 @@ pub enum ModelKind {
     Afm,
     /// Formulas of the study's own factors.
     Expression,
+    /// A program of the user's own.
+    Command,
     /// A function with known indices.
     Known(KnownAnswer),
 }
@@ -40,7 +42,7 @@ pub struct Input {
 impl ModelKind {
     /// Every model, the default first.
     pub fn all() -> Vec<Self> {
-        [Self::Afm, Self::Expression].into_iter().chain(KnownAnswer::all().map(Self::Known)).collect()
+        [Self::Afm, Self::Expression, Self::Command].into_iter().chain(KnownAnswer::all().map(Self::Known)).collect()
     }
 
     /// The name in study files.
@@ -48,6 +50,7 @@ impl ModelKind {
         match self {
             Self::Afm => "afm",
             Self::Expression => "expression",
+            Self::Command => "command",
             Self::Known(function) => function.name(),
         }
     }
@@ -62,16 +65,17 @@ impl ModelKind {
         match self {
             Self::Afm => "critical force with which an AFM tip pushes a nanoparticle over a substrate",
             Self::Expression => "formulas in the study file, of factors of its own",
+            Self::Command => "a program of your own, in any language",
             Self::Known(function) => function.description(),
         }
     }
 
-    /// The inputs, the main ones first; of a function, those it has with its default parameters; none of formulas, whose
-    /// inputs are the factors of a study.
+    /// The inputs, the main ones first; of a function, those it has with its default parameters; none of formulas and
+    /// programs, whose inputs are the factors of a study.
     pub fn inputs(self) -> Vec<Input> {
         match self {
             Self::Afm => Parameter::ALL.iter().map(afm_input).collect(),
-            Self::Expression => Vec::new(),
+            Self::Expression | Self::Command => Vec::new(),
             Self::Known(answer) => known_inputs(&answer.default_function()),
         }
     }
@@ -96,15 +100,15 @@ impl ModelKind {
                 ("step (fixed-step)", vec!["a time, \"10 ms\""]),
                 ("step_budget (marched rungs)", vec!["a whole number, 1000000"]),
             ],
-            Self::Expression | Self::Known(_) => Vec::new(),
+            Self::Expression | Self::Command | Self::Known(_) => Vec::new(),
         }
     }
 
-    /// The outputs, the default one first; none of formulas, which a study names.
+    /// The outputs, the default one first; none of formulas and programs, which a study names.
     pub fn outputs(self) -> Vec<Output> {
         match self {
             Self::Afm => AfmOutput::ALL.iter().map(|output| output.info()).collect(),
-            Self::Expression => Vec::new(),
+            Self::Expression | Self::Command => Vec::new(),
             Self::Known(_) => vec![KnownModel::output()],
         }
     }

@@ -118,6 +118,22 @@ pub enum Problem {
     /// Formulas are the model, and there are none.
     #[error("the study has no formula: model = \"expression\" needs a table [expression] with an output")]
     NoFormulas,
+    /// A program is the model, and is not named.
+    #[error("the study has no program: model = \"command\" needs one")]
+    NoProgram,
+    /// A program is the model, and nobody says what its outputs are.
+    #[error("the study does not say what the program's outputs are")]
+    NoProgramOutputs,
+    /// A file that a program's runs need, and that cannot be used.
+    #[error("{place}: {reason}")]
+    ProgramFile {
+        /// The file, with line and column where there are some.
+        place: String,
+        /// What is wrong.
+        reason: String,
+        /// What would be right.
+        help: String,
+    },
     /// A formula that cannot be read.
     #[error("{source}{}", suggestion(.nearest))]
     Expression {
@@ -260,6 +276,12 @@ impl Problem {
             Self::NoFactors => Some("add one or more [[factor]] tables with name, min, max and unit".to_owned()),
             Self::NoFormulas => Some("write, for instance: [expression], then outputs.y = \"x1 + 2*x2\"".to_owned()),
             Self::Expression { expected, .. } => Some(expected.clone()).filter(|known| !known.is_empty()),
+            Self::NoProgram => Some("write, for instance: command = [\"python3\", \"my_model.py\"]".to_owned()),
+            Self::NoProgramOutputs => Some(
+                "write, for instance: outputs = [\"y\"]; or in the table [command], with a unit: outputs.y = \"nN\""
+                    .to_owned(),
+            ),
+            Self::ProgramFile { help, .. } => Some(help.clone()),
             Self::NoOutputs => Some("name at least one output, or leave `outputs` out".to_owned()),
             Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => {
                 Some(format!("it takes {takes}"))

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub(super) use super::at::At;
+use super::command::CommandKey;
 use super::schema;
 
 /// A table of choices by name.
@@ -38,6 +39,9 @@ pub(super) struct StudyFile {
     /// Formulas in the factors.
     #[serde(default)]
     pub expression: Option<At<ExpressionSection>>,
+    /// The program that is the model: itself with its arguments, or a table of these and more.
+    #[serde(default)]
+    pub command: Option<At<CommandKey>>,
     /// The points at which the model runs.
     #[serde(default)]
     pub design: DesignSection,
@@ -212,6 +216,17 @@ pub(super) enum Nominal {
 
 impl StudyFile {
     /// The keys it can have.
-    pub(super) const KEYS: [&str; 10] =
-        ["name", "title", "model", "outputs", "afm", "function", "expression", "design", "analysis", "factor"];
+    pub(super) const KEYS: [&str; 11] = [
+        "name",
+        "title",
+        "model",
+        "outputs",
+        "afm",
+        "function",
+        "expression",
+        "command",
+        "design",
+        "analysis",
+        "factor",
+    ];
 }

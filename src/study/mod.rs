@@ -5,6 +5,7 @@
 
 mod at;
 mod builder;
+mod command;
 mod constants;
 mod distribution;
 mod error;
@@ -29,8 +30,10 @@ pub use builder::{BuildError, StudyBuilder};
 pub use error::{Diagnostic, OverrideProblem, Problem, StudyError, nearest};
 pub use options::{AnalysisOptions, Stopping};
 pub use schema::study_schema;
-pub use subject::{AfmSubject, CustomSubject, ExpressionConstant, ExpressionSubject, Formula, KnownSubject, Subject};
-pub use template::{TemplateRequest, template};
+pub use subject::{
+    AfmSubject, CommandSubject, CustomSubject, ExpressionConstant, ExpressionSubject, Formula, KnownSubject, Subject,
+};
+pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
 
 use crate::design::Design;
 use crate::model::Model;
@@ -162,6 +165,11 @@ impl Study {
     /// The choices in force, such as the friction law, in the terms of the study file.
     pub fn settings(&self) -> Vec<(&'static str, serde_json::Value)> {
         self.subject.settings()
+    }
+
+    /// The files that a program as the model is made of, as far as the study names them; none of other models.
+    pub fn program_files(&self) -> Vec<PathBuf> {
+        self.subject.program_files()
     }
 
     /// The inputs that are not factors, as (name, value, unit).

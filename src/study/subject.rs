@@ -1,14 +1,15 @@
 //! What a study is about: a model with its choices made.
 
 use std::fmt;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use serde_json::{Value, json};
 
 use crate::afm::{Options, Parameter, Scene};
 use crate::model::{
-    AfmModel, AfmOutput, Expression, ExpressionModel, KnownFunction, KnownModel, Model, ModelKind, Output,
-    ParameterValue, edge_unit, known_inputs,
+    AfmModel, AfmOutput, CommandModel, CommandSettings, Expression, ExpressionModel, Form, KnownFunction, KnownModel,
+    Model, ModelKind, Output, ParameterValue, edge_unit, known_inputs,
 };
 use crate::quantity::{Quantity, Unit};
 use crate::space::Space;
@@ -20,6 +21,8 @@ pub enum Subject {
     Afm(Box<AfmSubject>),
     /// Formulas.
     Expression(ExpressionSubject),
+    /// A program of the user's own.
+    Command(CommandSubject),
     /// A function with known indices.
     Known(KnownSubject),
     /// A model that is part of a program.
@@ -64,6 +67,15 @@ pub struct Formula {
     pub expression: Expression,
 }
 
+/// A program of the user's own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommandSubject {
+    /// The program and how it is asked.
+    pub settings: CommandSettings,
+    /// What decides its answers, in the terms of the study file.
+    pub(super) stated: Vec<(&'static str, Value)>,
+}
+
 /// A constant of formulas.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExpressionConstant {
@@ -99,6 +111,7 @@ impl Subject {
         match self {
             Self::Afm(_) => Some(ModelKind::Afm),
             Self::Expression(_) => Some(ModelKind::Expression),
+            Self::Command(_) => Some(ModelKind::Command),
             Self::Known(known) => Some(ModelKind::Known(known.function.answer())),
             Self::Custom(_) => None,
         }
@@ -107,6 +120,18 @@ impl Subject {
     /// The model's name in study files; `custom` for one that is part of a program.
     pub fn name(&self) -> &'static str {
         self.kind().map_or("custom", ModelKind::name)
+    }
+
+    /// The existing files that a program as the model is made of: those among its arguments, its template, and those that
+    /// each run gets. Of other models none.
+    pub fn program_files(&self) -> Vec<PathBuf> {
+        let Self::Command(command) = self else { return Vec::new() };
+        let mut files = command.settings.program.files();
+        if let Form::PerRun(form) = &command.settings.form {
+            files.push(form.template_file.clone());
+            files.extend(form.files.iter().cloned());
+        }
+        files
     }
 
     pub(super) fn model(&self, space: &Space) -> Box<dyn Model> {
@@ -122,6 +147,7 @@ impl Subject {
                 };
                 Box::new(ExpressionModel::new(formulas.iter().map(output).collect()))
             }
+            Self::Command(command) => Box::new(CommandModel::new(command.settings.clone(), space.factors().to_vec())),
             Self::Known(KnownSubject { function }) => {
                 let inputs = known_inputs(function);
                 let factors = names().filter_map(|name| inputs.iter().position(|i| i.name == name)).collect();
@@ -148,6 +174,7 @@ impl Subject {
                 let texts = formulas.iter().map(|formula| (formula.name.clone(), json!(formula.expression.text())));
                 vec![("formulas", Value::Object(texts.collect()))]
             }
+            Self::Command(command) => command.stated.clone(),
             Self::Known(known) => {
                 known.function.parameters().into_iter().map(|(name, value)| (name, in_json(value))).collect()
             }
@@ -174,7 +201,7 @@ impl Subject {
                 .filter(|input| !is_factor(&input.name))
                 .map(|input| constant(&input.name, input.nominal, input.unit.to_string()))
                 .collect(),
-            Self::Custom(_) => Vec::new(),
+            Self::Command(_) | Self::Custom(_) => Vec::new(),
         }
     }
 }
