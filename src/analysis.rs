@@ -1,9 +1,11 @@
 //! The whole way of the data in one function.
 
+use std::sync::atomic::AtomicBool;
+
 use crate::design::{Design, MAX_POINTS};
 use crate::estimate::{MomentParts, PointOutputs};
 use crate::report::{FinishedRun, ResultFile, RunFacts, StoppingRecord, build_result, judgement};
-use crate::run::{GrowingRun, Job, Progress, RunError, threads_in_force};
+use crate::run::{GrowingRun, Job, Keep, Progress, RunError, Shard, Store, threads_in_force};
 use crate::study::{Stopping, Study};
 use crate::uncertainty::{Judgement, KeptPoints, output_indices};
 
@@ -27,11 +29,84 @@ use crate::uncertainty::{Judgement, KeptPoints, output_indices};
 /// [`RunError`] if the threads cannot be started, a row fails in a study that says to stop then, or intervals need more
 /// outputs at once than fit. Otherwise rows that fail are part of the result.
 pub fn analyse(study: &Study, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<ResultFile, RunError> {
+    analyse_with(study, Running { on_progress, ..Running::on(threads) })
+}
+
+/// How a study is run.
+#[derive(Clone, Copy)]
+pub struct Running<'a> {
+    /// Threads (0: one per core).
+    pub threads: usize,
+    /// Called from time to time, from any thread.
+    pub on_progress: &'a (dyn Fn(Progress) + Sync),
+    /// Outputs that are there already, which are not evaluated again; those that are evaluated join them. A model that asks
+    /// for a [concurrency](crate::model::Model::concurrency) of its own is run with a store in any case.
+    pub store: Option<&'a Store>,
+    /// Told of every piece that joins the store.
+    pub keep: Option<Keep<'a>>,
+    /// Ends the run when it is set.
+    pub stop: Option<&'a AtomicBool>,
+}
+
+impl Running<'_> {
+    /// On `threads` threads (0: one per core), silently and without a store.
+    pub fn on(threads: usize) -> Self {
+        Self { threads, on_progress: &|_| (), store: None, keep: None, stop: None }
+    }
+}
+
+/// Evaluates the rows `shard` of `study` that the store of `running` lacks, and no others; nothing is estimated.
+///
+/// # Errors
+/// As for [`analyse_with`].
+pub fn evaluate_shard(study: &Study, shard: Shard, running: Running<'_>) -> Result<(), RunError> {
+    let model = study.model();
+    let job = Job { design: &study.design, space: &study.space, model: model.as_ref() };
+    let own = Store::new(&study.design, model.as_ref());
+    let run = growing(study, job, running)?.with_store(running.store.unwrap_or(&own));
+    run.fill(&shard.rows(&study.design), running.on_progress)
+}
+
+fn growing<'a>(study: &Study, job: Job<'a>, running: Running<'a>) -> Result<GrowingRun<'a>, RunError> {
+    let run = GrowingRun::new(job, running.threads)?.with_failures(study.analysis.failures);
+    let run = run.with_outputs_kept(study.analysis.intervals.keeps_outputs());
+    Ok(run.with_keep(running.keep).with_stop(running.stop))
+}
+
+/// Runs `study` as [`analyse`] does, with what is there already, and kept for the next time. The result is the same in
+/// every bit, wherever the outputs come from.
+///
+/// ```
+/// use std::path::Path;
+/// use apportion::run::Store;
+/// use apportion::study::Study;
+/// use apportion::{Running, analyse_with};
+///
+/// let text = include_str!("../studies/ishigami.toml");
+/// let study = Study::parse(text, Path::new("ishigami.toml"), &["design.base_samples=1024".to_owned()])?;
+/// let store = Store::new(&study.design, study.model().as_ref());
+/// let running = Running { store: Some(&store), ..Running::on(0) };
+/// let first = analyse_with(&study, running)?;
+/// // The second time nothing is evaluated; twice the points would evaluate the second half of them alone.
+/// let second = analyse_with(&study, running)?;
+/// assert_eq!(first.outputs, second.outputs);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RunError`] if the threads cannot be started, a row fails in a study that says to stop then, intervals need more
+/// outputs at once than fit, the model gives up, an output cannot be kept, or the run is asked to end.
+pub fn analyse_with(study: &Study, running: Running<'_>) -> Result<ResultFile, RunError> {
     let model = study.model();
     let longest = if study.stopping.grows() { longest(&study.design) } else { study.design.clone() };
     let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
-    let run = GrowingRun::new(job, threads)?.with_failures(study.analysis.failures);
-    let mut run = run.with_outputs_kept(study.analysis.intervals.keeps_outputs());
+    let own = Store::new(&longest, model.as_ref());
+    let store = running.store.or_else(|| model.concurrency().map(|_| &own));
+    let Running { threads, on_progress, .. } = running;
+    let mut run = growing(study, job, running)?;
+    if let Some(store) = store {
+        run = run.with_store(store);
+    }
     run.grow_to(study.design.points_per_replicate(), on_progress)?;
     let mut stopping = None;
     if study.stopping.grows() {

@@ -82,4 +82,4 @@ pub mod sum;
 pub mod sweep;
 pub mod uncertainty;
 
-pub use analysis::analyse;
+pub use analysis::{Running, analyse, analyse_with, evaluate_shard};

@@ -297,13 +297,15 @@ fn correlated_pairs(design: &Design) -> Option<String> {
 }
 
 /// A few runs of the study's model, and how long the whole design would take by them.
-struct Pilot {
+pub struct Pilot {
+    /// Runs it took.
     runs: u64,
-    seconds: f64,
+    /// Seconds that the whole design will take.
+    pub seconds: f64,
 }
 
 /// Runs ever larger first parts of the design until they take long enough to be measured, or are all of it.
-fn pilot(study: &Study) -> Result<Pilot, Failure> {
+pub fn pilot(study: &Study) -> Result<Pilot, Failure> {
     const ENOUGH: f64 = 0.1;
     let model = study.model();
     let mut points = 2;

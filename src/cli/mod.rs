@@ -10,12 +10,14 @@ mod models;
 mod new;
 mod pictures;
 mod progress;
+mod record;
 mod report;
 mod reproduce;
 mod run;
 mod schema;
 mod screen;
 mod simulate;
+mod stop;
 mod sweep;
 
 use std::io::{IsTerminal, Write};

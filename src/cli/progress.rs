@@ -71,9 +71,9 @@ impl Meter {
     }
 
     fn line(&self, progress: Progress) -> String {
-        let Progress { done, total, failed, elapsed } = progress;
+        let Progress { done, recalled, total, failed, elapsed } = progress;
         let seconds = elapsed.as_secs_f64();
-        let per_second = done as f64 / seconds;
+        let per_second = (done - recalled) as f64 / seconds;
         let left = total.saturating_sub(done) as f64 / per_second;
         let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
         let percent = 100.0 * done as f64 / total as f64;

@@ -3,18 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::analyse;
 use apportion::report::chart::{Chart, png};
 use apportion::report::{
     OutputRecord, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv, indices_chart,
-    indices_csv, inputs_in_words, interactions_chart, output_stem, prepare_file, prepare_folder, result_json, run_page,
-    scatter_chart, second_order_csv, study_chart, summary, write_atomically,
+    indices_csv, inputs_in_words, interactions_chart, output_stem, prepare_file, prepare_folder, read_result,
+    result_json, run_page, scatter_chart, second_order_csv, study_chart, summary, write_atomically,
 };
-use apportion::run::RunError;
+use apportion::run::{Keep, Piece, RunError, Shard, Store};
 use apportion::study::Study;
+use apportion::{Running, analyse_with, evaluate_shard};
 
 use super::progress::Meter;
-use super::{DesignChanges, Failure, StudyArguments, Threads, print, say};
+use super::record::{self, Record, Use, journal_path};
+use super::{DesignChanges, Failure, StudyArguments, Threads, print, say, stop};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -27,6 +28,43 @@ pub struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     threads: Threads,
+    #[command(flatten)]
+    record: RecordArguments,
+}
+
+/// What becomes of runs that are on record.
+#[derive(clap::Args)]
+struct RecordArguments {
+    /// Go on with an interrupted run; refused if its journal is missing or of another study. (Without this option a journal
+    /// of the same study is used if there is one)
+    #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
+    resume: bool,
+    /// Evaluate the runs that failed again, and keep all others
+    #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
+    retry_failed: bool,
+    /// Evaluate every run anew; a journal that is there is moved aside
+    #[arg(long)]
+    restart: bool,
+    /// Neither use nor write a journal
+    #[arg(long)]
+    no_journal: bool,
+    /// Twice the base samples of the result in the folder, whose runs are kept
+    #[arg(long, conflicts_with_all = ["base_samples", "shard"])]
+    double: bool,
+    /// Evaluate one of N parts of the runs into a journal of its own, for `apportion merge`
+    #[arg(long, value_name = "I/N", conflicts_with_all = ["no_journal", "retry_failed"])]
+    shard: Option<Shard>,
+}
+
+impl RecordArguments {
+    fn how(&self) -> Use {
+        match self {
+            Self { retry_failed: true, .. } => Use::RequireButFailures,
+            Self { resume: true, .. } => Use::Require,
+            Self { restart: true, .. } => Use::Discard,
+            _ => Use::IfThere,
+        }
+    }
 }
 
 /// The folder for results of the study called `name`.
@@ -35,23 +73,103 @@ pub fn default_folder(name: &str) -> PathBuf {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let study = arguments.study.load_with(&arguments.design.overrides())?;
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    let stop = stop::on_signal();
+    let study = study_of(arguments)?;
+    let folder = folder_of(arguments, &study);
+    let asked = &arguments.record;
     prepare_folder(&folder)?;
-    for file in files(&study) {
+    if asked.shard.is_none() {
+        prepare_files(&study, &folder)?;
+    } else if study.stopping.grows() {
+        let why = "a study with a target, a budget or max_runs has no size that could be shared out beforehand";
+        return Err(Failure::Input(anyhow!("--shard: {why}")));
+    }
+    let record = if asked.no_journal {
+        None
+    } else {
+        record::open(&study, &journal_path(&folder, &study.name, asked.shard), (asked.how(), asked.shard))?
+    };
+    let meter = Meter::new(&study.name, study.design.rows());
+    let on_progress = |progress| meter.update(progress);
+    let keep = |piece: &Piece| record.as_ref().map_or(Ok(()), |record| record.keep(piece));
+    let running = Running {
+        on_progress: &on_progress,
+        store: record.as_ref().map(|record| &record.store),
+        keep: record.as_ref().map(|_| &keep as Keep<'_>),
+        stop: Some(stop),
+        ..Running::on(arguments.threads.number())
+    };
+    let failed = |error| with_record(&study, error, record.as_ref());
+    let on_record = record.as_ref().map_or(0, |record| rows_on_record(&study, &record.store));
+    if let Some(record) = record.as_ref().filter(|_| on_record > 0) {
+        say(&format!("note: {on_record} of {} runs are on record in {}", study.design.rows(), record.path().display()));
+    }
+    if let Some((shard, record)) = asked.shard.zip(record.as_ref()) {
+        evaluate_shard(&study, shard, running).map_err(failed)?;
+        record.sync()?;
+        let rows: u64 = shard.rows(&study.design).iter().map(|(_, rows)| rows.end - rows.start).sum();
+        say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name, record.path().display()));
+        return Ok(());
+    }
+    let result = analyse_with(&study, running).map_err(failed)?;
+    if let Some(record) = &record {
+        record.sync()?;
+    }
+    meter.finish(
+        result.provenance.model_runs - on_record.min(result.provenance.model_runs),
+        result.provenance.wall_seconds,
+    );
+    deliver(&study, &folder, &result)
+}
+
+/// The study, with the changes that the command line makes to it.
+fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
+    let changes = arguments.design.overrides();
+    let study = arguments.study.load_with(&changes)?;
+    let RecordArguments { double, retry_failed, .. } = arguments.record;
+    if !double && !retry_failed || arguments.design.base_samples.is_some() {
+        return Ok(study);
+    }
+    let json = folder_of(arguments, &study).join(format!("{}.json", study.name));
+    let base_samples = match read_result(&json) {
+        Ok(result) => result.provenance.base_samples,
+        Err(_) if retry_failed && !double => return Ok(study),
+        Err(error) => return Err(Failure::Input(anyhow!("--double: there is no result to double: {error}"))),
+    };
+    let wanted = if double { base_samples.saturating_mul(2) } else { base_samples };
+    if wanted == study.design.settings().base_samples {
+        return Ok(study);
+    }
+    arguments.study.load_with(&[changes, vec![format!("design.base_samples={wanted}")]].concat())
+}
+
+fn folder_of(arguments: &Arguments, study: &Study) -> PathBuf {
+    arguments.out.clone().unwrap_or_else(|| default_folder(&study.name))
+}
+
+/// Checks, before anything is run, that the files of a run of `study` can be written.
+pub fn prepare_files(study: &Study, folder: &Path) -> Result<(), Failure> {
+    for file in files(study) {
         prepare_file(&folder.join(file.name))?;
     }
-    let meter = Meter::new(&study.name, study.design.rows());
-    let result = analyse(&study, arguments.threads.number(), &|progress| meter.update(progress))
-        .map_err(|error| with_inputs(&study, error))?;
-    meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
-    let written = write_files(&folder, &files(&study), &result)?;
-    print(&summary(&result))?;
+    Ok(())
+}
+
+/// Rows of the design that are in `store`.
+fn rows_on_record(study: &Study, store: &Store) -> u64 {
+    let rows = study.design.points_per_replicate() * study.design.rows_per_point();
+    (0..study.design.settings().replicates).map(|replicate| store.count(replicate, 0..rows).0).sum()
+}
+
+/// Writes the files of a result, and says what came out.
+pub fn deliver(study: &Study, folder: &Path, result: &ResultFile) -> Result<(), Failure> {
+    let written = write_files(folder, &files(study), result)?;
+    print(&summary(result))?;
     for file in written {
         say(&format!("wrote {}", file.display()));
     }
     let lost: Vec<&str> =
-        result.outputs.iter().filter(|output| lost(&study, output)).map(|output| output.name.as_str()).collect();
+        result.outputs.iter().filter(|output| lost(study, output)).map(|output| output.name.as_str()).collect();
     if lost.is_empty() {
         return Ok(());
     }
@@ -59,6 +177,21 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         "no indices of {}: too many runs failed (the result says which and why)",
         lost.join(", ")
     )))
+}
+
+/// What was done before an error is of use to the user.
+fn with_record(study: &Study, error: RunError, record: Option<&Record>) -> Failure {
+    let kept = match (&error, record) {
+        (RunError::Interrupted { .. } | RunError::GaveUp { .. } | RunError::NotKept { .. }, Some(record)) => {
+            // Whatever can be forced to the disk still.
+            let _ = record.sync();
+            let path = record.path().display();
+            format!("\nfinished runs are kept in {path}: the same command with --resume goes on with them")
+        }
+        (RunError::Interrupted { .. }, None) => "\nno journal was kept: the runs are lost".to_owned(),
+        _ => return with_inputs(study, error),
+    };
+    Failure::Run(anyhow!("{error}{kept}"))
 }
 
 /// Whether an output has no indices because runs failed, and not because it does not vary.
@@ -74,7 +207,7 @@ fn with_inputs(study: &Study, error: RunError) -> Failure {
         RunError::RowFailed { row, .. } => {
             Failure::Run(anyhow!("{error}\nthe run's inputs: {}", inputs_in_words(study, *row)))
         }
-        RunError::Threads { .. } | RunError::TooManyOutputs { .. } => error.into(),
+        _ => error.into(),
     }
 }
 

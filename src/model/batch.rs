@@ -50,6 +50,11 @@ impl Effort {
         Self { rungs: vec![0; rungs], ..Self::default() }
     }
 
+    /// Whether nothing was spent.
+    pub fn is_none(&self) -> bool {
+        self.evaluations == 0 && self.largest_error == 0.0 && self.rungs.iter().all(|rows| *rows == 0)
+    }
+
     /// Adds what was spent on other rows. The order does not matter, in any bit.
     pub fn merge(&mut self, other: &Self) {
         for (mine, theirs) in self.rungs.iter_mut().zip(&other.rungs) {
@@ -98,6 +103,11 @@ impl Batch {
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.rows
+    }
+
+    /// Number of outputs of every row.
+    pub fn outputs(&self) -> usize {
+        self.columns.len()
     }
 
     /// Sets one value, in SI units.

@@ -1,10 +1,10 @@
 //! One block of base points: unit cube to SI values, rows to outputs, outputs to totals.
 
-use super::Job;
 use super::totals::{OutputTotals, Place, Tally, Totals};
+use super::{Job, Store};
 use crate::design::Matrix;
 use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace};
-use crate::model::{Batch, Worker};
+use crate::model::{Batch, RowFailure, Worker};
 
 /// What a thread needs to evaluate blocks, kept from block to block.
 pub(super) struct Scratch<'a> {
@@ -38,11 +38,15 @@ impl<'a> Scratch<'a> {
         &mut self.unit
     }
 
-    /// Evaluates the base points in the unit columns. `report` is told of every batch: its runs, and how many of them
-    /// failed.
-    pub(super) fn evaluate(&mut self, job: Job<'_>, place: BlockPlace, report: &dyn Fn(u64, u64)) -> Totals {
-        self.run_rows(job, report);
-        let rows = self.unit.first().map_or(0, Vec::len);
+    /// Sets the outputs of `points` base points at `place` to those in `store`; false if a row is missing there.
+    pub(super) fn recall(&mut self, store: &Store, place: BlockPlace, points: usize) -> bool {
+        self.batches.iter_mut().for_each(|batch| batch.reset(points));
+        store.recall(place.first.replicate, place.first.point, &mut self.batches)
+    }
+
+    /// The totals of the outputs that were evaluated or recalled last.
+    pub(super) fn totals(&mut self, job: Job<'_>, place: BlockPlace) -> Totals {
+        let rows = self.batches.first().map_or(0, Batch::rows);
         let mut totals = Totals {
             runs: (rows * self.batches.len()) as u64,
             failed_runs: self.batches.iter().map(failed_rows).sum(),
@@ -60,7 +64,9 @@ impl<'a> Scratch<'a> {
         totals
     }
 
-    fn run_rows(&mut self, job: Job<'_>, report: &dyn Fn(u64, u64)) {
+    /// Evaluates the base points in the unit columns. `report` is told of every batch: its runs, and how many of them
+    /// failed. Returns why the model gave up, if it did.
+    pub(super) fn run_rows(&mut self, job: Job<'_>, report: &dyn Fn(u64, u64)) -> Option<RowFailure> {
         let factors = job.design.factors();
         for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
             values.resize(unit.len(), 0.0);
@@ -78,8 +84,12 @@ impl<'a> Scratch<'a> {
             batch.reset(inputs[0].len());
             self.worker.run(&inputs, batch);
             batch.settle();
+            if let Some(reason) = batch.given_up() {
+                return Some(reason.clone());
+            }
             report(batch.rows() as u64, failed_rows(batch));
         }
+        None
     }
 
     fn totals_of(&mut self, job: Job<'_>, output: usize, place: BlockPlace) -> OutputTotals {

@@ -55,7 +55,7 @@ pub(super) fn run(
         let runs = (last - first) * rows as u64;
         let done = done.fetch_add(runs, Ordering::Relaxed) + runs;
         let failed = failed.fetch_add(outcome.failed, Ordering::Relaxed) + outcome.failed;
-        on_progress(Progress { done, total, failed, elapsed: start.elapsed() });
+        on_progress(Progress { done, recalled: 0, total, failed, elapsed: start.elapsed() });
         outcome
     };
     let blocks = trajectories.div_ceil(block);

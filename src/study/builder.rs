@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use thiserror::Error;
 
 use super::subject::{CustomSubject, Subject};
-use super::{AnalysisOptions, Stopping, Study, resolve};
+use super::{AnalysisOptions, Stopping, Study, plan, resolve};
 use crate::design::{Design, DesignError, DesignSettings, Sampler};
 use crate::estimate::Estimator;
 use crate::model::Model;
@@ -175,7 +175,7 @@ impl StudyBuilder {
             replicates: self.replicates.unwrap_or(analysis.intervals.default_replicates()),
             seed: self.seed,
         };
-        let design = Design::new(settings, space.factors().len(), resolve::rows(&analysis, &space))?;
+        let design = Design::new(settings, space.factors().len(), plan::rows(&analysis, &space))?;
         let source = in_words(&self.name, &design, &space);
         Ok(Study {
             sha256: Sha256::digest(source.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect(),

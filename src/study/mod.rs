@@ -12,10 +12,12 @@ mod error;
 mod expression;
 mod file;
 mod function;
+mod identity;
 mod measured;
 mod nominal;
 mod options;
 mod overrides;
+mod plan;
 mod resolve;
 mod schema;
 mod subject;
@@ -165,11 +167,6 @@ impl Study {
     /// The choices in force, such as the friction law, in the terms of the study file.
     pub fn settings(&self) -> Vec<(&'static str, serde_json::Value)> {
         self.subject.settings()
-    }
-
-    /// The files that a program as the model is made of, as far as the study names them; none of other models.
-    pub fn program_files(&self) -> Vec<PathBuf> {
-        self.subject.program_files()
     }
 
     /// The inputs that are not factors, as (name, value, unit).

@@ -1,5 +1,4 @@
 //! What a study is about: a model with its choices made.
-
 use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -76,6 +75,19 @@ pub struct CommandSubject {
     pub(super) stated: Vec<(&'static str, Value)>,
 }
 
+impl CommandSubject {
+    /// The existing files that it is made of: those among the program and its arguments, the template, and what each run
+    /// gets.
+    fn files(&self) -> Vec<PathBuf> {
+        let mut files = self.settings.program.files();
+        if let Form::PerRun(form) = &self.settings.form {
+            files.push(form.template_file.clone());
+            files.extend(form.files.iter().cloned());
+        }
+        files
+    }
+}
+
 /// A constant of formulas.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExpressionConstant {
@@ -117,21 +129,17 @@ impl Subject {
         }
     }
 
+    /// Files of the user, beside the study itself, that the outputs depend on, as far as the study names them.
+    pub fn files(&self) -> Vec<PathBuf> {
+        match self {
+            Self::Afm(_) | Self::Expression(_) | Self::Known(_) | Self::Custom(_) => Vec::new(),
+            Self::Command(command) => command.files(),
+        }
+    }
+
     /// The model's name in study files; `custom` for one that is part of a program.
     pub fn name(&self) -> &'static str {
         self.kind().map_or("custom", ModelKind::name)
-    }
-
-    /// The existing files that a program as the model is made of: those among its arguments, its template, and those that
-    /// each run gets. Of other models none.
-    pub fn program_files(&self) -> Vec<PathBuf> {
-        let Self::Command(command) = self else { return Vec::new() };
-        let mut files = command.settings.program.files();
-        if let Form::PerRun(form) = &command.settings.form {
-            files.push(form.template_file.clone());
-            files.extend(form.files.iter().cloned());
-        }
-        files
     }
 
     pub(super) fn model(&self, space: &Space) -> Box<dyn Model> {

@@ -1,0 +1,58 @@
+//! Why a run ends without its totals.
+
+use thiserror::Error;
+
+use super::{MOST_KEPT, Place};
+use crate::model::RowFailure;
+
+/// Why a run could not take place, or was given up.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// The operating system refused the threads.
+    #[error("cannot start {threads} threads: {source}")]
+    Threads {
+        /// The number asked for.
+        threads: usize,
+        /// What rayon said.
+        source: rayon::ThreadPoolBuildError,
+    },
+    /// A row failed, and the run was to stop at the first one.
+    #[error("a run failed, and the study says to stop then: {reason}")]
+    RowFailed {
+        /// The row.
+        row: Place,
+        /// Why.
+        reason: RowFailure,
+    },
+    /// The outputs of all runs were to be kept, and are too many.
+    #[error(
+        "the outputs of {runs} runs, which these intervals need all at once, take {bytes} bytes of memory, more than the \
+         {MOST_KEPT} that they may: take fewer base samples or fewer outputs, or intervals = \"batches\""
+    )]
+    TooManyOutputs {
+        /// Model runs.
+        runs: u64,
+        /// Bytes that their outputs take.
+        bytes: u64,
+    },
+    /// The run was asked to end.
+    #[error("interrupted after {done} of {total} runs")]
+    Interrupted {
+        /// Model runs finished.
+        done: u64,
+        /// Model runs there would have been.
+        total: u64,
+    },
+    /// The model cannot go on.
+    #[error("the model cannot go on: {reason}")]
+    GaveUp {
+        /// Why.
+        reason: RowFailure,
+    },
+    /// Outputs could not be kept.
+    #[error("cannot keep the outputs of finished runs: {source}")]
+    NotKept {
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+}

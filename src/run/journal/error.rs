@@ -1,0 +1,58 @@
+//! What can be wrong with a journal.
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// Why a journal cannot be used.
+#[derive(Debug, Error)]
+pub enum JournalError {
+    /// The file cannot be read.
+    #[error("{}: cannot read the journal: {source}", .path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// The file cannot be written.
+    #[error("{}: cannot write the journal: {source}", .path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// Another process has it open.
+    #[error("{}: another run is writing this journal", .path.display())]
+    InUse {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It is something else, or its header is damaged.
+    #[error("{}: this is no journal of a run: {found}", .path.display())]
+    NotAJournal {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        found: String,
+    },
+    /// It is of a format that is not known.
+    #[error("{}: the journal is of format {version}; this program reads format 1", .path.display())]
+    OtherVersion {
+        /// The file.
+        path: PathBuf,
+        /// Its format.
+        version: u32,
+    },
+}
+
+impl JournalError {
+    pub(super) fn unreadable(path: &Path, source: std::io::Error) -> Self {
+        Self::Unreadable { path: path.to_owned(), source }
+    }
+
+    pub(super) fn unwritable(path: &Path, source: std::io::Error) -> Self {
+        Self::Unwritable { path: path.to_owned(), source }
+    }
+}

@@ -1,0 +1,163 @@
+//! The bytes of a journal. All numbers are little-endian.
+//!
+//! Header: `apportion journal` (17 bytes), version (u32), length of the JSON text (u32), its CRC-32 (u32), the text.
+//! Record: length of the body (u32), CRC-32 of those four bytes and the body (u32), the body.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::error::JournalError;
+use crate::model::{Effort, RowFailure};
+use crate::run::Piece;
+
+const MAGIC: &[u8] = b"apportion journal";
+const VERSION: u32 = 1;
+
+/// What a journal holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contents {
+    /// Of which study it is.
+    pub header: Value,
+    /// Its pieces, in the order in which they were written: later ones stand in place of earlier ones.
+    pub pieces: Vec<Piece>,
+    /// Bytes up to the end of the last whole record.
+    pub length: u64,
+    /// Bytes after it: of a record that was cut short or damaged, and all that follows.
+    pub cut_off: u64,
+}
+
+pub(super) fn write_header(out: &mut Vec<u8>, header: &Value) {
+    let text = header.to_string();
+    out.extend_from_slice(MAGIC);
+    for number in [VERSION, text.len() as u32, crc32fast::hash(text.as_bytes())] {
+        out.extend_from_slice(&number.to_le_bytes());
+    }
+    out.extend_from_slice(text.as_bytes());
+}
+
+pub(super) fn write_record(out: &mut Vec<u8>, piece: &Piece) {
+    let begin = out.len();
+    out.extend_from_slice(&[0; 8]);
+    for number in [piece.replicate, piece.first, piece.values.len() as u64] {
+        out.extend_from_slice(&number.to_le_bytes());
+    }
+    piece.values.iter().for_each(|value| out.extend_from_slice(&value.to_bits().to_le_bytes()));
+    out.extend_from_slice(&(piece.failures.len() as u32).to_le_bytes());
+    for (row, output, why) in &piece.failures {
+        let why = why.to_string();
+        for number in [*row, *output, why.len() as u32] {
+            out.extend_from_slice(&number.to_le_bytes());
+        }
+        out.extend_from_slice(why.as_bytes());
+    }
+    let Effort { rungs, evaluations, largest_error } = &piece.effort;
+    for list in [&piece.flags, rungs] {
+        out.extend_from_slice(&(list.len() as u32).to_le_bytes());
+        list.iter().for_each(|number| out.extend_from_slice(&number.to_le_bytes()));
+    }
+    out.extend_from_slice(&evaluations.to_le_bytes());
+    out.extend_from_slice(&largest_error.to_bits().to_le_bytes());
+    let length = ((out.len() - begin - 8) as u32).to_le_bytes();
+    out[begin..begin + 4].copy_from_slice(&length);
+    let checksum = checksum(length, &out[begin + 8..]).to_le_bytes();
+    out[begin + 4..begin + 8].copy_from_slice(&checksum);
+}
+
+/// The length is part of what is checked: a run of zeros, which some file systems leave after a power cut, is no record.
+fn checksum(length: [u8; 4], body: &[u8]) -> u32 {
+    let mut hasher = crc32fast::Hasher::new();
+    hasher.update(&length);
+    hasher.update(body);
+    hasher.finalize()
+}
+
+/// Reads the bytes of a journal; `path` is for messages.
+///
+/// # Errors
+/// [`JournalError`] if it is no journal, or of another version. Whatever is wrong with its records is cut off.
+pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError> {
+    let wrong = |found: &str| JournalError::NotAJournal { path: path.to_owned(), found: found.to_owned() };
+    let mut reader = Reader { bytes };
+    if reader.take(MAGIC.len()) != Some(MAGIC) {
+        return Err(wrong(if bytes.is_empty() { "the file is empty" } else { "it does not begin as one" }));
+    }
+    let short = || wrong("its header is cut short");
+    let version = reader.u32().ok_or_else(short)?;
+    if version != VERSION {
+        return Err(JournalError::OtherVersion { path: path.to_owned(), version });
+    }
+    let (length, checksum) = (reader.u32().ok_or_else(short)?, reader.u32().ok_or_else(short)?);
+    let text = reader.take(length as usize).ok_or_else(short)?;
+    if crc32fast::hash(text) != checksum {
+        return Err(wrong("its header is damaged"));
+    }
+    let header = serde_json::from_slice(text).map_err(|error| wrong(&error.to_string()))?;
+    let mut pieces = Vec::new();
+    let mut whole = reader.bytes.len();
+    while let Some(piece) = record(&mut reader) {
+        pieces.push(piece);
+        whole = reader.bytes.len();
+    }
+    Ok(Contents { header, pieces, length: (bytes.len() - whole) as u64, cut_off: whole as u64 })
+}
+
+/// The next record, if it is whole.
+fn record(reader: &mut Reader<'_>) -> Option<Piece> {
+    let (length, expected) = (reader.u32()?, reader.u32()?);
+    let body = reader.take(length as usize)?;
+    if checksum(length.to_le_bytes(), body) != expected {
+        return None;
+    }
+    let mut reader = Reader { bytes: body };
+    let piece = piece(&mut reader)?;
+    reader.bytes.is_empty().then_some(piece)
+}
+
+/// Most rows that a replicate may have by what a journal says: beyond any design, and far from where sums overflow.
+const MOST_ROWS: u64 = 1 << 60;
+
+fn piece(reader: &mut Reader<'_>) -> Option<Piece> {
+    let (replicate, first, count) = (reader.u64()?, reader.u64()?, reader.u64()?);
+    if first > MOST_ROWS {
+        return None;
+    }
+    let values = reader.take(usize::try_from(count).ok()?.checked_mul(8)?)?;
+    let values = values.as_chunks().0.iter().map(|bytes| f64::from_bits(u64::from_le_bytes(*bytes))).collect();
+    let mut failures = Vec::new();
+    for _ in 0..reader.u32()? {
+        let (row, output, length) = (reader.u32()?, reader.u32()?, reader.u32()?);
+        let why = std::str::from_utf8(reader.take(length as usize)?).ok()?;
+        failures.push((row, output, RowFailure::new(why)));
+    }
+    let (flags, rungs) = (reader.list()?, reader.list()?);
+    let effort = Effort { rungs, evaluations: reader.u64()?, largest_error: f64::from_bits(reader.u64()?) };
+    Some(Piece { replicate, first, values, failures, flags, effort })
+}
+
+/// Bytes still to be read.
+struct Reader<'a> {
+    bytes: &'a [u8],
+}
+
+impl<'a> Reader<'a> {
+    fn take(&mut self, count: usize) -> Option<&'a [u8]> {
+        let (taken, rest) = self.bytes.split_at_checked(count)?;
+        self.bytes = rest;
+        Some(taken)
+    }
+
+    fn u32(&mut self) -> Option<u32> {
+        Some(u32::from_le_bytes(self.take(4)?.try_into().ok()?))
+    }
+
+    fn u64(&mut self) -> Option<u64> {
+        Some(u64::from_le_bytes(self.take(8)?.try_into().ok()?))
+    }
+
+    fn list(&mut self) -> Option<Vec<u64>> {
+        let count = self.u32()? as usize;
+        let bytes = self.take(count.checked_mul(8)?)?;
+        Some(bytes.as_chunks().0.iter().map(|bytes| u64::from_le_bytes(*bytes)).collect())
+    }
+}

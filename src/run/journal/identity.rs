@@ -1,0 +1,47 @@
+//! In what two headers differ.
+
+use serde_json::Value;
+
+/// In what the identity of a journal differs from that of a study, in sentences, at most a few; none if they are equal.
+pub fn differences(journal: &Value, study: &Value) -> Vec<String> {
+    const MOST: usize = 3;
+    let mut found = Vec::new();
+    compare("", journal, study, &mut found);
+    let more = found.len().saturating_sub(MOST);
+    found.truncate(MOST);
+    if more > 0 {
+        found.push(format!("and {more} more"));
+    }
+    found
+}
+
+fn compare(key: &str, journal: &Value, study: &Value, found: &mut Vec<String>) {
+    match (journal, study) {
+        (Value::Object(a), Value::Object(b)) => {
+            let keys = a.keys().chain(b.keys().filter(|key| !a.contains_key(*key)));
+            for name in keys {
+                let inner = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
+                compare(&inner, a.get(name).unwrap_or(&Value::Null), b.get(name).unwrap_or(&Value::Null), found);
+            }
+        }
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+            for (place, (a, b)) in a.iter().zip(b).enumerate() {
+                // Lists of things with names speak of them by name.
+                let name = b.get("name").and_then(Value::as_str).map_or_else(|| (place + 1).to_string(), str::to_owned);
+                compare(&format!("{key}.{name}"), a, b, found);
+            }
+        }
+        (a, b) if a == b => (),
+        (a, b) => found.push(match (a, b) {
+            (Value::Null, b) => format!("{key} is {} in the study, and not in the journal", short(b)),
+            (a, Value::Null) => format!("{key} was {} in the journal, and is not in the study", short(a)),
+            (a, b) => format!("{key} was {} and is now {}", short(a), short(b)),
+        }),
+    }
+}
+
+fn short(value: &Value) -> String {
+    const MOST: usize = 60;
+    let text = value.to_string();
+    if text.chars().count() <= MOST { text } else { text.chars().take(MOST).chain("...".chars()).collect() }
+}

@@ -1,0 +1,134 @@
+use proptest::prelude::*;
+use serde_json::json;
+
+use super::*;
+use crate::model::{Effort, RowFailure};
+
+fn piece(first: u64, rows: usize) -> Piece {
+    let values = (0..rows).map(|row| if row == 2 { f64::NAN } else { (first as f64 + row as f64).sqrt() }).collect();
+    let failures = if rows > 2 { vec![(2, 0, RowFailure::new("the tip slipped: \u{3bc} < 0"))] } else { Vec::new() };
+    let effort = Effort { rungs: vec![rows as u64, 0], evaluations: 7, largest_error: 1e-9 };
+    Piece { replicate: 3, first, values, failures, flags: vec![1, 2], effort }
+}
+
+#[track_caller]
+fn assert_same(found: &[Piece], expected: &[Piece]) {
+    // NaN is not equal to itself, but its text is.
+    assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+}
+
+fn written(pieces: &[Piece]) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.journal");
+    let journal = Journal::create(&path, &json!({ "study": "a" })).unwrap();
+    pieces.iter().for_each(|piece| journal.append(piece).unwrap());
+    (folder, path)
+}
+
+#[test]
+fn what_was_appended_comes_back() {
+    let pieces = [piece(0, 5), piece(5, 1), piece(6, 300)];
+    let (_folder, path) = written(&pieces[..2]);
+    let (journal, contents) = Journal::resume(&path).unwrap();
+    assert_eq!((contents.header, contents.cut_off), (json!({ "study": "a" }), 0));
+    assert_same(&contents.pieces, &pieces[..2]);
+    journal.append(&pieces[2]).unwrap();
+    drop(journal);
+    assert_same(&read_journal(&path, &std::fs::read(&path).unwrap()).unwrap().pieces, &pieces);
+    // A new one takes the place of the old.
+    drop(Journal::create(&path, &json!({ "study": "b" })).unwrap());
+    let contents = read_journal(&path, &std::fs::read(&path).unwrap()).unwrap();
+    assert_eq!((contents.header, contents.pieces.len()), (json!({ "study": "b" }), 0));
+}
+
+#[test]
+fn a_journal_cut_short_anywhere_keeps_every_whole_record_and_goes_on() {
+    let pieces = [piece(0, 5), piece(5, 1), piece(6, 4)];
+    let (_folder, path) = written(&pieces);
+    let bytes = std::fs::read(&path).unwrap();
+    let ends: Vec<usize> = (0..=3).map(|count| std::fs::read(&written(&pieces[..count]).1).unwrap().len()).collect();
+    for length in 0..bytes.len() {
+        if length < ends[0] {
+            assert!(matches!(read_journal(&path, &bytes[..length]), Err(JournalError::NotAJournal { .. })), "{length}");
+            continue;
+        }
+        let whole = ends.iter().rposition(|end| *end <= length).unwrap();
+        std::fs::write(&path, &bytes[..length]).unwrap();
+        let (journal, contents) = Journal::resume(&path).unwrap();
+        assert_same(&contents.pieces, &pieces[..whole]);
+        assert_eq!(contents.cut_off, (length - ends[whole]) as u64);
+        journal.append(&piece(40, 1)).unwrap();
+        drop(journal);
+        let contents = read_journal(&path, &std::fs::read(&path).unwrap()).unwrap();
+        assert_same(&contents.pieces[whole..], &[piece(40, 1)]);
+        assert_eq!(contents.cut_off, 0);
+    }
+}
+
+#[test]
+fn damage_is_cut_off_and_never_read_as_outputs() {
+    let pieces = [piece(0, 5), piece(5, 3), piece(8, 4)];
+    let (_folder, path) = written(&pieces);
+    let bytes = std::fs::read(&path).unwrap();
+    let header = std::fs::read(&written(&[]).1).unwrap().len();
+    for at in 0..bytes.len() {
+        let mut damaged = bytes.clone();
+        damaged[at] ^= 0x10;
+        match read_journal(&path, &damaged) {
+            Err(_) => assert!(at < header, "byte {at}"),
+            Ok(contents) => {
+                assert!(at >= header && contents.pieces.len() < 3, "byte {at}");
+                assert_same(&contents.pieces, &pieces[..contents.pieces.len()]);
+            }
+        }
+    }
+    // What some file systems leave behind a file whose end had not reached the disk.
+    let zeros = [&bytes[..], &[0; 4096]].concat();
+    let contents = read_journal(&path, &zeros).unwrap();
+    assert_eq!((contents.pieces.len(), contents.cut_off), (3, 4096));
+}
+
+#[test]
+fn other_files_are_refused_with_the_reason() {
+    let refused = |bytes: &[u8]| read_journal(Path::new("x"), bytes).unwrap_err().to_string();
+    assert!(refused(b"").contains("x: this is no journal of a run: the file is empty"));
+    assert!(refused(b"y\n1.0\n").contains("it does not begin as one"));
+    assert!(refused(b"apportion journal\x02\0\0\0").contains("is of format 2"));
+    assert!(refused(b"apportion journal\x01\0\0\0\xff\xff\xff\xff\0\0\0\0").contains("cut short"));
+}
+
+#[test]
+fn two_runs_cannot_write_one_journal() {
+    let (_folder, path) = written(&[]);
+    let (journal, _) = Journal::resume(&path).unwrap();
+    let refused = Journal::resume(&path).unwrap_err();
+    assert!(matches!(refused, JournalError::InUse { .. }), "{refused}");
+    let refused = Journal::create(&path, &json!({})).unwrap_err();
+    assert!(matches!(refused, JournalError::InUse { .. }), "{refused}");
+    drop(journal);
+    assert!(Journal::resume(&path).is_ok());
+}
+
+#[test]
+fn differences_are_told_in_sentences() {
+    let a = json!({ "model": "afm", "factors": [{ "name": "x", "max": 1.0 }], "design": { "seed": 1 } });
+    let b = json!({ "model": "afm", "factors": [{ "name": "x", "max": 2.0 }], "design": { "seed": 1, "sampler": "sobol" } });
+    let expected =
+        ["factors.x.max was 1.0 and is now 2.0", "design.sampler is \"sobol\" in the study, and not in the journal"];
+    assert_eq!(differences(&a, &b), expected);
+    assert_eq!(differences(&a, &a), [] as [String; 0]);
+    let many = |add: u64| json!([0, 1, 2, 3, 4].map(|n| n + add));
+    let found = differences(&json!({ "n": many(0) }), &json!({ "n": many(1) }));
+    assert_eq!((found.len(), found[3].as_str()), (4, "and 2 more"));
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_panic(tail in prop::collection::vec(any::<u8>(), 0..200), cut in 0_usize..100) {
+        let mut bytes = Vec::new();
+        format::write_header(&mut bytes, &json!({}));
+        bytes.truncate(bytes.len().saturating_sub(cut));
+        bytes.extend(tail);
+        let _ = read_journal(Path::new("x"), &bytes);
+    }
+}

@@ -1,0 +1,112 @@
+//! Parts of a design, for several machines.
+
+use std::fmt;
+use std::ops::Range;
+use std::str::FromStr;
+
+use thiserror::Error;
+
+use crate::design::Design;
+
+/// Most parts.
+const MOST: u64 = 1_000_000;
+
+/// One of several parts of a design, as equal as can be: consecutive base points with all of their rows.
+///
+/// ```
+/// use apportion::run::Shard;
+///
+/// let shard: Shard = "3/8".parse()?;
+/// assert_eq!((shard.number(), shard.of()), (3, 8));
+/// # Ok::<(), apportion::run::ShardError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    number: u64,
+    of: u64,
+}
+
+/// A text that names no part.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("expected a part as in 3/8, the third of eight (from 1/8 to 8/8; at most {MOST} parts), not {found:?}")]
+pub struct ShardError {
+    found: String,
+}
+
+impl FromStr for Shard {
+    type Err = ShardError;
+
+    fn from_str(text: &str) -> Result<Self, ShardError> {
+        let parsed = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
+        match parsed {
+            Some((number, of)) if (1..=of).contains(&number) && of <= MOST => Ok(Self { number, of }),
+            _ => Err(ShardError { found: text.to_owned() }),
+        }
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.number, self.of)
+    }
+}
+
+impl Shard {
+    /// Its number, from 1.
+    pub fn number(self) -> u64 {
+        self.number
+    }
+
+    /// How many there are.
+    pub fn of(self) -> u64 {
+        self.of
+    }
+
+    /// Its rows of `design`, as (replicate, rows counted within it); none if there are more parts than base points.
+    pub fn rows(self, design: &Design) -> Vec<(u64, Range<u64>)> {
+        let (all, per_replicate) = (design.settings().base_samples, design.points_per_replicate());
+        let bound = |part: u64| (u128::from(part) * u128::from(all) / u128::from(self.of)) as u64;
+        let points = bound(self.number - 1)..bound(self.number);
+        (points.start / per_replicate..points.end.div_ceil(per_replicate))
+            .filter_map(|replicate| {
+                let first = replicate * per_replicate;
+                let part = points.start.max(first) - first..points.end.min(first + per_replicate) - first;
+                let rows = part.start * design.rows_per_point()..part.end * design.rows_per_point();
+                (!rows.is_empty()).then_some((replicate, rows))
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{DesignSettings, Rows};
+
+    #[test]
+    fn the_parts_are_the_whole_and_none_is_in_two() {
+        let settings = DesignSettings { base_samples: 100, replicates: 4, ..DesignSettings::default() };
+        let design = Design::new(settings, 2, Rows::plain(vec![vec![0], vec![1]])).unwrap();
+        for of in [1, 2, 3, 7, 100, 150] {
+            let mut rows: Vec<(u64, u64)> = Vec::new();
+            let mut sizes = Vec::new();
+            for number in 1..=of {
+                let part = Shard { number, of }.rows(&design);
+                sizes.push(part.iter().map(|(_, rows)| rows.end - rows.start).sum::<u64>());
+                rows.extend(part.into_iter().flat_map(|(replicate, rows)| rows.map(move |row| (replicate, row))));
+            }
+            let all: Vec<(u64, u64)> = (0..4).flat_map(|replicate| (0..100).map(move |row| (replicate, row))).collect();
+            assert_eq!(rows, all, "{of} parts");
+            assert!(sizes.iter().max().unwrap() - sizes.iter().min().unwrap() <= design.rows_per_point());
+        }
+    }
+
+    #[test]
+    fn only_parts_of_a_whole_are_parts() {
+        for text in ["", "1", "0/3", "4/3", "1/0", "-1/3", "1/3/4", "a/b", "1/1000001", "1 / 3"] {
+            let message = text.parse::<Shard>().unwrap_err().to_string();
+            assert!(message.contains("3/8") && message.contains(&format!("{text:?}")), "{message}");
+        }
+        assert_eq!("2/3".parse::<Shard>().unwrap().to_string(), "2/3");
+    }
+}

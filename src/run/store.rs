@@ -1,0 +1,263 @@
+//! Outputs of any rows of a design, wherever they came from: a run under way, a journal, other machines, a file.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use super::BLOCK;
+use crate::design::Design;
+use crate::model::{Batch, Effort, Model, RowFailure};
+
+/// Outputs of consecutive rows of one replicate. Rows are counted within the replicate, base point by base point
+/// (row = point * [`Design::rows_per_point`] + run), so that their numbers stay the same when the design is made longer.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Piece {
+    /// The replicate.
+    pub replicate: u64,
+    /// The first row.
+    pub first: u64,
+    /// Outputs in SI units, row by row; NaN where there is none.
+    pub values: Vec<f64>,
+    /// Why outputs are missing, as (row from the first one, output, reason), in order. Every value that is not finite
+    /// is among them.
+    pub failures: Vec<(u32, u32, RowFailure)>,
+    /// How many of the rows raised each validity flag of the model.
+    pub flags: Vec<u64>,
+    /// What a model with a ladder of fidelities spent on them.
+    pub effort: Effort,
+}
+
+impl Piece {
+    /// The rows of a settled batch, from row `first` of `replicate` on.
+    pub fn of_batch(replicate: u64, first: u64, batch: &Batch) -> Self {
+        let outputs = batch.outputs();
+        let mut values = vec![f64::NAN; batch.rows() * outputs];
+        for output in 0..outputs {
+            for (row, value) in batch.column(output).iter().enumerate() {
+                values[row * outputs + output] = *value;
+            }
+        }
+        let mut failures: Vec<_> =
+            batch.failures().iter().map(|(output, row, why)| (*row as u32, *output as u32, why.clone())).collect();
+        failures.sort_unstable();
+        for (row, output, _) in &failures {
+            values[*row as usize * outputs + *output as usize] = f64::NAN;
+        }
+        let (flags, effort) = (batch.flags().to_vec(), batch.effort().clone());
+        Self { replicate, first, values, failures, flags, effort }
+    }
+
+    /// Number of rows, of `outputs` outputs each.
+    pub fn rows(&self, outputs: usize) -> u64 {
+        (self.values.len() / outputs.max(1)) as u64
+    }
+}
+
+/// The outputs that are there, of a design that may still grow. Shared between threads.
+#[derive(Debug)]
+pub struct Store {
+    outputs: usize,
+    rows_per_point: u64,
+    /// By replicate and block of base points.
+    chunks: Mutex<BTreeMap<(u64, u64), Chunk>>,
+}
+
+/// Outputs of the rows of one block.
+#[derive(Debug)]
+struct Chunk {
+    values: Vec<f64>,
+    present: Vec<bool>,
+    failures: BTreeMap<(u32, u32), RowFailure>,
+    /// Flags and effort of every piece, by its first row.
+    counts: Vec<(u32, Vec<u64>, Effort)>,
+}
+
+impl Store {
+    /// Nothing yet of the rows of `design` through `model`.
+    pub fn new(design: &Design, model: &dyn Model) -> Self {
+        let (outputs, rows_per_point) = (model.outputs().len(), design.rows_per_point());
+        Self { outputs, rows_per_point, chunks: Mutex::default() }
+    }
+
+    /// Outputs of every row.
+    pub fn outputs(&self) -> usize {
+        self.outputs
+    }
+
+    fn chunks(&self) -> MutexGuard<'_, BTreeMap<(u64, u64), Chunk>> {
+        // A thread that panicked has ended the run; chunks are never left half changed in a way that matters then.
+        self.chunks.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn chunk_rows(&self) -> u64 {
+        BLOCK * self.rows_per_point
+    }
+
+    /// Puts the rows of `piece` in the store, in place of those that are there; returns how many were new.
+    pub fn insert(&self, piece: &Piece) -> u64 {
+        let rows = piece.rows(self.outputs);
+        let mut new = 0;
+        let mut counts = Some((&piece.flags, &piece.effort));
+        let counted = piece.flags.iter().any(|raised| *raised > 0) || !piece.effort.is_none();
+        let mut chunks = self.chunks();
+        for (block, range) in self.by_block(piece.first..piece.first + rows) {
+            let length = self.chunk_rows() as usize;
+            let chunk = chunks.entry((piece.replicate, block)).or_insert_with(|| Chunk::empty(length, self.outputs));
+            let at = (range.start - block * self.chunk_rows()) as usize;
+            let (from, count) = ((range.start - piece.first) as usize, (range.end - range.start) as usize);
+            new += chunk.present[at..at + count].iter().filter(|present| !**present).count() as u64;
+            chunk.present[at..at + count].fill(true);
+            let values = &piece.values[from * self.outputs..][..count * self.outputs];
+            chunk.values[at * self.outputs..][..values.len()].copy_from_slice(values);
+            if !chunk.failures.is_empty() {
+                chunk.failures.retain(|(row, _), _| !(at..at + count).contains(&(*row as usize)));
+            }
+            let here = |row: u32| (from..from + count).contains(&(row as usize));
+            for (row, output, why) in piece.failures.iter().filter(|(row, ..)| here(*row)) {
+                chunk.failures.insert(((*row as usize - from + at) as u32, *output), why.clone());
+            }
+            if let Some((flags, effort)) = counts.take().filter(|_| counted) {
+                chunk.counts.push((at as u32, flags.clone(), effort.clone()));
+            }
+        }
+        new
+    }
+
+    /// The rows `rows` of `replicate`, cut where one block ends and the next begins.
+    fn by_block(&self, rows: Range<u64>) -> impl Iterator<Item = (u64, Range<u64>)> + use<> {
+        let length = self.chunk_rows();
+        let blocks = if rows.is_empty() { 0..0 } else { rows.start / length..rows.end.div_ceil(length) };
+        blocks.map(move |block| (block, rows.start.max(block * length)..rows.end.min((block + 1) * length)))
+    }
+
+    /// The rows among `rows` of `replicate` that are not there, as ranges in order, each within one block.
+    pub fn missing(&self, replicate: u64, rows: Range<u64>) -> Vec<Range<u64>> {
+        let chunks = self.chunks();
+        let mut missing: Vec<Range<u64>> = Vec::new();
+        for (block, range) in self.by_block(rows) {
+            let Some(chunk) = chunks.get(&(replicate, block)) else {
+                missing.push(range);
+                continue;
+            };
+            let start = block * self.chunk_rows();
+            let absent = |row: &u64| !chunk.present[(row - start) as usize];
+            let mut row = range.start;
+            while let Some(first) = (row..range.end).find(absent) {
+                let end = (first..range.end).find(|row| !absent(row)).unwrap_or(range.end);
+                missing.push(first..end);
+                row = end;
+            }
+        }
+        missing
+    }
+
+    /// Rows of `replicate` among `rows` that are there, and how many of them failed in an output.
+    pub fn count(&self, replicate: u64, rows: Range<u64>) -> (u64, u64) {
+        let chunks = self.chunks();
+        let (mut present, mut failed) = (0, 0);
+        for (block, range) in self.by_block(rows) {
+            let Some(chunk) = chunks.get(&(replicate, block)) else { continue };
+            let start = block * self.chunk_rows();
+            let here = (range.start - start) as usize..(range.end - start) as usize;
+            present += chunk.present[here.clone()].iter().filter(|present| **present).count() as u64;
+            failed += chunk.failed_rows(here);
+        }
+        (present, failed)
+    }
+
+    /// Forgets the rows that failed in an output, so that they are missing; returns how many.
+    pub fn forget_failures(&self) -> u64 {
+        let mut forgotten = 0;
+        for chunk in self.chunks().values_mut() {
+            for (row, _) in std::mem::take(&mut chunk.failures).into_keys() {
+                forgotten += u64::from(std::mem::replace(&mut chunk.present[row as usize], false));
+            }
+        }
+        forgotten
+    }
+
+    /// The rows `rows` of `replicate` as one piece; `None` if one of them is missing. Flags and effort are those of the
+    /// pieces that began among them.
+    pub fn piece(&self, replicate: u64, rows: Range<u64>) -> Option<Piece> {
+        let chunks = self.chunks();
+        let mut piece = Piece { replicate, first: rows.start, ..Piece::default() };
+        for (block, range) in self.by_block(rows.clone()) {
+            let chunk = chunks.get(&(replicate, block))?;
+            let start = block * self.chunk_rows();
+            let here = (range.start - start) as usize..(range.end - start) as usize;
+            if chunk.present[here.clone()].contains(&false) {
+                return None;
+            }
+            piece.values.extend_from_slice(&chunk.values[here.start * self.outputs..here.end * self.outputs]);
+            for ((row, output), why) in chunk.failures_among(here.clone()) {
+                piece.failures.push(((start + u64::from(row) - rows.start) as u32, output, why.clone()));
+            }
+            for (flags, effort) in chunk.counts_among(here) {
+                if piece.flags.is_empty() {
+                    (piece.flags, piece.effort) = (flags.clone(), effort.clone());
+                } else {
+                    piece.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
+                    piece.effort.merge(effort);
+                }
+            }
+        }
+        Some(piece)
+    }
+
+    /// Sets `batches`, one for each run, to the base points from `point` on, as many as the batches have rows, all in one
+    /// block. False, with batches of no meaning, if a row is missing.
+    pub(super) fn recall(&self, replicate: u64, point: u64, batches: &mut [Batch]) -> bool {
+        let chunks = self.chunks();
+        let Some(chunk) = chunks.get(&(replicate, point / BLOCK)) else { return false };
+        let runs = batches.len();
+        let points = batches.first().map_or(0, Batch::rows);
+        let first = (point % BLOCK) as usize * runs;
+        let here = first..first + points * runs;
+        if chunk.present[here.clone()].contains(&false) {
+            return false;
+        }
+        let rows = &chunk.values[here.start * self.outputs..here.end * self.outputs];
+        for (run, batch) in batches.iter_mut().enumerate() {
+            for output in 0..self.outputs {
+                let column = batch.column_mut(output);
+                for (point, value) in column.iter_mut().enumerate() {
+                    *value = rows[(point * runs + run) * self.outputs + output];
+                }
+            }
+        }
+        for ((row, output), why) in chunk.failures_among(here.clone()) {
+            let row = row as usize - first;
+            batches[row % runs].fail(row / runs, output as usize, why.clone());
+        }
+        // Counts are summed over all runs of a block: any batch may hold them.
+        for (flags, effort) in chunk.counts_among(here) {
+            batches[0].add_counts(flags, effort);
+        }
+        batches.iter_mut().for_each(Batch::settle);
+        true
+    }
+}
+
+impl Chunk {
+    fn empty(rows: usize, outputs: usize) -> Self {
+        let (values, present) = (vec![f64::NAN; rows * outputs], vec![false; rows]);
+        Self { values, present, failures: BTreeMap::new(), counts: Vec::new() }
+    }
+
+    fn failures_among(&self, rows: Range<usize>) -> impl Iterator<Item = ((u32, u32), &RowFailure)> {
+        self.failures.range((rows.start as u32, 0)..(rows.end as u32, 0)).map(|(place, why)| (*place, why))
+    }
+
+    fn failed_rows(&self, rows: Range<usize>) -> u64 {
+        let mut last = None;
+        self.failures_among(rows).filter(|((row, _), _)| last.replace(*row) != Some(*row)).count() as u64
+    }
+
+    fn counts_among(&self, rows: Range<usize>) -> impl Iterator<Item = (&Vec<u64>, &Effort)> {
+        let here = move |first: u32| rows.contains(&(first as usize));
+        self.counts.iter().filter(move |(first, ..)| here(*first)).map(|(_, flags, effort)| (flags, effort))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,124 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::design::{DesignSettings, Rows};
+use crate::model::Output;
+use crate::quantity::Unit;
+
+/// Two outputs, one validity flag; never run.
+struct Described([Output; 2], [crate::model::Flag; 1]);
+
+impl Model for Described {
+    fn outputs(&self) -> &[Output] {
+        &self.0
+    }
+
+    fn flags(&self) -> &[crate::model::Flag] {
+        &self.1
+    }
+
+    fn worker(&self) -> Box<dyn crate::model::Worker + '_> {
+        unreachable!("only described")
+    }
+}
+
+fn described() -> Described {
+    let output = |name| Output::new(name, Unit::dimensionless(), "");
+    let flag = crate::model::Flag { name: "odd".into(), description: "".into() };
+    Described([output("y"), output("z")], [flag])
+}
+
+/// Three factors: five rows a base point.
+fn design() -> Design {
+    let settings = DesignSettings { base_samples: 1024, replicates: 1, ..DesignSettings::default() };
+    Design::new(settings, 3, Rows::plain(vec![vec![0], vec![1], vec![2]])).unwrap()
+}
+
+/// Outputs that tell their row; every 7th row fails in its second output, with a flag for every row.
+fn piece(rows: Range<u64>) -> Piece {
+    let values = |row: u64| [row as f64, if row.is_multiple_of(7) { f64::NAN } else { -(row as f64) }];
+    let failed = rows.clone().filter(|row| row.is_multiple_of(7));
+    let failures = failed.map(|row| ((row - rows.start) as u32, 1, RowFailure::new("a multiple of 7"))).collect();
+    let flags = vec![rows.end - rows.start];
+    Piece { first: rows.start, values: rows.flat_map(values).collect(), failures, flags, ..Piece::default() }
+}
+
+#[track_caller]
+fn assert_same(found: &Piece, expected: &Piece) {
+    let bits = |piece: &Piece| piece.values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+    assert_eq!((found.first, bits(found)), (expected.first, bits(expected)));
+    assert_eq!((&found.failures, &found.flags), (&expected.failures, &expected.flags));
+}
+
+proptest! {
+    /// Whatever the pieces, what comes back is what was put in; what was not is missing.
+    #[test]
+    fn pieces_of_any_size_come_back(cuts in prop::collection::btree_set(1_u64..4000, 0..12), lost in 0_usize..13) {
+        let store = Store::new(&design(), &described());
+        let ends: Vec<u64> = cuts.iter().copied().chain([4000]).collect();
+        let mut first = 0;
+        let pieces: Vec<Range<u64>> = ends.iter().map(|end| std::mem::replace(&mut first, *end)..*end).collect();
+        for (number, rows) in pieces.iter().enumerate() {
+            if number != lost {
+                prop_assert_eq!(store.insert(&piece(rows.clone())), rows.end - rows.start);
+            }
+        }
+        let missing = store.missing(0, 0..4000);
+        match pieces.get(lost) {
+            Some(rows) => {
+                prop_assert_eq!(missing.iter().map(|range| range.end - range.start).sum::<u64>(), rows.end - rows.start);
+                prop_assert_eq!((missing[0].start, missing[missing.len() - 1].end), (rows.start, rows.end));
+                prop_assert!(store.piece(0, 0..4000).is_none());
+                prop_assert_eq!(store.count(0, 0..4000).0, 4000 - (rows.end - rows.start));
+            }
+            None => {
+                prop_assert!(missing.is_empty());
+                assert_same(&store.piece(0, 0..4000).unwrap(), &piece(0..4000));
+                prop_assert_eq!(store.count(0, 0..4000), (4000, 572));
+            }
+        }
+    }
+}
+
+#[test]
+fn the_runs_of_base_points_are_recalled_as_batches() {
+    let (store, model) = (Store::new(&design(), &described()), described());
+    store.insert(&piece(0..2000));
+    let mut batches = vec![Batch::of(&model); 5];
+    // Base points 100 to 110 are rows 500 to 550.
+    batches.iter_mut().for_each(|batch| batch.reset(10));
+    assert!(store.recall(0, 100, &mut batches));
+    for (run, batch) in batches.iter().enumerate() {
+        let rows: Vec<u64> = (100..110).map(|point| point * 5 + run as u64).collect();
+        assert!(batch.column(0).iter().zip(&rows).all(|(value, row)| *value == *row as f64));
+        let failed: Vec<usize> = batch.failures().iter().map(|(_, row, _)| *row).collect();
+        let expected: Vec<usize> = (0..10).filter(|at| rows[*at].is_multiple_of(7)).collect();
+        assert_eq!(failed, expected);
+    }
+    // Flags belong to the base points at which their piece began.
+    assert_eq!(batches[0].flags(), [0]);
+    batches.iter_mut().for_each(|batch| batch.reset(256));
+    assert!(store.recall(0, 0, &mut batches));
+    assert_eq!(batches[0].flags(), [2000]);
+    assert!(!store.recall(0, 256, &mut batches), "rows 2000 on are missing");
+    assert!(!store.recall(1, 0, &mut batches));
+}
+
+#[test]
+fn failures_can_be_forgotten_and_rows_replaced() {
+    let store = Store::new(&design(), &described());
+    store.insert(&piece(1270..1300));
+    let failing: Vec<u64> = (1270..1300).filter(|row| row % 7 == 0).collect();
+    assert_eq!(store.forget_failures(), failing.len() as u64);
+    assert_eq!(store.forget_failures(), 0);
+    let missing: Vec<u64> = store.missing(0, 1270..1300).into_iter().flatten().collect();
+    assert_eq!(missing, failing);
+    for row in &missing {
+        let values = vec![1.0, 2.0];
+        assert_eq!(store.insert(&Piece { first: *row, values, flags: vec![0], ..Piece::default() }), 1);
+    }
+    assert_eq!(store.count(0, 1270..1300), (30, 0));
+    // A row that is there is replaced, with its failure.
+    assert_eq!(store.insert(&piece(1274..1276)), 0);
+    assert_eq!(store.count(0, 1270..1300), (30, 1));
+}

@@ -1,0 +1,60 @@
+//! What makes two studies the same, as far as the outputs of their runs go.
+
+use serde_json::{Map, Value, json};
+use sha2::{Digest, Sha256};
+
+use super::Study;
+use crate::design::{Sampler, Swap};
+
+impl Study {
+    /// All that the outputs of the runs depend on, as JSON: the model with its choices and constants, the factors, the
+    /// points of the design and which rows they have, and the version of the program. Not how many points there are
+    /// (but for Latin hypercubes, whose points depend on it), what is estimated from them, and names and titles.
+    ///
+    /// Two studies of equal identity have the same outputs at the same rows, bit by bit, if their models are
+    /// deterministic. Of a model outside this program or in the program that uses the library it knows what the study
+    /// says, and no more.
+    pub fn identity(&self) -> Value {
+        let settings: Map<String, Value> =
+            self.settings().into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+        let constants: Map<String, Value> =
+            self.constants().into_iter().map(|(name, value, unit)| (name, json!([value, unit]))).collect();
+        let outputs: Vec<Value> =
+            self.model().outputs().iter().map(|o| json!({ "name": o.name, "unit": o.unit.to_string() })).collect();
+        let factor = |factor: &crate::space::Factor| {
+            json!({
+                "name": factor.name,
+                "unit": factor.unit().to_string(),
+                "distribution": factor.distribution(),
+                // Long lists of values are told in short by the line above.
+                "digest": digest(&format!("{:?}", factor.distribution())),
+            })
+        };
+        let (design, settings_of_design) = (&self.design, self.design.settings());
+        let names = |swap: &Swap| swap.iter().map(|k| self.space.factors()[*k].name.as_str()).collect::<Vec<_>>();
+        let mut points = json!({
+            "sampler": settings_of_design.sampler,
+            "seed": settings_of_design.seed,
+            "replicates": settings_of_design.replicates,
+            "rows_per_point": design.rows_per_point(),
+            "swaps": design.swaps().iter().map(|swap| names(swap).join("+")).collect::<Vec<_>>(),
+            "companions": { "ba": design.companions().ba, "bc": design.companions().bc, "cb": design.companions().cb },
+        });
+        if settings_of_design.sampler == Sampler::LatinHypercube {
+            points["base_samples"] = json!(settings_of_design.base_samples);
+        }
+        json!({
+            "apportion": env!("CARGO_PKG_VERSION"),
+            "model": self.subject.name(),
+            "settings": settings,
+            "constants": constants,
+            "outputs": outputs,
+            "factors": self.space.factors().iter().map(factor).collect::<Vec<_>>(),
+            "design": points,
+        })
+    }
+}
+
+fn digest(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}
