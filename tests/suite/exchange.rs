@@ -111,7 +111,8 @@ fn three_steps_give_the_bits_of_one_run_in_every_format() {
     let study = study_path("ishigami");
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    let run = ["run", text(&study), "--base-samples", "512", "--no-journal", "--out", text(&at("run"))];
+    let out = at("run");
+    let run = ["run", text(&study), "--base-samples", "512", "--no-journal", "--out", text(&out)];
     succeed(&run);
     let whole = read_result(&at("run").join("ishigami.json")).unwrap();
     succeed(&["sample", text(&study), "--base-samples", "512", "-o", text(&at("design.csv"))]);

@@ -4,6 +4,7 @@ mod accuracy;
 mod afm_contact_oracle;
 mod analytic;
 mod builder;
+mod command;
 mod commands;
 mod common;
 mod corpus;
