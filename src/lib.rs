@@ -83,5 +83,6 @@ pub mod study;
 pub mod sum;
 pub mod sweep;
 pub mod uncertainty;
+mod words;
 
 pub use analysis::{Running, analyse, analyse_with, evaluate_shard};

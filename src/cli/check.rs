@@ -12,6 +12,7 @@ use apportion::space::{Distribution, Factor};
 use apportion::study::{Stopping, Study, Subject};
 use apportion::uncertainty::IntervalMethod;
 
+use super::outlook::outlook;
 use super::run::{default_folder, files};
 use super::{DesignChanges, Failure, StudyArguments, print, say_notes};
 
@@ -33,6 +34,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let mut text = subject(&study);
     text.push_str(&factors(&study));
     text.push_str(&design(&study)?);
+    text.push_str(&outlook(&study, &folder)?);
     text.push_str(&format!("\nwill be written to {}:\n", folder.display()));
     for file in files(&study) {
         text.push_str(&format!("  {}  {}\n", file.name, file.content));

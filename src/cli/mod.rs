@@ -7,8 +7,10 @@ mod completions;
 mod evaluate;
 mod given_data;
 mod man;
+mod merge;
 mod models;
 mod new;
+mod outlook;
 mod pictures;
 mod progress;
 mod record;
@@ -50,6 +52,8 @@ enum Command {
     Reproduce(reproduce::Arguments),
     /// Run a study: design, model runs, indices, charts
     Run(run::Arguments),
+    /// Join the parts of a run (run --shard I/N) into its result
+    Merge(merge::Arguments),
     /// Draw the page, tables and charts of a result again, from its JSON file alone
     Report(report::Arguments),
     /// Set two results side by side: by how much the indices differ, and whether that is more than their errors
@@ -214,6 +218,7 @@ pub fn main() -> ExitCode {
         Command::New(arguments) => new::new(&arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Run(arguments) => run::run(&arguments),
+        Command::Merge(arguments) => merge::merge(&arguments),
         Command::Sample(arguments) => sample::sample(&arguments),
         Command::Analyze(arguments) => analyze::analyze(&arguments),
         Command::Report(arguments) => report::report(&arguments),

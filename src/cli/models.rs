@@ -28,6 +28,7 @@ pub fn models(arguments: &Arguments) -> Result<(), Failure> {
         ModelKind::Afm => flagship(),
         ModelKind::Expression => expression(),
         ModelKind::External => external(),
+        ModelKind::Command => command(),
         ModelKind::Known(answer) => function(answer),
     })
 }
@@ -95,7 +96,7 @@ fn list() -> String {
     let mut models = table(&["model", "inputs", "what it is"], &[0, 2]);
     for kind in ModelKind::all() {
         let inputs = match kind {
-            ModelKind::Expression | ModelKind::External => "any".to_owned(),
+            ModelKind::Expression | ModelKind::External | ModelKind::Command => "any".to_owned(),
             _ => kind.inputs().len().to_string(),
         };
         models.add_row([kind.name(), &inputs, kind.description()]);
@@ -124,6 +125,35 @@ fn external() -> String {
          Factors are those of the study, with names and units of its own. The three steps:\n\n  \
          apportion sample STUDY.toml -o design.csv\n  (the model computes its outputs, row by row, into outputs.csv)\n  \
          apportion analyze outputs.csv --design design.csv\n\nFiles are CSV, Parquet or NPY, by their ending.\n",
+        kind.name(),
+        kind.description()
+    )
+}
+
+fn command() -> String {
+    let kind = ModelKind::Command;
+    format!(
+        "{}: {}\n\n  model = \"command\"\n  command = [\"python3\", \"my_model.py\"]    # relative to the study; no shell reads it\n  \
+         outputs = [\"y\"]\n\nThe program is kept alive. It reads the names of the factors and then a line of values for each row, in \
+         the units of the\nstudy, and prints a line of numbers for each, at once:\n\n  import csv, sys\n  for row in \
+         csv.DictReader(sys.stdin):\n      x = {{name: float(value) for name, value in row.items()}}\n      \
+         print(x[\"x1\"] * x[\"x2\"], flush=True)\n\nor \"error: \" and a reason where there is no answer. With units and choices:\n\n  \
+         [command]\n  program = [\"python3\", \"my_model.py\"]\n  outputs.force = \"nN\"\n  outputs.time = \"s\"\n  \
+         protocol = \"json-lines\"      # an object for each row in, and one out [csv]\n  \
+         workers = 4                  # processes at once [one for each core]\n  \
+         timeout = \"60 s\"             # for a row [none]\n  \
+         retries = 1                  # of a row on which the program died, hung or printed rubbish\n  \
+         directory = \"model\"          # where it runs [the folder of the study]\n  \
+         env.OMP_NUM_THREADS = \"1\"\n\nA program that reads an input file runs once for each row, in a directory of its own:\n\n  \
+         [command]\n  program = [\"simulator\", \"beam.in\"]\n  \
+         template = \"beam.in\"         # text in which {{{{name}}}} stands for a factor\n  \
+         input = \"beam.in\"            # its name in the directory of a run\n  \
+         files = [\"mesh.dat\"]         # copied there\n  \
+         keep = \"runs\"                # where these directories stay [they are removed]\n  \
+         outputs.force = {{ file = \"beam.out\", regex = 'force = (\\S+)', unit = \"nN\" }}\n  \
+         outputs.time = {{ file = \"history.csv\", column = \"t\", match = \"last\" }}\n  \
+         outputs.mass = {{ file = \"result.json\", pointer = \"/beam/mass\" }}\n\n\
+         docs/worker-protocol.md has it in full, with what happens when a program dies, hangs, or prints rubbish.\n",
         kind.name(),
         kind.description()
     )

@@ -1,11 +1,11 @@
 //! `apportion new`: a study file to begin with.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::model::ModelKind;
 use apportion::report::write_atomically;
-use apportion::study::{Problem, Study, TemplateRequest, template};
+use apportion::study::{NEW_PROGRAM, Problem, Study, TemplateRequest, new_program, template};
 
 use super::models::find_model;
 use super::{Failure, say};
@@ -15,7 +15,7 @@ use super::{Failure, say};
 pub struct Arguments {
     /// The study file to write (TOML)
     study: PathBuf,
-    /// The model: afm, or a function of `apportion models`
+    /// The model: afm, expression, command (a program of your own), or a function of `apportion models`
     #[arg(long, value_name = "NAME", default_value = "afm")]
     model: String,
     /// Inputs that become factors, separated by commas [default: the main ones; of a function all]
@@ -50,8 +50,22 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
     let (factors, runs) = (study.space.factors().len(), study.design.rows());
     let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
     say(&format!("wrote {}: {factors}, {runs} runs", path.display()));
+    if let Some(program) = new_program(&request).map_err(|problem| wrong(&problem, model))? {
+        write_program(&path.with_file_name(NEW_PROGRAM), &program)?;
+    }
     let step = if model == ModelKind::External { "sample" } else { "run" };
     say(&format!("next: edit it, then `apportion check {0}` and `apportion {step} {0}`", path.display()));
+    Ok(())
+}
+
+/// Writes the program beside its study, unless there is one: it may be somebody's work.
+fn write_program(path: &Path, text: &str) -> Result<(), Failure> {
+    if path.exists() {
+        say(&format!("{} is there already and stays as it is", path.display()));
+        return Ok(());
+    }
+    write_atomically(path, text.as_bytes())?;
+    say(&format!("wrote {}: the model, a sum to be replaced", path.display()));
     Ok(())
 }
 

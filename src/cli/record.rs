@@ -64,6 +64,14 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
     }
 }
 
+/// Opens the record of `study` at `path` as [`open`] does, however quick its runs are.
+pub fn open_always(study: &Study, path: &Path, how: Use) -> Result<Record, Failure> {
+    match open(study, path, (how, None))? {
+        Some(record) => Ok(record),
+        None => begin(study, path, None),
+    }
+}
+
 /// Opens the record of `study` at `path`. A journal of something else, or one that is not wanted, is moved aside. `None`
 /// if there is none and the runs are quicker than it is worth.
 pub fn open(study: &Study, path: &Path, (how, shard): (Use, Option<Shard>)) -> Result<Option<Record>, Failure> {
@@ -140,15 +148,27 @@ pub fn filled(study: &Study, contents: &Contents) -> Store {
     store
 }
 
+/// Rows of the design that are in `store`.
+pub fn rows_on_record(study: &Study, store: &Store) -> u64 {
+    let rows = study.design.points_per_replicate() * study.design.rows_per_point();
+    (0..study.design.settings().replicates).map(|replicate| store.count(replicate, 0..rows).0).sum()
+}
+
 fn fresh(study: &Study, path: &Path, shard: Option<Shard>) -> Result<Option<Record>, Failure> {
+    if shard.is_some() || keeps_journal(study)? { begin(study, path, shard).map(Some) } else { Ok(None) }
+}
+
+/// Whether a run of `study` keeps a journal: not a large one of quick runs.
+pub fn keeps_journal(study: &Study) -> Result<bool, Failure> {
     let model = study.model();
     let bytes = study.design.rows().saturating_mul(8 * model.outputs().len() as u64);
-    if shard.is_none() && model.concurrency().is_none() && bytes > LARGE && seconds(study)? < QUICK {
-        return Ok(None);
-    }
-    let store = Store::new(&study.design, model.as_ref());
+    Ok(model.concurrency().is_some() || bytes <= LARGE || seconds(study)? >= QUICK)
+}
+
+fn begin(study: &Study, path: &Path, shard: Option<Shard>) -> Result<Record, Failure> {
+    let store = Store::new(&study.design, study.model().as_ref());
     let journal = Journal::create(path, &header(study, shard)).map_err(wrong)?;
-    Ok(Some(Record { store, journal }))
+    Ok(Record { store, journal })
 }
 
 /// What the whole run will take, in seconds, by its first runs.

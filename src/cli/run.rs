@@ -15,7 +15,7 @@ use apportion::study::Study;
 use apportion::{Running, analyse_with, evaluate_shard};
 
 use super::progress::Meter;
-use super::record::{self, Record, Use, journal_path};
+use super::record::{self, Record, Use, journal_path, rows_on_record};
 use super::{DesignChanges, Failure, StudyArguments, Threads, print, say, stop};
 
 #[derive(clap::Args)]
@@ -181,12 +181,6 @@ pub fn prepare_files(study: &Study, folder: &Path) -> Result<(), Failure> {
         prepare_file(&folder.join(file.name))?;
     }
     Ok(())
-}
-
-/// Rows of the design that are in `store`.
-fn rows_on_record(study: &Study, store: &Store) -> u64 {
-    let rows = study.design.points_per_replicate() * study.design.rows_per_point();
-    (0..study.design.settings().replicates).map(|replicate| store.count(replicate, 0..rows).0).sum()
 }
 
 /// Writes the files of a result, and says what came out.

@@ -159,9 +159,9 @@ mod tests {
             assert_eq!(block.replicate * design.rows() / 3 + block.first, number);
             for row in 0..block.rows {
                 design.point(number + row as u64, &mut u);
-                for (column, factor) in space.factors().iter().enumerate() {
-                    let (mut si, typed) = ([0.0], columns[column][row]);
-                    factor.fill_si(&u[column..=column], &mut si);
+                for ((factor, column), u) in space.factors().iter().zip(&columns).zip(&u) {
+                    let (mut si, typed) = ([0.0], column[row]);
+                    factor.fill_si(std::slice::from_ref(u), &mut si);
                     // One rounding where no number of the unit becomes this SI value.
                     assert!((factor.unit().to_si(typed) - si[0]).abs() <= f64::EPSILON * si[0].abs());
                 }

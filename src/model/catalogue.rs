@@ -16,6 +16,8 @@ pub enum ModelKind {
     Expression,
     /// A model that runs outside of this program.
     External,
+    /// A program of the user's own.
+    Command,
     /// A function with known indices.
     Known(KnownAnswer),
 }
@@ -42,7 +44,10 @@ pub struct Input {
 impl ModelKind {
     /// Every model, the default first.
     pub fn all() -> Vec<Self> {
-        [Self::Afm, Self::Expression, Self::External].into_iter().chain(KnownAnswer::all().map(Self::Known)).collect()
+        [Self::Afm, Self::Expression, Self::Command, Self::External]
+            .into_iter()
+            .chain(KnownAnswer::all().map(Self::Known))
+            .collect()
     }
 
     /// The name in study files.
@@ -51,6 +56,7 @@ impl ModelKind {
             Self::Afm => "afm",
             Self::Expression => "expression",
             Self::External => "external",
+            Self::Command => "command",
             Self::Known(function) => function.name(),
         }
     }
@@ -68,16 +74,17 @@ impl ModelKind {
             Self::External => {
                 "any model outside of this program: `sample` writes the points, `analyze` reads its outputs"
             }
+            Self::Command => "a program of your own, in any language",
             Self::Known(function) => function.description(),
         }
     }
 
-    /// The inputs, the main ones first; of a function, those it has with its default parameters; none of formulas and of
-    /// a model outside, whose inputs are the factors of a study.
+    /// The inputs, the main ones first; of a function, those it has with its default parameters; none of formulas, of
+    /// programs and of models outside, whose inputs are the factors of a study.
     pub fn inputs(self) -> Vec<Input> {
         match self {
             Self::Afm => Parameter::ALL.iter().map(afm_input).collect(),
-            Self::Expression | Self::External => Vec::new(),
+            Self::Expression | Self::Command | Self::External => Vec::new(),
             Self::Known(answer) => known_inputs(&answer.default_function()),
         }
     }
@@ -102,15 +109,15 @@ impl ModelKind {
                 ("step (fixed-step)", vec!["a time, \"10 ms\""]),
                 ("step_budget (marched rungs)", vec!["a whole number, 1000000"]),
             ],
-            Self::Expression | Self::External | Self::Known(_) => Vec::new(),
+            Self::Expression | Self::Command | Self::External | Self::Known(_) => Vec::new(),
         }
     }
 
-    /// The outputs, the default one first; none of formulas and of a model outside, which a study names.
+    /// The outputs, the default one first; none of formulas, of programs and of models outside, which a study names.
     pub fn outputs(self) -> Vec<Output> {
         match self {
             Self::Afm => AfmOutput::ALL.iter().map(|output| output.info()).collect(),
-            Self::Expression | Self::External => Vec::new(),
+            Self::Expression | Self::Command | Self::External => Vec::new(),
             Self::Known(_) => vec![KnownModel::output()],
         }
     }

@@ -7,6 +7,7 @@
 mod afm;
 mod batch;
 mod catalogue;
+mod command;
 mod expression;
 mod external;
 mod function;
@@ -15,6 +16,10 @@ mod known;
 pub use afm::{AfmModel, AfmOutput, edge_unit};
 pub use batch::{Batch, Effort, RowFailure};
 pub use catalogue::{Input, ModelKind, known_inputs};
+pub use command::{
+    Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, PickError, Program,
+    Protocol, Source, TemplateError, TemplateProblem, Way, parse_answer,
+};
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
 pub use external::ExternalModel;
 pub use function::{FunctionModel, function_model};

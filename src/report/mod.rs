@@ -7,7 +7,6 @@ pub mod chart;
 pub mod comparison;
 pub mod distribution;
 pub mod given;
-mod language;
 pub mod page;
 mod read;
 mod result;
@@ -21,13 +20,14 @@ pub mod screening;
 mod shares_chart;
 pub mod sweep;
 mod tables;
+mod trend;
 mod warnings;
 mod write;
 
+pub use crate::words::{capitalised, listed};
 pub use asked::{AskedFactor, AskedRecord, Drawing};
 pub use build::{FinishedRun, RunFacts, build_result, result_json};
 pub use build_output::{inputs_in_words, judgement};
-pub use language::{capitalised, listed};
 pub use read::{ReadError, ReadProblem, parse_result, read_result};
 pub use result::*;
 pub use run_charts::{convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart};
@@ -39,4 +39,5 @@ pub use tables::{
     convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,
     summary, table, with_unit,
 };
+pub use trend::{widest_interval, width_after_doubling};
 pub use write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};

@@ -282,6 +282,7 @@ impl Growth<'_, '_> {
             points.fill(first, scratch.unit_columns(rows as usize));
             if let Some(reason) = scratch.run_rows(self.job, &|runs, failed| self.report(runs, failed)) {
                 self.end(RunError::GaveUp { reason });
+                return Totals::none(self.job.model);
             }
         }
         let totals = scratch.totals(self.job, place);

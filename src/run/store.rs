@@ -204,6 +204,23 @@ impl Store {
         Some(piece)
     }
 
+    /// All rows that are there, as pieces in order, each within one block.
+    pub fn pieces(&self) -> Vec<Piece> {
+        let length = self.chunk_rows();
+        let blocks: Vec<(u64, u64)> = self.chunks().keys().copied().collect();
+        let present = |(replicate, block): (u64, u64)| {
+            let rows = block * length..(block + 1) * length;
+            let mut first = rows.start;
+            let mut found = Vec::new();
+            for missing in self.missing(replicate, rows.clone()).into_iter().chain([rows.end..rows.end]) {
+                found.extend((first < missing.start).then_some((replicate, first..missing.start)));
+                first = missing.end;
+            }
+            found
+        };
+        blocks.into_iter().flat_map(present).filter_map(|(replicate, rows)| self.piece(replicate, rows)).collect()
+    }
+
     /// Sets `batches`, one for each run, to the base points from `point` on, as many as the batches have rows, all in one
     /// block. False, with batches of no meaning, if a row is missing.
     pub(super) fn recall(&self, replicate: u64, point: u64, batches: &mut [Batch]) -> bool {

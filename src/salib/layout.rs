@@ -91,30 +91,35 @@ pub enum LayoutError {
         rows: usize,
     },
     /// A row that is not what its place in the layout says.
-    #[error(
-        "row {row} should be the row {kind} of its base point (rows {first} to {last}), {layout}, but its {input} is {found} \
-         where {from} has {expected}: the rows are in another order, or the points are not those of SALib"
-    )]
-    WrongRow {
-        /// Row of the table, from 1.
-        row: usize,
-        /// What it should be.
-        kind: String,
-        /// First row of the base point, from 1.
-        first: usize,
-        /// Last row of the base point.
-        last: usize,
-        /// The layout, in words.
-        layout: &'static str,
-        /// The input.
-        input: String,
-        /// Its value.
-        found: String,
-        /// A or B.
-        from: &'static str,
-        /// The value there.
-        expected: String,
-    },
+    #[error(transparent)]
+    WrongRow(#[from] Box<WrongRow>),
+}
+
+/// A row that is not what its place in the layout says.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error(
+    "row {row} should be the row {kind} of its base point (rows {first} to {last}), {layout}, but its {input} is {found} \
+     where {from} has {expected}: the rows are in another order, or the points are not those of SALib"
+)]
+pub struct WrongRow {
+    /// Row of the table, from 1.
+    pub row: usize,
+    /// What it should be.
+    pub kind: String,
+    /// First row of the base point, from 1.
+    pub first: usize,
+    /// Last row of the base point.
+    pub last: usize,
+    /// The layout, in words.
+    pub layout: &'static str,
+    /// The input.
+    pub input: String,
+    /// Its value.
+    pub found: String,
+    /// A or B.
+    pub from: &'static str,
+    /// The value there.
+    pub expected: String,
 }
 
 /// The layout of `rows` rows for `d` inputs or groups: the one `asked` for, or the only one that the number of rows
@@ -174,7 +179,7 @@ pub fn check_points(
                 let (source, from) = if swapped.contains(&place) { other } else { base };
                 let (found, expected) = (column[row], column[source]);
                 if !is_same(found, expected) {
-                    return Err(LayoutError::WrongRow {
+                    return Err(LayoutError::from(Box::new(WrongRow {
                         row: row + 1,
                         kind: layout.row_name(row - first, d),
                         first: first + 1,
@@ -184,7 +189,7 @@ pub fn check_points(
                         found: found.to_string(),
                         from,
                         expected: expected.to_string(),
-                    });
+                    })));
                 }
             }
         }

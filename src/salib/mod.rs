@@ -11,5 +11,5 @@ mod problem;
 mod tests;
 
 pub use estimate::{PairIndex, SalibIndex, SalibIndices, salib_indices};
-pub use layout::{LayoutError, SalibLayout, check_points, recognise};
+pub use layout::{LayoutError, SalibLayout, WrongRow, check_points, recognise};
 pub use problem::{ProblemError, SalibProblem};

@@ -121,6 +121,22 @@ pub enum Problem {
     /// The model runs outside, and nobody says what it computes.
     #[error("the study has no output: model = \"external\" needs a table [external] with the outputs and their units")]
     NoExternalOutputs,
+    /// A program is the model, and is not named.
+    #[error("the study has no program: model = \"command\" needs one")]
+    NoProgram,
+    /// A program is the model, and nobody says what its outputs are.
+    #[error("the study does not say what the program's outputs are")]
+    NoProgramOutputs,
+    /// A file that a program's runs need, and that cannot be used.
+    #[error("{place}: {reason}")]
+    ProgramFile {
+        /// The file, with line and column where there are some.
+        place: String,
+        /// What is wrong.
+        reason: String,
+        /// What would be right.
+        help: String,
+    },
     /// A formula that cannot be read.
     #[error("{source}{}", suggestion(.nearest))]
     Expression {
@@ -264,6 +280,12 @@ impl Problem {
             Self::NoExternalOutputs => Some("write, for instance: [external], then outputs.force = \"nN\"".to_owned()),
             Self::NoFormulas => Some("write, for instance: [expression], then outputs.y = \"x1 + 2*x2\"".to_owned()),
             Self::Expression { expected, .. } => Some(expected.clone()).filter(|known| !known.is_empty()),
+            Self::NoProgram => Some("write, for instance: command = [\"python3\", \"my_model.py\"]".to_owned()),
+            Self::NoProgramOutputs => Some(
+                "write, for instance: outputs = [\"y\"]; or in the table [command], with a unit: outputs.y = \"nN\""
+                    .to_owned(),
+            ),
+            Self::ProgramFile { help, .. } => Some(help.clone()),
             Self::NoOutputs => Some("name at least one output, or leave `outputs` out".to_owned()),
             Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => {
                 Some(format!("it takes {takes}"))

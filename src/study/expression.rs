@@ -6,7 +6,7 @@ use toml::Value;
 
 use super::error::{Problem, nearest};
 use super::file::{At, Choices, ExpressionSection, FactorSection};
-use super::resolve::{Context, Fault, unknown_name};
+use super::resolve::{Context, Fault, chosen, own_inputs};
 use super::subject::{ExpressionConstant, ExpressionSubject, Formula};
 use crate::model::{Expression, ExpressionProblem, Input, Symbol};
 use crate::quantity::{Quantity, Unit};
@@ -14,24 +14,8 @@ use crate::space::Space;
 
 /// The inputs of formulas: the factors of the study, each in its own unit.
 pub(super) fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
-    let input = |section: &At<FactorSection>| {
-        refuse_name(context, "factor", &section.get_ref().name)?;
-        input(context, section)
-    };
-    factors.iter().map(input).collect()
-}
-
-/// An input that is what the study says of its factor.
-pub(super) fn input(context: &Context<'_>, section: &At<FactorSection>) -> Result<Input, Fault> {
-    let fields = section.get_ref();
-    let unit = match &fields.unit {
-        None => Unit::dimensionless(),
-        Some(typed) => Unit::parse(typed.get_ref()).map_err(|error| context.fault(typed.span(), error.into()))?,
-    };
-    let (name, symbol) = (fields.name.get_ref().clone(), fields.name.get_ref().clone());
-    // Not a number: nobody but the study says where it stands.
-    let (nominal, description) = (f64::NAN, "a factor of the study".to_owned());
-    Ok(Input { name, symbol, unit, nominal, domain: None, distribution: None, description })
+    factors.iter().try_for_each(|section| refuse_name(context, "factor", &section.get_ref().name))?;
+    own_inputs(context, factors)
 }
 
 fn refuse_name(context: &Context<'_>, what: &'static str, name: &At<String>) -> Result<(), Fault> {
@@ -67,32 +51,12 @@ pub(super) fn subject(
         formulas.push(formula(context, (name, value), space, &constants)?);
     }
     let notes = notes(&formulas, section, space);
-    Ok((ExpressionSubject { formulas: chosen(context, formulas, asked)?, constants }, notes))
-}
-
-/// The formulas asked for by `outputs = [...]`, or all.
-fn chosen(
-    context: &Context<'_>,
-    formulas: Vec<Formula>,
-    asked: Option<&At<Vec<At<String>>>>,
-) -> Result<Vec<Formula>, Fault> {
-    let Some(asked) = asked else { return Ok(formulas) };
-    if asked.get_ref().is_empty() {
-        return Err(context.fault(asked.span(), Problem::NoOutputs));
+    if let Some(asked) = asked {
+        let names: Vec<&str> = formulas.iter().map(|formula| formula.name.as_str()).collect();
+        let places = chosen(context, &names, asked)?;
+        formulas = places.into_iter().map(|place| formulas[place].clone()).collect();
     }
-    let mut chosen: Vec<Formula> = Vec::new();
-    for name in asked.get_ref() {
-        let Some(formula) = formulas.iter().find(|formula| formula.name == *name.get_ref()) else {
-            let known = formulas.iter().map(|formula| formula.name.as_str());
-            return Err(context.fault(name.span(), unknown_name("output", name.get_ref(), known)));
-        };
-        if chosen.contains(formula) {
-            let problem = Problem::Repeated { what: "output", name: formula.name.clone() };
-            return Err(context.fault(name.span(), problem));
-        }
-        chosen.push(formula.clone());
-    }
-    Ok(chosen)
+    Ok((ExpressionSubject { formulas, constants }, notes))
 }
 
 fn constants(context: &Context<'_>, table: &Choices, space: &Space) -> Result<Vec<ExpressionConstant>, Fault> {

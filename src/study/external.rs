@@ -3,25 +3,23 @@
 use toml::Value;
 
 use super::error::Problem;
-use super::expression;
 use super::file::{At, ExternalSection, FactorSection};
-use super::resolve::{Context, Fault, unknown_name};
+use super::resolve::{Context, Fault, own_inputs, unknown_name};
 use super::subject::ExternalSubject;
 use crate::model::{Input, Output};
 use crate::quantity::Unit;
 
 /// The inputs of the model: the factors of the study, each in its own unit.
 pub(super) fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
-    let input = |section: &At<FactorSection>| {
+    for section in factors {
         let name = &section.get_ref().name;
         if name.get_ref().trim() != name.get_ref() || name.get_ref().is_empty() {
             let (key, found) = ("name of a factor".to_owned(), format!("{:?}", name.get_ref()));
             let expected = "a text without spaces around it (it is the header of a column)".to_owned();
             return Err(context.fault(name.span(), Problem::WrongType { key, expected, found }));
         }
-        expression::input(context, section)
-    };
-    factors.iter().map(input).collect()
+    }
+    own_inputs(context, factors)
 }
 
 /// The outputs that the table says, those of them that are asked for; without a table those asked for, without units.

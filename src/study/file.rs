@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub(super) use super::at::At;
+use super::command::CommandKey;
 use super::schema;
 
 /// A table of choices by name.
@@ -41,6 +42,9 @@ pub(super) struct StudyFile {
     /// The outputs of a model outside of this program.
     #[serde(default)]
     pub external: Option<At<ExternalSection>>,
+    /// The program that is the model: itself with its arguments, or a table of these and more.
+    #[serde(default)]
+    pub command: Option<At<CommandKey>>,
     /// The points at which the model runs.
     #[serde(default)]
     pub design: DesignSection,
@@ -225,7 +229,7 @@ pub(super) enum Nominal {
 
 impl StudyFile {
     /// The keys it can have.
-    pub(super) const KEYS: [&str; 11] = [
+    pub(super) const KEYS: [&str; 12] = [
         "name",
         "title",
         "model",
@@ -234,6 +238,7 @@ impl StudyFile {
         "function",
         "expression",
         "external",
+        "command",
         "design",
         "analysis",
         "factor",

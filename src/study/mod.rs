@@ -5,6 +5,7 @@
 
 mod at;
 mod builder;
+mod command;
 mod constants;
 mod distribution;
 mod error;
@@ -33,9 +34,10 @@ pub use error::{Diagnostic, OverrideProblem, Problem, StudyError, nearest};
 pub use options::{AnalysisOptions, Stopping};
 pub use schema::study_schema;
 pub use subject::{
-    AfmSubject, CustomSubject, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula, KnownSubject, Subject,
+    AfmSubject, CommandSubject, CustomSubject, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula,
+    KnownSubject, Subject,
 };
-pub use template::{TemplateRequest, template};
+pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
 
 use crate::design::Design;
 use crate::model::Model;

@@ -203,17 +203,17 @@ pub(super) fn stopping(context: &Context<'_>, section: &DesignSection, sampler: 
     }
     let budget = match &section.budget {
         None => None,
-        Some(text) => Some(seconds(text.get_ref()).map_err(|problem| context.fault(text.span(), problem))?),
+        Some(text) => Some(seconds("budget", text.get_ref()).map_err(|problem| context.fault(text.span(), problem))?),
     };
     Ok(Stopping { half_width, budget, max_runs: section.max_runs.as_ref().map(|runs| *runs.get_ref()) })
 }
 
 /// A time above 0, in seconds.
-fn seconds(text: &str) -> Result<f64, Problem> {
+pub(super) fn seconds(key: &str, text: &str) -> Result<f64, Problem> {
     let quantity = Quantity::parse(text)?;
     let seconds = quantity.to_si();
     if quantity.unit.dimension() != Dimension::TIME || !(seconds > 0.0 && seconds.is_finite()) {
-        return Err(wrong("budget", "a time above 0, as in \"30 s\"", format!("\"{text}\"")));
+        return Err(wrong(key, "a time above 0, as in \"30 s\"", format!("\"{text}\"")));
     }
     Ok(seconds)
 }
@@ -248,6 +248,6 @@ pub(super) fn choice<T: Copy>(
     })
 }
 
-fn wrong(key: &str, expected: &str, found: String) -> Problem {
+pub(super) fn wrong(key: &str, expected: &str, found: String) -> Problem {
     Problem::WrongType { key: key.to_owned(), expected: expected.to_owned(), found }
 }

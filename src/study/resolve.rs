@@ -7,7 +7,7 @@ use super::error::{Diagnostic, Problem, nearest};
 use super::file::{At, Choices, FactorSection, StudyFile};
 use super::plan::{Plan, plan};
 use super::subject::{AfmSubject, KnownSubject, Subject};
-use super::{Study, constants, distribution, expression, external, function, nominal};
+use super::{Study, command, constants, distribution, expression, external, function, nominal};
 use crate::model::{AfmOutput, Input, ModelKind, known_inputs};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor, Space};
@@ -33,13 +33,14 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
     let function = match kind {
-        ModelKind::Afm | ModelKind::Expression | ModelKind::External => None,
+        ModelKind::Afm | ModelKind::Expression | ModelKind::Command | ModelKind::External => None,
         ModelKind::Known(answer) => Some(function::known(context, answer, file.function.as_ref())?),
     };
     let inputs = match (&function, kind) {
         (Some(function), _) => known_inputs(function),
         (None, ModelKind::Expression) => expression::inputs(context, &file.factor)?,
         (None, ModelKind::External) => external::inputs(context, &file.factor)?,
+        (None, ModelKind::Command) => command::inputs(context, &file.factor)?,
         (None, _) => kind.inputs(),
     };
     let space = space(context, &inputs, &file.factor)?;
@@ -56,6 +57,10 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
         None if kind == ModelKind::External => {
             let subject = external::subject(context, file.external.as_ref(), file.outputs.as_ref())?;
             (Subject::External(subject), Vec::new())
+        }
+        None if kind == ModelKind::Command => {
+            let (program, notes) = command::subject(context, file.command.as_ref(), file.outputs.as_ref(), &space)?;
+            (Subject::Command(program), notes)
         }
         None => {
             let outputs = outputs(context, kind, file.outputs.as_ref())?;
@@ -88,13 +93,14 @@ fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
 
 /// The deserialiser's message without the names of Rust types.
 fn in_words(message: &str) -> String {
-    const WORDS: [(&str, &str); 9] = [
+    const WORDS: [(&str, &str); 10] = [
         ("expected f64", "expected a number"),
         ("expected u64", "expected a whole number from 0 to 9223372036854775807"),
         ("expected struct DesignSection", "expected a table [design]"),
         ("expected struct AnalysisSection", "expected a table [analysis]"),
         ("expected struct TargetSection", "expected a table, as in { half_width = 0.01 }"),
         ("expected struct FactorSection", "expected a table [[factor]]"),
+        ("expected struct CommandSection", "expected a table [command]"),
         (
             "invalid type: map, expected a sequence",
             "expected a list: factors are written [[factor]], with two brackets",
@@ -150,12 +156,13 @@ pub(super) fn names_files(name: &str) -> bool {
     !name.trim().is_empty() && !name.starts_with('.') && name.chars().all(fits)
 }
 
-/// `[afm]`, `[function]`, `[expression]` and `[external]` belong to one kind of model each.
+/// `[afm]`, `[function]`, `[expression]`, `[external]` and `command` belong to one kind of model each.
 fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyFile) -> Result<(), Fault> {
     let own = match kind {
         ModelKind::Afm => "afm",
         ModelKind::Expression => "expression",
         ModelKind::External => "external",
+        ModelKind::Command => "command",
         ModelKind::Known(_) => "function",
     };
     let tables = [
@@ -163,6 +170,7 @@ fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyF
         ("function", file.function.as_ref().map(At::span)),
         ("expression", file.expression.as_ref().map(At::span)),
         ("external", file.external.as_ref().map(At::span)),
+        ("command", file.command.as_ref().map(At::span)),
     ];
     let foreign = |name: &str| name != own && tables.iter().any(|(table, _)| *table == name);
     let Some((name, span)) =
@@ -190,24 +198,45 @@ fn afm(
 /// Numbers of the outputs in the catalogue, in the order asked for; the first one if nothing is asked.
 fn outputs(context: &Context<'_>, kind: ModelKind, asked: Option<&At<Vec<At<String>>>>) -> Result<Vec<usize>, Fault> {
     let Some(asked) = asked else { return Ok(vec![0]) };
+    let known = kind.outputs();
+    let names: Vec<&str> = known.iter().map(|info| &*info.name).collect();
+    chosen(context, &names, asked)
+}
+
+/// Places of the outputs asked for among those that are `known`, in the order asked for.
+pub(super) fn chosen(context: &Context<'_>, known: &[&str], asked: &At<Vec<At<String>>>) -> Result<Vec<usize>, Fault> {
     if asked.get_ref().is_empty() {
         return Err(context.fault(asked.span(), Problem::NoOutputs));
     }
-    let known = kind.outputs();
-    let mut numbers = Vec::new();
+    let mut places = Vec::new();
     for output in asked.get_ref() {
         let name = output.get_ref();
-        let Some(number) = known.iter().position(|info| info.name == *name) else {
-            let problem = unknown_name("output", name, known.iter().map(|info| &*info.name));
-            return Err(context.fault(output.span(), problem));
+        let Some(place) = known.iter().position(|known| known == name) else {
+            return Err(context.fault(output.span(), unknown_name("output", name, known.iter().copied())));
         };
-        if numbers.contains(&number) {
+        if places.contains(&place) {
             let problem = Problem::Repeated { what: "output", name: name.clone() };
             return Err(context.fault(output.span(), problem));
         }
-        numbers.push(number);
+        places.push(place);
     }
-    Ok(numbers)
+    Ok(places)
+}
+
+/// The inputs of a model that has no others than the factors of the study, each in its own unit.
+pub(super) fn own_inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
+    let input = |section: &At<FactorSection>| {
+        let fields = section.get_ref();
+        let unit = match &fields.unit {
+            None => Unit::dimensionless(),
+            Some(typed) => Unit::parse(typed.get_ref()).map_err(|error| context.fault(typed.span(), error.into()))?,
+        };
+        let (name, symbol) = (fields.name.get_ref().clone(), fields.name.get_ref().clone());
+        // Not a number: nobody but the study says where it stands.
+        let (nominal, description) = (f64::NAN, "a factor of the study".to_owned());
+        Ok(Input { name, symbol, unit, nominal, domain: None, distribution: None, description })
+    };
+    factors.iter().map(input).collect()
 }
 
 fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]) -> Result<Space, Fault> {

@@ -12,7 +12,7 @@ use super::file::StudyFile;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
 use crate::design::Sampler;
 use crate::estimate::Estimator;
-use crate::model::{KnownAnswer, ModelKind, edge_unit};
+use crate::model::{KnownAnswer, Match, ModelKind, Protocol, edge_unit};
 use crate::run::FailurePolicy;
 use crate::uncertainty::IntervalMethod;
 
@@ -69,6 +69,10 @@ pub(super) fn intervals() -> Vec<&'static str> {
 
 pub(super) fn failure_policies() -> Vec<&'static str> {
     names(&FailurePolicy::ALL, FailurePolicy::name)
+}
+
+pub(super) fn protocols() -> Vec<&'static str> {
+    names(&Protocol::ALL, Protocol::name)
 }
 
 pub(super) fn distributions() -> Vec<&'static str> {
@@ -136,6 +140,28 @@ pub(super) fn expression_constants(_: &mut SchemaGenerator) -> Schema {
 /// `[external] outputs`: units by the names of the outputs.
 pub(super) fn external_outputs(_: &mut SchemaGenerator) -> Schema {
     schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "string" } })
+}
+
+/// `[command] outputs`: units, or tables that say where a number stands.
+pub(super) fn program_outputs(_: &mut SchemaGenerator) -> Schema {
+    let text = |description: &str| json!({ "type": "string", "description": description });
+    let table = json!({
+        "type": "object",
+        "properties": {
+            "unit": text("Unit of the program's numbers."),
+            "file": text("File that a run leaves in its directory; its standard output if not said."),
+            "regex": text("Regular expression, whose first group is the number."),
+            "column": text("Column of a CSV table with a header."),
+            "pointer": text("JSON pointer (RFC 6901), as in \"/result/force\"."),
+            "match": {
+                "enum": names(&Match::ALL, Match::name),
+                "default": "last",
+                "description": "Which match of the regex, or row of the table, is taken."
+            }
+        },
+        "additionalProperties": false
+    });
+    schemars::json_schema!({ "type": "object", "additionalProperties": { "anyOf": [{ "type": "string" }, table] } })
 }
 
 fn object(properties: Map<String, Value>) -> Schema {

@@ -1,16 +1,14 @@
 //! What a study is about: a model with its choices made.
-
-use std::path::PathBuf;
-
 use std::fmt;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use serde_json::{Value, json};
 
 use crate::afm::{Options, Parameter, Scene};
 use crate::model::{
-    AfmModel, AfmOutput, Expression, ExpressionModel, ExternalModel, KnownFunction, KnownModel, Model, ModelKind,
-    Output, ParameterValue, edge_unit, known_inputs,
+    AfmModel, AfmOutput, CommandModel, CommandSettings, Expression, ExpressionModel, ExternalModel, Form,
+    KnownFunction, KnownModel, Model, ModelKind, Output, ParameterValue, edge_unit, known_inputs,
 };
 use crate::quantity::{Quantity, Unit};
 use crate::space::Space;
@@ -24,6 +22,8 @@ pub enum Subject {
     Expression(ExpressionSubject),
     /// A model outside of this program.
     External(ExternalSubject),
+    /// A program of the user's own.
+    Command(CommandSubject),
     /// A function with known indices.
     Known(KnownSubject),
     /// A model that is part of a program.
@@ -66,6 +66,28 @@ pub struct Formula {
     pub unit: Unit,
     /// The formula of the factors' SI values, in the order of the space.
     pub expression: Expression,
+}
+
+/// A program of the user's own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommandSubject {
+    /// The program and how it is asked.
+    pub settings: CommandSettings,
+    /// What decides its answers, in the terms of the study file.
+    pub(super) stated: Vec<(&'static str, Value)>,
+}
+
+impl CommandSubject {
+    /// The existing files that it is made of: those among the program and its arguments, the template, and what each run
+    /// gets.
+    fn files(&self) -> Vec<PathBuf> {
+        let mut files = self.settings.program.files();
+        if let Form::PerRun(form) = &self.settings.form {
+            files.push(form.template_file.clone());
+            files.extend(form.files.iter().cloned());
+        }
+        files
+    }
 }
 
 /// A constant of formulas.
@@ -111,6 +133,7 @@ impl Subject {
             Self::Afm(_) => Some(ModelKind::Afm),
             Self::Expression(_) => Some(ModelKind::Expression),
             Self::External(_) => Some(ModelKind::External),
+            Self::Command(_) => Some(ModelKind::Command),
             Self::Known(known) => Some(ModelKind::Known(known.function.answer())),
             Self::Custom(_) => None,
         }
@@ -120,6 +143,7 @@ impl Subject {
     pub fn files(&self) -> Vec<PathBuf> {
         match self {
             Self::Afm(_) | Self::Expression(_) | Self::External(_) | Self::Known(_) | Self::Custom(_) => Vec::new(),
+            Self::Command(command) => command.files(),
         }
     }
 
@@ -142,6 +166,7 @@ impl Subject {
                 Box::new(ExpressionModel::new(formulas.iter().map(output).collect()))
             }
             Self::External(ExternalSubject { outputs }) => Box::new(ExternalModel::new(outputs.clone())),
+            Self::Command(command) => Box::new(CommandModel::new(command.settings.clone(), space.factors().to_vec())),
             Self::Known(KnownSubject { function }) => {
                 let inputs = known_inputs(function);
                 let factors = names().filter_map(|name| inputs.iter().position(|i| i.name == name)).collect();
@@ -168,6 +193,7 @@ impl Subject {
                 let texts = formulas.iter().map(|formula| (formula.name.clone(), json!(formula.expression.text())));
                 vec![("formulas", Value::Object(texts.collect()))]
             }
+            Self::Command(command) => command.stated.clone(),
             Self::Known(known) => {
                 known.function.parameters().into_iter().map(|(name, value)| (name, in_json(value))).collect()
             }
@@ -194,7 +220,7 @@ impl Subject {
                 .filter(|input| !is_factor(&input.name))
                 .map(|input| constant(&input.name, input.nominal, input.unit.to_string()))
                 .collect(),
-            Self::External(_) | Self::Custom(_) => Vec::new(),
+            Self::Command(_) | Self::External(_) | Self::Custom(_) => Vec::new(),
         }
     }
 }

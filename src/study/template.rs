@@ -5,6 +5,7 @@ use super::resolve::{unknown_name, with_unit};
 use crate::afm::Options;
 use crate::design::DesignSettings;
 use crate::model::{Input, KnownAnswer, ModelKind, Output};
+use crate::words::capitalised;
 
 /// What a study to begin with is about.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -48,8 +49,11 @@ const LAWS: &str = "# uniform; or normal, log-normal, triangular, beta, categori
 /// [`Problem::UnknownName`] for a factor or output that the model does not have, [`Problem::Repeated`] for one named twice.
 pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
     let model = request.model;
-    if matches!(model, ModelKind::Expression | ModelKind::External) {
-        return free_template(request);
+    match model {
+        ModelKind::Expression => return formula_template(request),
+        ModelKind::External => return external_template(request),
+        ModelKind::Command => return program_template(request),
+        ModelKind::Afm | ModelKind::Known(_) => (),
     }
     let (inputs, known_outputs) = (model.inputs(), model.outputs());
     let factors = factors(request, &inputs)?;
@@ -59,7 +63,7 @@ pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
     text.push_str(&match model {
         ModelKind::Afm => afm_table(&inputs, &factors),
         ModelKind::Known(answer) => function_table(answer),
-        ModelKind::Expression | ModelKind::External => String::new(),
+        ModelKind::Expression | ModelKind::Command | ModelKind::External => String::new(),
     });
     text.push_str(&design_table(factors.len()));
     text.push_str(&format!(
@@ -74,7 +78,7 @@ pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
 /// What stands at the top: what the file is for, title and model.
 fn heading(request: &TemplateRequest) -> String {
     let model = request.model;
-    let title = request.title.clone().unwrap_or_else(|| sentence(model.description()));
+    let title = request.title.clone().unwrap_or_else(|| capitalised(model.description()));
     format!(
         "# A study of apportion: which inputs of a model decide its output, and by how many percent.\n\
          # `apportion check FILE` explains it and tells what it will cost, `apportion run FILE` runs it,\n\
@@ -86,28 +90,10 @@ fn heading(request: &TemplateRequest) -> String {
     )
 }
 
-/// A study with factors and outputs of its own: of a model outside, or of formulas to be replaced, each the sum of the
-/// factors.
-fn free_template(request: &TemplateRequest) -> Result<String, Problem> {
-    refuse_repeated("factor", &request.factors)?;
-    refuse_repeated("output", &request.outputs)?;
-    let named = |names: &[String], default: &[&str]| -> Vec<String> {
-        if names.is_empty() { default.iter().map(|&name| name.to_owned()).collect() } else { names.to_vec() }
-    };
-    let (factors, outputs) = (named(&request.factors, &["x1", "x2"]), named(&request.outputs, &["y"]));
+/// A study of formulas to be replaced: each output is the sum of the factors.
+fn formula_template(request: &TemplateRequest) -> Result<String, Problem> {
+    let (factors, outputs) = own_names(request)?;
     let mut text = heading(request);
-    if request.model == ModelKind::External {
-        text.push_str(
-            "\n# The model runs outside: `apportion sample FILE -o design.csv` writes the points, and when it has computed its\n\
-             # outputs there, `apportion analyze outputs.csv --design design.csv` reads them. The unit of each output:\n\
-             [external]\n",
-        );
-        outputs.iter().for_each(|output| text.push_str(&format!("outputs.{output} = \"1\"\n")));
-        text.push_str(&design_table(factors.len()));
-        text.push_str(&format!("\n# The inputs of the model.\n{GROUPS}"));
-        text.push_str(&free_factors(&factors));
-        return Ok(text);
-    }
     text.push_str(
         "\n# Formulas in the factors and the constants, all in SI units; `apportion models expression` lists the\n\
          # functions.\n[expression]\n",
@@ -118,14 +104,111 @@ fn free_template(request: &TemplateRequest) -> Result<String, Problem> {
     text.push_str("# constants.a = 7    # a number, or a quantity as in \"10 nm\"\n");
     text.push_str(&design_table(factors.len()));
     text.push_str(&format!("\n# The inputs of the formulas.\n{GROUPS}"));
-    text.push_str(&free_factors(&factors));
+    text.push_str(&own_factors(&factors));
     Ok(text)
 }
 
-/// Factors that are uniform from 0 to 1.
-fn free_factors(names: &[String]) -> String {
-    let table = |name: &String| format!("\n[[factor]]\nname = \"{name}\"\n{LAWS}\nmin = 0\nmax = 1\n");
-    names.iter().map(table).collect()
+/// A study of a model outside.
+fn external_template(request: &TemplateRequest) -> Result<String, Problem> {
+    let (factors, outputs) = own_names(request)?;
+    let mut text = heading(request);
+    text.push_str(
+        "\n# The model runs outside: `apportion sample FILE -o design.csv` writes the points, and when it has computed its\n\
+         # outputs there, `apportion analyze outputs.csv --design design.csv` reads them. The unit of each output:\n\
+         [external]\n",
+    );
+    outputs.iter().for_each(|output| text.push_str(&format!("outputs.{} = \"1\"\n", bare_or_quoted(output))));
+    text.push_str(&design_table(factors.len()));
+    text.push_str(&format!("\n# The inputs of the model.\n{GROUPS}"));
+    text.push_str(&own_factors(&factors));
+    Ok(text)
+}
+
+/// Names of factors and outputs of a model that has none of its own.
+fn own_names(request: &TemplateRequest) -> Result<(Vec<String>, Vec<String>), Problem> {
+    refuse_repeated("factor", &request.factors)?;
+    refuse_repeated("output", &request.outputs)?;
+    let named = |names: &[String], default: &[&str]| -> Vec<String> {
+        if names.is_empty() { default.iter().map(|&name| name.to_owned()).collect() } else { names.to_vec() }
+    };
+    Ok((named(&request.factors, &["x1", "x2"]), named(&request.outputs, &["y"])))
+}
+
+/// Factors between 0 and 1, to be changed.
+fn own_factors(factors: &[String]) -> String {
+    let factor = |factor: &String| {
+        let name = toml::Value::String(factor.clone());
+        format!("\n[[factor]]\nname = {name}\n{LAWS}\nmin = 0\nmax = 1\n")
+    };
+    factors.iter().map(factor).collect()
+}
+
+/// File name of the program in a new study of a program.
+pub const NEW_PROGRAM: &str = "my_model.py";
+
+/// A study of a program, which stands in its comments.
+fn program_template(request: &TemplateRequest) -> Result<String, Problem> {
+    let (factors, outputs) = own_names(request)?;
+    let mut text = heading(request);
+    let names: Vec<String> = outputs.iter().map(|output| toml::Value::String(output.clone()).to_string()).collect();
+    text.push_str(&format!(
+        "outputs = [{}]    # the columns that the program prints, in its order\n\n\
+         # The program is started once for each core and kept alive. It reads a header and then lines of factor values on\n\
+         # its standard input, and prints a line for each; docs/worker-protocol.md has it in full. This one is {NEW_PROGRAM}:\n\
+         #\n",
+        names.join(", ")
+    ));
+    for line in python_program(&factors, &outputs).lines() {
+        text.push_str(format!("#     {line}").trim_end());
+        text.push('\n');
+    }
+    text.push_str(&format!(
+        "#\n[command]\nprogram = [\"python3\", \"{NEW_PROGRAM}\"]    # relative to this file; no shell reads it\n\
+         # outputs.{} = \"nN\"    # or here, each with its unit\n\
+         # protocol = \"json-lines\"    # an object for each row instead of a line of CSV\n\
+         # workers = 4    # processes at once [default: one for each core]\n\
+         # timeout = \"60 s\"    # for a row, after which the program is started anew [default: none]\n\
+         # retries = 1    # of a row on which the program died or hung, before it counts as failed\n",
+        bare_or_quoted(&outputs[0])
+    ));
+    text.push_str(&design_table(factors.len()));
+    text.push_str(&format!("\n# What the program gets, in this order and in these units.\n{GROUPS}"));
+    text.push_str(&own_factors(&factors));
+    Ok(text)
+}
+
+/// A key of TOML, in quotes where it needs them.
+fn bare_or_quoted(key: &str) -> String {
+    let bare = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c));
+    if bare { key.to_owned() } else { toml::Value::String(key.to_owned()).to_string() }
+}
+
+/// The program of a [new study](template) of a program: in Python, of its factors and outputs, each of which is the sum of
+/// the factors until somebody writes another; `None` of other models.
+///
+/// # Errors
+/// [`Problem::Repeated`] for a name given twice.
+pub fn new_program(request: &TemplateRequest) -> Result<Option<String>, Problem> {
+    if request.model != ModelKind::Command {
+        return Ok(None);
+    }
+    let (factors, outputs) = own_names(request)?;
+    Ok(Some(python_program(&factors, &outputs)))
+}
+
+fn python_program(factors: &[String], outputs: &[String]) -> String {
+    // JSON's texts are Python's too.
+    let value = |name: &String| format!("x[{}]", serde_json::Value::from(name.as_str()));
+    let sum = factors.iter().map(value).collect::<Vec<_>>().join(" + ");
+    let values = vec!["y"; outputs.len()].join(", ");
+    let (comma, join) =
+        if outputs.len() > 1 { (format!("    # {}", outputs.join(", ")), ", sep=\",\"") } else { (String::new(), "") };
+    format!(
+        "import csv\nimport sys\n\n\
+         # One line of factor values in, one line of outputs out; print nothing else, or to sys.stderr.\n\
+         for row in csv.DictReader(sys.stdin):\n    x = {{name: float(value) for name, value in row.items()}}\n    \
+         y = {sum}\n    print({values}{join}, flush=True){comma}\n"
+    )
 }
 
 fn factors<'a>(request: &TemplateRequest, inputs: &'a [Input]) -> Result<Vec<&'a Input>, Problem> {
@@ -137,7 +220,9 @@ fn factors<'a>(request: &TemplateRequest, inputs: &'a [Input]) -> Result<Vec<&'a
     match request.model {
         _ if !request.factors.is_empty() => request.factors.iter().map(|name| find(name)).collect(),
         ModelKind::Afm => AFM_FACTORS.iter().map(|name| find(name)).collect(),
-        ModelKind::Known(_) | ModelKind::Expression | ModelKind::External => Ok(inputs.iter().collect()),
+        ModelKind::Known(_) | ModelKind::Expression | ModelKind::Command | ModelKind::External => {
+            Ok(inputs.iter().collect())
+        }
     }
 }
 
@@ -283,11 +368,6 @@ fn range(input: &Input) -> (f64, f64) {
 /// Four significant digits: people will change it.
 fn short(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
-}
-
-fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]

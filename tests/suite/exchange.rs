@@ -310,14 +310,10 @@ fn points_and_outputs_of_a_run_are_saved_in_every_format() {
         all.push(columns(&saved));
     }
     assert!(all.iter().all(|columns| *columns == all[0]));
-    let mut points = tempfile::NamedTempFile::with_suffix_in(".csv", folder.path()).unwrap();
-    use std::io::Write;
-    writeln!(points, "x1,x2,x3").unwrap();
-    for row in 0..all[0][0].len() {
-        writeln!(points, "{},{},{}", all[0][0][row], all[0][1][row], all[0][2][row]).unwrap();
-    }
+    let points = folder.path().join("points.csv");
+    write_columns(&points, &["x1", "x2", "x3"], &all[0][..3]);
     let y = folder.path().join("y.csv");
-    succeed(&["evaluate", text(&study), text(points.path()), "-o", text(&y)]);
+    succeed(&["evaluate", text(&study), text(&points), "-o", text(&y)]);
     assert_eq!(columns(&y)[0], all[0][3]);
 }
 

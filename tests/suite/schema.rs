@@ -1,5 +1,7 @@
 //! The schemas accept what the program reads and writes, and refuse what it refuses.
 
+use std::path::PathBuf;
+
 use jsonschema::Validator;
 use serde_json::{Value, json};
 
@@ -26,9 +28,10 @@ fn study(text: &str) -> Value {
 fn every_study_of_the_repository_fits_the_schema() {
     let validator = validator("study");
     let folder = study_path("any").parent().unwrap().to_owned();
+    let entries = |folder: PathBuf| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut seen = 0;
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
+    let inner = entries(folder.clone()).filter(|path| path.is_dir()).flat_map(entries);
+    for path in entries(folder).chain(inner) {
         if path.extension().is_some_and(|ending| ending == "toml") {
             let value = study(&std::fs::read_to_string(&path).unwrap());
             assert_eq!(complaints(&validator, &value), Vec::<String>::new(), "{}", path.display());

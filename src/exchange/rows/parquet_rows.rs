@@ -4,7 +4,7 @@ use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
+use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType};
@@ -66,6 +66,13 @@ impl ParquetRows {
                 .map_err(|_| RowsError::NoParquet("a row group has less than no rows".to_owned()))?;
             let readers = wanted.iter().map(|(place, _)| {
                 supported(&group.metadata().schema_descr().column(*place), &self.names[*place])?;
+                let compression = group.metadata().column(*place).compression();
+                if !matches!(compression, Compression::UNCOMPRESSED | Compression::SNAPPY) {
+                    return Err(RowsError::NoParquet(format!(
+                        "it is compressed by {}: write it uncompressed or with snappy",
+                        compression.to_string().to_lowercase()
+                    )));
+                }
                 Ok(group.get_column_reader(*place)?)
             });
             self.current = Some((readers.collect::<Result<_, RowsError>>()?, rows));

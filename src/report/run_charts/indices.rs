@@ -4,10 +4,10 @@ use super::super::asked::{sentence, the};
 use super::super::chart::{
     Axis, Bar, Chart, GroupedBars, Guide, Panel, Role, ScatterChart, ScatterPoint, ScatterSeries, Series,
 };
-use super::super::language::listed;
 use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 use super::super::shares_chart::label;
 use super::{headline, no_indices};
+use crate::words::listed;
 
 /// Most factors in a chart; the caption counts the rest.
 const MOST: usize = 30;

@@ -1,6 +1,7 @@
 //! Charts of a run besides that of the shares, all from the result alone: the indices, what acts together, the output
 //! over its factors, how it is distributed, and how the indices settled.
 
+mod categories;
 mod convergence;
 mod distribution;
 mod indices;

@@ -4,6 +4,7 @@ use super::super::asked::{axis_unit, printed, the, words};
 use super::super::chart::{Axis, Chart, CloudChart, CloudPanel, LineSeries, Role, Spacing, Stroke};
 use super::super::result::{FactorRecord, OutputRecord, ResultFile};
 use super::super::scatter::{ConditionalMeansRecord, ScatterRecord};
+use super::categories::Categories;
 use super::{friction, headline, no_indices};
 
 /// Up to so many slices, each mean is marked by a point.
@@ -16,7 +17,8 @@ const PRESSED: f64 = 0.02;
 pub fn scatter_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let scatter = output.scatter.as_ref();
     let panels = scatter.map_or_else(Vec::new, |scatter| panels(result, output, scatter));
-    let empty = CloudPanel { title: String::new(), x: Axis::default(), dots: Vec::new(), lines: Vec::new() };
+    let empty =
+        CloudPanel { title: String::new(), x: Axis::default(), names: Vec::new(), dots: Vec::new(), lines: Vec::new() };
     Chart::Cloud(CloudChart {
         title: format!("{}: {} over its factors", headline(result), the(&output.name)),
         caption: scatter.map_or_else(|| nothing(output), |scatter| caption(result, output, scatter)),
@@ -43,7 +45,13 @@ fn panels(result: &ResultFile, output: &OutputRecord, scatter: &ScatterRecord) -
     let panel = |(place, name): (usize, &String)| {
         let record = result.factors.iter().find(|factor| factor.name == *name);
         let index = output.indices.iter().flatten().find(|index| index.factor == *name);
-        let dot = |point: &Vec<f64>| Some((*point.get(place)?, *point.last()?));
+        let categories = record.and_then(Categories::of);
+        let dots = scatter.points.iter().filter_map(|point| Some((*point.get(place)?, *point.last()?)));
+        let means = scatter.conditional_means.iter().find(|means| means.factor == *name);
+        let (dots, line) = match &categories {
+            Some(categories) => (categories.strips(dots), means.map(|means| categories.levels(line(means)))),
+            None => (dots.collect(), means.map(line)),
+        };
         CloudPanel {
             title: index.map_or_else(String::new, |index| {
                 let [first_order, total] = [index.effect.first_order, index.effect.total].map(|i| two(i.estimate));
@@ -51,11 +59,15 @@ fn panels(result: &ResultFile, output: &OutputRecord, scatter: &ScatterRecord) -
             }),
             x: Axis {
                 label: words(name),
-                unit: record.map_or_else(String::new, |factor| axis_unit(&factor.unit)),
+                // Names have no unit.
+                unit: record
+                    .filter(|_| categories.is_none())
+                    .map_or_else(String::new, |factor| axis_unit(&factor.unit)),
                 spacing: record.map_or(Spacing::Linear, factor_spacing),
             },
-            dots: scatter.points.iter().filter_map(dot).collect(),
-            lines: scatter.conditional_means.iter().find(|means| means.factor == *name).map(line).into_iter().collect(),
+            names: categories.map_or_else(Vec::new, |categories| categories.labels),
+            dots,
+            lines: line.into_iter().collect(),
         }
     };
     scatter.factors.iter().enumerate().map(panel).collect()

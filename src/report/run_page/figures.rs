@@ -1,12 +1,12 @@
 //! The charts of a run as figures of the page, numbered through.
 
 use super::beside::{Beside, output_stem};
-use super::words::{capital, the};
+use super::words::the;
 use crate::report::chart::Chart;
 use crate::report::page::{PageFigure, Part};
 use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::{
-    convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart, study_chart,
+    capitalised, convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart, study_chart,
 };
 
 /// Draws the figures of one output after the other.
@@ -66,7 +66,7 @@ impl Figures<'_> {
         let study = &self.result.study;
         let headline = format!("{}: ", study.title.as_ref().unwrap_or(&study.name));
         // The page has the study's title at its top.
-        if let Some(title) = chart.title().strip_prefix(&headline).map(capital) {
+        if let Some(title) = chart.title().strip_prefix(&headline).map(capitalised) {
             set_title(&mut chart, title);
         }
         let mut links = self.beside.pictures(&format!("{stem}{suffix}"));

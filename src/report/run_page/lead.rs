@@ -1,9 +1,8 @@
 //! What a hurried reader should take along: which factor matters most, how sure that is, and what to mind.
 
-use super::trend::width_after_doubling;
-use super::words::{capital, count, first, grouped, half_width, index, name, percent, the};
+use super::words::{count, first, grouped, half_width, index, name, percent, the};
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
-use crate::report::{listed, share_of_runs};
+use crate::report::{capitalised, listed, share_of_runs, widest_interval, width_after_doubling};
 
 /// Outputs with a paragraph of their own at the top.
 const OUTPUTS: usize = 6;
@@ -133,7 +132,7 @@ fn trust(result: &ResultFile) -> String {
     let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);
     if failed > 0 {
         let share = share_of_runs(failed as f64 / result.provenance.model_runs.max(1) as f64);
-        sentences.push(format!("{} failed ({share} of all).", capital(&count(failed, "run", "runs"))));
+        sentences.push(format!("{} failed ({share} of all).", capitalised(&count(failed, "run", "runs"))));
     }
     let warnings: usize = result.outputs.iter().map(|output| output.warnings.len()).sum();
     sentences.push(match warnings {
@@ -148,8 +147,7 @@ fn trust(result: &ResultFile) -> String {
 
 fn settled(result: &ResultFile) -> String {
     let runs = grouped(result.provenance.model_runs);
-    let widths: Vec<f64> = result.outputs.iter().filter_map(widest).collect();
-    let Some(widest) = widths.into_iter().reduce(f64::max) else {
+    let Some(widest) = widest_interval(result) else {
         let found = result.outputs.iter().any(|output| output.indices.is_some());
         let error = if found { "; nothing is known of the error of the indices" } else { "" };
         return format!("The study took {runs} model runs{error}.");

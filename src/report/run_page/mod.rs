@@ -6,7 +6,6 @@ mod lead;
 mod output;
 mod study;
 mod tables;
-mod trend;
 mod words;
 
 use beside::Beside;

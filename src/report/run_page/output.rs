@@ -3,11 +3,10 @@
 use super::figures::{Figures, Numbered};
 use super::lead::{by_total, widest};
 use super::tables;
-use super::trend::width_after_doubling;
-use super::words::{capital, count, first, grouped, half_width, index, name, the};
-use crate::report::listed;
+use super::words::{count, first, grouped, half_width, index, name, the};
 use crate::report::page::{Mark, Part};
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
+use crate::report::{capitalised, listed, width_after_doubling};
 
 /// Most factors whose shares are drawn; of more, the chart of the indices shows the largest.
 const DRAWN: usize = 30;
@@ -48,7 +47,7 @@ fn warnings(output: &OutputRecord) -> Vec<Part> {
     }
     if !output.warnings.is_empty() {
         let kind = if output.warnings.len() == 1 { "Warning" } else { "Warnings" }.to_owned();
-        let texts = output.warnings.iter().map(|warning| format!("{}.", capital(warning))).collect();
+        let texts = output.warnings.iter().map(|warning| format!("{}.", capitalised(warning))).collect();
         parts.push(Part::Notice { mark: Mark::Mixed, kind, texts });
     }
     if output.runs_failed > 0 {

@@ -1,7 +1,7 @@
 //! Names and numbers in the sentences of the page.
 
 use crate::report::result::{EstimateRecord, IntervalRecord};
-use crate::report::{fixed, significant};
+use crate::report::{capitalised, fixed, significant};
 
 /// A name of the study as words; a symbol such as `F_cr` stays one.
 pub(super) fn name(name: &str) -> String {
@@ -15,13 +15,7 @@ pub(super) fn the(text: &str) -> String {
 
 /// A name at the beginning of a sentence.
 pub(super) fn first(text: &str) -> String {
-    if is_symbol(text) { text.to_owned() } else { capital(&name(text)) }
-}
-
-/// A text with a capital at the beginning.
-pub(super) fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |letter| letter.to_uppercase().chain(letters).collect())
+    if is_symbol(text) { text.to_owned() } else { capitalised(&name(text)) }
 }
 
 fn is_symbol(name: &str) -> bool {

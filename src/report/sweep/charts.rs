@@ -179,16 +179,22 @@ fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> Range
     };
     let output = the(&nominal.output);
     let missing = |read: fn(&SweepEffectRecord) -> Option<f64>, end: &str| {
-        let without = sweeps.iter().filter(|(_, effect)| read(effect).is_none());
+        let without = sweeps.iter().filter(|(sweep, effect)| sweep.labels.is_none() && read(effect).is_none());
         let names: Vec<String> = without.map(|(sweep, _)| words(&sweep.factor)).collect();
         if names.is_empty() { String::new() } else { format!(" No value at the {end} end: {}.", names.join(", ")) }
     };
     let gaps = missing(|effect| effect.first, "low") + &missing(|effect| effect.last, "high");
+    let categories = match sweeps.iter().any(|(sweep, _)| sweep.labels.is_some()) {
+        true => {
+            " Categories have no ends: their bar goes from the label with the least value to that with the largest."
+        }
+        false => "",
+    };
     RangeBars {
         title: format!("{}: how far each factor moves {output}", file.study.headline()),
         caption: format!(
             "{} with one factor at either end of its range and every other at its nominal value; the percentages \
-             are of the nominal value.{gaps}{beyond}",
+             are of the nominal value.{categories}{gaps}{beyond}",
             sentence(&output)
         ),
         x: Axis { label: words(&nominal.output), unit: axis_unit(&nominal.unit), ..Axis::default() },
@@ -201,29 +207,44 @@ fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> Range
             ("whole range".to_owned(), Role::Other(3)),
         ],
         interval_label: "whole range, where the ends are not the extremes".to_owned(),
-        rows: sweeps.iter().take(MOST_BARS).map(|(sweep, effect)| row(sweep, effect, nominal.value)).collect(),
+        rows: sweeps
+            .iter()
+            .take(MOST_BARS)
+            .map(|(sweep, effect)| row((sweep, effect), number, nominal.value))
+            .collect(),
     }
 }
 
-fn row(sweep: &FactorSweepRecord, effect: &SweepEffectRecord, nominal: Option<f64>) -> RangeRow {
+/// The labels at which output `number` is least and largest.
+fn extreme_labels(sweep: &FactorSweepRecord, number: usize) -> Option<(&str, &str)> {
+    let (labels, values) = (sweep.labels.as_ref()?, &sweep.curves.first()?.outputs.get(number)?.values);
+    let known = || labels.iter().zip(values).filter_map(|(label, value)| Some((label.as_str(), (*value)?)));
+    let least = known().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let largest = known().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((least.0, largest.0))
+}
+
+fn row((sweep, effect): (&FactorSweepRecord, &SweepEffectRecord), number: usize, nominal: Option<f64>) -> RangeRow {
     let bars = match (nominal, effect.low.zip(effect.high)) {
-        (Some(from), Some(_)) => {
+        (Some(from), Some(_)) if sweep.labels.is_none() => {
             let bar = |role, to: Option<f64>| Range { role, from, to: to.unwrap_or(f64::NAN) };
             vec![bar(LOW_END, effect.first), bar(HIGH_END, effect.last)]
         }
-        (None, Some((from, to))) => vec![Range { role: Role::Other(3), from, to }],
+        (_, Some((from, to))) => vec![Range { role: Role::Other(3), from, to }],
         (_, None) => Vec::new(),
     };
     let ends = || [effect.first, effect.last, nominal].into_iter().flatten();
     let beyond = |(low, high): &(f64, f64)| ends().all(|end| end > *low) || ends().all(|end| end < *high);
-    let note = match effect.percent {
-        Some(percent) => format!("{} %: {}", printed(percent), from_to(sweep)),
+    let over = match extreme_labels(sweep, number) {
+        Some((least, largest)) if least == largest => least.to_owned(),
+        Some((least, largest)) => format!("{least} to {largest}"),
         None => from_to(sweep),
     };
+    let note = effect.percent.map_or_else(String::new, |percent| format!("{} %: ", printed(percent))) + &over;
     RangeRow {
         name: words(&sweep.factor),
         bars,
-        interval: effect.low.zip(effect.high).filter(|_| nominal.is_some()).filter(beyond),
+        interval: effect.low.zip(effect.high).filter(|_| nominal.is_some() && sweep.labels.is_none()).filter(beyond),
         note,
     }
 }

@@ -29,7 +29,9 @@ pub(super) fn panels(figure: &mut Figure, chart: &CloudChart, page: ChartWidth) 
     let y_title = chart.y.title(y.exponent);
     let steps = page.choose(if columns == 1 { 7 } else { 4 }, if columns == 1 { 4 } else { 3 });
     let scales: Vec<Scale> = chart.panels.iter().map(|panel| x_scale(panel, steps)).collect();
-    let widest = scales.iter().flat_map(|x| &x.ticks).map(|tick| TICK.width(&tick.label)).fold(0.0, f64::max);
+    // Names are shortened to their places, so that they reach nowhere.
+    let numbers = chart.panels.iter().zip(&scales).filter(|(panel, _)| panel.names.is_empty());
+    let widest = numbers.flat_map(|(_, x)| &x.ticks).map(|tick| TICK.width(&tick.label)).fold(0.0, f64::max);
     let left = MARGIN + title_room(&y_title, height) + tick_room(&y);
     let gap = GAP.max(widest + 8.0);
     // Half of the last tick label may reach beyond the plot.
@@ -42,7 +44,8 @@ pub(super) fn panels(figure: &mut Figure, chart: &CloudChart, page: ChartWidth) 
         let titled = panels.iter().any(|panel| !panel.title.trim().is_empty());
         let head = HEAD + if titled { PANEL_TITLE.leading() } else { 0.0 };
         for (column, panel) in panels.iter().enumerate() {
-            let x = scales[row * columns + column].clone().with_room(width);
+            let x = scales[row * columns + column].clone();
+            let x = if panel.names.is_empty() { x.with_room(width) } else { x.with_names_within(width) };
             let plot = Plot { left: left + column as f64 * (width + gap), top: top + head, width, height };
             let canvas = &mut figure.canvas;
             canvas.open("g", &[("class", &"panel")]);
@@ -75,6 +78,9 @@ fn columns(panels: usize, page: ChartWidth) -> usize {
 }
 
 fn x_scale(panel: &CloudPanel, steps: usize) -> Scale {
+    if !panel.names.is_empty() {
+        return Scale::named(&panel.names);
+    }
     let lines =
         panel.lines.iter().flat_map(|line| line.points.iter().map(|p| p.0).chain(line.band.iter().map(|b| b.0)));
     let wish = Wish { spacing: panel.x.spacing, air: 0.02, steps };

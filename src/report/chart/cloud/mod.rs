@@ -34,6 +34,8 @@ pub struct CloudPanel {
     pub title: String,
     /// Its horizontal axis.
     pub x: Axis,
+    /// Names of the places 0, 1, 2 and so on along the axis; empty for an axis of numbers.
+    pub names: Vec<String>,
     /// The points (x, y) of the cloud.
     pub dots: Vec<(f64, f64)>,
     /// Lines with their bands, over the cloud.
@@ -60,6 +62,7 @@ impl CloudChart {
     ///     panels: vec![CloudPanel {
     ///         title: String::new(),
     ///         x: axis("thickness", "um"),
+    ///         names: Vec::new(),
     ///         dots: vec![(1.0, 600.0), (1.2, 1000.0), (0.8, 300.0)],
     ///         lines: Vec::new(),
     ///     }],
@@ -104,6 +107,9 @@ impl CloudChart {
             let lines: Vec<&str> = panel.lines.iter().map(|line| line.name.as_str()).collect();
             let count = panel.dots.len();
             words.push_str(&format!(" {} {}: {count} points; {}.", panel.title, panel.x.title(0), lines.join(", ")));
+            if !panel.names.is_empty() {
+                words.push_str(&format!(" Places: {}.", panel.names.join(", ")));
+            }
         }
         words
     }

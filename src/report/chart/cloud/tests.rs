@@ -19,7 +19,13 @@ fn panel(dots: Vec<(f64, f64)>) -> CloudPanel {
         points: vec![(0.0, 10.0), (10.0, 20.0)],
         band: vec![(0.0, 9.0, 11.0), (10.0, 18.0, 22.0)],
     };
-    CloudPanel { title: "S1 0.34, ST 0.69".to_owned(), x: axis("thickness", "um"), dots, lines: vec![line] }
+    CloudPanel {
+        title: "S1 0.34, ST 0.69".to_owned(),
+        x: axis("thickness", "um"),
+        names: Vec::new(),
+        dots,
+        lines: vec![line],
+    }
 }
 
 fn chart(panels: Vec<CloudPanel>) -> CloudChart {

@@ -1,6 +1,6 @@
 //! What doubling the runs would bring.
 
-use crate::report::result::StageRecord;
+use super::result::{ResultFile, StageRecord};
 
 /// Stages that the trend is read from, the last ones: earlier widths are poor guides to later ones.
 const STAGES: usize = 4;
@@ -11,7 +11,7 @@ const POWERS: (f64, f64) = (-1.5, -0.5);
 
 /// The largest half width to be expected of twice the runs, from the slope of the last stages in double logarithmic
 /// scales; `None` with fewer than three stages that have intervals.
-pub(super) fn width_after_doubling(stages: &[StageRecord]) -> Option<f64> {
+pub fn width_after_doubling(stages: &[StageRecord]) -> Option<f64> {
     let with_width = stages.iter().filter_map(|stage| {
         let width = stage.largest_half_width.filter(|width| *width > 0.0)?;
         Some(((stage.base_samples as f64).ln(), width.ln()))
@@ -24,6 +24,12 @@ pub(super) fn width_after_doubling(stages: &[StageRecord]) -> Option<f64> {
     let sum = |of: &dyn Fn(f64, f64) -> f64| points.iter().map(|point| of(point.0 - x, point.1 - y)).sum::<f64>();
     let slope = (sum(&|x, y| x * y) / sum(&|x, _| x * x)).clamp(POWERS.0, POWERS.1);
     slope.is_finite().then(|| (last + slope * 2_f64.ln()).exp())
+}
+
+/// The largest half width of any first-order or total index of a result, at its end; `None` without intervals.
+pub fn widest_interval(result: &ResultFile) -> Option<f64> {
+    let widths = result.outputs.iter().filter_map(|output| output.convergence.last()?.largest_half_width);
+    widths.reduce(f64::max)
 }
 
 #[cfg(test)]

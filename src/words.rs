@@ -1,4 +1,4 @@
-//! Words in sentences.
+//! Words in sentences, for every module that says something to people.
 
 /// A list as people say it: `a`, `a and b`, `a, b and c`.
 ///

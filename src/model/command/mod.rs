@@ -1,0 +1,200 @@
+//! The user's own program as a model: kept alive and asked row by row over its standard input and output, or started
+//! anew for each row in a directory of its own, with an input file made from a template.
+//!
+//! No shell is involved. A program is the leader of a process group, which is ended with it; whatever it does wrong has a
+//! reason in the result, and never costs a row that it answered.
+
+mod kept;
+mod per_run;
+mod pick;
+mod process;
+mod program;
+mod protocol;
+mod row;
+mod template;
+mod voice;
+mod words;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::time::Duration;
+
+pub use per_run::PerRun;
+pub use pick::{Match, Pick, PickError, Source, Way};
+pub use program::Program;
+pub use protocol::{Answer, Protocol, parse_answer};
+pub use template::{InputTemplate, TemplateError, TemplateProblem};
+
+use super::{Model, Output, RowFailure, Worker};
+use crate::quantity::Unit;
+use crate::space::Factor;
+use kept::KeptWorker;
+use per_run::PerRunWorker;
+use voice::Voice;
+
+/// How a program is asked.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Form {
+    /// It is kept alive, and reads rows and writes answers by this protocol.
+    KeptAlive(Protocol),
+    /// It runs once for each row.
+    PerRun(PerRun),
+}
+
+/// An output that a program gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommandOutput {
+    /// Its name.
+    pub name: String,
+    /// The unit of the program's numbers, in which it is reported too.
+    pub unit: Unit,
+    /// Where it stands after a run, of a program that runs once for each row.
+    pub pick: Option<Pick>,
+}
+
+/// A program as a model, with all that is said of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommandSettings {
+    /// What is started.
+    pub program: Program,
+    /// How it is asked.
+    pub form: Form,
+    /// All outputs that it gives, in its order.
+    pub outputs: Vec<CommandOutput>,
+    /// Places of those that are asked for.
+    pub asked: Vec<usize>,
+    /// Processes at once; as many as there are cores if not said.
+    pub workers: Option<usize>,
+    /// How long the answer to a row may take; as long as it takes if not said.
+    pub timeout: Option<Duration>,
+    /// How often a row is tried again on which the program died, hung, or answered what is no answer.
+    pub retries: u32,
+}
+
+/// A program as a model.
+///
+/// ```
+/// use apportion::model::{CommandModel, CommandOutput, CommandSettings, Form, Model, Program, Protocol};
+/// use apportion::quantity::Unit;
+/// use apportion::space::{Distribution, Factor};
+///
+/// let program = Program {
+///     arguments: ["python3", "my_model.py"].map(str::to_owned).to_vec(),
+///     directory: std::env::current_dir()?,
+///     environment: Vec::new(),
+/// };
+/// let settings = CommandSettings {
+///     program,
+///     form: Form::KeptAlive(Protocol::Csv),
+///     outputs: vec![CommandOutput { name: "force".to_owned(), unit: Unit::parse("nN")?, pick: None }],
+///     asked: vec![0],
+///     workers: Some(2),
+///     timeout: None,
+///     retries: 1,
+/// };
+/// let factor = Factor::new("length", Unit::parse("um")?, Distribution::uniform(1.0, 2.0)?)?;
+/// let model = CommandModel::new(settings, vec![factor]);
+/// assert_eq!(model.concurrency(), Some(2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct CommandModel {
+    settings: CommandSettings,
+    factors: Vec<Factor>,
+    outputs: Vec<Output>,
+    /// The names of all outputs of the program.
+    names: Vec<String>,
+    state: State,
+}
+
+/// What the workers of a model share.
+#[derive(Debug, Default)]
+struct State {
+    interrupted: AtomicBool,
+    /// Whether the program has ever answered.
+    has_answered: AtomicBool,
+    /// Rows that failed before it ever did.
+    barren: AtomicU32,
+    /// Whether its silence, and its surplus lines, have been spoken of.
+    hinted: AtomicBool,
+    warned: AtomicBool,
+    voice: Arc<Voice>,
+}
+
+/// Rows that may fail before there has been any answer.
+const MOST_BARREN: u32 = 5;
+
+impl State {
+    fn interrupted(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+
+    fn has_answered(&self) -> bool {
+        self.has_answered.load(Ordering::Relaxed)
+    }
+
+    fn note_answer(&self) {
+        self.has_answered.store(true, Ordering::Relaxed);
+    }
+
+    /// Counts a row that failed without an answer; why the program is given up, if that has happened too often.
+    fn note_barren(&self, reason: &str) -> Result<(), RowFailure> {
+        if self.has_answered() || self.barren.fetch_add(1, Ordering::Relaxed) + 1 < MOST_BARREN {
+            return Ok(());
+        }
+        Err(RowFailure::new(&format!("the program has answered none of its first {MOST_BARREN} rows: {reason}")))
+    }
+
+    /// Says `line` on standard error if `said` is the first to do so.
+    fn say_once(said: &AtomicBool, line: &str) {
+        if !said.swap(true, Ordering::Relaxed) {
+            voice::say(line);
+        }
+    }
+}
+
+impl CommandModel {
+    /// The model whose inputs are `factors`, in their order, each in its unit.
+    ///
+    /// # Panics
+    /// If `asked` names an output that is not there.
+    pub fn new(settings: CommandSettings, factors: Vec<Factor>) -> Self {
+        let output = |place: &usize| {
+            let CommandOutput { name, unit, .. } = &settings.outputs[*place];
+            Output::new(name.clone(), unit.clone(), "of the program")
+        };
+        let outputs = settings.asked.iter().map(output).collect();
+        let names = settings.outputs.iter().map(|output| output.name.clone()).collect();
+        Self { settings, factors, outputs, names, state: State::default() }
+    }
+}
+
+impl Model for CommandModel {
+    fn outputs(&self) -> &[Output] {
+        &self.outputs
+    }
+
+    fn concurrency(&self) -> Option<usize> {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        Some(self.settings.workers.unwrap_or_else(cores))
+    }
+
+    fn interrupt(&self) {
+        self.state.interrupted.store(true, Ordering::Relaxed);
+    }
+
+    fn worker(&self) -> Box<dyn Worker + '_> {
+        match &self.settings.form {
+            Form::KeptAlive(protocol) => Box::new(KeptWorker::new(self, *protocol)),
+            Form::PerRun(form) => Box::new(PerRunWorker::new(self, form)),
+        }
+    }
+}
+
+/// A value that is none.
+fn not_a_value(value: f64) -> RowFailure {
+    RowFailure::new(if value.is_nan() {
+        "the program gave no value (an empty cell, nan or null)"
+    } else {
+        "the program gave an infinite value"
+    })
+}

@@ -1,0 +1,269 @@
+//! A number from what a run of a program leaves: by a regular expression, a column of CSV, or a JSON pointer.
+
+use std::path::Path;
+
+use regex::Regex;
+use serde_json::Value;
+use thiserror::Error;
+
+use super::words::masked;
+
+/// Where the number stands, and how it is found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pick {
+    /// What is read.
+    pub source: Source,
+    /// How the number is found in it.
+    pub way: Way,
+}
+
+/// What a run leaves.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// Its standard output.
+    Stdout,
+    /// A file in its directory.
+    File(String),
+}
+
+/// Which of several matches or rows is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Match {
+    /// The first.
+    First,
+    /// The last.
+    Last,
+}
+
+impl Match {
+    /// Both, the default first.
+    pub const ALL: [Self; 2] = [Self::Last, Self::First];
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::First => "first",
+            Self::Last => "last",
+        }
+    }
+}
+
+/// How a number is found in a text.
+#[derive(Debug, Clone)]
+pub enum Way {
+    /// The first group of a regular expression, or all that it matches if it has none.
+    Regex(Regex, Match),
+    /// A column of a CSV table with a header.
+    Column(String, Match),
+    /// A JSON pointer (RFC 6901).
+    Pointer(String),
+}
+
+impl PartialEq for Way {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Regex(a, m), Self::Regex(b, n)) => a.as_str() == b.as_str() && m == n,
+            (Self::Column(a, m), Self::Column(b, n)) => a == b && m == n,
+            (Self::Pointer(a), Self::Pointer(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+
+/// Why there is no number.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum PickError {
+    /// The file is not there.
+    #[error("the run left no file `{0}`")]
+    NoFile(String),
+    /// The file cannot be read.
+    #[error("`{file}` cannot be read: {reason}")]
+    Unreadable {
+        /// What was read.
+        file: String,
+        /// What the operating system said.
+        reason: String,
+    },
+    /// The regular expression matches nothing.
+    #[error("nothing in {0} matches the regex")]
+    NoMatch(String),
+    /// The table has no such column, or no row with a cell in it.
+    #[error("{of} has no {missing}")]
+    NoCell {
+        /// What was read.
+        of: String,
+        /// What is missing.
+        missing: String,
+    },
+    /// The text is not JSON.
+    #[error("{0} is not JSON")]
+    NotJson(String),
+    /// The pointer leads nowhere.
+    #[error("{of} has nothing at `{pointer}`")]
+    Nothing {
+        /// What was read.
+        of: String,
+        /// The pointer.
+        pointer: String,
+    },
+    /// What was found is no number.
+    #[error("what was found in {of} is not a number: `{found}`")]
+    NotANumber {
+        /// What was read.
+        of: String,
+        /// What was found, with its own numbers as `#`.
+        found: String,
+    },
+}
+
+/// Bytes of a file that are read.
+pub(super) const MOST_BYTES: u64 = 1 << 28;
+
+impl Source {
+    fn in_words(&self) -> String {
+        match self {
+            Self::Stdout => "the standard output".to_owned(),
+            Self::File(name) => format!("`{name}`"),
+        }
+    }
+
+    /// What a run left, whose standard output is in the file `stdout`.
+    fn text(&self, directory: &Path, stdout: &Path) -> Result<String, PickError> {
+        let (path, file) = match self {
+            Self::Stdout => (stdout.to_owned(), "standard output".to_owned()),
+            Self::File(name) => (directory.join(name), name.clone()),
+        };
+        let unreadable = |reason: String| PickError::Unreadable { file: file.clone(), reason };
+        match std::fs::metadata(&path) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Err(PickError::NoFile(file)),
+            Err(error) => return Err(unreadable(error.to_string())),
+            Ok(data) if data.len() > MOST_BYTES => return Err(unreadable("it has more than 256 MiB".to_owned())),
+            Ok(data) if !data.is_file() => return Err(unreadable("it is not a file".to_owned())),
+            Ok(_) => (),
+        }
+        let bytes = std::fs::read(&path).map_err(|error| unreadable(error.to_string()))?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+}
+
+impl Pick {
+    /// The number that a run in `directory` left; not finite where the program wrote so.
+    pub(super) fn number(&self, directory: &Path, stdout: &Path) -> Result<f64, PickError> {
+        self.way.number(&self.source.text(directory, stdout)?, self.source.in_words())
+    }
+}
+
+impl Way {
+    /// The number in `text`, which is called `of` in errors.
+    ///
+    /// ```
+    /// use apportion::model::{Match, Way};
+    ///
+    /// let way = Way::Pointer("/result/force".to_owned());
+    /// assert_eq!(way.number("{\"result\": {\"force\": 1.5}}", "it".to_owned()), Ok(1.5));
+    /// let way = Way::Column("y".to_owned(), Match::Last);
+    /// assert_eq!(way.number("t,y\n0,1\n1,2.5\n", "it".to_owned()), Ok(2.5));
+    /// ```
+    ///
+    /// # Errors
+    /// [`PickError`] if there is none.
+    pub fn number(&self, text: &str, of: String) -> Result<f64, PickError> {
+        let found = match self {
+            Self::Regex(regex, which) => {
+                let mut matches = regex.captures_iter(text);
+                let groups = if *which == Match::First { matches.next() } else { matches.last() };
+                let found = groups.and_then(|groups| groups.get(1).or_else(|| groups.get(0)));
+                found.ok_or_else(|| PickError::NoMatch(of.clone()))?.as_str().to_owned()
+            }
+            Self::Column(column, which) => cell(text, column, *which, &of)?,
+            Self::Pointer(pointer) => {
+                let value: Value = serde_json::from_str(text).map_err(|_| PickError::NotJson(of.clone()))?;
+                let nothing = || PickError::Nothing { of: of.clone(), pointer: pointer.clone() };
+                match value.pointer(pointer).ok_or_else(nothing)? {
+                    Value::Null => return Ok(f64::NAN),
+                    Value::String(text) => text.clone(),
+                    other => other.to_string(),
+                }
+            }
+        };
+        number(&found).ok_or_else(|| PickError::NotANumber { of, found: masked(&found) })
+    }
+}
+
+/// A number as programs write it, by Fortran's `1.5D+03` too.
+fn number(text: &str) -> Option<f64> {
+    let text = text.trim();
+    text.parse().ok().or_else(|| text.replace(['D', 'd'], "e").parse().ok())
+}
+
+/// The cell of a column in the first or last row of a CSV table.
+fn cell(text: &str, column: &str, which: Match, of: &str) -> Result<String, PickError> {
+    let missing = |missing: String| PickError::NoCell { of: of.to_owned(), missing };
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
+    let place = reader.headers().ok().and_then(|names| names.iter().position(|name| name == column));
+    let place = place.ok_or_else(|| missing(format!("column `{column}`")))?;
+    let mut rows = reader.records().map_while(Result::ok);
+    let row = if which == Match::First { rows.next() } else { rows.last() };
+    let row = row.ok_or_else(|| missing("row".to_owned()))?;
+    let cell =
+        row.get(place).ok_or_else(|| missing(format!("cell of column `{column}` in its {} row", which.name())))?;
+    Ok(cell.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(way: Way, text: &str) -> Result<f64, String> {
+        way.number(text, "it".to_owned()).map_err(|error| error.to_string())
+    }
+
+    fn regex(text: &str, which: Match) -> Way {
+        Way::Regex(Regex::new(text).unwrap(), which)
+    }
+
+    #[test]
+    fn a_regex_takes_its_first_group_of_the_first_or_last_match() {
+        let text = "force = 1.5 nN\nforce = -2.5D-3 nN\n";
+        assert_eq!(found(regex(r"force = (\S+)", Match::First), text), Ok(1.5));
+        assert_eq!(found(regex(r"force = (\S+)", Match::Last), text), Ok(-2.5e-3));
+        assert_eq!(found(regex(r"\d+\.\d+", Match::First), text), Ok(1.5));
+        assert_eq!(found(regex("time", Match::Last), text).unwrap_err(), "nothing in it matches the regex");
+        let rubbish = found(regex("(force.*)", Match::Last), text).unwrap_err();
+        assert!(rubbish.starts_with("what was found in it is not a number: `force = #"), "{rubbish}");
+    }
+
+    #[test]
+    fn a_column_takes_the_last_row_or_the_first() {
+        let column = |name: &str, which| Way::Column(name.to_owned(), which);
+        let text = "\u{feff}t, \"y, nN\"\r\n0, 1.5\r\n1, 2.5\r\n\r\n";
+        assert_eq!(found(column("y, nN", Match::Last), text), Ok(2.5));
+        assert_eq!(found(column("y, nN", Match::First), text), Ok(1.5));
+        assert_eq!(found(column("z", Match::Last), text).unwrap_err(), "it has no column `z`");
+        assert_eq!(found(column("t", Match::Last), "t,y\n").unwrap_err(), "it has no row");
+        let short = "it has no cell of column `y` in its last row";
+        assert_eq!(found(column("y", Match::Last), "t,y\n1\n").unwrap_err(), short);
+        assert!(found(column("y", Match::Last), "t,y\n1,x\n").unwrap_err().contains("not a number: `x`"));
+    }
+
+    #[test]
+    fn a_pointer_leads_to_a_number() {
+        let pointer = |text: &str| Way::Pointer(text.to_owned());
+        let text = r#"{"a/b": [0, {"y": 2.5e-3, "s": "7", "n": null, "l": [1]}]}"#;
+        assert_eq!(found(pointer("/a~1b/1/y"), text), Ok(2.5e-3));
+        assert_eq!(found(pointer("/a~1b/1/s"), text), Ok(7.0));
+        assert!(found(pointer("/a~1b/1/n"), text).unwrap().is_nan());
+        assert_eq!(found(pointer("/a/b"), text).unwrap_err(), "it has nothing at `/a/b`");
+        assert_eq!(found(pointer("/a~1b/1/l"), text).unwrap_err(), "what was found in it is not a number: `[#]`");
+        assert_eq!(found(pointer("/a"), "{").unwrap_err(), "it is not JSON");
+    }
+
+    #[test]
+    fn what_is_not_there_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let pick = Pick { source: Source::File("out.txt".to_owned()), way: regex("1", Match::First) };
+        let error = pick.number(folder.path(), Path::new("stdout")).unwrap_err();
+        assert_eq!(error.to_string(), "the run left no file `out.txt`");
+    }
+}

@@ -1,0 +1,170 @@
+//! A program of the user's own as a child process: started without a shell, ended with all that it started.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus};
+use std::time::{Duration, Instant};
+
+/// A program with its arguments.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Program {
+    /// The program and its arguments, none of them read by a shell. A relative path with a slash is relative to `directory`;
+    /// a name without one is looked for in PATH.
+    pub arguments: Vec<String>,
+    /// Where it runs: an absolute path.
+    pub directory: PathBuf,
+    /// Environment variables that are set for it.
+    pub environment: Vec<(String, String)>,
+}
+
+impl Program {
+    /// The program's file, or its name if it is to be looked for in PATH.
+    fn file(&self) -> PathBuf {
+        let name = self.arguments.first().map_or("", String::as_str);
+        let is_path = Path::new(name).components().count() > 1 || name.starts_with('.');
+        if is_path { self.directory.join(name) } else { PathBuf::from(name) }
+    }
+
+    /// The existing files among the program and its arguments.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let arguments = self.arguments.iter().skip(1).map(|argument| self.directory.join(argument));
+        std::iter::once(self.file()).chain(arguments).filter(|path| path.is_file()).collect()
+    }
+
+    /// A command in a process group of its own, in `directory`.
+    pub(super) fn command(&self, directory: &Path) -> Command {
+        let mut command = Command::new(self.file());
+        command.args(self.arguments.iter().skip(1)).current_dir(directory);
+        command.envs(self.environment.iter().map(|(name, value)| (name, value)));
+        isolate(&mut command);
+        command
+    }
+
+    /// Why it cannot be started, and what to do.
+    pub(super) fn refusal(&self, error: &io::Error) -> String {
+        let name = self.arguments.first().map_or("", String::as_str);
+        let help = match error.kind() {
+            io::ErrorKind::NotFound if !self.directory.is_dir() => {
+                format!("there is no directory {}", self.directory.display())
+            }
+            io::ErrorKind::NotFound if self.file() == Path::new(name) => {
+                "is it installed, and in PATH? (a program beside the study is named with a slash, as in \"./model\")"
+                    .to_owned()
+            }
+            io::ErrorKind::NotFound => {
+                format!("a path with a slash is relative to {}", self.directory.display())
+            }
+            io::ErrorKind::PermissionDenied => {
+                "make it executable, or name what runs it first, as in [\"python3\", \"my_model.py\"]".to_owned()
+            }
+            _ if error.to_string().contains("format") => {
+                "begin it with a line such as #!/bin/sh, or name what runs it first".to_owned()
+            }
+            _ => "try it by hand".to_owned(),
+        };
+        format!("cannot start the program `{name}`: {error}; {help}")
+    }
+}
+
+/// Gives the child a process group, so that it can be ended with all that it starts; on Linux it is also ended by the
+/// system when the thread that started it ends, as when the engine is killed.
+#[cfg(unix)]
+fn isolate(command: &mut Command) {
+    use std::os::unix::process::CommandExt;
+    command.process_group(0);
+    #[cfg(target_os = "linux")]
+    {
+        let parent = rustix::process::getpid();
+        let follow = move || {
+            rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::KILL))?;
+            // The engine may have ended in between.
+            if rustix::process::getppid() == Some(parent) { Ok(()) } else { Err(io::ErrorKind::Interrupted.into()) }
+        };
+        // SAFETY: between fork and exec the closure makes two system calls and neither allocates nor locks.
+        #[allow(unsafe_code)]
+        unsafe {
+            command.pre_exec(follow);
+        }
+    }
+}
+
+#[cfg(not(unix))]
+fn isolate(_: &mut Command) {}
+
+/// A child that is waited for once.
+pub(super) struct Running {
+    child: Child,
+    /// How it ended, once it has been waited for: its number may be another's then.
+    ended: Option<Option<ExitStatus>>,
+}
+
+impl Running {
+    pub(super) fn new(child: Child) -> Self {
+        Self { child, ended: None }
+    }
+
+    /// Whether the program itself has ended. It is not waited for: its number, which is that of its group, stays taken.
+    #[cfg(unix)]
+    pub(super) fn has_ended(&mut self) -> bool {
+        use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
+        let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
+        // An error: there is no such child any more.
+        let ended = || waitid(WaitId::Pid(Pid::from_child(&self.child)), options).map_or(true, |s| s.is_some());
+        self.ended.is_some() || ended()
+    }
+
+    #[cfg(not(unix))]
+    pub(super) fn has_ended(&mut self) -> bool {
+        self.ended.is_some() || !matches!(self.child.try_wait(), Ok(None))
+    }
+
+    /// Waits until it has ended by itself, at most `longest`; whether it has.
+    pub(super) fn ends_within(&mut self, longest: Duration) -> bool {
+        let (start, mut pause) = (Instant::now(), Duration::from_micros(200));
+        while !self.has_ended() {
+            if start.elapsed() >= longest {
+                return false;
+            }
+            std::thread::sleep(pause);
+            pause = (pause * 2).min(Duration::from_millis(20));
+        }
+        true
+    }
+
+    /// Ends it and its whole group, if they have not ended, and says how the program itself ended.
+    pub(super) fn end(&mut self) -> Option<ExitStatus> {
+        if let Some(status) = self.ended {
+            return status;
+        }
+        #[cfg(unix)]
+        {
+            use rustix::process::{Pid, Signal, kill_process_group};
+            // Refused where nobody of the group is left.
+            let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
+        }
+        #[cfg(not(unix))]
+        let _ = self.child.kill();
+        let status = self.child.wait().ok();
+        self.ended = Some(status);
+        status
+    }
+}
+
+/// How a program ended, in words.
+pub(super) fn status_in_words(status: Option<ExitStatus>) -> String {
+    let Some(status) = status else { return "an unknown exit status".to_owned() };
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        let name = match signal {
+            4 => " (SIGILL)",
+            6 => " (SIGABRT)",
+            8 => " (SIGFPE)",
+            9 => " (SIGKILL)",
+            11 => " (SIGSEGV)",
+            15 => " (SIGTERM)",
+            _ => "",
+        };
+        return format!("signal {signal}{name}");
+    }
+    status.code().map_or_else(|| "an unknown exit status".to_owned(), |code| format!("exit status {code}"))
+}

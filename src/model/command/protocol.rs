@@ -1,0 +1,261 @@
+//! What is said between the engine and a program that is kept alive: lines of text, described in
+//! `docs/worker-protocol.md`.
+
+use serde_json::Value;
+
+use super::words::{masked, shortened};
+
+/// How rows and answers are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Protocol {
+    /// A header with the names of the factors, then a line of cells for each row; a line of numbers as its answer.
+    Csv,
+    /// A JSON object for each row, and one as its answer.
+    JsonLines,
+}
+
+impl Protocol {
+    /// Both, the default first.
+    pub const ALL: [Self; 2] = [Self::Csv, Self::JsonLines];
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Csv => "csv",
+            Self::JsonLines => "json-lines",
+        }
+    }
+}
+
+/// What a program answered to a row.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Answer {
+    /// A value for every output; NaN where it gave none.
+    Values,
+    /// The row has no answer, for this reason in the program's words.
+    Failed(String),
+}
+
+/// Reads the line with which a program answers a row, and appends one value for each of `outputs` to `values`, unless the
+/// row failed: the number, NaN for an empty cell, `nan` or null, or an infinity.
+///
+/// ```
+/// use apportion::model::{Answer, Protocol, parse_answer};
+///
+/// let (outputs, mut values) = (["force".to_owned(), "time".to_owned()], Vec::new());
+/// assert_eq!(parse_answer(Protocol::Csv, &outputs, b"1.5,2e-3\r", &mut values), Ok(Answer::Values));
+/// assert_eq!(parse_answer(Protocol::JsonLines, &outputs, br#"{"time": 3, "force": 2.5}"#, &mut values), Ok(Answer::Values));
+/// assert_eq!(values, [1.5, 2e-3, 2.5, 3.0]);
+/// let failed = parse_answer(Protocol::Csv, &outputs, b"error: no root", &mut values);
+/// assert_eq!(failed, Ok(Answer::Failed("no root".to_owned())));
+/// let rubbish = parse_answer(Protocol::Csv, &outputs, b"Loading ...", &mut values);
+/// assert_eq!(rubbish.unwrap_err(), "expected 2 numbers separated by commas, found `Loading ...`");
+/// ```
+///
+/// # Errors
+/// What was expected and what was found, if the line is no answer; `values` is then as it was.
+pub fn parse_answer(
+    protocol: Protocol,
+    outputs: &[String],
+    line: &[u8],
+    values: &mut Vec<f64>,
+) -> Result<Answer, String> {
+    let before = values.len();
+    let found = |words: String| format!("expected {}, found {words}", expected(protocol, outputs));
+    let answer = match std::str::from_utf8(line) {
+        Err(_) => Err("a line that is not text in UTF-8".to_owned()),
+        Ok(text) => match protocol {
+            Protocol::Csv => csv_answer(outputs, text.trim(), values),
+            Protocol::JsonLines => json_answer(outputs, text.trim(), values),
+        },
+    };
+    answer.map_err(|words| {
+        values.truncate(before);
+        found(words)
+    })
+}
+
+fn expected(protocol: Protocol, outputs: &[String]) -> String {
+    match (protocol, outputs) {
+        (Protocol::Csv, [_]) => "a number".to_owned(),
+        (Protocol::Csv, _) => format!("{} numbers separated by commas", outputs.len()),
+        (Protocol::JsonLines, [name]) => format!("a JSON object such as {{\"{name}\": 1.5}}"),
+        (Protocol::JsonLines, _) => format!("a JSON object with {}", outputs.join(", ")),
+    }
+}
+
+fn failed(reason: &str) -> Answer {
+    let reason = shortened(reason);
+    Answer::Failed(if reason.is_empty() { "the program reported an error without a reason".to_owned() } else { reason })
+}
+
+fn csv_answer(outputs: &[String], text: &str, values: &mut Vec<f64>) -> Result<Answer, String> {
+    if let Some(reason) = text.strip_prefix("error:") {
+        return Ok(failed(reason));
+    }
+    let mut cells = 0;
+    for cell in text.split(',') {
+        cells += 1;
+        let cell = cell.trim();
+        let value = if cell.is_empty() { Some(f64::NAN) } else { cell.parse().ok() };
+        values.push(value.ok_or_else(|| format!("`{}`", masked(text)))?);
+    }
+    if cells == outputs.len() {
+        return Ok(Answer::Values);
+    }
+    Err(format!("{cells} cell{}: `{}`", if cells == 1 { "" } else { "s" }, masked(text)))
+}
+
+fn json_answer(outputs: &[String], text: &str, values: &mut Vec<f64>) -> Result<Answer, String> {
+    let parsed = serde_json::from_str(text).or_else(|_| serde_json::from_str(&without_nan(text)));
+    let parsed: Value = parsed.map_err(|_| format!("`{}`", masked(text)))?;
+    let number = |value: &Value, of: &str| match value {
+        Value::Null => Ok(f64::NAN),
+        Value::Number(number) => Ok(number.as_f64().unwrap_or(f64::NAN)),
+        other => Err(format!("{} as `{of}`", kind(other))),
+    };
+    match &parsed {
+        Value::Object(object) => {
+            match object.get("error") {
+                Some(Value::String(reason)) => return Ok(failed(reason)),
+                None | Some(Value::Null) => (),
+                Some(_) if outputs.iter().any(|name| name == "error") => (),
+                Some(other) => return Err(format!("{} as `error`, which is a text", kind(other))),
+            }
+            for name in outputs {
+                let value = object.get(name).ok_or_else(|| format!("an object without `{name}`"))?;
+                values.push(number(value, name)?);
+            }
+        }
+        Value::Array(list) if list.len() == outputs.len() => {
+            for (value, name) in list.iter().zip(outputs) {
+                values.push(number(value, name)?);
+            }
+        }
+        Value::Array(list) => return Err(format!("a list of {}", list.len())),
+        Value::Number(_) if outputs.len() == 1 => values.push(number(&parsed, &outputs[0])?),
+        other => return Err(kind(other).to_owned()),
+    }
+    Ok(Answer::Values)
+}
+
+fn kind(value: &Value) -> &'static str {
+    match value {
+        Value::Null => "null",
+        Value::Bool(_) => "true or false",
+        Value::Number(_) => "a number",
+        Value::String(_) => "a text",
+        Value::Array(_) => "a list",
+        Value::Object(_) => "an object",
+    }
+}
+
+/// The text with `NaN` and `Infinity`, which Python writes though JSON has no such thing, as null.
+fn without_nan(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let (mut rest, mut in_string) = (text, false);
+    while let Some(c) = rest.chars().next() {
+        let word = ["-Infinity", "Infinity", "NaN"].into_iter().find(|word| !in_string && rest.starts_with(word));
+        let length = match word {
+            Some(word) => {
+                out.push_str("null");
+                word.len()
+            }
+            // An escape and what it escapes.
+            None if in_string && c == '\\' => 1 + rest.chars().nth(1).map_or(0, char::len_utf8),
+            None => c.len_utf8(),
+        };
+        if word.is_none() {
+            out.push_str(&rest[..length]);
+        }
+        in_string ^= c == '"';
+        rest = &rest[length..];
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(count: usize) -> Vec<String> {
+        (1..=count).map(|number| format!("y{number}")).collect()
+    }
+
+    fn read(protocol: Protocol, outputs: usize, line: &str) -> Result<Vec<f64>, String> {
+        let mut values = Vec::new();
+        match parse_answer(protocol, &names(outputs), line.as_bytes(), &mut values)? {
+            Answer::Values => Ok(values),
+            Answer::Failed(reason) => Err(format!("failed: {reason}")),
+        }
+    }
+
+    #[test]
+    fn numbers_are_read_as_every_language_writes_them() {
+        for (line, value) in [("1", 1.0), (" -1.5e-300\r", -1.5e-300), ("+.5", 0.5), ("5.", 5.0), ("1E3", 1000.0)] {
+            assert_eq!(read(Protocol::Csv, 1, line), Ok(vec![value]), "{line}");
+        }
+        assert_eq!(read(Protocol::Csv, 3, "1, 2 ,3"), Ok(vec![1.0, 2.0, 3.0]));
+        for line in [r#"{"y1": 1, "y2": 2e0, "note": "x"}"#, "[1, 2.0]"] {
+            assert_eq!(read(Protocol::JsonLines, 2, line), Ok(vec![1.0, 2.0]), "{line}");
+        }
+        assert_eq!(read(Protocol::JsonLines, 1, "3"), Ok(vec![3.0]));
+    }
+
+    #[test]
+    fn what_has_no_value_is_not_a_number() {
+        for line in ["", "nan", "NaN", "-nan"] {
+            assert!(read(Protocol::Csv, 1, line).unwrap()[0].is_nan(), "{line}");
+        }
+        let both = read(Protocol::Csv, 2, ",inf").unwrap();
+        assert!(both[0].is_nan() && both[1] == f64::INFINITY);
+        for line in ["{\"y1\": NaN}", "{\"y1\": null, \"note\": \"a \\\" NaN\"}", "[-Infinity]", "NaN"] {
+            let value = read(Protocol::JsonLines, 1, line);
+            let fits = if line == "NaN" { value.is_err() } else { value.is_ok_and(|values| values[0].is_nan()) };
+            assert!(fits, "{line}");
+        }
+    }
+
+    #[test]
+    fn a_program_says_that_a_row_failed() {
+        assert_eq!(read(Protocol::Csv, 2, "error: no root"), Err("failed: no root".to_owned()));
+        assert_eq!(read(Protocol::JsonLines, 2, r#"{"error": "no root"}"#), Err("failed: no root".to_owned()));
+        assert!(read(Protocol::Csv, 2, "error:").unwrap_err().contains("without a reason"));
+        assert_eq!(read(Protocol::JsonLines, 1, r#"{"error": null, "y1": 2}"#), Ok(vec![2.0]));
+    }
+
+    #[test]
+    fn rubbish_is_named_without_its_numbers() {
+        let words = |protocol, outputs, line| read(protocol, outputs, line).unwrap_err();
+        assert_eq!(words(Protocol::Csv, 1, "step 17 done"), "expected a number, found `step # done`");
+        assert_eq!(words(Protocol::Csv, 2, "1.5"), "expected 2 numbers separated by commas, found 1 cell: `#`");
+        assert_eq!(words(Protocol::Csv, 1, "1,2"), "expected a number, found 2 cells: `#,#`");
+        let object = "expected a JSON object with y1, y2, found";
+        assert_eq!(words(Protocol::JsonLines, 2, "{\"y1\": 1}"), format!("{object} an object without `y2`"));
+        assert_eq!(words(Protocol::JsonLines, 2, "[1]"), format!("{object} a list of 1"));
+        assert_eq!(words(Protocol::JsonLines, 2, "[1, true]"), format!("{object} true or false as `y2`"));
+        assert_eq!(words(Protocol::JsonLines, 2, "{'y1': 12}"), format!("{object} `{{'y1': #}}`"));
+        let mut values = Vec::new();
+        let bytes = parse_answer(Protocol::Csv, &names(1), b"\xff\xfe", &mut values);
+        assert_eq!(bytes.unwrap_err(), "expected a number, found a line that is not text in UTF-8");
+    }
+
+    proptest::proptest! {
+        /// Whatever a program prints, there is an answer with all its values, or none and none.
+        #[test]
+        fn no_line_panics(
+            line in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..60),
+            near in r#"[][{}",:a-zA-Z0-9.+\\-]{0,40}"#,
+            outputs in 1usize..4,
+        ) {
+            for line in [&line[..], near.as_bytes()] {
+                for protocol in Protocol::ALL {
+                    let mut values = vec![7.0];
+                    let answer = parse_answer(protocol, &names(outputs), line, &mut values);
+                    let added = if answer == Ok(Answer::Values) { outputs } else { 0 };
+                    proptest::prop_assert!(values.len() == 1 + added || matches!(answer, Ok(Answer::Failed(_))));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,9 @@
+# The header, then a line of length (mm), thickness (mm), load (N) for each row.
+read -r header
+while IFS=, read -r length thickness load
+do
+  awk -v L="$length" -v t="$thickness" -v F="$load" 'BEGIN {
+    w = 10; E = 70e3    # mm, MPa
+    printf "%.17g,%.17g\n", 4 * F * L^3 / (E * w * t^3), 6 * F * L / (w * t^2)
+  }'
+done

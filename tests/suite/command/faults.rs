@@ -1,0 +1,194 @@
+//! Programs that do something wrong: every good row is used, every bad one has its reason.
+
+use super::{Case, FORMULA, by_formula, contains, failures, rows_where};
+use crate::common::numbers;
+
+/// The result is that of a program without faults, to the bit.
+#[track_caller]
+fn is_whole(case: &Case) -> String {
+    let (result, said) = case.result();
+    let expected = by_formula(case, FORMULA);
+    assert_eq!(failures(&result.outputs[0]), []);
+    assert_eq!(numbers(&result.outputs[0]), numbers(&expected.outputs[0]));
+    said
+}
+
+/// Rows with x1 above 0.9 fail for `reason`, all others are used.
+#[track_caller]
+fn some_fail(case: &Case, reason: &str) -> String {
+    let (result, said) = case.result();
+    let output = &result.outputs[0];
+    let bad = rows_where(|x| x > 0.9);
+    assert!((3..40).contains(&bad), "{bad}");
+    assert_eq!(failures(output), [(reason, bad)]);
+    assert_eq!(output.runs_ok + output.runs_failed, 160);
+    assert!(output.indices.is_some());
+    said
+}
+
+#[test]
+fn a_program_without_faults_gives_what_the_formula_gives() {
+    is_whole(&Case::each_row("", "    print(y, flush=True)\n"));
+    let objects = "import json, sys\nfor line in sys.stdin:\n    x = json.loads(line)\n    print(json.dumps({'y': x['x1'] + 2*x['x2'] + x['x1']*x['x3']}), flush=True)\n";
+    is_whole(&Case::new("protocol = \"json-lines\"", objects));
+}
+
+#[test]
+fn a_program_may_answer_in_blocks() {
+    let blocks = "import sys\nsys.stdin.buffer.readline()\nrest = b''\nwhile block := sys.stdin.buffer.read1(65536):\n    \
+                  lines, _, rest = (rest + block).rpartition(b'\\n')\n    for line in lines.splitlines():\n        \
+                  x = [float(cell) for cell in line.split(b',')]\n        \
+                  sys.stdout.write(f'{x[0] + 2*x[1] + x[0]*x[2]!r}\\n')\n    sys.stdout.flush()\n";
+    is_whole(&Case::new("", blocks));
+}
+
+#[test]
+fn the_program_says_which_rows_failed() {
+    let errors = "    print('error: no root' if x[0] > 0.9 else y, flush=True)\n";
+    some_fail(&Case::each_row("", errors), "no root");
+    let missing = "    print('nan' if x[0] > 0.9 else y, flush=True)\n";
+    some_fail(&Case::each_row("", missing), "the program gave no value (an empty cell, nan or null)");
+    let infinite = "    print('inf' if x[0] > 0.9 else y, flush=True)\n";
+    some_fail(&Case::each_row("", infinite), "the program gave an infinite value");
+}
+
+#[test]
+fn a_row_on_which_the_program_dies_fails_alone() {
+    let dies = "    if x[0] > 0.9:\n        print('no convergence at', x[0], file=sys.stderr, flush=True)\n        os._exit(3)\n    print(y, flush=True)\n";
+    let said = some_fail(&Case::each_row("", dies), "the program ended with exit status 3: no convergence at #");
+    contains(&said, &["the program: no convergence at 0.9", "more lines on standard error left out"]);
+    let by_signal = "    if x[0] > 0.9:\n        os.kill(os.getpid(), 11)\n    print(y, flush=True)\n";
+    some_fail(&Case::each_row("retries = 0", by_signal), "the program ended with signal 11 (SIGSEGV)");
+}
+
+/// The one guilty row is found though the program had read others.
+#[test]
+fn a_row_on_which_a_program_of_blocks_dies_fails_alone() {
+    let blocks = "import os, sys\nsys.stdin.buffer.readline()\nrest = b''\nwhile block := sys.stdin.buffer.read1(65536):\n    \
+                  lines, _, rest = (rest + block).rpartition(b'\\n')\n    answers = ''\n    for line in lines.splitlines():\n        \
+                  x = [float(cell) for cell in line.split(b',')]\n        if x[0] > 0.9: os._exit(3)\n        \
+                  answers += f'{x[0] + 2*x[1] + x[0]*x[2]!r}\\n'\n    sys.stdout.write(answers)\n    sys.stdout.flush()\n";
+    some_fail(&Case::new("", blocks), "the program ended with exit status 3");
+}
+
+#[test]
+fn one_in_a_hundred_rows_that_crash_cost_no_other() {
+    let dies = "    if x[0] > 0.99:\n        os._exit(1)\n    print(y, flush=True)\n";
+    let case = Case::each_row("", dies);
+    let output = case.run_with(&["--base-samples", "512"]);
+    assert_eq!(output.status.code(), Some(0), "{}", crate::common::stderr(&output));
+    let result = case.result_file();
+    let output = &result.outputs[0];
+    assert!((10..60).contains(&output.runs_failed), "{}", output.runs_failed);
+    assert_eq!(failures(output), [("the program ended with exit status 1", output.runs_failed)]);
+    assert_eq!(output.runs_ok + output.runs_failed, 512 * 5);
+    let expected = by_formula(&case, FORMULA);
+    let (first, _) = numbers(output);
+    let (exact, _) = numbers(&expected.outputs[0]);
+    // 1 % of the rows less, and the other study has 32 base samples.
+    assert!(first.iter().zip(&exact).all(|(a, b)| (a - b).abs() < 0.2), "{first:?} {exact:?}");
+}
+
+#[test]
+fn a_program_that_fails_once_is_tried_again() {
+    let once = "    if x[0] > 0.9 and not os.path.exists(f'tried-{line.strip()}'):\n        open(f'tried-{line.strip()}', 'w')\n        os._exit(3)\n    print(y, flush=True)\n";
+    is_whole(&Case::each_row("", once));
+}
+
+#[test]
+fn a_program_that_ends_early_is_started_again() {
+    let few = "    print(y, flush=True)\n    n = globals().get('n', 0) + 1\n    if n == 20: sys.exit()\n";
+    is_whole(&Case::each_row("", few));
+}
+
+#[test]
+fn rubbish_is_named_and_the_rows_after_it_are_asked_again() {
+    let text = "    print(f'step {x[0]} done' if x[0] > 0.9 else y, flush=True)\n";
+    some_fail(&Case::each_row("", text), "not an answer: expected a number, found `step # done`");
+    let cells = "    print(f'{y},{y}' if x[0] > 0.9 else y, flush=True)\n";
+    some_fail(&Case::each_row("", cells), "not an answer: expected a number, found 2 cells: `#,#`");
+    let bytes =
+        "    sys.stdout.buffer.write(b'\\xff\\n' if x[0] > 0.9 else f'{y}\\n'.encode())\n    sys.stdout.flush()\n";
+    some_fail(&Case::each_row("", bytes), "not an answer: expected a number, found a line that is not text in UTF-8");
+    let object = "    print('{\"z\": 1}', flush=True)\n";
+    let json = Case::new("protocol = \"json-lines\"", &format!("import sys\nfor line in sys.stdin:\n{object}"));
+    json.gives_up(&["has answered none of its first 5 rows", "a JSON object such as {\"y\": 1.5}", "without `y`"]);
+}
+
+#[test]
+fn a_banner_on_standard_output_is_named() {
+    let banner = "print('Loading the model ...')\n";
+    let case = Case::new("", &format!("{banner}{}    print(y, flush=True)\n", super::LOOP));
+    case.gives_up(&["expected a number, found `Loading the model ...`"]);
+}
+
+#[test]
+fn a_line_too_many_is_not_taken_for_the_next_answer() {
+    let always = "    print(y)\n    print(0.5, flush=True)\n";
+    Case::each_row("", always).gives_up(&["the program printed more than one line for a row"]);
+    let sometimes = "    print(y)\n    if x[0] > 0.9: print('0.5')\n    sys.stdout.flush()\n";
+    let case = Case::each_row("workers = 1", sometimes).replace("workers = 2\n", "");
+    let (result, said) = case.result();
+    // Each of the lines is found out sooner or later; most rows are answered.
+    contains(&said, &["a line that was no answer"]);
+    assert!(result.outputs[0].runs_ok > 100, "{}", result.outputs[0].runs_ok);
+}
+
+#[test]
+fn a_hanging_program_is_ended_and_started_again() {
+    // A child of it would hold the pipes, were it not ended too.
+    let hangs =
+        "    if 0.97 < x[0]:\n        import subprocess; subprocess.run(['sleep', '1000'])\n    print(y, flush=True)\n";
+    let case = Case::each_row("timeout = \"400 ms\"", hangs);
+    let (result, _) = case.result();
+    let bad = rows_where(|x| x > 0.97);
+    assert!(bad > 0);
+    assert_eq!(failures(&result.outputs[0]), [("no answer within 0.4 s", bad)]);
+}
+
+#[test]
+fn a_program_that_does_not_flush_is_told_to() {
+    let buffered =
+        "    kept = globals().setdefault('kept', open(1, 'w', buffering=65536))\n    kept.write(f'{y}\\n')\n";
+    let case = Case::each_row("timeout = \"300 ms\"\nretries = 0", buffered);
+    case.gives_up(&["no answer within 0.3 s; does the program flush its output?"]);
+}
+
+#[test]
+fn standard_error_is_passed_on_and_counted() {
+    let talks = "    print('row', line.strip(), '\\x1b[2J', file=sys.stderr)\n    print(y, flush=True)\n";
+    let said = is_whole(&Case::each_row("", talks));
+    assert_eq!(said.matches("the program: row").count(), 20, "{said}");
+    contains(&said, &["the program: 140 more lines on standard error left out"]);
+    assert!(!said.contains('\x1b'));
+}
+
+#[test]
+fn floods_take_little_memory() {
+    let endless = "import sys\nwhile True: sys.stdout.write('x' * 1000000)\n";
+    let message = Case::new("", endless).gives_up(&["a line of more than 1 MiB"]);
+    assert!(message.len() < 5000);
+    let lines = "import sys\nwhile True: sys.stdout.write('1.5\\n' * 10000)\n";
+    Case::new("", lines).gives_up(&["more than one line for a row"]);
+    let errors = "import sys\nwhile True: sys.stderr.write('x' * 1000000)\n";
+    Case::new("timeout = \"300 ms\"", errors).gives_up(&["no answer within 0.3 s"]);
+}
+
+#[test]
+fn a_program_that_never_works_is_given_up() {
+    let broken = Case::new("", "import no_such_module\n");
+    broken.gives_up(&["exit status 1", "ModuleNotFoundError: No module named 'no_such_module'"]);
+    let silent = Case::new("", "import sys\nsys.exit(7)\n");
+    silent.gives_up(&["answered none of its first 5 rows: the program ended with exit status 7"]);
+    let closed = Case::new("retries = 0", "import os, time\nos.close(1)\ntime.sleep(1000)\n");
+    closed.gives_up(&["the program closed its standard output"]);
+}
+
+impl Case {
+    fn replace(self, from: &str, to: &str) -> Self {
+        let text = std::fs::read_to_string(self.path("study.toml")).unwrap();
+        assert!(text.contains(from));
+        self.write("study.toml", &text.replacen(from, to, 1));
+        self
+    }
+}

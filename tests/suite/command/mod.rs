@@ -1,0 +1,147 @@
+//! Programs as models, through the binary: what they answer, and whatever they can do wrong.
+
+mod examples;
+mod faults;
+mod per_run;
+mod processes;
+mod refusals;
+
+use std::path::{Path, PathBuf};
+use std::process::Output;
+use std::time::Duration;
+
+use apportion::report::{OutputRecord, ResultFile, read_result};
+use tempfile::TempDir;
+
+use crate::common::{stderr, text};
+
+/// A study of a program in a folder of its own.
+pub struct Case {
+    folder: TempDir,
+}
+
+/// Three factors, two replicates of 16 points: 2 x 16 x 5 = 160 rows.
+const FACTORS: &str = r#"
+[design]
+base_samples = 32
+replicates = 2
+[analysis]
+max_failed = 1
+[[factor]]
+name = "x1"
+min = 0
+max = 1
+[[factor]]
+name = "x2"
+min = 0
+max = 1
+[[factor]]
+name = "x3"
+min = 0
+max = 1
+"#;
+
+/// The beginning of a worker that answers by a function of its own.
+const LOOP: &str = "import os, sys, time\nsys.stdin.readline()\nfor line in sys.stdin:\n    x = [float(cell) for cell in line.split(',')]\n    y = x[0] + 2*x[1] + x[0]*x[2]\n";
+
+impl Case {
+    /// A study with the keys `command` of `[command]` and the program `model.py`.
+    pub fn new(command: &str, program: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let study = format!(
+            "model = \"command\"\noutputs = [\"y\"]\n[command]\nprogram = [\"python3\", \"model.py\"]\nworkers = 2\n{command}\n{FACTORS}"
+        );
+        std::fs::write(folder.path().join("study.toml"), study).unwrap();
+        std::fs::write(folder.path().join("model.py"), program).unwrap();
+        Self { folder }
+    }
+
+    /// One whose program does `what`, indented, with every row: the values are in `x`, the answer in `y`.
+    pub fn each_row(command: &str, what: &str) -> Self {
+        Self::new(command, &format!("{LOOP}{what}"))
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, content: &str) {
+        std::fs::write(self.path(name), content).unwrap();
+    }
+
+    /// A run of the study, which ends within a minute.
+    pub fn run(&self) -> Output {
+        self.run_with(&[])
+    }
+
+    pub fn run_with(&self, more: &[&str]) -> Output {
+        let (study, out) = (self.path("study.toml"), self.path("out"));
+        let arguments = ["run", text(&study), "--out", text(&out)];
+        let mut command = assert_cmd::Command::cargo_bin("apportion").unwrap();
+        command.args(arguments).args(more).timeout(Duration::from_secs(60)).output().unwrap()
+    }
+
+    /// The result of a run that ends well, and what it said on standard error.
+    #[track_caller]
+    pub fn result(&self) -> (ResultFile, String) {
+        let output = self.run();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        (self.result_file(), stderr(&output))
+    }
+
+    pub fn result_file(&self) -> ResultFile {
+        read_result(&self.path("out/study.json")).unwrap()
+    }
+
+    /// The message of a run that ends with exit code 1.
+    #[track_caller]
+    pub fn gives_up(&self, expected: &[&str]) -> String {
+        let output = self.run();
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        contains(&message, expected);
+        message
+    }
+}
+
+#[track_caller]
+pub fn contains(message: &str, expected: &[&str]) {
+    for part in expected {
+        assert!(message.contains(part), "no {part:?} in:\n{message}");
+    }
+}
+
+/// The reasons of failed runs with their numbers.
+pub fn failures(output: &OutputRecord) -> Vec<(&str, u64)> {
+    output.failures.iter().map(|failure| (failure.reason.as_str(), failure.runs)).collect()
+}
+
+/// The result of the same study by a formula.
+pub fn by_formula(case: &Case, formula: &str) -> ResultFile {
+    let text = std::fs::read_to_string(case.path("study.toml")).unwrap();
+    let (start, end) = (text.find("[command]").unwrap(), text.find("[design]").unwrap());
+    let text = format!("{}[expression]\noutputs.y = \"{formula}\"\n{}", &text[..start], &text[end..]);
+    let text = text.replace("model = \"command\"", "model = \"expression\"");
+    let study = apportion::study::Study::parse(&text, Path::new("formula.toml"), &[]).unwrap();
+    apportion::analyse(&study, 0, &|_| ()).unwrap()
+}
+
+/// The formula of [`LOOP`], in the same order of operations.
+pub const FORMULA: &str = "x1 + 2*x2 + x1*x3";
+
+/// Rows of the study at which a condition on the first factor holds.
+pub fn rows_where(condition: impl Fn(f64) -> bool) -> u64 {
+    let case = Case::new("", "");
+    let study = apportion::study::Study::load(&case.path("study.toml"), &[]).unwrap();
+    let (design, factors) = (&study.design, study.space.factors().len());
+    let (mut count, points) = (0, design.points_per_replicate() as usize);
+    for replicate in 0..design.settings().replicates {
+        let mut unit = vec![vec![0.0; points]; design.columns()];
+        design.replicate(replicate).fill(0, &mut unit);
+        for run in design.runs() {
+            let matrix = if run.columns.contains(&0) { run.from } else { run.base };
+            count += unit[matrix as usize * factors].iter().filter(|u| condition(**u)).count() as u64;
+        }
+    }
+    count
+}

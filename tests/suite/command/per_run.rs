@@ -1,0 +1,122 @@
+//! Programs that run once for each row, in directories of their own.
+
+use super::{Case, contains, failures, rows_where};
+use crate::common::{files, stderr};
+
+/// A simulator in Python's place that is quick to start: it reads `model.in` and writes what `more` says.
+fn simulator(command: &str, outputs: &str, more: &str) -> Case {
+    let keys = format!("template = \"model.in\"\nfiles = [\"model.awk\"]\n{command}\n{outputs}");
+    let case = Case::new(&keys, "");
+    let study = std::fs::read_to_string(case.path("study.toml")).unwrap();
+    let program = "program = [\"awk\", \"-f\", \"model.awk\", \"model.in\"]";
+    let study = study.replace("program = [\"python3\", \"model.py\"]", program).replace("outputs = [\"y\"]\n", "");
+    case.write("study.toml", &study);
+    case.write("model.in", "x1 = {{x1}}\nx2 = {{ x2 }}   # {{{{not one}}\nx3 = {{x3}}\n");
+    let sum = "v[\"x1\"] + 2*v[\"x2\"]";
+    case.write(
+        "model.awk",
+        &format!("$2 == \"=\" {{ v[$1] = $3 }}\nEND {{\n  y = {sum}; x1 = v[\"x1\"]\n{more}\n}}\n"),
+    );
+    case
+}
+
+const REPORT: &str = "outputs.y = { file = \"out.txt\", regex = 'y = (\\S+)' }";
+
+#[test]
+fn outputs_are_picked_from_files() {
+    let outputs = "outputs.report = { regex = 'y = (\\S+)', unit = \"nN\" }\noutputs.first = { regex = 'y = (\\S+)', match = \"first\" }\n\
+                   outputs.table = { file = \"out.csv\", column = \"y\" }\noutputs.json = { file = \"out.json\", pointer = \"/a/1\" }";
+    let writes = "  printf \"y = 1.5D+00\\ny = %.17g\\n\", y\n  printf \"t,y\\n0,1\\n1,%.17g\\n\", y > \"out.csv\"\n  \
+                  printf \"{\\\"a\\\": [0, %.17g]}\", y > \"out.json\"";
+    let case = simulator("", outputs, writes);
+    let (result, _) = case.result();
+    let mean = |name: &str| result.outputs.iter().find(|output| output.name == name).unwrap().mean.unwrap();
+    // The mean of x1 + 2 x2 by 32 Sobol' points.
+    assert!((mean("table") - 1.5).abs() < 0.05, "{}", mean("table"));
+    assert!((mean("report") - mean("table")).abs() < 1e-12 && (mean("json") - mean("table")).abs() < 1e-12);
+    assert_eq!(mean("first"), 1.5);
+    assert_eq!(result.outputs[0].unit, "nN");
+}
+
+#[test]
+fn what_a_run_does_not_leave_is_named() {
+    let bad = rows_where(|x| x > 0.9);
+    for (more, reason) in [
+        ("if (x1 <= 0.9) print \"y = \" y > \"out.txt\"", "the run left no file `out.txt`"),
+        ("print (x1 > 0.9 ? \"nothing\" : \"y = \" y) > \"out.txt\"", "nothing in `out.txt` matches the regex"),
+        (
+            "print \"y = \" (x1 > 0.9 ? \"*****\" : y) > \"out.txt\"",
+            "what was found in `out.txt` is not a number: `*****`",
+        ),
+        (
+            "print \"y = \" (x1 > 0.9 ? \"nan\" : y) > \"out.txt\"",
+            "the program gave no value (an empty cell, nan or null)",
+        ),
+        (
+            "print \"y = \" y > \"out.txt\"; if (x1 > 0.9) { print \"diverged at \" x1 > \"/dev/stderr\"; exit 4 }",
+            "the program ended with exit status 4: diverged at #",
+        ),
+    ] {
+        let (result, _) = simulator("", REPORT, more).result();
+        assert_eq!(failures(&result.outputs[0]), [(reason, bad)]);
+        assert!(result.outputs[0].indices.is_some());
+    }
+}
+
+#[test]
+fn one_missing_output_leaves_the_others() {
+    let outputs = format!("{REPORT}\noutputs.z = {{ file = \"out.txt\", regex = 'z = (\\S+)' }}");
+    let (result, _) =
+        simulator("", &outputs, "print \"y = \" y > \"out.txt\"; if (x1 <= 0.9) print \"z = 1\" > \"out.txt\"")
+            .result();
+    assert_eq!(result.outputs[0].runs_failed, 0);
+    assert_eq!(result.outputs[1].runs_failed, rows_where(|x| x > 0.9));
+}
+
+#[test]
+fn a_run_that_takes_too_long_is_ended() {
+    let more = "print \"y = \" y > \"out.txt\"; if (x1 > 0.97) system(\"sleep 1000\")";
+    let (result, _) = simulator("timeout = \"300 ms\"", REPORT, more).result();
+    let reason = "the program took longer than 0.3 s";
+    assert_eq!(failures(&result.outputs[0]), [(reason, rows_where(|x| x > 0.97))]);
+}
+
+#[test]
+fn directories_are_kept_if_asked_for() {
+    let case = simulator("keep = \"runs\"", REPORT, "print \"y = \" y > \"out.txt\"");
+    case.result();
+    let runs: Vec<_> = files(&case.path("runs")).into_iter().collect();
+    // Identical points share theirs.
+    assert!(runs.len() > 100 && runs.len() <= 160, "{}", runs.len());
+    let one = case.path("runs").join(&runs[0]);
+    let expected = ["factors.csv", "model.awk", "model.in", "out.txt", "stderr.txt", "stdout.txt"];
+    assert_eq!(files(&one).into_iter().collect::<Vec<_>>(), expected);
+    let values = std::fs::read_to_string(one.join("factors.csv")).unwrap();
+    let x1 = values.lines().nth(1).unwrap().split(',').next().unwrap();
+    let input = std::fs::read_to_string(one.join("model.in")).unwrap();
+    contains(&input, &[&format!("x1 = {x1}\n"), "# {{not one}}"]);
+}
+
+#[test]
+fn a_simulator_that_never_works_is_given_up() {
+    let broken = simulator("", REPORT, "print \"no licence\" > \"/dev/stderr\"; exit 9");
+    broken.gives_up(&["answered none of its first 5 rows", "exit status 9: no licence"]);
+    let elsewhere = simulator("", REPORT, "print \"y = \" y");
+    elsewhere.gives_up(&["answered none of its first 5 rows: the run left no file `out.txt`"]);
+}
+
+#[test]
+fn templates_are_checked_when_the_study_is_read() {
+    let case = simulator("", REPORT, "print \"y = \" y > \"out.txt\"");
+    case.write("model.in", "x1 = {{x1}}\nx3 = {{x3}}\n");
+    let output = case.run();
+    contains(&stderr(&output), &["factor `x2` does not stand in the template"]);
+    case.write("model.in", "x1 = {{x1}}\ny = {{x4}}\n");
+    let output = case.run();
+    assert_eq!(output.status.code(), Some(2));
+    let message = stderr(&output);
+    contains(
+        &message,
+        &["study.toml:", "model.in:2:7: there is no factor `x4`: did you mean `x1`?", "factors: x1, x2, x3"],
+    );
+}

@@ -1,0 +1,97 @@
+//! No process outlives a run, however it ends.
+
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use super::Case;
+use crate::common::text;
+
+/// Writes the numbers of its processes to files, answers a few rows, and then does `what`, with a child.
+fn worker(what: &str) -> Case {
+    Case::each_row(
+        "",
+        &format!(
+            "    if 'child' not in globals():\n        import subprocess\n        child = subprocess.Popen(['sleep', '1000'])\n        \
+             open(f'pid-{{os.getpid()}}', 'w')\n        open(f'pid-{{child.pid}}', 'w')\n        n = 0\n    n += 1\n{what}    print(y, flush=True)\n"
+        ),
+    )
+}
+
+fn started(case: &Case) -> Child {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin("apportion"));
+    command.args(["run", text(&case.path("study.toml")), "--out", text(&case.path("out"))]);
+    command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+fn processes(case: &Case) -> Vec<String> {
+    let names =
+        std::fs::read_dir(case.path("")).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    names.filter_map(|name| name.strip_prefix("pid-").map(str::to_owned)).collect()
+}
+
+/// Alive, and no zombie.
+fn is_alive(pid: &String) -> bool {
+    let stat = std::fs::read_to_string(Path::new("/proc").join(pid).join("stat"));
+    stat.is_ok_and(|stat| !stat.rsplit(')').next().is_some_and(|rest| rest.trim_start().starts_with('Z')))
+}
+
+#[track_caller]
+fn within(seconds: u64, what: &str, condition: impl Fn() -> bool) {
+    let start = Instant::now();
+    while !condition() {
+        assert!(start.elapsed() < Duration::from_secs(seconds), "{what}: not within {seconds} s");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+fn signal(name: &str, child: &Child) {
+    let status = Command::new("kill").args([name, &child.id().to_string()]).status().unwrap();
+    assert!(status.success());
+}
+
+const HANGS: &str = "    if n > 3: time.sleep(1000)\n";
+
+#[test]
+fn a_run_that_ends_leaves_no_process() {
+    let case = worker("");
+    case.result();
+    let all = processes(&case);
+    assert!(all.len() >= 2, "{all:?}");
+    within(5, "all have ended", || !all.iter().any(is_alive));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_ends_hanging_programs() {
+    let case = worker(HANGS);
+    let mut run = started(&case);
+    within(20, "two workers hang", || processes(&case).len() >= 4);
+    std::thread::sleep(Duration::from_millis(300));
+    signal("-INT", &run);
+    let start = Instant::now();
+    let status = run.wait().unwrap();
+    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    assert_eq!(status.code(), Some(1));
+    within(5, "all have ended", || !processes(&case).iter().any(is_alive));
+}
+
+/// The engine has no time to say goodbye: the system ends its children, which do not read their input here.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_killed_engine_takes_its_programs_along() {
+    let hangs = "    if n > 3: time.sleep(1000)\n";
+    let case = Case::each_row(
+        "",
+        &format!(
+            "    n = globals().get('n', 0) + 1\n    open(f'pid-{{os.getpid()}}', 'w')\n{hangs}    print(y, flush=True)\n"
+        ),
+    );
+    let mut run = started(&case);
+    within(20, "two workers hang", || processes(&case).len() >= 2);
+    std::thread::sleep(Duration::from_millis(300));
+    assert!(processes(&case).iter().all(is_alive));
+    signal("-KILL", &run);
+    run.wait().unwrap();
+    within(5, "all have ended", || !processes(&case).iter().any(is_alive));
+}

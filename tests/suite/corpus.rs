@@ -1,0 +1,86 @@
+//! The corpus of the fuzzers, and texts made from it at random, through the same targets on any compiler.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use crate::fuzz::{Dictionary, Random, TARGETS, Target, mutated};
+
+/// Texts made at random from every one of the corpus.
+const CHANGED: u64 = 20;
+
+/// The longest that a text may take: a fuzzer counts it as one that hangs far earlier, but machines are busy.
+const LONGEST: Duration = Duration::from_secs(60);
+
+/// The files of a target's corpus, by name; none in the published crate, which has no corpus.
+fn corpus(target: &Target) -> Vec<(String, Vec<u8>)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target.name);
+    let Ok(entries) = std::fs::read_dir(&folder) else { return Vec::new() };
+    let mut files: Vec<(String, Vec<u8>)> = entries
+        .map(|entry| entry.unwrap().path())
+        .map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read(&path).unwrap()))
+        .collect();
+    files.sort();
+    files
+}
+
+/// Runs the target on `bytes`; a panic says on what.
+fn run(target: &Target, name: &str, bytes: &[u8]) {
+    let begun = Instant::now();
+    if let Err(panic) = std::panic::catch_unwind(|| (target.run)(bytes)) {
+        eprintln!("the target `{}` on {name}:\n{}", target.name, String::from_utf8_lossy(bytes));
+        std::panic::resume_unwind(panic);
+    }
+    assert!(begun.elapsed() < LONGEST, "{} on {name} took {:?}", target.name, begun.elapsed());
+}
+
+fn all_of(name: &str) {
+    let target = TARGETS.iter().find(|target| target.name == name).unwrap();
+    let dictionary = Dictionary::read(target.dictionary);
+    let files = corpus(target);
+    let mut random = Random(1);
+    for (file, bytes) in &files {
+        run(target, file, bytes);
+        let Ok(text) = std::str::from_utf8(bytes) else { continue };
+        for number in 0..CHANGED {
+            let text = mutated(text, &dictionary, &mut random);
+            run(target, &format!("{file}, changed for the {}. time", number + 1), text.as_bytes());
+        }
+    }
+    // From nothing, by the words of the language alone.
+    let mut text = String::new();
+    for number in 0..50 * CHANGED {
+        text = if text.len() < 200 { mutated(&text, &dictionary, &mut random) } else { String::new() };
+        run(target, &format!("text {number} made of nothing"), text.as_bytes());
+    }
+}
+
+#[test]
+fn formulas() {
+    all_of("expression");
+}
+
+#[test]
+fn results() {
+    all_of("result");
+}
+
+#[test]
+fn studies() {
+    all_of("study");
+}
+
+#[test]
+fn tables() {
+    all_of("tables");
+}
+
+/// Every target of `fuzz/` is one of those above.
+#[test]
+fn no_target_is_left_out() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/fuzz_targets");
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    let mut fuzzers: Vec<String> =
+        entries.map(|entry| entry.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned()).collect();
+    fuzzers.sort();
+    assert_eq!(fuzzers, TARGETS.map(|target| target.name));
+}

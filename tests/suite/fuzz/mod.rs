@@ -1,0 +1,33 @@
+//! What a stranger can feed the program, as targets of fuzzing: each takes any bytes and must end, without a panic, and
+//! keep what it promises. The fuzzers in `fuzz/` and the tests in `corpus.rs` run the same targets.
+
+mod expression;
+mod mutation;
+mod result;
+mod study;
+mod tables;
+
+pub use mutation::{Dictionary, Random, mutated};
+
+/// One way into the program.
+pub struct Target {
+    /// Its name: that of its fuzzer, and of its folder in `fuzz/corpus`.
+    pub name: &'static str,
+    /// Does with the bytes what the program would.
+    pub run: fn(&[u8]),
+    /// The words of its language, in the format of libFuzzer.
+    pub dictionary: &'static str,
+}
+
+/// All targets.
+pub const TARGETS: [Target; 4] = [
+    Target { name: "expression", run: expression::run, dictionary: include_str!("expression.dict") },
+    Target { name: "result", run: result::run, dictionary: include_str!("result.dict") },
+    Target { name: "study", run: study::run, dictionary: include_str!("study.dict") },
+    Target { name: "tables", run: tables::run, dictionary: include_str!("tables.dict") },
+];
+
+/// The target of that name.
+pub fn target(name: &str) -> &'static Target {
+    TARGETS.iter().find(|target| target.name == name).unwrap_or_else(|| panic!("no target is called {name}"))
+}

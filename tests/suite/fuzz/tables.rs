@@ -1,0 +1,77 @@
+//! Tables: of inputs and outputs, and of points.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use apportion::exchange::{Missing, Selection, Table, evaluate, read_table};
+use apportion::given::{Method, analyse};
+use apportion::report::given::{GivenFacts, build_given, given_chart, given_csv, given_json, given_summary};
+use apportion::study::Study;
+
+/// A study with a factor of every kind.
+static STUDY: LazyLock<Study> = LazyLock::new(|| {
+    let text = r#"model = "expression"
+        expression.outputs = { y = "a + b + c + d", z = "ln(a)" }
+        factor = [
+            { name = "a", min = 0, max = 1, unit = "um" },
+            { name = "b", distribution = "integer", min = 1, max = 6 },
+            { name = "c", distribution = "boolean" },
+            { name = "d", distribution = "categorical", labels = ["steel", "brass, 1"], values = [2, 1] },
+        ]"#;
+    Study::parse(text, Path::new("points.toml"), &[]).expect("the study is right")
+});
+
+/// Cells up to which a table is analysed too.
+const CELLS: usize = 4096;
+
+/// The first line says which columns are outputs and, after `|`, which are inputs; the table follows.
+pub fn run(bytes: &[u8]) {
+    let (head, csv) = match bytes.iter().position(|byte| *byte == b'\n') {
+        Some(end) => (&bytes[..end], &bytes[end + 1..]),
+        None => (&b"y"[..], bytes),
+    };
+    let head = String::from_utf8_lossy(head);
+    let (outputs, inputs) = head.split_once('|').unwrap_or((&head, ""));
+    // As the command line has them.
+    let names = |text: &str| -> Vec<String> {
+        text.split(',').map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect()
+    };
+    let (outputs, inputs) = (names(outputs), names(inputs));
+    for missing in [Missing::Refuse, Missing::Drop] {
+        let selection = Selection { outputs: &outputs, inputs: &inputs, missing };
+        match read_table(csv, &selection) {
+            Ok(table) => analysed(&table),
+            Err(error) => assert!(error.to_string().contains("line") || error.to_string().contains("twice"), "{error}"),
+        }
+    }
+    let mut values = Vec::new();
+    if let Ok(evaluated) = evaluate(&STUDY, csv, &mut values) {
+        // A header, and a line for each point.
+        let lines = values.iter().filter(|byte| **byte == b'\n').count() as u64;
+        assert_eq!(lines, evaluated.points + 1);
+    }
+}
+
+fn analysed(table: &Table) {
+    let Table { inputs, outputs, dropped } = table;
+    let rows = inputs.iter().chain(outputs).map(|column| column.values.len()).max().unwrap_or(0);
+    assert!(inputs.iter().chain(outputs).all(|column| column.values.len() == rows));
+    if outputs.is_empty() || rows * (inputs.len() + outputs.len()) > CELLS {
+        return;
+    }
+    let method = Method::Both;
+    let Ok(indices) = analyse(inputs, outputs, method, 0) else { return };
+    let facts = GivenFacts {
+        file: "table.csv".to_owned(),
+        sha256: String::new(),
+        dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
+        method,
+        seed: 0,
+    };
+    let result = build_given(&indices, (inputs, outputs), &facts);
+    assert!(given_json(&result).contains("apportion"));
+    assert!(!given_csv(&result).contains("NaN") && !given_summary(&result).is_empty());
+    for output in &result.outputs {
+        given_chart(&result, output).svg().expect("a chart");
+    }
+}
