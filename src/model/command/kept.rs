@@ -38,6 +38,8 @@ struct Talk {
     /// What has come of the line that is not complete.
     line: Vec<u8>,
     has_header: bool,
+    /// Its output is closed.
+    closed: bool,
     /// When it answered last, or was asked first.
     heard: Instant,
 }
@@ -107,7 +109,14 @@ impl<'a> KeptWorker<'a> {
         let program = &self.model.settings.program;
         let process = Process::start(program, &self.model.state.voice)
             .map_err(|error| RowFailure::new(&program.refusal(&error)))?;
-        Ok(Talk { process, credit: IN_TRANSIT, line: Vec::new(), has_header: false, heard: Instant::now() })
+        Ok(Talk {
+            process,
+            credit: IN_TRANSIT,
+            line: Vec::new(),
+            has_header: false,
+            closed: false,
+            heard: Instant::now(),
+        })
     }
 
     /// Lines that came after the last row: what they belong to is unknown. A process that has ended since is let go.
@@ -139,6 +148,9 @@ impl<'a> KeptWorker<'a> {
     /// Sends what may be sent, and takes what comes next.
     fn step(&mut self, piece: &mut Piece<'_>) -> Result<(), Fault> {
         let Some(talk) = &mut self.talk else { return Ok(()) };
+        if talk.closed {
+            return Err(Fault::Closed);
+        }
         let state = &self.model.state;
         let is_first = !state.has_answered();
         let ahead = if is_first || piece.careful || piece.alone.is_some() { 1 } else { piece.window };
@@ -300,8 +312,12 @@ impl Talk {
         while self.line.is_empty() {
             match self.process.event(end.saturating_duration_since(Instant::now())) {
                 Some(Event::Sent) => self.credit += 1,
-                // An end shows again with the next row.
-                Some(Event::Closed) | None => return Ok(()),
+                // That is no fault of a row that has been answered.
+                Some(Event::Closed) => {
+                    self.closed = true;
+                    return Ok(());
+                }
+                None => return Ok(()),
                 Some(Event::Output(_)) => break,
             }
         }

@@ -18,22 +18,25 @@ pub struct Program {
 }
 
 impl Program {
-    /// The program's file, or its name if it is to be looked for in PATH.
-    fn file(&self) -> PathBuf {
-        let name = self.arguments.first().map_or("", String::as_str);
-        let is_path = Path::new(name).components().count() > 1 || name.starts_with('.');
-        if is_path { self.directory.join(name) } else { PathBuf::from(name) }
+    fn name(&self) -> &str {
+        self.arguments.first().map_or("", String::as_str)
+    }
+
+    /// The program's file, unless it is to be looked for in PATH.
+    fn file(&self) -> Option<PathBuf> {
+        let is_path = Path::new(self.name()).components().count() > 1 || self.name().starts_with('.');
+        is_path.then(|| self.directory.join(self.name()))
     }
 
     /// The existing files among the program and its arguments.
     pub fn files(&self) -> Vec<PathBuf> {
         let arguments = self.arguments.iter().skip(1).map(|argument| self.directory.join(argument));
-        std::iter::once(self.file()).chain(arguments).filter(|path| path.is_file()).collect()
+        self.file().into_iter().chain(arguments).filter(|path| path.is_file()).collect()
     }
 
     /// A command in a process group of its own, in `directory`.
     pub(super) fn command(&self, directory: &Path) -> Command {
-        let mut command = Command::new(self.file());
+        let mut command = Command::new(self.file().unwrap_or_else(|| self.name().into()));
         command.args(self.arguments.iter().skip(1)).current_dir(directory);
         command.envs(self.environment.iter().map(|(name, value)| (name, value)));
         isolate(&mut command);
@@ -42,12 +45,12 @@ impl Program {
 
     /// Why it cannot be started, and what to do.
     pub(super) fn refusal(&self, error: &io::Error) -> String {
-        let name = self.arguments.first().map_or("", String::as_str);
+        let name = self.name();
         let help = match error.kind() {
             io::ErrorKind::NotFound if !self.directory.is_dir() => {
                 format!("there is no directory {}", self.directory.display())
             }
-            io::ErrorKind::NotFound if self.file() == Path::new(name) => {
+            io::ErrorKind::NotFound if self.file().is_none() => {
                 "is it installed, and in PATH? (a program beside the study is named with a slash, as in \"./model\")"
                     .to_owned()
             }

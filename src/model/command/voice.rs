@@ -4,10 +4,12 @@ use std::io::{Read, Write};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use super::words::shortened;
+use super::words::cut;
 
 /// Lines that are passed on; the others are counted.
 const MOST_LINES: u64 = 20;
+/// Characters of a line that are passed on.
+const MOST_LETTERS: usize = 400;
 
 /// The standard error of all processes of a model, on its way to ours.
 #[derive(Debug, Default)]
@@ -19,7 +21,7 @@ impl Voice {
     /// Passes on a line, unless there have been enough.
     pub(super) fn pass_on(&self, line: &str) {
         if self.lines.fetch_add(1, Ordering::Relaxed) < MOST_LINES {
-            say(&format!("the program: {}", shortened(line)));
+            say(&format!("the program: {}", cut(line, MOST_LETTERS)));
         }
     }
 
@@ -48,11 +50,11 @@ impl Voice {
     }
 
     fn take(&self, line: &mut Vec<u8>, last: &Mutex<String>) {
-        let text = String::from_utf8_lossy(line).trim().to_owned();
+        let text = String::from_utf8_lossy(line).into_owned();
         line.clear();
-        if !text.is_empty() {
+        if !text.trim().is_empty() {
             self.pass_on(&text);
-            *last.lock().unwrap_or_else(PoisonError::into_inner) = text;
+            text.trim().clone_into(&mut last.lock().unwrap_or_else(PoisonError::into_inner));
         }
     }
 }

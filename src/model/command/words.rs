@@ -3,11 +3,16 @@
 /// Characters of a program's words that a reason keeps.
 const MOST: usize = 120;
 
-/// One line of a program's own words, shortened, for people.
+/// One line of a program's own words, shortened, for reasons.
 pub(super) fn shortened(text: &str) -> String {
-    let clean = text.trim().chars().map(|c| if c.is_control() { ' ' } else { c });
-    let mut short: String = clean.take(MOST).collect();
-    if text.trim().chars().nth(MOST).is_some() {
+    cut(text.trim(), MOST)
+}
+
+/// The text on one line of at most `most` characters, without those that would change the terminal.
+pub(super) fn cut(text: &str, most: usize) -> String {
+    let clean = text.trim_end().chars().map(|c| if c.is_control() { ' ' } else { c });
+    let mut short: String = clean.take(most).collect();
+    if text.trim_end().chars().nth(most).is_some() {
         short.push_str("...");
     }
     short
