@@ -1,7 +1,6 @@
 //! `apportion check`: what a study means and what it will cost, without running it.
 
 use std::path::PathBuf;
-use std::time::Instant;
 
 use apportion::design::{Companions, Design, DesignSettings, Sampler};
 use apportion::estimate::{FirstOrder, Total};
@@ -13,6 +12,7 @@ use apportion::study::{Stopping, Study, Subject};
 use apportion::uncertainty::IntervalMethod;
 
 use super::outlook::outlook;
+use super::pilot::pilot;
 use super::run::{default_folder, files};
 use super::{DesignChanges, Failure, StudyArguments, print, say_notes};
 
@@ -301,34 +301,6 @@ fn correlated_pairs(design: &Design) -> Option<String> {
             design.factors()
         )
     })
-}
-
-/// A few runs of the study's model, and how long the whole design would take by them.
-pub struct Pilot {
-    /// Runs it took.
-    runs: u64,
-    /// Seconds that the whole design will take.
-    pub seconds: f64,
-}
-
-/// Runs ever larger first parts of the design until they take long enough to be measured, or are all of it.
-pub fn pilot(study: &Study) -> Result<Pilot, Failure> {
-    const ENOUGH: f64 = 0.1;
-    let model = study.model();
-    let mut points = 2;
-    loop {
-        let settings = DesignSettings { base_samples: points, replicates: 1, ..study.design.settings().clone() };
-        let design = Design::new(settings, study.design.factors(), study.design.asked().clone())
-            .map_err(|error| Failure::Input(error.into()))?;
-        let start = Instant::now();
-        run(Job { design: &design, space: &study.space, model: model.as_ref() }, 0, &|_| ())?;
-        let seconds = start.elapsed().as_secs_f64();
-        if seconds >= ENOUGH || points >= study.design.settings().base_samples {
-            let share = study.design.rows() as f64 / design.rows() as f64;
-            return Ok(Pilot { runs: design.rows(), seconds: seconds * share });
-        }
-        points = (points * 4).min(study.design.settings().base_samples);
-    }
 }
 
 /// Columns of the factors (unit cube and SI, A and B) and of every output of every row kind.

@@ -7,6 +7,7 @@ use anyhow::anyhow;
 use apportion::exchange::{EvaluateError, Evaluated, evaluate as evaluate_points};
 use apportion::report::{prepare_file, stream_atomically};
 
+use super::stop::Stoppable;
 use super::{Failure, StudyArguments, say};
 
 #[derive(clap::Args)]
@@ -28,7 +29,7 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     prepare_file(&arguments.output)?;
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
-        let result = evaluate_points(&study, file, out);
+        let result = evaluate_points(&study, file, &mut Stoppable::new(out));
         let complete = result.is_ok();
         outcome = Some(result);
         // Whatever went wrong, half a file must not take the target's place.

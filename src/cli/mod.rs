@@ -12,6 +12,7 @@ mod models;
 mod new;
 mod outlook;
 mod pictures;
+mod pilot;
 mod progress;
 mod record;
 mod report;

@@ -31,11 +31,11 @@ fn disk(study: &Study, folder: &Path) -> Result<String, Failure> {
     let megabytes = study.design.rows() as f64 * study.model().outputs().len() as f64 * 8e-6;
     let path = journal_path(folder, &study.name, None);
     Ok(if keeps_journal(study)? {
-        format!("disk: about {} MB for the journal {}\n", significant(megabytes.max(0.01)), path.display())
+        format!("disk: about {} MB for the journal {}\n", short(megabytes.max(0.01)), path.display())
     } else {
         format!(
             "disk: no journal: it would take {} MB, and the runs are quick enough to be evaluated again\n",
-            significant(megabytes)
+            short(megabytes)
         )
     })
 }
@@ -58,7 +58,11 @@ fn last_result(result: &ResultFile) -> String {
     }
 }
 
-/// A half width with two significant digits.
-fn figure(width: f64) -> String {
-    format!("\u{b1}{}", significant(format!("{width:.1e}").parse().unwrap_or(width)))
+fn figure(half_width: f64) -> String {
+    format!("\u{b1}{}", short(half_width))
+}
+
+/// Two significant digits.
+fn short(value: f64) -> String {
+    significant(format!("{value:.1e}").parse().unwrap_or(value))
 }

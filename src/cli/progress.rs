@@ -74,14 +74,16 @@ impl Meter {
         let Progress { done, recalled, total, failed, elapsed } = progress;
         let seconds = elapsed.as_secs_f64();
         let per_second = (done - recalled) as f64 / seconds;
-        let left = total.saturating_sub(done) as f64 / per_second;
+        // The first few runs include what it takes to start, and say nothing of the others.
+        let left = match done - recalled {
+            runs if runs >= 20 || runs * 100 >= total => {
+                format!(", {:.0} s left", total.saturating_sub(done) as f64 / per_second)
+            }
+            _ => String::new(),
+        };
         let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
         let percent = 100.0 * done as f64 / total as f64;
-        format!(
-            "{}: {percent:.0} %, {done} of {total} runs, {}, {left:.0} s left{failed}",
-            self.label,
-            rate(per_second)
-        )
+        format!("{}: {percent:.0} %, {done} of {total} runs, {}{left}{failed}", self.label, rate(per_second))
     }
 }
 

@@ -174,7 +174,7 @@ fn begin(study: &Study, path: &Path, shard: Option<Shard>) -> Result<Record, Fai
 /// What the whole run will take, in seconds, by its first runs.
 fn seconds(study: &Study) -> Result<f64, Failure> {
     let begin = Instant::now();
-    let pilot = super::check::pilot(study)?;
+    let pilot = super::pilot::pilot(study)?;
     // A pilot that took long is of a run that takes longer.
     Ok(pilot.seconds.max(begin.elapsed().as_secs_f64()))
 }

@@ -16,6 +16,7 @@ use apportion::{Running, analyse_with, evaluate_shard};
 
 use super::progress::Meter;
 use super::record::{self, Record, Use, journal_path, rows_on_record};
+use super::stop::Stoppable;
 use super::{DesignChanges, Failure, StudyArguments, Threads, print, say, stop};
 
 #[derive(clap::Args)]
@@ -145,7 +146,7 @@ fn save(study: &Study, result: &ResultFile, store: &Store, (path, format): (&Pat
     let settings = study.design.settings();
     let points = result.provenance.base_samples / settings.replicates;
     let design = study.design.with_points(points).map_err(|error| Failure::Run(error.into()))?;
-    stream_atomically(path, |out| Ok(save_outputs(study, (&design, store), format, out)?))?;
+    stream_atomically(path, |out| Ok(save_outputs(study, (&design, store), format, &mut Stoppable::new(out))?))?;
     say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
     Ok(())
 }

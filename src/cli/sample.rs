@@ -6,6 +6,7 @@ use anyhow::anyhow;
 use apportion::exchange::{Format, Manifest, sample as write_sample};
 use apportion::report::{prepare_file, stream_atomically, write_atomically};
 
+use super::stop::Stoppable;
 use super::{DesignChanges, Failure, StudyArguments, say, say_notes};
 
 #[derive(clap::Args)]
@@ -44,7 +45,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     }
     let mut manifest = None;
     stream_atomically(&path, |out| {
-        manifest = Some(write_sample(&study, &arguments.study.study, format, out)?);
+        manifest = Some(write_sample(&study, &arguments.study.study, format, &mut Stoppable::new(out))?);
         Ok(())
     })?;
     if let Some(manifest) = &manifest {

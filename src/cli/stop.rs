@@ -1,5 +1,6 @@
 //! Ctrl-C and its relatives: a run ends in order, with what it has.
 
+use std::io::Write;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -20,4 +21,30 @@ pub fn on_signal() -> &'static AtomicBool {
         }
     });
     &STOP
+}
+
+/// A file being written, which takes nothing more once the program is to end: its temporary file is then removed.
+pub struct Stoppable<'a> {
+    out: &'a mut (dyn Write + Send),
+    stop: &'static AtomicBool,
+}
+
+impl<'a> Stoppable<'a> {
+    /// Writes to `out` until a signal comes.
+    pub fn new(out: &'a mut (dyn Write + Send)) -> Self {
+        Self { out, stop: on_signal() }
+    }
+}
+
+impl Write for Stoppable<'_> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(std::io::Error::other("interrupted"));
+        }
+        self.out.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.out.flush()
+    }
 }

@@ -1,0 +1,72 @@
+//! How long the runs of a study will take, by a few of them.
+
+use std::time::Instant;
+
+use anyhow::anyhow;
+use apportion::design::{Design, DesignSettings};
+use apportion::model::{Batch, Model};
+use apportion::run::{Job, RowValues, run};
+use apportion::study::Study;
+
+use super::Failure;
+
+/// A few runs of the study's model, and how long the whole design would take by them.
+pub struct Pilot {
+    /// Runs it took.
+    pub runs: u64,
+    /// Seconds that the whole design will take.
+    pub seconds: f64,
+}
+
+/// Runs ever larger first parts of the design until they take long enough to be measured, or are all of it.
+pub fn pilot(study: &Study) -> Result<Pilot, Failure> {
+    const ENOUGH: f64 = 0.1;
+    let model = study.model();
+    if let Some(workers) = model.concurrency() {
+        return of_one_worker(study, model.as_ref(), workers);
+    }
+    let mut points = 2;
+    loop {
+        let settings = DesignSettings { base_samples: points, replicates: 1, ..study.design.settings().clone() };
+        let design = Design::new(settings, study.design.factors(), study.design.asked().clone())
+            .map_err(|error| Failure::Input(error.into()))?;
+        let start = Instant::now();
+        run(Job { design: &design, space: &study.space, model: model.as_ref() }, 0, &|_| ())?;
+        let seconds = start.elapsed().as_secs_f64();
+        if seconds >= ENOUGH || points >= study.design.settings().base_samples {
+            let share = study.design.rows() as f64 / design.rows() as f64;
+            return Ok(Pilot { runs: design.rows(), seconds: seconds * share });
+        }
+        points = (points * 4).min(study.design.settings().base_samples);
+    }
+}
+
+/// A pilot of a model that takes its time, by one of its workers: the first row, which starts it, counts only if it is
+/// long by itself.
+fn of_one_worker(study: &Study, model: &dyn Model, workers: usize) -> Result<Pilot, Failure> {
+    const ENOUGH: f64 = 0.5;
+    const MOST: u64 = 4096;
+    let job = Job { design: &study.design, space: &study.space, model };
+    let (mut worker, mut batch, mut values) = (model.worker(), Batch::of(model), RowValues::default());
+    let mut timed = |rows: u64| {
+        let columns = values.values(job, 0, 0..rows);
+        let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        batch.reset(rows as usize);
+        let start = Instant::now();
+        worker.run(&inputs, &mut batch);
+        let seconds = start.elapsed().as_secs_f64();
+        batch.given_up().map_or(Ok(seconds), |reason| Err(Failure::Run(anyhow!("the model cannot go on: {reason}"))))
+    };
+    let first = timed(1)?;
+    let rows = study.design.points_per_replicate() * study.design.rows_per_point();
+    let (mut runs, mut seconds) = (1, first);
+    if first < 4.0 * ENOUGH {
+        seconds = timed(1)?;
+        while seconds < ENOUGH && runs < rows.min(MOST) {
+            runs = (runs * 4).min(rows).min(MOST);
+            seconds = timed(runs)?;
+        }
+    }
+    let whole = seconds * study.design.rows() as f64 / runs as f64 / workers as f64;
+    Ok(Pilot { runs, seconds: whole + first })
+}
