@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use apportion::design::{Companions, Design, DesignSettings, Sampler};
+use apportion::design::{Companions, Design, Sampler};
 use apportion::estimate::{FirstOrder, Total};
 use apportion::report::{significant, table, with_unit};
-use apportion::run::{BLOCK, FailurePolicy, Job, run};
+use apportion::run::{BLOCK, FailurePolicy};
 use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, Factor};
 use apportion::study::{Stopping, Study, Subject};

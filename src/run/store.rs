@@ -212,10 +212,11 @@ impl Store {
             let rows = block * length..(block + 1) * length;
             let mut first = rows.start;
             let mut found = Vec::new();
-            for missing in self.missing(replicate, rows.clone()).into_iter().chain([rows.end..rows.end]) {
+            for missing in self.missing(replicate, rows.clone()) {
                 found.extend((first < missing.start).then_some((replicate, first..missing.start)));
                 first = missing.end;
             }
+            found.extend((first < rows.end).then_some((replicate, first..rows.end)));
             found
         };
         blocks.into_iter().flat_map(present).filter_map(|(replicate, rows)| self.piece(replicate, rows)).collect()
