@@ -21,7 +21,7 @@ pub enum Subject {
     /// Formulas.
     Expression(ExpressionSubject),
     /// A program of the user's own.
-    Command(CommandSubject),
+    Command(Box<CommandSubject>),
     /// A function with known indices.
     Known(KnownSubject),
     /// A model that is part of a program.
