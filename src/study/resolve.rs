@@ -60,7 +60,7 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
         }
         None if kind == ModelKind::Command => {
             let (program, notes) = command::subject(context, file.command.as_ref(), file.outputs.as_ref(), &space)?;
-            (Subject::Command(program), notes)
+            (Subject::Command(Box::new(program)), notes)
         }
         None => {
             let outputs = outputs(context, kind, file.outputs.as_ref())?;

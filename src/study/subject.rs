@@ -23,7 +23,7 @@ pub enum Subject {
     /// A model outside of this program.
     External(ExternalSubject),
     /// A program of the user's own.
-    Command(CommandSubject),
+    Command(Box<CommandSubject>),
     /// A function with known indices.
     Known(KnownSubject),
     /// A model that is part of a program.

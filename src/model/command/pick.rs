@@ -237,7 +237,7 @@ mod tests {
     #[test]
     fn a_column_takes_the_last_row_or_the_first() {
         let column = |name: &str, which| Way::Column(name.to_owned(), which);
-        let text = "\u{feff}t, \"y, nN\"\r\n0, 1.5\r\n1, 2.5\r\n\r\n";
+        let text = "\u{feff}t,\"y, nN\"\r\n0, 1.5\r\n1, 2.5\r\n\r\n";
         assert_eq!(found(column("y, nN", Match::Last), text), Ok(2.5));
         assert_eq!(found(column("y, nN", Match::First), text), Ok(1.5));
         assert_eq!(found(column("z", Match::Last), text).unwrap_err(), "it has no column `z`");

@@ -245,7 +245,7 @@ mod tests {
         #[test]
         fn no_line_panics(
             line in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..60),
-            near in r#"[][{}",:a-zA-Z0-9.+\\-]{0,40}"#,
+            near in r#"[\[\]{}",:a-zA-Z0-9.+\\-]{0,40}"#,
             outputs in 1usize..4,
         ) {
             for line in [&line[..], near.as_bytes()] {

@@ -46,9 +46,9 @@ fn is_beam(outputs: &[OutputRecord]) {
         let factors: Vec<_> = [length, thickness, load].iter().zip(powers).map(|(f, p)| (f.0, f.1, p)).collect();
         let (exact, exact_total) = of_product(&factors);
         let (first, total) = numbers(output);
-        // The error of 256 Sobol' points is some 0.01.
+        // The error of 128 Sobol' points is some 0.015.
         assert!(
-            gap(&first, &exact) < 0.03 && gap(&total, &exact_total) < 0.03,
+            gap(&first, &exact) < 0.05 && gap(&total, &exact_total) < 0.05,
             "{first:?} {exact:?} {total:?} {exact_total:?}"
         );
     }
@@ -56,7 +56,7 @@ fn is_beam(outputs: &[OutputRecord]) {
 
 #[test]
 fn a_python_function_has_its_exact_indices() {
-    is_ishigami(&analysed("command-python", 4096), 0.02);
+    is_ishigami(&analysed("command-python", 2048), 0.03);
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn a_shell_script_has_them() {
 
 #[test]
 fn a_simulator_with_input_and_output_files_has_them() {
-    let outputs = analysed("command-template", 256);
+    let outputs = analysed("command-template", 128);
     is_beam(&outputs);
     // 2.7e-3 g/mm^3 times 100 x 10 x 2 mm^3.
     assert!((outputs[2].mean.unwrap() - 5.4).abs() < 0.01, "{:?} {}", outputs[2].mean, outputs[2].unit);
