@@ -13,6 +13,7 @@ mod estimators;
 mod examples;
 mod expression;
 mod extremes;
+mod factor_kinds;
 mod factors;
 mod failures;
 mod fuzz;

@@ -2,7 +2,7 @@
 
 use super::discrete::Discrete;
 use super::error::within;
-use super::family::{Family, Parameter};
+use super::family::{Family, Parameter, numbers_of_law};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 
@@ -129,21 +129,7 @@ impl Family for Categorical {
         if self.truth.is_some() { "boolean" } else { "categorical" }
     }
 
-    fn quantile(&self, u: f64) -> f64 {
-        self.law.quantile(u)
-    }
-
-    fn mean(&self) -> f64 {
-        self.law.mean()
-    }
-
-    fn sd(&self) -> f64 {
-        self.law.sd()
-    }
-
-    fn support(&self) -> (f64, f64) {
-        self.law.support()
-    }
+    numbers_of_law!();
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         if let Some(probability) = self.truth {
