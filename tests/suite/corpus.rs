@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use crate::fuzz::{Dictionary, Random, TARGETS, Target, mutated};
+use crate::fuzz::{Dictionary, Random, TARGETS, Target, mutated, target};
 
 /// Texts made at random from every one of the corpus, unless the environment has another number in `CORPUS_CHANGES`.
 const CHANGES: u64 = 40;
@@ -34,7 +34,7 @@ fn run(target: &Target, name: &str, bytes: &[u8]) {
 }
 
 fn all_of(name: &str) {
-    let target = TARGETS.iter().find(|target| target.name == name).unwrap();
+    let target = target(name);
     let dictionary = Dictionary::read(target.dictionary);
     let files = corpus(target);
     let asked = std::env::var("CORPUS_CHANGES").ok().map(|text| text.parse().expect("CORPUS_CHANGES: a whole number"));
