@@ -1,5 +1,6 @@
 //! A table of inputs and outputs from a CSV file, whoever made it.
 
+use std::collections::BTreeMap;
 use std::io::Read;
 
 use thiserror::Error;
@@ -204,11 +205,12 @@ fn check_header(names: &[String]) -> Result<(), TableError> {
     if names.iter().all(String::is_empty) {
         return Err(TableError::Empty);
     }
+    let mut places = BTreeMap::new();
     for (place, name) in names.iter().enumerate() {
         if name.is_empty() {
             return Err(TableError::Nameless { column: place + 1 });
         }
-        if let Some(first) = names[..place].iter().position(|other| other == name) {
+        if let Some(first) = places.insert(name, place) {
             return Err(TableError::RepeatedColumn { column: place + 1, name: name.clone(), first: first + 1 });
         }
     }

@@ -3,11 +3,14 @@
 //! Format `apportion-result`, version 1, described key by key in `docs/result-format.md`. Later versions of the program
 //! only add keys. Numbers are in the unit that stands beside them; a number that does not exist is `null`.
 
+mod indices;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::distribution::OutputDistribution;
 use super::scatter::ScatterRecord;
+pub use indices::*;
 
 /// The result of a run of apportion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -186,117 +189,6 @@ pub struct DistributionRecord {
     /// The rest; quantiles, histogram and density rest on the `count` values that were kept, the first of every replicate.
     #[serde(flatten)]
     pub sample: OutputDistribution,
-}
-
-/// An interval by itself.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct IntervalRecord {
-    /// Lower bound.
-    pub low: f64,
-    /// Upper bound.
-    pub high: f64,
-}
-
-/// An estimate with its interval.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct EstimateRecord {
-    /// The estimate.
-    pub estimate: f64,
-    /// Lower bound; `null` with a single replicate.
-    pub low: Option<f64>,
-    /// Upper bound; `null` with a single replicate.
-    pub high: Option<f64>,
-}
-
-/// The indices of one factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct IndexRecord {
-    /// The factor.
-    pub factor: String,
-    /// The indices.
-    #[serde(flatten)]
-    pub effect: EffectRecord,
-}
-
-/// The indices of one group of factors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct GroupRecord {
-    /// The group.
-    pub group: String,
-    /// Its factors.
-    pub factors: Vec<String>,
-    /// The indices: the first-order one is closed, so it includes interactions inside the group.
-    #[serde(flatten)]
-    pub effect: EffectRecord,
-}
-
-/// First-order and total index, and what they are of the sum over all factors (or groups) in percent.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct EffectRecord {
-    /// First-order index.
-    pub first_order: EstimateRecord,
-    /// Total index.
-    pub total: EstimateRecord,
-    /// 100 S_i / sum S_j; `null` where the sum is not positive.
-    pub share_first_order: Option<f64>,
-    /// 100 ST_i / sum ST_j.
-    pub share_total: Option<f64>,
-    /// Interval of `share_first_order`.
-    pub share_first_order_interval: Option<IntervalRecord>,
-    /// Interval of `share_total`.
-    pub share_total_interval: Option<IntervalRecord>,
-    /// Total minus first-order index: what the factor does together with others.
-    #[serde(default)]
-    pub interaction: Option<EstimateRecord>,
-    /// Probability that its total index is the largest of all factors'; `null` for groups and subsets.
-    #[serde(default)]
-    pub probability_first: Option<f64>,
-    /// Probability that its total index exceeds the threshold in `provenance`.
-    #[serde(default)]
-    pub probability_above_threshold: Option<f64>,
-}
-
-/// The joint indices of a subset of the factors that the study lists.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SubsetRecord {
-    /// Its factors.
-    pub factors: Vec<String>,
-    /// The indices: the first-order one is closed, so it includes interactions inside the subset.
-    #[serde(flatten)]
-    pub effect: EffectRecord,
-}
-
-/// The second-order index of two factors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PairRecord {
-    /// The two factors.
-    pub factors: [String; 2],
-    /// Their second-order index: what they do together beyond what each does alone.
-    pub index: EstimateRecord,
-}
-
-/// Indices by one estimator besides the default ones.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct EstimatorRecord {
-    /// Its name in study files.
-    pub estimator: String,
-    /// Source of its first-order formula; `null` if it has none.
-    pub first_order_source: Option<String>,
-    /// Source of its total formula; `null` if it has none.
-    pub total_source: Option<String>,
-    /// One entry per factor, then per group, then per subset, in the order of the lists above.
-    pub indices: Vec<OtherIndexRecord>,
-}
-
-/// Indices of one factor, group or subset by an estimator besides the default ones.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct OtherIndexRecord {
-    /// The factor, the group, or the factors of the subset joined by " + ".
-    pub name: String,
-    /// First-order index; `null` if the estimator has none.
-    pub first_order: Option<EstimateRecord>,
-    /// Total index; `null` if the estimator has none.
-    pub total: Option<EstimateRecord>,
 }
 
 /// The indices as they were when the run had so many base points.

@@ -44,6 +44,9 @@ pub enum OverrideProblem {
     /// A part of the key is empty.
     #[error("the key `{0}` has an empty part: expected names joined by dots, as in afm.friction")]
     EmptyKey(String),
+    /// The key has more parts than any that a study has.
+    #[error("the key has {0} parts, more than any key of a study: expected names joined by dots, as in afm.friction")]
+    TooDeep(usize),
     /// `factor.NAME` names no factor of the file.
     #[error("the study has no factor `{name}`{}", suggestion(.nearest))]
     NoFactor {
@@ -367,11 +370,18 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// The name in `known` nearest to `name`, if one is near enough to be meant.
+/// The name in `known` nearest to `name`, if one is near enough to be meant. Names of more than 100 characters, whose
+/// comparison would take long, are near to none.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    const LONGEST: usize = 100;
+    let is_long = |name: &str| name.chars().nth(LONGEST).is_some();
+    if is_long(name) {
+        return None;
+    }
     let name = name.to_lowercase();
     known
         .into_iter()
+        .filter(|candidate| !is_long(candidate))
         .map(|candidate| (strsim::damerau_levenshtein(&name, &candidate.to_lowercase()), candidate))
         .min_by_key(|(distance, _)| *distance)
         .filter(|(distance, candidate)| *distance <= candidate.chars().count().div_ceil(3).max(1))
@@ -404,5 +414,9 @@ mod tests {
         assert_eq!(nearest("lenght", known).as_deref(), Some("length"));
         assert_eq!(nearest("Width", known).as_deref(), Some("width"));
         assert_eq!(nearest("temperature", known), None);
+        // Names of 50,000 letters once took half a minute.
+        let long = "x".repeat(50_000);
+        assert_eq!(nearest(&long[1..], [long.as_str(), "width"]), None);
+        assert_eq!(nearest("widht", [long.as_str(), "width"]).as_deref(), Some("width"));
     }
 }

@@ -16,11 +16,18 @@ pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, 
     Ok(Some(document.to_string()))
 }
 
+/// Most parts of a key. Those of a study have up to four; tables inside each other by the thousand take the reader's time
+/// and stack.
+const PARTS: usize = 16;
+
 fn set(root: &mut Table, text: &str) -> Result<(), OverrideProblem> {
     let (key, value) = text.split_once('=').ok_or(OverrideProblem::NoEquals)?;
     let names: Vec<&str> = key.split('.').map(str::trim).collect();
     if names.iter().any(|name| name.is_empty()) {
         return Err(OverrideProblem::EmptyKey(key.trim().to_owned()));
+    }
+    if names.len() > PARTS {
+        return Err(OverrideProblem::TooDeep(names.len()));
     }
     let value = value.trim();
     let value: Value = value.parse().unwrap_or_else(|_| Value::from(value));
@@ -86,6 +93,9 @@ mod tests {
         assert_eq!(applied("afm.friction"), Err(OverrideProblem::NoEquals));
         assert_eq!(applied("=3"), Err(OverrideProblem::EmptyKey(String::new())));
         assert_eq!(applied("afm.friction.x=3"), Err(OverrideProblem::NotATable("friction".to_owned())));
+        // 30,000 parts once took more than a minute.
+        let deep = format!("{}=1", ["a"; 30_000].join("."));
+        assert_eq!(applied(&deep), Err(OverrideProblem::TooDeep(30_000)));
         let missing = OverrideProblem::NoFactor { name: "lenght".to_owned(), nearest: Some("length".to_owned()) };
         assert_eq!(applied("factor.lenght.min=3"), Err(missing));
     }

@@ -7,6 +7,28 @@ use std::process::Output;
 use apportion::report::{IndexRecord, OutputRecord, ResultFile};
 use apportion::study::Study;
 
+/// A folder of its own for a test, with files in it.
+pub struct Folder(tempfile::TempDir);
+
+impl Folder {
+    /// An empty one.
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    /// A path in it.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Writes a file in it.
+    pub fn with(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.path(name);
+        std::fs::write(&path, content).unwrap();
+        path
+    }
+}
+
 /// Runs the program and returns what it printed and how it ended.
 pub fn apportion(arguments: &[&str]) -> Output {
     assert_cmd::Command::cargo_bin("apportion").unwrap().args(arguments).output().unwrap()

@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use crate::fuzz::{Dictionary, Random, TARGETS, Target, mutated};
+use crate::fuzz::{Dictionary, Random, TARGETS, Target, mutated, target};
 
-/// Texts made at random from every one of the corpus.
-const CHANGED: u64 = 20;
+/// Texts made at random from every one of the corpus, unless the environment has another number in `CORPUS_CHANGES`.
+const CHANGES: u64 = 40;
 
 /// The longest that a text may take: a fuzzer counts it as one that hangs far earlier, but machines are busy.
 const LONGEST: Duration = Duration::from_secs(60);
@@ -34,21 +34,24 @@ fn run(target: &Target, name: &str, bytes: &[u8]) {
 }
 
 fn all_of(name: &str) {
-    let target = TARGETS.iter().find(|target| target.name == name).unwrap();
+    let target = target(name);
     let dictionary = Dictionary::read(target.dictionary);
     let files = corpus(target);
-    let mut random = Random(1);
+    let asked = std::env::var("CORPUS_CHANGES").ok().map(|text| text.parse().expect("CORPUS_CHANGES: a whole number"));
+    let changes = asked.unwrap_or(CHANGES);
+    // Another number of changes also makes others.
+    let mut random = Random(changes);
     for (file, bytes) in &files {
         run(target, file, bytes);
         let Ok(text) = std::str::from_utf8(bytes) else { continue };
-        for number in 0..CHANGED {
+        for number in 0..changes {
             let text = mutated(text, &dictionary, &mut random);
             run(target, &format!("{file}, changed for the {}. time", number + 1), text.as_bytes());
         }
     }
     // From nothing, by the words of the language alone.
     let mut text = String::new();
-    for number in 0..50 * CHANGED {
+    for number in 0..50 * changes {
         text = if text.len() < 200 { mutated(&text, &dictionary, &mut random) } else { String::new() };
         run(target, &format!("text {number} made of nothing"), text.as_bytes());
     }

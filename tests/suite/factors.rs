@@ -4,25 +4,7 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 
-use crate::common::{apportion, stderr, succeed, text};
-
-struct Folder(tempfile::TempDir);
-
-impl Folder {
-    fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn with(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
-        let path = self.path(name);
-        std::fs::write(&path, content).unwrap();
-        path
-    }
-}
+use crate::common::{Folder, apportion, stderr, succeed, text};
 
 /// A study with a factor of every kind; its model gives what it gets.
 const STUDY: &str = r#"model = "expression"
@@ -118,6 +100,12 @@ fn labels_are_kept_in_results_points_and_sweeps() {
     for label in ["steel", "brass", "soft, pure copper", "wet = true"] {
         assert!(chart.contains(&format!(">{label}<")), "{label}");
     }
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    let (scatter, ranges) = (read("study-scatter.svg"), read("study-sweep-ranges.svg"));
+    for label in ["steel", "brass", "false", "true"] {
+        assert!(scatter.contains(&format!(">{label}<")), "{label}");
+    }
+    assert!(ranges.contains("steel to soft, pure copper") && !ranges.contains("its low end<"), "{ranges}");
     // Whole numbers are swept one by one.
     succeed(&["sweep", text(&study), "--factor", "n", "--out", text(&out)]);
     let csv = std::fs::read_to_string(out.join("study-sweep.csv")).unwrap();

@@ -1,8 +1,6 @@
 //! Bad input through the program: each has its clear error, the place of the fault, and exit code 2.
 
-use std::path::PathBuf;
-
-use crate::common::{apportion, stderr, study_path, text};
+use crate::common::{Folder, apportion, stderr, study_path, text};
 
 /// A study that is right, to be spoilt line by line.
 const GOOD: &str = r#"outputs = ["critical_force"]
@@ -21,24 +19,6 @@ min = 0
 max = 800
 unit = "nm/s"
 "#;
-
-struct Folder(tempfile::TempDir);
-
-impl Folder {
-    fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn with(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
-        let path = self.path(name);
-        std::fs::write(&path, content).unwrap();
-        path
-    }
-}
 
 /// Runs `check` on a spoilt study and expects exit code 2 with every one of `expected` in the message.
 #[track_caller]

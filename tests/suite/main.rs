@@ -15,6 +15,7 @@ mod examples;
 mod exchange;
 mod expression;
 mod extremes;
+mod factor_kinds;
 mod factors;
 mod failures;
 mod fuzz;

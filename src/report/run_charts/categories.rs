@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use super::super::chart::{LineSeries, Stroke};
 use super::super::result::FactorRecord;
+use super::scatter::SLICES;
 
 /// More categories than this are drawn by their numbers: their labels would be no longer than a letter.
 const MOST: usize = 12;
@@ -52,6 +53,7 @@ impl Categories {
         let points = line.points.iter().filter_map(|&(x, y)| Some((self.place(x)?, y)));
         let band = line.band.iter().filter_map(|&(x, low, high)| Some((self.place(x)?, low, high)));
         LineSeries {
+            name: SLICES.to_owned(),
             stroke: Stroke::Solid,
             points: points.flat_map(|(x, y)| [(x - HALF, y), (x + HALF, y), (x + HALF, gap)]).collect(),
             band: band

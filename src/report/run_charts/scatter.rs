@@ -7,6 +7,8 @@ use super::super::scatter::{ConditionalMeansRecord, ScatterRecord};
 use super::categories::Categories;
 use super::{friction, headline, no_indices};
 
+/// What the line is called.
+pub(super) const SLICES: &str = "mean over a slice of the factor";
 /// Up to so many slices, each mean is marked by a point.
 const FEW_SLICES: usize = 12;
 /// Where the median lies below this part of the largest value, a linear axis would press most points into its foot.
@@ -102,7 +104,7 @@ fn line(means: &ConditionalMeansRecord) -> LineSeries {
     let at = |place: usize| (means.x[place], number(means.low.get(place)), number(means.high.get(place)));
     let few = means.x.len() <= FEW_SLICES;
     LineSeries {
-        name: "mean over a slice of the factor".to_owned(),
+        name: if few { "mean at a value of the factor" } else { SLICES }.to_owned(),
         role: Role::Reference,
         stroke: if few { Stroke::SolidWithPoints } else { Stroke::Solid },
         points: means.x.iter().enumerate().map(|(place, x)| (*x, number(means.mean.get(place)))).collect(),

@@ -1,8 +1,10 @@
 //! Categories: labels with probabilities, for the model a number each.
 
+use std::collections::BTreeSet;
+
 use super::discrete::Discrete;
 use super::error::within;
-use super::family::{Family, Parameter};
+use super::family::{Family, Parameter, numbers_of_law};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 
@@ -42,11 +44,12 @@ impl Distribution {
         weights: Option<&[f64]>,
     ) -> Result<Self, DistributionError> {
         let labels: Vec<String> = labels.iter().map(|label| label.as_ref().to_owned()).collect();
+        let mut seen = BTreeSet::new();
         for (index, label) in labels.iter().enumerate() {
             if label.trim().is_empty() {
                 return Err(DistributionError::EmptyLabel { index });
             }
-            if labels[..index].contains(label) {
+            if !seen.insert(label) {
                 return Err(DistributionError::RepeatedLabel { label: label.clone() });
             }
         }
@@ -55,7 +58,10 @@ impl Distribution {
         if values.len() != labels.len() {
             return Err(DistributionError::Labels { labels: labels.len(), values: values.len() });
         }
-        if let Some(index) = (1..values.len()).find(|&index| values[..index].contains(&values[index])) {
+        // 0 and -0 are one number. What is no number is refused with its place below.
+        let mut seen = BTreeSet::new();
+        let is_repeated = |value: &f64| value.is_finite() && !seen.insert((value + 0.0).to_bits());
+        if let Some(index) = values.iter().position(is_repeated) {
             return Err(DistributionError::RepeatedValue { index, value: values[index] });
         }
         let law = Discrete::new(&values, weights)?;
@@ -129,21 +135,7 @@ impl Family for Categorical {
         if self.truth.is_some() { "boolean" } else { "categorical" }
     }
 
-    fn quantile(&self, u: f64) -> f64 {
-        self.law.quantile(u)
-    }
-
-    fn mean(&self) -> f64 {
-        self.law.mean()
-    }
-
-    fn sd(&self) -> f64 {
-        self.law.sd()
-    }
-
-    fn support(&self) -> (f64, f64) {
-        self.law.support()
-    }
+    numbers_of_law!();
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         if let Some(probability) = self.truth {

@@ -100,7 +100,8 @@ impl Discrete {
 
     /// The probability of `value`, which stands in the list once at most.
     pub(super) fn probability(&self, value: f64) -> f64 {
-        self.sorted.iter().position(|other| *other == value).map_or(0.0, |place| self.probabilities[place])
+        let place = self.sorted.partition_point(|other| *other < value);
+        if self.sorted.get(place) == Some(&value) { self.probabilities[place] } else { 0.0 }
     }
 
     /// The distinct values that occur, in ascending order, each with a `u` at which it is the quantile: the middle of

@@ -1,7 +1,7 @@
 //! The empirical distribution: values that were measured.
 
 use super::discrete::Discrete;
-use super::family::{Family, Parameter};
+use super::family::{Family, Parameter, numbers_of_law};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 
@@ -56,21 +56,7 @@ impl Family for Empirical {
         "empirical"
     }
 
-    fn quantile(&self, u: f64) -> f64 {
-        self.law.quantile(u)
-    }
-
-    fn mean(&self) -> f64 {
-        self.law.mean()
-    }
-
-    fn sd(&self) -> f64 {
-        self.law.sd()
-    }
-
-    fn support(&self) -> (f64, f64) {
-        self.law.support()
-    }
+    numbers_of_law!();
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         let Some(MeasuredFile { file, column, sha256 }) = &self.source else { return self.law.parameters() };

@@ -31,6 +31,29 @@ impl From<&[f64]> for Parameter {
     }
 }
 
+/// The numbers of a family that is another one with words to it: those of its field `law`.
+macro_rules! numbers_of_law {
+    () => {
+        fn quantile(&self, u: f64) -> f64 {
+            self.law.quantile(u)
+        }
+
+        fn mean(&self) -> f64 {
+            self.law.mean()
+        }
+
+        fn sd(&self) -> f64 {
+            self.law.sd()
+        }
+
+        fn support(&self) -> (f64, f64) {
+            self.law.support()
+        }
+    };
+}
+
+pub(super) use numbers_of_law;
+
 /// One family; [`Distribution`] describes each of these.
 pub(super) trait Family {
     fn name(&self) -> &'static str;
