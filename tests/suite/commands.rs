@@ -24,7 +24,7 @@ fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 
 fn run(study: &str, folder: &Path, changes: &[&str]) {
     let path = study_path(study);
-    let mut arguments = vec!["run", text(&path), "--out", text(folder), "--base-samples", "256"];
+    let mut arguments = vec!["run", text(&path), "--out", text(folder), "--base-samples", "256", "--no-journal"];
     changes.iter().for_each(|change| arguments.extend(["--set", change]));
     succeed(&arguments);
 }
