@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use crate::fuzz::{Dictionary, Random, TARGETS, Target, mutated, target};
+use crate::fuzz::{Dictionary, Random, TARGETS, Target, mutated, mutated_bytes, target};
 
 /// Texts made at random from every one of the corpus, unless the environment has another number in `CORPUS_CHANGES`.
 const CHANGES: u64 = 40;
@@ -43,7 +43,13 @@ fn all_of(name: &str) {
     let mut random = Random(changes);
     for (file, bytes) in &files {
         run(target, file, bytes);
-        let Ok(text) = std::str::from_utf8(bytes) else { continue };
+        let Ok(text) = std::str::from_utf8(bytes) else {
+            for number in 0..10 * changes {
+                let bytes = mutated_bytes(bytes, &mut random);
+                run(target, &format!("{file}, changed for the {}. time", number + 1), &bytes);
+            }
+            continue;
+        };
         for number in 0..changes {
             let text = mutated(text, &dictionary, &mut random);
             run(target, &format!("{file}, changed for the {}. time", number + 1), text.as_bytes());
@@ -55,6 +61,21 @@ fn all_of(name: &str) {
         text = if text.len() < 200 { mutated(&text, &dictionary, &mut random) } else { String::new() };
         run(target, &format!("text {number} made of nothing"), text.as_bytes());
     }
+}
+
+#[test]
+fn answers_of_programs() {
+    all_of("answers");
+}
+
+#[test]
+fn journals() {
+    all_of("journal");
+}
+
+#[test]
+fn files_of_rows() {
+    all_of("rows");
 }
 
 #[test]

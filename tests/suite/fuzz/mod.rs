@@ -1,13 +1,16 @@
 //! What a stranger can feed the program, as targets of fuzzing: each takes any bytes and must end, without a panic, and
 //! keep what it promises. The fuzzers in `fuzz/` and the tests in `corpus.rs` run the same targets.
 
+mod answers;
 mod expression;
+mod journal;
 mod mutation;
 mod result;
+mod rows;
 mod study;
 mod tables;
 
-pub use mutation::{Dictionary, Random, mutated};
+pub use mutation::{Dictionary, Random, mutated, mutated_bytes};
 
 /// One way into the program.
 pub struct Target {
@@ -20,9 +23,12 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 4] = [
+pub const TARGETS: [Target; 7] = [
+    Target { name: "answers", run: answers::run, dictionary: include_str!("answers.dict") },
     Target { name: "expression", run: expression::run, dictionary: include_str!("expression.dict") },
+    Target { name: "journal", run: journal::run, dictionary: "" },
     Target { name: "result", run: result::run, dictionary: include_str!("result.dict") },
+    Target { name: "rows", run: rows::run, dictionary: include_str!("rows.dict") },
     Target { name: "study", run: study::run, dictionary: include_str!("study.dict") },
     Target { name: "tables", run: tables::run, dictionary: include_str!("tables.dict") },
 ];

@@ -237,3 +237,26 @@ fn tokens(text: &str) -> Vec<String> {
     }
     tokens
 }
+
+/// `bytes` with some of them changed, cut out, repeated, or the end cut off.
+pub fn mutated_bytes(bytes: &[u8], random: &mut Random) -> Vec<u8> {
+    let mut changed = bytes.to_vec();
+    for _ in 0..=random.below(3) {
+        if changed.is_empty() {
+            return changed;
+        }
+        let at = random.below(changed.len());
+        let end = (at + 1 + random.below(16)).min(changed.len());
+        match random.below(5) {
+            0 => changed[at] ^= 1 << random.below(8),
+            1 => changed[at..end].fill([0, 0xff][random.below(2)]),
+            2 => changed.truncate(at),
+            3 => drop(changed.drain(at..end)),
+            _ => {
+                let again = changed[at..end].to_vec();
+                changed.splice(at..at, again);
+            }
+        }
+    }
+    changed
+}

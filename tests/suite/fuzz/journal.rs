@@ -1,0 +1,42 @@
+//! Journals of runs.
+
+use std::path::Path;
+
+use apportion::run::journal::{JournalError, differences, read_journal};
+
+/// The header of a journal without anything in it.
+const HEADER: &[u8] = b"apportion journal\x01\0\0\0\x02\0\0\0\x43\xbf\xa6\xa3{}";
+
+/// Bytes are refused with the file and a reason, or every piece that is read is whole. They are taken as a journal, and as
+/// the body of a record whose checksum is right, which no fuzzer would hit upon.
+pub fn run(bytes: &[u8]) {
+    read(bytes);
+    let length = (bytes.len() as u32).to_le_bytes();
+    let checksum = crc32([&length, bytes].concat().as_slice()).to_le_bytes();
+    let whole = [HEADER, &length, &checksum, bytes].concat();
+    assert_eq!(crc32(b"{}").to_le_bytes(), HEADER[25..29], "the header is right");
+    read(&whole);
+}
+
+fn read(bytes: &[u8]) {
+    match read_journal(Path::new("fuzz.journal"), bytes) {
+        Err(error) => {
+            assert!(!matches!(error, JournalError::InUse { .. }));
+            assert!(error.to_string().starts_with("fuzz.journal: "), "{error}");
+        }
+        Ok(contents) => {
+            assert_eq!(contents.length + contents.cut_off, bytes.len() as u64);
+            for piece in &contents.pieces {
+                assert!(piece.first.checked_add(piece.rows(1)).is_some());
+            }
+            assert!(differences(&contents.header, &contents.header).is_empty());
+            differences(&contents.header, &contents.header["identity"]);
+        }
+    }
+}
+
+/// CRC-32 bit by bit, as ISO 3309 has it.
+fn crc32(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, _| if crc & 1 == 1 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 };
+    !bytes.iter().fold(!0_u32, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), step))
+}
