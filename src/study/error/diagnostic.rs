@@ -1,0 +1,94 @@
+//! A problem shown at its place in the file.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::Problem;
+
+/// A [`Problem`] with its place in the file, shown as compilers show theirs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnostic {
+    /// The file, as given.
+    pub path: PathBuf,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub problem: Problem,
+    /// The overrides applied to the text before it was read, if any.
+    pub overrides: Vec<String>,
+    source_line: String,
+    width: usize,
+}
+
+impl Diagnostic {
+    pub(in crate::study) fn new(path: &Path, text: &str, span: Range<usize>, problem: Problem) -> Self {
+        let start = floor_char_boundary(text, span.start);
+        let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+        let line_end = text[start..].find('\n').map_or(text.len(), |newline| start + newline);
+        let end = floor_char_boundary(text, span.end).clamp(start, line_end);
+        Self {
+            path: path.to_owned(),
+            line: text[..start].matches('\n').count() + 1,
+            column: text[line_start..start].chars().count() + 1,
+            problem,
+            overrides: Vec::new(),
+            source_line: printable(text[line_start..line_end].trim_end_matches('\r')),
+            width: text[start..end].trim_end().chars().count().max(1),
+        }
+    }
+}
+
+/// The line without characters that would change the terminal.
+fn printable(line: &str) -> String {
+    line.chars().map(|c| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c }).collect()
+}
+
+fn floor_char_boundary(text: &str, place: usize) -> usize {
+    (0..=place.min(text.len())).rev().find(|&p| text.is_char_boundary(p)).unwrap_or(0)
+}
+
+impl std::error::Error for Diagnostic {}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { path, line, column, problem, .. } = self;
+        let margin = " ".repeat(line.to_string().len());
+        writeln!(f, "{}:{line}:{column}: {problem}", path.display())?;
+        writeln!(f, "{margin} |")?;
+        writeln!(f, "{line} | {}", self.source_line)?;
+        let pad: String =
+            self.source_line.chars().take(column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+        write!(f, "{margin} | {pad}{}", "^".repeat(self.width))?;
+        if let Some(help) = problem.help() {
+            write!(f, "\n{margin} = {help}")?;
+        }
+        for text in &self.overrides {
+            write!(f, "\n{margin} = the file was read with --set {text}")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_shown_with_its_line_and_a_caret() {
+        let text = "a = 1\nµ = 'x'\n";
+        let start = text.find("'x'").unwrap_or(0);
+        let diagnostic = Diagnostic::new(Path::new("s.toml"), text, start..start + 3, Problem::Syntax("no".to_owned()));
+        assert_eq!(diagnostic.to_string(), "s.toml:2:5: no\n  |\n2 | µ = 'x'\n  |     ^^^");
+    }
+
+    #[test]
+    fn spans_at_or_past_the_end_are_harmless() {
+        for (text, span) in [("", 0..0), ("", 5..9), ("a =", 3..3), ("é", 1..2), ("a\r\nb", 0..4)] {
+            let shown = Diagnostic::new(Path::new("s"), text, span, Problem::NoFactors).to_string();
+            assert!(shown.starts_with("s:1:"), "{shown}");
+        }
+    }
+}
