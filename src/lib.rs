@@ -11,6 +11,7 @@
 //!
 //! | module | what it is for |
 //! |---|---|
+//! | [`files`] | files read whole, but never without end |
 //! | [`sum`] | sums of fixed shape: the same bits on any number of threads |
 //! | [`quantity`] | units, known at the edges only; inside everything is SI |
 //! | [`space`] | factors: names, distributions, units, nominal values, groups |
@@ -63,12 +64,26 @@
 //! assert!(indices[0].effect.share_total.is_some_and(|percent| percent > 90.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Programs to begin with
+//!
+//! Each is a short program of its own in the folder `examples` of the sources, run by the tests:
+//! `cargo run --release --example NAME`.
+//!
+//! | example | what it shows |
+//! |---|---|
+//! | `function_model` | a Rust function as a model |
+//! | `units_and_failures` | units, several outputs, runs without an answer, second-order indices |
+//! | `interrupted` | a [`journal`](run::journal): interrupted, gone on with, made longer, and no run made twice |
+//! | `own_program` | a program in any language as a model, asked from Rust ([`CommandModel`](model::CommandModel)) |
+//! | `three_steps` | points to a file, outputs from anywhere, analysed ([`exchange`]) |
 
 pub mod afm;
 mod analysis;
 pub mod design;
 pub mod estimate;
 pub mod exchange;
+pub mod files;
 pub mod given;
 pub mod model;
 pub mod quantity;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::exchange::{Missing, Selection, Table, read_table};
+use apportion::files::read_whole;
 use apportion::given::{Method, analyse};
 use apportion::report::chart::png;
 use apportion::report::given::{GivenFacts, GivenFile, build_given, given_chart, given_csv, given_json, given_summary};
@@ -50,7 +51,7 @@ fn parse_method(text: &str) -> Result<Method, String> {
 pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let path = arguments.table.display();
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{path}: {error}"));
-    let bytes = std::fs::read(&arguments.table).map_err(|error| wrong(&format!("cannot read the table: {error}")))?;
+    let bytes = read_whole(&arguments.table).map_err(|error| wrong(&format!("cannot read the table: {error}")))?;
     let missing = if arguments.drop_missing { Missing::Drop } else { Missing::Refuse };
     let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing };
     let Table { inputs, outputs, dropped } = read_table(&bytes[..], &selection).map_err(|error| wrong(&error))?;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::anyhow;
+use apportion::files::read_whole;
 use apportion::run::journal::{Contents, Journal, JournalError, differences, read_journal};
 use apportion::run::{Piece, Shard, Store};
 use apportion::study::Study;
@@ -191,7 +192,7 @@ fn header(study: &Study, shard: Option<Shard>) -> Value {
 /// The user's files that the outputs depend on, with their digests.
 fn files(study: &Study) -> Value {
     let digest = |path: &PathBuf| {
-        let bytes = std::fs::read(path).ok()?;
+        let bytes = read_whole(path).ok()?;
         let hex: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         Some((path.display().to_string(), json!(hex)))
     };
@@ -228,7 +229,7 @@ fn wrong(error: JournalError) -> Failure {
 
 /// Reads the journal at `path`, which must be one of `study`, without locking it.
 pub fn read(study: &Study, path: &Path) -> Result<Contents, Failure> {
-    let bytes = std::fs::read(path)
+    let bytes = read_whole(path)
         .map_err(|error| Failure::Input(anyhow!("{}: cannot read the journal: {error}", path.display())))?;
     let contents = read_journal(path, &bytes).map_err(wrong)?;
     match another_study(study, &contents.header) {

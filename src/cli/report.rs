@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
+use apportion::files::read_whole;
 use apportion::report::{
     ReadError, ReadProblem, ResultFile, parse_result, prepare_file, prepare_folder, summary, write_atomically,
 };
@@ -23,7 +24,7 @@ pub struct Arguments {
 pub fn report(arguments: &Arguments) -> Result<(), Failure> {
     let path = &arguments.result;
     let wrong = |problem: ReadProblem| ReadError { path: path.clone(), problem };
-    let bytes = std::fs::read(path).map_err(|error| wrong(error.into()))?;
+    let bytes = read_whole(path).map_err(|error| wrong(error.into()))?;
     let result = parse_result(&bytes).map_err(wrong)?;
     let beside = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let folder = arguments.out.as_deref().unwrap_or(beside);
@@ -68,7 +69,7 @@ fn same_file(a: &Path, b: &Path) -> bool {
 
 /// Charts of one result must not come to lie beside the JSON of another.
 fn refuse_another(json: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    match std::fs::read(json) {
+    match read_whole(json) {
         Ok(there) if there != bytes => {
             let message =
                 "is another result, whose page and charts would be overwritten: give another folder with --out";

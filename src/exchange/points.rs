@@ -83,16 +83,22 @@ fn hint(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
 }
 
+/// Most bytes of a line of CSV.
+const LONGEST_LINE: usize = 16 << 20;
+
 /// A text with `\n` for every end of line, also after the last one: what it takes for the reader of CSV to know which
 /// line it has come to.
+/// A line may have [`LONGEST_LINE`] bytes, so that a file without ends of lines takes no memory without end.
 pub(super) struct PlainLines<R: Read> {
     bytes: std::iter::Peekable<std::io::Bytes<std::io::BufReader<R>>>,
     last: u8,
+    /// Bytes of the line so far.
+    length: usize,
 }
 
 impl<R: Read> PlainLines<R> {
     pub(super) fn new(reader: R) -> Self {
-        Self { bytes: std::io::BufReader::new(reader).bytes().peekable(), last: b'\n' }
+        Self { bytes: std::io::BufReader::new(reader).bytes().peekable(), last: b'\n', length: 0 }
     }
 
     fn next(&mut self) -> Option<std::io::Result<u8>> {
@@ -111,6 +117,11 @@ impl<R: Read> Read for PlainLines<R> {
                 Some(byte) => {
                     *slot = byte?;
                     self.last = *slot;
+                    self.length = if *slot == b'\n' { 0 } else { self.length + 1 };
+                    if self.length > LONGEST_LINE {
+                        let message = format!("a line of more than {} MiB", LONGEST_LINE >> 20);
+                        return Err(std::io::Error::new(std::io::ErrorKind::InvalidData, message));
+                    }
                 }
                 None => return Ok(filled),
             }

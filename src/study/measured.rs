@@ -5,6 +5,7 @@ use sha2::{Digest, Sha256};
 use super::error::{Problem, nearest};
 use super::file::At;
 use super::resolve::{Context, Fault};
+use crate::files::read_whole;
 use crate::space::distribution::MeasuredFile;
 
 /// Reads one column of numbers from a CSV file, whose path is relative to the study file: the column of that name, or
@@ -19,8 +20,7 @@ pub(super) fn read(
         let place = line.map_or_else(|| path.display().to_string(), |line| format!("{}:{line}", path.display()));
         context.fault(file.span(), Problem::Measured { place, reason })
     };
-    let bytes =
-        std::fs::read(&path).map_err(|error| wrong(None, format!("cannot read the measured values: {error}")))?;
+    let bytes = read_whole(&path).map_err(|error| wrong(None, format!("cannot read the measured values: {error}")))?;
     let text = std::str::from_utf8(&bytes).map_err(|_| wrong(None, "the file is not text in UTF-8".to_owned()))?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).peekable();

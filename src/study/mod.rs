@@ -40,6 +40,7 @@ pub use subject::{
 pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
 
 use crate::design::Design;
+use crate::files::read_text;
 use crate::model::Model;
 use crate::space::Space;
 use crate::uncertainty::Layout;
@@ -79,9 +80,7 @@ impl Study {
     /// [`StudyError`] with the place in the file and what would be right.
     pub fn load(path: &Path, overrides: &[String]) -> Result<Self, StudyError> {
         let unreadable = |source| StudyError::Unreadable { path: path.to_owned(), source };
-        let bytes = std::fs::read(path).map_err(unreadable)?;
-        let text = String::from_utf8(bytes)
-            .map_err(|error| unreadable(std::io::Error::new(std::io::ErrorKind::InvalidData, error)))?;
+        let text = read_text(path).map_err(unreadable)?;
         Self::parse(&text, path, overrides)
     }
 

@@ -10,6 +10,7 @@ mod common;
 mod corpus;
 mod degenerate;
 mod distributions;
+mod endless;
 mod estimators;
 mod examples;
 mod exchange;

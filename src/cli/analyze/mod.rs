@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::exchange::{AnswersRequest, Manifest, MissingOutputs, open_rows, read_answers};
+use apportion::files::read_text;
 use apportion::quantity::Unit;
 use apportion::report::prepare_folder;
 use apportion::{Running, analyse_with};
@@ -61,8 +62,7 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     let data = arguments.data.display();
     let path = manifest_path(arguments)?;
     let of_manifest = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", path.display()));
-    let text =
-        std::fs::read_to_string(&path).map_err(|error| of_manifest(&format!("cannot read the manifest: {error}")))?;
+    let text = read_text(&path).map_err(|error| of_manifest(&format!("cannot read the manifest: {error}")))?;
     let manifest = Manifest::parse(&text).map_err(|error| of_manifest(&error))?;
     let missing = if arguments.missing_as_failed { MissingOutputs::Failed } else { MissingOutputs::Refuse };
     let request = AnswersRequest { manifest: &manifest, outputs: &arguments.outputs, units: &arguments.units, missing };

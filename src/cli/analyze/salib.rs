@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::exchange::{ColumnKind, RowReader, open_rows};
+use apportion::files::{read_text, read_whole};
 use apportion::given::Column;
 use apportion::report::chart::png;
 use apportion::report::salib::{SalibFacts, SalibFile, build_salib, salib_chart, salib_csv, salib_json, salib_summary};
@@ -55,7 +56,7 @@ struct Table {
 
 pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", arguments.data.display()));
-    let bytes = std::fs::read(&arguments.data).map_err(|error| wrong(&format!("cannot read the file: {error}")))?;
+    let bytes = read_whole(&arguments.data).map_err(|error| wrong(&format!("cannot read the file: {error}")))?;
     let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     drop(bytes);
     let Table { problem, inputs, outputs } = table(arguments)?;
@@ -101,8 +102,7 @@ fn problem(arguments: &SalibArguments) -> Result<Option<SalibProblem>, Failure> 
         let names = study.space.factors().iter().map(|factor| factor.name.clone()).collect();
         return SalibProblem::of_inputs(names).map(Some).map_err(|error| wrong(path, &error));
     }
-    let text =
-        std::fs::read_to_string(path).map_err(|error| wrong(path, &format!("cannot read the problem: {error}")))?;
+    let text = read_text(path).map_err(|error| wrong(path, &format!("cannot read the problem: {error}")))?;
     SalibProblem::parse(&text).map(Some).map_err(|error| wrong(path, &error))
 }
 

@@ -7,6 +7,7 @@ use serde_json::Value;
 use thiserror::Error;
 
 use super::words::masked;
+use crate::files::read_whole;
 
 /// Where the number stands, and how it is found.
 #[derive(Debug, Clone, PartialEq)]
@@ -141,7 +142,7 @@ impl Source {
             Ok(data) if !data.is_file() => return Err(unreadable("it is not a file".to_owned())),
             Ok(_) => (),
         }
-        let bytes = std::fs::read(&path).map_err(|error| unreadable(error.to_string()))?;
+        let bytes = read_whole(&path).map_err(|error| unreadable(error.to_string()))?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 }

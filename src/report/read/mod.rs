@@ -10,6 +10,7 @@ use serde::Deserialize;
 use thiserror::Error;
 
 use super::result::ResultFile;
+use crate::files::read_whole;
 
 /// The newest version of the format that is understood.
 const VERSION: u32 = 1;
@@ -71,7 +72,7 @@ struct Header {
 /// [`ReadError`] with what is wrong: a file that cannot be read, that is no JSON or JSON of another kind, a version of the
 /// format that is not known, or parts that do not fit together.
 pub fn read_result(path: &Path) -> Result<ResultFile, ReadError> {
-    let read = || parse_result(&std::fs::read(path)?);
+    let read = || parse_result(&read_whole(path)?);
     read().map_err(|problem| ReadError { path: path.to_owned(), problem })
 }
 

@@ -3,15 +3,48 @@
 //! A journal is a header, which says of which study it is, and records, which are only ever appended, each by one write. A
 //! record that was cut short or damaged ends what is read: it and all after it are evaluated again. The format is
 //! described in `docs/journal-format.md`.
+//!
+//! The pieces of a journal go into a [`Store`](super::Store), and those that a run adds to the store into the journal
+//! (`keep` of [`Running`](crate::Running)); `examples/interrupted.rs` is a program that does so. In short:
+//!
+//! ```
+//! use std::path::Path;
+//! use apportion::run::journal::Journal;
+//! use apportion::run::{Piece, Store};
+//! use apportion::study::Study;
+//! use apportion::{Running, analyse_with};
+//! use serde_json::json;
+//!
+//! let study = Study::parse("model = \"ishigami\"", Path::new("a.toml"), &["design.base_samples=256".to_owned()])?;
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("a.journal");
+//!
+//! let store = Store::new(&study.design, study.model().as_ref());
+//! let journal = Journal::create(&path, &json!({ "identity": study.identity() }))?;
+//! let keep = |piece: &Piece| journal.append(piece);
+//! let first = analyse_with(&study, Running { store: Some(&store), keep: Some(&keep), ..Running::on(0) })?;
+//! drop(journal);
+//!
+//! let (_journal, contents) = Journal::resume(&path)?;
+//! let store = Store::new(&study.design, study.model().as_ref());
+//! for piece in &contents.pieces {
+//!     store.insert(piece);
+//! }
+//! // Nothing is evaluated.
+//! let second = analyse_with(&study, Running { store: Some(&store), ..Running::on(0) })?;
+//! assert_eq!(first.outputs, second.outputs);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod error;
 mod format;
 mod identity;
 
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
@@ -21,10 +54,14 @@ pub use format::{Contents, read_journal};
 pub use identity::differences;
 
 use super::Piece;
+use crate::files::read_opened;
 
 /// Time between forced writes to the disk: what a power cut may cost, at most. (The death of the program alone costs
 /// nothing that was appended.)
 const SYNC_INTERVAL: Duration = Duration::from_secs(1);
+
+/// How long is waited for a lock that somebody else has.
+const LOCK_PATIENCE: Duration = Duration::from_millis(500);
 
 /// A journal open for appending; no other process has it open at the same time.
 #[derive(Debug)]
@@ -71,8 +108,7 @@ impl Journal {
         let file = OpenOptions::new().read(true).write(true).open(path);
         let mut file = file.map_err(|source| JournalError::unreadable(path, source))?;
         lock(path, &file)?;
-        let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes).map_err(|source| JournalError::unreadable(path, source))?;
+        let bytes = read_opened(&mut file).map_err(|source| JournalError::unreadable(path, source))?;
         let contents = read_journal(path, &bytes)?;
         Ok((Self::writing(path, file, contents.length), contents))
     }
@@ -137,11 +173,16 @@ impl Writer {
 }
 
 fn lock(path: &Path, file: &File) -> Result<(), JournalError> {
-    match file.try_lock() {
-        Ok(()) => Ok(()),
-        Err(TryLockError::WouldBlock) => Err(JournalError::InUse { path: path.to_owned() }),
-        // File systems without locks have none to respect.
-        Err(TryLockError::Error(_)) => Ok(()),
+    let begin = Instant::now();
+    loop {
+        match file.try_lock() {
+            Ok(()) => return Ok(()),
+            // A child of the process that had it holds it too, between its birth and the program that it becomes.
+            Err(TryLockError::WouldBlock) if begin.elapsed() < LOCK_PATIENCE => thread::sleep(LOCK_PATIENCE / 50),
+            Err(TryLockError::WouldBlock) => return Err(JournalError::InUse { path: path.to_owned() }),
+            // File systems without locks have none to respect.
+            Err(TryLockError::Error(_)) => return Ok(()),
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::file::CommandSection;
 use super::{Context, Fault, folder};
+use crate::files::read_text;
 use crate::model::{InputTemplate, PerRun, TemplateProblem};
 use crate::space::Space;
 use crate::study::error::{Problem, nearest};
@@ -43,7 +44,7 @@ pub(super) fn form(
 
 fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
     let problem = |place: String, reason: String, help: String| Problem::ProgramFile { place, reason, help };
-    let text = std::fs::read_to_string(path).map_err(|error| {
+    let text = read_text(path).map_err(|error| {
         let reason = format!("cannot read the template: {error}");
         problem(
             path.display().to_string(),

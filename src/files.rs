@@ -1,0 +1,81 @@
+//! Files read whole, but never without end.
+
+use std::fs::File;
+use std::io::{Error, ErrorKind, Read, Result};
+use std::path::Path;
+
+/// Most bytes that are read whole from what is not a regular file, such as a pipe: 256 MiB. A regular file has an end.
+pub const MOST_OF_A_STREAM: u64 = 256 << 20;
+
+/// All bytes of the file at `path`. A pipe or a device, as `/dev/stdin` is, serves as well, up to [`MOST_OF_A_STREAM`].
+///
+/// # Errors
+/// What the operating system says; [`ErrorKind::FileTooLarge`] for a stream that has more bytes, or no end.
+pub fn read_whole(path: &Path) -> Result<Vec<u8>> {
+    read_opened(&mut File::open(path)?)
+}
+
+/// The same as text in UTF-8.
+///
+/// # Errors
+/// As for [`read_whole`], and [`ErrorKind::InvalidData`] for other bytes than text.
+pub fn read_text(path: &Path) -> Result<String> {
+    String::from_utf8(read_whole(path)?).map_err(|error| {
+        Error::new(ErrorKind::InvalidData, format!("it is not text in UTF-8 ({})", error.utf8_error()))
+    })
+}
+
+/// The bytes of an open file from where it stands, as [`read_whole`] reads them.
+///
+/// # Errors
+/// As for [`read_whole`].
+pub fn read_opened(file: &mut File) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let about = file.metadata()?;
+    if about.is_file() {
+        let length = usize::try_from(about.len()).unwrap_or(usize::MAX);
+        bytes.try_reserve_exact(length).map_err(|_| Error::from(ErrorKind::OutOfMemory))?;
+        file.read_to_end(&mut bytes)?;
+    } else {
+        read_at_most(file, MOST_OF_A_STREAM, &mut bytes)?;
+    }
+    Ok(bytes)
+}
+
+fn read_at_most(reader: &mut impl Read, most: u64, bytes: &mut Vec<u8>) -> Result<()> {
+    if reader.take(most + 1).read_to_end(bytes)? as u64 > most {
+        let mebibytes = most >> 20;
+        let message =
+            format!("it is no regular file and has more than {mebibytes} MiB, or no end: save it to a file first");
+        return Err(Error::new(ErrorKind::FileTooLarge, message));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stream_is_read_to_its_end_and_not_further_than_it_may() {
+        let mut bytes = Vec::new();
+        read_at_most(&mut &b"abc"[..], 3, &mut bytes).unwrap();
+        assert_eq!(bytes, b"abc");
+        let error = read_at_most(&mut std::io::repeat(0), 3 << 20, &mut Vec::new()).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::FileTooLarge);
+        assert!(error.to_string().contains("more than 3 MiB, or no end"), "{error}");
+    }
+
+    #[test]
+    fn a_file_is_read_whole_and_a_folder_is_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("text");
+        std::fs::write(&path, "µ").unwrap();
+        assert_eq!(read_text(&path).unwrap(), "µ");
+        std::fs::write(&path, b"\xff").unwrap();
+        assert_eq!(read_text(&path).unwrap_err().kind(), ErrorKind::InvalidData);
+        assert_eq!(read_whole(&path).unwrap(), b"\xff");
+        assert!(read_whole(folder.path()).is_err());
+        assert_eq!(read_whole(&folder.path().join("none")).unwrap_err().kind(), ErrorKind::NotFound);
+    }
+}
