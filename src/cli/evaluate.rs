@@ -4,10 +4,10 @@ use std::fs::File;
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use apportion::exchange::{EvaluateError, Evaluated, evaluate as evaluate_points};
+use apportion::exchange::{EvaluateError, Evaluated, evaluate_until};
 use apportion::report::{prepare_file, stream_atomically};
 
-use super::stop::Stoppable;
+use super::stop::{Stoppable, on_signal};
 use super::{Failure, StudyArguments, say};
 
 #[derive(clap::Args)]
@@ -29,7 +29,7 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     prepare_file(&arguments.output)?;
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
-        let result = evaluate_points(&study, file, &mut Stoppable::new(out));
+        let result = evaluate_until(&study, file, &mut Stoppable::new(out), Some(on_signal()));
         let complete = result.is_ok();
         outcome = Some(result);
         // Whatever went wrong, half a file must not take the target's place.
@@ -37,6 +37,7 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     });
     match outcome {
         Some(Err(EvaluateError::Points(error))) => Err(Failure::Input(anyhow!("{points}: {error}"))),
+        Some(Err(error @ EvaluateError::Halted { .. })) => Err(Failure::Run(error.into())),
         Some(Err(error)) => Err(Failure::Run(anyhow!("{}: {error}", arguments.output.display()))),
         Some(Ok(evaluated)) => {
             written?;

@@ -39,7 +39,10 @@ fn parse_points(text: &str) -> Result<usize, String> {
 
 impl From<SweepError> for Failure {
     fn from(error: SweepError) -> Self {
-        Self::Input(error.into())
+        match error {
+            SweepError::Halted(_) => Self::Run(error.into()),
+            _ => Self::Input(error.into()),
+        }
     }
 }
 

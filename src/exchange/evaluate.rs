@@ -2,15 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
+use std::sync::atomic::AtomicBool;
 
 use thiserror::Error;
 
 use super::points::{PointsError, PointsReader};
 use crate::model::{Batch, Output, RowFailure};
+use crate::run::{Crew, Halt};
 use crate::study::Study;
-
-/// Points evaluated at a time.
-const ROWS: usize = 1024;
 
 /// Why points could not be evaluated.
 #[derive(Debug, Error)]
@@ -21,6 +20,14 @@ pub enum EvaluateError {
     /// The outputs cannot be written.
     #[error("cannot write the outputs: {0}")]
     Output(#[from] std::io::Error),
+    /// The model gave up, or the evaluation was asked to end.
+    #[error("{halt}; {points} points had been evaluated")]
+    Halted {
+        /// Points evaluated by then.
+        points: u64,
+        /// Why.
+        halt: Halt,
+    },
 }
 
 /// What became of the points.
@@ -35,23 +42,38 @@ pub struct Evaluated {
 /// Evaluates the model of `study` at the points of a CSV file and writes its outputs as CSV: a header of output names,
 /// then one line per point, in the outputs' units. An output that failed is an empty cell.
 ///
-/// Runs in constant memory. Numbers are written with as many digits as it takes to read the same bits back.
+/// Runs in constant memory, through as many workers as the model [asks for](crate::model::Model::concurrency); the
+/// outputs stand in the order of the points. Numbers are written with as many digits as it takes to read the same bits back.
 ///
 /// # Errors
-/// [`EvaluateError`] if the points are wrong or the outputs cannot be written.
+/// [`EvaluateError`] if the points are wrong, the outputs cannot be written, or the model gives up.
 pub fn evaluate(study: &Study, points: impl Read, outputs: &mut dyn Write) -> Result<Evaluated, EvaluateError> {
+    evaluate_until(study, points, outputs, None)
+}
+
+/// The same, ended when `stop` is set.
+///
+/// # Errors
+/// As for [`evaluate`], and [`Halt::Interrupted`] if `stop` is set before the end.
+pub fn evaluate_until(
+    study: &Study,
+    points: impl Read,
+    outputs: &mut dyn Write,
+    stop: Option<&AtomicBool>,
+) -> Result<Evaluated, EvaluateError> {
     let mut reader = PointsReader::new(points, &study.space)?;
     let model = study.model();
     let factors = study.space.factors();
-    let mut worker = model.worker();
+    let mut crew = Crew::new(model.as_ref(), stop);
+    let most = Crew::rows_at_once(model.as_ref());
     let mut batch = Batch::of(model.as_ref());
-    let mut columns = vec![Vec::with_capacity(ROWS); factors.len()];
+    let mut columns = vec![Vec::with_capacity(most); factors.len()];
     let mut evaluated = Evaluated::default();
     let mut out = std::io::BufWriter::new(outputs);
     let names: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     writeln!(out, "{}", names.join(","))?;
     loop {
-        let rows = reader.read(factors, ROWS, &mut columns)?;
+        let rows = reader.read(factors, most, &mut columns)?;
         if rows == 0 {
             break;
         }
@@ -62,8 +84,8 @@ pub fn evaluate(study: &Study, points: impl Read, outputs: &mut dyn Write) -> Re
         }
         batch.reset(rows);
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        worker.run(&inputs, &mut batch);
-        batch.settle();
+        let points = evaluated.points;
+        crew.run(&inputs, &mut batch).map_err(|halt| EvaluateError::Halted { points, halt })?;
         evaluated.count(model.outputs(), &batch);
         write_rows(&mut out, model.outputs(), &batch)?;
     }

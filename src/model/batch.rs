@@ -156,6 +156,15 @@ impl Batch {
         self.effort.largest_error = self.effort.largest_error.max(error_estimate);
     }
 
+    /// Takes over the rows of a settled batch of the same model, from row `first` on.
+    pub fn take_over(&mut self, first: usize, part: &Self) {
+        for (mine, theirs) in self.columns.iter_mut().zip(&part.columns) {
+            mine[first..first + part.rows].copy_from_slice(theirs);
+        }
+        self.failures.extend(part.failures.iter().map(|(output, row, why)| (*output, first + row, why.clone())));
+        self.add_counts(&part.flags, &part.effort);
+    }
+
     /// Names every value that is not finite and has no failure yet [`RowFailure::not_finite`], or the reason why the model
     /// gave up, and puts the failures in order. To be called once after the worker.
     pub fn settle(&mut self) {

@@ -8,11 +8,8 @@ use std::time::{Duration, Instant};
 
 use super::rows::RowRunner;
 use super::store::{Piece, Store};
-use super::{FailurePolicy, Job, Keep, Place, Progress, RunError};
+use super::{FailurePolicy, Job, Keep, PIECE_SECONDS, Place, Progress, RunError};
 use crate::model::RowFailure;
-
-/// Time that a piece should take: short enough to lose little, and to share out evenly; long enough to be worth a record.
-const PIECE_SECONDS: f64 = 0.2;
 
 /// Most rows of a piece.
 const MOST_ROWS: u64 = 4096;

@@ -10,6 +10,7 @@
 //! the store, to the same bits.
 
 mod block;
+mod crew;
 mod error;
 mod fill;
 mod growing;
@@ -21,6 +22,7 @@ mod totals;
 
 use std::time::Duration;
 
+pub use crew::{Crew, Halt};
 pub use error::RunError;
 pub use growing::GrowingRun;
 pub use rows::RowValues;
@@ -34,6 +36,10 @@ use crate::space::Space;
 
 /// Base points in a block: their columns stay in the cache, and a block takes long enough to be worth a task.
 pub const BLOCK: u64 = 256;
+
+/// Time that a piece of rows should take: short enough to lose little, and to share out evenly; long enough to be worth a
+/// record.
+const PIECE_SECONDS: f64 = 0.2;
 
 /// What is run: every row of `design`, as points of `space`, through `model`.
 #[derive(Clone, Copy)]

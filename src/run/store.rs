@@ -53,7 +53,8 @@ impl Piece {
     }
 }
 
-/// The outputs that are there, of a design that may still grow. Shared between threads.
+/// The outputs that are there, of a design that may still grow. Shared between threads. [`analyse_with`](crate::analyse_with)
+/// evaluates what is missing; `examples/interrupted.rs` fills one from a [`journal`](super::journal).
 #[derive(Debug)]
 pub struct Store {
     outputs: usize,

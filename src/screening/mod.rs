@@ -119,8 +119,8 @@ pub struct ScreeningFailure {
 /// ```
 ///
 /// # Errors
-/// [`ScreeningError`] if the settings make no sense or the threads cannot be started. Runs that fail are part of the
-/// result.
+/// [`ScreeningError`] if the settings make no sense, the threads cannot be started or the model gives up. Runs
+/// that fail are part of the result.
 pub fn screen(
     job: ScreeningJob<'_>,
     threads: usize,

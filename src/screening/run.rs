@@ -8,12 +8,9 @@ use rayon::prelude::*;
 
 use super::points::{Move, Trajectories};
 use super::{ScreeningError, ScreeningJob};
-use crate::model::{Batch, RowFailure, Worker};
-use crate::run::{Progress, RunError, threads_in_force};
+use crate::model::{Batch, RowFailure};
+use crate::run::{Crew, Halt, Progress, RunError, threads_in_force};
 use crate::space::Factor;
-
-/// Model runs handed to a worker at a time, or one trajectory if that is longer.
-const ROWS: usize = 1024;
 
 /// What became of some trajectories.
 #[derive(Debug, Default)]
@@ -44,23 +41,33 @@ pub(super) fn run(
         .build()
         .map_err(|source| RunError::Threads { threads, source })?;
     let rows = job.space.factors().len() + 1;
-    let block = (ROWS / rows).max(1) as u64;
+    // Whole trajectories, and one at least.
+    let block = (Crew::rows_at_once(job.model) / rows).max(1) as u64;
     let start = Instant::now();
     let total = trajectories * rows as u64;
     let (done, failed) = (AtomicU64::new(0), AtomicU64::new(0));
     let one = |bench: &mut Bench<'_>, number: u64| {
         let first = number * block;
         let last = (first + block).min(trajectories);
-        let outcome = bench.block(job, points, first..last);
+        let outcome = bench.block(job, points, first..last)?;
         let runs = (last - first) * rows as u64;
         let done = done.fetch_add(runs, Ordering::Relaxed) + runs;
         let failed = failed.fetch_add(outcome.failed, Ordering::Relaxed) + outcome.failed;
         on_progress(Progress { done, recalled: 0, total, failed, elapsed: start.elapsed() });
-        outcome
+        Ok(outcome)
     };
     let blocks = trajectories.div_ceil(block);
-    let outcomes: Vec<Outcome> =
-        pool.install(|| (0..blocks).into_par_iter().map_init(|| Bench::new(job, rows), one).collect());
+    let outcomes: Result<Vec<Outcome>, Halt> = if job.model.concurrency().is_some() {
+        // Its workers share out the rows of every block among them.
+        let mut bench = Bench::new(job, rows);
+        (0..blocks).map(|number| one(&mut bench, number)).collect()
+    } else {
+        pool.install(|| (0..blocks).into_par_iter().map_init(|| Bench::new(job, rows), one).collect())
+    };
+    let outcomes = outcomes.map_err(|halt| match halt {
+        Halt::GaveUp(reason) => RunError::GaveUp { reason },
+        Halt::Interrupted => RunError::Interrupted { done: done.load(Ordering::Relaxed), total },
+    })?;
     let mut whole = Outcome::of(job);
     outcomes.into_iter().for_each(|outcome| whole.append(outcome));
     Ok(whole)
@@ -68,7 +75,7 @@ pub(super) fn run(
 
 /// What a thread needs to evaluate blocks.
 struct Bench<'a> {
-    worker: Box<dyn Worker + 'a>,
+    crew: Crew<'a>,
     batch: Batch,
     columns: Vec<Vec<f64>>,
     rows: usize,
@@ -77,10 +84,15 @@ struct Bench<'a> {
 impl<'a> Bench<'a> {
     fn new(job: ScreeningJob<'a>, rows: usize) -> Self {
         let columns = vec![Vec::new(); job.space.factors().len()];
-        Self { worker: job.model.worker(), batch: Batch::of(job.model), columns, rows }
+        Self { crew: Crew::new(job.model, None), batch: Batch::of(job.model), columns, rows }
     }
 
-    fn block(&mut self, job: ScreeningJob<'_>, points: &Trajectories, numbers: std::ops::Range<u64>) -> Outcome {
+    fn block(
+        &mut self,
+        job: ScreeningJob<'_>,
+        points: &Trajectories,
+        numbers: std::ops::Range<u64>,
+    ) -> Result<Outcome, Halt> {
         let mut outcome = Outcome::of(job);
         let moves: Vec<Vec<Move>> = numbers.map(|number| points.moves(number)).collect();
         let rows = self.rows * moves.len();
@@ -94,8 +106,7 @@ impl<'a> Bench<'a> {
         }
         self.batch.reset(rows);
         let inputs: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
-        self.worker.run(&inputs, &mut self.batch);
-        self.batch.settle();
+        self.crew.run(&inputs, &mut self.batch)?;
         for (output, effects) in outcome.effects.iter_mut().enumerate() {
             let values = self.batch.column(output).chunks_exact(self.rows);
             for (moves, values) in moves.iter().zip(values) {
@@ -103,7 +114,7 @@ impl<'a> Bench<'a> {
             }
         }
         outcome.note(&self.batch, &inputs);
-        outcome
+        Ok(outcome)
     }
 }
 

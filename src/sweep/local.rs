@@ -5,6 +5,7 @@ use thiserror::Error;
 use super::request::range;
 use super::rows::Bench;
 use crate::model::RowFailure;
+use crate::run::Halt;
 use crate::space::{Distribution, Factor};
 
 /// The step of the differences, as a part of the nominal value or of the factor's range, whichever is smaller: wide
@@ -48,7 +49,7 @@ pub enum NoDerivative {
 pub(super) fn local(
     bench: &mut Bench<'_>,
     (number, factor): (usize, &Factor),
-) -> Vec<Result<LocalSensitivity, NoDerivative>> {
+) -> Result<Vec<Result<LocalSensitivity, NoDerivative>>, Halt> {
     let distribution = factor.distribution();
     let x = factor.nominal;
     // A factor of single values is asked at its nominal value alone.
@@ -60,7 +61,7 @@ pub(super) fn local(
         _ => Some(Points::of(x, distribution)),
     };
     let values = points.as_ref().map_or_else(|| vec![x], |points| points.values.clone());
-    let curves = bench.curve((number, &values), None);
+    let curves = bench.curve((number, &values), None)?;
     let of_output = |curve: super::CurveOutput| {
         let Some(points) = &points else { return Err(NoDerivative::NotContinuous(distribution.name())) };
         if let Some((_, reason)) = curve.failures.first() {
@@ -69,7 +70,7 @@ pub(super) fn local(
         let y: Vec<f64> = curve.values.into_iter().flatten().collect();
         points.derivative(&y).filter(|local| local.derivative.is_finite()).ok_or(NoDerivative::Overflow)
     };
-    curves.into_iter().map(of_output).collect()
+    Ok(curves.into_iter().map(of_output).collect())
 }
 
 /// Where the output is asked: the nominal point, then h and h/2 to both sides, or h/2, h and 2 h to one.

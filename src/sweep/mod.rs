@@ -14,6 +14,7 @@ pub use local::{LocalSensitivity, NoDerivative};
 pub use request::{FactorValues, MAX_POINTS, SweepError, SweepRequest, TAIL, find, is_logarithmic};
 
 use crate::model::{Model, RowFailure};
+use crate::run::Halt;
 use crate::space::Space;
 use rows::Bench;
 
@@ -102,7 +103,8 @@ pub struct Extent {
 /// ```
 ///
 /// # Errors
-/// [`SweepError`] if a factor is asked for twice, or against itself alone. Runs that fail are part of the result.
+/// [`SweepError`] if a factor is asked for twice, or against itself alone, or the model gives up. Runs that fail are
+/// part of the result.
 ///
 /// # Panics
 /// If a factor's number is not one of the space.
@@ -111,8 +113,9 @@ pub fn sweep(space: &Space, model: &dyn Model, request: &SweepRequest) -> Result
     let mut bench = Bench::new(space, model);
     let first = space.factors().first().map_or(f64::NAN, |factor| factor.nominal);
     let nominal: Vec<Result<f64, RowFailure>> =
-        bench.curve((0, &[first]), None).into_iter().map(CurveOutput::single).collect();
-    let sweeps = request.factors.iter().map(|asked| one(&mut bench, (space, asked), (&nominal, request))).collect();
+        bench.curve((0, &[first]), None)?.into_iter().map(CurveOutput::single).collect();
+    let sweeps = request.factors.iter().map(|asked| one(&mut bench, (space, asked), (&nominal, request)));
+    let sweeps = sweeps.collect::<Result<_, _>>()?;
     Ok(Sweeps { nominal, sweeps, runs: bench.runs, flags: bench.flags })
 }
 
@@ -120,27 +123,26 @@ fn one(
     bench: &mut Bench<'_>,
     (space, asked): (&Space, &FactorValues),
     (nominal, request): (&[Result<f64, RowFailure>], &SweepRequest),
-) -> Sweep {
+) -> Result<Sweep, Halt> {
     let FactorValues { factor, values } = asked.clone();
-    let curves = bench.curve((factor, &values), None);
+    let curves = bench.curve((factor, &values), None)?;
     let against = request.against.iter().filter(|against| against.factor != factor);
     let family = against.flat_map(|against| against.values.iter().map(|value| (against.factor, *value)));
     let family = family
-        .map(|(other, value)| FamilyCurve {
-            factor: other,
-            value,
-            outputs: bench.curve((factor, &values), Some((other, value))),
+        .map(|(other, value)| {
+            let outputs = bench.curve((factor, &values), Some((other, value)))?;
+            Ok(FamilyCurve { factor: other, value, outputs })
         })
-        .collect();
+        .collect::<Result<_, Halt>>()?;
     let extents = curves.iter().zip(nominal).map(|(curve, nominal)| Extent::of(curve, nominal.as_ref().ok()));
-    Sweep {
+    Ok(Sweep {
         factor,
         extents: extents.collect(),
         family,
-        local: local::local(bench, (factor, &space.factors()[factor])),
+        local: local::local(bench, (factor, &space.factors()[factor]))?,
         nominal: curves,
         values,
-    }
+    })
 }
 
 impl CurveOutput {

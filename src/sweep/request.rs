@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::quantity::{Quantity, UnitError};
+use crate::run::Halt;
 use crate::space::{Distribution, Factor, Space};
 use crate::study::nearest;
 
@@ -29,9 +30,12 @@ pub struct SweepRequest {
     pub against: Option<FactorValues>,
 }
 
-/// What is wrong with the request for a sweep.
+/// What is wrong with the request for a sweep, or why there is none.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SweepError {
+    /// The model gave up.
+    #[error(transparent)]
+    Halted(#[from] Halt),
     /// There is no such factor.
     #[error(
         "the study has no factor `{name}`{}: its factors are {}",

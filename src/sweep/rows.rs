@@ -1,17 +1,15 @@
 //! Runs of a model around the nominal point.
 
 use super::CurveOutput;
-use crate::model::{Batch, Model, Worker};
+use crate::model::{Batch, Model};
+use crate::run::{Crew, Halt};
 use crate::space::Space;
-
-/// Model runs handed to the worker at a time.
-const ROWS: usize = 1024;
 
 /// A model with its factors at their nominal values.
 pub(super) struct Bench<'a> {
     space: &'a Space,
     model: &'a dyn Model,
-    worker: Box<dyn Worker + 'a>,
+    crew: Crew<'a>,
     batch: Batch,
     /// Nominal values in SI units.
     nominal: Vec<f64>,
@@ -25,25 +23,32 @@ impl<'a> Bench<'a> {
     pub fn new(space: &'a Space, model: &'a dyn Model) -> Self {
         let nominal = space.factors().iter().map(|factor| factor.unit().to_si(factor.nominal)).collect();
         let flags = vec![0; model.flags().len()];
-        Self { space, model, worker: model.worker(), batch: Batch::of(model), nominal, runs: 0, flags }
+        Self { space, model, crew: Crew::new(model, None), batch: Batch::of(model), nominal, runs: 0, flags }
     }
 
     /// Every output for each of `values` of one factor, in its unit, with one other factor perhaps moved from its
     /// nominal value.
-    pub fn curve(&mut self, (factor, values): (usize, &[f64]), moved: Option<(usize, f64)>) -> Vec<CurveOutput> {
+    ///
+    /// # Errors
+    /// [`Halt`] if the model gives up.
+    pub fn curve(
+        &mut self,
+        (factor, values): (usize, &[f64]),
+        moved: Option<(usize, f64)>,
+    ) -> Result<Vec<CurveOutput>, Halt> {
         let unit = self.space.factors()[factor].unit();
         let mut base = self.nominal.clone();
         if let Some((other, value)) = moved {
             base[other] = self.space.factors()[other].unit().to_si(value);
         }
         let mut outputs = vec![CurveOutput::default(); self.model.outputs().len()];
-        for (block, values) in values.chunks(ROWS).enumerate() {
+        let most = Crew::rows_at_once(self.model);
+        for (block, values) in values.chunks(most).enumerate() {
             let mut columns: Vec<Vec<f64>> = base.iter().map(|value| vec![*value; values.len()]).collect();
             columns[factor] = values.iter().map(|value| unit.to_si(*value)).collect();
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
             self.batch.reset(values.len());
-            self.worker.run(&inputs, &mut self.batch);
-            self.batch.settle();
+            self.crew.run(&inputs, &mut self.batch)?;
             self.runs += values.len() as u64;
             for (sum, raised) in self.flags.iter_mut().zip(self.batch.flags()) {
                 *sum += raised;
@@ -54,9 +59,9 @@ impl<'a> Bench<'a> {
                 curve.values.extend(values);
             }
             for (output, row, reason) in self.batch.failures() {
-                outputs[*output].failures.push((block * ROWS + row, reason.clone()));
+                outputs[*output].failures.push((block * most + row, reason.clone()));
             }
         }
-        outputs
+        Ok(outputs)
     }
 }
