@@ -20,8 +20,6 @@ const ATTENTION: Duration = Duration::from_millis(100);
 /// printed too much before.
 const FIRST_ROW: Duration = Duration::from_millis(50);
 const EACH_ROW: Duration = Duration::from_millis(5);
-/// How long a program that has never answered may be silent without a hint.
-const SILENCE: Duration = Duration::from_secs(10);
 
 pub(super) struct KeptWorker<'a> {
     model: &'a CommandModel,
@@ -193,7 +191,7 @@ impl<'a> KeptWorker<'a> {
             Some(Event::Sent) => talk.credit += 1,
             Some(Event::Closed) => return Err(Fault::Closed),
             None if left == Some(Duration::ZERO) => return Err(Fault::Silent),
-            None if is_first && silent_for > SILENCE => State::say_once(
+            None if is_first && silent_for > self.model.silence => State::say_once(
                 &state.hinted,
                 "the program has been silent since its first row: does it flush its output, as print(..., flush=True) does?",
             ),
@@ -374,3 +372,6 @@ impl<'a> Piece<'a> {
         self.answered = self.since;
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -97,12 +97,17 @@ pub struct CommandSettings {
 /// assert_eq!(model.concurrency(), Some(2));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+///
+/// `examples/own_program.rs` writes such a program, studies it by [`Study::builder`](crate::study::Study::builder) and
+/// compares the result with that of a function.
 pub struct CommandModel {
     settings: CommandSettings,
     factors: Vec<Factor>,
     outputs: Vec<Output>,
     /// The names of all outputs of the program.
     names: Vec<String>,
+    /// How long it may be silent at its first row without a hint.
+    silence: Duration,
     state: State,
 }
 
@@ -119,6 +124,9 @@ struct State {
     warned: AtomicBool,
     voice: Arc<Voice>,
 }
+
+/// How long a program that has never answered may be silent without a hint.
+const SILENCE: Duration = Duration::from_secs(10);
 
 /// Rows that may fail before there has been any answer.
 const MOST_BARREN: u32 = 5;
@@ -164,7 +172,7 @@ impl CommandModel {
         };
         let outputs = settings.asked.iter().map(output).collect();
         let names = settings.outputs.iter().map(|output| output.name.clone()).collect();
-        Self { settings, factors, outputs, names, state: State::default() }
+        Self { settings, factors, outputs, names, silence: SILENCE, state: State::default() }
     }
 }
 

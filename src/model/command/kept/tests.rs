@@ -1,0 +1,70 @@
+//! What takes too long, or too much luck, to be seen through the program.
+
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use crate::model::{Batch, CommandModel, CommandOutput, CommandSettings, Form, Model, Program, Protocol};
+use crate::quantity::Unit;
+use crate::space::{Distribution, Factor};
+
+/// A script for `sh` as a model of one factor and one output.
+fn model(script: &str) -> CommandModel {
+    let settings = CommandSettings {
+        program: Program {
+            arguments: ["sh", "-c", script].map(str::to_owned).to_vec(),
+            directory: std::env::temp_dir(),
+            environment: Vec::new(),
+        },
+        form: Form::KeptAlive(Protocol::Csv),
+        outputs: vec![CommandOutput { name: "y".to_owned(), unit: Unit::dimensionless(), pick: None }],
+        asked: vec![0],
+        workers: Some(1),
+        timeout: None,
+        retries: 1,
+    };
+    let law = Distribution::uniform(0.0, 9.0).unwrap();
+    CommandModel::new(settings, vec![Factor::new("x", Unit::dimensionless(), law).unwrap()])
+}
+
+/// What the model answers to `x`; no row may fail.
+#[track_caller]
+fn answers(model: &CommandModel, x: &[f64]) -> Vec<f64> {
+    let mut batch = Batch::of(model);
+    batch.reset(x.len());
+    model.worker().run(&[x], &mut batch);
+    batch.settle();
+    assert_eq!((batch.given_up(), batch.failures()), (None, &[][..]));
+    batch.column(0).to_vec()
+}
+
+const ECHO: &str = "while read -r x; do echo \"$x\"; done";
+
+#[test]
+fn a_program_that_is_long_silent_at_its_first_row_is_asked_whether_it_flushes() {
+    let slow = format!("read -r header; read -r x; sleep 0.6; echo \"$x\"; {ECHO}");
+    for (silence, hinted) in [(Duration::from_millis(50), true), (super::super::SILENCE, false)] {
+        let mut model = model(&slow);
+        model.silence = silence;
+        assert_eq!(answers(&model, &[1.5, 2.5]), [1.5, 2.5]);
+        assert_eq!(model.state.hinted.load(Ordering::Relaxed), hinted);
+    }
+}
+
+#[test]
+fn a_program_that_has_answered_is_not_asked_that() {
+    let mut model =
+        model(&format!("read -r header; read -r x; echo \"$x\"; read -r x; sleep 0.5; echo \"$x\"; {ECHO}"));
+    model.silence = Duration::from_millis(50);
+    assert_eq!(answers(&model, &[1.0, 2.0, 3.0]), [1.0, 2.0, 3.0]);
+    assert!(!model.state.hinted.load(Ordering::Relaxed));
+}
+
+/// Each process answers one row: all rows are answered, each by a process of its own.
+#[test]
+fn a_program_that_closes_its_output_after_its_first_answer_is_started_for_every_row() {
+    let once = "read -r header; read -r x; echo \"$x\"; exec 1>&-";
+    let x = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+    assert_eq!(answers(&model(&format!("{once}; exit 0")), &x), x);
+    // This one stays, and has to be ended.
+    assert_eq!(answers(&model(&format!("{once}; cat > /dev/null")), &x[..3]), x[..3]);
+}
