@@ -93,6 +93,8 @@ fn growing<'a>(study: &Study, job: Job<'a>, running: Running<'a>) -> Result<Grow
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
+/// `examples/interrupted.rs` puts runs on record in a [`journal`](crate::run::journal), stops, and goes on.
+///
 /// # Errors
 /// [`RunError`] if the threads cannot be started, a row fails in a study that says to stop then, intervals need more
 /// outputs at once than fit, the model gives up, an output cannot be kept, or the run is asked to end.

@@ -2,6 +2,12 @@
 
 #[path = "../../examples/function_model.rs"]
 mod function_model;
+#[path = "../../examples/interrupted.rs"]
+mod interrupted;
+#[path = "../../examples/own_program.rs"]
+mod own_program;
+#[path = "../../examples/three_steps.rs"]
+mod three_steps;
 #[path = "../../examples/units_and_failures.rs"]
 mod units_and_failures;
 
@@ -9,4 +15,19 @@ mod units_and_failures;
 fn examples_run() {
     function_model::main().unwrap();
     units_and_failures::main().unwrap();
+}
+
+#[test]
+fn an_interrupted_run_goes_on() {
+    interrupted::main().unwrap();
+}
+
+#[test]
+fn a_program_is_asked_from_rust() {
+    own_program::main().unwrap();
+}
+
+#[test]
+fn three_steps_are_joined_by_files() {
+    three_steps::main().unwrap();
 }
