@@ -185,7 +185,7 @@ fn a_program_that_never_works_is_given_up() {
 }
 
 impl Case {
-    fn replace(self, from: &str, to: &str) -> Self {
+    pub fn replace(self, from: &str, to: &str) -> Self {
         let text = std::fs::read_to_string(self.path("study.toml")).unwrap();
         assert!(text.contains(from));
         self.write("study.toml", &text.replacen(from, to, 1));

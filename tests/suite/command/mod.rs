@@ -2,8 +2,10 @@
 
 mod examples;
 mod faults;
+mod other_commands;
 mod per_run;
 mod processes;
+mod record;
 mod refusals;
 
 use std::path::{Path, PathBuf};

@@ -19,25 +19,30 @@ fn worker(what: &str) -> Case {
 }
 
 fn started(case: &Case) -> Child {
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin("apportion"));
-    command.args(["run", text(&case.path("study.toml")), "--out", text(&case.path("out"))]);
-    command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+    spawn(&["run", text(&case.path("study.toml")), "--out", text(&case.path("out"))])
 }
 
-fn processes(case: &Case) -> Vec<String> {
+/// The program on its way.
+pub fn spawn(arguments: &[&str]) -> Child {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin("apportion"));
+    command.args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+/// The numbers of processes that wrote them to files.
+pub fn processes(case: &Case) -> Vec<String> {
     let names =
         std::fs::read_dir(case.path("")).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     names.filter_map(|name| name.strip_prefix("pid-").map(str::to_owned)).collect()
 }
 
 /// Alive, and no zombie.
-fn is_alive(pid: &String) -> bool {
+pub fn is_alive(pid: &String) -> bool {
     let stat = std::fs::read_to_string(Path::new("/proc").join(pid).join("stat"));
     stat.is_ok_and(|stat| !stat.rsplit(')').next().is_some_and(|rest| rest.trim_start().starts_with('Z')))
 }
 
 #[track_caller]
-fn within(seconds: u64, what: &str, condition: impl Fn() -> bool) {
+pub fn within(seconds: u64, what: &str, condition: impl Fn() -> bool) {
     let start = Instant::now();
     while !condition() {
         assert!(start.elapsed() < Duration::from_secs(seconds), "{what}: not within {seconds} s");
@@ -45,7 +50,7 @@ fn within(seconds: u64, what: &str, condition: impl Fn() -> bool) {
     }
 }
 
-fn signal(name: &str, child: &Child) {
+pub fn signal(name: &str, child: &Child) {
     let status = Command::new("kill").args([name, &child.id().to_string()]).status().unwrap();
     assert!(status.success());
 }

@@ -1,0 +1,90 @@
+//! What is on record of the answers of programs is not asked again.
+
+use std::collections::BTreeSet;
+
+use apportion::report::ResultFile;
+use apportion::run::journal::read_journal;
+
+use super::processes::{is_alive, processes, signal, spawn, within};
+use super::{Case, FORMULA, by_formula, contains, rows_where};
+use crate::common::{numbers, stderr, text};
+
+/// Writes every row that the program gets to the file `asked`.
+const NOTES: &str = "    with open('asked', 'a') as log: log.write(line)\n";
+
+/// The rows that were asked since this was called last.
+fn asked(case: &Case) -> Vec<String> {
+    let rows = std::fs::read_to_string(case.path("asked")).unwrap_or_default();
+    let _ = std::fs::remove_file(case.path("asked"));
+    rows.lines().map(str::to_owned).collect()
+}
+
+/// A result without what tells about the computer.
+fn without_times(mut result: ResultFile) -> ResultFile {
+    (result.provenance.threads, result.provenance.wall_seconds) = (0, 0.0);
+    result
+}
+
+#[test]
+fn only_rows_that_failed_are_asked_again_and_the_result_is_that_of_a_run_without_failures() {
+    let licence = "    has_one = x[0] <= 0.9 or os.path.exists('licence')\n    print(y if has_one else 'error: no licence', flush=True)\n";
+    let new = || Case::each_row("", &format!("{NOTES}{licence}"));
+    let (case, sound) = (new(), new());
+    let bad = rows_where(|x| x > 0.9);
+    let (first, _) = case.result();
+    assert_eq!((first.outputs[0].runs_failed, asked(&case).len()), (bad, 160));
+    case.write("licence", "");
+    let retried = case.run_with(&["--retry-failed"]);
+    assert_eq!(retried.status.code(), Some(0), "{}", stderr(&retried));
+    contains(&stderr(&retried), &[&format!("the {bad} runs that failed are evaluated again")]);
+    let again = asked(&case);
+    assert_eq!(again.len() as u64, bad);
+    assert!(again.iter().all(|row| row.split(',').next().unwrap().parse::<f64>().unwrap() > 0.9), "{again:?}");
+    sound.write("licence", "");
+    let (expected, _) = sound.result();
+    assert_eq!(without_times(case.result_file()), without_times(expected));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_engine_that_is_killed_asks_no_row_on_record_again_and_leaves_no_process() {
+    // With 4 ms a row, pieces that take 0.2 s have at most 50 rows.
+    const IN_FLIGHT: usize = 2 * 50;
+    const ROWS: usize = 512 * 5;
+    let slow =
+        format!("{NOTES}    open(f'pid-{{os.getpid()}}', 'w')\n    time.sleep(0.004)\n    print(y, flush=True)\n");
+    let case = Case::each_row("", &slow).replace("base_samples = 32", "base_samples = 512");
+    let journal = case.path("out/study.journal");
+    let on_record = || -> usize {
+        let contents = read_journal(&journal, &std::fs::read(&journal).unwrap()).unwrap();
+        contents.pieces.iter().map(|piece| piece.rows(1) as usize).sum()
+    };
+    let (study, out) = (case.path("study.toml"), case.path("out"));
+    let arguments = ["run", text(&study), "--out", text(&out)];
+    let (mut before, mut seen) = (0, BTreeSet::new());
+    for moment in [300, 700] {
+        let resume: &[&str] = if before == 0 { &[] } else { &["--resume"] };
+        let mut run = spawn(&[&arguments[..], resume].concat());
+        let noted = || std::fs::read_to_string(case.path("asked")).unwrap_or_default().lines().count();
+        within(60, "rows are asked", || noted() >= moment);
+        signal("-KILL", &run);
+        run.wait().unwrap();
+        within(5, "all have ended", || !processes(&case).iter().any(is_alive));
+        let (now, rows) = (on_record(), asked(&case));
+        assert!(now > before && now - before <= rows.len(), "{before} {now} {}", rows.len());
+        assert!(rows.len() - (now - before) <= IN_FLIGHT, "{before} {now} {}", rows.len());
+        seen.extend(rows);
+        before = now;
+    }
+    let resumed = case.run_with(&["--resume"]);
+    assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
+    contains(&stderr(&resumed), &[&format!("{before} of {ROWS} runs are on record")]);
+    let rows = asked(&case);
+    // Those that are not on record, each once.
+    assert_eq!(rows.len(), ROWS - before);
+    assert_eq!(rows.iter().collect::<BTreeSet<_>>().len(), rows.len());
+    seen.extend(rows);
+    assert_eq!(seen.len(), ROWS);
+    within(5, "all have ended", || !processes(&case).iter().any(is_alive));
+    assert_eq!(numbers(&case.result_file().outputs[0]), numbers(&by_formula(&case, FORMULA).outputs[0]));
+}
