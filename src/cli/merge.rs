@@ -36,13 +36,17 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     prepare_folder(&folder)?;
     prepare_files(&study, &folder)?;
     let path = journal_path(&folder, &study.name, None);
-    // The merged runs are put on record whatever their number: they may have cost much elsewhere.
-    let record = record::open_always(&study, &path, Use::IfThere)?;
     let mut shards = Shards::default();
+    let mut parts = Vec::new();
     for journal in &journals {
         let contents = record::read(&study, journal)?;
         let part = filled(&study, &contents);
         shards.note(&study, contents.header["shard"].as_str(), &part);
+        parts.push((journal, part));
+    }
+    // The merged runs are put on record whatever their number: they may have cost much elsewhere.
+    let record = record::open_always(&study, &path, Use::IfThere)?;
+    for (journal, part) in parts {
         for piece in part.pieces() {
             let rows = piece.first..piece.first + piece.rows(part.outputs());
             let missing: u64 =
@@ -95,7 +99,11 @@ fn in_folder(folder: &Path, name: &str) -> Result<Vec<PathBuf>, Failure> {
     let unreadable = |error| Failure::Input(anyhow!("{}: cannot look for journals: {error}", folder.display()));
     let begin = format!("{name}-shard-");
     let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(unreadable)? {
+    let entries = match std::fs::read_dir(folder) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => None,
+        entries => Some(entries.map_err(unreadable)?),
+    };
+    for entry in entries.into_iter().flatten() {
         let path = entry.map_err(unreadable)?.path();
         let file = path.file_name().and_then(|file| file.to_str()).unwrap_or_default();
         if file.starts_with(&begin) && file.ends_with(".journal") {

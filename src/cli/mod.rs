@@ -154,7 +154,7 @@ fn say_notes(study: &Study) {
 /// Number of worker threads.
 #[derive(Args)]
 struct Threads {
-    /// Worker threads; one per core if not given. The result does not depend on it
+    /// Worker threads, and processes of a program at most; one per core if not given. The result does not depend on it
     #[arg(long, value_name = "T", value_parser = parse_threads)]
     threads: Option<usize>,
 }

@@ -31,7 +31,11 @@ fn disk(study: &Study, folder: &Path) -> Result<String, Failure> {
     let megabytes = study.design.rows() as f64 * study.model().outputs().len() as f64 * 8e-6;
     let path = journal_path(folder, &study.name, None);
     Ok(if keeps_journal(study)? {
-        format!("disk: about {} MB for the journal {}\n", short(megabytes.max(0.01)), path.display())
+        format!(
+            "disk: about {} MB for the journal {}, and as much memory for its outputs\n",
+            short(megabytes.max(0.01)),
+            path.display()
+        )
     } else {
         format!(
             "disk: no journal: it would take {} MB, and the runs are quick enough to be evaluated again\n",

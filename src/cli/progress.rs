@@ -87,6 +87,15 @@ impl Meter {
     }
 }
 
+/// A run that ends early leaves no bar behind.
+impl Drop for Meter {
+    fn drop(&mut self) {
+        if let Display::Bar(bar) = &self.display {
+            bar.finish_and_clear();
+        }
+    }
+}
+
 /// Shows how far something has come that is not counted in runs, on standard error.
 pub struct PartMeter {
     label: String,

@@ -6,7 +6,7 @@ use std::time::Instant;
 use anyhow::anyhow;
 use apportion::files::read_whole;
 use apportion::run::journal::{Contents, Journal, JournalError, differences, read_journal};
-use apportion::run::{Piece, Shard, Store};
+use apportion::run::{MOST_KEPT, Piece, Shard, Store};
 use apportion::study::Study;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -159,11 +159,12 @@ fn fresh(study: &Study, path: &Path, shard: Option<Shard>) -> Result<Option<Reco
     if shard.is_some() || keeps_journal(study)? { begin(study, path, shard).map(Some) } else { Ok(None) }
 }
 
-/// Whether a run of `study` keeps a journal: not a large one of quick runs.
+/// Whether a run of `study` keeps a journal: not a large one of quick runs, nor one beyond all memory.
 pub fn keeps_journal(study: &Study) -> Result<bool, Failure> {
     let model = study.model();
     let bytes = study.design.rows().saturating_mul(8 * model.outputs().len() as u64);
-    Ok(model.concurrency().is_some() || bytes <= LARGE || seconds(study)? >= QUICK)
+    // What is on record is held in memory too: beyond what fits, a run goes without.
+    Ok(model.concurrency().is_some() || bytes <= LARGE || bytes <= MOST_KEPT && seconds(study)? >= QUICK)
 }
 
 fn begin(study: &Study, path: &Path, shard: Option<Shard>) -> Result<Record, Failure> {

@@ -1,6 +1,7 @@
 //! `apportion run`: a study from file to files.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use anyhow::anyhow;
 use apportion::exchange::{Format, save_outputs};
@@ -121,9 +122,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         say(&format!("note: {on_record} of {} runs are on record in {}", study.design.rows(), record.path().display()));
     }
     if let Some((shard, record)) = asked.shard.zip(record.as_ref()) {
+        let begun = Instant::now();
         evaluate_shard(&study, shard, running).map_err(failed)?;
         record.sync()?;
         let rows: u64 = shard.rows(&study.design).iter().map(|(_, rows)| rows.end - rows.start).sum();
+        meter.finish(rows.saturating_sub(on_record), begun.elapsed().as_secs_f64());
         say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name, record.path().display()));
         return Ok(());
     }

@@ -26,8 +26,8 @@ pub enum RunError {
     },
     /// The outputs of all runs were to be kept, and are too many.
     #[error(
-        "the outputs of {runs} runs, which these intervals need all at once, take {bytes} bytes of memory, more than the \
-         {MOST_KEPT} that they may: take fewer base samples or fewer outputs, or intervals = \"batches\""
+        "the outputs of {runs} runs, which are to be kept all at once, take {bytes} bytes of memory, more than the \
+         {MOST_KEPT} that they may: take fewer base samples or fewer outputs, intervals = \"batches\", or no journal"
     )]
     TooManyOutputs {
         /// Model runs.

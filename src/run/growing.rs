@@ -17,6 +17,8 @@ use crate::model::RowFailure;
 /// A run that can go on: every replicate holds the same number of base points, and can be given more.
 pub struct GrowingRun<'a> {
     job: Job<'a>,
+    /// As asked for: 0 if not said.
+    threads: usize,
     pool: rayon::ThreadPool,
     start: Instant,
     failures: FailurePolicy,
@@ -48,7 +50,21 @@ impl<'a> GrowingRun<'a> {
         let (totals, start) = (Vec::new(), Instant::now());
         let (failures, keeps_outputs) = (FailurePolicy::DropBlock, false);
         let (store, keep, stop) = (None, None, None);
-        Ok(Self { job, pool, start, failures, keeps_outputs, store, keep, stop, points: 0, totals, done: 0, failed: 0 })
+        Ok(Self {
+            job,
+            threads,
+            pool,
+            start,
+            failures,
+            keeps_outputs,
+            store,
+            keep,
+            stop,
+            points: 0,
+            totals,
+            done: 0,
+            failed: 0,
+        })
     }
 
     /// The same run with outputs kept in `store`: rows that are there are not evaluated.
@@ -167,12 +183,21 @@ impl<'a> GrowingRun<'a> {
             store,
             keep: self.keep,
             failures: self.failures,
-            workers: self.job.model.concurrency().unwrap_or(self.pool.current_num_threads()),
+            workers: self.workers(),
             stop: self.stop,
             on_progress,
             start: self.start,
         };
         filling.fill(rows)
+    }
+
+    /// Workers at once: what the model asks for, but no more than the threads that somebody has asked for.
+    fn workers(&self) -> usize {
+        match (self.job.model.concurrency(), self.threads) {
+            (None, _) => self.pool.current_num_threads(),
+            (Some(workers), 0) => workers,
+            (Some(workers), threads) => workers.min(threads),
+        }
     }
 
     /// The design that the run grows into.

@@ -256,6 +256,7 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
 
     let other = apportion(&[&["merge", text(&study), "--out", text(&parts), "--seed", "2"], &small[..]].concat());
     refused(&other, 2, "design.seed was 0 and is now 2");
+    assert!(!parts.join("ishigami.journal.old").exists(), "nothing is touched before all is known to fit");
     let empty = folder.path().join("empty");
     refused(&apportion(&["merge", text(&study), "--out", text(&empty)]), 2, "no ishigami-shard-I-of-N.journal is here");
     refused(&ishigami(&parts, &["--shard", "4/3"]), 2, "expected a part as in 3/8");

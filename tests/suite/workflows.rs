@@ -16,8 +16,8 @@ fn run_writes_what_check_announces() {
     for name in files(&out) {
         assert!(announced.contains(&name), "{name} was not announced");
     }
-    // Page, result, indices and convergence; six charts of two outputs, each as SVG and PNG.
-    assert_eq!(files(&out).len(), 4 + 2 * 6 * 2);
+    // Page, result, indices, convergence and journal; six charts of two outputs, each as SVG and PNG.
+    assert_eq!(files(&out).len(), 5 + 2 * 6 * 2);
     assert!(table.contains("thickness") && table.contains("critical_time [s]"));
 }
 
