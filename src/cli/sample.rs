@@ -29,7 +29,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     say_notes(&study);
     let default = || PathBuf::from(format!("{}-design.csv", study.name));
     let path = arguments.output.clone().unwrap_or_else(default);
-    let format = Format::of(&path).map_err(|error| Failure::Input(error.into()))?;
+    let format = Format::of(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
     let beside = Manifest::path_beside(&path);
     prepare_file(&path)?;
     prepare_file(&beside)?;
