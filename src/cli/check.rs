@@ -143,7 +143,10 @@ fn design(study: &Study) -> Result<String, Failure> {
             if let Some(reason) = &pilot.reason {
                 failures = format!("warning: {} of {} failed: {reason}\n", pilot.failed, runs(pilot.runs));
             }
-            format!("about {} on this machine (by {} of it)", duration(pilot.seconds), runs(pilot.runs))
+            match pilot.failed == pilot.runs {
+                true => "in a time that cannot be told".to_owned(),
+                false => format!("about {} on this machine (by {} of it)", duration(pilot.seconds), runs(pilot.runs)),
+            }
         }
     };
     let mut text = format!(

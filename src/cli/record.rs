@@ -105,7 +105,7 @@ pub fn open(study: &Study, path: &Path, (how, shard): (Use, Option<Shard>)) -> R
             Err(error) => return Err(wrong(error)),
         };
         let why = match how {
-            Use::Discard => Some("the runs on record are not used".to_owned()),
+            Use::Discard => Some("--restart".to_owned()),
             Use::IfThere => another_study(study, &contents.header).or_else(|| changed_files(study, &contents.header)),
             Use::Require | Use::RequireButFailures => {
                 if let Some(why) = another_study(study, &contents.header) {
@@ -257,7 +257,7 @@ fn move_aside(path: &Path, why: &str) -> Result<(), Failure> {
     let mut names = std::iter::once("journal.old".to_owned()).chain(more).map(|ending| path.with_extension(ending));
     let aside = names.find(|name| !name.exists()).unwrap_or_else(|| path.with_extension("journal.old"));
     std::fs::rename(path, &aside).map_err(|error| in_the_way(path, error))?;
-    say(&format!("note: {why}; it was moved to {}, and its runs are not used", aside.display()));
+    say(&format!("note: {why}: the journal was moved to {}, and its runs are not used", aside.display()));
     Ok(())
 }
 

@@ -52,7 +52,8 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
         write_atomically(&beside, manifest.json().as_bytes())?;
     }
     let (rows, factors) = (study.design.rows(), study.space.factors().len());
-    say(&format!("wrote {rows} points of {factors} factors to {}", path.display()));
+    let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
+    say(&format!("wrote {rows} points of {factors} to {}", path.display()));
     say(&format!("wrote {}", beside.display()));
     Ok(())
 }

@@ -188,7 +188,7 @@ fn a_journal_of_another_study_is_refused_with_the_reason_or_moved_aside() {
     // Without --resume the journal makes way.
     let output = other(&["--seed", "9"]);
     assert_eq!((output.status.code(), on_record(&stderr(&output))), (Some(0), 0));
-    assert!(stderr(&output).contains("it was moved to ") && out.join("ishigami.journal.old").is_file());
+    assert!(stderr(&output).contains(": the journal was moved to ") && out.join("ishigami.journal.old").is_file());
     std::fs::write(out.join("ishigami.journal"), "x1,x2\n").unwrap();
     refused(&other(&["--resume"]), 2, "this is no journal of a run: it does not begin as one");
     let before = std::fs::read(out.join("ishigami.journal.old")).unwrap();
@@ -213,7 +213,11 @@ fn a_merge_that_is_refused_leaves_the_runs_on_record_alone() {
         apportion(&[&["merge", text(&study), "--out", text(out), "--base-samples", "256"], more].concat())
     };
     for _ in 0..2 {
-        refused(&merge(&["--set", "factor.x2.max=3"]), 2, "ishigami-shard-1-of-2.journal: the journal is of another study");
+        refused(
+            &merge(&["--set", "factor.x2.max=3"]),
+            2,
+            "ishigami-shard-1-of-2.journal: the journal is of another study",
+        );
     }
     assert_eq!(std::fs::read(out.join("ishigami.journal")).unwrap(), journal);
     assert!(!out.join("ishigami.journal.old").exists());
@@ -251,7 +255,7 @@ fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed(
     // What was merged is still of the program before.
     let anew = run(&there.join("sum.toml"), &[]);
     assert_eq!(on_record(&anew), 0, "{anew}");
-    assert!(anew.contains("sum.awk changed since the journal was written; it was moved to "), "{anew}");
+    assert!(anew.contains("sum.awk changed since the journal was written: the journal was moved to "), "{anew}");
 }
 
 #[test]

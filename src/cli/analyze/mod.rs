@@ -70,7 +70,7 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     let mut reader = open_rows(&arguments.data).map_err(|error| wrong(&error))?;
     let header = numbers_as_names(reader.as_ref());
     let answers = read_answers(reader.as_mut(), &request).map_err(|error| match error {
-        AnswersError::MissingRows { .. } => wrong(&format!("{error}{header}")),
+        AnswersError::MissingRows { .. } | AnswersError::UnknownOutput { .. } => wrong(&format!("{error}{header}")),
         _ => wrong(&error),
     })?;
     let study = &answers.study;

@@ -95,8 +95,16 @@ fn whole_numbers_are_text_that_programs_take_for_integers() {
 fn faults_are_named_with_their_place() {
     refused(Format::Csv, b"", "the file is empty");
     refused(Format::Csv, b"a,,b\n", "column 2 has no name");
-    refused(Format::Csv, b",a\n0,1\n", "column 1 has no name: if it is the index that pandas writes, leave it out (index=False)");
-    refused(Format::Csv, b"a;y\n1,5;2\n", "line 1: `a;y` is a single column: cells must be separated by commas, not by semicolons");
+    refused(
+        Format::Csv,
+        b",a\n0,1\n",
+        "column 1 has no name: if it is the index that pandas writes, leave it out (index=False)",
+    );
+    refused(
+        Format::Csv,
+        b"a;y\n1,5;2\n",
+        "line 1: `a;y` is a single column: cells must be separated by commas, not by semicolons",
+    );
     refused(Format::Csv, b"a\ty\n1\t2\n", "`a y` is a single column: cells must be separated by commas, not by tabs");
     refused(Format::Csv, b"a,b,a\n", "column 3: `a` is also the name of column 1");
     refused(Format::Csv, b"a,b\n1,0\n\n2\n", "line 4: expected 2 cells as in the header, not 1");
