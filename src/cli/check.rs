@@ -135,11 +135,18 @@ fn design(study: &Study) -> Result<String, Failure> {
     let settings = design.settings();
     let stopping = stopping(study);
     let size = if study.stopping.grows() { "begins with " } else { "" };
+    let mut failures = String::new();
     let time = match study.subject {
         Subject::External(_) => "outside of this program".to_owned(),
         _ => {
             let pilot = pilot(study)?;
-            format!("about {} on this machine (by {} runs of it)", duration(pilot.seconds), pilot.runs)
+            if let Some(reason) = &pilot.reason {
+                failures = format!("warning: {} of {} failed: {reason}\n", pilot.failed, runs(pilot.runs));
+            }
+            match pilot.failed == pilot.runs {
+                true => "in a time that cannot be told".to_owned(),
+                false => format!("about {} on this machine (by {} of it)", duration(pilot.seconds), runs(pilot.runs)),
+            }
         }
     };
     let mut text = format!(
@@ -158,6 +165,7 @@ fn design(study: &Study) -> Result<String, Failure> {
         design.rows()
     );
     text.push_str(&memory(study));
+    text.push_str(&failures);
     for warning in warnings(study) {
         text.push_str(&format!("warning: {warning}\n"));
     }
@@ -211,16 +219,16 @@ fn rows(study: &Study) -> String {
     let swaps = design.swaps().len();
     let Companions { ba, bc, cb } = design.companions();
     let mut words =
-        vec!["A and B".to_owned(), format!("{swaps} rows AB (one for each factor, group, subset and dummy)")];
+        vec!["A and B".to_owned(), format!("{} AB (one for each factor, group, subset and dummy)", rows_of(swaps))];
     let askers = |needs: fn(Companions) -> bool| {
         let pairs =
             (analysis.second_order && needs(Companions { ba: true, ..Companions::NONE })).then_some("second order");
         let estimators = analysis.estimators.iter().filter(|estimator| needs(estimator.needs()));
         pairs.into_iter().chain(estimators.map(|estimator| estimator.name())).collect::<Vec<_>>().join(", ")
     };
-    words.extend(ba.then(|| format!("{swaps} rows BA ({})", askers(|rows| rows.ba))));
-    words.extend(bc.then(|| format!("{swaps} rows BC ({})", askers(|rows| rows.bc))));
-    words.extend(cb.then(|| format!("{swaps} rows CB ({})", askers(|rows| rows.cb))));
+    words.extend(ba.then(|| format!("{} BA ({})", rows_of(swaps), askers(|rows| rows.ba))));
+    words.extend(bc.then(|| format!("{} BC ({})", rows_of(swaps), askers(|rows| rows.bc))));
+    words.extend(cb.then(|| format!("{} CB ({})", rows_of(swaps), askers(|rows| rows.cb))));
     let all = 2 + swaps as u64 * (1 + design.companions().count());
     let saved = all - design.rows_per_point();
     let once = if saved > 0 {
@@ -229,6 +237,14 @@ fn rows(study: &Study) -> String {
         String::new()
     };
     format!("rows of a base sample: {}{once}\n", words.join(" + "))
+}
+
+fn rows_of(swaps: usize) -> String {
+    if swaps == 1 { "1 row".to_owned() } else { format!("{swaps} rows") }
+}
+
+fn runs(number: u64) -> String {
+    if number == 1 { "1 run".to_owned() } else { format!("{number} runs") }
 }
 
 /// How a growing run goes on and when it ends.

@@ -8,8 +8,9 @@ use apportion::report::prepare_folder;
 use apportion::run::{Piece, Shard, Store};
 use apportion::study::Study;
 use apportion::{Running, analyse_with};
+use serde_json::Value;
 
-use super::record::{self, Use, filled, journal_path};
+use super::record::{self, filled, journal_path};
 use super::run::{default_folder, deliver, prepare_files};
 use super::{DesignChanges, Failure, StudyArguments, Threads, say};
 
@@ -35,18 +36,15 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         if arguments.journals.is_empty() { in_folder(&folder, &study.name)? } else { arguments.journals.clone() };
     prepare_folder(&folder)?;
     prepare_files(&study, &folder)?;
+    let header = header_of_all(&study, &journals)?;
     let path = journal_path(&folder, &study.name, None);
+    // The merged runs are put on record whatever their number: they may have cost much elsewhere.
+    let record = record::open_for_parts(&study, &path, &header)?;
     let mut shards = Shards::default();
-    let mut parts = Vec::new();
     for journal in &journals {
         let contents = record::read(&study, journal)?;
         let part = filled(&study, &contents);
         shards.note(&study, contents.header["shard"].as_str(), &part);
-        parts.push((journal, part));
-    }
-    // The merged runs are put on record whatever their number: they may have cost much elsewhere.
-    let record = record::open_always(&study, &path, Use::IfThere)?;
-    for (journal, part) in parts {
         for piece in part.pieces() {
             let rows = piece.first..piece.first + piece.rows(part.outputs());
             let missing: u64 =
@@ -76,15 +74,36 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         )));
     }
     say(&format!(
-        "{}: {} runs of {} journals are merged in {}",
+        "{}: {} runs of {} are merged in {}",
         study.name,
         study.design.rows(),
-        journals.len(),
+        if journals.len() == 1 { "1 journal".to_owned() } else { format!("{} journals", journals.len()) },
         path.display()
     ));
     let running = Running { store: Some(&record.store), ..Running::on(arguments.threads.number()) };
     let result = analyse_with(&study, running)?;
     deliver(&study, &folder, &result)
+}
+
+/// Checks, before anything is touched, that all journals are of this study and were evaluated with the same files; the
+/// header of the first.
+fn header_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, Failure> {
+    let mut first: Option<(&PathBuf, Value)> = None;
+    for journal in journals {
+        let header = record::read(study, journal)?.header;
+        let Some((other, known)) = &first else {
+            first = Some((journal, header));
+            continue;
+        };
+        if let Some(names) = record::other_files(&known["files"], &header["files"]) {
+            return Err(Failure::Input(anyhow!(
+                "{}: evaluated with another {names} than {}: evaluate one of the two parts again",
+                journal.display(),
+                other.display()
+            )));
+        }
+    }
+    Ok(first.map_or(Value::Null, |(_, header)| header))
 }
 
 fn keep(record: &record::Record, piece: &Piece) -> Result<(), Failure> {

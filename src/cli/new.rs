@@ -35,6 +35,11 @@ pub struct Arguments {
 pub fn new(arguments: &Arguments) -> Result<(), Failure> {
     let path = &arguments.study;
     let model = find_model(&arguments.model)?;
+    for (option, names) in [("--factors", &arguments.factors), ("--outputs", &arguments.outputs)] {
+        if names.iter().any(|name| name.trim().is_empty()) {
+            return Err(Failure::Input(anyhow!("{option}: a name is empty: expected names separated by commas")));
+        }
+    }
     let request = TemplateRequest {
         model,
         title: arguments.title.clone(),
@@ -54,8 +59,15 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
         write_program(&path.with_file_name(NEW_PROGRAM), &program)?;
     }
     let step = if model == ModelKind::External { "sample" } else { "run" };
-    say(&format!("next: edit it, then `apportion check {0}` and `apportion {step} {0}`", path.display()));
+    say(&format!("next: edit it, then `apportion check {0}` and `apportion {step} {0}`", quoted(path)));
     Ok(())
+}
+
+/// A path as it is typed in a shell.
+fn quoted(path: &Path) -> String {
+    let path = path.display().to_string();
+    let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%".contains(c);
+    if path.chars().all(plain) { path } else { format!("'{}'", path.replace('\'', r"'\''")) }
 }
 
 /// Writes the program beside its study, unless there is one: it may be somebody's work.

@@ -1,5 +1,6 @@
 //! How long the runs of a study will take, by a few of them.
 
+use std::collections::BTreeSet;
 use std::time::Instant;
 
 use anyhow::anyhow;
@@ -16,6 +17,10 @@ pub struct Pilot {
     pub runs: u64,
     /// Seconds that the whole design will take.
     pub seconds: f64,
+    /// Runs that failed in some output.
+    pub failed: u64,
+    /// Why the first of them did.
+    pub reason: Option<String>,
 }
 
 /// Runs ever larger first parts of the design until they take long enough to be measured, or are all of it.
@@ -31,11 +36,18 @@ pub fn pilot(study: &Study) -> Result<Pilot, Failure> {
         let design = Design::new(settings, study.design.factors(), study.design.asked().clone())
             .map_err(|error| Failure::Input(error.into()))?;
         let start = Instant::now();
-        run(Job { design: &design, space: &study.space, model: model.as_ref() }, 0, &|_| ())?;
+        let totals = run(Job { design: &design, space: &study.space, model: model.as_ref() }, 0, &|_| ())?;
         let seconds = start.elapsed().as_secs_f64();
         if seconds >= ENOUGH || points >= study.design.settings().base_samples {
             let share = study.design.rows() as f64 / design.rows() as f64;
-            return Ok(Pilot { runs: design.rows(), seconds: seconds * share });
+            let failures = totals.iter().flat_map(|totals| &totals.outputs).flat_map(|output| &output.failures);
+            let first = failures.min_by_key(|(_, tally)| tally.first);
+            return Ok(Pilot {
+                runs: design.rows(),
+                seconds: seconds * share,
+                failed: totals.iter().map(|totals| totals.failed_runs).sum(),
+                reason: first.map(|(reason, _)| reason.to_string()),
+            });
         }
         points = (points * 4).min(study.design.settings().base_samples);
     }
@@ -48,6 +60,7 @@ fn of_one_worker(study: &Study, model: &dyn Model, workers: usize) -> Result<Pil
     const MOST: u64 = 4096;
     let job = Job { design: &study.design, space: &study.space, model };
     let (mut worker, mut batch, mut values) = (model.worker(), Batch::of(model), RowValues::default());
+    let (mut failed, mut reason) = (0, None);
     let mut timed = |rows: u64| {
         let columns = values.values(job, 0, 0..rows);
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
@@ -55,6 +68,10 @@ fn of_one_worker(study: &Study, model: &dyn Model, workers: usize) -> Result<Pil
         let start = Instant::now();
         worker.run(&inputs, &mut batch);
         let seconds = start.elapsed().as_secs_f64();
+        // Every piece begins with the first row, so that the last one has them all.
+        let rows: BTreeSet<usize> = batch.failures().iter().map(|(row, ..)| *row).collect();
+        failed = rows.len() as u64;
+        reason = batch.failures().first().map(|(.., reason)| reason.to_string());
         batch.given_up().map_or(Ok(seconds), |reason| Err(Failure::Run(anyhow!("the model cannot go on: {reason}"))))
     };
     let first = timed(1)?;
@@ -68,5 +85,5 @@ fn of_one_worker(study: &Study, model: &dyn Model, workers: usize) -> Result<Pil
         }
     }
     let whole = seconds * study.design.rows() as f64 / runs as f64 / workers as f64;
-    Ok(Pilot { runs, seconds: whole + first })
+    Ok(Pilot { runs, seconds: whole + first, failed, reason })
 }

@@ -1,5 +1,6 @@
 //! What is on record of a study: its journal, opened, checked and filled into a store.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -65,12 +66,30 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
     }
 }
 
-/// Opens the record of `study` at `path` as [`open`] does, however quick its runs are.
-pub fn open_always(study: &Study, path: &Path, how: Use) -> Result<Record, Failure> {
-    match open(study, path, (how, None))? {
-        Some(record) => Ok(record),
-        None => begin(study, path, None),
+/// Opens the record of `study` at `path` for parts whose journals have the header `part`, however quick its runs are. What
+/// is there is used if it was evaluated with the same files as the parts, and else moved aside.
+pub fn open_for_parts(study: &Study, path: &Path, part: &Value) -> Result<Record, Failure> {
+    if path.exists() {
+        match Journal::resume(path) {
+            Ok((journal, contents)) => {
+                let header = &contents.header;
+                let others = || other_files(&header["files"], &part["files"]).map(changed);
+                let Some(why) = another_study(study, header).or_else(others) else {
+                    return recalled(study, (journal, contents), Use::IfThere);
+                };
+                drop(journal);
+                move_aside(path, &why)?;
+            }
+            Err(error @ (JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. })) => {
+                move_aside(path, &error.to_string())?;
+            }
+            Err(error) => return Err(wrong(error)),
+        }
     }
+    let mut header = header(study, None);
+    header["files"] = part["files"].clone();
+    let journal = Journal::create(path, &header).map_err(wrong)?;
+    Ok(Record { store: Store::new(&study.design, study.model().as_ref()), journal })
 }
 
 /// Opens the record of `study` at `path`. A journal of something else, or one that is not wanted, is moved aside. `None`
@@ -87,7 +106,7 @@ pub fn open(study: &Study, path: &Path, (how, shard): (Use, Option<Shard>)) -> R
             Err(error) => return Err(wrong(error)),
         };
         let why = match how {
-            Use::Discard => Some("the runs on record are not used".to_owned()),
+            Use::Discard => Some("--restart".to_owned()),
             Use::IfThere => another_study(study, &contents.header).or_else(|| changed_files(study, &contents.header)),
             Use::Require | Use::RequireButFailures => {
                 if let Some(why) = another_study(study, &contents.header) {
@@ -101,7 +120,11 @@ pub fn open(study: &Study, path: &Path, (how, shard): (Use, Option<Shard>)) -> R
         };
         if let Some(why) = why {
             drop(journal);
-            move_aside(path, &why)?;
+            if contents.pieces.is_empty() {
+                std::fs::remove_file(path).map_err(|error| in_the_way(path, error))?;
+            } else {
+                move_aside(path, &why)?;
+            }
             return fresh(study, path, shard);
         }
         return recalled(study, (journal, contents), how).map(Some);
@@ -207,18 +230,41 @@ pub fn another_study(study: &Study, header: &Value) -> Option<String> {
     (!found.is_empty()).then(|| format!("the journal is of another study ({name}): {}", found.join("; ")))
 }
 
+/// Which of the files that the study names are not those of a journal with this header, if any.
 fn changed_files(study: &Study, header: &Value) -> Option<String> {
-    let found = differences(&header["files"], &files(study));
-    let names: Vec<&str> = found.iter().filter_map(|text| text.split(" was ").next()).collect();
-    (!found.is_empty()).then(|| format!("{} changed since the journal was written", names.join(", ")))
+    other_files(&header["files"], &files(study)).map(changed)
 }
 
+fn changed(names: String) -> String {
+    format!("{names} changed since the journal was written")
+}
+
+/// The names of files (path: digest) that are not the same before and now, if any. They are known by their names, so that a
+/// study may move, and be called by any path.
+pub fn other_files(before: &Value, now: &Value) -> Option<String> {
+    let known = |files: &Value| -> BTreeSet<(String, String)> {
+        let name = |path: &String| Path::new(path).file_name().map(|name| name.to_string_lossy().into_owned());
+        let entries = files.as_object().into_iter().flatten();
+        entries.filter_map(|(path, digest)| Some((name(path)?, digest.as_str()?.to_owned()))).collect()
+    };
+    let (before, now) = (known(before), known(now));
+    let names: BTreeSet<&str> = before.symmetric_difference(&now).map(|(name, _)| name.as_str()).collect();
+    let names: Vec<&str> = names.into_iter().collect();
+    (!names.is_empty()).then(|| names.join(", "))
+}
+
+/// Moves a journal out of the way, to a name that no other has.
 fn move_aside(path: &Path, why: &str) -> Result<(), Failure> {
-    let aside = path.with_extension("journal.old");
-    std::fs::rename(path, &aside)
-        .map_err(|error| Failure::Run(anyhow!("{}: cannot move the journal aside: {error}", path.display())))?;
-    say(&format!("note: {why}; it was moved to {}, and every run is evaluated anew", aside.display()));
+    let more = (2..).map(|number| format!("journal.old{number}"));
+    let mut names = std::iter::once("journal.old".to_owned()).chain(more).map(|ending| path.with_extension(ending));
+    let aside = names.find(|name| !name.exists()).unwrap_or_else(|| path.with_extension("journal.old"));
+    std::fs::rename(path, &aside).map_err(|error| in_the_way(path, error))?;
+    say(&format!("note: {why}: the journal was moved to {}, and its runs are not used", aside.display()));
     Ok(())
+}
+
+fn in_the_way(path: &Path, error: std::io::Error) -> Failure {
+    Failure::Run(anyhow!("{}: cannot move the journal aside: {error}", path.display()))
 }
 
 fn wrong(error: JournalError) -> Failure {

@@ -93,7 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let saved = match &arguments.save_outputs {
         None => None,
         Some(path) => {
-            let format = Format::of(path).map_err(|error| Failure::Input(error.into()))?;
+            let format = Format::of(path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
             prepare_file(path)?;
             Some((path.as_path(), format))
         }
@@ -211,8 +211,13 @@ fn with_record(study: &Study, error: RunError, record: Option<&Record>) -> Failu
         (RunError::Interrupted { .. } | RunError::GaveUp { .. } | RunError::NotKept { .. }, Some(record)) => {
             // Whatever can be forced to the disk still.
             let _ = record.sync();
+            // What failed before the model gave up is no answer of a model that has been mended.
+            let (option, again) = match error {
+                RunError::GaveUp { .. } => ("--retry-failed", ", and evaluates those that failed again"),
+                _ => ("--resume", ""),
+            };
             let path = record.path().display();
-            format!("\nfinished runs are kept in {path}: the same command with --resume goes on with them")
+            format!("\nfinished runs are kept in {path}: the same command with {option} goes on with them{again}")
         }
         (RunError::Interrupted { .. }, None) => "\nno journal was kept: the runs are lost".to_owned(),
         _ => return with_inputs(study, error),

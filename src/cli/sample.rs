@@ -29,7 +29,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     say_notes(&study);
     let default = || PathBuf::from(format!("{}-design.csv", study.name));
     let path = arguments.output.clone().unwrap_or_else(default);
-    let format = Format::of(&path).map_err(|error| Failure::Input(error.into()))?;
+    let format = Format::of(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
     let beside = Manifest::path_beside(&path);
     prepare_file(&path)?;
     prepare_file(&beside)?;
@@ -52,7 +52,8 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
         write_atomically(&beside, manifest.json().as_bytes())?;
     }
     let (rows, factors) = (study.design.rows(), study.space.factors().len());
-    say(&format!("wrote {rows} points of {factors} factors to {}", path.display()));
+    let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
+    say(&format!("wrote {rows} points of {factors} to {}", path.display()));
     say(&format!("wrote {}", beside.display()));
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Exponents of metre, kilogram, second and radian: what kind of quantity a unit measures.
+/// Exponents of metre, kilogram, second, ampere, kelvin, mole and radian: what kind of quantity a unit measures.
 ///
 /// The angle is a dimension of its own, so that a length given for an angle is found out.
 /// `Display` names the kind for error texts: "a length", "a pressure".
@@ -11,6 +11,9 @@ pub struct Dimension {
     length: i8,
     mass: i8,
     time: i8,
+    current: i8,
+    temperature: i8,
+    amount: i8,
     angle: i8,
 }
 
@@ -47,10 +50,28 @@ impl Dimension {
     pub const DENSITY: Self = Self::of(-3, 1, 0);
     /// Pascal second.
     pub const VISCOSITY: Self = Self::of(-1, 1, -1);
+    /// Watt.
+    pub const POWER: Self = Self::of(2, 1, -3);
+    /// Ampere.
+    pub const CURRENT: Self = Self { current: 1, ..Self::NUMBER };
+    /// Coulomb.
+    pub const CHARGE: Self = Self { current: 1, ..Self::TIME };
+    /// Volt.
+    pub const VOLTAGE: Self = Self { current: -1, ..Self::POWER };
+    /// Ohm.
+    pub const RESISTANCE: Self = Self { current: -2, ..Self::POWER };
+    /// Farad.
+    pub const CAPACITANCE: Self = Self { current: 2, ..Self::of(-2, -1, 4) };
+    /// Tesla.
+    pub const FLUX_DENSITY: Self = Self { current: -1, ..Self::of(0, 1, -2) };
+    /// Kelvin.
+    pub const TEMPERATURE: Self = Self { temperature: 1, ..Self::NUMBER };
+    /// Mole.
+    pub const AMOUNT: Self = Self { amount: 1, ..Self::NUMBER };
     /// Radian.
     pub const ANGLE: Self = Self { angle: 1, ..Self::NUMBER };
 
-    const NAMES: [(Self, &'static str); 17] = [
+    const NAMES: [(Self, &'static str); 26] = [
         (Self::NUMBER, "a pure number"),
         (Self::LENGTH, "a length"),
         (Self::AREA, "an area"),
@@ -67,11 +88,20 @@ impl Dimension {
         (Self::ENERGY, "an energy or torque"),
         (Self::DENSITY, "a density"),
         (Self::VISCOSITY, "a viscosity"),
+        (Self::POWER, "a power"),
+        (Self::CURRENT, "an electric current"),
+        (Self::CHARGE, "an electric charge"),
+        (Self::VOLTAGE, "a voltage"),
+        (Self::RESISTANCE, "an electric resistance"),
+        (Self::CAPACITANCE, "a capacitance"),
+        (Self::FLUX_DENSITY, "a magnetic flux density"),
+        (Self::TEMPERATURE, "a temperature"),
+        (Self::AMOUNT, "an amount of substance"),
         (Self::ANGLE, "an angle"),
     ];
 
     const fn of(length: i8, mass: i8, time: i8) -> Self {
-        Self { length, mass, time, angle: 0 }
+        Self { length, mass, time, current: 0, temperature: 0, amount: 0, angle: 0 }
     }
 
     /// `self * other^power`, `None` past the range of `i8`.
@@ -81,6 +111,9 @@ impl Dimension {
             length: combine(self.length, other.length)?,
             mass: combine(self.mass, other.mass)?,
             time: combine(self.time, other.time)?,
+            current: combine(self.current, other.current)?,
+            temperature: combine(self.temperature, other.temperature)?,
+            amount: combine(self.amount, other.amount)?,
             angle: combine(self.angle, other.angle)?,
         })
     }
@@ -92,7 +125,16 @@ impl fmt::Display for Dimension {
             return f.write_str(name);
         }
         f.write_str("a quantity in")?;
-        [(self.length, "m"), (self.mass, "kg"), (self.time, "s"), (self.angle, "rad")]
+        let bases = [
+            (self.length, "m"),
+            (self.mass, "kg"),
+            (self.time, "s"),
+            (self.current, "A"),
+            (self.temperature, "K"),
+            (self.amount, "mol"),
+            (self.angle, "rad"),
+        ];
+        bases
             .into_iter()
             .filter(|(power, _)| *power != 0)
             .try_for_each(|(power, base)| if power == 1 { write!(f, " {base}") } else { write!(f, " {base}^{power}") })

@@ -4,7 +4,10 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UnitError {
     /// A symbol that is no unit.
-    #[error("unit \"{unit}\": \"{symbol}\" is not understood{}; units look like {EXAMPLES}", hint(nearest))]
+    #[error(
+        "unit \"{unit}\": \"{symbol}\" is not understood{}; units look like {EXAMPLES}; inputs and outputs of a model of your own may have none: their numbers are then passed on as they are",
+        hint(nearest)
+    )]
     Unknown {
         /// The unit as typed.
         unit: String,
@@ -29,7 +32,7 @@ pub enum UnitError {
     },
 }
 
-const EXAMPLES: &str = r#""um", "nm/s", "GPa", "mJ/m2", "nN", "N/m", "N s/m", "kg/m3", "deg", "mrad", "ms", "%" and "1" for a pure number"#;
+const EXAMPLES: &str = r#""um", "nm/s", "GPa", "mJ/m2", "nN", "N/m", "N s/m", "kg/m3", "V", "K", "deg", "ms", "%" and "1" for a pure number"#;
 
 fn hint(nearest: &Option<String>) -> String {
     nearest.as_ref().map(|symbol| format!(", did you mean \"{symbol}\"?")).unwrap_or_default()

@@ -49,7 +49,7 @@ const fn symbol(name: &'static str, prefixes: &'static str, dimension: Dimension
     Symbol { name, prefixes, decade: 0, dimension }
 }
 
-const SYMBOLS: [Symbol; 12] = [
+const SYMBOLS: [Symbol; 25] = [
     symbol("m", "kcmunp", Dimension::LENGTH),
     Symbol { decade: -3, ..symbol("g", "kmunp", Dimension::MASS) },
     symbol("s", "munp", Dimension::TIME),
@@ -57,6 +57,19 @@ const SYMBOLS: [Symbol; 12] = [
     symbol("N", "GMkmunp", Dimension::FORCE),
     symbol("Pa", "GMkmun", Dimension::PRESSURE),
     symbol("J", "GMkmunp", Dimension::ENERGY),
+    symbol("W", "GMkmunp", Dimension::POWER),
+    symbol("A", "kmunp", Dimension::CURRENT),
+    symbol("C", "munp", Dimension::CHARGE),
+    symbol("V", "Mkmun", Dimension::VOLTAGE),
+    symbol("ohm", "GMkmu", Dimension::RESISTANCE),
+    symbol("\u{3a9}", "GMkmu", Dimension::RESISTANCE),
+    symbol("F", "munp", Dimension::CAPACITANCE),
+    symbol("T", "mun", Dimension::FLUX_DENSITY),
+    symbol("K", "mun", Dimension::TEMPERATURE),
+    symbol("mol", "kmunp", Dimension::AMOUNT),
+    Symbol { decade: -3, ..symbol("L", "mun", Dimension::VOLUME) },
+    Symbol { decade: -3, ..symbol("l", "mun", Dimension::VOLUME) },
+    Symbol { decade: 5, ..symbol("bar", "m", Dimension::PRESSURE) },
     symbol("rad", "munp", Dimension::ANGLE),
     symbol("deg", "m", Dimension::ANGLE),
     symbol("°", "", Dimension::ANGLE),
@@ -96,10 +109,10 @@ impl Unit {
     pub fn parse(text: &str) -> Result<Self, UnitError> {
         let malformed = |reason| UnitError::Malformed { unit: text.to_owned(), reason };
         let symbol = text.trim().to_owned();
-        let mut unit = Self { symbol, decade: 0, degrees: 0, dimension: Dimension::NUMBER };
-        if unit.symbol.is_empty() {
-            return Ok(unit);
+        if symbol.is_empty() {
+            return Ok(Self::dimensionless());
         }
+        let mut unit = Self { symbol, decade: 0, degrees: 0, dimension: Dimension::NUMBER };
         for (place, part) in plain(&unit.symbol.clone()).split('/').enumerate() {
             let mut factors = part.split(['*', '.', ' ']).filter(|factor| !factor.is_empty()).peekable();
             if factors.peek().is_none() {
@@ -204,6 +217,8 @@ fn plain(text: &str) -> String {
             '\u{b2}' => '2',
             '\u{b3}' => '3',
             '\u{2074}' => '4',
+            // The sign of the ohm is the Greek letter.
+            '\u{2126}' => '\u{3a9}',
             other => other,
         })
         .collect()
@@ -218,7 +233,7 @@ fn juxtaposed(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
     spellings().filter(|(_, symbol, _)| matches!(symbol.name, "N" | "Pa" | "J")).find_map(
         |(spelling, symbol, prefix)| {
             let rest = name.strip_prefix(spelling.as_str())?;
-            let mut second = lookup(rest).filter(|_| rest.chars().all(char::is_alphabetic))?;
+            let mut second = lookup(rest).filter(|found| matches!(found[0].0.name, "m" | "s"))?;
             second.insert(0, (symbol, prefix));
             Some(second)
         },

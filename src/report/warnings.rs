@@ -69,8 +69,8 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
     }
     if indices.sum_first_order.interval.is_some_and(|interval| interval.low <= 0.0) {
         warnings.push(
-            "the sum of the first-order indices may be 0: the output comes from interactions, and shares of the \
-             first-order indices mean nothing"
+            "the sum of the first-order indices may be 0: the output comes from interactions, or the samples are too few; \
+             shares of the first-order indices mean nothing"
                 .to_owned(),
         );
     }

@@ -113,7 +113,12 @@ fn temporary_in(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder)
+    builder.tempfile_in(folder).map_err(|error| {
+        // `tempfile` adds the name of the temporary file, which the user has never heard of.
+        let text = error.to_string();
+        let reason = text.split_once(" at path ").map_or(text.as_str(), |(reason, _)| reason);
+        std::io::Error::new(error.kind(), reason)
+    })
 }
 
 #[cfg(test)]
@@ -144,7 +149,8 @@ mod tests {
         assert!(prepare_folder(&deep.join("f")).is_err());
         assert!(prepare_file(&deep).is_err());
         assert!(prepare_file(&deep.join("f")).is_ok());
-        assert!(prepare_file(&folder.path().join("none/f")).is_err());
+        let nowhere = prepare_file(&folder.path().join("none/f")).unwrap_err().to_string();
+        assert!(nowhere.ends_with("none/f: No such file or directory (os error 2)"), "{nowhere}");
         assert!(prepare_file(&folder.path().join("n".repeat(300))).is_err());
     }
 

@@ -67,6 +67,7 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
             (afm(context, file.afm.as_ref(), outputs, &space)?, Vec::new())
         }
     };
+    refuse_outputs_of_factors(context, &subject, (&space, &file.factor))?;
     let Plan { design, analysis, stopping, mut notes } =
         plan(context, &file, &space, subject.model(&space).outputs().len())?;
     notes.extend(unused);
@@ -76,6 +77,22 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let name = name(context, file.name.as_ref())?;
     let (overrides, source, sha256) = Default::default();
     Ok(Study { name, title: file.title, subject, space, design, analysis, stopping, overrides, source, sha256, notes })
+}
+
+/// Factors and outputs are columns of one table, and need names of their own.
+fn refuse_outputs_of_factors(
+    context: &Context<'_>,
+    subject: &Subject,
+    (space, sections): (&Space, &[At<FactorSection>]),
+) -> Result<(), Fault> {
+    let model = subject.model(space);
+    let outputs = model.outputs();
+    let mut names = sections.iter().map(|section| &section.get_ref().name);
+    let taken = names.find(|name| outputs.iter().any(|output| output.name == **name.get_ref()));
+    taken.map_or(Ok(()), |name| {
+        let problem = Problem::Repeated { what: "factor or output", name: name.get_ref().clone() };
+        Err(context.fault(name.span(), problem))
+    })
 }
 
 fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {

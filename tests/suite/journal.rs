@@ -188,11 +188,74 @@ fn a_journal_of_another_study_is_refused_with_the_reason_or_moved_aside() {
     // Without --resume the journal makes way.
     let output = other(&["--seed", "9"]);
     assert_eq!((output.status.code(), on_record(&stderr(&output))), (Some(0), 0));
-    assert!(stderr(&output).contains("it was moved to ") && out.join("ishigami.journal.old").is_file());
+    assert!(stderr(&output).contains(": the journal was moved to ") && out.join("ishigami.journal.old").is_file());
     std::fs::write(out.join("ishigami.journal"), "x1,x2\n").unwrap();
     refused(&other(&["--resume"]), 2, "this is no journal of a run: it does not begin as one");
+    let before = std::fs::read(out.join("ishigami.journal.old")).unwrap();
     assert_eq!(other(&[]).status.code(), Some(0));
-    assert_eq!(std::fs::read(out.join("ishigami.journal.old")).unwrap(), b"x1,x2\n");
+    // Nothing that was moved aside is lost.
+    assert_eq!(std::fs::read(out.join("ishigami.journal.old2")).unwrap(), b"x1,x2\n");
+    assert_eq!(std::fs::read(out.join("ishigami.journal.old")).unwrap(), before);
+}
+
+#[test]
+fn a_merge_that_is_refused_leaves_the_runs_on_record_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path();
+    let small = ["--base-samples", "256"];
+    ishigami_runs(out, &small);
+    for part in ["1/2", "2/2"] {
+        assert_eq!(ishigami(out, &["--base-samples", "256", "--shard", part]).status.code(), Some(0));
+    }
+    let journal = std::fs::read(out.join("ishigami.journal")).unwrap();
+    let study = study_path("ishigami");
+    let merge = |more: &[&str]| {
+        apportion(&[&["merge", text(&study), "--out", text(out), "--base-samples", "256"], more].concat())
+    };
+    for _ in 0..2 {
+        refused(
+            &merge(&["--set", "factor.x2.max=3"]),
+            2,
+            "ishigami-shard-1-of-2.journal: the journal is of another study",
+        );
+    }
+    assert_eq!(std::fs::read(out.join("ishigami.journal")).unwrap(), journal);
+    assert!(!out.join("ishigami.journal.old").exists());
+    assert_eq!(merge(&[]).status.code(), Some(0));
+}
+
+#[test]
+fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed() {
+    let folder = tempfile::tempdir().unwrap();
+    let (here, there) = (folder.path().join("here"), folder.path().join("there"));
+    let out = folder.path().join("out");
+    std::fs::create_dir_all(here.join("sub")).unwrap();
+    let study = "model = \"command\"\ncommand = [\"awk\", \"-f\", \"sum.awk\"]\noutputs = [\"y\"]\n\
+                 design.base_samples = 64\n\
+                 [[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"b\"\nmin = 0\nmax = 2\n";
+    std::fs::write(here.join("sum.toml"), study).unwrap();
+    std::fs::write(here.join("sum.awk"), "BEGIN { FS = \",\" } NR > 1 { print $1 + $2; fflush() }\n").unwrap();
+    let run = |path: &Path, more: &[&str]| {
+        let output = apportion(&[&["run", text(path), "--out", text(&out)], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stderr(&output)
+    };
+    assert_eq!(on_record(&run(&here.join("sum.toml"), &[])), 0);
+    assert_eq!(on_record(&run(&here.join("sub/../sum.toml"), &[])), 256);
+    std::fs::rename(&here, &there).unwrap();
+    assert_eq!(on_record(&run(&there.join("sum.toml"), &[])), 256);
+    let part = ["--shard", "1/1"];
+    run(&there.join("sum.toml"), &part);
+    std::fs::write(there.join("sum.awk"), "BEGIN { FS = \",\" } NR > 1 { print $1 - $2; fflush() }\n").unwrap();
+    run(&there.join("sum.toml"), &["--shard", "1/2"]);
+    let merge = || apportion(&["merge", text(&there.join("sum.toml")), "--out", text(&out)]);
+    refused(&merge(), 2, "sum-shard-1-of-2.journal: evaluated with another sum.awk than ");
+    std::fs::remove_file(out.join("sum-shard-1-of-2.journal")).unwrap();
+    assert_eq!(merge().status.code(), Some(0));
+    // What was merged is still of the program before.
+    let anew = run(&there.join("sum.toml"), &[]);
+    assert_eq!(on_record(&anew), 0, "{anew}");
+    assert!(anew.contains("sum.awk changed since the journal was written: the journal was moved to "), "{anew}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ mod salib;
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::exchange::{AnswersRequest, Manifest, MissingOutputs, open_rows, read_answers};
+use apportion::exchange::{AnswersError, AnswersRequest, Manifest, MissingOutputs, RowReader, open_rows, read_answers};
 use apportion::files::read_text;
 use apportion::quantity::Unit;
 use apportion::report::prepare_folder;
@@ -68,7 +68,11 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     let request = AnswersRequest { manifest: &manifest, outputs: &arguments.outputs, units: &arguments.units, missing };
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{data}: {error}"));
     let mut reader = open_rows(&arguments.data).map_err(|error| wrong(&error))?;
-    let answers = read_answers(reader.as_mut(), &request).map_err(|error| wrong(&error))?;
+    let header = numbers_as_names(reader.as_ref());
+    let answers = read_answers(reader.as_mut(), &request).map_err(|error| match error {
+        AnswersError::MissingRows { .. } | AnswersError::UnknownOutput { .. } => wrong(&format!("{error}{header}")),
+        _ => wrong(&error),
+    })?;
     let study = &answers.study;
     say_notes(study);
     match answers.compared.len() {
@@ -81,6 +85,16 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     let running = Running { store: Some(&answers.store), ..Running::on(arguments.threads.number()) };
     let result = analyse_with(study, running).map_err(|error| with_inputs(study, error))?;
     deliver(study, &folder, &result)
+}
+
+/// A remark for a file with the wrong number of rows, if its first line seems to be a row.
+fn numbers_as_names(reader: &dyn RowReader) -> &'static str {
+    match reader.names() {
+        Some(names) if names.iter().all(|name| name.parse::<f64>().is_ok()) => {
+            "; the first line is taken as the names of the columns, and holds numbers: is there no header?"
+        }
+        _ => "",
+    }
 }
 
 /// The manifest that was named, or the one beside the points.

@@ -9,7 +9,7 @@ use apportion::given::Column;
 use apportion::report::chart::png;
 use apportion::report::salib::{SalibFacts, SalibFile, build_salib, salib_chart, salib_csv, salib_json, salib_summary};
 use apportion::report::{output_stem, prepare_file, prepare_folder, write_atomically};
-use apportion::salib::{SalibLayout, SalibProblem, check_points, recognise, salib_indices};
+use apportion::salib::{LayoutError, SalibLayout, SalibProblem, check_points, recognise, salib_indices};
 use apportion::study::Study;
 use sha2::{Digest, Sha256};
 
@@ -52,6 +52,8 @@ struct Table {
     /// The inputs, if the file holds them.
     inputs: Option<Vec<(String, Vec<f64>)>>,
     outputs: Vec<Column>,
+    /// What is to be said of the header if the number of rows is wrong.
+    header: &'static str,
 }
 
 pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
@@ -59,7 +61,7 @@ pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
     let bytes = read_whole(&arguments.data).map_err(|error| wrong(&format!("cannot read the file: {error}")))?;
     let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     drop(bytes);
-    let Table { problem, inputs, outputs } = table(arguments)?;
+    let Table { problem, inputs, outputs, header } = table(arguments)?;
     let (rows, d) = (outputs[0].values.len(), problem.members.len());
     let SalibArguments { second_order, first_order_only, resamples, seed, .. } = arguments.salib;
     let asked = match (second_order, first_order_only) {
@@ -69,7 +71,10 @@ pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
     };
     let fits = inputs.as_ref().map(|inputs| |layout| check_points(inputs, &problem.members, layout));
     let fits = fits.as_ref().map(|fits| fits as &dyn Fn(SalibLayout) -> _);
-    let layout = recognise((rows, d), asked, fits).map_err(|error| wrong(&error))?;
+    let layout = recognise((rows, d), asked, fits).map_err(|error| match error {
+        LayoutError::NoMultiple { .. } => wrong(&format!("{error}{header}")),
+        _ => wrong(&error),
+    })?;
     let names: Vec<String> = problem.members.iter().map(|(name, _)| name.clone()).collect();
     let analysed = outputs.into_iter().map(|column| {
         let indices = salib_indices(&column.values, (d, layout), (resamples, seed));
@@ -109,6 +114,7 @@ fn problem(arguments: &SalibArguments) -> Result<Option<SalibProblem>, Failure> 
 fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", arguments.data.display()));
     let mut reader = open_rows(&arguments.data).map_err(|error| wrong(&error))?;
+    let header = super::numbers_as_names(reader.as_ref());
     let problem = problem(&arguments.salib)?;
     let known = problem.as_ref().map(|problem| problem.inputs.clone());
     let (inputs, outputs) = columns(reader.as_ref(), known, &arguments.outputs).map_err(|error| wrong(&error))?;
@@ -132,7 +138,7 @@ fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
     let values = all.split_off(inputs.len());
     let outputs = outputs.into_iter().zip(values).map(|((_, name), values)| Column { name, values }).collect();
     let inputs: Vec<(String, Vec<f64>)> = inputs.into_iter().map(|(_, name)| name).zip(all).collect();
-    Ok(Table { problem, inputs: (!inputs.is_empty()).then_some(inputs), outputs })
+    Ok(Table { problem, inputs: (!inputs.is_empty()).then_some(inputs), outputs, header })
 }
 
 /// Columns with their names.

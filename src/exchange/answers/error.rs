@@ -62,7 +62,7 @@ pub enum AnswersError {
     /// A value that is not the one of the design.
     #[error(
         "row {row}, column `{name}`: {found} stands where the design has {expected}: the points have been changed, or \
-         belong to another design"
+         printed with less than ten digits, or belong to another design"
     )]
     ChangedValue {
         /// Row of the file, from 1.

@@ -21,6 +21,11 @@ impl<R: Read> CsvRows<R> {
         let header = csv.headers().map_err(|source| wrong_record(source, 1))?;
         let names: Vec<String> =
             header.iter().map(|name| name.trim_start_matches('\u{feff}').trim().to_owned()).collect();
+        if let [name] = &names[..]
+            && let Some(separator) = [';', '\t'].into_iter().find(|separator| name.contains(*separator))
+        {
+            return Err(RowsError::OtherSeparator { name: name.clone(), separator });
+        }
         check_names(&names)?;
         Ok(Self { csv, names, record: csv::StringRecord::new(), rows: 0 })
     }
@@ -98,6 +103,7 @@ impl RowWriter for CsvWriter<'_> {
                     // An empty cell by itself would be an empty line, which readers skip.
                     None if value.is_nan() && columns.len() == 1 => write!(out, "\"\"")?,
                     None if value.is_nan() => (),
+                    None if kind.whole => write!(out, "{value}")?,
                     None => write!(out, "{value:?}")?,
                 }
             }

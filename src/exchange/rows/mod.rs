@@ -63,7 +63,7 @@ impl Format {
 #[derive(Debug, Error)]
 pub enum RowsError {
     /// The name does not say the format.
-    #[error("{}: the ending of the name tells the format: expected .csv, .parquet or .npy", path.display())]
+    #[error("the ending of the name tells the format: expected .csv, .parquet or .npy{}", ending(path))]
     UnknownEnding {
         /// The file.
         path: PathBuf,
@@ -93,10 +93,25 @@ pub enum RowsError {
         found: u64,
     },
     /// A column without a name.
-    #[error("column {column} has no name")]
+    #[error(
+        "column {column} has no name{}",
+        if *column == 1 { ": if it is the index that pandas writes, leave it out (index=False)" } else { "" }
+    )]
     Nameless {
         /// Number of the column, from 1.
         column: usize,
+    },
+    /// A header that is a single cell, with another separator in it.
+    #[error(
+        "line 1: `{}` is a single column: cells must be separated by commas, not by {} (and numbers have a decimal point)",
+        name.replace('\t', " "),
+        if *separator == ';' { "semicolons" } else { "tabs" }
+    )]
+    OtherSeparator {
+        /// The cell.
+        name: String,
+        /// The separator.
+        separator: char,
     },
     /// Two columns of one name.
     #[error("column {column}: `{name}` is also the name of column {first}")]
@@ -136,6 +151,10 @@ pub enum RowsError {
     NoNpy(String),
 }
 
+fn ending(path: &Path) -> String {
+    path.extension().map_or_else(String::new, |ending| format!(", not .{}", ending.to_string_lossy()))
+}
+
 /// A column to be written or read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ColumnKind {
@@ -145,6 +164,8 @@ pub struct ColumnKind {
     pub labels: Vec<(String, f64)>,
     /// Whether values may be missing (NaN).
     pub optional: bool,
+    /// Whether all values are whole numbers, which text has without a decimal point.
+    pub whole: bool,
 }
 
 impl ColumnKind {

@@ -68,9 +68,11 @@ impl ParquetRows {
                 supported(&group.metadata().schema_descr().column(*place), &self.names[*place])?;
                 let compression = group.metadata().column(*place).compression();
                 if !matches!(compression, Compression::UNCOMPRESSED | Compression::SNAPPY) {
+                    // The level in brackets is of no matter.
+                    let name = compression.to_string().to_lowercase();
+                    let name = name.split('(').next().unwrap_or_default();
                     return Err(RowsError::NoParquet(format!(
-                        "it is compressed by {}: write it uncompressed or with snappy",
-                        compression.to_string().to_lowercase()
+                        "it is compressed by {name}: write it uncompressed or with snappy"
                     )));
                 }
                 Ok(group.get_column_reader(*place)?)

@@ -83,9 +83,29 @@ fn refused(format: Format, bytes: &[u8], expected: &str) {
 }
 
 #[test]
+fn whole_numbers_are_text_that_programs_take_for_integers() {
+    let columns = [ColumnKind { whole: true, ..ColumnKind::numbers("layers") }, ColumnKind::numbers("x")];
+    let values = [vec![4.0, -1e15], vec![4.0, 1e15]];
+    let csv = written(Format::Csv, &columns, &values);
+    assert_eq!(String::from_utf8(csv.clone()).unwrap(), "layers,x\n4,4.0\n-1000000000000000,1000000000000000.0\n");
+    assert_eq!(bits(&read(Format::Csv, &csv, &columns, 5).unwrap()), bits(&values));
+}
+
+#[test]
 fn faults_are_named_with_their_place() {
     refused(Format::Csv, b"", "the file is empty");
     refused(Format::Csv, b"a,,b\n", "column 2 has no name");
+    refused(
+        Format::Csv,
+        b",a\n0,1\n",
+        "column 1 has no name: if it is the index that pandas writes, leave it out (index=False)",
+    );
+    refused(
+        Format::Csv,
+        b"a;y\n1,5;2\n",
+        "line 1: `a;y` is a single column: cells must be separated by commas, not by semicolons",
+    );
+    refused(Format::Csv, b"a\ty\n1\t2\n", "`a y` is a single column: cells must be separated by commas, not by tabs");
     refused(Format::Csv, b"a,b,a\n", "column 3: `a` is also the name of column 1");
     refused(Format::Csv, b"a,b\n1,0\n\n2\n", "line 4: expected 2 cells as in the header, not 1");
     refused(Format::Csv, b"a,b\n1,0\nred,0\n", "row 2: column `a`: expected a number, not \"red\"");
@@ -97,7 +117,7 @@ fn faults_are_named_with_their_place() {
     let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (18446744073709551615, 2)}";
     refused(Format::Npy, &npy(header, &[0; 7]), "should follow the header, but 7 bytes do");
     let message = Format::of("a.xlsx".as_ref()).unwrap_err().to_string();
-    assert!(message.ends_with("expected .csv, .parquet or .npy"), "{message}");
+    assert_eq!(message, "the ending of the name tells the format: expected .csv, .parquet or .npy, not .xlsx");
 }
 
 proptest! {

@@ -60,6 +60,22 @@ fn every_usual_unit_has_its_factor_and_dimension() {
         (Dimension::TIME, 1e-6, "us"),
         (Dimension::FREQUENCY, 1.0, "1/s"),
         (Dimension::FREQUENCY, 1e3, "kHz"),
+        (Dimension::VOLTAGE, 1e-3, "mV"),
+        (Dimension::POWER, 1.0, "V A"),
+        (Dimension::CURRENT, 1e-12, "pA"),
+        (Dimension::CHARGE, 1.0, "A s"),
+        (Dimension::RESISTANCE, 1e3, "kohm"),
+        (Dimension::RESISTANCE, 1.0, "\u{2126}"),
+        (Dimension::VOLTAGE, 1.0, "A \u{3a9}"),
+        (Dimension::CAPACITANCE, 1e-9, "nF"),
+        (Dimension::CHARGE, 1.0, "F V"),
+        (Dimension::FLUX_DENSITY, 1.0, "V s/m2"),
+        (Dimension::TEMPERATURE, 1.0, "K"),
+        (Dimension::AMOUNT, 1e-3, "mmol"),
+        (Dimension::VOLUME, 1e-6, "ml"),
+        (Dimension::VOLUME, 1e-3, "L"),
+        (Dimension::PRESSURE, 1e5, "bar"),
+        (Dimension::PRESSURE, 1e2, "mbar"),
         (Dimension::NUMBER, 1.0, "1"),
         (Dimension::NUMBER, 1.0, ""),
         (Dimension::NUMBER, 1e-2, "%"),
@@ -80,6 +96,7 @@ fn what_is_no_unit_is_named_and_corrected() {
     assert!(text("nm/sec").contains("\"sec\" is not understood;"), "{}", text("nm/sec"));
     assert!(text("Mpa").contains("did you mean \"MPa\"?"), "{}", text("Mpa"));
     assert!(text("furlong/s").contains("units look like"));
+    assert!(text("EUR").ends_with("may have none: their numbers are then passed on as they are"), "{}", text("EUR"));
     assert!(text("N/m s").contains("two ways"));
     let odd = [
         "/",
@@ -97,6 +114,9 @@ fn what_is_no_unit_is_named_and_corrected() {
         "\u{1f41f}",
         "nn",
         "N%",
+        "NV",
+        "PaS",
+        "JK",
         "mmm",
     ];
     for input in odd.into_iter().chain([
@@ -125,6 +145,8 @@ fn dimensions_name_themselves() {
     assert_eq!(unit("nm").dimension().to_string(), "a length");
     assert_eq!(unit("mN/m").dimension().to_string(), "a stiffness or surface energy");
     assert_eq!(unit("J s/m4").dimension().to_string(), "a quantity in m^-2 kg s^-1");
+    assert_eq!(unit("W/m/K").dimension().to_string(), "a quantity in m kg s^-3 K^-1");
+    assert_eq!(unit("uV").dimension().to_string(), "a voltage");
 }
 
 #[test]
