@@ -49,6 +49,15 @@ impl<'a> Crew<'a> {
         Self { model, members, takes_its_time: concurrency.is_some(), stop }
     }
 
+    /// The same crew with at most `workers` workers, if that is not 0.
+    #[must_use]
+    pub fn at_most(mut self, workers: usize) -> Self {
+        if workers > 0 {
+            self.members.truncate(workers);
+        }
+        self
+    }
+
     /// How many rows of `model` are best handed over at once.
     pub fn rows_at_once(model: &dyn Model) -> usize {
         if model.concurrency().is_some() { 8192 } else { 1024 }
