@@ -24,7 +24,7 @@ pub enum Halt {
 
 /// Workers of a model who share out the rows of a batch among them: as many as it asks for by its
 /// [concurrency](Model::concurrency), else one, which does them by itself.
-pub struct Crew<'a> {
+pub(crate) struct Crew<'a> {
     model: &'a dyn Model,
     members: Vec<Member<'a>>,
     takes_its_time: bool,
