@@ -10,12 +10,13 @@ use apportion::report::screening::{
 };
 use apportion::run::threads_in_force;
 use apportion::screening::{MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningJob};
-use apportion::screening::{ScreeningSettings, screen as screen_factors};
+use apportion::screening::{ScreeningSettings, screen_until};
 use apportion::study::Study;
 
 use super::pictures::{prepare, write};
 use super::progress::Meter;
 use super::run::default_folder;
+use super::stop::on_signal;
 use super::{Failure, StudyArguments, Threads, print, say, whole_number};
 
 #[derive(clap::Args)]
@@ -88,7 +89,8 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
     let meter = Meter::new(&study.name, runs);
     let start = Instant::now();
     let job = ScreeningJob { space: &study.space, model: model.as_ref(), settings };
-    let screening = screen_factors(job, arguments.threads.number(), &|progress| meter.update(progress))?;
+    let screening =
+        screen_until(job, arguments.threads.number(), &|progress| meter.update(progress), Some(on_signal()))?;
     let threads = threads_in_force(arguments.threads.number());
     let facts = RunFacts { threads, wall_seconds: start.elapsed().as_secs_f64() };
     meter.finish(screening.runs, facts.wall_seconds);

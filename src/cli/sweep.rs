@@ -6,10 +6,11 @@ use anyhow::anyhow;
 use apportion::report::sweep::{build_sweep, sweep_charts, sweep_csv, sweep_json, sweep_summary};
 use apportion::space::Space;
 use apportion::study::Study;
-use apportion::sweep::{FactorValues, MAX_POINTS, SweepError, SweepRequest, find, sweep as sweep_factors};
+use apportion::sweep::{FactorValues, MAX_POINTS, SweepError, SweepRequest, find, sweep_until};
 
 use super::pictures::{prepare, say_written, write};
 use super::run::default_folder;
+use super::stop::on_signal;
 use super::{Failure, StudyArguments, print};
 
 #[derive(clap::Args)]
@@ -87,7 +88,7 @@ pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     let model = study.model();
     let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     prepare(&folder, &file_names(&study, &request, &outputs))?;
-    let sweeps = sweep_factors(&study.space, model.as_ref(), &request)?;
+    let sweeps = sweep_until(&study.space, model.as_ref(), &request, Some(on_signal()))?;
     let file = build_sweep(&study, model.as_ref(), &sweeps);
     let charts = sweep_charts(&file);
     let tables = [("-sweep.json", sweep_json(&file)), ("-sweep.csv", sweep_csv(&file))];

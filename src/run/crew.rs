@@ -24,7 +24,7 @@ pub enum Halt {
 
 /// Workers of a model who share out the rows of a batch among them: as many as it asks for by its
 /// [concurrency](Model::concurrency), else one, which does them by itself.
-pub struct Crew<'a> {
+pub(crate) struct Crew<'a> {
     model: &'a dyn Model,
     members: Vec<Member<'a>>,
     takes_its_time: bool,
@@ -47,6 +47,15 @@ impl<'a> Crew<'a> {
         let member = |_| Member { worker: model.worker(), most: 1 };
         let members = (0..concurrency.unwrap_or(1).max(1)).map(member).collect();
         Self { model, members, takes_its_time: concurrency.is_some(), stop }
+    }
+
+    /// The same crew with at most `workers` workers, if that is not 0.
+    #[must_use]
+    pub fn at_most(mut self, workers: usize) -> Self {
+        if workers > 0 {
+            self.members.truncate(workers);
+        }
+        self
     }
 
     /// How many rows of `model` are best handed over at once.

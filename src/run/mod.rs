@@ -22,7 +22,8 @@ mod totals;
 
 use std::time::Duration;
 
-pub use crew::{Crew, Halt};
+pub(crate) use crew::Crew;
+pub use crew::Halt;
 pub use error::RunError;
 pub use growing::GrowingRun;
 pub use rows::RowValues;

@@ -27,6 +27,8 @@ pub use settings::{
     MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningSettings,
 };
 
+use std::sync::atomic::AtomicBool;
+
 use crate::model::{Model, Output, RowFailure};
 use crate::run::Progress;
 use crate::space::Space;
@@ -126,10 +128,23 @@ pub fn screen(
     threads: usize,
     on_progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Screening, ScreeningError> {
+    screen_until(job, threads, on_progress, None)
+}
+
+/// The same, ended when `stop` is set.
+///
+/// # Errors
+/// As for [`screen`], and [`RunError::Interrupted`](crate::run::RunError::Interrupted) if `stop` is set before the end.
+pub fn screen_until(
+    job: ScreeningJob<'_>,
+    threads: usize,
+    on_progress: &(dyn Fn(Progress) + Sync),
+    stop: Option<&AtomicBool>,
+) -> Result<Screening, ScreeningError> {
     let factors = job.space.factors();
     let (settings, parts) = job.settings.in_force(factors.len())?;
     let points = Trajectories::new(job.space, &settings, parts)?;
-    let outcome = run::run(job, (&points, settings.trajectories), threads, on_progress)?;
+    let outcome = run::run(job, (&points, settings.trajectories), (threads, stop), on_progress)?;
     let failures = |number: usize| {
         let of_output = outcome.failures.iter().filter(|((output, _), _)| *output == number);
         let in_units = |first: &[f64]| first.iter().zip(factors).map(|(x, factor)| factor.unit().from_si(*x)).collect();

@@ -1,7 +1,7 @@
 //! Trajectories through a model: blocks of them on a thread pool, each to its elementary effects.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -27,15 +27,15 @@ pub(super) struct Outcome {
     pub flags: Vec<u64>,
 }
 
-/// Runs `trajectories` of them on `threads` threads (0: one per core). The outcome does not depend on the number of
+/// Runs `trajectories` of them on as many threads as are asked for (0: one per core), until `stop` is set. The outcome does not depend on the number of
 /// threads, in any bit.
 pub(super) fn run(
     job: ScreeningJob<'_>,
     (points, trajectories): (&Trajectories, u64),
-    threads: usize,
+    (asked, stop): (usize, Option<&AtomicBool>),
     on_progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Outcome, ScreeningError> {
-    let threads = threads_in_force(threads);
+    let threads = threads_in_force(asked);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
@@ -59,10 +59,11 @@ pub(super) fn run(
     let blocks = trajectories.div_ceil(block);
     let outcomes: Result<Vec<Outcome>, Halt> = if job.model.concurrency().is_some() {
         // Its workers share out the rows of every block among them.
-        let mut bench = Bench::new(job, rows);
+        let mut bench = Bench::new(job, rows, stop);
+        bench.crew = bench.crew.at_most(asked);
         (0..blocks).map(|number| one(&mut bench, number)).collect()
     } else {
-        pool.install(|| (0..blocks).into_par_iter().map_init(|| Bench::new(job, rows), one).collect())
+        pool.install(|| (0..blocks).into_par_iter().map_init(|| Bench::new(job, rows, stop), one).collect())
     };
     let outcomes = outcomes.map_err(|halt| match halt {
         Halt::GaveUp(reason) => RunError::GaveUp { reason },
@@ -82,9 +83,9 @@ struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    fn new(job: ScreeningJob<'a>, rows: usize) -> Self {
+    fn new(job: ScreeningJob<'a>, rows: usize, stop: Option<&'a AtomicBool>) -> Self {
         let columns = vec![Vec::new(); job.space.factors().len()];
-        Self { crew: Crew::new(job.model, None), batch: Batch::of(job.model), columns, rows }
+        Self { crew: Crew::new(job.model, stop), batch: Batch::of(job.model), columns, rows }
     }
 
     fn block(

@@ -13,6 +13,8 @@ mod tests;
 pub use local::{LocalSensitivity, NoDerivative};
 pub use request::{FactorValues, MAX_POINTS, SweepError, SweepRequest, TAIL, find, is_logarithmic};
 
+use std::sync::atomic::AtomicBool;
+
 use crate::model::{Model, RowFailure};
 use crate::run::Halt;
 use crate::space::Space;
@@ -109,8 +111,24 @@ pub struct Extent {
 /// # Panics
 /// If a factor's number is not one of the space.
 pub fn sweep(space: &Space, model: &dyn Model, request: &SweepRequest) -> Result<Sweeps, SweepError> {
+    sweep_until(space, model, request, None)
+}
+
+/// The same, ended when `stop` is set.
+///
+/// # Errors
+/// As for [`sweep`], and [`Halt::Interrupted`] if `stop` is set before the end.
+///
+/// # Panics
+/// As for [`sweep`].
+pub fn sweep_until(
+    space: &Space,
+    model: &dyn Model,
+    request: &SweepRequest,
+    stop: Option<&AtomicBool>,
+) -> Result<Sweeps, SweepError> {
     request.check(space)?;
-    let mut bench = Bench::new(space, model);
+    let mut bench = Bench::new(space, model, stop);
     let first = space.factors().first().map_or(f64::NAN, |factor| factor.nominal);
     let nominal: Vec<Result<f64, RowFailure>> =
         bench.curve((0, &[first]), None)?.into_iter().map(CurveOutput::single).collect();

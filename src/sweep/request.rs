@@ -33,7 +33,7 @@ pub struct SweepRequest {
 /// What is wrong with the request for a sweep, or why there is none.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SweepError {
-    /// The model gave up.
+    /// The model gave up, or the sweep was asked to end.
     #[error(transparent)]
     Halted(#[from] Halt),
     /// There is no such factor.

@@ -1,5 +1,7 @@
 //! Runs of a model around the nominal point.
 
+use std::sync::atomic::AtomicBool;
+
 use super::CurveOutput;
 use crate::model::{Batch, Model};
 use crate::run::{Crew, Halt};
@@ -20,17 +22,17 @@ pub(super) struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    pub fn new(space: &'a Space, model: &'a dyn Model) -> Self {
+    pub fn new(space: &'a Space, model: &'a dyn Model, stop: Option<&'a AtomicBool>) -> Self {
         let nominal = space.factors().iter().map(|factor| factor.unit().to_si(factor.nominal)).collect();
         let flags = vec![0; model.flags().len()];
-        Self { space, model, crew: Crew::new(model, None), batch: Batch::of(model), nominal, runs: 0, flags }
+        Self { space, model, crew: Crew::new(model, stop), batch: Batch::of(model), nominal, runs: 0, flags }
     }
 
     /// Every output for each of `values` of one factor, in its unit, with one other factor perhaps moved from its
     /// nominal value.
     ///
     /// # Errors
-    /// [`Halt`] if the model gives up.
+    /// [`Halt`] if the model gives up or is stopped.
     pub fn curve(
         &mut self,
         (factor, values): (usize, &[f64]),

@@ -39,7 +39,7 @@ pub(super) fn program_template(request: &TemplateRequest) -> Result<String, Prob
     Ok(text)
 }
 
-/// The program of a [new study](template) of a program: in Python, of its factors and outputs, each of which is the sum of
+/// The program of a [new study](fn@crate::study::template) of a program: in Python, of its factors and outputs, each of which is the sum of
 /// the factors until somebody writes another; `None` of other models.
 ///
 /// # Errors

@@ -23,6 +23,10 @@ impl Case {
         command.args(arguments).timeout(Duration::from_secs(60)).output().unwrap()
     }
 
+    fn remove_pids(&self) {
+        processes(self).iter().for_each(|pid| std::fs::remove_file(self.path(&format!("pid-{pid}"))).unwrap());
+    }
+
     /// As many points as that, and what the formula gives there.
     fn points(&self, count: u32) -> Vec<f64> {
         let x = |k: u32| [f64::from(k) / f64::from(count), f64::from(k % 7), f64::from(k % 11)];
@@ -101,13 +105,22 @@ fn screening_asks_several_processes_and_says_the_same() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupted_evaluation_leaves_neither_files_nor_processes() {
+fn interrupted_commands_leave_neither_files_nor_processes() {
     let hangs = "    n = globals().get('n', 0) + 1\n    open(f'pid-{os.getpid()}', 'w')\n    if n > 3: time.sleep(1000)\n    print(y, flush=True)\n";
     let case = Case::each_row("", hangs);
     case.points(100);
-    let arguments = case.arguments("evaluate", &["@points.csv", "-o", "@outputs.csv"]);
+    for (command, more) in &COMMANDS[..3] {
+        is_interrupted(&case, (command, more));
+        case.remove_pids();
+    }
+}
+
+/// A command that hangs in two workers ends on a signal.
+#[cfg(unix)]
+fn is_interrupted(case: &Case, (command, more): (&str, &[&str])) {
+    let arguments = case.arguments(command, more);
     let mut run = spawn(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
-    within(20, "two workers hang", || processes(&case).len() >= 2);
+    within(20, "two workers hang", || processes(case).len() >= 2);
     std::thread::sleep(Duration::from_millis(300));
     signal("-INT", &run);
     let start = Instant::now();
@@ -116,8 +129,9 @@ fn an_interrupted_evaluation_leaves_neither_files_nor_processes() {
     let mut message = String::new();
     run.stderr.take().unwrap().read_to_string(&mut message).unwrap();
     assert_eq!(status.code(), Some(1), "{message}");
-    contains(&message, &["error: interrupted; 0 points had been evaluated"]);
-    within(5, "all have ended", || !processes(&case).iter().any(is_alive));
-    let left = files(&case.path("")).into_iter().filter(|name| !name.starts_with("pid-"));
+    contains(&message, &["error: interrupted"]);
+    within(5, "all have ended", || !processes(case).iter().any(is_alive));
+    let left = files(&case.path("")).into_iter().filter(|name| !name.starts_with("pid-") && name != "out");
     assert_eq!(left.collect::<Vec<_>>(), ["model.py", "points.csv", "study.toml"]);
+    assert!(!case.path("out").exists() || files(&case.path("out")).is_empty());
 }
