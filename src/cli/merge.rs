@@ -47,17 +47,21 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         shards.note(&study, contents.header["shard"].as_str(), &part);
         for piece in part.pieces() {
             let rows = piece.first..piece.first + piece.rows(part.outputs());
-            let missing: u64 =
-                record.store.missing(piece.replicate, rows.clone()).iter().map(|r| r.end - r.start).sum();
-            if missing == 0 {
+            let gaps = record.store.missing(piece.replicate, rows.clone());
+            if gaps.iter().map(|gap| gap.end - gap.start).sum::<u64>() == rows.end - rows.start {
+                keep(&record, &piece)?;
                 continue;
             }
-            if missing < rows.end - rows.start {
+            // What is counted over a piece cannot be divided.
+            let counted = piece.flags.iter().any(|raised| *raised > 0) || !piece.effort.is_none();
+            if counted && !gaps.is_empty() {
                 let why = "holds some of the runs that are there already, and some that are not: merge the parts of one \
-                           division only";
+                           division only, into a folder without a journal (--out)";
                 return Err(Failure::Input(anyhow!("{}: {why}", journal.display())));
             }
-            keep(&record, &piece)?;
+            for gap in gaps {
+                part.piece(piece.replicate, gap).map_or(Ok(()), |piece| keep(&record, &piece))?;
+            }
         }
     }
     record.sync()?;

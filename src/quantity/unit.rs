@@ -109,10 +109,10 @@ impl Unit {
     pub fn parse(text: &str) -> Result<Self, UnitError> {
         let malformed = |reason| UnitError::Malformed { unit: text.to_owned(), reason };
         let symbol = text.trim().to_owned();
-        if symbol.is_empty() {
-            return Ok(Self::dimensionless());
-        }
         let mut unit = Self { symbol, decade: 0, degrees: 0, dimension: Dimension::NUMBER };
+        if unit.symbol.is_empty() {
+            return Ok(unit);
+        }
         for (place, part) in plain(&unit.symbol.clone()).split('/').enumerate() {
             let mut factors = part.split(['*', '.', ' ']).filter(|factor| !factor.is_empty()).peekable();
             if factors.peek().is_none() {

@@ -116,7 +116,7 @@ fn formula(
         }
         other => return Err(wrong(other.type_str().to_owned())),
     };
-    let unit = Unit::parse(unit.unwrap_or_default()).map_err(|error| context.fault(value.span(), error.into()))?;
+    let unit = Unit::parse(unit.unwrap_or("1")).map_err(|error| context.fault(value.span(), error.into()))?;
     let symbol = |name: &str| {
         let factor = space.factors().iter().position(|factor| factor.name == name).map(Symbol::Input);
         let constant = || constants.iter().find(|constant| constant.name == name);

@@ -244,10 +244,20 @@ fn new_overwrites_nothing_and_names_what_it_does_not_know() {
     let message = refused(&["new", text(&other), "--outputs", "critical_force,critical_force"]);
     assert!(message.contains("--outputs: output `critical_force` stands here twice"), "{message}");
     assert!(refused(&["new", text(&other), "--model", "ishigam"]).contains("did you mean `ishigami`?"));
+    let message = refused(&["new", text(&other), "--model", "command", "--factors", "a,"]);
+    assert!(message.contains("--factors: a name is empty: expected names separated by commas"), "{message}");
     assert!(!other.exists());
     let nowhere = apportion(&["new", text(&folder.path().join("none/study.toml"))]);
     assert_eq!(nowhere.status.code(), Some(1));
-    assert!(stderr(&nowhere).contains("cannot write"), "{}", stderr(&nowhere));
+    let message = stderr(&nowhere);
+    assert!(
+        message.contains("cannot write") && message.ends_with("No such file or directory (os error 2)\n"),
+        "{message}"
+    );
+    // What is said to be typed next can be typed.
+    let spaced = folder.path().join("it's mine.toml");
+    let said = stderr(&apportion(&["new", text(&spaced), "--model", "expression"]));
+    assert!(said.contains(r"apportion run '") && said.contains(r"/it'\''s mine.toml'`"), "{said}");
 }
 
 /// A positive input may be log-normal, whose values come close to 0 without reaching it.

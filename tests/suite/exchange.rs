@@ -297,6 +297,37 @@ fn formats_are_known_by_their_endings() {
 }
 
 #[test]
+fn a_file_without_a_header_is_found_out() {
+    let sampled = answered();
+    let numbers: Vec<String> = sampled.lines("data.csv")[1..].iter().map(|line| line.replace(' ', "")).collect();
+    let forces: Vec<String> = numbers.iter().map(|line| line.rsplit_once(',').unwrap().1.to_owned()).collect();
+    sampled.write("data.csv", &forces);
+    let hint = "the first line is taken as the names of the columns, and holds numbers: is there no header?";
+    sampled.refused("data.csv", &[], &format!("; {hint}"));
+    sampled.write("y.csv", &forces[..48]);
+    sampled.refused("y.csv", &["--layout", "salib", "--names", "x1,x2"], &format!("(calc_second_order=False); {hint}"));
+}
+
+#[test]
+fn an_output_has_a_name_that_no_factor_has() {
+    let sampled = Sampled::new(OUTSIDE, "design.csv");
+    let study = OUTSIDE.replace("outputs.force", "outputs.b");
+    std::fs::write(sampled.path("s.toml"), study).unwrap();
+    let output = apportion(&["check", &sampled.name("s.toml")]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("s.toml:7:18: factor or output `b` stands here twice"), "{}", stderr(&output));
+}
+
+#[test]
+fn whole_numbers_of_a_design_have_no_decimal_point() {
+    let layers = r#"{ name = "layers", distribution = "integer", min = 1, max = 4 }"#;
+    let sampled = Sampled::new(&OUTSIDE.replace("{ name = \"b\", min = -1, max = 1 }", layers), "design.csv");
+    for line in &sampled.lines("design.csv")[1..] {
+        assert!(["1", "2", "3", "4"].contains(&line.split(',').nth(1).unwrap()), "{line}");
+    }
+}
+
+#[test]
 fn points_and_outputs_of_a_run_are_saved_in_every_format() {
     let folder = tempfile::tempdir().unwrap();
     let study = study_path("ishigami");

@@ -225,6 +225,26 @@ fn a_merge_that_is_refused_leaves_the_runs_on_record_alone() {
 }
 
 #[test]
+fn parts_add_to_what_an_interrupted_run_and_other_parts_have_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, whole) = (folder.path().join("out"), folder.path().join("whole"));
+    let size = ["--base-samples", "4096"];
+    ishigami_runs(&whole, &size);
+    // A journal that was cut short is that of a run that was interrupted.
+    ishigami_runs(&out, &size);
+    let journal = out.join("ishigami.journal");
+    let bytes = std::fs::read(&journal).unwrap();
+    std::fs::write(&journal, &bytes[..bytes.len() / 3]).unwrap();
+    for part in ["1/3", "2/3", "3/3", "2/5"] {
+        assert_eq!(ishigami(&out, &[&size[..], &["--shard", part]].concat()).status.code(), Some(0));
+    }
+    let study = study_path("ishigami");
+    let merged = apportion(&[&["merge", text(&study), "--out", text(&out)], &size[..]].concat());
+    assert_eq!(merged.status.code(), Some(0), "{}", stderr(&merged));
+    assert!(numbers(&out, "ishigami") == numbers(&whole, "ishigami"));
+}
+
+#[test]
 fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed() {
     let folder = tempfile::tempdir().unwrap();
     let (here, there) = (folder.path().join("here"), folder.path().join("there"));

@@ -1,7 +1,7 @@
 //! Programs that do something wrong: every good row is used, every bad one has its reason.
 
 use super::{Case, FORMULA, by_formula, contains, failures, rows_where};
-use crate::common::numbers;
+use crate::common::{numbers, succeed, text};
 
 /// The result is that of a program without faults, to the bit.
 #[track_caller]
@@ -177,11 +177,26 @@ fn floods_take_little_memory() {
 #[test]
 fn a_program_that_never_works_is_given_up() {
     let broken = Case::new("", "import no_such_module\n");
-    broken.gives_up(&["exit status 1", "ModuleNotFoundError: No module named 'no_such_module'"]);
+    let message = broken.gives_up(&["exit status 1", "ModuleNotFoundError: No module named 'no_such_module'"]);
+    // A program that has been mended is asked for what failed, too.
+    contains(
+        &message,
+        &["the same command with --retry-failed goes on with them, and evaluates those that failed again"],
+    );
     let silent = Case::new("", "import sys\nsys.exit(7)\n");
     silent.gives_up(&["answered none of its first 5 rows: the program ended with exit status 7"]);
     let closed = Case::new("retries = 0", "import os, time\nos.close(1)\ntime.sleep(1000)\n");
     closed.gives_up(&["the program closed its standard output"]);
+}
+
+#[test]
+fn check_tells_of_rows_that_fail() {
+    let some = Case::each_row("", "    print('error: no root' if x[0] < 0.5 else y, flush=True)\n");
+    let told = succeed(&["check", text(&some.path("study.toml"))]);
+    contains(&told, &["runs failed: no root\n", " on this machine (by "]);
+    let all = Case::each_row("", "    print('error: no root', flush=True)\n");
+    let told = succeed(&["check", text(&all.path("study.toml"))]);
+    contains(&told, &["runs failed: no root\n", "model runs, in a time that cannot be told"]);
 }
 
 impl Case {
