@@ -108,7 +108,7 @@ struct DesignChanges {
 
 /// The whole numbers from 0 that TOML can hold.
 fn whole_number(text: &str) -> Result<u64, String> {
-    let number = text.replace('_', "").parse().ok().filter(|number| *number <= i64::MAX as u64);
+    let number = text.replace('_', "").parse::<u64>().ok().filter(|number| *number <= i64::MAX as u64);
     number.ok_or_else(|| format!("expected a whole number from 0 to {}, as in 4096 or 1_000_000", i64::MAX))
 }
 
