@@ -23,7 +23,7 @@ fn read(format: Format, bytes: &[u8]) {
     let Ok(mut rows) = rows_of_bytes(format, bytes.to_vec()) else { return };
     assert!(rows.names().is_none_or(|names| names.len() == rows.width()));
     let labels = vec![("steel".to_owned(), 1.0), ("brass".to_owned(), 2.0)];
-    let kinds = [ColumnKind::numbers("a"), ColumnKind { name: "b".to_owned(), labels, optional: true }];
+    let kinds = [ColumnKind::numbers("a"), ColumnKind { name: "b".to_owned(), labels, optional: true, whole: false }];
     let wanted: Vec<(usize, ColumnKind)> = kinds.into_iter().enumerate().take(rows.width()).collect();
     let mut columns = vec![Vec::new(); wanted.len()];
     let mut all = 0;
