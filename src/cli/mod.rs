@@ -99,16 +99,17 @@ struct StudyArguments {
 #[derive(Args)]
 struct DesignChanges {
     /// Base samples in all, over the replicates (the same as --set design.base_samples=N)
-    #[arg(long, value_name = "N", value_parser = whole_number())]
+    #[arg(long, value_name = "N", value_parser = whole_number)]
     base_samples: Option<u64>,
     /// Seed of the design (the same as --set design.seed=S)
-    #[arg(long, value_name = "S", value_parser = whole_number())]
+    #[arg(long, value_name = "S", value_parser = whole_number)]
     seed: Option<u64>,
 }
 
 /// The whole numbers from 0 that TOML can hold.
-fn whole_number() -> clap::builder::RangedU64ValueParser {
-    clap::value_parser!(u64).range(0..=i64::MAX as u64)
+fn whole_number(text: &str) -> Result<u64, String> {
+    let number = text.replace('_', "").parse::<u64>().ok().filter(|number| *number <= i64::MAX as u64);
+    number.ok_or_else(|| format!("expected a whole number from 0 to {}, as in 4096 or 1_000_000", i64::MAX))
 }
 
 impl DesignChanges {

@@ -33,7 +33,7 @@ pub struct Arguments {
     #[arg(long, value_name = "P", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_LEVELS)))]
     levels: Option<u32>,
     /// Seed of the points [default: the study's]
-    #[arg(long, value_name = "S", value_parser = whole_number())]
+    #[arg(long, value_name = "S", value_parser = whole_number)]
     seed: Option<u64>,
     /// Folder for the results [default: results/NAME]
     #[arg(long, value_name = "DIR")]

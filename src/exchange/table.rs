@@ -16,7 +16,10 @@ pub enum TableError {
     #[error("line 1: the file is empty: expected a header of column names, then one line per run")]
     Empty,
     /// A column without a name.
-    #[error("line 1: column {column} has no name")]
+    #[error(
+        "line 1: column {column} has no name{}",
+        if *column == 1 { ": if it is the index that pandas writes, leave it out (index=False)" } else { "" }
+    )]
     Nameless {
         /// Number of the column, from 1.
         column: usize,
@@ -295,6 +298,7 @@ mod tests {
         refused("", &["y"], &[], "line 1: the file is empty");
         refused("\n\n", &["y"], &[], "line 1: the file is empty");
         refused("a,,y\n", &["y"], &[], "line 1: column 2 has no name");
+        refused(",a,y\n", &["y"], &[], "line 1: column 1 has no name: if it is the index that pandas writes");
         refused("a,b,a\n", &["b"], &[], "line 1: column 3: `a` is also the name of column 1");
         refused(
             "a,force\n",

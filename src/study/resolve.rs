@@ -110,7 +110,7 @@ fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
 
 /// The deserialiser's message without the names of Rust types.
 fn in_words(message: &str) -> String {
-    const WORDS: [(&str, &str); 10] = [
+    const WORDS: [(&str, &str); 12] = [
         ("expected f64", "expected a number"),
         ("expected u64", "expected a whole number from 0 to 9223372036854775807"),
         ("expected struct DesignSection", "expected a table [design]"),
@@ -123,6 +123,8 @@ fn in_words(message: &str) -> String {
             "expected a list: factors are written [[factor]], with two brackets",
         ),
         ("expected a map", "expected a table"),
+        ("expected a sequence", "expected a list in square brackets"),
+        ("expected a string", "expected a text in quotes"),
         ("floating point", "the number"),
     ];
     WORDS.iter().fold(message.to_owned(), |text, (from, to)| text.replace(from, to))

@@ -130,6 +130,8 @@ fn ranges_that_are_none() {
 fn values_of_the_wrong_type() {
     assert_spoilt("min = 200", "min = \"200\"", &["study.toml:8:7:", "expected a number"]);
     assert_spoilt("base_samples = 64", "base_samples = -64", &["study.toml:5:16:", "whole number"]);
+    let words = ["study.toml:1:11:", "expected a list in square brackets"];
+    assert_spoilt("outputs = [\"critical_force\"]", "outputs = \"critical_force\"", &words);
     assert_spoilt("base_samples = 64", "base_samples = 64.5", &["study.toml:5:16:", "whole number"]);
     assert_spoilt("\"coulomb\"", "3", &["study.toml:3:12:", "\"coulomb\""]);
     assert_spoilt("[[factor]]\nname = \"length\"", "[factor]\nname = \"length\"", &["study.toml:"]);
