@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::report::{ResultFile, read_result, significant, widest_interval, width_after_doubling};
+use apportion::report::{ResultFile, read_result, two_digits, widest_interval, width_after_doubling};
 use apportion::study::Study;
 
 use super::Failure;
@@ -33,13 +33,13 @@ fn disk(study: &Study, folder: &Path) -> Result<String, Failure> {
     Ok(if keeps_journal(study)? {
         format!(
             "disk: about {} MB for the journal {}, and as much memory for its outputs\n",
-            short(megabytes.max(0.01)),
+            two_digits(megabytes.max(0.01)),
             path.display()
         )
     } else {
         format!(
             "disk: no journal: it would take {} MB, and the runs are quick enough to be evaluated again\n",
-            short(megabytes)
+            two_digits(megabytes)
         )
     })
 }
@@ -63,10 +63,5 @@ fn last_result(result: &ResultFile) -> String {
 }
 
 fn figure(half_width: f64) -> String {
-    format!("\u{b1}{}", short(half_width))
-}
-
-/// Two significant digits.
-fn short(value: f64) -> String {
-    significant(format!("{value:.1e}").parse().unwrap_or(value))
+    format!("\u{b1}{}", two_digits(half_width))
 }

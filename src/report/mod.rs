@@ -37,7 +37,7 @@ pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, s
 pub(crate) use tables::csv_field;
 pub use tables::{
     convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,
-    summary, table, with_unit,
+    summary, table, two_digits, with_unit,
 };
 pub use trend::{widest_interval, width_after_doubling};
 pub use write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};

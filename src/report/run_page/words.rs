@@ -1,7 +1,8 @@
 //! Names and numbers in the sentences of the page.
 
 use crate::report::result::{EstimateRecord, IntervalRecord};
-use crate::report::{capitalised, fixed, significant};
+pub(super) use crate::report::two_digits as half_width;
+use crate::report::{capitalised, fixed};
 
 /// A name of the study as words; a symbol such as `F_cr` stays one.
 pub(super) fn name(name: &str) -> String {
@@ -69,11 +70,6 @@ pub(super) fn percent(record: EstimateRecord) -> String {
 /// A share in percent with its interval, for a table: `47.0 [46.8, 47.2]`.
 pub(super) fn share(share: Option<f64>, interval: Option<IntervalRecord>) -> String {
     crate::report::share(share, interval)
-}
-
-/// A half width with two significant digits.
-pub(super) fn half_width(width: f64) -> String {
-    significant(format!("{width:.1e}").parse().unwrap_or(width))
 }
 
 /// A value with four significant digits and its unit.

@@ -10,7 +10,7 @@ use comfy_table::{CellAlignment, ContentArrangement, ContentLineStyle, LineStyle
 pub(crate) use csv::csv_field;
 pub use csv::{convergence_csv, estimators_csv, indices_csv, second_order_csv};
 pub(super) use number::{chance, give_or_take};
-pub use number::{estimate, fixed, share, share_of_runs, significant, with_unit};
+pub use number::{estimate, fixed, share, share_of_runs, significant, two_digits, with_unit};
 pub use summary::summary;
 
 /// Rules above, under the header and below; nothing between the rows.

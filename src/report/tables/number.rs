@@ -69,6 +69,23 @@ pub fn fixed(value: f64, digits: usize) -> String {
     if is_zero { text.trim_start_matches('-').to_owned() } else { text }
 }
 
+/// `value` with two significant digits, as errors and widths have them: 0.000083, or 8.3e-7 where there would be more zeros.
+pub fn two_digits(value: f64) -> String {
+    const LEAST: f64 = 1e-6;
+    let rounded = format!("{value:.1e}").parse().unwrap_or(value);
+    if value != 0.0 && value.abs() < LEAST {
+        return format!("{value:.1e}").replace(".0e", "e");
+    }
+    match significant(rounded) {
+        text if text.contains('e') && rounded.abs() < 1.0 => {
+            let decimals = 1 - rounded.abs().log10().floor() as i32;
+            let text = format!("{rounded:.*}", decimals.max(0) as usize);
+            text.trim_end_matches('0').to_owned()
+        }
+        text => text,
+    }
+}
+
 /// `value` with six significant digits, in exponent form where that is shorter.
 pub fn significant(value: f64) -> String {
     const DIGITS: i32 = 6;
@@ -107,6 +124,8 @@ mod tests {
         assert_eq!(significant(-12_345_678.0), "-12345678");
         assert_eq!(significant(100.0), "100");
         assert_eq!(significant(0.001), "0.001");
+        let widths = [0.0, 0.0351, 8.3e-5, 4.96e-5, 8.32e-7, 2e-8, 12.4].map(two_digits);
+        assert_eq!(widths, ["0", "0.035", "0.000083", "0.00005", "8.3e-7", "2e-8", "12"]);
         assert_eq!(fixed(-0.00001, 4), "0.0000");
         assert_eq!(fixed(-0.5, 1), "-0.5");
         let record = |low, estimate, high| EstimateRecord { estimate, low: Some(low), high: Some(high) };

@@ -84,14 +84,20 @@ pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
 /// What stands at the top: what the file is for, title and model.
 fn heading(request: &TemplateRequest) -> String {
     let model = request.model;
-    let title = request.title.clone().unwrap_or_else(|| capitalised(model.description()));
+    // What the model is says nothing of a study whose model is the user's own.
+    let is_own = matches!(model, ModelKind::Expression | ModelKind::Command | ModelKind::External);
+    let title = |text: String| format!("title = {}", toml::Value::String(text));
+    let title = match &request.title {
+        Some(text) => title(text.clone()),
+        None if is_own => format!("# {}    # for the page and the charts", title("What is asked".to_owned())),
+        None => title(capitalised(model.description())),
+    };
     format!(
         "# A study of apportion: which inputs of a model decide its output, and by how many percent.\n\
          # `apportion check FILE` explains it and tells what it will cost, `apportion run FILE` runs it,\n\
          # `apportion models {}` lists everything that can stand here.\n\n\
-         title = {}\nmodel = \"{}\"\n",
+         {title}\nmodel = \"{}\"\n",
         model.name(),
-        toml::Value::String(title),
         model.name()
     )
 }
