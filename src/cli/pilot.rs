@@ -69,7 +69,7 @@ fn of_one_worker(study: &Study, model: &dyn Model, workers: usize) -> Result<Pil
         worker.run(&inputs, &mut batch);
         let seconds = start.elapsed().as_secs_f64();
         // Every piece begins with the first row, so that the last one has them all.
-        let rows: BTreeSet<usize> = batch.failures().iter().map(|(row, ..)| *row).collect();
+        let rows: BTreeSet<usize> = batch.failures().iter().map(|(_, row, _)| *row).collect();
         failed = rows.len() as u64;
         reason = batch.failures().first().map(|(.., reason)| reason.to_string());
         batch.given_up().map_or(Ok(seconds), |reason| Err(Failure::Run(anyhow!("the model cannot go on: {reason}"))))

@@ -250,11 +250,15 @@ fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed(
     let (here, there) = (folder.path().join("here"), folder.path().join("there"));
     let out = folder.path().join("out");
     std::fs::create_dir_all(here.join("sub")).unwrap();
-    let study = "model = \"command\"\ncommand = [\"awk\", \"-f\", \"sum.awk\"]\noutputs = [\"y\"]\n\
+    let study = "model = \"command\"\ncommand = [\"python3\", \"sum.py\"]\noutputs = [\"y\"]\n\
                  design.base_samples = 64\n\
                  [[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"b\"\nmin = 0\nmax = 2\n";
     std::fs::write(here.join("sum.toml"), study).unwrap();
-    std::fs::write(here.join("sum.awk"), "BEGIN { FS = \",\" } NR > 1 { print $1 + $2; fflush() }\n").unwrap();
+    std::fs::write(
+        here.join("sum.py"),
+        "import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    print(float(x['a']) + float(x['b']), flush=True)\n",
+    )
+    .unwrap();
     let run = |path: &Path, more: &[&str]| {
         let output = apportion(&[&["run", text(path), "--out", text(&out)], more].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -266,16 +270,20 @@ fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed(
     assert_eq!(on_record(&run(&there.join("sum.toml"), &[])), 256);
     let part = ["--shard", "1/1"];
     run(&there.join("sum.toml"), &part);
-    std::fs::write(there.join("sum.awk"), "BEGIN { FS = \",\" } NR > 1 { print $1 - $2; fflush() }\n").unwrap();
+    std::fs::write(
+        there.join("sum.py"),
+        "import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    print(float(x['a']) - float(x['b']), flush=True)\n",
+    )
+    .unwrap();
     run(&there.join("sum.toml"), &["--shard", "1/2"]);
     let merge = || apportion(&["merge", text(&there.join("sum.toml")), "--out", text(&out)]);
-    refused(&merge(), 2, "sum-shard-1-of-2.journal: evaluated with another sum.awk than ");
+    refused(&merge(), 2, "sum-shard-1-of-2.journal: evaluated with another sum.py than ");
     std::fs::remove_file(out.join("sum-shard-1-of-2.journal")).unwrap();
     assert_eq!(merge().status.code(), Some(0));
     // What was merged is still of the program before.
     let anew = run(&there.join("sum.toml"), &[]);
     assert_eq!(on_record(&anew), 0, "{anew}");
-    assert!(anew.contains("sum.awk changed since the journal was written: the journal was moved to "), "{anew}");
+    assert!(anew.contains("sum.py changed since the journal was written: the journal was moved to "), "{anew}");
 }
 
 #[test]
