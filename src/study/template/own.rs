@@ -12,7 +12,8 @@ pub(super) fn formula_template(request: &TemplateRequest) -> Result<String, Prob
          # functions.\n[expression]\n",
     );
     for output in &outputs {
-        text.push_str(&format!("outputs.{output} = \"{}\"\n", factors.join(" + ")));
+        let formula = toml::Value::String(factors.join(" + "));
+        text.push_str(&format!("outputs.{} = {formula}\n", bare_or_quoted(output)));
     }
     text.push_str("# constants.a = 7    # a number, or a quantity as in \"10 nm\"\n");
     text.push_str(&design_table(factors.len()));

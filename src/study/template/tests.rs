@@ -73,3 +73,16 @@ fn unknown_and_repeated_names_are_refused() {
     assert!(matches!(with(&["length", "length"], &[]), Err(Problem::Repeated { what: "factor", .. })));
     assert!(matches!(with(&[], &["force"]), Err(Problem::UnknownName { what: "output", .. })));
 }
+
+#[test]
+fn names_are_written_as_toml_has_them() {
+    for model in [ModelKind::Expression, ModelKind::Command, ModelKind::External] {
+        let outputs = ["y 1", "\"y\"", "\u{3bc}"].map(str::to_owned).to_vec();
+        let study = studied(&TemplateRequest { outputs: outputs.clone(), ..request(model) });
+        let found: Vec<String> = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
+        assert_eq!(found, outputs, "{model:?}");
+        assert_eq!(study.title, None, "what the model is says nothing of the study");
+    }
+    let titled = TemplateRequest { title: Some("A \"title\"".to_owned()), ..request(ModelKind::Command) };
+    assert_eq!(studied(&titled).title.as_deref(), Some("A \"title\""));
+}
