@@ -19,6 +19,7 @@ mod extremes;
 mod factor_kinds;
 mod factors;
 mod failures;
+mod frozen;
 mod fuzz;
 mod given;
 mod given_data;
