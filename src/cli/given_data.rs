@@ -11,8 +11,9 @@ use apportion::report::given::{GivenFacts, GivenFile, build_given, given_chart, 
 use apportion::report::{prepare_file, prepare_folder, write_atomically};
 use sha2::{Digest, Sha256};
 
+use super::pictures::say_written;
 use super::run::default_folder;
-use super::{Failure, print, say};
+use super::{Failure, print};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -66,9 +67,7 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let result = build_given(&indices, (&inputs, &outputs), &facts);
     let files = write_files(arguments, &result)?;
     print(&given_summary(&result))?;
-    for file in files {
-        say(&format!("wrote {}", file.display()));
-    }
+    say_written(&files);
     Ok(())
 }
 

@@ -111,6 +111,7 @@ fn expression() -> String {
          outputs.k = {{ formula = \"x1/x2\", unit = \"N/m\" }}\n  constants.a = 7\n  constants.b = \"0.1 um\"\n\n\
          Factors are those of the study. Formulas have all values in SI units, and give theirs in SI units.\n\
          Operators: + - * / ^, and < <= > >= == != (1 if it holds, else 0); -x^2 is -(x^2), 2^3^2 is 2^9.\n\
+         Names of NumPy and of Python's math are understood: np.sin(x), math.pi, np.where(condition, x, y).\n\
          Functions and numbers: {}\n",
         kind.name(),
         kind.description(),

@@ -15,6 +15,7 @@ use apportion::run::{Keep, Piece, RunError, Shard, Store};
 use apportion::study::Study;
 use apportion::{Running, analyse_with, evaluate_shard};
 
+use super::pictures::say_written;
 use super::progress::Meter;
 use super::record::{self, Record, Use, journal_path, rows_on_record};
 use super::stop::Stoppable;
@@ -191,9 +192,7 @@ pub fn prepare_files(study: &Study, folder: &Path) -> Result<(), Failure> {
 pub fn deliver(study: &Study, folder: &Path, result: &ResultFile) -> Result<(), Failure> {
     let written = write_files(folder, &files(study), result)?;
     print(&summary(result))?;
-    for file in written {
-        say(&format!("wrote {}", file.display()));
-    }
+    say_written(&written);
     let lost: Vec<&str> =
         result.outputs.iter().filter(|output| lost(study, output)).map(|output| output.name.as_str()).collect();
     if lost.is_empty() {

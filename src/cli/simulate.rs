@@ -9,8 +9,9 @@ use apportion::report::{prepare_folder, with_unit, write_atomically};
 use apportion::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
 use apportion::study::Study;
 
+use super::pictures::say_written;
 use super::run::default_folder;
-use super::{Failure, StudyArguments, print, say};
+use super::{Failure, StudyArguments, print};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -50,9 +51,7 @@ pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     prepare_folder(&folder)?;
     let files = if arguments.mode_diagram { draw_modes(&study, &folder)? } else { tell(arguments, &study, &folder)? };
-    for file in files {
-        say(&format!("wrote {}", file.display()));
-    }
+    say_written(&files);
     Ok(())
 }
 

@@ -32,7 +32,7 @@ pub enum UnitError {
     },
 }
 
-const EXAMPLES: &str = r#""um", "nm/s", "GPa", "mJ/m2", "nN", "N/m", "N s/m", "kg/m3", "V", "K", "deg", "ms", "%" and "1" for a pure number"#;
+const EXAMPLES: &str = r#""um", "nm/s", "GPa", "mJ/m2", "nN", "N/m", "N s/m", "kg/m3", "V", "K", "degC", "deg", "ms", "h", "%" and "1" for a pure number"#;
 
 fn hint(nearest: &Option<String>) -> String {
     nearest.as_ref().map(|symbol| format!(", did you mean \"{symbol}\"?")).unwrap_or_default()

@@ -1,9 +1,12 @@
 //! Unit symbols.
 //!
 //! A unit is a product of powers of SI symbols with prefixes, read by a small grammar rather than from a list, so
-//! that `mJ/m2`, `nN/nm` and `g/cm^3` need no entry of their own. Every factor is a power of ten (degrees apart), and
-//! conversions shift the decimal point of the decimal number that was typed, so that `230.3 um` becomes the very
-//! number `230.3e-6`, which neither 230.3 * 1e-6 nor 230.3 / 1e6 is.
+//! that `mJ/m2`, `nN/nm` and `g/cm^3` need no entry of their own. Most factors are powers of ten, and conversions shift
+//! the decimal point of the decimal number that was typed, so that `230.3 um` becomes the very number `230.3e-6`, which
+//! neither 230.3 * 1e-6 nor 230.3 / 1e6 is.
+//!
+//! `degC` and `degF` have a zero of their own. It counts where such a unit stands alone and a value is converted; a
+//! difference of two values, and a product such as `W/m2/degC`, only has the scale.
 
 use std::fmt;
 
@@ -14,7 +17,7 @@ use super::{Dimension, UnitError};
 /// A unit symbol, its factor to SI and its dimension.
 ///
 /// Two units are equal if they were typed alike; see [`compatible`](Self::compatible) for the same dimension.
-/// As JSON or TOML it is its symbol.
+/// As JSON it is its symbol; read from there, a text that is no unit is a [`label`](Self::label).
 ///
 /// ```
 /// use apportion::quantity::{Dimension, Unit};
@@ -25,31 +28,53 @@ use super::{Dimension, UnitError};
 /// assert_eq!(Unit::parse("mJ/m^2")?.dimension(), Unit::parse("N/m")?.dimension());
 /// assert_eq!(Unit::parse("GPa")?.dimension().to_string(), "a pressure");
 /// assert!(Unit::parse("furlong").is_err());
+/// let celsius = Unit::parse("degC")?;
+/// assert_eq!((celsius.to_si(20.0), celsius.span_to_si(20.0)), (293.15, 20.0));
 /// # Ok::<(), apportion::quantity::UnitError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(from = "String", into = "String")]
 pub struct Unit {
     symbol: String,
-    /// The factor is 10^decade (pi / 180)^degrees.
+    /// The factor is 10^decade times / over (pi / 180)^degrees.
     decade: i32,
+    times: f64,
+    over: f64,
     degrees: i8,
+    /// What is added to a value, in this unit, before it is multiplied.
+    offset: f64,
     dimension: Dimension,
+    is_label: bool,
 }
 
-/// A symbol that prefixes apply to: factor 10^decade to SI.
+/// A symbol that prefixes apply to: factor 10^decade times / over to SI.
 struct Symbol {
     name: &'static str,
     prefixes: &'static str,
     decade: i32,
+    times: f64,
+    over: f64,
+    offset: f64,
     dimension: Dimension,
 }
 
 const fn symbol(name: &'static str, prefixes: &'static str, dimension: Dimension) -> Symbol {
-    Symbol { name, prefixes, decade: 0, dimension }
+    Symbol { name, prefixes, decade: 0, times: 1.0, over: 1.0, offset: 0.0, dimension }
 }
 
-const SYMBOLS: [Symbol; 25] = [
+/// A symbol without prefixes, whose factor to SI is `times` 10^decade.
+const fn multiple(name: &'static str, times: f64, decade: i32, dimension: Dimension) -> Symbol {
+    Symbol { decade, times, ..symbol(name, "", dimension) }
+}
+
+const CELSIUS: Symbol = Symbol { offset: 273.15, ..symbol("degC", "", Dimension::TEMPERATURE) };
+const FAHRENHEIT: Symbol =
+    Symbol { offset: 459.67, times: 5.0, over: 9.0, ..symbol("degF", "", Dimension::TEMPERATURE) };
+
+/// Hundreds of seconds in a Julian year, of 365.25 days.
+const YEAR: f64 = 315_576.0;
+
+const SYMBOLS: [Symbol; 46] = [
     symbol("m", "kcmunp", Dimension::LENGTH),
     Symbol { decade: -3, ..symbol("g", "kmunp", Dimension::MASS) },
     symbol("s", "munp", Dimension::TIME),
@@ -73,7 +98,29 @@ const SYMBOLS: [Symbol; 25] = [
     symbol("rad", "munp", Dimension::ANGLE),
     symbol("deg", "m", Dimension::ANGLE),
     symbol("°", "", Dimension::ANGLE),
-    Symbol { decade: -2, ..symbol("%", "", Dimension::NUMBER) },
+    multiple("min", 6.0, 1, Dimension::TIME),
+    multiple("h", 36.0, 2, Dimension::TIME),
+    multiple("hour", 36.0, 2, Dimension::TIME),
+    multiple("d", 864.0, 2, Dimension::TIME),
+    multiple("day", 864.0, 2, Dimension::TIME),
+    multiple("yr", YEAR, 2, Dimension::TIME),
+    multiple("year", YEAR, 2, Dimension::TIME),
+    multiple("angstrom", 1.0, -10, Dimension::LENGTH),
+    multiple("\u{c5}", 1.0, -10, Dimension::LENGTH),
+    multiple("inch", 254.0, -4, Dimension::LENGTH),
+    multiple("ft", 3048.0, -4, Dimension::LENGTH),
+    // A pound, 0.45359237 kg, at 9.80665 m/s2 on a square inch.
+    Symbol { over: 64_516.0, ..multiple("psi", 44_482_216_152_605.0, -5, Dimension::PRESSURE) },
+    multiple("atm", 101_325.0, 0, Dimension::PRESSURE),
+    Symbol { prefixes: "GMkm", ..multiple("Wh", 36.0, 2, Dimension::ENERGY) },
+    Symbol { prefixes: "GMkm", ..multiple("eV", 1_602_176_634.0, -28, Dimension::ENERGY) },
+    CELSIUS,
+    Symbol { name: "\u{b0}C", ..CELSIUS },
+    FAHRENHEIT,
+    Symbol { name: "\u{b0}F", ..FAHRENHEIT },
+    multiple("%", 1.0, -2, Dimension::NUMBER),
+    multiple("ppm", 1.0, -6, Dimension::NUMBER),
+    multiple("ppb", 1.0, -9, Dimension::NUMBER),
     symbol("1", "", Dimension::NUMBER),
 ];
 
@@ -81,7 +128,7 @@ const PREFIXES: [(char, i32); 8] =
     [('G', 9), ('M', 6), ('k', 3), ('c', -2), ('m', -3), ('u', -6), ('n', -9), ('p', -12)];
 
 /// Factors beyond this power of ten are refused: values would leave the range of `f64`.
-const MOST_DECADES: i32 = 100;
+const MOST_DECADES: f64 = 100.0;
 
 /// Every spelling of every symbol with its prefix, and the decade that the prefix adds.
 fn spellings() -> impl Iterator<Item = (String, &'static Symbol, i32)> {
@@ -95,7 +142,28 @@ fn spellings() -> impl Iterator<Item = (String, &'static Symbol, i32)> {
 impl Unit {
     /// The unit of pure numbers, `1`.
     pub fn dimensionless() -> Self {
-        Self { symbol: "1".to_owned(), decade: 0, degrees: 0, dimension: Dimension::NUMBER }
+        Self::called("1")
+    }
+
+    /// The unit `text` where it is one, else a label: a unit of its own kind, whose numbers stay as they are. Outputs of
+    /// programs have such units, as `USD` or `points`.
+    ///
+    /// ```
+    /// use apportion::quantity::Unit;
+    ///
+    /// let price = Unit::label("EUR/kWh");
+    /// assert_eq!((price.symbol(), price.to_si(0.3)), ("EUR/kWh", 0.3));
+    /// assert!(!price.compatible(&Unit::label("USD/kWh")));
+    /// assert_eq!(Unit::label("nN").to_si(3.0), 3e-9);
+    /// ```
+    pub fn label(text: &str) -> Self {
+        Self::parse(text).unwrap_or_else(|_| Self { is_label: true, ..Self::called(text.trim()) })
+    }
+
+    /// Pure numbers, whose unit is written so.
+    fn called(symbol: &str) -> Self {
+        let (symbol, dimension) = (symbol.to_owned(), Dimension::NUMBER);
+        Self { symbol, decade: 0, times: 1.0, over: 1.0, degrees: 0, offset: 0.0, dimension, is_label: false }
     }
 
     /// Reads a unit: symbols with powers (`m2`, `m^2`, `m²`, `m-2`) joined by a space, `*`, `·` or `.`, and divided
@@ -108,11 +176,11 @@ impl Unit {
     /// ambiguous; so is a factor to SI beyond 10^100.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
         let malformed = |reason| UnitError::Malformed { unit: text.to_owned(), reason };
-        let symbol = text.trim().to_owned();
-        let mut unit = Self { symbol, decade: 0, degrees: 0, dimension: Dimension::NUMBER };
+        let mut unit = Self::called(text.trim());
         if unit.symbol.is_empty() {
             return Ok(unit);
         }
+        let mut offsets = Vec::new();
         for (place, part) in plain(&unit.symbol.clone()).split('/').enumerate() {
             let mut factors = part.split(['*', '.', ' ']).filter(|factor| !factor.is_empty()).peekable();
             if factors.peek().is_none() {
@@ -125,17 +193,22 @@ impl Unit {
                     ));
                 }
                 let power = if place == 0 { 1 } else { -1 };
-                unit.multiply(factor, power, text)?;
+                offsets.extend(unit.multiply(factor, power, text)?);
             }
         }
-        if unit.decade.abs() > MOST_DECADES {
+        if let [(offset, 1)] = offsets[..] {
+            unit.offset = offset;
+        }
+        let decades = f64::from(unit.decade) + (unit.times / unit.over).log10();
+        if !(decades.abs() <= MOST_DECADES) {
             return Err(malformed("its factor to SI is beyond 10^100"));
         }
         Ok(unit)
     }
 
-    /// Multiplies by one factor, such as `mm^2`, to the power 1 or -1.
-    fn multiply(&mut self, factor: &str, sign: i8, text: &str) -> Result<(), UnitError> {
+    /// Multiplies by one factor, such as `mm^2`, to the power 1 or -1. Returns the offset and the power of every symbol in
+    /// it, but for `1`.
+    fn multiply(&mut self, factor: &str, sign: i8, text: &str) -> Result<Vec<(f64, i8)>, UnitError> {
         let malformed = |reason| UnitError::Malformed { unit: text.to_owned(), reason };
         let end = factor.find(|c: char| c.is_ascii_digit() || "^+-".contains(c)).filter(|end| *end > 0);
         let (name, exponent) = factor.split_at(end.unwrap_or(factor.len()));
@@ -152,15 +225,22 @@ impl Unit {
             symbol: name.to_owned(),
             nearest: nearest(name),
         })?;
+        let mut offsets = Vec::new();
         for (symbol, prefix) in found {
             let too_high = || malformed("its powers are too high");
+            let (times, over) = (symbol.times.powi(power.abs().into()), symbol.over.powi(power.abs().into()));
+            let (times, over) = if power * sign > 0 { (times, over) } else { (over, times) };
+            (self.times, self.over) = (self.times * times, self.over * over);
             self.decade += (symbol.decade + prefix) * i32::from(power * sign);
             self.dimension = self.dimension.times(symbol.dimension, power * sign).ok_or_else(too_high)?;
             if matches!(symbol.name, "deg" | "°") {
                 self.degrees = self.degrees.checked_add(power * sign).ok_or_else(too_high)?;
             }
+            if symbol.name != "1" {
+                offsets.push((symbol.offset, power * sign));
+            }
         }
-        Ok(())
+        Ok(offsets)
     }
 
     /// The symbol as typed, without the spaces around it.
@@ -173,23 +253,61 @@ impl Unit {
         self.dimension
     }
 
-    /// Whether values in one unit can be turned into the other: the same dimension.
+    /// Whether values in one unit can be turned into the other: the same dimension, and the same label if they have one.
     pub fn compatible(&self, other: &Self) -> bool {
-        self.dimension == other.dimension
+        let is_label = self.is_label || other.is_label;
+        self.dimension == other.dimension && (!is_label || self == other)
     }
 
-    /// A value in this unit, in SI: the `f64` nearest to the decimal number typed, with its decimal point shifted;
-    /// degrees are then within 1 ulp. Overflows to infinity. Some 0.2 us, so not for inner loops.
+    /// Whether its zero is not that of SI, as the zero of `degC`: ratios of its values have no meaning.
+    pub fn has_offset(&self) -> bool {
+        self.offset != 0.0
+    }
+
+    /// A value in this unit, in SI. Where the factor is a power of ten, it is the `f64` nearest to the decimal number
+    /// typed, with its decimal point shifted; else it is within 2 ulp. Overflows to infinity. Some 0.2 us, so not for
+    /// inner loops.
     pub fn to_si(&self, value: f64) -> f64 {
-        shift(value, self.decade) * 1f64.to_radians().powi(self.degrees.into())
+        self.span_to_si(if self.has_offset() { value + self.offset } else { value })
     }
 
-    /// A value in SI, in this unit; `from_si(to_si(x))` is `x` for numbers of up to 15 digits and no
-    /// degrees, else to within 2 ulp.
+    /// A value in SI, in this unit; `from_si(to_si(x))` is `x` for numbers of up to 15 digits where the factor is a power
+    /// of ten, else to within 2 ulp, where a unit has an offset of the value and the offset together.
     pub fn from_si(&self, value: f64) -> f64 {
-        shift(value / 1f64.to_radians().powi(self.degrees.into()), -self.decade)
+        if !self.has_offset() {
+            return self.span_from_si(value);
+        }
+        let near = self.span_from_si(value) - self.offset;
+        // The decimal number that may have been typed, without the rounding errors of a sum.
+        let typed: Option<f64> = format!("{near:.10}").parse().ok();
+        typed.filter(|typed| self.to_si(*typed) == value).unwrap_or(near)
+    }
+
+    /// A difference of two values in this unit, such as a standard deviation, in SI: without the offset of `degC`.
+    pub fn span_to_si(&self, span: f64) -> f64 {
+        let multiplied = if self.is_decimal() { span } else { span * self.times / self.over };
+        shift(multiplied, self.decade) * 1f64.to_radians().powi(self.degrees.into())
+    }
+
+    /// A difference of two values in SI, in this unit.
+    pub fn span_from_si(&self, span: f64) -> f64 {
+        let shifted = shift(span / 1f64.to_radians().powi(self.degrees.into()), -self.decade);
+        if self.is_decimal() { shifted } else { shifted * self.over / self.times }
+    }
+
+    /// Whether the factor is a power of ten, degrees apart.
+    fn is_decimal(&self) -> bool {
+        self.times == 1.0 && self.over == 1.0
     }
 }
+
+impl PartialEq for Unit {
+    fn eq(&self, other: &Self) -> bool {
+        self.symbol == other.symbol
+    }
+}
+
+impl Eq for Unit {}
 
 /// `value * 10^decade`, `value` standing for the shortest decimal number that is read as it.
 fn shift(value: f64, decade: i32) -> f64 {
@@ -217,8 +335,9 @@ fn plain(text: &str) -> String {
             '\u{b2}' => '2',
             '\u{b3}' => '3',
             '\u{2074}' => '4',
-            // The sign of the ohm is the Greek letter.
+            // The sign of the ohm is the Greek letter, that of the angstrom the Swedish one.
             '\u{2126}' => '\u{3a9}',
+            '\u{212b}' => '\u{c5}',
             other => other,
         })
         .collect()
@@ -260,11 +379,9 @@ impl fmt::Display for Unit {
     }
 }
 
-impl TryFrom<String> for Unit {
-    type Error = UnitError;
-
-    fn try_from(text: String) -> Result<Self, UnitError> {
-        Self::parse(&text)
+impl From<String> for Unit {
+    fn from(text: String) -> Self {
+        Self::label(&text)
     }
 }
 

@@ -30,7 +30,7 @@ pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usiz
     let kept: Vec<&PointOutputs> = run.replicates.iter().map(|t| &t.outputs[number].kept).collect();
     let judgement = Judgement { points: KeptPoints::all(run.design, &kept), ..judgement(study) };
     let moments = output_moments(&parts, &judgement);
-    let squared = |x: f64| unit.from_si(unit.from_si(x));
+    let squared = |x: f64| unit.span_from_si(unit.span_from_si(x));
     let in_unit = |x: f64| unit.from_si(x);
     let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>()).fewest();
     let failure = |(failure, tally): (&RowFailure, &Tally)| failure_record(run, failure, *tally);
@@ -216,7 +216,7 @@ fn distribution_record(
     (sample.mean, sample.min, sample.max) = (unit.from_si(values.mean()?), unit.from_si(min), unit.from_si(max));
     let n = values.count();
     let sd = (values.variance()? * (n as f64 / (n as f64 - 1.0))).sqrt();
-    sample.sd = (n > 1).then(|| unit.from_si(sd)).filter(|sd| sd.is_finite());
+    sample.sd = (n > 1).then(|| unit.span_from_si(sd)).filter(|sd| sd.is_finite());
     (sample.skewness, sample.excess_kurtosis) = (values.skewness(), values.excess_kurtosis());
     let quantiles = sample.quantiles.iter().map(|quantile| quantile.value);
     let edges = sample.histogram.iter().flat_map(|histogram| histogram.edges.iter().copied());

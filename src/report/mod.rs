@@ -36,8 +36,8 @@ pub use schema::result_schema;
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
 pub(crate) use tables::csv_field;
 pub use tables::{
-    convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,
-    summary, table, two_digits, with_unit,
+    TextTable, convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs,
+    significant, summary, table, two_digits, with_unit, wrapped,
 };
 pub use trend::{widest_interval, width_after_doubling};
 pub use write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};

@@ -3,7 +3,7 @@
 use super::order::{Agreement, Standing, VISIBLE, order_of, outweighing};
 use super::published::CLOSE;
 use super::{GROUPS, Published, Reproduced, published};
-use crate::report::{EffectRecord, IndexRecord, capitalised, estimate, fixed, share, share_of_runs, table};
+use crate::report::{EffectRecord, IndexRecord, TextTable, capitalised, estimate, fixed, share, share_of_runs, table};
 
 /// The table that `reproduce` prints: for each group of studies the shares of every factor under every friction model,
 /// then the order of the factors, ours and the published one, and whether they agree.
@@ -28,7 +28,7 @@ pub fn comparison_table(studies: &[Reproduced]) -> String {
     text
 }
 
-fn add_rows(table: &mut comfy_table::Table, member: &Reproduced) {
+fn add_rows(table: &mut TextTable, member: &Reproduced) {
     let print = published(member.group.key, member.friction.key);
     for (number, index) in indices(member).iter().enumerate() {
         let effect = &index.effect;

@@ -175,7 +175,7 @@ pub fn screen_until(
 /// The factors of one output, from its effects in SI units, factor by factor within each trajectory.
 fn screened(output: &Output, effects: &[f64], (factors, parts): (usize, usize)) -> Vec<ScreenedFactor> {
     let of_factor = |j: usize| -> Vec<f64> {
-        effects.iter().skip(j).step_by(factors).map(|effect| output.unit.from_si(*effect)).collect()
+        effects.iter().skip(j).step_by(factors).map(|effect| output.unit.span_from_si(*effect)).collect()
     };
     let mut screened: Vec<ScreenedFactor> = (0..factors)
         .map(|j| {

@@ -6,7 +6,8 @@ use toml::Value;
 
 use super::error::{Problem, nearest};
 use super::file::At;
-use super::resolve::{Context, Fault, in_words_of_units, with_unit};
+use super::resolve::{Context, Fault};
+use super::units::{in_words_of_units, with_unit};
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion};
 use crate::model::edge_unit;
 use crate::quantity::{Dimension, Quantity, Unit};

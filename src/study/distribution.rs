@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::error::{Problem, nearest};
+use super::error::{Problem, meant};
 use super::file::{At, FactorSection};
 use super::measured;
 use super::resolve::{Context, Fault};
@@ -107,7 +107,7 @@ pub(super) fn of(context: &Context<'_>, section: &At<FactorSection>) -> Result<D
         let problem = Problem::UnknownName {
             what: "distribution",
             name: typed.to_owned(),
-            nearest: nearest(typed, FORMS.iter().map(|form| form.name)),
+            nearest: meant(typed, FORMS.iter().map(|form| form.name)),
             expected: FORMS.iter().map(|form| form.name.to_owned()).collect(),
         };
         return Err(context.fault(span, problem));
@@ -278,7 +278,9 @@ fn blamed_key(error: &DistributionError) -> Option<&'static str> {
         DistributionError::Lengths { .. }
         | DistributionError::NegativeWeight { .. }
         | DistributionError::ZeroWeights => Some("weights"),
-        DistributionError::Overflow { .. } | DistributionError::Determined { .. } => None,
+        DistributionError::Overflow { .. }
+        | DistributionError::Determined { .. }
+        | DistributionError::OffsetUnit { .. } => None,
     }
 }
 

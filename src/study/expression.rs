@@ -6,8 +6,9 @@ use toml::Value;
 
 use super::error::{Problem, nearest};
 use super::file::{At, Choices, ExpressionSection, FactorSection};
-use super::resolve::{Context, Fault, chosen, own_inputs};
+use super::resolve::{Context, Fault, chosen};
 use super::subject::{ExpressionConstant, ExpressionSubject, Formula};
+use super::units::own_inputs;
 use crate::model::{Expression, ExpressionProblem, Input, Symbol};
 use crate::quantity::{Quantity, Unit};
 use crate::space::Space;

@@ -4,8 +4,9 @@ use toml::Value;
 
 use super::error::Problem;
 use super::file::{At, ExternalSection, FactorSection};
-use super::resolve::{Context, Fault, own_inputs, unknown_name};
+use super::resolve::{Context, Fault, unknown_name};
 use super::subject::ExternalSubject;
+use super::units::{output_unit, own_inputs};
 use crate::model::{Input, Output};
 use crate::quantity::Unit;
 
@@ -64,8 +65,7 @@ fn output(context: &Context<'_>, name: &At<String>, unit: &At<Value>) -> Result<
         let expected = "the output's unit as text, as in \"nN\", or \"1\" for none".to_owned();
         return Err(context.fault(unit.span(), Problem::WrongType { key, expected, found }));
     };
-    let unit = Unit::parse(text).map_err(|error| context.fault(unit.span(), error.into()))?;
-    Ok(external_output(name.get_ref(), unit))
+    Ok(external_output(name.get_ref(), output_unit(context, unit, text)?))
 }
 
 fn external_output(name: &str, unit: Unit) -> Output {

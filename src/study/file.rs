@@ -1,5 +1,5 @@
-//! What was typed: the study file as TOML sees it, every value with its place in the text. The comments on its fields are
-//! what editors show, by the schema.
+//! What was typed: the study file as TOML sees it, every value with its place in the text, once [`forms`](super::forms) has
+//! brought what can be written in several ways to one. The comments on its fields are what editors show, by the schema.
 
 use std::collections::BTreeMap;
 
@@ -25,8 +25,9 @@ pub(super) struct StudyFile {
     /// What is studied; `apportion models` lists what there is.
     #[schemars(extend("enum" = schema::models(), "default" = "afm"))]
     pub model: Option<At<String>>,
-    /// Outputs that are asked for; the model's first by default.
-    #[schemars(length(min = 1))]
+    /// Outputs that are asked for; the model's first by default. Of formulas, programs and models outside it can also be
+    /// the table that stands in theirs: outputs.y = "x1 + x2", or outputs.y = "nN".
+    #[schemars(schema_with = "schema::outputs")]
     pub outputs: Option<At<Vec<At<String>>>>,
     /// The physics of the nanoparticle model: choices by name, and inputs that are fixed, with their units.
     #[serde(default)]
@@ -51,8 +52,10 @@ pub(super) struct StudyFile {
     /// What is asked of the runs beside first-order and total indices.
     #[serde(default)]
     pub analysis: AnalysisSection,
-    /// The inputs whose influence is asked for; their order assigns the dimensions of the sequence.
+    /// The inputs whose influence is asked for: tables [[factor]] or [factor.NAME], whose order in the file assigns the
+    /// dimensions of the sequence.
     #[serde(default)]
+    #[schemars(schema_with = "schema::factors")]
     pub factor: Vec<At<FactorSection>>,
 }
 
@@ -225,22 +228,4 @@ pub(super) enum Nominal {
     Truth(bool),
     Number(f64),
     Label(String),
-}
-
-impl StudyFile {
-    /// The keys it can have.
-    pub(super) const KEYS: [&str; 12] = [
-        "name",
-        "title",
-        "model",
-        "outputs",
-        "afm",
-        "function",
-        "expression",
-        "external",
-        "command",
-        "design",
-        "analysis",
-        "factor",
-    ];
 }

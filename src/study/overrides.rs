@@ -32,7 +32,10 @@ fn set(root: &mut Table, text: &str) -> Result<(), OverrideProblem> {
     let value = value.trim();
     let value: Value = value.parse().unwrap_or_else(|_| Value::from(value));
     match names[..] {
-        ["factor", factor, ref rest @ ..] if !rest.is_empty() => set_in(find_factor(root, factor)?, rest, value),
+        ["factor" | "factors", factor, ref rest @ ..] if !rest.is_empty() => {
+            set_in(find_factor(root, factor)?, rest, value)
+        }
+        ["outputs"] if root.get("outputs").is_some_and(Item::is_table_like) => Err(OverrideProblem::OutputsTable),
         _ => set_in(root, &names, value),
     }
 }
@@ -41,19 +44,32 @@ fn find_factor<'a>(root: &'a mut Table, name: &str) -> Result<&'a mut dyn TableL
     fn factor_name(table: &dyn TableLike) -> Option<&str> {
         table.get("name").and_then(Item::as_str)
     }
-    let mut factors: Vec<&mut dyn TableLike> = match root.get_mut("factor") {
-        Some(Item::ArrayOfTables(tables)) => tables.iter_mut().map(|table| table as &mut dyn TableLike).collect(),
-        Some(Item::Value(Value::Array(values))) => values
-            .iter_mut()
-            .filter_map(|value| value.as_inline_table_mut().map(|table| table as &mut dyn TableLike))
-            .collect(),
-        _ => Vec::new(),
+    fn named<'a>(tables: impl Iterator<Item = &'a mut dyn TableLike>) -> Vec<(String, &'a mut dyn TableLike)> {
+        tables.filter_map(|table| Some((factor_name(table)?.to_owned(), table))).collect()
+    }
+    let key = if root.contains_key("factor") { "factor" } else { "factors" };
+    let mut factors: Vec<(String, &mut dyn TableLike)> = match root.get_mut(key) {
+        Some(Item::ArrayOfTables(tables)) => named(tables.iter_mut().map(|table| table as &mut dyn TableLike)),
+        Some(Item::Value(Value::Array(values))) => {
+            let tables = values.iter_mut().filter_map(Value::as_inline_table_mut);
+            named(tables.map(|table| table as &mut dyn TableLike))
+        }
+        // The only factor, or one table for each by its name.
+        Some(item) => match item.as_table_like_mut() {
+            Some(table) if factor_name(table).is_some() => named(std::iter::once(table)),
+            Some(table) => {
+                let entries = table.iter_mut().map(|(name, item)| (name.get().to_owned(), item));
+                entries.filter_map(|(name, item)| Some((name, item.as_table_like_mut()?))).collect()
+            }
+            None => Vec::new(),
+        },
+        None => Vec::new(),
     };
-    let Some(place) = factors.iter().position(|table| factor_name(*table) == Some(name)) else {
-        let nearest = nearest(name, factors.iter().filter_map(|table| factor_name(*table)));
+    let Some(place) = factors.iter().position(|(found, _)| found == name) else {
+        let nearest = nearest(name, factors.iter().map(|(name, _)| name.as_str()));
         return Err(OverrideProblem::NoFactor { name: name.to_owned(), nearest });
     };
-    Ok(factors.swap_remove(place))
+    Ok(factors.swap_remove(place).1)
 }
 
 fn set_in(table: &mut dyn TableLike, names: &[&str], value: Value) -> Result<(), OverrideProblem> {
@@ -89,8 +105,25 @@ mod tests {
     }
 
     #[test]
+    fn a_factor_is_found_in_every_form() {
+        for (text, from, to) in [
+            ("[factor.a]\nmin = 1\n[factor.b]\nmin = 2\n", "min = 2", "min = 5"),
+            ("[factors]\na = { min = 1 }\nb = { min = 2 }\n", "min = 2", "min = 5"),
+            ("factor.a.min = 1\nfactor.b.min = 2\n", "min = 2", "min = 5"),
+            ("factors = [{ name = 'b', min = 2 }]\n", "min = 2", "min = 5"),
+            ("[factor]\nname = 'b'\nmin = 2\n", "min = 2", "min = 5"),
+        ] {
+            let applied = apply(text, &["factor.b.min=5".to_owned()]).unwrap();
+            assert_eq!(applied.as_deref(), Some(text.replace(from, to).as_str()));
+            assert!(matches!(apply(text, &["factor.c.min=5".to_owned()]), Err((_, OverrideProblem::NoFactor { .. }))));
+        }
+    }
+
+    #[test]
     fn what_makes_no_sense_is_named() {
         assert_eq!(applied("afm.friction"), Err(OverrideProblem::NoEquals));
+        let formulas = apply("outputs.y = 'x1'\n", &["outputs=['y']".to_owned()]);
+        assert_eq!(formulas.unwrap_err().1, OverrideProblem::OutputsTable);
         assert_eq!(applied("=3"), Err(OverrideProblem::EmptyKey(String::new())));
         assert_eq!(applied("afm.friction.x=3"), Err(OverrideProblem::NotATable("friction".to_owned())));
         // 30,000 parts once took more than a minute.

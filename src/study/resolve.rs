@@ -3,11 +3,12 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use super::error::{Diagnostic, Problem, nearest};
+use super::error::{Diagnostic, Problem, meant};
 use super::file::{At, Choices, FactorSection, StudyFile};
 use super::plan::{Plan, plan};
 use super::subject::{AfmSubject, KnownSubject, Subject};
-use super::{Study, command, constants, distribution, expression, external, function, nominal};
+use super::units::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_unit};
+use super::{Study, command, constants, distribution, expression, external, function, nominal, read};
 use crate::model::{AfmOutput, Input, ModelKind, known_inputs};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor, Space};
@@ -29,7 +30,7 @@ impl Context<'_> {
 
 /// The study that the text of `context` means.
 pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
-    let file: StudyFile = toml::from_str(context.text).map_err(|error| syntax(context, &error))?;
+    let file = read::study_file(context)?;
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
     let function = match kind {
@@ -95,46 +96,15 @@ fn refuse_outputs_of_factors(
     })
 }
 
-fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
-    let message = error.message();
-    let mut quoted = message.split('`').skip(1).step_by(2).map(str::to_owned);
-    let problem = match quoted.next() {
-        Some(name) if message.starts_with("unknown field") => {
-            let expected: Vec<String> = quoted.collect();
-            Problem::UnknownKey { nearest: nearest(&name, expected.iter().map(String::as_str)), name, expected }
-        }
-        _ => Problem::Syntax(in_words(message)),
-    };
-    context.fault(error.span().unwrap_or(0..0), problem)
-}
-
-/// The deserialiser's message without the names of Rust types.
-fn in_words(message: &str) -> String {
-    const WORDS: [(&str, &str); 12] = [
-        ("expected f64", "expected a number"),
-        ("expected u64", "expected a whole number from 0 to 9223372036854775807"),
-        ("expected struct DesignSection", "expected a table [design]"),
-        ("expected struct AnalysisSection", "expected a table [analysis]"),
-        ("expected struct TargetSection", "expected a table, as in { half_width = 0.01 }"),
-        ("expected struct FactorSection", "expected a table [[factor]]"),
-        ("expected struct CommandSection", "expected a table [command]"),
-        (
-            "invalid type: map, expected a sequence",
-            "expected a list: factors are written [[factor]], with two brackets",
-        ),
-        ("expected a map", "expected a table"),
-        ("expected a sequence", "expected a list in square brackets"),
-        ("expected a string", "expected a text in quotes"),
-        ("floating point", "the number"),
-    ];
-    WORDS.iter().fold(message.to_owned(), |text, (from, to)| text.replace(from, to))
-}
-
 fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<ModelKind, Fault> {
     let Some(model) = model else { return Ok(ModelKind::Afm) };
     ModelKind::from_name(model.get_ref()).ok_or_else(|| {
-        let all = ModelKind::all();
-        context.fault(model.span(), unknown_name("model", model.get_ref(), all.iter().map(|kind| kind.name())))
+        let (all, name) = (ModelKind::all(), model.get_ref());
+        let problem = match name.contains(['.', '/', '\\']) {
+            true => Problem::ModelFile(name.clone()),
+            false => unknown_name("model", name, all.iter().map(|kind| kind.name())),
+        };
+        context.fault(model.span(), problem)
     })
 }
 
@@ -146,7 +116,7 @@ pub(super) fn unknown_name<'a>(
     Problem::UnknownName {
         what,
         name: name.to_owned(),
-        nearest: nearest(name, known.clone()),
+        nearest: meant(name, known.clone()),
         expected: known.map(str::to_owned).collect(),
     }
 }
@@ -197,8 +167,13 @@ fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyF
     else {
         return Ok(());
     };
-    let expected = StudyFile::KEYS.into_iter().filter(|key| !foreign(key)).map(str::to_owned).collect();
-    Err(context.fault(span, Problem::UnknownKey { name: name.to_owned(), nearest: None, expected }))
+    let owner = match name {
+        "function" => "a function that has parameters".to_owned(),
+        name => format!("model = {name:?}"),
+    };
+    let default = if file.model.is_none() { " by default" } else { "" };
+    let right = format!("[{name}] belongs to {owner}, and the model of this study is {:?}{default}", kind.name());
+    Err(context.fault(span, Problem::Misplaced { name: name.to_owned(), right }))
 }
 
 fn afm(
@@ -242,22 +217,6 @@ pub(super) fn chosen(context: &Context<'_>, known: &[&str], asked: &At<Vec<At<St
     Ok(places)
 }
 
-/// The inputs of a model that has no others than the factors of the study, each in its own unit.
-pub(super) fn own_inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
-    let input = |section: &At<FactorSection>| {
-        let fields = section.get_ref();
-        let unit = match &fields.unit {
-            None => Unit::dimensionless(),
-            Some(typed) => Unit::parse(typed.get_ref()).map_err(|error| context.fault(typed.span(), error.into()))?,
-        };
-        let (name, symbol) = (fields.name.get_ref().clone(), fields.name.get_ref().clone());
-        // Not a number: nobody but the study says where it stands.
-        let (nominal, description) = (f64::NAN, "a factor of the study".to_owned());
-        Ok(Input { name, symbol, unit, nominal, domain: None, distribution: None, description })
-    };
-    factors.iter().map(input).collect()
-}
-
 fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]) -> Result<Space, Fault> {
     if sections.is_empty() {
         // All inputs by their own distributions, if they have one.
@@ -299,7 +258,7 @@ fn made(input: &Input, unit: Unit, distribution: Distribution) -> Result<Factor,
 fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> Result<Factor, Fault> {
     let place = section.get_ref().name.span();
     let fields = section.get_ref();
-    let unit = unit(context, fields, input)?;
+    let unit = unit_of_factor(context, fields, input)?;
     let distribution = match &input.distribution {
         Some(own) if distribution::is_unsaid(fields) => {
             refuse_unit_of_own(context, fields, &unit, input)?;
@@ -341,53 +300,10 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
     Ok(factor)
 }
 
-/// The input's own distribution is in the input's own unit.
-fn refuse_unit_of_own(context: &Context<'_>, fields: &FactorSection, unit: &Unit, input: &Input) -> Result<(), Fault> {
-    match &fields.unit {
-        Some(typed) if unit.to_si(1.0) != input.unit.to_si(1.0) => {
-            let (factor, unit) = (input.name.clone(), typed.get_ref().clone());
-            Err(context.fault(typed.span(), Problem::UnitOfOwn { factor, unit }))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// A domain for people who may be thinking in degrees.
-pub(super) fn in_words_of_units(domain: crate::afm::Domain) -> String {
-    match domain {
-        crate::afm::Domain::AcuteAngle => "in [0, 90 deg]".to_owned(),
-        other => other.to_string(),
-    }
-}
-
-/// `value` as typed, with its unit if it has one.
-pub(super) fn with_unit(value: f64, unit: &str) -> String {
-    if matches!(unit, "" | "1") { value.to_string() } else { format!("{value} {unit}") }
-}
-
 /// The model's own nominal value, or the middle of the distribution where that is none of its values.
 fn default_nominal(input: &Input, unit: &Unit, distribution: &Distribution) -> f64 {
     let (low, high) = distribution.support();
     let nominal = unit.from_si(input.unit.to_si(input.nominal));
     let fits = low <= nominal && nominal <= high && nominal::is_value(distribution, nominal);
     if fits { nominal } else { distribution.central() }
-}
-
-fn unit(context: &Context<'_>, fields: &FactorSection, input: &Input) -> Result<Unit, Fault> {
-    let dimension = || input.unit.dimension().to_string();
-    let (name, example) = (format!("factor `{}`", input.name), format!("unit = \"{}\"", input.unit));
-    let Some(typed) = &fields.unit else {
-        if input.unit.compatible(&Unit::dimensionless()) {
-            return Ok(Unit::dimensionless());
-        }
-        let problem = Problem::MissingUnit { name, dimension: dimension(), example };
-        return Err(context.fault(fields.name.span(), problem));
-    };
-    let unit = Unit::parse(typed.get_ref()).map_err(|error| context.fault(typed.span(), error.into()))?;
-    if !unit.compatible(&input.unit) {
-        let found = unit.dimension().to_string();
-        let problem = Problem::WrongUnit { name, expected: dimension(), unit: unit.to_string(), found, example };
-        return Err(context.fault(typed.span(), problem));
-    }
-    Ok(unit)
 }

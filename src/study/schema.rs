@@ -3,12 +3,12 @@
 
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
-use schemars::{Schema, SchemaGenerator};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
 use super::constants::CHOICES;
 use super::distribution::FORMS;
-use super::file::StudyFile;
+use super::file::{FactorSection, StudyFile};
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
 use crate::design::Sampler;
 use crate::estimate::Estimator;
@@ -25,7 +25,30 @@ use crate::uncertainty::IntervalMethod;
 /// ```
 pub fn study_schema() -> Value {
     let settings = SchemaSettings::draft07().with_transform(RecursiveTransform(without_null));
-    settings.into_generator().into_root_schema_for::<StudyFile>().to_value()
+    let mut schema = settings.into_generator().into_root_schema_for::<StudyFile>().to_value();
+    if let Some(properties) = schema["properties"].as_object_mut() {
+        let mut plural = properties.get("factor").cloned().unwrap_or_default();
+        plural["description"] = json!("The same as `factor`.");
+        properties.insert("factors".to_owned(), plural);
+    }
+    schema
+}
+
+/// Where a key stands in a study file, in words; `None` if there is no such key.
+pub(super) fn table_of(key: &str) -> Option<&'static str> {
+    let schema = study_schema();
+    let has = |table: &Value| table["properties"].get(key).is_some();
+    if has(&schema) {
+        return Some("at the top of the file, above the first table");
+    }
+    let tables = [
+        ("DesignSection", "in the table [design]"),
+        ("AnalysisSection", "in the table [analysis]"),
+        ("FactorSection", "in the table [[factor]] of a factor"),
+        ("CommandSection", "in the table [command]"),
+        ("ExpressionSection", "in the table [expression]"),
+    ];
+    tables.into_iter().find(|(name, _)| has(&schema["definitions"][*name])).map(|(_, words)| words)
 }
 
 /// TOML has no null: what is not said is left out.
@@ -119,6 +142,25 @@ pub(super) fn function(_: &mut SchemaGenerator) -> Schema {
             .or_insert_with(|| json!({ "anyOf": number_or_list(), "description": parameter.description }));
     }
     object(properties)
+}
+
+/// `outputs`: names, or the table that stands in that of the model.
+pub(super) fn outputs(_: &mut SchemaGenerator) -> Schema {
+    let names = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
+    schemars::json_schema!({ "anyOf": [names, { "type": "object" }] })
+}
+
+/// `factor`: tables in a list, tables by the names of the factors, or the only one.
+pub(super) fn factors(generator: &mut SchemaGenerator) -> Schema {
+    let with_name = generator.subschema_for::<FactorSection>();
+    let mut named = FactorSection::json_schema(generator);
+    named.remove("required");
+    named.remove("description");
+    schemars::json_schema!({ "anyOf": [
+        { "type": "array", "items": with_name },
+        { "type": "object", "additionalProperties": named },
+        with_name
+    ] })
 }
 
 /// `[expression] outputs`: formulas by the names of their outputs.

@@ -21,7 +21,7 @@ pub struct LocalSensitivity {
     /// The truncation error is usually far smaller.
     pub derivative_error: f64,
     /// The elasticity d ln y / d ln x = (x/y) dy/dx: by so many percent y changes when x changes by 1 %. `None` where x
-    /// or y is 0.
+    /// or y is 0, and in units such as `degC`, of which 1 % has no meaning.
     pub elasticity: Option<f64>,
     /// How far `elasticity` may be off.
     pub elasticity_error: Option<f64>,
@@ -70,7 +70,12 @@ pub(super) fn local(
         let y: Vec<f64> = curve.values.into_iter().flatten().collect();
         points.derivative(&y).filter(|local| local.derivative.is_finite()).ok_or(NoDerivative::Overflow)
     };
-    Ok(curves.into_iter().map(of_output).collect())
+    let locals = curves.into_iter().map(of_output).zip(bench.offsets());
+    let relative = locals.map(|(local, of_output)| match of_output || factor.unit().has_offset() {
+        true => local.map(|local| LocalSensitivity { elasticity: None, elasticity_error: None, ..local }),
+        false => local,
+    });
+    Ok(relative.collect())
 }
 
 /// Where the output is asked: the nominal point, then h and h/2 to both sides, or h/2, h and 2 h to one.

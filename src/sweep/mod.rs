@@ -82,7 +82,7 @@ pub struct Extent {
     /// The value at the last place of the sweep, if its run succeeded.
     pub last: Option<f64>,
     /// 100 (high - low)/|nominal|: by so many percent of its nominal value the output moves; `None` where the nominal
-    /// value is 0 or does not exist.
+    /// value is 0 or does not exist, or is in a unit such as `degC`, of which 1 % has no meaning.
     pub percent: Option<f64>,
 }
 
@@ -152,7 +152,10 @@ fn one(
             Ok(FamilyCurve { factor: other, value, outputs })
         })
         .collect::<Result<_, Halt>>()?;
-    let extents = curves.iter().zip(nominal).map(|(curve, nominal)| Extent::of(curve, nominal.as_ref().ok()));
+    let offsets = bench.offsets();
+    let extents = curves.iter().zip(nominal).zip(&offsets);
+    // Of a temperature in degC there are no percent.
+    let extents = extents.map(|((curve, nominal), offset)| Extent::of(curve, nominal.as_ref().ok().filter(|_| !offset)));
     Ok(Sweep {
         factor,
         extents: extents.collect(),

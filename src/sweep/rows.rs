@@ -28,6 +28,11 @@ impl<'a> Bench<'a> {
         Self { space, model, crew: Crew::new(model, stop), batch: Batch::of(model), nominal, runs: 0, flags }
     }
 
+    /// For each output: whether its unit has a zero of its own.
+    pub fn offsets(&self) -> Vec<bool> {
+        self.model.outputs().iter().map(|output| output.unit.has_offset()).collect()
+    }
+
     /// Every output for each of `values` of one factor, in its unit, with one other factor perhaps moved from its
     /// nominal value.
     ///

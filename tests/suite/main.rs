@@ -32,4 +32,6 @@ mod reproduce;
 mod scenes;
 mod schema;
 mod screening;
+mod study_forms;
+mod units;
 mod workflows;

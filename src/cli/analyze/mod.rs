@@ -51,8 +51,7 @@ pub struct Arguments {
 
 fn output_unit(text: &str) -> Result<(String, Unit), String> {
     let (name, unit) = text.split_once('=').ok_or("expected NAME=UNIT, as in force=nN")?;
-    let unit = Unit::parse(unit.trim()).map_err(|error| error.to_string())?;
-    Ok((name.trim().to_owned(), unit))
+    Ok((name.trim().to_owned(), Unit::label(unit)))
 }
 
 pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {

@@ -13,8 +13,9 @@ use apportion::salib::{LayoutError, SalibLayout, SalibProblem, check_points, rec
 use apportion::study::Study;
 use sha2::{Digest, Sha256};
 
+use super::super::pictures::say_written;
 use super::super::run::default_folder;
-use super::super::{Failure, print, say};
+use super::super::{Failure, print};
 
 #[derive(clap::Args)]
 pub struct SalibArguments {
@@ -85,9 +86,7 @@ pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
     let result = build_salib(&names, &analysed.collect::<Vec<_>>(), &facts);
     let written = write_files(arguments, &result)?;
     print(&salib_summary(&result))?;
-    for path in written {
-        say(&format!("wrote {}", path.display()));
-    }
+    say_written(&written);
     Ok(())
 }
 

@@ -84,6 +84,52 @@ pub(super) fn number(name: &str) -> Option<f64> {
     NUMBERS.into_iter().find(|(other, _)| *other == name).map(|(_, number)| number)
 }
 
+/// What a name of Python's modules stands for.
+pub(super) enum Member {
+    Function(Function),
+    Number(f64),
+}
+
+/// Functions of NumPy and of Python's `math` that are called otherwise here, or not at all.
+const PYTHON: [(&str, Function); 17] = [
+    // There without doubt the natural one.
+    ("log", Function::One(f64::ln)),
+    ("arcsin", Function::One(f64::asin)),
+    ("arccos", Function::One(f64::acos)),
+    ("arctan", Function::One(f64::atan)),
+    ("arctan2", Function::Two(f64::atan2)),
+    ("absolute", Function::One(f64::abs)),
+    ("fabs", Function::One(f64::abs)),
+    ("square", Function::One(square)),
+    ("power", Function::Two(f64::powf)),
+    ("pow", Function::Two(f64::powf)),
+    ("maximum", Function::Several(largest)),
+    ("minimum", Function::Several(least)),
+    ("where", Function::Select),
+    // Python rounds halves to even numbers.
+    ("round", Function::One(f64::round_ties_even)),
+    ("rint", Function::One(f64::round_ties_even)),
+    ("radians", Function::One(f64::to_radians)),
+    ("degrees", Function::One(f64::to_degrees)),
+];
+
+/// What `name`, such as `np.sin` or `math.pi`, stands for.
+pub(super) fn member(name: &str) -> Option<Member> {
+    let (module, name) = name.split_once('.')?;
+    if !matches!(module, "np" | "numpy" | "math") {
+        return None;
+    }
+    let python = PYTHON.into_iter().find(|(other, _)| *other == name).map(|(_, function)| function);
+    // No module has a function of these names that means the same: NumPy's min and max are of one array.
+    let function = python.or_else(|| named(name).filter(|_| !matches!(name, "if" | "min" | "max" | "ln")));
+    let number = || if name == "e" { Some(std::f64::consts::E) } else { number(name) };
+    function.map(Member::Function).or_else(|| number().map(Member::Number))
+}
+
+fn square(x: f64) -> f64 {
+    x * x
+}
+
 pub(super) fn vocabulary() -> Vec<&'static str> {
     FUNCTIONS.into_iter().map(|(name, _)| name).chain(NUMBERS.into_iter().map(|(name, _)| name)).collect()
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::Symbol;
 use super::error::{ExpressionError, ExpressionProblem};
-use super::functions::{self, Function};
+use super::functions::{self, Function, Member};
 use super::program::{Comparison, Program, Step};
 use super::token::{Token, tokens};
 
@@ -65,7 +65,7 @@ impl Parser<'_> {
     fn expected(&self, expected: &'static str) -> ExpressionError {
         let found = match self.peek() {
             Token::Number(number) => format!("the number {number}"),
-            Token::Name(name) => format!("`{name}`"),
+            Token::Name(name) | Token::Member(name) => format!("`{name}`"),
             Token::Sign(sign) => format!("`{sign}`"),
             Token::End => "the end of the formula".to_owned(),
         };
@@ -165,7 +165,30 @@ impl Parser<'_> {
             Token::Name(name) => {
                 let place = self.place();
                 self.advance();
-                if self.take("(") { self.call(&name, place) } else { self.name(&name, place) }
+                if !self.take("(") {
+                    return self.name(&name, place);
+                }
+                let function = self.function(&name, place.clone())?;
+                self.call((&name, function), place)
+            }
+            Token::Member(name) => {
+                let place = self.place();
+                self.advance();
+                let is_call = self.take("(");
+                let problem = match functions::member(&name) {
+                    Some(Member::Function(function)) if is_call => return self.call((&name, function), place),
+                    Some(Member::Number(number)) if !is_call => {
+                        self.program.push(Step::Number(number));
+                        return Ok(());
+                    }
+                    Some(Member::Function(function)) => {
+                        ExpressionProblem::NoArguments { name, arguments: function.arguments() }
+                    }
+                    Some(Member::Number(_)) => ExpressionProblem::NotAFunction(name),
+                    None if is_call => ExpressionProblem::UnknownFunction(name),
+                    None => ExpressionProblem::UnknownName(name),
+                };
+                Err(ExpressionError { problem, place })
             }
             Token::Sign("(") => {
                 self.advance();
@@ -194,9 +217,9 @@ impl Parser<'_> {
         Err(ExpressionError { problem, place })
     }
 
-    /// The arguments of a function, after `(`.
-    fn call(&mut self, name: &str, place: Range<usize>) -> Parsed {
-        let Some(function) = functions::named(name) else {
+    /// The function of that name, which stands before `(`.
+    fn function(&self, name: &str, place: Range<usize>) -> Result<Function, ExpressionError> {
+        functions::named(name).ok_or_else(|| {
             let problem = match name {
                 "log" => ExpressionProblem::Log,
                 _ if functions::number(name).is_some() || (self.symbol)(name).is_some() => {
@@ -204,8 +227,12 @@ impl Parser<'_> {
                 }
                 _ => ExpressionProblem::UnknownFunction(name.to_owned()),
             };
-            return Err(ExpressionError { problem, place });
-        };
+            ExpressionError { problem, place }
+        })
+    }
+
+    /// The arguments of a function, after `(`.
+    fn call(&mut self, (name, function): (&str, Function), place: Range<usize>) -> Parsed {
         let mut count = 0;
         if !self.take(")") {
             loop {

@@ -9,6 +9,8 @@ use super::error::{ExpressionError, ExpressionProblem};
 pub(super) enum Token {
     Number(f64),
     Name(String),
+    /// Names joined by points, as in `np.sin`.
+    Member(String),
     Sign(&'static str),
     End,
 }
@@ -42,8 +44,9 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, Expressio
             }
             length
         } else if begins_name(first) {
-            let length = rest.find(|c| !in_name(c)).unwrap_or(rest.len());
-            tokens.push((Token::Name(rest[..length].to_owned()), at..at + length));
+            let length = dotted_length(rest);
+            let name = rest[..length].to_owned();
+            tokens.push((if name.contains('.') { Token::Member(name) } else { Token::Name(name) }, at..at + length));
             length
         } else if let Some(sign) = SIGNS.into_iter().find(|sign| rest.starts_with(sign)) {
             let plain = match sign {
@@ -63,6 +66,18 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, Expressio
     }
     tokens.push((Token::End, text.len()..text.len()));
     Ok(tokens)
+}
+
+/// Bytes of the name at the beginning of `text`, with those that follow it after points.
+fn dotted_length(text: &str) -> usize {
+    let name = |from: usize| text[from..].find(|c| !in_name(c)).map_or(text.len(), |length| from + length);
+    let mut end = name(0);
+    while let Some(next) = text[end..].strip_prefix('.')
+        && next.starts_with(begins_name)
+    {
+        end = name(end + 1);
+    }
+    end
 }
 
 /// Bytes of the number at the beginning of `text`, with all digits and points that follow: `1.2.3` is one wrong number.

@@ -80,13 +80,75 @@ fn every_usual_unit_has_its_factor_and_dimension() {
         (Dimension::NUMBER, 1.0, ""),
         (Dimension::NUMBER, 1e-2, "%"),
         (Dimension::NUMBER, 1e-6, "um/m"),
+        (Dimension::NUMBER, 1e-6, "ppm"),
+        (Dimension::NUMBER, 1e-9, "ppb"),
     ];
     for (dimension, factor, text) in expected {
         assert_eq!(unit(text).dimension(), dimension, "{text}");
         assert_eq!(unit(text).to_si(1.0), factor, "{text}");
     }
+    let expected = [
+        (Dimension::TIME, 60.0, "min"),
+        (Dimension::TIME, 3600.0, "h"),
+        (Dimension::TIME, 86400.0, "d"),
+        (Dimension::TIME, 86400.0, "day"),
+        (Dimension::TIME, 31557600.0, "year"),
+        (Dimension::SPEED, 1000.0 / 3600.0, "km/h"),
+        (Dimension::LENGTH, 1e-10, "angstrom"),
+        (Dimension::LENGTH, 1e-10, "\u{212b}"),
+        (Dimension::LENGTH, 0.0254, "inch"),
+        (Dimension::LENGTH, 0.3048, "ft"),
+        (Dimension::VOLUME, 0.028316846592, "ft3"),
+        (Dimension::PRESSURE, 6894.757293168361, "psi"),
+        (Dimension::PRESSURE, 101325.0, "atm"),
+        (Dimension::ENERGY, 3.6e6, "kWh"),
+        (Dimension::ENERGY, 1.602176634e-19, "eV"),
+        (Dimension::ENERGY, 1.602176634e-22, "meV"),
+        // Beside other symbols a degree is a step, without a zero.
+        (Dimension::TEMPERATURE, 1.0, "degC m/m"),
+    ];
+    for (dimension, factor, text) in expected {
+        assert_eq!(unit(text).dimension(), dimension, "{text}");
+        // A product, a quotient and a shift, each rounded.
+        assert!((unit(text).to_si(1.0) / factor - 1.0).abs() <= 2.0 * f64::EPSILON, "{text}");
+        assert!((unit(text).from_si(factor) - 1.0).abs() <= 2.0 * f64::EPSILON, "{text}");
+    }
     assert!(!unit("deg").compatible(&unit("m")));
     assert!(!unit("rad").compatible(&unit("1")));
+}
+
+/// The values by definition: 0 degC = 273.15 K = 32 degF, 100 degC = 212 degF.
+#[test]
+fn degrees_have_a_zero_of_their_own_and_their_differences_none() {
+    for (symbol, cases) in [
+        ("degC", [(0.0, 273.15), (20.0, 293.15), (-273.15, 0.0), (20.1, 293.25), (100.0, 373.15)]),
+        ("\u{b0}F", [(32.0, 273.15), (212.0, 373.15), (-459.67, 0.0), (68.0, 293.15), (-40.0, 233.15)]),
+    ] {
+        for (value, kelvin) in cases {
+            // The zero and the product are each rounded, to half an ulp of numbers up to 700.
+            assert!((unit(symbol).to_si(value) - kelvin).abs() <= 2e-13, "{value} {symbol}");
+            assert_eq!(unit(symbol).from_si(unit(symbol).to_si(value)), value, "{value} {symbol}");
+        }
+        assert_eq!(unit(symbol).span_to_si(0.0), 0.0);
+        assert!(unit(symbol).compatible(&unit("K")));
+    }
+    assert_eq!(unit("degC").span_to_si(3.5), 3.5);
+    assert_eq!((unit("degF").span_to_si(9.0), unit("degF").span_from_si(5.0)), (5.0, 9.0));
+    for text in ["W/m2/degC", "degC/h", "1/degF", "degC2", "degC degC-1 K", "K"] {
+        assert!(!unit(text).has_offset(), "{text}");
+        assert_eq!(unit(text).to_si(0.0), 0.0, "{text}");
+    }
+    assert_eq!(unit("kWh/degC").to_si(2.0), 7.2e6);
+}
+
+#[test]
+fn a_label_is_any_text_and_a_known_unit_stays_one() {
+    let label = Unit::label(" EUR/kWh ");
+    assert_eq!((label.symbol(), label.to_si(0.3), label.from_si(-2.0)), ("EUR/kWh", 0.3, -2.0));
+    assert!(label.compatible(&Unit::label("EUR/kWh")));
+    assert!(!label.compatible(&Unit::label("USD")) && !label.compatible(&unit("1")) && !unit("").compatible(&label));
+    assert_eq!(Unit::label("nN"), unit("nN"));
+    assert_eq!(Unit::label("nN").dimension(), Dimension::FORCE);
 }
 
 #[test]
@@ -155,7 +217,7 @@ fn a_unit_survives_json() {
     let json = serde_json::to_string(&typed).expect("a string");
     assert_eq!(json, "\"\u{b5}m\"");
     assert_eq!(serde_json::from_str::<Unit>(&json).expect("a unit"), typed);
-    assert!(serde_json::from_str::<Unit>("\"parsec\"").is_err());
+    assert_eq!(serde_json::from_str::<Unit>("\"parsec\"").expect("a label"), Unit::label("parsec"));
 }
 
 proptest! {
@@ -178,6 +240,14 @@ proptest! {
             let unit = unit(symbol);
             let back = unit.from_si(unit.to_si(value));
             prop_assert!((back - value).abs() <= 1.5 * f64::EPSILON * value.abs(), "{} {}", value, symbol);
+        }
+        // A product and a quotient more each way.
+        for symbol in ["h", "km/h", "psi", "eV", "ft3", "degC", "degF"] {
+            let unit = unit(symbol);
+            let (back, size) = (unit.from_si(unit.to_si(value)), value.abs() + 500.0 * f64::from(unit.has_offset()));
+            prop_assert!((back - value).abs() <= 4.0 * f64::EPSILON * size, "{} {}", value, symbol);
+            let span = unit.span_from_si(unit.span_to_si(value));
+            prop_assert!((span - value).abs() <= 4.0 * f64::EPSILON * value.abs(), "{} {}", value, symbol);
         }
     }
 

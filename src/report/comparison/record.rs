@@ -184,11 +184,13 @@ fn compared(names: &[String], a: &OutputRecord, b: &OutputRecord) -> Result<Comp
     let other_quantity =
         || CompareError::OtherQuantity { output: a.name.clone(), a: a.unit.clone(), b: b.unit.clone() };
     // A unit that is not understood is at least the same text.
-    let scale = match (Unit::parse(&a.unit), Unit::parse(&b.unit)) {
-        (Ok(of_a), Ok(of_b)) if of_a.compatible(&of_b) => of_b.to_si(1.0) / of_a.to_si(1.0),
-        _ if a.unit == b.unit => 1.0,
-        _ => return Err(other_quantity()),
-    };
+    let (of_a, of_b) = (Unit::label(&a.unit), Unit::label(&b.unit));
+    if !of_a.compatible(&of_b) {
+        return Err(other_quantity());
+    }
+    let is_same = a.unit == b.unit;
+    let value = |mean: f64| if is_same { mean } else { of_a.from_si(of_b.to_si(mean)) };
+    let span = |sd: f64| if is_same { sd } else { of_a.span_from_si(of_b.span_to_si(sd)) };
     let sd = |output: &OutputRecord| output.variance.filter(|variance| *variance >= 0.0).map(f64::sqrt);
     let factor = |name: &String| {
         let of = |output: &OutputRecord| {
@@ -207,8 +209,8 @@ fn compared(names: &[String], a: &OutputRecord, b: &OutputRecord) -> Result<Comp
     Ok(ComparedOutput {
         name: a.name.clone(),
         unit: a.unit.clone(),
-        mean: [a.mean, b.mean.map(|mean| mean * scale)],
-        sd: [sd(a), sd(b).map(|sd| sd * scale)],
+        mean: [a.mean, b.mean.map(value)],
+        sd: [sd(a), sd(b).map(span)],
         factors: factors.chain(groups).collect(),
         reasons: [a, b].map(|output| output.indices.is_none().then(|| reason(output))),
     })

@@ -149,7 +149,7 @@ impl OutputDistribution {
             unit: unit.clone(),
             count: sorted.len() as u64,
             mean: scale.value(moments.mean.clamp(min, max)),
-            sd: (sorted.len() > 1).then(|| scale.value(moments.sd)).filter(|sd| sd.is_finite()),
+            sd: (sorted.len() > 1).then(|| scale.span(moments.sd)).filter(|sd| sd.is_finite()),
             skewness: varied.then_some(moments.skewness),
             excess_kurtosis: varied.then_some(moments.excess_kurtosis),
             min: scale.value(min),
@@ -183,11 +183,16 @@ impl Scale<'_> {
         self.unit.from_si(libm::scalbn(x, self.exponent))
     }
 
+    /// A difference of two values.
+    fn span(&self, x: f64) -> f64 {
+        self.unit.span_from_si(libm::scalbn(x, self.exponent))
+    }
+
     /// `None` if a density is beyond double precision, as for values near 1e-308.
     fn density(&self, density: Density) -> Option<Density> {
-        let one = self.unit.from_si(1.0);
+        let one = self.unit.span_from_si(1.0);
         let converted = Density {
-            bandwidth: self.value(density.bandwidth),
+            bandwidth: self.span(density.bandwidth),
             x: density.x.iter().map(|&x| self.value(x)).collect(),
             density: density.density.iter().map(|&d| libm::scalbn(d, -self.exponent) / one).collect(),
             ..density

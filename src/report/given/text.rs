@@ -2,7 +2,7 @@
 
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord};
 use crate::report::result::EstimateRecord;
-use crate::report::tables::{csv_field, estimate, fixed, significant, table};
+use crate::report::tables::{TextTable, csv_field, estimate, fixed, significant, table};
 
 /// The result as text: the table that was read, for every output its indices and warnings, then the notes.
 pub fn given_summary(result: &GivenFile) -> String {
@@ -53,7 +53,7 @@ fn output_summary(output: &GivenOutputRecord) -> String {
     text
 }
 
-fn index_table(indices: &[GivenIndexRecord], sum: Option<f64>) -> comfy_table::Table {
+fn index_table(indices: &[GivenIndexRecord], sum: Option<f64>) -> TextTable {
     let ranks = indices.iter().any(|index| index.rank.is_some());
     let bins = indices.iter().any(|index| index.binned.is_some());
     let mut header = vec!["input"];

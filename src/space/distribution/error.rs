@@ -1,5 +1,7 @@
 //! What can be wrong with the parameters of a distribution.
 
+use crate::quantity::Unit;
+
 /// Why a distribution was refused; the text says what was wrong and what would be right.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DistributionError {
@@ -202,6 +204,24 @@ pub enum DistributionError {
         /// The name of the family.
         distribution: &'static str,
     },
+    /// Ratios of values have no meaning in a unit whose zero is not that of SI.
+    #[error("a {distribution} distribution cannot be in {unit}, whose 0 is not that of SI: state it in {absolute}")]
+    OffsetUnit {
+        /// The name of the family.
+        distribution: &'static str,
+        /// The unit.
+        unit: String,
+        /// A unit that serves.
+        absolute: &'static str,
+    },
+}
+
+/// Refuses a unit with an offset, such as `degC`, to a family that is made of ratios.
+pub(super) fn refuse_offset(distribution: &'static str, unit: &Unit) -> Result<(), DistributionError> {
+    match unit.has_offset() {
+        true => Err(DistributionError::OffsetUnit { distribution, unit: unit.to_string(), absolute: "K" }),
+        false => Ok(()),
+    }
 }
 
 /// The value, if it is finite.

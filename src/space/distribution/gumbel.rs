@@ -71,6 +71,6 @@ impl Family for Gumbel {
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::gumbel(unit.to_si(self.location), unit.to_si(self.scale))
+        Distribution::gumbel(unit.to_si(self.location), unit.span_to_si(self.scale))
     }
 }

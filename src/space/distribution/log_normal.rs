@@ -1,6 +1,6 @@
 //! The log-normal distribution.
 
-use super::error::{finite, positive};
+use super::error::{finite, positive, refuse_offset};
 use super::family::{Family, Parameter};
 use super::normal::standard_quantile;
 use super::{Distribution, DistributionError};
@@ -111,6 +111,7 @@ impl Family for LogNormal {
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        refuse_offset(self.name(), unit)?;
         match self.moments {
             Some((mean, sd)) => Distribution::log_normal(unit.to_si(mean), unit.to_si(sd)),
             None => Distribution::log_normal_of_logs(self.log_mean + unit.to_si(1.0).ln(), self.log_sd),

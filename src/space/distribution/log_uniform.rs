@@ -1,6 +1,6 @@
 //! The log-uniform (reciprocal) distribution.
 
-use super::error::{bounds, positive};
+use super::error::{bounds, positive, refuse_offset};
 use super::family::{Family, Parameter};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
@@ -91,6 +91,7 @@ impl Family for LogUniform {
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        refuse_offset(self.name(), unit)?;
         Distribution::log_uniform(unit.to_si(self.min), unit.to_si(self.max))
     }
 }

@@ -74,6 +74,6 @@ impl Family for Normal {
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::normal(unit.to_si(self.mean), unit.to_si(self.sd))
+        Distribution::normal(unit.to_si(self.mean), unit.span_to_si(self.sd))
     }
 }

@@ -129,8 +129,7 @@ impl Family for TruncatedGumbel {
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let [location, scale, min, max] =
-            [self.location, self.scale, self.min, self.max].map(|value| unit.to_si(value));
-        Distribution::truncated_gumbel(location, scale, min, max)
+        let [location, min, max] = [self.location, self.min, self.max].map(|value| unit.to_si(value));
+        Distribution::truncated_gumbel(location, unit.span_to_si(self.scale), min, max)
     }
 }

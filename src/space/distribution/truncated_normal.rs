@@ -148,7 +148,7 @@ impl Family for TruncatedNormal {
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let [mean, sd, min, max] = [self.mean, self.sd, self.min, self.max].map(|value| unit.to_si(value));
-        Distribution::truncated_normal(mean, sd, min, max)
+        let [mean, min, max] = [self.mean, self.min, self.max].map(|value| unit.to_si(value));
+        Distribution::truncated_normal(mean, unit.span_to_si(self.sd), min, max)
     }
 }

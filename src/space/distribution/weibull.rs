@@ -70,7 +70,7 @@ impl Family for Weibull {
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::weibull(self.shape, unit.to_si(self.scale), unit.to_si(self.location))
+        Distribution::weibull(self.shape, unit.span_to_si(self.scale), unit.to_si(self.location))
     }
 }
 

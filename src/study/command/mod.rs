@@ -14,8 +14,9 @@ pub(super) use file::{CommandKey, CommandSection};
 use super::error::Problem;
 use super::file::{At, FactorSection};
 use super::options::{choice, seconds, wrong};
-use super::resolve::{Context, Fault, own_inputs};
+use super::resolve::{Context, Fault};
 use super::subject::CommandSubject;
+use super::units::own_inputs;
 use crate::model::{CommandSettings, Form, Input, Program, Protocol};
 use crate::space::Space;
 

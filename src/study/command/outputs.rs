@@ -11,6 +11,7 @@ use crate::study::error::{Problem, nearest};
 use crate::study::file::At;
 use crate::study::options::wrong;
 use crate::study::resolve::{Context, Fault, chosen};
+use crate::study::units::output_unit;
 
 const KEYS: [&str; 6] = ["unit", "file", "regex", "column", "pointer", "match"];
 
@@ -108,7 +109,7 @@ fn output(context: &Context<'_>, name: &At<String>, value: &At<Value>) -> Result
             return Err(context.fault(value.span(), wrong(&key, expected, other.type_str().to_owned())));
         }
     };
-    let unit = Unit::parse(unit).map_err(|error| context.fault(value.span(), error.into()))?;
+    let unit = output_unit(context, value, unit)?;
     Ok(CommandOutput { name: name.get_ref().clone(), unit, pick })
 }
 

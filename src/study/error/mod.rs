@@ -3,6 +3,7 @@
 mod diagnostic;
 mod nearest;
 mod problem;
+mod synonyms;
 
 use std::path::PathBuf;
 
@@ -12,6 +13,7 @@ pub use diagnostic::Diagnostic;
 pub use nearest::nearest;
 use nearest::suggestion;
 pub use problem::Problem;
+pub(super) use synonyms::meant;
 
 /// A study that cannot be read or makes no sense.
 #[derive(Debug, Error)]
@@ -60,6 +62,9 @@ pub enum OverrideProblem {
     /// The key leads through something that is not a table.
     #[error("`{0}` is not a table of the study, so nothing can be set inside it")]
     NotATable(String),
+    /// A list of names would take the place of formulas or units.
+    #[error("`outputs` is a table in this study, whose formulas or units a list of names would replace: change one by outputs.NAME=...")]
+    OutputsTable,
     /// The file can be read, but not changed.
     #[error("the study cannot be changed, because it holds a whole number beyond 2^63 - 1, which is not TOML")]
     NotEditable,

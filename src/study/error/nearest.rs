@@ -18,9 +18,9 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|(_, candidate)| candidate.to_owned())
 }
 
-/// The end of a message about a name that is not there.
+/// The end of a message about a name that is not there; two names that are meant are joined by "and".
 pub(super) fn suggestion(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
+    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{}`?", name.replace(" and ", "` and `")))
 }
 
 #[cfg(test)]

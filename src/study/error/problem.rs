@@ -24,6 +24,27 @@ pub enum Problem {
         /// All keys that could stand here.
         expected: Vec<String>,
     },
+    /// A key that stands in the wrong place.
+    #[error("unknown key `{name}` here: {right}")]
+    Misplaced {
+        /// The key as typed.
+        name: String,
+        /// Where it belongs, or what to write.
+        right: String,
+    },
+    /// The same thing written in two ways at once.
+    #[error("the {what} stand both in `{one}` and in `{other}`: keep one of the two")]
+    TwoForms {
+        /// What is written twice.
+        what: &'static str,
+        /// One form.
+        one: &'static str,
+        /// The other one.
+        other: &'static str,
+    },
+    /// A file that is called a model.
+    #[error("unknown model `{0}`: a program of your own is a `command`")]
+    ModelFile(String),
     /// A name that stands for nothing.
     #[error("unknown {what} `{name}`{}", suggestion(.nearest))]
     UnknownName {
@@ -216,6 +237,7 @@ impl Problem {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::UnknownKey { expected, .. } => Some(format!("keys that can stand here: {}", expected.join(", "))),
+            Self::ModelFile(file) => Some(format!("write model = \"command\" and command = [{}]", program(file))),
             Self::UnknownName { expected, .. } => Some(format!("known: {}", expected.join(", "))),
             Self::FixedFactor(name) => Some(format!("remove `{name}` here, or remove its [[factor]]")),
             Self::UnfitInterval { serving, .. } => Some(format!("these do: {serving}")),
@@ -243,4 +265,17 @@ impl Problem {
             _ => None,
         }
     }
+}
+
+/// A program file as the list that starts it.
+fn program(file: &str) -> String {
+    let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending).to_lowercase();
+    let interpreter = match ending.as_str() {
+        "py" => "\"python3\", ",
+        "r" => "\"Rscript\", ",
+        "jl" => "\"julia\", ",
+        "sh" => "\"bash\", ",
+        _ => "",
+    };
+    format!("{interpreter}{file:?}")
 }

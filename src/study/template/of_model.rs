@@ -2,7 +2,7 @@
 
 use crate::afm::Options;
 use crate::model::{Input, KnownAnswer, ModelKind, Output};
-use crate::study::resolve::with_unit;
+use crate::study::units::with_unit;
 
 /// How far a factor reaches to both sides of its nominal value where the model does not say how it varies.
 const REACH: f64 = 0.1;

@@ -23,7 +23,7 @@ fn keys_are_checked_with_their_places() {
     refused("keep = \"runs\"", &["study.toml:6:8:", "only beside `template`"]);
     refused("outputs.y = { regex = \"1\" }", &["study.toml:6:13:", "only beside `template`"]);
     refused("outputs.y = 3", &["study.toml:6:13:", "`outputs.y` must be a unit"]);
-    refused("outputs.y = \"parsec\"", &["study.toml:6:13:", "parsec"]);
+    refused("outputs.y = \"a\\u0007b\"", &["study.toml:6:13:", "without control characters"]);
     refused("outputs.z = \"\"", &["study.toml:2:12:", "unknown output `y`", "known: z"]);
     refused("outputs.y = { units = \"N\" }", &["unknown key `units`: did you mean `unit`?"]);
     refused("template = \"no.in\"", &["study.toml:6:12:", "no.in: cannot read the template"]);

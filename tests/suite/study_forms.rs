@@ -1,0 +1,188 @@
+//! What people type first: studies in the forms they expect, and what they are told where those do not serve.
+
+use std::path::Path;
+
+use apportion::study::Study;
+
+use crate::common::{Folder, apportion, stderr, succeed, text};
+
+fn parsed(study: &str) -> Study {
+    Study::parse(study, Path::new("s.toml"), &[]).unwrap_or_else(|error| panic!("{study}\n{error}"))
+}
+
+/// The study is refused, with all of `expected` in the message.
+#[track_caller]
+fn refused(study: &str, expected: &[&str]) {
+    let error = match Study::parse(study, Path::new("s.toml"), &[]) {
+        Ok(_) => panic!("not refused:\n{study}"),
+        Err(error) => error.to_string(),
+    };
+    for part in expected {
+        assert!(error.contains(part), "no {part:?} in:\n{error}");
+    }
+}
+
+const LISTED: &str = "model = \"expression\"\nexpression.outputs.z = \"b + 2*a\"\nexpression.outputs.y = \"a\"\n\
+                      [[factor]]\nname = \"b\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"a\"\nmin = -1\nmax = 2\nunit = \"mm\"\n";
+
+/// Their order decides which dimension of the sequence each gets, and so the numbers.
+#[test]
+fn factors_are_the_same_study_in_every_form_in_the_order_of_the_file() {
+    let listed = parsed(LISTED);
+    let head = "model = \"expression\"\nexpression.outputs.z = \"b + 2*a\"\nexpression.outputs.y = \"a\"\n";
+    for form in [
+        "[factor.b]\nmin = 0\nmax = 1\n[factor.a]\nmin = -1\nmax = 2\nunit = \"mm\"\n",
+        "[factor.b]\nmin = 0\nmax = 1\n[factor.a]\nname = \"a\"\nmin = -1\nmax = 2\nunit = \"mm\"\n",
+        "[factors.b]\nmin = 0\nmax = 1\n[factors.a]\nmin = -1\nmax = 2\nunit = \"mm\"\n",
+        "[factors]\nb = { min = 0, max = 1 }\na = { min = -1, max = 2, unit = \"mm\" }\n",
+        "[factor]\nb.min = 0\na.min = -1\na.unit = \"mm\"\nb.max = 1\na.max = 2\n",
+        "[[factors]]\nname = \"b\"\nmin = 0\nmax = 1\n[[factors]]\nname = \"a\"\nmin = -1\nmax = 2\nunit = \"mm\"\n",
+    ] {
+        let study = parsed(&format!("{head}{form}"));
+        assert_eq!(study.space, listed.space, "{form}");
+        assert_eq!(study.subject, listed.subject, "{form}");
+    }
+    let single = parsed("model = \"expression\"\noutputs.y = \"a\"\n[factor]\nname = \"a\"\nmin = 0\nmax = 1\n");
+    assert_eq!(single.space.factors().len(), 1);
+    // The same numbers, through the binary, and a change of a factor by its name.
+    let folder = Folder::new();
+    let table = folder.with("table.toml", format!("{head}[factor.b]\nmin = 0\nmax = 1\n[factor.a]\nmin = -1\nmax = 2\nunit = \"mm\"\n"));
+    let list = folder.with("list.toml", LISTED);
+    let csv = |study: &Path, name: &str| {
+        let out = folder.path(name);
+        let set = ["--set", "factor.a.max=3", "--base-samples", "64"];
+        succeed(&[&["run", text(study), "--out", text(&out)][..], &set].concat());
+        std::fs::read_to_string(out.join(format!("{}.csv", study.file_stem().unwrap().to_str().unwrap()))).unwrap()
+    };
+    assert_eq!(csv(&table, "a"), csv(&list, "b"));
+}
+
+#[test]
+fn two_forms_of_factors_at_once_are_refused() {
+    let head = "model = \"expression\"\noutputs.y = \"a\"\n";
+    let list = "[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n";
+    refused(&format!("{head}{list}[factors.b]\nmin = 0\nmax = 1\n"), &["s.toml:7:2:", "both in `factor` and in `factors`"]);
+    refused(&format!("{head}[factor]\nname = \"a\"\nmin = 0\n[factor.b]\nmin = 0\n"), &["unknown key", "[factor.NAME]"]);
+    let twice = "[factor]\nname = \"a\"\nmin = 0\nmax = 1\n";
+    refused(&format!("{head}{twice}{twice}"), &["stands here twice", "[[factor]], with two brackets"]);
+    refused(&format!("{head}[factor.a]\nname = \"b\"\nmin = 0\nmax = 1\n"), &["s.toml:4:8:", "as its table is called"]);
+    refused(&format!("{head}[factor.a]\nmin = 0\n"), &["s.toml:3:9:", "factor `a`", "needs `max`"]);
+    refused(&format!("{head}factors = [\"a\"]\n"), &["s.toml:3:12:", "expected a table [[factor]]"]);
+}
+
+#[test]
+fn outputs_stand_on_top_or_in_the_table_of_the_model() {
+    let factor = "[factor.x1]\nmin = 0\nmax = 1\n";
+    let outputs = |study: &str| -> Vec<String> {
+        parsed(study).model().outputs().iter().map(|output| format!("{} [{}]", output.name, output.unit)).collect()
+    };
+    for study in [
+        format!("model = \"expression\"\noutputs.y = \"x1^2\"\n{factor}"),
+        format!("model = \"expression\"\n[outputs]\ny = \"x1^2\"\n{factor}"),
+        format!("model = \"expression\"\noutputs.y = \"a*x1^2\"\n[expression]\nconstants.a = 2\n{factor}"),
+        format!("model = \"expression\"\n[outputs]\ny = {{ formula = \"x1\", unit = \"\" }}\n{factor}").replace("\"\"", "\"1\""),
+    ] {
+        assert_eq!(outputs(&study), ["y [1]"], "{study}");
+    }
+    assert_eq!(outputs(&format!("model = \"external\"\n[outputs]\ny = \"nN\"\nz = \"\"\n{factor}")), ["y [nN]", "z []"]);
+    let program = format!("model = \"command\"\ncommand = [\"python3\", \"m.py\"]\n[outputs]\ny = \"nN\"\n{factor}");
+    assert_eq!(outputs(&program), ["y [nN]"]);
+    let table = format!("model = \"command\"\noutputs.y = \"nN\"\ncommand.program = [\"python3\", \"m.py\"]\n{factor}");
+    assert_eq!(outputs(&table), ["y [nN]"]);
+    let both = format!("model = \"expression\"\noutputs.y = \"x1\"\n[expression]\noutputs.z = \"x1\"\n{factor}");
+    refused(&both, &["s.toml:2:1:", "both in `[outputs]` and in `[expression] outputs`"]);
+    refused(&format!("outputs.y = \"x1\"\n{factor}"), &["s.toml:1:9:", "a list of names", "model = \"expression\""]);
+    refused(&format!("model = \"command\"\noutputs.y = \"nN\"\n{factor}"), &["the study has no program"]);
+    // A place in a formula is that in the file.
+    refused(&format!("model = \"expression\"\n[outputs]\ny = \"x1 + x3\"\n{factor}"), &["s.toml:3:11:", "no `x3`"]);
+}
+
+#[test]
+fn what_stands_in_the_wrong_table_is_told_where_it_belongs() {
+    let factor = "[[factor]]\nname = \"x1\"\nmin = 0\nmax = 1\n";
+    refused(
+        &format!("model = \"command\"\n[command]\nprogram = [\"x\"]\noutputs = [\"y\"]\n{factor}"),
+        &["s.toml:4:1:", "above the first table", "outputs.y = "],
+    );
+    refused(
+        &format!("model = \"expression\"\n[expression]\ny = \"x1\"\n{factor}"),
+        &["s.toml:3:1:", "unknown key `y` here", "outputs.y = ...", "[expression.outputs]"],
+    );
+    refused(
+        &format!("model = \"expression\"\n[expression]\noutputs.y = \"x1\"\na = 7\n{factor}"),
+        &["s.toml:4:1:", "unknown key `a` here", "constants.a = ..."],
+    );
+    refused(&format!("[expression]\noutputs.y = \"x1\"\n{factor}"), &["belongs to model = \"expression\"", "by default"]);
+    refused(&format!("seed = 3\n{factor}"), &["s.toml:1:1:", "unknown key `seed` here: it stands in the table [design]"]);
+    refused(&format!("{factor}outputs = [\"y\"]\n"), &["s.toml:5:1:", "above the first table"]);
+    refused(&format!("N = 1024\n{factor}"), &["did you mean `base_samples`, which stands in the table [design]?"]);
+    refused(
+        &format!("model = \"my_model.py\"\n{factor}"),
+        &["s.toml:1:9:", "a program of your own is a `command`", "command = [\"python3\", \"my_model.py\"]"],
+    );
+    refused(&format!("model = \"ishigam\"\n{factor}"), &["did you mean `ishigami`?"]);
+}
+
+#[test]
+fn words_of_other_programs_are_answered_by_ours() {
+    let factor = |line: &str| {
+        format!("model = \"expression\"\noutputs.y = \"x1\"\n[[factor]]\nname = \"x1\"\n{line}\n[design]\nseed = 1\n")
+    };
+    for (line, meant) in [
+        ("dist = \"normal\"", "`dist`: did you mean `distribution`?"),
+        ("bounds = [0, 1]", "`bounds`: did you mean `min` and `max`?"),
+        ("sigma = 1", "`sigma`: did you mean `sd`?"),
+        ("std = 1", "`std`: did you mean `sd`?"),
+        ("mu = 1", "`mu`: did you mean `mean`?"),
+        ("lower = 1", "`lower`: did you mean `min`?"),
+        ("distribution = \"norm\"", "unknown distribution `norm`: did you mean `normal`?"),
+        ("distribution = \"gaussian\"", "unknown distribution `gaussian`: did you mean `normal`?"),
+        ("distribution = \"lognorm\"", "did you mean `log-normal`?"),
+        ("distribution = \"cauchy\"", "known: uniform, log-uniform, normal"),
+    ] {
+        refused(&factor(line), &["s.toml:5:", meant]);
+    }
+    for (key, ours) in [("N", "base_samples"), ("samples", "base_samples"), ("n_samples", "base_samples"), ("method", "sampler")] {
+        let study = factor("min = 0\nmax = 1").replace("seed = 1", &format!("{key} = 1"));
+        refused(&study, &["s.toml:8:1:", &format!("unknown key `{key}`: did you mean `{ours}`?")]);
+    }
+}
+
+#[test]
+fn formulas_of_python_are_understood() {
+    let study = |formula: &str| format!("model = \"expression\"\noutputs.y = \"{formula}\"\n[factor.x1]\nmin = 1\nmax = 2\n");
+    for (python, ours) in [("np.sin(x1)", "sin(x1)"), ("math.log(x1) + np.pi", "ln(x1) + pi")] {
+        let value = |formula: &str| {
+            let study = parsed(&study(formula));
+            apportion::analyse(&study, 0, &|_| ()).unwrap().outputs[0].mean
+        };
+        assert_eq!(value(python), value(ours));
+    }
+    refused(&study("np.sinn(x1)"), &["s.toml:2:14:", "no function `np.sinn`", "functions: sin, cos"]);
+}
+
+/// Editors are told of every form that is read.
+#[test]
+fn the_schema_knows_the_forms() {
+    let folder = Folder::new();
+    let path = folder.with("bad.toml", "[design]\nN = 3\n");
+    let output = apportion(&["check", text(&path)]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("did you mean `base_samples`?"), "{}", stderr(&output));
+    let schema: serde_json::Value = serde_json::from_str(&succeed(&["schema", "study"])).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let valid = |study: &str| validator.is_valid(&serde_json::to_value(toml::from_str::<toml::Value>(study).unwrap()).unwrap());
+    for study in [
+        "factor.a = { min = 0, max = 1 }",
+        "[factors]\na = { min = 0, max = 1 }",
+        "[factor]\nname = \"a\"\nmin = 0\nmax = 1",
+        "[[factors]]\nname = \"a\"\nmin = 0\nmax = 1",
+        "outputs.y = \"x1\"",
+        "outputs = [\"y\"]",
+    ] {
+        assert!(valid(study), "{study}");
+    }
+    for study in ["factor.a = { mim = 0 }", "factor.a = 3", "[factor]\nmin = 1", "outputs = \"y\""] {
+        assert!(!valid(study), "{study}");
+    }
+}
