@@ -8,11 +8,11 @@ use apportion::files::read_whole;
 use apportion::given::{Method, analyse};
 use apportion::report::chart::png;
 use apportion::report::given::{GivenFacts, GivenFile, build_given, given_chart, given_csv, given_json, given_summary};
-use apportion::report::{prepare_file, prepare_folder, write_atomically};
+use apportion::report::{file_stems, prepare_folder, prepare_in, write_in};
 use sha2::{Digest, Sha256};
 
 use super::run::default_folder;
-use super::{Failure, print, say};
+use super::{Failure, print, say, stop};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -77,28 +77,23 @@ fn write_files(arguments: &Arguments, result: &GivenFile) -> Result<Vec<PathBuf>
         arguments.table.file_stem().map_or_else(|| "table".to_owned(), |stem| stem.to_string_lossy().into_owned());
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&stem));
     prepare_folder(&folder)?;
+    stop::writing()?;
     let mut written = Vec::new();
     let mut write = |name: String, bytes: &[u8]| -> Result<(), Failure> {
-        let path = folder.join(name);
+        let path = folder.join(&name);
         // A second run of a table called `x.csv` in the folder of its results must not take its place.
         if same_file(&path, &arguments.table) {
             return Err(Failure::Input(anyhow!("{}: this is the table itself; choose another --out", path.display())));
         }
-        prepare_file(&path)?;
-        write_atomically(&path, bytes)?;
-        written.push(path);
+        prepare_in(&folder, &name)?;
+        written.push(write_in(&folder, &name, bytes)?);
         Ok(())
     };
     write(format!("{stem}.json"), given_json(result).as_bytes())?;
     write(format!("{stem}-indices.csv"), given_csv(result).as_bytes())?;
-    let names: Vec<String> = result.outputs.iter().map(|output| file_name(&output.name)).collect();
-    for (place, output) in result.outputs.iter().enumerate() {
-        let name = match &names[..place] {
-            [] if names.len() == 1 => stem.clone(),
-            // Names that differ may be alike as names of files.
-            before if before.contains(&names[place]) => format!("{stem}-{}-{}", names[place], place + 1),
-            _ => format!("{stem}-{}", names[place]),
-        };
+    let names: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
+    for (output, name) in result.outputs.iter().zip(file_stems(&stem, &names, &[""])) {
+        stop::unless_stopped()?;
         let svg = given_chart(result, output).svg().map_err(|error| Failure::Run(error.into()))?;
         write(format!("{name}.svg"), svg.as_bytes())?;
         let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
@@ -110,9 +105,4 @@ fn write_files(arguments: &Arguments, result: &GivenFile) -> Result<Vec<PathBuf>
 fn same_file(a: &Path, b: &Path) -> bool {
     let real = |path: &Path| std::fs::canonicalize(path).ok();
     real(a).zip(real(b)).is_some_and(|(a, b)| a == b)
-}
-
-/// A column's name as part of a file's name.
-fn file_name(column: &str) -> String {
-    column.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect()
 }

@@ -8,13 +8,13 @@ use apportion::files::{read_text, read_whole};
 use apportion::given::Column;
 use apportion::report::chart::png;
 use apportion::report::salib::{SalibFacts, SalibFile, build_salib, salib_chart, salib_csv, salib_json, salib_summary};
-use apportion::report::{output_stem, prepare_file, prepare_folder, write_atomically};
+use apportion::report::{file_stems, prepare_folder, prepare_in, refused_name, write_in};
 use apportion::salib::{LayoutError, SalibLayout, SalibProblem, check_points, recognise, salib_indices};
 use apportion::study::Study;
 use sha2::{Digest, Sha256};
 
 use super::super::run::default_folder;
-use super::super::{Failure, print, say};
+use super::super::{Failure, print, say, stop};
 
 #[derive(clap::Args)]
 pub struct SalibArguments {
@@ -123,6 +123,10 @@ fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
         Some(problem) => problem,
         None => SalibProblem::of_inputs(input_names).map_err(|error| wrong(&error))?,
     };
+    let names = problem.members.iter().map(|(name, _)| name).chain(outputs.iter().map(|(_, name)| name));
+    if let Some((name, expected)) = names.into_iter().find_map(|name| Some((name, refused_name(name)?))) {
+        return Err(wrong(&format!("the name {:.60?} of an input or output: expected {expected}", name)));
+    }
     let wanted: Vec<(usize, ColumnKind)> =
         inputs.iter().chain(&outputs).map(|(place, name)| (*place, ColumnKind::numbers(name))).collect();
     let (mut all, mut part) = (vec![Vec::new(); wanted.len()], vec![Vec::new(); wanted.len()]);
@@ -202,12 +206,14 @@ fn write_files(arguments: &super::Arguments, result: &SalibFile) -> Result<Vec<P
         arguments.data.file_stem().map_or_else(|| "table".to_owned(), |stem| stem.to_string_lossy().into_owned());
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&stem));
     prepare_folder(&folder)?;
+    stop::writing()?;
     let mut files = vec![
         (format!("{stem}.json"), salib_json(result).into_bytes()),
         (format!("{stem}-indices.csv"), salib_csv(result).into_bytes()),
     ];
-    for output in &result.outputs {
-        let name = output_stem(&stem, &output.name, result.outputs.len());
+    let names: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
+    for (output, name) in result.outputs.iter().zip(file_stems(&stem, &names, &["-indices"])) {
+        stop::unless_stopped()?;
         let svg = salib_chart(result, output).svg().map_err(|error| Failure::Run(error.into()))?;
         let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
         files.push((format!("{name}-indices.svg"), svg.into_bytes()));
@@ -215,7 +221,7 @@ fn write_files(arguments: &super::Arguments, result: &SalibFile) -> Result<Vec<P
     }
     let mut written = Vec::with_capacity(files.len());
     for (name, bytes) in files {
-        let path = folder.join(name);
+        let path = folder.join(&name);
         if std::fs::canonicalize(&path)
             .ok()
             .zip(std::fs::canonicalize(&arguments.data).ok())
@@ -226,9 +232,8 @@ fn write_files(arguments: &super::Arguments, result: &SalibFile) -> Result<Vec<P
                 path.display()
             )));
         }
-        prepare_file(&path)?;
-        write_atomically(&path, &bytes)?;
-        written.push(path);
+        prepare_in(&folder, &name)?;
+        written.push(write_in(&folder, &name, &bytes)?);
     }
     Ok(written)
 }
