@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::exchange::{Missing, Selection, Table, read_table};
+use apportion::exchange::{Missing, Selection, Table, read_table, table_of_bytes};
 use apportion::files::read_whole;
 use apportion::given::{Method, analyse};
 use apportion::report::chart::png;
@@ -11,17 +11,22 @@ use apportion::report::given::{GivenFacts, GivenFile, build_given, given_chart, 
 use apportion::report::{file_stems, prepare_folder, prepare_in, write_in};
 use sha2::{Digest, Sha256};
 
+use super::evaluate::say_of_table;
 use super::run::default_folder;
 use super::{Failure, print, say, stop};
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The table: CSV with a header of column names, then one line of numbers per run
+    /// The table: columns by name, a row of numbers per run, as CSV (cells separated by commas, semicolons or tabs),
+    /// Parquet or NPY
     table: PathBuf,
+    /// Names of the columns, separated by commas, of a table that has none: NPY, or text without a header
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
+    names: Vec<String>,
     /// Columns that are outputs, separated by commas
     #[arg(long, value_name = "NAMES", required = true, value_delimiter = ',', value_parser = column_name)]
     outputs: Vec<String>,
-    /// Columns that are inputs, separated by commas [default: all that are no outputs]
+    /// Columns that are inputs, separated by commas [default: all of numbers that are no outputs]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
     inputs: Vec<String>,
     /// How to estimate: by ranks, by bins, or by ranks with the bins as a check
@@ -54,11 +59,15 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let bytes = read_whole(&arguments.table).map_err(|error| wrong(&format!("cannot read the table: {error}")))?;
     let missing = if arguments.drop_missing { Missing::Drop } else { Missing::Refuse };
     let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing };
-    let Table { inputs, outputs, dropped } = read_table(&bytes[..], &selection).map_err(|error| wrong(&error))?;
+    let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let mut rows = table_of_bytes(bytes, &arguments.names).map_err(|error| wrong(&error))?;
+    let table = read_table(rows.as_mut(), &selection).map_err(|error| wrong(&error))?;
+    say_of_table(&arguments.table, (&table.skipped, rows.is_unended()));
+    let Table { inputs, outputs, dropped, .. } = table;
     let indices = analyse(&inputs, &outputs, arguments.method, arguments.seed).map_err(|error| wrong(&error))?;
     let facts = GivenFacts {
         file: path.to_string(),
-        sha256: Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect(),
+        sha256,
         dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
         method: arguments.method,
         seed: arguments.seed,

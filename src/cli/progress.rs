@@ -4,7 +4,7 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use apportion::run::Progress;
-use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 /// Shows how far one run has come, on standard error.
 pub struct Meter {
@@ -24,7 +24,8 @@ impl Meter {
     /// A meter for a run of `total` model runs, named `label`.
     pub fn new(label: &str, total: u64) -> Self {
         let display = if super::stderr_is_terminal() {
-            let bar = ProgressBar::new(total);
+            // Drawn from the first progress on: lines that are written before would leave it behind.
+            let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
             let template = "{prefix} {bar:32} {percent:>3} %  {human_pos} of {human_len} runs  {rate}  {eta} left{msg}";
             let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
             bar.set_style(style.with_key("rate", |state: &ProgressState, out: &mut dyn std::fmt::Write| {
@@ -43,6 +44,9 @@ impl Meter {
     pub fn update(&self, progress: Progress) {
         match &self.display {
             Display::Bar(bar) => {
+                if bar.is_hidden() {
+                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                }
                 // A run that grows learns its length as it goes.
                 bar.set_length(progress.total);
                 bar.set_position(progress.done);

@@ -35,7 +35,7 @@ pub use run_charts::{convergence_chart, distribution_chart, indices_chart, inter
 pub use run_page::{RUN_CHARTS, run_page};
 pub use schema::result_schema;
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
-pub(crate) use tables::csv_field;
+pub(crate) use tables::{csv_field, plain_field};
 pub use tables::{
     convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,
     summary, table, two_digits, with_unit,

@@ -13,6 +13,7 @@ use apportion::salib::{LayoutError, SalibLayout, SalibProblem, check_points, rec
 use apportion::study::Study;
 use sha2::{Digest, Sha256};
 
+use super::super::evaluate::say_of_table;
 use super::super::run::default_folder;
 use super::super::{Failure, print, say, stop};
 
@@ -133,6 +134,7 @@ fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
     while reader.read(&wanted, 1 << 13, &mut part).map_err(|error| wrong(&error))? > 0 {
         all.iter_mut().zip(&part).for_each(|(all, part)| all.extend_from_slice(part));
     }
+    say_of_table(&arguments.data, (&[], reader.is_unended()));
     for ((_, kind), column) in wanted.iter().zip(&all) {
         if let Some(row) = column.iter().position(|value| !value.is_finite()) {
             let found = if column[row].is_nan() { "the value is missing" } else { "the value is infinite" };
