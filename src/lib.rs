@@ -86,6 +86,7 @@ pub mod exchange;
 pub mod files;
 pub mod given;
 pub mod model;
+mod names;
 pub mod quantity;
 pub mod report;
 pub mod reproduce;

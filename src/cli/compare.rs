@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use apportion::report::comparison::{
     compare_results, comparison_charts, comparison_csv, comparison_json, comparison_summary,
 };
-use apportion::report::read_result;
+use apportion::report::{file_part, read_result, refused_name};
 
 use super::pictures::{prepare, say_written, write};
 use super::run::default_folder;
@@ -34,6 +34,11 @@ pub struct Arguments {
 pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
     let (a, b) = (read_result(&arguments.a)?, read_result(&arguments.b)?);
     let [told_a, told_b] = told_apart([(&a.study.name, &arguments.a), (&b.study.name, &arguments.b)]);
+    for label in [&arguments.label_a, &arguments.label_b].into_iter().flatten() {
+        if let Some(expected) = refused_name(label) {
+            return Err(Failure::Input(anyhow!("--label-a, --label-b: expected {expected}")));
+        }
+    }
     let label_a = arguments.label_a.as_deref().unwrap_or(&told_a);
     let label_b = arguments.label_b.as_deref().unwrap_or(&told_b);
     let files = [&arguments.a, &arguments.b].map(|path| path.display().to_string());
@@ -45,7 +50,7 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
     let tables = [(".json", comparison_json(&file)), (".csv", comparison_csv(&file))];
     let endings = tables.iter().map(|(ending, _)| (*ending).to_owned());
     let pictures = charts.iter().flat_map(|c| [format!("{}.svg", c.suffix), format!("{}.png", c.suffix)]);
-    let planned: Vec<PathBuf> = endings.chain(pictures).map(|ending| format!("{name}{ending}").into()).collect();
+    let planned: Vec<String> = endings.chain(pictures).map(|ending| format!("{name}{ending}")).collect();
     prepare(&folder, &planned)?;
     let written = write(&folder, &name, (&tables, &charts))?;
     print(&comparison_summary(&file))?;
@@ -67,9 +72,4 @@ fn told_apart(sides: [(&String, &PathBuf); 2]) -> [String; 2] {
         _ => None,
     });
     told.unwrap_or_else(|| ["A".to_owned(), "B".to_owned()])
-}
-
-/// A name as part of a file's name.
-fn file_part(name: &str) -> String {
-    name.chars().map(|c| if c.is_control() || matches!(c, '/' | '\\' | ':') { '-' } else { c }).collect()
 }

@@ -1,10 +1,9 @@
 //! `apportion evaluate`: the model at the user's own points.
 
-use std::fs::File;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::exchange::{EvaluateError, Evaluated, evaluate_until};
+use apportion::exchange::{EvaluateError, Evaluated, evaluate_until, open_table};
 use apportion::report::{prepare_file, stream_atomically};
 
 use super::stop::{Stoppable, on_signal};
@@ -14,8 +13,12 @@ use super::{Failure, StudyArguments, say};
 pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// The points: CSV with a header of factor names, values in the study's units
+    /// The points: columns named after factors, values in the study's units, as CSV (cells separated by commas, semicolons
+    /// or tabs), Parquet or NPY
     points: PathBuf,
+    /// Names of the columns, separated by commas, of a file that has none: NPY, or text without a header
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    names: Vec<String>,
     /// The CSV file for the outputs
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -24,12 +27,13 @@ pub struct Arguments {
 pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
     let points = arguments.points.display();
-    let file = File::open(&arguments.points)
-        .map_err(|error| Failure::Input(anyhow!("{points}: cannot read the points: {error}")))?;
+    let names: Vec<String> = arguments.names.iter().map(|name| name.trim().to_owned()).collect();
+    let mut rows =
+        open_table(&arguments.points, &names).map_err(|error| Failure::Input(anyhow!("{points}: {error}")))?;
     prepare_file(&arguments.output)?;
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
-        let result = evaluate_until(&study, file, &mut Stoppable::new(out), Some(on_signal()));
+        let result = evaluate_until(&study, rows.as_mut(), &mut Stoppable::new(out), Some(on_signal()));
         let complete = result.is_ok();
         outcome = Some(result);
         // Whatever went wrong, half a file must not take the target's place.
@@ -49,6 +53,7 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn report(evaluated: &Evaluated, arguments: &Arguments) {
+    say_of_table(&arguments.points, (&evaluated.skipped, evaluated.unended));
     for ((output, failure), (count, first)) in &evaluated.failures {
         say(&format!("warning: {output} is empty at {count} points: {failure} (first at point {first})"));
     }
@@ -56,4 +61,17 @@ fn report(evaluated: &Evaluated, arguments: &Arguments) {
         say("warning: the file holds a header but no points");
     }
     say(&format!("wrote {} points to {}", evaluated.points, arguments.output.display()));
+}
+
+/// Says which columns of a table were not read, and that it may have been cut short.
+pub fn say_of_table(path: &Path, (skipped, unended): (&[String], bool)) {
+    let path = path.display();
+    if !skipped.is_empty() {
+        say(&format!("note: {path}: columns of text are skipped: {}", skipped.join(", ")));
+    }
+    if unended {
+        say(&format!(
+            "warning: {path}: the last line has no end: if the file was cut short, its last number may be wrong"
+        ));
+    }
 }

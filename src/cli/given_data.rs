@@ -3,26 +3,31 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::exchange::{Missing, Selection, Table, read_table};
+use apportion::exchange::{Missing, Selection, Table, read_table, table_of_bytes};
 use apportion::files::read_whole;
 use apportion::given::{Method, analyse};
 use apportion::report::chart::png;
 use apportion::report::given::{GivenFacts, GivenFile, build_given, given_chart, given_csv, given_json, given_summary};
-use apportion::report::{prepare_file, prepare_folder, write_atomically};
+use apportion::report::{file_stems, prepare_folder, prepare_in, write_in};
 use sha2::{Digest, Sha256};
 
+use super::evaluate::say_of_table;
 use super::pictures::say_written;
 use super::run::default_folder;
-use super::{Failure, print};
+use super::{Failure, print, say, stop};
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The table: CSV with a header of column names, then one line of numbers per run
+    /// The table: columns by name, a row of numbers per run, as CSV (cells separated by commas, semicolons or tabs),
+    /// Parquet or NPY
     table: PathBuf,
+    /// Names of the columns, separated by commas, of a table that has none: NPY, or text without a header
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
+    names: Vec<String>,
     /// Columns that are outputs, separated by commas
     #[arg(long, value_name = "NAMES", required = true, value_delimiter = ',', value_parser = column_name)]
     outputs: Vec<String>,
-    /// Columns that are inputs, separated by commas [default: all that are no outputs]
+    /// Columns that are inputs, separated by commas [default: all of numbers that are no outputs]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
     inputs: Vec<String>,
     /// How to estimate: by ranks, by bins, or by ranks with the bins as a check
@@ -55,11 +60,15 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let bytes = read_whole(&arguments.table).map_err(|error| wrong(&format!("cannot read the table: {error}")))?;
     let missing = if arguments.drop_missing { Missing::Drop } else { Missing::Refuse };
     let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing };
-    let Table { inputs, outputs, dropped } = read_table(&bytes[..], &selection).map_err(|error| wrong(&error))?;
+    let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let mut rows = table_of_bytes(bytes, &arguments.names).map_err(|error| wrong(&error))?;
+    let table = read_table(rows.as_mut(), &selection).map_err(|error| wrong(&error))?;
+    say_of_table(&arguments.table, (&table.skipped, rows.is_unended()));
+    let Table { inputs, outputs, dropped, .. } = table;
     let indices = analyse(&inputs, &outputs, arguments.method, arguments.seed).map_err(|error| wrong(&error))?;
     let facts = GivenFacts {
         file: path.to_string(),
-        sha256: Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect(),
+        sha256,
         dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
         method: arguments.method,
         seed: arguments.seed,
@@ -76,28 +85,23 @@ fn write_files(arguments: &Arguments, result: &GivenFile) -> Result<Vec<PathBuf>
         arguments.table.file_stem().map_or_else(|| "table".to_owned(), |stem| stem.to_string_lossy().into_owned());
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&stem));
     prepare_folder(&folder)?;
+    stop::writing()?;
     let mut written = Vec::new();
     let mut write = |name: String, bytes: &[u8]| -> Result<(), Failure> {
-        let path = folder.join(name);
+        let path = folder.join(&name);
         // A second run of a table called `x.csv` in the folder of its results must not take its place.
         if same_file(&path, &arguments.table) {
             return Err(Failure::Input(anyhow!("{}: this is the table itself; choose another --out", path.display())));
         }
-        prepare_file(&path)?;
-        write_atomically(&path, bytes)?;
-        written.push(path);
+        prepare_in(&folder, &name)?;
+        written.push(write_in(&folder, &name, bytes)?);
         Ok(())
     };
     write(format!("{stem}.json"), given_json(result).as_bytes())?;
     write(format!("{stem}-indices.csv"), given_csv(result).as_bytes())?;
-    let names: Vec<String> = result.outputs.iter().map(|output| file_name(&output.name)).collect();
-    for (place, output) in result.outputs.iter().enumerate() {
-        let name = match &names[..place] {
-            [] if names.len() == 1 => stem.clone(),
-            // Names that differ may be alike as names of files.
-            before if before.contains(&names[place]) => format!("{stem}-{}-{}", names[place], place + 1),
-            _ => format!("{stem}-{}", names[place]),
-        };
+    let names: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
+    for (output, name) in result.outputs.iter().zip(file_stems(&stem, &names, &[""])) {
+        stop::unless_stopped()?;
         let svg = given_chart(result, output).svg().map_err(|error| Failure::Run(error.into()))?;
         write(format!("{name}.svg"), svg.as_bytes())?;
         let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
@@ -109,9 +113,4 @@ fn write_files(arguments: &Arguments, result: &GivenFile) -> Result<Vec<PathBuf>
 fn same_file(a: &Path, b: &Path) -> bool {
     let real = |path: &Path| std::fs::canonicalize(path).ok();
     real(a).zip(real(b)).is_some_and(|(a, b)| a == b)
-}
-
-/// A column's name as part of a file's name.
-fn file_name(column: &str) -> String {
-    column.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect()
 }

@@ -10,7 +10,8 @@ use apportion::study::Study;
 use apportion::{Running, analyse_with};
 use serde_json::Value;
 
-use super::record::{self, filled, journal_path};
+use super::model_files::differing;
+use super::record::{self, journal_path};
 use super::run::{default_folder, deliver, prepare_files};
 use super::{DesignChanges, Failure, StudyArguments, Threads, say};
 
@@ -36,14 +37,14 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         if arguments.journals.is_empty() { in_folder(&folder, &study.name)? } else { arguments.journals.clone() };
     prepare_folder(&folder)?;
     prepare_files(&study, &folder)?;
-    let header = header_of_all(&study, &journals)?;
+    let files = files_of_all(&study, &journals)?;
     let path = journal_path(&folder, &study.name, None);
     // The merged runs are put on record whatever their number: they may have cost much elsewhere.
-    let record = record::open_for_parts(&study, &path, &header)?;
+    let record = record::open_for_parts(&study, &path, &files)?;
     let mut shards = Shards::default();
     for journal in &journals {
         let contents = record::read(&study, journal)?;
-        let part = filled(&study, &contents);
+        let (part, _) = record::part(&study, (journal, &contents))?;
         shards.note(&study, contents.header["shard"].as_str(), &part);
         for piece in part.pieces() {
             let rows = piece.first..piece.first + piece.rows(part.outputs());
@@ -89,17 +90,18 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     deliver(&study, &folder, &result)
 }
 
-/// Checks, before anything is touched, that all journals are of this study and were evaluated with the same files; the
-/// header of the first.
-fn header_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, Failure> {
+/// Checks, before anything is touched, that all journals are of this study and were evaluated with the same files; these
+/// files.
+fn files_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, Failure> {
     let mut first: Option<(&PathBuf, Value)> = None;
     for journal in journals {
-        let header = record::read(study, journal)?.header;
+        let contents = record::read(study, journal)?;
+        let (_, files) = record::part(study, (journal, &contents))?;
         let Some((other, known)) = &first else {
-            first = Some((journal, header));
+            first = Some((journal, files));
             continue;
         };
-        if let Some(names) = record::other_files(&known["files"], &header["files"]) {
+        if let Some(names) = differing(known, &files) {
             return Err(Failure::Input(anyhow!(
                 "{}: evaluated with another {names} than {}: evaluate one of the two parts again",
                 journal.display(),
@@ -107,7 +109,7 @@ fn header_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, Failure> 
             )));
         }
     }
-    Ok(first.map_or(Value::Null, |(_, header)| header))
+    Ok(first.map_or(Value::Null, |(_, files)| files))
 }
 
 fn keep(record: &record::Record, piece: &Piece) -> Result<(), Failure> {

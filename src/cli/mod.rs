@@ -8,6 +8,7 @@ mod evaluate;
 mod given_data;
 mod man;
 mod merge;
+mod model_files;
 mod models;
 mod new;
 mod outlook;
@@ -215,6 +216,7 @@ impl From<std::io::Error> for Failure {
 
 /// Runs the program and returns its exit code.
 pub fn main() -> ExitCode {
+    stop::hear_of_size_limits();
     // Usage errors leave through clap, with exit code 2.
     let outcome = match Cli::parse().command {
         Command::New(arguments) => new::new(&arguments),

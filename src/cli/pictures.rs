@@ -4,15 +4,15 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use apportion::report::chart::png;
-use apportion::report::{Drawing, listed, prepare_file, prepare_folder, write_atomically};
+use apportion::report::{Drawing, listed, prepare_folder, prepare_in, write_in};
 
-use super::{Failure, say};
+use super::{Failure, say, stop};
 
 /// Makes the folder and checks that each of `files` in it can be written.
-pub fn prepare(folder: &Path, files: &[PathBuf]) -> Result<(), Failure> {
+pub fn prepare(folder: &Path, files: &[String]) -> Result<(), Failure> {
     prepare_folder(folder)?;
     for file in files {
-        prepare_file(&folder.join(file))?;
+        prepare_in(folder, file)?;
     }
     Ok(())
 }
@@ -23,11 +23,11 @@ pub fn write(
     name: &str,
     (tables, charts): (&[(&str, String)], &[Drawing]),
 ) -> Result<Vec<PathBuf>, Failure> {
+    stop::writing()?;
     let mut written = Vec::with_capacity(tables.len() + 2 * charts.len());
     let mut put = |ending: &str, bytes: &[u8]| -> Result<(), Failure> {
-        let path = folder.join(format!("{name}{ending}"));
-        write_atomically(&path, bytes)?;
-        written.push(path);
+        stop::unless_stopped()?;
+        written.push(write_in(folder, &format!("{name}{ending}"), bytes)?);
         Ok(())
     };
     for (ending, text) in tables {

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use apportion::run::Progress;
-use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressState, ProgressStyle};
+use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 /// Shows how far one run has come, on standard error.
@@ -29,7 +29,8 @@ impl Meter {
     pub fn new(label: &str, total: u64) -> Self {
         let failed = Arc::new(AtomicU64::new(0));
         let display = if super::stderr_is_terminal() {
-            let bar = ProgressBar::new(total);
+            // Drawn from the first progress on: lines that are written before would leave it behind.
+            let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
             let style = ProgressStyle::with_template("{line}").unwrap_or_else(|_| ProgressStyle::default_bar());
             let (label, failures) = (label.to_owned(), Arc::clone(&failed));
             bar.set_style(style.with_key("line", move |state: &ProgressState, out: &mut dyn std::fmt::Write| {
@@ -54,6 +55,9 @@ impl Meter {
     pub fn update(&self, progress: Progress) {
         match &self.display {
             Display::Bar(bar) => {
+                if bar.is_hidden() {
+                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                }
                 // A run that grows learns its length as it goes.
                 bar.set_length(progress.total);
                 self.failed.store(progress.failed, Ordering::Relaxed);

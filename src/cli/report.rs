@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use apportion::files::read_whole;
 use apportion::report::{
-    ReadError, ReadProblem, ResultFile, parse_result, prepare_file, prepare_folder, summary, write_atomically,
+    ReadError, ReadProblem, ResultFile, parse_result, prepare_folder, prepare_in, summary, write_atomically,
 };
 
 use super::pictures::say_written;
@@ -37,7 +37,7 @@ pub fn report(arguments: &Arguments) -> Result<(), Failure> {
     }
     prepare_folder(folder)?;
     for file in &files {
-        prepare_file(&folder.join(&file.name))?;
+        prepare_in(folder, &file.name)?;
     }
     let mut written = write_selected(folder, &files, (&result, &|file| !file.is_result()))?;
     if let Some(json) = copy {

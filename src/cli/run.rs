@@ -7,17 +7,19 @@ use anyhow::anyhow;
 use apportion::exchange::{Format, save_outputs};
 use apportion::report::chart::{Chart, png};
 use apportion::report::{
-    OutputRecord, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv, indices_chart,
-    indices_csv, inputs_in_words, interactions_chart, output_stem, prepare_file, prepare_folder, read_result,
-    result_json, run_page, scatter_chart, second_order_csv, stream_atomically, study_chart, summary, write_atomically,
+    OutputRecord, RUN_CHARTS, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv,
+    file_stems, indices_chart, indices_csv, inputs_in_words, interactions_chart, note_mixed_models, prepare_file,
+    prepare_folder, prepare_in, read_result, result_json, run_page, scatter_chart, second_order_csv, stream_atomically,
+    study_chart, summary, write_in,
 };
 use apportion::run::{Keep, Piece, RunError, Shard, Store};
 use apportion::study::Study;
 use apportion::{Running, analyse_with, evaluate_shard};
 
+use super::model_files::ModelFiles;
 use super::pictures::say_written;
 use super::progress::Meter;
-use super::record::{self, Record, Use, journal_path, rows_on_record};
+use super::record::{self, Asked, Foreign, Record, Use, journal_path, rows_on_record};
 use super::stop::Stoppable;
 use super::{DesignChanges, Failure, StudyArguments, Threads, print, say, stop};
 
@@ -49,6 +51,9 @@ struct RecordArguments {
     /// Evaluate the runs that failed again, and keep all others
     #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
     retry_failed: bool,
+    /// Use runs on record that were evaluated with other files of the model than those of now too; the result says so
+    #[arg(long, conflicts_with_all = ["restart", "no_journal", "shard"])]
+    mix_models: bool,
     /// Evaluate every run anew; a journal that is there is moved aside
     #[arg(long)]
     restart: bool,
@@ -102,7 +107,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let record = if asked.no_journal {
         None
     } else {
-        record::open(&study, &journal_path(&folder, &study.name, asked.shard), (asked.how(), asked.shard))?
+        let of_record = Asked { how: asked.how(), mixed: asked.mix_models, shard: asked.shard };
+        record::open(&study, &journal_path(&folder, &study.name, asked.shard), of_record)?
     };
     // Without a journal there is a store only for what is to be saved from it.
     let own = (record.is_none() && saved.is_some()).then(|| Store::new(&study.design, study.model().as_ref()));
@@ -131,7 +137,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name, record.path().display()));
         return Ok(());
     }
-    let result = analyse_with(&study, running).map_err(failed)?;
+    let files = ModelFiles::of(&study);
+    let mut result = analyse_with(&study, running).map_err(failed)?;
+    warn_of_files(&mut result, record.as_ref().and_then(|record| record.foreign.as_ref()), files.changed());
     if let Some(record) = &record {
         record.sync()?;
     }
@@ -155,6 +163,16 @@ fn save(study: &Study, result: &ResultFile, store: &Store, (path, format): (&Pat
     Ok(())
 }
 
+/// Says in the result that more than one model may have answered.
+fn warn_of_files(result: &mut ResultFile, foreign: Option<&Foreign>, changed: Option<&str>) {
+    if let Some(Foreign { names, rows }) = foreign {
+        note_mixed_models(result, names, Some(*rows));
+    }
+    if let Some(names) = changed {
+        note_mixed_models(result, names, None);
+    }
+}
+
 /// The study, with the changes that the command line makes to it.
 fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
     let changes = arguments.design.overrides();
@@ -173,7 +191,17 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
     if wanted == study.design.settings().base_samples {
         return Ok(study);
     }
-    arguments.study.load_with(&[changes, vec![format!("design.base_samples={wanted}")]].concat())
+    let study = arguments.study.load_with(&[changes, vec![format!("design.base_samples={wanted}")]].concat())?;
+    let settings = study.design.settings();
+    if double && settings.base_samples < wanted {
+        let runs = u128::from(wanted) * u128::from(study.design.rows_per_point());
+        let most = study.stopping.max_runs.unwrap_or_default();
+        return Err(Failure::Input(anyhow!(
+            "--double: twice the {base_samples} base samples of the result take {runs} runs, and the study allows max_runs = \
+             {most}: add --set design.max_runs={runs}"
+        )));
+    }
+    Ok(study)
 }
 
 fn folder_of(arguments: &Arguments, study: &Study) -> PathBuf {
@@ -183,13 +211,14 @@ fn folder_of(arguments: &Arguments, study: &Study) -> PathBuf {
 /// Checks, before anything is run, that the files of a run of `study` can be written.
 pub fn prepare_files(study: &Study, folder: &Path) -> Result<(), Failure> {
     for file in files(study) {
-        prepare_file(&folder.join(file.name))?;
+        prepare_in(folder, &file.name)?;
     }
     Ok(())
 }
 
 /// Writes the files of a result, and says what came out.
 pub fn deliver(study: &Study, folder: &Path, result: &ResultFile) -> Result<(), Failure> {
+    stop::writing()?;
     let written = write_files(folder, &files(study), result)?;
     print(&summary(result))?;
     say_written(&written);
@@ -312,17 +341,16 @@ pub fn files_of(contents: &Contents<'_>) -> Vec<ResultFileName> {
         table("-estimators.csv", "the indices by the other estimators", estimators_csv);
     }
     table("-convergence.csv", "the indices at every stage of the run", convergence_csv);
-    let charts: [(&str, &str, Draw); 6] = [
-        ("", "chart of the shares", study_chart),
-        ("-indices", "chart of the first-order and total indices", indices_chart),
-        ("-interactions", "chart of first-order against total indices", interactions_chart),
-        ("-scatter", "chart of the output against its factors", scatter_chart),
-        ("-distribution", "chart of the output's distribution", distribution_chart),
-        ("-convergence", "chart of how the indices settled", convergence_chart),
+    let charts: [(&str, Draw); RUN_CHARTS.len()] = [
+        ("chart of the shares", study_chart),
+        ("chart of the first-order and total indices", indices_chart),
+        ("chart of first-order against total indices", interactions_chart),
+        ("chart of the output against its factors", scatter_chart),
+        ("chart of the output's distribution", distribution_chart),
+        ("chart of how the indices settled", convergence_chart),
     ];
-    for (number, output) in outputs.iter().enumerate() {
-        let stem = output_stem(study, output, outputs.len());
-        for (suffix, content, draw) in charts {
+    for (number, stem) in file_stems(study, outputs, &RUN_CHARTS).iter().enumerate() {
+        for (suffix, (content, draw)) in RUN_CHARTS.iter().zip(charts) {
             files.push(file(format!("{stem}{suffix}.svg"), content, Kind::Svg(draw, number)));
             files.push(file(format!("{stem}{suffix}.png"), "the same as a picture", Kind::Png(draw, number)));
         }
@@ -348,6 +376,7 @@ pub fn write_selected(
     let others: Vec<String> = others.collect();
     let mut written = Vec::with_capacity(files.len());
     for file in files.iter().filter(|file| wanted(file)) {
+        stop::unless_stopped()?;
         let bytes = match file.kind {
             Kind::Page => run_page(result, &others).html().map_err(|error| Failure::Run(error.into()))?.into_bytes(),
             Kind::Result => result_json(result).into_bytes(),
@@ -355,9 +384,7 @@ pub fn write_selected(
             Kind::Svg(draw, number) => drawn(draw, number)?.into_bytes(),
             Kind::Png(draw, number) => png(&drawn(draw, number)?).map_err(|error| Failure::Run(error.into()))?.bytes,
         };
-        let path = folder.join(&file.name);
-        write_atomically(&path, &bytes)?;
-        written.push(path);
+        written.push(write_in(folder, &file.name, &bytes)?);
     }
     Ok(written)
 }

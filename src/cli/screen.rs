@@ -1,12 +1,12 @@
 //! `apportion screen`: which of many factors matter, for a few runs each.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::anyhow;
 use apportion::report::RunFacts;
 use apportion::report::screening::{
-    build_screening, screening_charts, screening_csv, screening_json, screening_summary,
+    build_screening, screening_charts, screening_csv, screening_json, screening_suffixes, screening_summary,
 };
 use apportion::run::threads_in_force;
 use apportion::screening::{MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningJob};
@@ -104,11 +104,9 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The files a screening of the study called `name` writes.
-fn file_names(name: &str, outputs: &[&str]) -> Vec<PathBuf> {
-    let charts = outputs.iter().flat_map(|output| {
-        let stem = if outputs.len() == 1 { format!("{name}-screen") } else { format!("{name}-screen-{output}") };
-        [format!("{stem}.svg"), format!("{stem}.png"), format!("{stem}-bars.svg"), format!("{stem}-bars.png")]
-    });
-    let tables = [format!("{name}-screen.json"), format!("{name}-screen.csv")];
-    tables.into_iter().chain(charts).map(|name| Path::new(&name).to_owned()).collect()
+fn file_names(name: &str, outputs: &[&str]) -> Vec<String> {
+    let charts = screening_suffixes(outputs);
+    let pictures =
+        charts.iter().flatten().flat_map(|suffix| [format!("{name}{suffix}.svg"), format!("{name}{suffix}.png")]);
+    [format!("{name}-screen.json"), format!("{name}-screen.csv")].into_iter().chain(pictures).collect()
 }

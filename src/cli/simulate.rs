@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use apportion::quantity::{Dimension, Quantity};
 use apportion::report::chart::{Chart, png};
 use apportion::report::scene::{PageParts, mode_diagram_chart, scene_charts, scene_csv, scene_json, scene_page};
-use apportion::report::{prepare_folder, with_unit, write_atomically};
+use apportion::report::{prepare_folder, with_unit, write_in};
 use apportion::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
 use apportion::study::Study;
 
@@ -112,11 +112,10 @@ fn pictures(stem: &str, chart: &Chart) -> Result<[(String, Vec<u8>); 2], Failure
 }
 
 fn write(folder: &Path, files: Vec<(String, Vec<u8>)>) -> Result<Vec<PathBuf>, Failure> {
+    super::stop::writing()?;
     let mut written = Vec::with_capacity(files.len());
     for (name, bytes) in files {
-        let path = folder.join(name);
-        write_atomically(&path, &bytes)?;
-        written.push(path);
+        written.push(write_in(folder, &name, &bytes)?);
     }
     Ok(written)
 }

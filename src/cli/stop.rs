@@ -4,14 +4,27 @@ use std::io::Write;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use anyhow::anyhow;
+use apportion::report::remove_unfinished;
+
+use super::Failure;
+
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// The flag that Ctrl-C, SIGTERM and SIGHUP set from now on. The second of them ends the program at once.
+/// Whether all that is left to do is to write files, each of which is whole or not there.
+static WRITING: AtomicBool = AtomicBool::new(false);
+
+/// The flag that Ctrl-C, SIGTERM and SIGHUP set from now on. The second of them ends the program at once; so does the first
+/// while files are [written](writing).
 pub fn on_signal() -> &'static AtomicBool {
     static INSTALLED: OnceLock<()> = OnceLock::new();
     INSTALLED.get_or_init(|| {
         let handler = || {
-            if STOP.swap(true, Ordering::Relaxed) {
+            if WRITING.load(Ordering::SeqCst) {
+                end_at_once();
+            }
+            if STOP.swap(true, Ordering::SeqCst) {
+                remove_unfinished();
                 std::process::exit(1);
             }
             super::say("stopping: what is under way is brought to an end (once more ends the program at once)");
@@ -21,6 +34,44 @@ pub fn on_signal() -> &'static AtomicBool {
         }
     });
     &STOP
+}
+
+/// From now on a signal ends the program at once: the model has been run, and what is left is drawing, which nobody
+/// needs to wait for.
+///
+/// # Errors
+/// [`Failure::Run`] if a signal has come already.
+pub fn writing() -> Result<(), Failure> {
+    on_signal();
+    WRITING.store(true, Ordering::SeqCst);
+    unless_stopped()
+}
+
+/// Nothing, unless a signal has come.
+///
+/// # Errors
+/// [`Failure::Run`] if one has.
+pub fn unless_stopped() -> Result<(), Failure> {
+    if STOP.load(Ordering::SeqCst) { Err(Failure::Run(anyhow!("{INTERRUPTED}"))) } else { Ok(()) }
+}
+
+const INTERRUPTED: &str = "interrupted while files were written: those that are there are whole, others are missing";
+
+fn end_at_once() -> ! {
+    remove_unfinished();
+    super::say(&format!("error: {INTERRUPTED}"));
+    std::process::exit(1);
+}
+
+/// Lets a write beyond the limit of file sizes (`ulimit -f`) fail with its reason, as any other that fails: by default the
+/// system ends the program without a word.
+pub fn hear_of_size_limits() {
+    // SAFETY: no handler is installed; the call only changes what the system does with a signal.
+    #[cfg(unix)]
+    #[allow(unsafe_code)]
+    unsafe {
+        libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
+    }
 }
 
 /// A file being written, which takes nothing more once the program is to end: its temporary file is then removed.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use apportion::report::sweep::{build_sweep, sweep_charts, sweep_csv, sweep_json, sweep_summary};
+use apportion::report::sweep::{build_sweep, sweep_charts, sweep_csv, sweep_json, sweep_suffixes, sweep_summary};
 use apportion::space::Space;
 use apportion::study::Study;
 use apportion::sweep::{FactorValues, MAX_POINTS, SweepError, SweepRequest, find, sweep_until};
@@ -99,13 +99,11 @@ pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The files that the sweeps write.
-fn file_names(study: &Study, request: &SweepRequest, outputs: &[&str]) -> Vec<PathBuf> {
-    let factors = request.factors.iter().map(|asked| study.space.factors()[asked.factor].name.clone());
-    let ranges = outputs.iter().map(|output| match outputs.len() {
-        1 => "ranges".to_owned(),
-        _ => format!("ranges-{output}"),
-    });
-    let charts = factors.chain(ranges).flat_map(|chart| [format!("-{chart}.svg"), format!("-{chart}.png")]);
-    let endings = [".json".to_owned(), ".csv".to_owned()].into_iter().chain(charts);
-    endings.map(|ending| PathBuf::from(format!("{}-sweep{ending}", study.name))).collect()
+fn file_names(study: &Study, request: &SweepRequest, outputs: &[&str]) -> Vec<String> {
+    let factors: Vec<&str> =
+        request.factors.iter().map(|asked| study.space.factors()[asked.factor].name.as_str()).collect();
+    let charts = sweep_suffixes(&factors, outputs);
+    let pictures = charts.iter().flat_map(|suffix| [format!("{suffix}.svg"), format!("{suffix}.png")]);
+    let endings = ["-sweep.json".to_owned(), "-sweep.csv".to_owned()].into_iter().chain(pictures);
+    endings.map(|ending| format!("{}{ending}", study.name)).collect()
 }

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::{MAX_DIMENSIONS, MAX_PAIRED_FACTORS, MAX_POINTS, MAX_REPLICATES};
+use super::{MAX_DIMENSIONS, MAX_FACTORS, MAX_PAIRED_FACTORS, MAX_POINTS, MAX_REPLICATES};
 
 /// Why a design cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -10,6 +10,14 @@ pub enum DesignError {
     /// There is nothing to vary.
     #[error("a design needs at least one factor")]
     NoFactors,
+    /// More factors than any design is for.
+    #[error(
+        "{factors} factors are too many: at most {MAX_FACTORS} are possible; leave out or join those that hardly act"
+    )]
+    FarTooManyFactors {
+        /// The number asked for.
+        factors: usize,
+    },
     /// More factors than the direction numbers serve.
     #[error(
         "{factors} factors need {} dimensions of the Sobol' sequence ({matrices} for each), which has {MAX_DIMENSIONS}: at most {} factors, or another sampler",

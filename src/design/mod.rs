@@ -37,6 +37,9 @@ pub const MAX_REPLICATES: u64 = 4096;
 /// Most factors of a design with second-order indices: their sums take d (d - 1) numbers for every output.
 pub const MAX_PAIRED_FACTORS: usize = 256;
 
+/// Most factors of a design, whatever the sampler: every base point costs a run for each of them.
+pub const MAX_FACTORS: usize = 10_000;
+
 /// Where the points of a design come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -120,6 +123,9 @@ impl Design {
         let matrices = rows.companions.matrices();
         if factors == 0 {
             return Err(DesignError::NoFactors);
+        }
+        if factors > MAX_FACTORS {
+            return Err(DesignError::FarTooManyFactors { factors });
         }
         if sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / matrices {
             return Err(DesignError::TooManyFactors { factors, matrices });

@@ -1,13 +1,15 @@
 //! A study's model at given points.
 
 use std::collections::BTreeMap;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::sync::atomic::AtomicBool;
 
 use thiserror::Error;
 
 use super::points::{PointsError, PointsReader};
+use super::rows::RowReader;
 use crate::model::{Batch, Output, RowFailure};
+use crate::report::csv_field;
 use crate::run::{Crew, Halt};
 use crate::study::Study;
 
@@ -37,17 +39,25 @@ pub struct Evaluated {
     pub points: u64,
     /// For each output that failed somewhere and each reason: how often, and the first point, counted from 1.
     pub failures: BTreeMap<(String, RowFailure), (u64, u64)>,
+    /// Names of the columns of text that are no factors, and were not read.
+    pub skipped: Vec<String>,
+    /// Whether the points are a text whose last line has no end: it may have been cut short, within a number too.
+    pub unended: bool,
 }
 
-/// Evaluates the model of `study` at the points of a CSV file and writes its outputs as CSV: a header of output names,
-/// then one line per point, in the outputs' units. An output that failed is an empty cell.
+/// Evaluates the model of `study` at the points of a table, whose columns are named after factors, and writes its outputs
+/// as CSV: a header of output names, then one line per point, in the outputs' units. An output that failed is an empty cell.
 ///
 /// Runs in constant memory, through as many workers as the model [asks for](crate::model::Model::concurrency); the
 /// outputs stand in the order of the points. Numbers are written with as many digits as it takes to read the same bits back.
 ///
 /// # Errors
 /// [`EvaluateError`] if the points are wrong, the outputs cannot be written, or the model gives up.
-pub fn evaluate(study: &Study, points: impl Read, outputs: &mut dyn Write) -> Result<Evaluated, EvaluateError> {
+pub fn evaluate(
+    study: &Study,
+    points: &mut dyn RowReader,
+    outputs: &mut dyn Write,
+) -> Result<Evaluated, EvaluateError> {
     evaluate_until(study, points, outputs, None)
 }
 
@@ -57,7 +67,7 @@ pub fn evaluate(study: &Study, points: impl Read, outputs: &mut dyn Write) -> Re
 /// As for [`evaluate`], and [`Halt::Interrupted`] if `stop` is set before the end.
 pub fn evaluate_until(
     study: &Study,
-    points: impl Read,
+    points: &mut dyn RowReader,
     outputs: &mut dyn Write,
     stop: Option<&AtomicBool>,
 ) -> Result<Evaluated, EvaluateError> {
@@ -68,9 +78,9 @@ pub fn evaluate_until(
     let most = Crew::rows_at_once(model.as_ref());
     let mut batch = Batch::of(model.as_ref());
     let mut columns = vec![Vec::with_capacity(most); factors.len()];
-    let mut evaluated = Evaluated::default();
+    let mut evaluated = Evaluated { skipped: reader.skipped().to_vec(), ..Evaluated::default() };
     let mut out = std::io::BufWriter::new(outputs);
-    let names: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
+    let names: Vec<String> = model.outputs().iter().map(|output| csv_field(&output.name)).collect();
     writeln!(out, "{}", names.join(","))?;
     loop {
         let rows = reader.read(factors, most, &mut columns)?;
@@ -90,6 +100,7 @@ pub fn evaluate_until(
         write_rows(&mut out, model.outputs(), &batch)?;
     }
     out.flush()?;
+    evaluated.unended = reader.is_unended();
     Ok(evaluated)
 }
 

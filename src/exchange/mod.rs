@@ -21,7 +21,10 @@ pub use manifest::{
     Manifest, ManifestDesign, ManifestError, ManifestFactor, ManifestRun, ManifestStudy, design_sha256,
 };
 pub use points::{PointsError, PointsReader};
-pub use rows::{ColumnKind, Format, RowReader, RowWriter, RowsError, open_rows, row_writer, rows_of_bytes};
+pub use rows::{
+    ColumnKind, Format, RowReader, RowWriter, RowsError, open_rows, open_table, row_writer, rows_of_bytes,
+    table_of_bytes,
+};
 pub use sample::sample;
 pub use save::{SaveError, save_outputs};
 pub use table::{DroppedRows, Missing, Selection, Table, TableError, read_table};

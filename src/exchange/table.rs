@@ -1,41 +1,26 @@
-//! A table of inputs and outputs from a CSV file, whoever made it.
-
-use std::collections::BTreeMap;
-use std::io::Read;
+//! A table of inputs and outputs, whoever made it.
 
 use thiserror::Error;
 
-use super::points::PlainLines;
+use super::points::in_words;
+use super::rows::{ColumnKind, RowReader, RowsError};
 use crate::given::Column;
 use crate::study::nearest;
 
 /// What is wrong with a table.
 #[derive(Debug, Error)]
 pub enum TableError {
-    /// There is not even a header.
-    #[error("line 1: the file is empty: expected a header of column names, then one line per run")]
-    Empty,
-    /// A column without a name.
-    #[error(
-        "line 1: column {column} has no name{}",
-        if *column == 1 { ": if it is the index that pandas writes, leave it out (index=False)" } else { "" }
-    )]
-    Nameless {
-        /// Number of the column, from 1.
-        column: usize,
-    },
-    /// Two columns of one name.
-    #[error("line 1: column {column}: `{name}` is also the name of column {first}")]
-    RepeatedColumn {
-        /// Number of the column, from 1.
-        column: usize,
-        /// The name.
-        name: String,
-        /// Number of the first column of that name.
-        first: usize,
+    /// The file.
+    #[error(transparent)]
+    Rows(#[from] RowsError),
+    /// A file without names of columns, and nobody has given them.
+    #[error("its {width} columns have no names: name them in their order (--names)")]
+    Unnamed {
+        /// Number of columns.
+        width: usize,
     },
     /// An input or output that is no column.
-    #[error("line 1: no column is called `{name}`{}; the columns are {known}", hint(.nearest))]
+    #[error("no column is called `{name}`{}; the columns are {known}{}", hint(.nearest), header(.known))]
     UnknownColumn {
         /// The name asked for.
         name: String,
@@ -50,31 +35,27 @@ pub enum TableError {
         /// The name.
         name: String,
     },
-    /// All columns are outputs.
-    #[error("line 1: no column is left as an input; the columns are {known}")]
+    /// All columns are outputs, or text.
+    #[error("no column of numbers is left as an input; the columns are {known}")]
     NoInputs {
         /// All columns.
         known: String,
     },
     /// An empty cell, or one that says so.
-    #[error(
-        "line {line}: column {column} (`{name}`): the value is missing ({found:?}); --drop-missing leaves such rows out"
-    )]
+    #[error("{place}: column {column} (`{name}`): the value is missing; --drop-missing leaves such rows out")]
     Missing {
-        /// Line of the file, from 1.
-        line: u64,
+        /// Line of the file, or row of the table, in words.
+        place: String,
         /// Number of the column, from 1.
         column: usize,
         /// Its name.
         name: String,
-        /// The cell.
-        found: String,
     },
     /// A cell that is not a finite number.
-    #[error("line {line}: column {column} (`{name}`): expected a finite number, not {found:?}{}", advice(*.chosen))]
+    #[error("{place}: column {column} (`{name}`): expected a finite number, not {found:?}{}", advice(*.chosen))]
     NotANumber {
-        /// Line of the file, from 1.
-        line: u64,
+        /// Line of the file, or row of the table, in words.
+        place: String,
         /// Number of the column, from 1.
         column: usize,
         /// Its name.
@@ -84,28 +65,18 @@ pub enum TableError {
         /// Whether the column was asked for by name.
         chosen: bool,
     },
-    /// A line with too many or too few cells.
-    #[error("line {line}: expected {expected} cells as in the header, not {found}")]
-    WrongLength {
-        /// Line of the file, from 1.
-        line: u64,
-        /// Cells in the header.
-        expected: u64,
-        /// Cells in this line.
-        found: u64,
-    },
-    /// The file cannot be read, or is not text in UTF-8.
-    #[error("line {line}: {source}")]
-    Unreadable {
-        /// Line of the file, from 1.
-        line: u64,
-        /// What the reader said.
-        source: csv::Error,
-    },
 }
 
 fn hint(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
+}
+
+/// A remark on names that are numbers.
+fn header(known: &str) -> &'static str {
+    match known.split(", ").all(|name| name.parse::<f64>().is_ok()) {
+        true => " (the first line holds numbers: is there no header? --names gives the names)",
+        false => "",
+    }
 }
 
 fn advice(chosen: bool) -> &'static str {
@@ -127,7 +98,7 @@ pub enum Missing {
 pub struct Selection<'a> {
     /// Names of the outputs.
     pub outputs: &'a [String],
-    /// Names of the inputs; none for all columns that are no outputs.
+    /// Names of the inputs; none for all columns of numbers that are no outputs.
     pub inputs: &'a [String],
     /// What to do with rows that lack a value in one of these columns.
     pub missing: Missing,
@@ -138,7 +109,7 @@ pub struct Selection<'a> {
 pub struct DroppedRows {
     /// How many.
     pub rows: u64,
-    /// Line of the first of them in the file, from 1.
+    /// Line of the first of them in the file, from 1; its row in the table, where the file has no lines.
     pub first_line: u64,
 }
 
@@ -151,73 +122,75 @@ pub struct Table {
     pub outputs: Vec<Column>,
     /// Rows left out for missing values.
     pub dropped: Option<DroppedRows>,
+    /// Names of the columns of text, which are no inputs.
+    pub skipped: Vec<String>,
 }
 
-/// Reads a table: a header of names, then one line of numbers per run. Columns that are not selected may hold anything.
+/// Rows read at a time.
+const BLOCK: usize = 1 << 12;
+
+/// Reads a table of numbers. Columns that are not selected may hold anything; where the inputs are not named, columns of
+/// text are none.
 ///
-/// A byte-order mark and spaces around cells are ignored, empty lines are skipped. A value is missing if its cell is
-/// empty or says `nan`, `na`, `n/a`, `null`, `none` or `-`, in capitals or not.
+/// A value is missing if its cell is empty or says `nan`, `na`, `n/a`, `null`, `none` or `-`, in capitals or not.
 ///
 /// # Errors
-/// [`TableError`] with line and column of the first fault.
-pub fn read_table(reader: impl Read, selection: &Selection<'_>) -> Result<Table, TableError> {
-    let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(PlainLines::new(reader));
-    let header = csv.headers().map_err(|source| wrong_record(source, 1))?;
-    let names: Vec<String> = header.iter().map(|name| name.trim_start_matches('\u{feff}').trim().to_owned()).collect();
-    check_header(&names)?;
-    let (inputs, outputs) = places(&names, selection)?;
+/// [`TableError`] with the place of the first fault.
+pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Result<Table, TableError> {
+    let Some(names) = reader.names().map(<[String]>::to_vec) else {
+        return Err(TableError::Unnamed { width: reader.width() });
+    };
+    let (mut inputs, outputs) = places(&names, selection)?;
+    let mut skipped = Vec::new();
+    if selection.inputs.is_empty() {
+        let text = reader.text_columns()?;
+        let (of_text, of_numbers): (Vec<usize>, Vec<usize>) = inputs.iter().partition(|place| text.contains(place));
+        skipped = of_text.into_iter().map(|place| names[place].clone()).collect();
+        inputs = of_numbers;
+    }
+    if inputs.is_empty() {
+        return Err(TableError::NoInputs { known: names.join(", ") });
+    }
     let chosen: Vec<usize> = inputs.iter().chain(&outputs).copied().collect();
+    let wanted: Vec<_> = chosen.iter().map(|&place| (place, ColumnKind::numbers(&names[place]))).collect();
     let mut columns: Vec<Column> =
         chosen.iter().map(|&place| Column { name: names[place].clone(), values: Vec::new() }).collect();
-    let mut dropped: Option<DroppedRows> = None;
-    let mut record = csv::StringRecord::new();
-    let mut row = Vec::with_capacity(chosen.len());
+    let not_a_number = |place: String, at: usize, found: String| {
+        let chosen = !selection.inputs.is_empty() || outputs.contains(&at);
+        TableError::NotANumber { place, column: at + 1, name: names[at].clone(), found, chosen }
+    };
+    let (mut dropped, mut cells, mut before): (Option<DroppedRows>, _, u64) = (None, vec![Vec::new(); wanted.len()], 0);
     loop {
-        let read = csv.read_record(&mut record);
-        // The reader stands at the start of the next line.
-        let line = csv.position().line() - 1;
-        if !read.map_err(|error| wrong_record(error, line))? {
+        let count = reader.read(&wanted, BLOCK, &mut cells).map_err(|error| match error {
+            RowsError::WrongCell { row, line, column, found, .. } => {
+                not_a_number(in_words(line, row), column - 1, found)
+            }
+            error => error.into(),
+        })?;
+        if count == 0 {
             break;
         }
-        row.clear();
-        let mut complete = true;
-        for &place in &chosen {
-            let (column, found) = (place + 1, &record[place]);
-            let name = || names[place].clone();
-            match value(found) {
-                Cell::Number(value) => row.push(value),
-                Cell::Missing if selection.missing == Missing::Drop => complete = false,
-                Cell::Missing => return Err(TableError::Missing { line, column, name: name(), found: found.into() }),
-                Cell::Other => {
-                    let chosen = !selection.inputs.is_empty() || outputs.contains(&place);
-                    return Err(TableError::NotANumber { line, column, name: name(), found: found.into(), chosen });
-                }
+        for row in 0..count {
+            let (line, number) = (reader.line(row), before + row as u64 + 1);
+            let Some(first) = cells.iter().position(|column| !column[row].is_finite()) else {
+                columns.iter_mut().zip(&cells).for_each(|(column, cells)| column.values.push(cells[row]));
+                continue;
+            };
+            // An infinity anywhere in the row is no missing value.
+            if let Some(at) = cells.iter().position(|column| column[row].is_infinite()) {
+                return Err(not_a_number(in_words(line, number), chosen[at], cells[at][row].to_string()));
             }
+            if selection.missing == Missing::Refuse {
+                let (place, column) = (in_words(line, number), chosen[first] + 1);
+                return Err(TableError::Missing { place, column, name: names[chosen[first]].clone() });
+            }
+            let first_line = line.unwrap_or(number);
+            dropped.get_or_insert(DroppedRows { rows: 0, first_line }).rows += 1;
         }
-        if complete {
-            columns.iter_mut().zip(&row).for_each(|(column, value)| column.values.push(*value));
-        } else {
-            dropped.get_or_insert(DroppedRows { rows: 0, first_line: line }).rows += 1;
-        }
+        before += count as u64;
     }
     let outputs = columns.split_off(inputs.len());
-    Ok(Table { inputs: columns, outputs, dropped })
-}
-
-fn check_header(names: &[String]) -> Result<(), TableError> {
-    if names.iter().all(String::is_empty) {
-        return Err(TableError::Empty);
-    }
-    let mut places = BTreeMap::new();
-    for (place, name) in names.iter().enumerate() {
-        if name.is_empty() {
-            return Err(TableError::Nameless { column: place + 1 });
-        }
-        if let Some(first) = places.insert(name, place) {
-            return Err(TableError::RepeatedColumn { column: place + 1, name: name.clone(), first: first + 1 });
-        }
-    }
-    Ok(())
+    Ok(Table { inputs: columns, outputs, dropped, skipped })
 }
 
 /// Places of the inputs and of the outputs in the header.
@@ -239,41 +212,20 @@ fn places(names: &[String], selection: &Selection<'_>) -> Result<(Vec<usize>, Ve
     if inputs.is_empty() {
         inputs = (0..names.len()).filter(|place| !outputs.contains(place)).collect();
     }
-    if inputs.is_empty() { Err(TableError::NoInputs { known: known() }) } else { Ok((inputs, outputs)) }
-}
-
-enum Cell {
-    Number(f64),
-    Missing,
-    Other,
-}
-
-fn value(cell: &str) -> Cell {
-    const MISSING: [&str; 8] = ["", "nan", "-nan", "na", "n/a", "null", "none", "-"];
-    if MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) {
-        return Cell::Missing;
-    }
-    cell.parse().ok().filter(|value: &f64| value.is_finite()).map_or(Cell::Other, Cell::Number)
-}
-
-fn wrong_record(source: csv::Error, line: u64) -> TableError {
-    match source.kind() {
-        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            TableError::WrongLength { line, expected: *expected_len, found: *len }
-        }
-        _ => TableError::Unreadable { line, source },
-    }
+    Ok((inputs, outputs))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exchange::table_of_bytes;
     use proptest::prelude::*;
 
     fn read(text: &str, outputs: &[&str], inputs: &[&str], missing: Missing) -> Result<Table, TableError> {
         let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
         let (outputs, inputs) = (owned(outputs), owned(inputs));
-        read_table(text.as_bytes(), &Selection { outputs: &outputs, inputs: &inputs, missing })
+        let mut rows = table_of_bytes(text.as_bytes().to_vec(), &[])?;
+        read_table(rows.as_mut(), &Selection { outputs: &outputs, inputs: &inputs, missing })
     }
 
     #[track_caller]
@@ -295,11 +247,11 @@ mod tests {
 
     #[test]
     fn faults_are_named_with_their_place() {
-        refused("", &["y"], &[], "line 1: the file is empty");
-        refused("\n\n", &["y"], &[], "line 1: the file is empty");
-        refused("a,,y\n", &["y"], &[], "line 1: column 2 has no name");
-        refused(",a,y\n", &["y"], &[], "line 1: column 1 has no name: if it is the index that pandas writes");
-        refused("a,b,a\n", &["b"], &[], "line 1: column 3: `a` is also the name of column 1");
+        refused("", &["y"], &[], "the file is empty");
+        refused("\n\n", &["y"], &[], "the file is empty");
+        refused("a,,y\n", &["y"], &[], "column 2 has no name");
+        refused(",a,y\n", &["y"], &[], "column 1 has no name: if it is the index that pandas writes");
+        refused("a,b,a\n", &["b"], &[], "column 3: `a` is also the name of column 1");
         refused(
             "a,force\n",
             &["forse"],
@@ -307,22 +259,33 @@ mod tests {
             "no column is called `forse`: did you mean `force`?; the columns are a, force",
         );
         refused("a,y\n", &["y"], &["y"], "`y` is asked for twice");
-        refused("y\n1\n", &["y"], &[], "no column is left as an input");
-        refused(
-            "a,y\n1,2\n3,nan\n",
-            &["y"],
-            &[],
-            "line 3: column 2 (`y`): the value is missing (\"nan\"); --drop-missing",
-        );
-        refused("a,y\n1,2\n,2\n", &["y"], &[], "line 3: column 1 (`a`): the value is missing (\"\")");
+        refused("y\n1\n", &["y"], &[], "no column of numbers is left as an input");
+        refused("a,y\n1,2\n3,nan\n", &["y"], &[], "line 3: column 2 (`y`): the value is missing; --drop-missing");
+        refused("a,y\n1,2\n,2\n", &["y"], &[], "line 3: column 1 (`a`): the value is missing");
         refused(
             "a,y\n1,2\nred,2\n",
             &["y"],
             &[],
             "line 3: column 1 (`a`): expected a finite number, not \"red\"; if the",
         );
+        refused("1,2\n3,4\n", &["y"], &[], "the first line holds numbers: is there no header? --names");
+        refused("a;y\n1,5;2\n", &["y"], &["a"], "line 2: column 1 (`a`): expected a finite number, not \"1,5\"");
         refused("a,y\n1,inf\n", &["y"], &["a"], "line 2: column 2 (`y`): expected a finite number, not \"inf\"");
         refused("a,y\n1,2\n3\n", &["y"], &[], "line 3: expected 2 cells as in the header, not 1");
+    }
+
+    #[test]
+    fn columns_of_text_are_skipped_and_named() {
+        let text = "id;a;when;y\nr1;;2026-01-01;2\nr2;0.5;2026-01-02;4\n";
+        let table = read(text, &["y"], &[], Missing::Drop).unwrap();
+        assert_eq!(
+            (table.inputs.len(), &table.inputs[0].values, table.skipped),
+            (1, &vec![0.5], vec!["id".into(), "when".into()])
+        );
+        // One that is asked for is not.
+        assert!(read(text, &["y"], &["id"], Missing::Drop).is_err());
+        let tabs = read("a\ty\n1\t2\n", &["y"], &[], Missing::Refuse).unwrap();
+        assert_eq!((tabs.inputs[0].values[0], tabs.outputs[0].values[0]), (1.0, 2.0));
     }
 
     #[test]
@@ -332,7 +295,7 @@ mod tests {
         assert_eq!(table.inputs[0].values, [1.0, 4.0]);
         assert_eq!(table.dropped, Some(DroppedRows { rows: 2, first_line: 3 }));
         // Text and infinities are no missing values.
-        assert!(read("a,y\nred,1\n", &["y"], &[], Missing::Drop).is_err());
+        assert!(read("a,y\n1,1\nred,1\n", &["y"], &[], Missing::Drop).is_err());
         assert!(read("a,y\n1,inf\n", &["y"], &[], Missing::Drop).is_err());
     }
 
@@ -342,7 +305,11 @@ mod tests {
             let outputs = ["y".to_owned()];
             for missing in [Missing::Refuse, Missing::Drop] {
                 let selection = Selection { outputs: &outputs, inputs: &[], missing };
-                let _ = (read_table(&bytes[..], &selection), read_table(near.as_bytes(), &selection));
+                for bytes in [&bytes[..], near.as_bytes()] {
+                    if let Ok(mut rows) = table_of_bytes(bytes.to_vec(), &[]) {
+                        let _ = read_table(rows.as_mut(), &selection);
+                    }
+                }
             }
         }
     }

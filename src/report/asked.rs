@@ -163,7 +163,7 @@ pub(super) fn json(file: &impl Serialize) -> String {
 pub(super) fn csv_text(rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
-        writer.write_record(&row).expect("rows of one length, into memory");
+        writer.write_record(row.into_iter().map(super::tables::inert)).expect("rows of one length, into memory");
     }
     String::from_utf8(writer.into_inner().expect("into memory")).expect("text in, text out")
 }

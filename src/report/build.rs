@@ -126,6 +126,7 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
         interval: (!alone).then(|| analysis.intervals.words(settings.replicates, analysis.resamples)),
         interval_method: analysis.intervals.name().to_owned(),
         threshold: analysis.threshold,
+        mixed_models: Vec::new(),
     }
 }
 

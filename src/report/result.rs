@@ -106,6 +106,18 @@ pub struct Provenance {
     /// The total index above which a factor counts as one that matters.
     #[serde(default)]
     pub threshold: f64,
+    /// Where more than one version of the model answered, or may have: an entry for each reason; empty otherwise.
+    #[serde(default)]
+    pub mixed_models: Vec<MixedModels>,
+}
+
+/// Runs that another version of the model answered.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct MixedModels {
+    /// The files of the model that differ.
+    pub files: String,
+    /// How many of the runs on record were evaluated with others; `null` if the files changed while the run was under way.
+    pub runs: Option<u64>,
 }
 
 /// A factor.

@@ -2,7 +2,7 @@
 
 use super::build::FinishedRun;
 use super::build_output::{effects, names_of_swaps};
-use super::result::OutputRecord;
+use super::result::{MixedModels, OutputRecord, ResultFile};
 use crate::study::Study;
 use crate::uncertainty::{EffectEstimates, Estimate, IntervalMethod, OutputIndices, differs_clearly};
 
@@ -105,6 +105,24 @@ fn disagreements(study: &Study, name: &str, effect: &EffectEstimates) -> Vec<Str
         }
     }
     warnings
+}
+
+/// Notes in `result` that runs were answered by another version of the model: so many of those on record, or an unknown
+/// number if `files` changed while the run was under way.
+pub fn note_mixed_models(result: &mut ResultFile, files: &str, runs: Option<u64>) {
+    let warning = match runs {
+        Some(runs) => format!(
+            "{runs} of the runs on record were evaluated with another {files} than the others: the numbers mix two models"
+        ),
+        None => format!(
+            "{files} changed while the run was under way: its runs may have been answered by either version, and the numbers \
+             may mix two models"
+        ),
+    };
+    result.provenance.mixed_models.push(MixedModels { files: files.to_owned(), runs });
+    for output in &mut result.outputs {
+        output.warnings.push(warning.clone());
+    }
 }
 
 fn high(estimate: Estimate) -> Option<f64> {

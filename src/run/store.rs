@@ -166,6 +166,12 @@ impl Store {
         (present, failed)
     }
 
+    /// Rows that are there, of all replicates.
+    pub fn rows(&self) -> u64 {
+        let present = |chunk: &Chunk| chunk.present.iter().filter(|present| **present).count() as u64;
+        self.chunks().values().map(present).sum()
+    }
+
     /// Forgets the rows that failed in an output, so that they are missing; returns how many.
     pub fn forget_failures(&self) -> u64 {
         let mut forgotten = 0;

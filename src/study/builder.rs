@@ -12,6 +12,7 @@ use super::{AnalysisOptions, Stopping, Study, plan, resolve};
 use crate::design::{Design, DesignError, DesignSettings, Sampler};
 use crate::estimate::Estimator;
 use crate::model::Model;
+use crate::names::{refused_name, refused_output_name, refused_title, shown};
 use crate::quantity::Unit;
 use crate::space::{Distribution, DistributionError, Factor, Space};
 
@@ -21,6 +22,16 @@ pub enum BuildError {
     /// The name cannot name files.
     #[error("the name {0:?} of the study: expected {NAME}", NAME = resolve::NAME_RULE)]
     Name(String),
+    /// A name or title that no table or file has room for, or with marks in it that are not seen.
+    #[error("{what} {name}: expected {expected}")]
+    Words {
+        /// What it is of.
+        what: &'static str,
+        /// The name or title, or its beginning.
+        name: String,
+        /// What would be right.
+        expected: String,
+    },
     /// The model has no outputs.
     #[error("the model has no outputs")]
     NoOutputs,
@@ -163,6 +174,20 @@ impl StudyBuilder {
         }
         if self.model.outputs().is_empty() {
             return Err(BuildError::NoOutputs);
+        }
+        let words = |what, name: &str, expected| Err(BuildError::Words { what, name: shown(name), expected });
+        if let Some((title, expected)) = self.title.as_ref().and_then(|title| Some((title, refused_title(title)?))) {
+            return words("title", title, expected);
+        }
+        for output in self.model.outputs() {
+            if let Some(expected) = refused_output_name(&output.name) {
+                return words("output", &output.name, expected);
+            }
+        }
+        for factor in self.factors.iter().flatten() {
+            if let Some(expected) = refused_name(&factor.name) {
+                return words("factor", &factor.name, expected);
+            }
         }
         refuse_repeated("output", self.model.outputs().iter().map(|output| &*output.name))?;
         let space = Space::new(self.factors.into_iter().collect::<Result<_, _>>()?);

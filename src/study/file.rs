@@ -21,7 +21,7 @@ pub(super) struct StudyFile {
     /// Name after which result files are called; by default that of the file without its ending.
     pub name: Option<At<String>>,
     /// Title for people.
-    pub title: Option<String>,
+    pub title: Option<At<String>>,
     /// What is studied; `apportion models` lists what there is.
     #[schemars(extend("enum" = schema::models(), "default" = "afm"))]
     pub model: Option<At<String>>,

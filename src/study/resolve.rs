@@ -9,7 +9,9 @@ use super::plan::{Plan, plan};
 use super::subject::{AfmSubject, KnownSubject, Subject};
 use super::units::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_unit};
 use super::{Study, command, constants, distribution, expression, external, function, nominal, read};
+use crate::design::{DesignError, MAX_FACTORS};
 use crate::model::{AfmOutput, Input, ModelKind, known_inputs};
+use crate::names::{LONGEST_STUDY_NAME, file_part, refused_name, refused_output_name, refused_title, shown};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor, Space};
 
@@ -31,6 +33,12 @@ impl Context<'_> {
 /// The study that the text of `context` means.
 pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let file = read::study_file(context)?;
+    // Before anything that takes time for each of them, or for pairs.
+    if file.factor.len() > MAX_FACTORS {
+        let problem = DesignError::FarTooManyFactors { factors: file.factor.len() };
+        return Err(context.fault(file.factor[MAX_FACTORS].span(), problem.into()));
+    }
+    refuse_names(context, &file)?;
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
     let function = match kind {
@@ -68,6 +76,7 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
             (afm(context, file.afm.as_ref(), outputs, &space)?, Vec::new())
         }
     };
+    refuse_output_names(context, &subject, &space)?;
     refuse_outputs_of_factors(context, &subject, (&space, &file.factor))?;
     let Plan { design, analysis, stopping, mut notes } =
         plan(context, &file, &space, subject.model(&space).outputs().len())?;
@@ -77,7 +86,47 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     }
     let name = name(context, file.name.as_ref())?;
     let (overrides, source, sha256) = Default::default();
-    Ok(Study { name, title: file.title, subject, space, design, analysis, stopping, overrides, source, sha256, notes })
+    let title = file.title.as_ref().map(|title| title.get_ref().clone());
+    Ok(Study { name, title, subject, space, design, analysis, stopping, overrides, source, sha256, notes })
+}
+
+/// Names stand in every table and chart: they are refused before the work, not when they do not fit.
+fn refuse_names(context: &Context<'_>, file: &StudyFile) -> Result<(), Fault> {
+    let wrong = |key: &str, (found, span): (&str, Range<usize>), expected: String| {
+        let (key, found) = (key.to_owned(), shown(found));
+        Err(context.fault(span, Problem::WrongType { key, expected, found }))
+    };
+    if let Some(title) = &file.title
+        && let Some(expected) = refused_title(title.get_ref())
+    {
+        return wrong("title", (title.get_ref(), title.span()), expected);
+    }
+    for section in &file.factor {
+        let fields = section.get_ref();
+        let words = |what, at: &At<String>| (what, at.get_ref().clone(), at.span());
+        let labels =
+            fields.labels.iter().flat_map(|labels| labels.get_ref().iter().map(|l| (l.clone(), labels.span())));
+        let labels = labels.map(|(label, span)| ("label", label, span));
+        let group = fields.group.iter().map(|group| words("group", group));
+        for (what, text, span) in [words("name", &fields.name)].into_iter().chain(group).chain(labels) {
+            if let Some(expected) = refused_name(&text) {
+                return wrong(&format!("{what} of a factor"), (&text, span), expected);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The same for outputs, after which files are named.
+fn refuse_output_names(context: &Context<'_>, subject: &Subject, space: &Space) -> Result<(), Fault> {
+    let model = subject.model(space);
+    let refused = |name: &str| Some((name.to_owned(), refused_output_name(name)?));
+    let Some((name, expected)) = model.outputs().iter().find_map(|output| refused(&output.name)) else { return Ok(()) };
+    // Where it stands first; escaped ones are not found.
+    let start = context.text.find(&name).unwrap_or(0);
+    let end = if context.text[start..].starts_with(&name) { start + name.len() } else { start };
+    let (key, found) = ("name of an output".to_owned(), shown(&name));
+    Err(context.fault(start..end, Problem::WrongType { key, expected, found }))
 }
 
 /// Factors and outputs are columns of one table, and need names of their own.
@@ -122,14 +171,11 @@ pub(super) fn unknown_name<'a>(
 }
 
 fn name(context: &Context<'_>, name: Option<&At<String>>) -> Result<String, Fault> {
-    let stem = || context.path.file_stem().map_or_else(|| "study".to_owned(), |s| s.to_string_lossy().into_owned());
+    let stem = || context.path.file_stem().map_or_else(|| "study".to_owned(), |s| file_part(&s.to_string_lossy()));
     let Some(name) = name else { return Ok(stem()) };
     if !names_files(name.get_ref()) {
-        let problem = Problem::WrongType {
-            key: "name".to_owned(),
-            expected: NAME_RULE.to_owned(),
-            found: format!("{:?}", name.get_ref()),
-        };
+        let problem =
+            Problem::WrongType { key: "name".to_owned(), expected: NAME_RULE.to_owned(), found: shown(name.get_ref()) };
         return Err(context.fault(name.span(), problem));
     }
     Ok(name.get_ref().clone())
@@ -137,12 +183,12 @@ fn name(context: &Context<'_>, name: Option<&At<String>>) -> Result<String, Faul
 
 /// What the name of a study may be.
 pub(super) const NAME_RULE: &str =
-    "letters, digits, '-', '_', '.' and spaces, not starting with a dot (files are named after it)";
+    "letters, digits, '-', '_', '.' and spaces, not starting with a dot, at most 120 bytes (files are named after it)";
 
 /// Whether `name` keeps to [`NAME_RULE`].
 pub(super) fn names_files(name: &str) -> bool {
     let fits = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
-    !name.trim().is_empty() && !name.starts_with('.') && name.chars().all(fits)
+    !name.trim().is_empty() && name.len() <= LONGEST_STUDY_NAME && !name.starts_with('.') && name.chars().all(fits)
 }
 
 /// `[afm]`, `[function]`, `[expression]`, `[external]` and `command` belong to one kind of model each.

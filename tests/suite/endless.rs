@@ -48,8 +48,8 @@ fn a_journal_without_an_end_is_refused() {
     std::fs::create_dir(&out).unwrap();
     std::os::unix::fs::symlink("/dev/zero", out.join("study.journal")).unwrap();
     let output = apportion(&["run", text(&study), "--out", text(&out), "--resume"]);
-    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    assert!(stderr(&output).contains("cannot read the journal: it is no regular file"), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains("but a pipe, a device or a folder is there"), "{}", stderr(&output));
 }
 
 #[cfg(unix)]

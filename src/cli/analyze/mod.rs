@@ -11,6 +11,7 @@ use apportion::quantity::Unit;
 use apportion::report::prepare_folder;
 use apportion::{Running, analyse_with};
 
+use super::evaluate::say_of_table;
 use super::run::{default_folder, deliver, prepare_files, with_inputs};
 use super::{Failure, Threads, say, say_notes};
 
@@ -72,6 +73,7 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
         AnswersError::MissingRows { .. } | AnswersError::UnknownOutput { .. } => wrong(&format!("{error}{header}")),
         _ => wrong(&error),
     })?;
+    say_of_table(&arguments.data, (&[], reader.is_unended()));
     let study = &answers.study;
     say_notes(study);
     match answers.compared.len() {

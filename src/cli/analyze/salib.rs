@@ -8,14 +8,15 @@ use apportion::files::{read_text, read_whole};
 use apportion::given::Column;
 use apportion::report::chart::png;
 use apportion::report::salib::{SalibFacts, SalibFile, build_salib, salib_chart, salib_csv, salib_json, salib_summary};
-use apportion::report::{output_stem, prepare_file, prepare_folder, write_atomically};
+use apportion::report::{file_stems, prepare_folder, prepare_in, refused_name, write_in};
 use apportion::salib::{LayoutError, SalibLayout, SalibProblem, check_points, recognise, salib_indices};
 use apportion::study::Study;
 use sha2::{Digest, Sha256};
 
+use super::super::evaluate::say_of_table;
 use super::super::pictures::say_written;
 use super::super::run::default_folder;
-use super::super::{Failure, print};
+use super::super::{Failure, print, say, stop};
 
 #[derive(clap::Args)]
 pub struct SalibArguments {
@@ -122,12 +123,17 @@ fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
         Some(problem) => problem,
         None => SalibProblem::of_inputs(input_names).map_err(|error| wrong(&error))?,
     };
+    let names = problem.members.iter().map(|(name, _)| name).chain(outputs.iter().map(|(_, name)| name));
+    if let Some((name, expected)) = names.into_iter().find_map(|name| Some((name, refused_name(name)?))) {
+        return Err(wrong(&format!("the name {:.60?} of an input or output: expected {expected}", name)));
+    }
     let wanted: Vec<(usize, ColumnKind)> =
         inputs.iter().chain(&outputs).map(|(place, name)| (*place, ColumnKind::numbers(name))).collect();
     let (mut all, mut part) = (vec![Vec::new(); wanted.len()], vec![Vec::new(); wanted.len()]);
     while reader.read(&wanted, 1 << 13, &mut part).map_err(|error| wrong(&error))? > 0 {
         all.iter_mut().zip(&part).for_each(|(all, part)| all.extend_from_slice(part));
     }
+    say_of_table(&arguments.data, (&[], reader.is_unended()));
     for ((_, kind), column) in wanted.iter().zip(&all) {
         if let Some(row) = column.iter().position(|value| !value.is_finite()) {
             let found = if column[row].is_nan() { "the value is missing" } else { "the value is infinite" };
@@ -201,12 +207,14 @@ fn write_files(arguments: &super::Arguments, result: &SalibFile) -> Result<Vec<P
         arguments.data.file_stem().map_or_else(|| "table".to_owned(), |stem| stem.to_string_lossy().into_owned());
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&stem));
     prepare_folder(&folder)?;
+    stop::writing()?;
     let mut files = vec![
         (format!("{stem}.json"), salib_json(result).into_bytes()),
         (format!("{stem}-indices.csv"), salib_csv(result).into_bytes()),
     ];
-    for output in &result.outputs {
-        let name = output_stem(&stem, &output.name, result.outputs.len());
+    let names: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
+    for (output, name) in result.outputs.iter().zip(file_stems(&stem, &names, &["-indices"])) {
+        stop::unless_stopped()?;
         let svg = salib_chart(result, output).svg().map_err(|error| Failure::Run(error.into()))?;
         let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
         files.push((format!("{name}-indices.svg"), svg.into_bytes()));
@@ -214,7 +222,7 @@ fn write_files(arguments: &super::Arguments, result: &SalibFile) -> Result<Vec<P
     }
     let mut written = Vec::with_capacity(files.len());
     for (name, bytes) in files {
-        let path = folder.join(name);
+        let path = folder.join(&name);
         if std::fs::canonicalize(&path)
             .ok()
             .zip(std::fs::canonicalize(&arguments.data).ok())
@@ -225,9 +233,8 @@ fn write_files(arguments: &super::Arguments, result: &SalibFile) -> Result<Vec<P
                 path.display()
             )));
         }
-        prepare_file(&path)?;
-        write_atomically(&path, &bytes)?;
-        written.push(path);
+        prepare_in(&folder, &name)?;
+        written.push(write_in(&folder, &name, &bytes)?);
     }
     Ok(written)
 }

@@ -4,6 +4,7 @@ use super::{AnswersError, AnswersRequest};
 use crate::exchange::design_rows::factor_column;
 use crate::exchange::{ColumnKind, RowReader};
 use crate::model::Output;
+use crate::names::{refused_output_name, shown};
 use crate::quantity::Unit;
 use crate::space::Space;
 use crate::study::{ExternalSubject, Study, Subject, nearest};
@@ -77,6 +78,10 @@ pub(super) fn subject(
     if let Some((name, _)) = request.units.iter().find(|(name, _)| columns.iter().all(|(_, column)| column != name)) {
         let known = columns.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>().join(", ");
         return Err(AnswersError::UnitOfNone { name: name.clone(), known });
+    }
+    let refused = |name: &String| Some((shown(name), refused_output_name(name)?));
+    if let Some((name, expected)) = columns.iter().find_map(|(_, name)| refused(name)) {
+        return Err(AnswersError::OutputName { name, expected });
     }
     let names = columns.iter().map(|(_, name)| name);
     if request.units.is_empty() && names.clone().eq(own.iter().map(|output| &*output.name)) {

@@ -31,6 +31,14 @@ pub enum AnswersError {
         /// Whether it is a factor.
         factor: bool,
     },
+    /// An output after which no file can be named, or which no table has room for.
+    #[error("the name {name} of an output: expected {expected}")]
+    OutputName {
+        /// The name, or its beginning.
+        name: String,
+        /// What would be right.
+        expected: String,
+    },
     /// All columns are factors.
     #[error("the file holds no outputs: its columns are the factors {known}")]
     FactorsOnly {

@@ -1,34 +1,110 @@
-//! Rows as CSV.
+//! Rows as CSV: with commas, semicolons or tabs between the cells.
 
-use std::io::{BufWriter, Read, Write};
+use std::collections::VecDeque;
+use std::io::{BufWriter, Cursor, Read, Write};
 
+use super::plain_lines::PlainLines;
 use super::{ColumnKind, RowReader, RowWriter, RowsError, check_names};
-use crate::exchange::points::PlainLines;
-use crate::report::csv_field;
+use crate::report::{csv_field, plain_field};
+
+/// Rows that are looked at to tell columns of text from those of numbers.
+const AHEAD: usize = 100;
+
+/// Most bytes of the first line that are looked at for what separates its cells.
+const FIRST_LINE: usize = 1 << 16;
+
+/// A text with its beginning read already.
+type Begun<R> = std::io::Chain<Cursor<Vec<u8>>, R>;
 
 /// Reads CSV: a byte-order mark and spaces around cells are ignored, empty lines are skipped.
 pub(super) struct CsvRows<R: Read> {
-    csv: csv::Reader<PlainLines<R>>,
+    csv: csv::Reader<PlainLines<Begun<R>>>,
     names: Vec<String>,
     record: csv::StringRecord,
+    /// Rows looked at before they are asked for, each with its line.
+    ahead: VecDeque<(csv::StringRecord, u64)>,
+    /// Lines of the rows of the last block.
+    lines: Vec<u64>,
     /// Rows read.
     rows: u64,
 }
 
 impl<R: Read> CsvRows<R> {
-    pub(super) fn new(reader: R) -> Result<Self, RowsError> {
-        let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(PlainLines::new(reader));
-        let header = csv.headers().map_err(|source| wrong_record(source, 1))?;
-        let names: Vec<String> =
-            header.iter().map(|name| name.trim_start_matches('\u{feff}').trim().to_owned()).collect();
-        if let [name] = &names[..]
-            && let Some(separator) = [';', '\t'].into_iter().find(|separator| name.contains(*separator))
-        {
-            return Err(RowsError::OtherSeparator { name: name.clone(), separator });
+    /// A table with a header, or one of columns with these names.
+    pub(super) fn new(mut reader: R, names: &[String]) -> Result<Self, RowsError> {
+        let begin = first_line(&mut reader)?;
+        let delimiter = separator(&begin);
+        let text = PlainLines::new(Cursor::new(begin).chain(reader));
+        let mut builder = csv::ReaderBuilder::new();
+        let mut csv = builder.trim(csv::Trim::All).delimiter(delimiter).has_headers(names.is_empty()).from_reader(text);
+        let named = if names.is_empty() {
+            let header = csv.headers().map_err(|source| wrong_record(source, 1))?;
+            let name = |name: &str| plain_field(name.trim_start_matches('\u{feff}').trim()).to_owned();
+            header.iter().map(name).collect()
+        } else {
+            names.to_vec()
+        };
+        check_names(&named)?;
+        let (record, ahead, lines) = Default::default();
+        let mut rows = Self { csv, names: named, record, ahead, lines, rows: 0 };
+        if !names.is_empty() {
+            rows.check_width()?;
         }
-        check_names(&names)?;
-        Ok(Self { csv, names, record: csv::StringRecord::new(), rows: 0 })
+        Ok(rows)
     }
+
+    /// Whether the first row of a table without a header has a cell for every name.
+    fn check_width(&mut self) -> Result<(), RowsError> {
+        let Some((mut first, line)) = self.next_record()? else { return Ok(()) };
+        if first.len() != self.names.len() {
+            return Err(RowsError::OtherWidth { width: first.len(), names: self.names.len() });
+        }
+        // The mark would be part of the first number.
+        if let Some(cell) = first.get(0).and_then(|cell| cell.strip_prefix('\u{feff}')) {
+            let cells: Vec<&str> = std::iter::once(cell).chain(first.iter().skip(1)).collect();
+            first = csv::StringRecord::from(cells);
+        }
+        self.ahead.push_back((first, line));
+        Ok(())
+    }
+
+    /// The next row with its line, from the text.
+    fn next_record(&mut self) -> Result<Option<(csv::StringRecord, u64)>, RowsError> {
+        let read = self.csv.read_record(&mut self.record);
+        // The reader stands at the start of the next line.
+        let line = self.csv.position().line().saturating_sub(1);
+        let is_one = read.map_err(|source| wrong_record(source, line))?;
+        Ok(is_one.then(|| (std::mem::take(&mut self.record), line)))
+    }
+}
+
+/// The beginning of a text up to the end of its first line, and maybe beyond.
+fn first_line(reader: &mut impl Read) -> std::io::Result<Vec<u8>> {
+    let (mut begin, mut part) = (Vec::new(), [0; 4096]);
+    while begin.len() < FIRST_LINE && !begin.contains(&b'\n') {
+        match reader.read(&mut part) {
+            Ok(0) => break,
+            Ok(count) => begin.extend_from_slice(&part[..count]),
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => (),
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(begin)
+}
+
+/// What separates the cells of a first line: a comma if there is one outside of quotes, else a semicolon or a tab.
+fn separator(begin: &[u8]) -> u8 {
+    let (mut quoted, mut found) = (false, None);
+    for byte in begin {
+        match byte {
+            b'"' => quoted = !quoted,
+            b'\n' if !quoted => break,
+            b',' if !quoted => return b',',
+            b';' | b'\t' if !quoted => found = found.or(Some(*byte)),
+            _ => (),
+        }
+    }
+    found.unwrap_or(b',')
 }
 
 impl<R: Read> RowReader for CsvRows<R> {
@@ -40,26 +116,57 @@ impl<R: Read> RowReader for CsvRows<R> {
         self.names.len()
     }
 
+    fn text_columns(&mut self) -> Result<Vec<usize>, RowsError> {
+        while self.ahead.len() < AHEAD
+            && let Some(next) = self.next_record()?
+        {
+            self.ahead.push_back(next);
+        }
+        let number = ColumnKind::default();
+        let is_text = |place: &usize| {
+            let cells = self.ahead.iter().filter_map(|(record, _)| record.get(*place));
+            let mut values = cells.map(|cell| number.value(cell)).filter(|value| !value.is_some_and(f64::is_nan));
+            values.next().is_some_and(|value| value.is_none())
+        };
+        Ok((0..self.names.len()).filter(is_text).collect())
+    }
+
+    fn line(&self, row: usize) -> Option<u64> {
+        self.lines.get(row).copied()
+    }
+
+    fn is_unended(&self) -> bool {
+        self.csv.get_ref().is_unended()
+    }
+
     fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>]) -> Result<usize, RowsError> {
         into.iter_mut().for_each(Vec::clear);
+        self.lines.clear();
         for row in 0..rows {
-            let read = self.csv.read_record(&mut self.record);
-            // The reader stands at the start of the next line.
-            let line = self.csv.position().line().saturating_sub(1);
-            if !read.map_err(|source| wrong_record(source, line))? {
-                return Ok(row);
-            }
+            let next = match self.ahead.pop_front() {
+                Some(next) => Some(next),
+                None => self.next_record()?,
+            };
+            let Some((record, line)) = next else { return Ok(row) };
             self.rows += 1;
+            self.lines.push(line);
             for ((place, kind), column) in wanted.iter().zip(&mut *into) {
-                let cell = &self.record[*place];
-                let value = kind.value(cell).ok_or_else(|| RowsError::WrongCell {
-                    row: self.rows,
-                    name: self.names[*place].clone(),
-                    expected: kind.expected(),
-                    found: cell.to_owned(),
+                let cell = &record[*place];
+                let value = kind.value(cell).or_else(|| kind.value(plain_field(cell))).ok_or_else(|| {
+                    let decimal_comma = kind.labels.is_empty() && cell.replacen(',', ".", 1).parse::<f64>().is_ok();
+                    RowsError::WrongCell {
+                        row: self.rows,
+                        line: Some(line),
+                        column: place + 1,
+                        name: self.names[*place].clone(),
+                        expected: kind.expected() + if decimal_comma { " with a decimal point" } else { "" },
+                        found: cell.to_owned(),
+                    }
                 })?;
                 column.push(value);
             }
+            // Its memory serves the next row.
+            self.record = record;
         }
         Ok(rows)
     }

@@ -7,14 +7,19 @@
 mod csv_rows;
 mod npy;
 mod parquet_rows;
+mod plain_lines;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{Cursor, Write};
+use std::io::{Cursor, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+
+use crate::files::read_opened;
+use crate::names::refused_name;
 
 /// How a table is written down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,6 +61,15 @@ impl Format {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let known = |format: &Self| ending.as_deref() == Some(format.ending());
         Self::ALL.into_iter().find(known).ok_or_else(|| RowsError::UnknownEnding { path: path.to_owned() })
+    }
+
+    /// The format of a file that begins with these bytes: that of text, if it is no other.
+    fn of_beginning(bytes: &[u8]) -> Self {
+        match bytes {
+            [b'P', b'A', b'R', b'1', ..] => Self::Parquet,
+            [b'\x93', b'N', b'U', b'M', b'P', b'Y', ..] => Self::Npy,
+            _ => Self::Csv,
+        }
     }
 }
 
@@ -101,17 +115,27 @@ pub enum RowsError {
         /// Number of the column, from 1.
         column: usize,
     },
-    /// A header that is a single cell, with another separator in it.
-    #[error(
-        "line 1: `{}` is a single column: cells must be separated by commas, not by {} (and numbers have a decimal point)",
-        name.replace('\t', " "),
-        if *separator == ';' { "semicolons" } else { "tabs" }
-    )]
-    OtherSeparator {
-        /// The cell.
-        name: String,
-        /// The separator.
-        separator: char,
+    /// A column whose name no table or chart has room for, or with marks in it that are not seen.
+    #[error("the name of column {column}: expected {expected}")]
+    WrongName {
+        /// Number of the column, from 1.
+        column: usize,
+        /// What would be right.
+        expected: String,
+    },
+    /// More or fewer names given than there are columns.
+    #[error("{names} names are given, but it has {width} columns")]
+    OtherWidth {
+        /// Number of columns.
+        width: usize,
+        /// Number of names.
+        names: usize,
+    },
+    /// Names given for columns that have some.
+    #[error("it names its columns itself ({known}): leave --names out")]
+    HasNames {
+        /// The names.
+        known: String,
     },
     /// Two columns of one name.
     #[error("column {column}: `{name}` is also the name of column {first}")]
@@ -128,6 +152,10 @@ pub enum RowsError {
     WrongCell {
         /// Row of the table, from 1, the header not counted.
         row: u64,
+        /// Line of the file, from 1, if it has lines.
+        line: Option<u64>,
+        /// Number of the column, from 1.
+        column: usize,
         /// The column.
         name: String,
         /// What would be right.
@@ -212,6 +240,25 @@ pub trait RowReader {
     /// Number of all columns.
     fn width(&self) -> usize;
 
+    /// The columns that hold text, by their type, or by the first values in them.
+    ///
+    /// # Errors
+    /// [`RowsError`] if the file cannot be read.
+    fn text_columns(&mut self) -> Result<Vec<usize>, RowsError> {
+        Ok(Vec::new())
+    }
+
+    /// The line of the file, from 1, on which row number `row` of the last block ends; `None` in a format without lines.
+    fn line(&self, _row: usize) -> Option<u64> {
+        None
+    }
+
+    /// Whether the file, read to its end, is a text whose last line has no end: it may have been cut short, within a number
+    /// too.
+    fn is_unended(&self) -> bool {
+        false
+    }
+
     /// Reads the next rows, at most `rows`, of some columns into `into`, one vector for each of `wanted` (number of the
     /// column below [`width`](Self::width), what it holds; the
     /// same ones in every call), and returns how many there were; 0 at the end.
@@ -232,10 +279,52 @@ pub fn open_rows(path: &Path) -> Result<Box<dyn RowReader>, RowsError> {
         return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
     }
     Ok(match format {
-        Format::Csv => Box::new(csv_rows::CsvRows::new(file)?),
+        Format::Csv => Box::new(csv_rows::CsvRows::new(file, &[])?),
         Format::Parquet => Box::new(parquet_rows::ParquetRows::new(file)?),
         Format::Npy => Box::new(npy::NpyRows::new(file)?),
     })
+}
+
+/// Opens the table in `path`, whatever its name, in the format that its first bytes say. `names` are those of its columns,
+/// if it has none itself; a text is then one without a header.
+///
+/// # Errors
+/// [`RowsError`] if the file cannot be read or is not of that format, or names do not fit.
+pub fn open_table(path: &Path, names: &[String]) -> Result<Box<dyn RowReader>, RowsError> {
+    let mut file = File::open(path)?;
+    let about = file.metadata()?;
+    if about.is_dir() {
+        return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
+    }
+    let mut begin = Vec::new();
+    (&mut file).take(8).read_to_end(&mut begin)?;
+    match Format::of_beginning(&begin) {
+        // In constant memory, from a pipe too.
+        Format::Csv => Ok(Box::new(csv_rows::CsvRows::new(Cursor::new(begin).chain(file), names)?)),
+        Format::Npy if about.is_file() => {
+            file.rewind()?;
+            named(Box::new(npy::NpyRows::new(file)?), names)
+        }
+        Format::Parquet if about.is_file() => {
+            file.rewind()?;
+            named(Box::new(parquet_rows::ParquetRows::new(file)?), names)
+        }
+        _ => {
+            begin.extend(read_opened(&mut file)?);
+            table_of_bytes(begin, names)
+        }
+    }
+}
+
+/// The table in `bytes`, as [`open_table`] reads it.
+///
+/// # Errors
+/// As for [`open_table`].
+pub fn table_of_bytes(bytes: Vec<u8>, names: &[String]) -> Result<Box<dyn RowReader>, RowsError> {
+    match Format::of_beginning(&bytes) {
+        Format::Csv => Ok(Box::new(csv_rows::CsvRows::new(Cursor::new(bytes), names)?)),
+        format => named(rows_of_bytes(format, bytes)?, names),
+    }
 }
 
 /// The table in `bytes`.
@@ -244,10 +333,45 @@ pub fn open_rows(path: &Path) -> Result<Box<dyn RowReader>, RowsError> {
 /// [`RowsError`] if they are not of that format.
 pub fn rows_of_bytes(format: Format, bytes: Vec<u8>) -> Result<Box<dyn RowReader>, RowsError> {
     Ok(match format {
-        Format::Csv => Box::new(csv_rows::CsvRows::new(Cursor::new(bytes))?),
+        Format::Csv => Box::new(csv_rows::CsvRows::new(Cursor::new(bytes), &[])?),
         Format::Parquet => Box::new(parquet_rows::ParquetRows::new(bytes::Bytes::from(bytes))?),
         Format::Npy => Box::new(npy::NpyRows::new(Cursor::new(bytes))?),
     })
+}
+
+/// `rows` with names given for its columns.
+fn named(rows: Box<dyn RowReader>, names: &[String]) -> Result<Box<dyn RowReader>, RowsError> {
+    if names.is_empty() {
+        return Ok(rows);
+    }
+    if let Some(known) = rows.names() {
+        return Err(RowsError::HasNames { known: known.join(", ") });
+    }
+    if rows.width() != names.len() {
+        return Err(RowsError::OtherWidth { width: rows.width(), names: names.len() });
+    }
+    check_names(names)?;
+    Ok(Box::new(Named { rows, names: names.to_vec() }))
+}
+
+/// A table of a format without names, with names from elsewhere.
+struct Named {
+    rows: Box<dyn RowReader>,
+    names: Vec<String>,
+}
+
+impl RowReader for Named {
+    fn names(&self) -> Option<&[String]> {
+        Some(&self.names)
+    }
+
+    fn width(&self) -> usize {
+        self.rows.width()
+    }
+
+    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>]) -> Result<usize, RowsError> {
+        self.rows.read(wanted, rows, into)
+    }
 }
 
 /// Writes a table block by block.
@@ -290,12 +414,16 @@ fn check_names(names: &[String]) -> Result<(), RowsError> {
     if names.iter().all(String::is_empty) {
         return Err(RowsError::Empty);
     }
+    let mut places = BTreeMap::new();
     for (place, name) in names.iter().enumerate() {
         let column = place + 1;
         if name.is_empty() {
             return Err(RowsError::Nameless { column });
         }
-        if let Some(first) = names[..place].iter().position(|other| other == name) {
+        if let Some(expected) = refused_name(name) {
+            return Err(RowsError::WrongName { column, expected });
+        }
+        if let Some(first) = places.insert(name, place) {
             return Err(RowsError::RepeatedColumn { column, name: name.clone(), first: first + 1 });
         }
     }

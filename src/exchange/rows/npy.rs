@@ -197,6 +197,8 @@ impl<R: Read + Seek> RowReader for NpyRows<R> {
                 let numbers: Vec<String> = kind.labels.iter().map(|(label, n)| format!("{n} ({label})")).collect();
                 return Err(RowsError::WrongCell {
                     row: first + row as u64 + 1,
+                    line: None,
+                    column: place + 1,
                     name: format!("number {}", place + 1),
                     expected: format!("one of {}", numbers.join(", ")),
                     found: column[row].to_string(),

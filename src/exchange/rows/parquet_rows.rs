@@ -1,8 +1,9 @@
 //! Rows as Parquet: flat columns of numbers or text.
 
+use std::cell::Cell;
 use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
+use std::sync::{Arc, Once};
 
 use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -25,10 +26,28 @@ impl From<ParquetError> for RowsError {
     }
 }
 
-/// What `read` returns; the reader's panics over damaged files, of which it has some, as an error.
+thread_local! {
+    /// Whether this thread reads a file whose reader may panic.
+    static READING: Cell<bool> = const { Cell::new(false) };
+}
+
+/// What `read` returns; the reader's panics over damaged files, of which it has some, as an error without their text on the
+/// terminal. Panics of other threads are told as ever.
 fn guarded<T>(read: impl FnOnce() -> Result<T, RowsError>) -> Result<T, RowsError> {
-    let damaged = || RowsError::NoParquet("it is damaged".to_owned());
-    catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| Err(damaged()))
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let others = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |panic| {
+            // The thread may be at its end.
+            if !READING.try_with(Cell::get).unwrap_or(false) {
+                others(panic);
+            }
+        }));
+    });
+    let before = READING.replace(true);
+    let outcome = catch_unwind(AssertUnwindSafe(read));
+    READING.set(before);
+    outcome.unwrap_or_else(|_| Err(RowsError::NoParquet("it is damaged".to_owned())))
 }
 
 /// Reads Parquet, row group by row group.
@@ -94,7 +113,8 @@ impl ParquetRows {
             let Some((readers, left)) = &mut self.current else { break };
             let count = (rows - done).min(usize::try_from(*left).unwrap_or(usize::MAX));
             for (((place, kind), reader), column) in wanted.iter().zip(readers).zip(&mut *into) {
-                let place = Place { name: &self.names[*place], first: self.rows + done as u64, kind };
+                let (name, first) = (&self.names[*place], self.rows + done as u64);
+                let place = Place { column: *place, name, first, kind };
                 read_cells(reader, count, place, column)?;
             }
             *left -= count as u64;
@@ -142,6 +162,7 @@ fn supported(column: &ColumnDescriptor, name: &str) -> Result<(), RowsError> {
 /// Where cells stand, for messages, and what they are.
 #[derive(Clone, Copy)]
 struct Place<'a> {
+    column: usize,
     name: &'a str,
     /// Row of the first one, from 0.
     first: u64,
@@ -151,6 +172,8 @@ struct Place<'a> {
 fn read_cells(reader: &mut ColumnReader, count: usize, place: Place<'_>, into: &mut Vec<f64>) -> Result<(), RowsError> {
     let cell = |row: usize, found: String| RowsError::WrongCell {
         row: place.first + row as u64 + 1,
+        line: None,
+        column: place.column + 1,
         name: place.name.to_owned(),
         expected: place.kind.expected(),
         found,
@@ -214,6 +237,17 @@ impl RowReader for ParquetRows {
 
     fn width(&self) -> usize {
         self.names.len()
+    }
+
+    fn text_columns(&mut self) -> Result<Vec<usize>, RowsError> {
+        guarded(|| {
+            let schema = self.file.metadata().file_metadata().schema_descr();
+            let is_text = |place: &usize| {
+                let column = schema.column(*place);
+                column.physical_type() == Physical::BYTE_ARRAY || supported(&column, &self.names[*place]).is_err()
+            };
+            Ok((0..self.names.len()).filter(is_text).collect())
+        })
     }
 
     fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>]) -> Result<usize, RowsError> {

@@ -100,12 +100,13 @@ fn faults_are_named_with_their_place() {
         b",a\n0,1\n",
         "column 1 has no name: if it is the index that pandas writes, leave it out (index=False)",
     );
+    refused(Format::Csv, b"a;b\n1,5;0\n", "row 1: column `a`: expected a number with a decimal point, not \"1,5\"");
     refused(
         Format::Csv,
-        b"a;y\n1,5;2\n",
-        "line 1: `a;y` is a single column: cells must be separated by commas, not by semicolons",
+        "a,\u{202e}b\n".as_bytes(),
+        "the name of column 2: expected a name without control characters",
     );
-    refused(Format::Csv, b"a\ty\n1\t2\n", "`a y` is a single column: cells must be separated by commas, not by tabs");
+    refused(Format::Csv, format!("a,{}\n", "b".repeat(1000)).as_bytes(), "the name of column 2: expected at most 200");
     refused(Format::Csv, b"a,b,a\n", "column 3: `a` is also the name of column 1");
     refused(Format::Csv, b"a,b\n1,0\n\n2\n", "line 4: expected 2 cells as in the header, not 1");
     refused(Format::Csv, b"a,b\n1,0\nred,0\n", "row 2: column `a`: expected a number, not \"red\"");
@@ -118,6 +119,87 @@ fn faults_are_named_with_their_place() {
     refused(Format::Npy, &npy(header, &[0; 7]), "should follow the header, but 7 bytes do");
     let message = Format::of("a.xlsx".as_ref()).unwrap_err().to_string();
     assert_eq!(message, "the ending of the name tells the format: expected .csv, .parquet or .npy, not .xlsx");
+}
+
+fn names(names: &[&str]) -> Vec<String> {
+    names.iter().map(|name| (*name).to_owned()).collect()
+}
+
+#[test]
+fn other_separators_and_tables_without_names_are_read() {
+    for text in ["a;b\n1;7.5\n2;0\n", "a\tb\n1\t7.5\n2\t0\n", "\"a\";\"b\"\r\n1;7.5\r\n2;0"] {
+        assert_eq!(read(Format::Csv, text.as_bytes(), &[], 9).unwrap(), [[1.0, 2.0], [7.5, 0.0]], "{text:?}");
+    }
+    // A comma in quotes is part of a name.
+    let quoted = rows_of_bytes(Format::Csv, b"\"a,x\";b\n1;2\n".to_vec()).unwrap();
+    assert_eq!(quoted.names().unwrap(), ["a,x", "b"]);
+    let mut columns = vec![Vec::new(); 2];
+    let wanted = [(0, optional("a")), (1, optional("b"))];
+    let numbers = written(Format::Npy, &[optional("a"), optional("b")], &[vec![1.0, 2.0], vec![7.5, 0.0]]);
+    for bytes in ["\u{feff}1,7.5\n2,0\n".as_bytes().to_vec(), b"1;7.5\n2;0".to_vec(), numbers.clone()] {
+        let mut rows = table_of_bytes(bytes.clone(), &names(&["a", "b"])).unwrap();
+        assert_eq!(rows.names().unwrap(), names(&["a", "b"]));
+        assert_eq!(rows.read(&wanted, 5, &mut columns).unwrap(), 2);
+        assert_eq!(columns, [[1.0, 2.0], [7.5, 0.0]]);
+        let message = table_of_bytes(bytes, &names(&["a"])).err().unwrap().to_string();
+        assert_eq!(message, "1 names are given, but it has 2 columns");
+    }
+    assert!(table_of_bytes(numbers, &[]).unwrap().names().is_none());
+    let parquet = written(Format::Parquet, &[optional("a")], &[vec![1.0]]);
+    let message = table_of_bytes(parquet, &names(&["b"])).err().unwrap().to_string();
+    assert_eq!(message, "it names its columns itself (a): leave --names out");
+}
+
+#[test]
+fn columns_of_text_are_told_from_those_of_numbers() {
+    let csv = b"id,a,b,c\n,1,nan,x\nr2,2,red,\n".to_vec();
+    let mut rows = rows_of_bytes(Format::Csv, csv).unwrap();
+    assert_eq!(rows.text_columns().unwrap(), [0, 2, 3]);
+    // Nothing is lost by looking.
+    let mut columns = vec![Vec::new()];
+    assert_eq!(rows.read(&[(1, optional("a"))], 9, &mut columns).unwrap(), 2);
+    assert_eq!((&columns[0][..], rows.line(1), rows.is_unended()), (&[1.0, 2.0][..], Some(3), false));
+    let parquet = written(Format::Parquet, &[optional("a"), probe()], &[vec![1.0], vec![7.5]]);
+    assert_eq!(rows_of_bytes(Format::Parquet, parquet).unwrap().text_columns().unwrap(), [1]);
+}
+
+#[test]
+fn a_text_that_may_have_been_cut_short_is_noticed() {
+    for (text, unended) in [("a\n1.25\n", false), ("a\n1.25", true), ("a\n1.25\r\n", false), ("a\n", false)] {
+        let mut rows = rows_of_bytes(Format::Csv, text.into()).unwrap();
+        let mut columns = vec![Vec::new()];
+        while rows.read(&[(0, optional("a"))], 9, &mut columns).unwrap() > 0 {}
+        assert_eq!(rows.is_unended(), unended, "{text:?}");
+    }
+}
+
+#[test]
+fn names_that_a_spreadsheet_would_run_are_written_as_text_and_come_back() {
+    let labels = vec![("+1".to_owned(), 1.0), ("=1+1".to_owned(), 2.0)];
+    let columns = [optional("=cmd()"), ColumnKind { labels, ..ColumnKind::numbers("@b") }];
+    let values = [vec![-1.5, 2.0], vec![1.0, 2.0]];
+    let csv = written(Format::Csv, &columns, &values);
+    assert_eq!(String::from_utf8(csv.clone()).unwrap(), "'=cmd(),'@b\n-1.5,+1\n2.0,'=1+1\n");
+    assert_eq!(rows_of_bytes(Format::Csv, csv.clone()).unwrap().names().unwrap(), ["=cmd()", "@b"]);
+    assert_eq!(read(Format::Csv, &csv, &columns, 5).unwrap(), values);
+}
+
+/// A Parquet file of PyArrow with checksums of its pages: `pq.write_table(pa.table({"a": [k / 7 for k in range(1000)]}), path,
+/// write_page_checksum=True, use_dictionary=False, compression="none", store_schema=False)`.
+const CHECKSUMS: &[u8] = include_bytes!("checksums.parquet");
+
+#[test]
+fn pages_of_parquet_are_read_with_their_checksums() {
+    let whole = read(Format::Parquet, CHECKSUMS, &[], 300).unwrap();
+    assert!(whole[0].iter().enumerate().all(|(k, value)| *value == k as f64 / 7.0) && whole[0].len() == 1000);
+    // Anywhere among the numbers: the page begins with its header and levels.
+    for number in 0..12 {
+        let mut damaged = CHECKSUMS.to_vec();
+        damaged[300 + 600 * number] ^= 1 << (number % 8);
+        let refused = read(Format::Parquet, &damaged, &[], 300);
+        let message = refused.map(|_| "accepted".to_owned()).unwrap_or_else(|error| error.to_string());
+        assert!(message.contains("Page CRC checksum mismatch"), "byte {}: {message}", 300 + 600 * number);
+    }
 }
 
 proptest! {

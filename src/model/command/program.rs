@@ -75,6 +75,20 @@ impl Program {
 fn isolate(command: &mut Command) {
     use std::os::unix::process::CommandExt;
     command.process_group(0);
+    let as_usual = || {
+        // An ignored signal stays one in a child; a program beyond its limits ends as it would by itself.
+        // SAFETY: no handler is installed.
+        #[allow(unsafe_code)]
+        unsafe {
+            libc::signal(libc::SIGXFSZ, libc::SIG_DFL);
+        }
+        Ok(())
+    };
+    // SAFETY: between fork and exec the closure makes one system call and neither allocates nor locks.
+    #[allow(unsafe_code)]
+    unsafe {
+        command.pre_exec(as_usual);
+    }
     #[cfg(target_os = "linux")]
     {
         let parent = rustix::process::getpid();

@@ -2,6 +2,7 @@
 
 use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparisonFile};
+use crate::names::file_stems;
 use crate::report::Drawing;
 use crate::report::asked::{sentence, the};
 use crate::report::chart::{Bar, Chart, GroupedBars, Panel, Role, Series};
@@ -19,15 +20,14 @@ const TOTAL: Role = Role::Other(0);
 /// For every output its indices side by side, then the differences. Of more than 30 factors, those with the largest total
 /// indices in either result.
 pub fn comparison_charts(file: &ComparisonFile) -> Vec<Drawing> {
-    let several = file.outputs.len() > 1;
-    let of_output = |output: &ComparedOutput| {
-        let stem = if several { format!("-{}", output.name) } else { String::new() };
+    let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
+    let drawn = file.outputs.iter().zip(file_stems("", &names, &["", "-differences"])).flat_map(|(output, stem)| {
         [
             Drawing { suffix: stem.clone(), chart: side_by_side(file, output) },
             Drawing { suffix: format!("{stem}-differences"), chart: differences(file, output) },
         ]
-    };
-    file.outputs.iter().flat_map(of_output).collect()
+    });
+    drawn.collect()
 }
 
 fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Chart {

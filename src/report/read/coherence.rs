@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::names::{LONGEST_NAME, LONGEST_STUDY_NAME, LONGEST_TITLE};
 use crate::report::distribution::OutputDistribution;
 use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::scatter::ScatterRecord;
@@ -11,10 +12,16 @@ type Fault = (String, String);
 
 /// What the types of the keys do not say.
 pub(super) fn check(result: &ResultFile) -> Result<(), Fault> {
-    file_name("study.name", &result.study.name)?;
+    file_name("study.name", &result.study.name, LONGEST_STUDY_NAME)?;
+    let title = result.study.title.as_deref().unwrap_or_default();
+    short_enough("study.title", title, LONGEST_TITLE)?;
+    for (place, factor) in result.factors.iter().enumerate() {
+        short_enough(&format!("factors[{place}].name"), &factor.name, LONGEST_NAME)?;
+        short_enough(&format!("factors[{place}].group"), factor.group.as_deref().unwrap_or_default(), LONGEST_NAME)?;
+    }
     for (place, output) in result.outputs.iter().enumerate() {
         let key = format!("outputs[{place}]");
-        file_name(&format!("{key}.name"), &output.name)?;
+        file_name(&format!("{key}.name"), &output.name, LONGEST_NAME)?;
         if result.outputs[..place].iter().any(|other| other.name == output.name) {
             return Err((format!("{key}.name"), format!("the output {:?} is there twice", output.name)));
         }
@@ -30,13 +37,24 @@ pub(super) fn check(result: &ResultFile) -> Result<(), Fault> {
 }
 
 /// Files are named after the study and its outputs: a name must not lead to another folder.
-fn file_name(key: &str, name: &str) -> Result<(), Fault> {
+fn file_name(key: &str, name: &str, most: usize) -> Result<(), Fault> {
+    short_enough(key, name, most)?;
     let leads_away = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
     if name.is_empty() || name.contains(leads_away) {
         let problem = format!("files are named after it, so it cannot be {name:?}: expected a name without / \\ :");
         return Err((key.to_owned(), problem));
     }
     Ok(())
+}
+
+/// What is drawn has an end.
+fn short_enough(key: &str, text: &str, most: usize) -> Result<(), Fault> {
+    let length = text.chars().count();
+    if length <= most {
+        Ok(())
+    } else {
+        Err((key.to_owned(), format!("expected at most {most} characters, found {length}")))
+    }
 }
 
 /// Largest count: up to here sums of a few counts, and the counts as numbers, are exact.

@@ -32,14 +32,5 @@ impl Beside<'_> {
     }
 }
 
-/// Where the files of an output's charts begin: the study's name, and with several outputs that of the output.
-///
-/// ```
-/// use apportion::report::output_stem;
-///
-/// assert_eq!(output_stem("soft", "force", 1), "soft");
-/// assert_eq!(output_stem("soft", "force", 2), "soft-force");
-/// ```
-pub fn output_stem(study: &str, output: &str, outputs: usize) -> String {
-    if outputs == 1 { study.to_owned() } else { format!("{study}-{output}") }
-}
+/// What the names of the charts of an output end in, before the ending of the format.
+pub const RUN_CHARTS: [&str; 6] = ["", "-indices", "-interactions", "-scatter", "-distribution", "-convergence"];

@@ -1,12 +1,13 @@
 //! The charts of a run as figures of the page, numbered through.
 
-use super::beside::{Beside, output_stem};
+use super::beside::{Beside, RUN_CHARTS};
 use super::words::the;
 use crate::report::chart::Chart;
 use crate::report::page::{PageFigure, Part};
 use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::{
-    capitalised, convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart, study_chart,
+    capitalised, convergence_chart, distribution_chart, file_stems, indices_chart, interactions_chart, scatter_chart,
+    study_chart,
 };
 
 /// Draws the figures of one output after the other.
@@ -62,7 +63,8 @@ impl Figures<'_> {
     /// The chart called `name`, with links to its pictures, whose names end in `suffix`, and to the table `csv`.
     fn figure(&mut self, of: Numbered<'_>, (suffix, csv): (&str, &str), (name, mut chart): (&str, Chart)) -> Part {
         self.count += 1;
-        let stem = output_stem(self.beside.study, &of.output.name, self.result.outputs.len());
+        let outputs: Vec<&str> = self.result.outputs.iter().map(|output| output.name.as_str()).collect();
+        let stem = &file_stems(self.beside.study, &outputs, &RUN_CHARTS)[of.number - 1];
         let study = &self.result.study;
         let headline = format!("{}: ", study.title.as_ref().unwrap_or(&study.name));
         // The page has the study's title at its top.

@@ -9,7 +9,7 @@ mod tables;
 mod words;
 
 use beside::Beside;
-pub use beside::output_stem;
+pub use beside::RUN_CHARTS;
 use figures::{Figures, Numbered};
 use output::Topic;
 

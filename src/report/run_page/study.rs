@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::tables::table;
-use super::words::{grouped, name, value};
+use super::words::{count, grouped, name, value};
 use crate::report::page::{Cell, Mark, Part};
 use crate::report::result::{FactorRecord, ResultFile, ValidityRecord};
 use crate::report::{share_of_runs, significant};
@@ -157,7 +157,11 @@ pub(super) fn provenance(result: &ResultFile) -> Vec<Part> {
         ("intervals", interval),
         ("study file, SHA-256", format!("`{}`", provenance.study_sha256)),
     ];
-    let rows = rows.into_iter().map(|(label, text)| (label.to_owned(), text)).collect();
+    let mixed = provenance.mixed_models.iter().map(|mixed| {
+        let runs = mixed.runs.map_or_else(|| "an unknown number of runs".to_owned(), |runs| count(runs, "run", "runs"));
+        ("another version of the model", format!("answered {runs} ({})", mixed.files))
+    });
+    let rows = rows.into_iter().chain(mixed).map(|(label, text)| (label.to_owned(), text)).collect();
     let text = "The same study file, seed and version give the same numbers, on any number of threads.";
     vec![Part::Text(text.to_owned()), pairs("How the answer came about.", rows)]
 }

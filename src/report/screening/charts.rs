@@ -5,6 +5,7 @@ use super::super::chart::{
     Axis, Chart, Guide, Range, RangeBars, RangeRow, Role, ScatterChart, ScatterPoint, ScatterSeries,
 };
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile};
+use crate::names::file_stems;
 use crate::screening::{FIXABLE, Reading};
 
 /// Most bars in a chart; the rest are counted in its caption.
@@ -13,16 +14,20 @@ const MOST_BARS: usize = 40;
 /// The charts of every output: `-screen` (mu* against sigma) and `-screen-bars`, with the output's name in between
 /// where there are several.
 pub fn screening_charts(file: &ScreeningFile) -> Vec<Drawing> {
-    let mut drawings = Vec::with_capacity(2 * file.outputs.len());
-    for output in &file.outputs {
-        let suffix = match file.outputs.len() {
-            1 => "-screen".to_owned(),
-            _ => format!("-screen-{}", output.name),
-        };
-        drawings.push(Drawing { chart: Chart::Scatter(scatter(file, output)), suffix: suffix.clone() });
-        drawings.push(Drawing { chart: Chart::Ranges(bars(file, output)), suffix: format!("{suffix}-bars") });
-    }
-    drawings
+    let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
+    let drawn = file.outputs.iter().zip(screening_suffixes(&names)).flat_map(|(output, [suffix, of_bars])| {
+        [
+            Drawing { chart: Chart::Scatter(scatter(file, output)), suffix },
+            Drawing { chart: Chart::Ranges(bars(file, output)), suffix: of_bars },
+        ]
+    });
+    drawn.collect()
+}
+
+/// What the files of the two charts of each output end in, after the study's name.
+pub fn screening_suffixes(outputs: &[&str]) -> Vec<[String; 2]> {
+    let stems = file_stems("-screen", outputs, &["", "-bars"]);
+    stems.into_iter().map(|stem| [stem.clone(), format!("{stem}-bars")]).collect()
 }
 
 /// A reading's colour and shape: the calmest for the plainest.

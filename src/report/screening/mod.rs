@@ -3,7 +3,7 @@
 mod charts;
 mod record;
 
-pub use charts::screening_charts;
+pub use charts::{screening_charts, screening_suffixes};
 pub use record::{
     FactorScreeningRecord, OutputScreeningRecord, ScreeningFailureRecord, ScreeningFile, ScreeningProvenance,
     build_screening,

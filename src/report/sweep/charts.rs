@@ -5,6 +5,8 @@ use super::super::chart::{
     Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Range, RangeBars, RangeRow, Reference, Role, Spacing, Stroke,
 };
 use super::super::friction_role;
+use crate::names::file_stems;
+
 use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines};
 
 /// Up to so many values, each is marked by a point.
@@ -20,19 +22,22 @@ const HIGH_END: Role = Role::Other(0);
 /// One line chart per factor, `-sweep-FACTOR`, with a panel per output; then per output the ranges of all factors,
 /// `-sweep-ranges`, with the output's name at the end where there are several.
 pub fn sweep_charts(file: &SweepFile) -> Vec<Drawing> {
-    let mut drawings = Vec::with_capacity(file.sweeps.len() + file.nominal.len());
-    for sweep in &file.sweeps {
-        let chart = Chart::Lines(lines(file, sweep));
-        drawings.push(Drawing { suffix: format!("-sweep-{}", sweep.factor), chart });
-    }
-    for (number, nominal) in file.nominal.iter().enumerate() {
-        let suffix = match file.nominal.len() {
-            1 => "-sweep-ranges".to_owned(),
-            _ => format!("-sweep-ranges-{}", nominal.output),
-        };
-        drawings.push(Drawing { suffix, chart: Chart::Ranges(ranges(file, (number, nominal))) });
-    }
-    drawings
+    let factors: Vec<&str> = file.sweeps.iter().map(|sweep| sweep.factor.as_str()).collect();
+    let outputs: Vec<&str> = file.nominal.iter().map(|nominal| nominal.output.as_str()).collect();
+    let charts = file.sweeps.iter().map(|sweep| Chart::Lines(lines(file, sweep)));
+    let of_outputs = file.nominal.iter().enumerate().map(|nominal| Chart::Ranges(ranges(file, nominal)));
+    let suffixes = sweep_suffixes(&factors, &outputs);
+    charts.chain(of_outputs).zip(suffixes).map(|(chart, suffix)| Drawing { suffix, chart }).collect()
+}
+
+/// What the files of the charts end in, after the study's name: those of the factors, then those of the outputs.
+pub fn sweep_suffixes(factors: &[&str], outputs: &[&str]) -> Vec<String> {
+    let of_outputs = outputs.iter().map(|output| match outputs.len() {
+        1 => "ranges".to_owned(),
+        _ => format!("ranges-{output}"),
+    });
+    let names: Vec<String> = factors.iter().map(|factor| (*factor).to_owned()).chain(of_outputs).collect();
+    file_stems("-sweep", &names.iter().map(String::as_str).collect::<Vec<_>>(), &[""])
 }
 
 fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> LineChart {

@@ -3,7 +3,7 @@
 mod charts;
 mod record;
 
-pub use charts::sweep_charts;
+pub use charts::{sweep_charts, sweep_suffixes};
 pub use record::{
     AgainstRecord, CurveRecord, FactorSweepRecord, GapRecord, NominalRecord, OutputCurveRecord, SweepEffectRecord,
     SweepFile, SweepProvenance, build_sweep,

@@ -11,8 +11,8 @@ use std::fmt;
 use comfy_table::{CellAlignment, ContentArrangement, ContentLineStyle, LineStyle, Table, TableStyle};
 use unicode_width::UnicodeWidthStr;
 
-pub(crate) use csv::csv_field;
 pub use csv::{convergence_csv, estimators_csv, indices_csv, second_order_csv};
+pub(crate) use csv::{csv_field, inert, plain_field};
 pub use fit::wrapped;
 pub(super) use number::{chance, give_or_take};
 pub use number::{estimate, fixed, share, share_of_runs, significant, two_digits, with_unit};

@@ -23,6 +23,12 @@ pub enum JournalError {
         /// What the operating system said.
         source: std::io::Error,
     },
+    /// A pipe, a device or a folder is in its place.
+    #[error("{}: a journal is a file, but a pipe, a device or a folder is there: remove it, or give another folder", .path.display())]
+    NoFile {
+        /// The path.
+        path: PathBuf,
+    },
     /// Another process has it open.
     #[error("{}: another run is writing this journal", .path.display())]
     InUse {

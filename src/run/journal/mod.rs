@@ -50,11 +50,11 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 
 pub use error::JournalError;
-pub use format::{Contents, read_journal};
+pub use format::{Contents, Stretch, read_journal};
 pub use identity::differences;
 
 use super::Piece;
-use crate::files::read_opened;
+use crate::files::{read_opened, read_whole};
 
 /// Time between forced writes to the disk: what a power cut may cost, at most. (The death of the program alone costs
 /// nothing that was appended.)
@@ -85,6 +85,7 @@ impl Journal {
     /// # Errors
     /// [`JournalError`] if the file cannot be written, or another run is writing it.
     pub fn create(path: &Path, header: &Value) -> Result<Self, JournalError> {
+        refuse_no_file(path)?;
         // Truncated only once the lock is held: the file may be another run's.
         let file = OpenOptions::new().create(true).truncate(false).read(true).write(true).open(path);
         let file = file.map_err(|source| JournalError::unwritable(path, source))?;
@@ -105,6 +106,7 @@ impl Journal {
     /// # Errors
     /// [`JournalError`] if the file cannot be read or written, is no journal, or another run is writing it.
     pub fn resume(path: &Path) -> Result<(Self, Contents), JournalError> {
+        refuse_no_file(path)?;
         let file = OpenOptions::new().read(true).write(true).open(path);
         let mut file = file.map_err(|source| JournalError::unreadable(path, source))?;
         lock(path, &file)?;
@@ -128,10 +130,22 @@ impl Journal {
     /// # Errors
     /// What the operating system says; the journal then ends with the record before.
     pub fn append(&self, piece: &Piece) -> std::io::Result<()> {
+        self.append_record(|buffer| format::write_record(buffer, piece))
+    }
+
+    /// Appends that the pieces from here on are evaluated with `files` of the model (path: digest).
+    ///
+    /// # Errors
+    /// As for [`append`](Self::append).
+    pub fn append_files(&self, files: &Value) -> std::io::Result<()> {
+        self.append_record(|buffer| format::write_files(buffer, files))
+    }
+
+    fn append_record(&self, write: impl FnOnce(&mut Vec<u8>)) -> std::io::Result<()> {
         let mut writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
         let mut buffer = std::mem::take(&mut writer.buffer);
         buffer.clear();
-        format::write_record(&mut buffer, piece);
+        write(&mut buffer);
         let written = writer.append(&buffer);
         writer.buffer = buffer;
         written
@@ -170,6 +184,24 @@ impl Writer {
         }
         Ok(())
     }
+}
+
+/// Opening a pipe waits for somebody at its other end, and a device keeps nothing.
+fn refuse_no_file(path: &Path) -> Result<(), JournalError> {
+    match std::fs::metadata(path) {
+        Ok(there) if !there.is_file() => Err(JournalError::NoFile { path: path.to_owned() }),
+        _ => Ok(()),
+    }
+}
+
+/// Reads the journal at `path` without locking it.
+///
+/// # Errors
+/// [`JournalError`] if the file cannot be read, or is no journal.
+pub fn read_journal_file(path: &Path) -> Result<Contents, JournalError> {
+    refuse_no_file(path)?;
+    let bytes = read_whole(path).map_err(|source| JournalError::unreadable(path, source))?;
+    read_journal(path, &bytes)
 }
 
 fn lock(path: &Path, file: &File) -> Result<(), JournalError> {

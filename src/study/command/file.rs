@@ -56,6 +56,8 @@ pub struct CommandSection {
     /// Files that are copied to the directory of each run, relative to the study.
     #[serde(default)]
     pub files: Vec<At<String>>,
+    /// Whether the template and the files may lie outside of the study's folder.
+    pub files_outside: Option<At<bool>>,
     /// Folder in which the directories of runs are kept, relative to the study; by default each is removed after its run.
     pub keep: Option<At<String>>,
 }

@@ -147,6 +147,7 @@ fn protocol(context: &Context<'_>, section: &CommandSection, picks: &[&At<toml::
         ("input", section.input.as_ref().map(At::span)),
         ("files", section.files.first().map(At::span)),
         ("keep", section.keep.as_ref().map(At::span)),
+        ("files_outside", section.files_outside.as_ref().map(At::span)),
         ("regex, column, pointer, file, match", picks.first().map(|value| value.span())),
     ];
     if let Some((key, span)) = spans.into_iter().find_map(|(key, span)| Some((key, span?))) {

@@ -29,6 +29,7 @@ pub(super) fn form(
     let template_file = folder.join(template.get_ref());
     let file_name = template_file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let input = section.input.as_ref().map_or(file_name, |input| input.get_ref().clone());
+    inside(context, section, &folder, template)?;
     let span = || section.input.as_ref().map_or_else(|| template.span(), At::span);
     refuse_place("input", &input).map_err(|problem| context.fault(span(), problem))?;
     let read = read_template(&template_file, space).map_err(|problem| context.fault(template.span(), problem))?;
@@ -40,6 +41,25 @@ pub(super) fn form(
     let files = files(context, section, &folder, &input)?;
     let keep = section.keep.as_ref().map(|keep| folder.join(keep.get_ref()));
     Ok((PerRun { template_file, template: read, input, files, keep }, notes))
+}
+
+/// A study that somebody hands on reads no file elsewhere, by whatever path or link, unless it says so.
+fn inside(context: &Context<'_>, section: &CommandSection, folder: &Path, typed: &At<String>) -> Result<(), Fault> {
+    if section.files_outside.as_ref().is_some_and(|allowed| *allowed.get_ref()) {
+        return Ok(());
+    }
+    let path = folder.join(typed.get_ref());
+    // What is not there is told of by whoever reads it.
+    let (Ok(real), Ok(folder)) = (path.canonicalize(), folder.canonicalize()) else { return Ok(()) };
+    if real.starts_with(folder) {
+        return Ok(());
+    }
+    let problem = Problem::ProgramFile {
+        place: path.display().to_string(),
+        reason: "the file lies outside of the study's folder".to_owned(),
+        help: "move it there, or add files_outside = true to [command]".to_owned(),
+    };
+    Err(context.fault(typed.span(), problem))
 }
 
 fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
@@ -87,6 +107,7 @@ fn files(context: &Context<'_>, section: &CommandSection, folder: &Path, input: 
     for typed in &section.files {
         let path = folder.join(typed.get_ref());
         let fault = |problem| context.fault(typed.span(), problem);
+        inside(context, section, folder, typed)?;
         if !path.is_file() {
             let (place, reason) = (path.display().to_string(), "there is no such file".to_owned());
             let help = "the path is relative to the study; folders are not copied".to_owned();

@@ -5,6 +5,7 @@ mod answers;
 mod expression;
 mod journal;
 mod mutation;
+mod parquet;
 mod result;
 mod rows;
 mod study;
@@ -23,10 +24,11 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 7] = [
+pub const TARGETS: [Target; 8] = [
     Target { name: "answers", run: answers::run, dictionary: include_str!("answers.dict") },
     Target { name: "expression", run: expression::run, dictionary: include_str!("expression.dict") },
     Target { name: "journal", run: journal::run, dictionary: "" },
+    Target { name: "parquet", run: parquet::run, dictionary: "" },
     Target { name: "result", run: result::run, dictionary: include_str!("result.dict") },
     Target { name: "rows", run: rows::run, dictionary: include_str!("rows.dict") },
     Target { name: "study", run: study::run, dictionary: include_str!("study.dict") },

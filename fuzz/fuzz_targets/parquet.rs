@@ -1,0 +1,3 @@
+#![no_main]
+
+apportion_fuzz::fuzz!("parquet");

@@ -1,0 +1,97 @@
+//! The user's files that the outputs of a study depend on, by their digests: which model answered.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, OnceLock};
+use std::time::SystemTime;
+
+use apportion::files::read_whole;
+use apportion::study::Study;
+use serde_json::{Map, Value, json};
+use sha2::{Digest, Sha256};
+
+/// The digests of files (path: SHA-256); files that cannot be read are left out.
+fn digests(paths: &[PathBuf]) -> Value {
+    let digest = |path: &PathBuf| {
+        let bytes = read_whole(path).ok()?;
+        let hex: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        Some((path.display().to_string(), json!(hex)))
+    };
+    Value::Object(paths.iter().filter_map(digest).collect())
+}
+
+/// The names of files (path: digest) that are not the same before and now, if any. They are known by their names, so that a
+/// study may move, and be called by any path.
+pub fn differing(before: &Value, now: &Value) -> Option<String> {
+    let known = |files: &Value| -> BTreeSet<(String, String)> {
+        let name = |path: &String| Path::new(path).file_name().map(|name| name.to_string_lossy().into_owned());
+        let entries = files.as_object().into_iter().flatten();
+        entries.filter_map(|(path, digest)| Some((name(path)?, digest.as_str()?.to_owned()))).collect()
+    };
+    let (before, now) = (known(before), known(now));
+    let names: BTreeSet<&str> = before.symmetric_difference(&now).map(|(name, _)| name.as_str()).collect();
+    let names: Vec<&str> = names.into_iter().collect();
+    (!names.is_empty()).then(|| names.join(", "))
+}
+
+/// What tells at a glance that a file may have changed.
+type Stamp = Option<(SystemTime, u64)>;
+
+/// The files of a study as they were when its run began, looked at again while it goes on.
+pub struct ModelFiles {
+    paths: Vec<PathBuf>,
+    begun: Value,
+    seen: Mutex<Vec<Stamp>>,
+    changed: OnceLock<String>,
+}
+
+impl ModelFiles {
+    /// The files of `study` as they are now.
+    pub fn of(study: &Study) -> Self {
+        let paths = study.subject.files();
+        // Before the digests: a change in between is seen.
+        let seen = Mutex::new(stamps(&paths));
+        Self { begun: digests(&paths), seen, paths, changed: OnceLock::new() }
+    }
+
+    /// Files that nobody evaluates anything with here.
+    pub fn on_record(files: &Value) -> Self {
+        Self { paths: Vec::new(), begun: files.clone(), seen: Mutex::default(), changed: OnceLock::new() }
+    }
+
+    /// Their digests when the run began (path: SHA-256).
+    pub fn begun(&self) -> &Value {
+        &self.begun
+    }
+
+    /// The names of those that have changed since, if any; they are not forgiven if they change back.
+    pub fn changed(&self) -> Option<&str> {
+        if let Some(names) = self.changed.get() {
+            return Some(names);
+        }
+        let now = stamps(&self.paths);
+        if let Ok(mut seen) = self.seen.lock()
+            && *seen != now
+        {
+            *seen = now;
+            if let Some(names) = differing(&self.begun, &digests(&self.paths)) {
+                return Some(self.changed.get_or_init(|| names));
+            }
+        }
+        self.changed.get().map(String::as_str)
+    }
+
+    /// What stands in the place of their digests when it cannot be told which version answered. It is like no digest.
+    pub fn uncertain(&self) -> Value {
+        let paths = self.begun.as_object().into_iter().flatten().map(|(path, _)| path.clone());
+        Value::Object(paths.map(|path| (path, json!("changed while the run was under way"))).collect::<Map<_, _>>())
+    }
+}
+
+fn stamps(paths: &[PathBuf]) -> Vec<Stamp> {
+    let stamp = |path: &PathBuf| {
+        let about = std::fs::metadata(path).ok()?;
+        Some((about.modified().ok()?, about.len()))
+    };
+    paths.iter().map(stamp).collect()
+}

@@ -1,0 +1,154 @@
+//! Names that users give: what they may be, and the names of files made of them.
+//!
+//! A name stands in tables, charts, pages, on terminals, and in the names of files. It is checked when it is read; the
+//! names of files are safe and unique all the same, whatever the names they are made of.
+
+use std::collections::HashSet;
+
+/// Most characters of the name of a factor, output, group or label: far more than any table or chart has room for.
+pub const LONGEST_NAME: usize = 200;
+
+/// Most characters of a title.
+pub const LONGEST_TITLE: usize = 500;
+
+/// Most bytes of the name of a study. Names of files have 255 bytes on most systems, and endings are added to it.
+pub const LONGEST_STUDY_NAME: usize = 120;
+
+/// Most bytes of an output's name in the name of a file.
+const LONGEST_PART: usize = 80;
+
+/// Whether `c` is a character that cannot be seen, but changes the text around it: one of control, a mark that turns the
+/// direction of writing, a separator of lines, or one without a width.
+pub fn is_hidden(c: char) -> bool {
+    c.is_control()
+        || matches!(
+            c,
+            '\u{ad}'
+                | '\u{61c}'
+                | '\u{180e}'
+                | '\u{200b}'..='\u{200f}'
+                | '\u{2028}'..='\u{202e}'
+                | '\u{2060}'..='\u{206f}'
+                | '\u{feff}'
+                | '\u{fff9}'..='\u{fffb}'
+                | '\u{fffe}'
+                | '\u{ffff}'
+                | '\u{e0000}'..='\u{e007f}'
+        )
+}
+
+/// What the name of a factor, group or label may be: why `name` is not, in words that follow "expected".
+pub fn refused_name(name: &str) -> Option<String> {
+    if name.trim().is_empty() {
+        return Some("a name that is not empty".to_owned());
+    }
+    if name.chars().count() > LONGEST_NAME {
+        return Some(format!("at most {LONGEST_NAME} characters"));
+    }
+    name.contains(is_hidden).then(|| {
+        "a name without control characters and marks that are not seen (of line breaks and of the direction of writing)"
+            .to_owned()
+    })
+}
+
+/// The same for the name of an output, after which files are named.
+pub fn refused_output_name(name: &str) -> Option<String> {
+    let leads_away = || "a name without / \\ : (files are named after it)".to_owned();
+    refused_name(name).or_else(|| name.contains(['/', '\\', ':']).then(leads_away))
+}
+
+/// The same for a title; an empty one is none.
+pub fn refused_title(title: &str) -> Option<String> {
+    if title.chars().count() > LONGEST_TITLE {
+        return Some(format!("at most {LONGEST_TITLE} characters"));
+    }
+    let hidden = title.contains(|c| is_hidden(c) && !matches!(c, '\n' | '\t'));
+    hidden.then(|| "a text without control characters and marks that are not seen".to_owned())
+}
+
+/// A name or value as it stands in a message: the beginning of one that is long, and nothing hidden.
+pub fn shown(text: &str) -> String {
+    const MOST: usize = 60;
+    let mut chars = text.chars();
+    let begin: String = chars.by_ref().take(MOST).collect();
+    if chars.next().is_some() {
+        format!("{begin:?}... ({} characters)", text.chars().count())
+    } else {
+        format!("{begin:?}")
+    }
+}
+
+/// `name` as part of the name of a file: without characters that mean something to a file system, and not too long.
+///
+/// ```
+/// assert_eq!(apportion::report::file_part("../x: y"), ".._x_ y");
+/// ```
+pub fn file_part(name: &str) -> String {
+    let safe = |c: char| if is_hidden(c) || "/\\:*?\"<>|".contains(c) { '_' } else { c };
+    let mut part: String = name.chars().map(safe).collect();
+    part.truncate((0..=LONGEST_PART.min(part.len())).rev().find(|&end| part.is_char_boundary(end)).unwrap_or(0));
+    part
+}
+
+/// What the files of each of `names` begin with, so that with `suffixes` behind it no two files have one name, not even
+/// where capitals are not told from small letters: the name, with a number where it would stand for another's file.
+///
+/// ```
+/// let stems = apportion::report::file_stems("s", &["y", "y-indices", "Y"], &["", "-indices"]);
+/// assert_eq!(stems, ["s-y", "s-y-indices-2", "s-Y-3"]);
+/// assert_eq!(apportion::report::file_stems("s", &["y"], &[""]), ["s"]);
+/// ```
+pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String> {
+    if names.len() == 1 {
+        return vec![study.to_owned()];
+    }
+    let parts: Vec<String> = names.iter().map(|name| file_part(name)).collect();
+    let mut taken: HashSet<String> = HashSet::new();
+    let mut free = |number: usize, part: &str| {
+        let numbered = (number + 1..).map(|n| format!("{study}-{part}-{n}"));
+        let mut candidates = std::iter::once(format!("{study}-{part}")).chain(numbered);
+        let files =
+            |stem: &str| suffixes.iter().map(|suffix| format!("{stem}{suffix}").to_lowercase()).collect::<Vec<_>>();
+        let stem = candidates.find(|stem| files(stem).iter().all(|file| !taken.contains(file)));
+        let stem = stem.unwrap_or_default();
+        taken.extend(files(&stem));
+        stem
+    };
+    parts.iter().enumerate().map(|(number, part)| free(number, part)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_plain_and_of_bounded_length() {
+        for name in ["x1", "Kraft in µN", "力", "a-b_c.d", "=x", "קלט"] {
+            assert_eq!(refused_output_name(name), None, "{name}");
+        }
+        let long = "x".repeat(LONGEST_NAME + 1);
+        for name in ["", "  ", "a\nb", "a\u{202e}b", "a\u{200b}", "\u{feff}x", "a\u{2028}b", &long] {
+            assert!(refused_name(name).is_some(), "{name:?}");
+        }
+        for name in ["x/../../evil", "..\\evil", "c:evil"] {
+            assert!(refused_name(name).is_none() && refused_output_name(name).is_some(), "{name}");
+        }
+        assert!(refused_title("two\nlines").is_none() && refused_title(&"t".repeat(LONGEST_TITLE + 1)).is_some());
+        assert!(shown(&long).len() < 100);
+    }
+
+    #[test]
+    fn stems_of_files_are_unique_whatever_the_names() {
+        let suffixes = ["", "-indices", "-scatter"];
+        let long = "n".repeat(300);
+        let names =
+            ["y", "Y", "y-indices", "y-2", "a/b", "a\\b", "y-scatter-2", "../../x", &long, &long[1..], "É", "é"];
+        let stems = file_stems("s", &names, &suffixes);
+        let files = stems.iter().flat_map(|stem| suffixes.map(|suffix| format!("{stem}{suffix}").to_lowercase()));
+        let unique: HashSet<String> = files.clone().collect();
+        assert_eq!(unique.len(), files.count());
+        assert!(stems.iter().all(|stem| !stem.contains(['/', '\\']) && stem.len() < 120), "{stems:?}");
+        // Names that are no trouble keep theirs.
+        assert_eq!(file_stems("s", &["y", "z"], &suffixes), ["s-y", "s-z"]);
+    }
+}

@@ -1,0 +1,159 @@
+//! Names of any kind, through the program: none leads out of the folder, none takes another's file, none is too long.
+
+use std::time::{Duration, Instant};
+
+use crate::common::{Folder, apportion, files, stderr, text};
+
+/// A study of formulas with these outputs, all the sum of its two factors.
+fn study(names: &[&str]) -> String {
+    let outputs: String =
+        names.iter().map(|name| format!("outputs.{} = \"a + b\"\n", toml::Value::from(*name))).collect();
+    format!(
+        "model = \"expression\"\n[design]\nbase_samples = 64\n[expression]\n{outputs}[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n\
+         [[factor]]\nname = \"b\"\nmin = 0\nmax = 2\n"
+    )
+}
+
+#[track_caller]
+fn refused(folder: &Folder, arguments: &[&str], expected: &str) {
+    let begun = Instant::now();
+    let output = apportion(arguments);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains(expected), "no {expected:?} in {message:.2000}");
+    assert!(message.len() < 4000 && begun.elapsed() < Duration::from_secs(60));
+    assert!(!folder.path("EVIL.svg").exists() && !folder.path("EVIL-indices.svg").exists());
+}
+
+#[test]
+fn no_name_of_an_output_leads_out_of_the_folder() {
+    let folder = Folder::new();
+    let out = folder.path("a/b/c/out");
+    for name in ["x/../../../../EVIL", "/tmp/EVIL", "..\\EVIL", "C:EVIL", "../EVIL"] {
+        for other in [&[name][..], &[name, "y"]] {
+            let path = folder.with("s.toml", study(other));
+            for command in ["run", "check", "screen", "sweep"] {
+                let to: &[&str] = &["--out", text(&out)];
+                refused(&folder, &[&[command, text(&path)], to].concat(), "expected a name without / \\ :");
+            }
+        }
+    }
+    // Outputs from a file.
+    let outside = "model = \"external\"\n[external]\noutputs.y = \"1\"\n[design]\nbase_samples = 8\n[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n";
+    let (path, design) = (folder.with("e.toml", outside), folder.path("design.csv"));
+    assert_eq!(apportion(&["sample", text(&path), "-o", text(&design)]).status.code(), Some(0));
+    let points = std::fs::read_to_string(&design).unwrap();
+    let answers: String = points.lines().skip(1).map(|line| format!("{line},{line}\n")).collect();
+    let data = folder.with("answers.csv", format!("a,x/../../../../EVIL\n{answers}"));
+    let outputs = ["--outputs", "x/../../../../EVIL", "--out", text(&out)];
+    refused(
+        &folder,
+        &[&["analyze", text(&data), "--design", text(&design)], &outputs[..]].concat(),
+        "a name without / \\ :",
+    );
+    // Names of columns that are no outputs of a study become plain names of files.
+    let mut rows = "x1,../../EVIL,a/../../../../EVIL\n".to_owned();
+    (0..64).for_each(|k| rows.push_str(&format!("{},{},{}\n", (k * 37 % 64), k, 64 - k)));
+    let table = folder.with("table.csv", rows);
+    let named = ["--outputs", "../../EVIL,a/../../../../EVIL", "--out", text(&out)];
+    let output = apportion(&[&["given-data", text(&table)], &named[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(files(&out).contains("table-.._.._EVIL.svg"), "{:?}", files(&out));
+    assert_eq!(files(&folder.path("a/b/c")).len(), 1);
+}
+
+#[test]
+fn outputs_whose_files_would_be_the_same_have_files_of_their_own() {
+    let folder = Folder::new();
+    let names = ["y", "y-indices", "Y", "y-2", "y-indices-2"];
+    let (path, out) = (folder.with("s.toml", study(&names)), folder.path("out"));
+    let output = apportion(&["run", text(&path), "--out", text(&out)]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let there = files(&out);
+    // Page, result, indices, convergence, journal; and six charts of each output, twice.
+    assert_eq!(there.len(), 5 + names.len() * 12, "{there:?}");
+    assert_eq!(
+        there.iter().map(|name| name.to_lowercase()).collect::<std::collections::BTreeSet<_>>().len(),
+        there.len()
+    );
+    // Each chart is that of its output: the title names it.
+    let title = |file: &str| std::fs::read_to_string(out.join(file)).unwrap();
+    assert!(title("s-y-indices.svg").contains("indices of y<"), "the chart of the indices of y");
+    // The same again from the result, and from two of them.
+    let (json, again) = (out.join("s.json"), folder.path("again"));
+    assert_eq!(apportion(&["report", text(&json), "--out", text(&again)]).status.code(), Some(0));
+    assert_eq!(files(&again).len(), 4 + names.len() * 12);
+    let (both, screened) = (folder.path("both"), folder.path("screened"));
+    assert_eq!(apportion(&["compare", text(&json), text(&json), "--out", text(&both)]).status.code(), Some(0));
+    assert_eq!(files(&both).len(), 2 + names.len() * 4);
+    assert_eq!(apportion(&["screen", text(&path), "--out", text(&screened)]).status.code(), Some(0));
+    assert_eq!(files(&screened).len(), 2 + names.len() * 4);
+}
+
+#[test]
+fn names_with_marks_that_are_not_seen_and_long_ones_are_refused_before_the_work() {
+    let folder = Folder::new();
+    let out = folder.path("out");
+    let run = |content: String, expected: &str| {
+        let path = folder.with("s.toml", content);
+        refused(&folder, &["run", text(&path), "--out", text(&out)], expected);
+        assert!(!out.exists());
+    };
+    let plain = study(&["y"]);
+    let title = |text: &str| format!("title = {}\n{plain}", toml::Value::from(text));
+    run(title(&"t".repeat(1 << 20)), "`title` must be at most 500 characters, not \"ttt");
+    run(title("a\u{202e}b"), "`title` must be a text without control characters");
+    for name in ["y\u{202e}z", "y\u{2066}", "y\u{200f}", "y\u{7}", "y\u{200b}"] {
+        run(study(&[name]), "`name of an output` must be a name without control characters");
+        run(
+            plain.replace("name = \"b\"", &format!("name = \"b\"\ngroup = {}", toml::Value::from(name))),
+            "`group of a factor` must be",
+        );
+    }
+    run(study(&[&"y".repeat(1 << 20)]), "`name of an output` must be at most 200 characters");
+    run(format!("name = \"{}\"\n{plain}", "n".repeat(300)), "at most 120 bytes");
+    // The longest that are allowed are drawn.
+    let long = "w".repeat(200);
+    let names = [long.as_str(), "y"];
+    let longest = format!("title = \"{}\"\nname = \"{}\"\n{}", "title ".repeat(83), "n".repeat(120), study(&names));
+    let path = folder.with("s.toml", longest);
+    let output = apportion(&["run", text(&path), "--out", text(&out)]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(files(&out).len(), 5 + 2 * 12);
+}
+
+#[test]
+fn a_hundred_thousand_factors_are_refused_at_once() {
+    let folder = Folder::new();
+    let factors: String = (0..100_000).map(|k| format!("[[factor]]\nname = \"x{k}\"\nmin = 0\nmax = 1\n")).collect();
+    let path = folder.with("many.toml", format!("model = \"external\"\n[external]\noutputs.y = \"1\"\n{factors}"));
+    refused(&folder, &["check", text(&path)], "100000 factors are too many: at most 10000 are possible");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_template_reads_no_file_outside_of_the_studys_folder_unless_it_says_so() {
+    let folder = Folder::new();
+    let inner = folder.path("inner");
+    std::fs::create_dir(&inner).unwrap();
+    folder.with("secret.in", "{{a}}\n");
+    folder.with("inner/own.in", "{{a}}\n");
+    std::os::unix::fs::symlink("../secret.in", inner.join("link.in")).unwrap();
+    let study = |keys: &str| {
+        format!(
+            "model = \"command\"\n[command]\nprogram = [\"true\"]\n{keys}\noutputs.y = {{ regex = \"(.*)\" }}\n\
+             [[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n"
+        )
+    };
+    let outside = "the file lies outside of the study's folder";
+    for keys in
+        ["template = \"../secret.in\"", "template = \"link.in\"", "template = \"own.in\"\nfiles = [\"../secret.in\"]"]
+    {
+        let path = folder.with("inner/s.toml", study(keys));
+        let error = apportion::study::Study::load(&path, &[]).unwrap_err().to_string();
+        assert!(error.contains(outside) && error.contains("files_outside = true"), "{error}");
+        let allowed = folder.with("inner/s.toml", study(&format!("{keys}\nfiles_outside = true")));
+        apportion::study::Study::load(&allowed, &[]).unwrap();
+    }
+    apportion::study::Study::load(&folder.with("inner/s.toml", study("template = \"own.in\"")), &[]).unwrap();
+}

@@ -1,0 +1,158 @@
+//! Signals while files are written, and what may stand in the place of a file.
+#![cfg(unix)]
+
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::common::{Folder, apportion, files, stderr, text};
+
+/// A study whose charts take a while: six of each of 80 outputs, twice.
+fn many_charts() -> String {
+    let outputs: String = (0..80).map(|k| format!("outputs.y{k} = \"a + {k} * b\"\n")).collect();
+    format!(
+        "model = \"expression\"\n[design]\nbase_samples = 256\n[expression]\n{outputs}[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n\
+         [[factor]]\nname = \"b\"\nmin = 0\nmax = 2\n"
+    )
+}
+
+/// Every picture is whole, and nothing is left half written.
+fn assert_whole(folder: &Path) {
+    for name in files(folder) {
+        let bytes = std::fs::read(folder.join(&name)).unwrap();
+        let whole = match name.rsplit('.').next().unwrap() {
+            "svg" => bytes.ends_with(b"</svg>\n") || bytes.ends_with(b"</svg>"),
+            "png" => bytes[..bytes.len() - 4].ends_with(b"IEND"),
+            "json" => serde_json::from_slice::<serde_json::Value>(&bytes).is_ok(),
+            "html" => String::from_utf8(bytes).unwrap().trim_end().ends_with("</html>"),
+            "csv" => bytes.ends_with(b"\n"),
+            _ => !name.starts_with(".apportion-"),
+        };
+        assert!(whole, "{name}");
+    }
+}
+
+#[test]
+fn a_signal_is_heard_while_charts_are_drawn() {
+    let folder = Folder::new();
+    let study = folder.with("s.toml", many_charts());
+    for (signal, moment) in [("-INT", 1), ("-TERM", 40), ("-INT", 100), ("-HUP", 200), ("-TERM", 350)] {
+        let out = folder.path(&format!("out{moment}"));
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("apportion"));
+        command.args(["run", text(&study), "--out", text(&out), "--no-journal"]);
+        let mut run = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let begun = Instant::now();
+        let drawn = || {
+            std::fs::read_dir(&out)
+                .map_or(0, |all| all.flatten().filter(|f| f.path().extension().is_some_and(|e| e == "png")).count())
+        };
+        while drawn() < moment {
+            assert!(begun.elapsed() < Duration::from_secs(120) && run.try_wait().unwrap().is_none());
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert!(Command::new("kill").args([signal, &run.id().to_string()]).status().unwrap().success());
+        let heard = Instant::now();
+        let code = run.wait().unwrap().code();
+        // A second is promised; a machine that does much else takes its time to end anything.
+        assert!(heard.elapsed() < Duration::from_secs(3), "{:?}", heard.elapsed());
+        let mut said = String::new();
+        run.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+        assert_eq!(code, Some(1), "{said}");
+        assert!(said.contains("error: interrupted while files were written: those that are there are whole"), "{said}");
+        assert!(drawn() < 480, "it was stopped before its end");
+        assert_whole(&out);
+    }
+}
+
+#[test]
+fn a_journal_or_result_is_a_file() {
+    let folder = Folder::new();
+    let study = folder.with("s.toml", "model = \"ishigami\"\n[design]\nbase_samples = 64\n");
+    let out = folder.path("out");
+    std::fs::create_dir(&out).unwrap();
+    let run = |more: &[&str]| {
+        let arguments = [&["run", text(&study), "--out", text(&out)], more].concat();
+        let mut command = assert_cmd::Command::cargo_bin("apportion").unwrap();
+        command.args(arguments).timeout(Duration::from_secs(30)).output().unwrap()
+    };
+    let makers: [fn(&Path); 3] = [
+        |path| assert!(Command::new("mkfifo").arg(path).status().unwrap().success()),
+        |path| std::fs::create_dir(path).unwrap(),
+        |path| std::os::unix::fs::symlink("/dev/null", path).unwrap(),
+    ];
+    for make in makers {
+        let journal = out.join("s.journal");
+        make(&journal);
+        for more in [&[][..], &["--resume"], &["--restart"], &["--shard", "1/1"]] {
+            if more.first() == Some(&"--shard") {
+                make(&out.join("s-shard-1-of-1.journal"));
+            }
+            let output = run(more);
+            assert_eq!(output.status.code(), Some(2), "{more:?}: {}", stderr(&output));
+            assert!(stderr(&output).contains("a pipe, a device or a folder is there"), "{}", stderr(&output));
+        }
+        let merged = apportion(&["merge", text(&study), "--out", text(&out)]);
+        assert_eq!(merged.status.code(), Some(2), "{}", stderr(&merged));
+        for path in [journal, out.join("s-shard-1-of-1.journal")] {
+            if path.is_dir() { std::fs::remove_dir(path).unwrap() } else { std::fs::remove_file(path).unwrap() }
+        }
+        make(&out.join("s.html"));
+        let output = run(&[]);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert!(
+            stderr(&output).contains("s.html") && !stderr(&output).contains("model runs in"),
+            "{}",
+            stderr(&output)
+        );
+        std::fs::remove_dir_all(&out).unwrap();
+        std::fs::create_dir(&out).unwrap();
+    }
+}
+
+/// By default the system ends a program that writes beyond the limit without a word.
+#[test]
+fn a_file_beyond_the_limit_of_sizes_is_an_error_with_its_reason() {
+    let folder = Folder::new();
+    let study = folder.with("s.toml", "model = \"ishigami\"\n[design]\nbase_samples = 4096\n");
+    let out = folder.path("out");
+    for more in ["", "--no-journal"] {
+        let line = format!("ulimit -f 16; exec \"$0\" run '{}' --out '{}' {more}", text(&study), text(&out));
+        let program = assert_cmd::cargo::cargo_bin!("apportion");
+        let output = Command::new("sh").args(["-c", &line]).arg(program).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{more}: {}", stderr(&output));
+        assert!(stderr(&output).contains("File too large"), "{more}: {}", stderr(&output));
+    }
+    assert_whole(&out);
+    // With room enough it goes on.
+    let output = apportion(&["run", text(&study), "--out", text(&out)]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+#[test]
+fn what_a_killed_run_left_half_written_is_removed_by_the_next() {
+    let folder = Folder::new();
+    let study = folder.with("s.toml", many_charts());
+    let out = folder.path("out");
+    let mut left = 0;
+    for kill in 0..12 {
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("apportion"));
+        command.args(["run", text(&study), "--out", text(&out), "--no-journal"]);
+        let mut run = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let begun = Instant::now();
+        while !out.join("s-y0.svg").exists() && begun.elapsed() < Duration::from_secs(60) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        std::thread::sleep(Duration::from_millis(37 * kill));
+        run.kill().unwrap();
+        run.wait().unwrap();
+        left += files(&out).iter().filter(|name| name.starts_with(".apportion-")).count();
+    }
+    folder.with("out/.apportion-abcdef", "of a version before");
+    std::thread::sleep(Duration::from_millis(1100));
+    let small = folder.with("small.toml", "model = \"ishigami\"\n[design]\nbase_samples = 64\n");
+    let output = apportion(&["run", text(&small), "--out", text(&out)]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(!files(&out).iter().any(|name| name.starts_with(".apportion-")), "{left} were left behind");
+    assert_whole(&out);
+}

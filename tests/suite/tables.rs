@@ -1,0 +1,165 @@
+//! Tables in every format that `evaluate` and `given-data` read, and what of them is skipped or doubted.
+
+use apportion::exchange::{ColumnKind, Format, row_writer};
+use apportion::report::given::GivenFile;
+
+use crate::common::{Folder, apportion, stderr, succeed, text};
+use crate::points::random;
+
+const STUDY: &str = "model = \"ishigami\"\n[design]\nbase_samples = 64\nsampler = \"random\"\n";
+
+#[test]
+fn points_of_every_format_give_the_same_outputs() {
+    let folder = Folder::new();
+    let study = folder.with("s.toml", STUDY);
+    for name in ["p.csv", "p.parquet", "p.npy"] {
+        succeed(&["sample", text(&study), "-o", text(&folder.path(name))]);
+    }
+    let plain = std::fs::read_to_string(folder.path("p.csv")).unwrap();
+    let bare = plain.split_once('\n').unwrap().1;
+    folder.with("semicolons.txt", plain.replace(',', ";"));
+    folder.with("tabs.tsv", plain.replace(',', "\t"));
+    folder.with("bare.csv", bare);
+    folder.with("bare.dat", bare.replace(',', ";"));
+    let labelled = plain.lines().enumerate().map(|(k, line)| match k {
+        0 => format!("id,{line},when\n"),
+        _ => format!("run {k},{line},2026-01-{:02}\n", k % 28 + 1),
+    });
+    folder.with("labelled.csv", labelled.collect::<String>());
+    let evaluate = |points: &str, more: &[&str]| {
+        let (points, out) = (folder.path(points), folder.path("out.csv"));
+        let output = apportion(&[&["evaluate", text(&study), text(&points), "-o", text(&out)], more].concat());
+        (output.status.code(), stderr(&output), std::fs::read_to_string(out).unwrap_or_default())
+    };
+    let (_, _, expected) = evaluate("p.csv", &[]);
+    assert_eq!(expected.lines().count(), 64 * 5 + 1);
+    let names = ["--names", "x1, x2, x3"];
+    for (points, more) in [
+        ("p.parquet", &[][..]),
+        ("p.npy", &names),
+        ("semicolons.txt", &[]),
+        ("tabs.tsv", &[]),
+        ("bare.csv", &names),
+        ("bare.dat", &names),
+    ] {
+        let (code, said, outputs) = evaluate(points, more);
+        assert_eq!(code, Some(0), "{points}: {said}");
+        assert!(outputs == expected && !said.contains("warning"), "{points}: {said}");
+    }
+    let (code, said, outputs) = evaluate("labelled.csv", &[]);
+    assert!(code == Some(0) && outputs == expected && said.contains("columns of text are skipped: id, when"), "{said}");
+    // What is missing is asked for.
+    for (points, more, reason) in [
+        ("p.npy", &[][..], "its 3 columns have no names"),
+        ("bare.csv", &[], "the first line holds numbers: is there no header? --names gives the names"),
+        ("bare.csv", &["--names", "x1,x2"], "2 names are given, but it has 3 columns"),
+        ("p.parquet", &names, "it names its columns itself (x1, x2, x3): leave --names out"),
+    ] {
+        let (code, said, _) = evaluate(points, more);
+        assert!(code == Some(2) && said.contains(reason), "{points}: {said}");
+    }
+    // A number may have lost its end.
+    folder.with("cut.csv", &plain[..plain.len() - 3]);
+    let (code, said, _) = evaluate("cut.csv", &[]);
+    assert!(code == Some(0) && said.contains("warning") && said.contains("the last line has no end"), "{said}");
+}
+
+#[test]
+fn tables_of_every_format_give_the_same_indices() {
+    let folder = Folder::new();
+    let mut columns = random(3, 200, 1);
+    columns.push((0..200).map(|k| columns[0][k] + 2.0 * columns[1][k] * columns[2][k]).collect());
+    let kinds = ["x1", "x2", "x3", "y"].map(ColumnKind::numbers).to_vec();
+    for format in Format::ALL {
+        let mut bytes = Vec::new();
+        let mut writer = row_writer(format, &mut bytes, kinds.clone(), 200).unwrap();
+        writer.write(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).unwrap();
+        writer.finish().unwrap();
+        folder.with(&format!("t.{}", format.ending()), bytes);
+    }
+    let plain = std::fs::read_to_string(folder.path("t.csv")).unwrap();
+    folder.with("t.txt", plain.replace(',', ";"));
+    folder.with("bare.csv", plain.split_once('\n').unwrap().1);
+    let kinds = plain
+        .lines()
+        .enumerate()
+        .map(|(k, line)| format!("{}\t{}\n", if k == 0 { "kind" } else { "wet" }, line.replace(',', "\t")));
+    folder.with("kinds.tsv", kinds.collect::<String>());
+    let given = |table: &str, more: &[&str]| {
+        let out = folder.path(&format!("given {table}"));
+        let path = folder.path(table);
+        let arguments = [&["given-data", text(&path), "--outputs", "y", "--out", text(&out)], more].concat();
+        let output = apportion(&arguments);
+        let stem = table.split('.').next().unwrap();
+        let json = std::fs::read(out.join(format!("{stem}.json"))).unwrap_or_default();
+        (output.status.code(), stderr(&output), serde_json::from_slice::<GivenFile>(&json).ok())
+    };
+    let expected = given("t.csv", &[]).2.unwrap();
+    let names = ["--names", "x1,x2,x3,y"];
+    for (table, more) in
+        [("t.parquet", &[][..]), ("t.npy", &names), ("t.txt", &[]), ("bare.csv", &names), ("kinds.tsv", &[])]
+    {
+        let (code, said, result) = given(table, more);
+        assert_eq!(code, Some(0), "{table}: {said}");
+        let result = result.unwrap();
+        assert!(result.outputs == expected.outputs && result.inputs == expected.inputs, "{table}");
+        assert_eq!(said.contains("columns of text are skipped: kind"), table == "kinds.tsv", "{said}");
+    }
+    let (code, said, _) = given("t.npy", &[]);
+    assert!(
+        code == Some(2) && said.contains("its 4 columns have no names: name them in their order (--names)"),
+        "{said}"
+    );
+    let (code, said, _) = given("bare.csv", &[]);
+    assert!(code == Some(2) && said.contains("is there no header? --names"), "{said}");
+}
+
+#[test]
+fn outputs_that_may_have_been_cut_short_are_doubted() {
+    let folder = Folder::new();
+    let study = folder.with("s.toml", STUDY);
+    let (design, outputs) = (folder.path("d.csv"), folder.path("y.csv"));
+    succeed(&["sample", text(&study), "-o", text(&design)]);
+    succeed(&["evaluate", text(&study), text(&design), "-o", text(&outputs)]);
+    let whole = std::fs::read_to_string(&outputs).unwrap();
+    let analyze = |content: &str| {
+        let data = folder.with("cut.csv", content);
+        let out = folder.path("out");
+        let output = apportion(&["analyze", text(&data), "--design", text(&design), "--out", text(&out)]);
+        (output.status.code(), stderr(&output))
+    };
+    let (code, said) = analyze(&whole);
+    assert!(code == Some(0) && !said.contains("warning"), "{said}");
+    let last = whole.trim_end().rfind('\n').unwrap();
+    // Within the last number, before it, and within a row.
+    for (end, expected) in [
+        (
+            whole.len() - 4,
+            (Some(0), "the last line has no end: if the file was cut short, its last number may be wrong"),
+        ),
+        (last + 1, (Some(2), "1 of the 320 rows of the design is missing")),
+        (last - 2, (Some(2), "1 of the 320 rows of the design is missing")),
+        (whole.len() / 2, (Some(2), "rows of the design are missing")),
+    ] {
+        let (code, said) = analyze(&whole[..end]);
+        assert!(code == expected.0 && said.contains(expected.1), "{end}: {said}");
+    }
+}
+
+#[test]
+fn doubling_beyond_the_runs_allowed_is_refused() {
+    let folder = Folder::new();
+    let study = folder.with("s.toml", "model = \"ishigami\"\n[design]\nbase_samples = 64\nmax_runs = 400\n");
+    let out = folder.path("out");
+    let run = |more: &[&str]| apportion(&[&["run", text(&study), "--out", text(&out)], more].concat());
+    assert_eq!(run(&[]).status.code(), Some(0));
+    let output = run(&["--double"]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    let expected = "twice the 64 base samples of the result take 640 runs, and the study allows max_runs = 400";
+    assert!(
+        stderr(&output).contains(expected) && stderr(&output).contains("--set design.max_runs=640"),
+        "{}",
+        stderr(&output)
+    );
+    assert_eq!(run(&["--double", "--set", "design.max_runs=640"]).status.code(), Some(0));
+}
