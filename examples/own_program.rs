@@ -5,18 +5,21 @@
 use std::error::Error;
 
 use apportion::analyse;
-use apportion::model::{CommandModel, CommandOutput, CommandSettings, Form, Program, Protocol, function_model};
+use apportion::model::{
+    CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, Program, Protocol, function_model,
+};
 use apportion::quantity::Unit;
 use apportion::space::{Distribution, Factor};
 use apportion::study::Study;
 
-/// Reads a header, then a line of length (mm), thickness (mm) and load (N) for each run; prints a line of outputs for each.
+/// Reads a header, then a line of a row number, length (mm), thickness (mm) and load (N) for each run; prints the number and
+/// the outputs for each.
 const SCRIPT: &str = r#"
 read -r header
-while IFS=, read -r length thickness load
+while IFS=, read -r id length thickness load
 do
-  awk -v L="$length" -v t="$thickness" -v F="$load" 'BEGIN {
-    printf "%.17g,%.17g\n", 4 * F * L * L * L / (70e3 * 10 * t * t * t), 6 * F * L / (10 * t * t)
+  awk -v id="$id" -v L="$length" -v t="$thickness" -v F="$load" 'BEGIN {
+    printf "%s,%.17g,%.17g\n", id, 4 * F * L * L * L / (70e3 * 10 * t * t * t), 6 * F * L / (10 * t * t)
   }'
 done
 "#;
@@ -37,7 +40,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
             directory: folder.path().to_owned(),
             environment: Vec::new(),
         },
-        form: Form::KeptAlive(Protocol::Csv),
+        form: Form::KeptAlive(KeptAlive { protocol: Protocol::Csv, row_numbers: true }),
         outputs: vec![output("deflection", millimetres()?), output("stress", Unit::parse("MPa")?)],
         asked: vec![0, 1],
         workers: Some(2),

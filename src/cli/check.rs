@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use anyhow::anyhow;
 use apportion::design::{Companions, Design, Sampler};
 use apportion::estimate::{FirstOrder, Total};
 use apportion::report::{significant, table, with_unit};
@@ -12,7 +13,7 @@ use apportion::study::{Stopping, Study, Subject};
 use apportion::uncertainty::IntervalMethod;
 
 use super::outlook::outlook;
-use super::pilot::pilot;
+use super::pilot::{Pilot, pilot};
 use super::run::{default_folder, files};
 use super::{DesignChanges, Failure, StudyArguments, print, say_notes};
 
@@ -31,15 +32,26 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
     say_notes(&study);
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    let pilot = match study.subject {
+        Subject::External(_) => None,
+        _ => Some(pilot(&study)?),
+    };
     let mut text = subject(&study);
     text.push_str(&factors(&study));
-    text.push_str(&design(&study)?);
+    text.push_str(&design(&study, pilot.as_ref()));
     text.push_str(&outlook(&study, &folder)?);
     text.push_str(&format!("\nwill be written to {}:\n", folder.display()));
     for file in files(&study) {
         text.push_str(&format!("  {}  {}\n", file.name, file.content));
     }
-    print(&text)
+    print(&text)?;
+    match pilot.filter(|pilot| pilot.failed == pilot.runs) {
+        None => Ok(()),
+        Some(Pilot { runs: number, reason, .. }) => {
+            let (number, reason) = (runs(number), reason.unwrap_or_default());
+            Err(Failure::Run(anyhow!("every one of the first runs failed ({number}): {reason}")))
+        }
+    }
 }
 
 fn subject(study: &Study) -> String {
@@ -130,22 +142,27 @@ fn parameters(factor: &Factor) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-fn design(study: &Study) -> Result<String, Failure> {
+fn design(study: &Study, pilot: Option<&Pilot>) -> String {
     let design = &study.design;
     let settings = design.settings();
     let stopping = stopping(study);
     let size = if study.stopping.grows() { "begins with " } else { "" };
     let mut failures = String::new();
-    let time = match study.subject {
-        Subject::External(_) => "outside of this program".to_owned(),
-        _ => {
-            let pilot = pilot(study)?;
+    let time = match pilot {
+        None => "outside of this program".to_owned(),
+        Some(pilot) => {
             if let Some(reason) = &pilot.reason {
                 failures = format!("warning: {} of {} failed: {reason}\n", pilot.failed, runs(pilot.runs));
             }
+            if pilot.is_out_of_step {
+                failures.push_str(
+                    "warning: the program is out of step: it printed more or fewer answers than it had rows; a run will ask \
+                     every row by a process of its own, and take much longer\n",
+                );
+            }
             match pilot.failed == pilot.runs {
                 true => "in a time that cannot be told".to_owned(),
-                false => format!("about {} on this machine (by {} of it)", duration(pilot.seconds), runs(pilot.runs)),
+                false => format!("about {} on this machine (by {} of it{})", duration(pilot.seconds), runs(pilot.runs), start(pilot)),
             }
         }
     };
@@ -169,7 +186,13 @@ fn design(study: &Study) -> Result<String, Failure> {
     for warning in warnings(study) {
         text.push_str(&format!("warning: {warning}\n"));
     }
-    Ok(text)
+    text
+}
+
+/// What the start of the program takes, where it is worth a word.
+fn start(pilot: &Pilot) -> String {
+    const LEAST: f64 = 0.1;
+    if pilot.startup < LEAST { String::new() } else { format!("; {} of that to start the program", duration(pilot.startup)) }
 }
 
 /// What is estimated, and what the intervals are.

@@ -134,12 +134,16 @@ fn external() -> String {
 fn command() -> String {
     let kind = ModelKind::Command;
     format!(
-        "{}: {}\n\n  model = \"command\"\n  command = [\"python3\", \"my_model.py\"]    # relative to the study; no shell reads it\n  \
-         outputs = [\"y\"]\n\nThe program is kept alive. It reads the names of the factors and then a line of values for each row, in \
-         the units of the\nstudy, and prints a line of numbers for each, at once:\n\n  import csv, sys\n  for row in \
-         csv.DictReader(sys.stdin):\n      x = {{name: float(value) for name, value in row.items()}}\n      \
-         print(x[\"x1\"] * x[\"x2\"], flush=True)\n\nor \"error: \" and a reason where there is no answer. With units and choices:\n\n  \
-         [command]\n  program = [\"python3\", \"my_model.py\"]\n  outputs.force = \"nN\"\n  outputs.time = \"s\"\n  \
+        "{}: {}\n\n  model = \"command\"\n  outputs = [\"y\"]\n  [command]\n  \
+         program = [\"python3\", \"my_model.py\"]    # relative to the study; no shell reads it\n  \
+         row_numbers = true\n\nThe program is kept alive. It reads the names of the columns and then a line for each row, its number \
+         and the values in the\nunits of the study, and prints a line for each, the number and the outputs, at once:\n\n  \
+         import csv, sys\n  for row in csv.DictReader(sys.stdin):\n      number = row.pop(\"id\")\n      \
+         x = {{name: float(value) for name, value in row.items()}}\n      \
+         print(number, x[\"x1\"] * x[\"x2\"], sep=\",\", flush=True)\n\nor \"error: \" and a reason behind the number where there is no \
+         answer. Without row_numbers there is no column `id`;\nanswers then count only once the program has ended with one for each \
+         row. With units and choices:\n\n  \
+         [command]\n  program = [\"python3\", \"my_model.py\"]\n  row_numbers = true\n  outputs.force = \"nN\"\n  outputs.time = \"s\"\n  \
          protocol = \"json-lines\"      # an object for each row in, and one out [csv]\n  \
          workers = 4                  # processes at once [one for each core]\n  \
          timeout = \"60 s\"             # for a row [none]\n  \

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use apportion::design::{Design, DesignSettings};
-use apportion::model::{Batch, Model};
+use apportion::model::{Batch, Model, Standing};
 use apportion::run::{Job, RowValues, run};
 use apportion::study::Study;
 
@@ -15,8 +15,12 @@ use super::Failure;
 pub struct Pilot {
     /// Runs it took.
     pub runs: u64,
-    /// Seconds that the whole design will take.
+    /// Seconds that the whole design will take, the start included.
     pub seconds: f64,
+    /// Seconds that a worker takes before its first run, where it takes any.
+    pub startup: f64,
+    /// Whether what it answered was not known to be in step with its rows in the end.
+    pub is_out_of_step: bool,
     /// Runs that failed in some output.
     pub failed: u64,
     /// Why the first of them did.
@@ -45,6 +49,8 @@ pub fn pilot(study: &Study) -> Result<Pilot, Failure> {
             return Ok(Pilot {
                 runs: design.rows(),
                 seconds: seconds * share,
+                startup: 0.0,
+                is_out_of_step: false,
                 failed: totals.iter().map(|totals| totals.failed_runs).sum(),
                 reason: first.map(|(reason, _)| reason.to_string()),
             });
@@ -53,20 +59,23 @@ pub fn pilot(study: &Study) -> Result<Pilot, Failure> {
     }
 }
 
-/// A pilot of a model that takes its time, by one of its workers: the first row, which starts it, counts only if it is
-/// long by itself.
+/// A pilot of a model that takes its time, by one of its workers. What the first row takes longer than the same row once
+/// more is the start.
 fn of_one_worker(study: &Study, model: &dyn Model, workers: usize) -> Result<Pilot, Failure> {
     const ENOUGH: f64 = 0.5;
     const MOST: u64 = 4096;
     let job = Job { design: &study.design, space: &study.space, model };
     let (mut worker, mut batch, mut values) = (model.worker(), Batch::of(model), RowValues::default());
-    let (mut failed, mut reason) = (0, None);
+    let (mut failed, mut reason, mut is_out_of_step) = (0, None, false);
     let mut timed = |rows: u64| {
         let columns = values.values(job, 0, 0..rows);
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         batch.reset(rows as usize);
         let start = Instant::now();
-        worker.run(&inputs, &mut batch);
+        while worker.run_ahead(&inputs, &mut batch) == Standing::Revoked && batch.given_up().is_none() {
+            is_out_of_step = true;
+            batch.reset(rows as usize);
+        }
         let seconds = start.elapsed().as_secs_f64();
         // Every piece begins with the first row, so that the last one has them all.
         let rows: BTreeSet<usize> = batch.failures().iter().map(|(_, row, _)| *row).collect();
@@ -76,14 +85,13 @@ fn of_one_worker(study: &Study, model: &dyn Model, workers: usize) -> Result<Pil
     };
     let first = timed(1)?;
     let rows = study.design.points_per_replicate() * study.design.rows_per_point();
-    let (mut runs, mut seconds) = (1, first);
-    if first < 4.0 * ENOUGH {
-        seconds = timed(1)?;
-        while seconds < ENOUGH && runs < rows.min(MOST) {
-            runs = (runs * 4).min(rows).min(MOST);
-            seconds = timed(runs)?;
-        }
+    let (mut runs, mut seconds) = (1, timed(1)?);
+    let startup = (first - seconds).max(0.0);
+    while seconds < ENOUGH && runs < rows.min(MOST) {
+        runs = (runs * 4).min(rows).min(MOST);
+        seconds = timed(runs)?;
     }
+    is_out_of_step |= worker.confirm() == Standing::Revoked;
     let whole = seconds * study.design.rows() as f64 / runs as f64 / workers as f64;
-    Ok(Pilot { runs, seconds: whole + first, failed, reason })
+    Ok(Pilot { runs, seconds: whole + startup, startup, is_out_of_step, failed, reason })
 }

@@ -123,7 +123,7 @@ impl AfmModel {
         let outputs = which.iter().map(|output| output.info()).collect();
         let flags = afm::Flag::ALL
             .iter()
-            .map(|f| Flag { name: f.name().into(), description: f.description().into() })
+            .map(|f| Flag { name: f.name().into(), description: f.description().into(), warns: false })
             .collect();
         let rungs = Fidelity::ALL.iter().map(|rung| rung.name()).collect();
         Self { scene, options, factors, outputs, which, flags, rungs }

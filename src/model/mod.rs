@@ -17,8 +17,8 @@ pub use afm::{AfmModel, AfmOutput, edge_unit};
 pub use batch::{Batch, Effort, RowFailure};
 pub use catalogue::{Input, ModelKind, known_inputs};
 pub use command::{
-    Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, PickError, Program,
-    Protocol, Source, TemplateError, TemplateProblem, Way, parse_answer,
+    Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, KeptAlive, Match, PerRun, Pick, PickError,
+    Program, Protocol, Source, TemplateError, TemplateProblem, Way, parse_answer, parse_numbered_answer,
 };
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
 pub use external::ExternalModel;
@@ -51,13 +51,15 @@ impl Output {
     }
 }
 
-/// A validity flag that a model may raise on a row: the result stands, but outside the theory's range.
+/// What a model may raise on a row: that its result stands, but outside the theory's range; or a warning.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Flag {
     /// The name in results, in kebab-case.
     pub name: Cow<'static, str>,
     /// What it means, one line.
     pub description: Cow<'static, str>,
+    /// Whether it says nothing of the theory's range: results speak of it only where it was raised, and as a warning.
+    pub warns: bool,
 }
 
 /// A model: shared between threads, immutable during a run.
@@ -121,4 +123,27 @@ pub trait Worker: Send {
     /// Evaluates a block of rows. `inputs` holds one slice of SI values per factor, in the order of the space, all of
     /// the length [`Batch::rows`]; every output of every row is either set or failed in `batch`.
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch);
+
+    /// The same for one block of several: its rows may still be pending, which costs less where certainty has a price.
+    /// A worker that [gives up](Batch::give_up) leaves none pending.
+    fn run_ahead(&mut self, inputs: &[&[f64]], batch: &mut Batch) -> Standing {
+        self.run(inputs, batch);
+        Standing::Final
+    }
+
+    /// Decides on the rows that are pending: they are final or revoked then.
+    fn confirm(&mut self) -> Standing {
+        Standing::Final
+    }
+}
+
+/// Whether the rows stand that a [`Worker`] has evaluated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standing {
+    /// These stand, and all before them.
+    Final,
+    /// They may still be revoked, with all others since the last that were final.
+    Pending,
+    /// None that were pending stand, nor do these: they are to be evaluated again, in the same order.
+    Revoked,
 }

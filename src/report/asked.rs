@@ -90,7 +90,8 @@ pub(super) fn validity(model: &dyn Model, raised: &[u64], runs: u64) -> Vec<Vali
         runs: *runs_raised,
         share: *runs_raised as f64 / runs.max(1) as f64,
     };
-    model.flags().iter().zip(raised).map(record).collect()
+    let told = model.flags().iter().zip(raised).filter(|(flag, runs)| !flag.warns || **runs > 0);
+    told.map(record).collect()
 }
 
 /// One line for each validity flag that was raised.

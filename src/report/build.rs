@@ -57,6 +57,7 @@ pub fn build_result(run: &FinishedRun<'_>, stopping: Option<StoppingRecord>) -> 
         .flags()
         .iter()
         .zip(&whole.flags)
+        .filter(|(flag, runs)| !flag.warns || **runs > 0)
         .map(|(flag, &runs)| ValidityRecord {
             flag: flag.name.to_string(),
             description: flag.description.to_string(),

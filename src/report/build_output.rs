@@ -60,6 +60,7 @@ pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usiz
         warnings: Vec::new(),
     };
     record.warnings = warnings::of_runs(run, &record);
+    record.warnings.extend(warnings::of_flags(run.model, whole));
     let failed_share = totals.runs_failed as f64 / run.design.rows() as f64;
     if failed_share > study.analysis.max_failed {
         record.reason = Some(format!(

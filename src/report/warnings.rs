@@ -3,6 +3,8 @@
 use super::build::FinishedRun;
 use super::build_output::{effects, names_of_swaps};
 use super::result::{MixedModels, OutputRecord, ResultFile};
+use crate::model::Model;
+use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::{EffectEstimates, Estimate, IntervalMethod, OutputIndices, differs_clearly};
 
@@ -44,6 +46,13 @@ pub(super) fn of_runs(run: &FinishedRun<'_>, record: &OutputRecord) -> Vec<Strin
         }
     }
     warnings
+}
+
+/// Warnings that the model has raised.
+pub(super) fn of_flags(model: &dyn Model, whole: &Totals) -> Vec<String> {
+    let raised = model.flags().iter().zip(&whole.flags).filter(|(flag, runs)| flag.warns && **runs > 0);
+    let runs = |runs: u64| if runs == 1 { "1 run".to_owned() } else { format!("{runs} runs") };
+    raised.map(|(flag, count)| format!("{} ({}): {}", flag.name, runs(*count), flag.description)).collect()
 }
 
 /// Warnings about indices that cannot all be right. Each compares an estimate with its interval, so that the noise of

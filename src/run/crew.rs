@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 
 use super::PIECE_SECONDS;
-use crate::model::{Batch, Model, RowFailure, Worker};
+use super::held::Held;
+use crate::model::{Batch, Model, RowFailure, Standing, Worker};
 
 /// Why rows were not evaluated to their end.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -96,13 +97,22 @@ impl<'a> Crew<'a> {
             for member in self.members.iter_mut().take(rows) {
                 let (tell, next, ended) = (tell.clone(), &next, &ended);
                 scope.spawn(move || {
-                    while !ended.load(Ordering::Relaxed)
-                        && let Some(piece) = take(next, rows, (member.most, workers))
-                    {
-                        let first = piece.start;
-                        let part = member.run(model, inputs, piece);
-                        let ends = part.given_up().is_some();
-                        if tell.send((first, part)).is_err() || ends {
+                    let mut held = Held::new();
+                    while !ended.load(Ordering::Relaxed) {
+                        let piece = held.next_again().or_else(|| take(next, rows, (member.most, workers)));
+                        let standing = match piece {
+                            Some(piece) => {
+                                let (part, standing) = member.run(model, inputs, piece.clone());
+                                if part.given_up().is_some() {
+                                    return drop(tell.send((piece.start, part)));
+                                }
+                                held.push(piece.clone(), (piece.start, part));
+                                standing
+                            }
+                            None if held.is_empty() => return,
+                            None => member.worker.confirm(),
+                        };
+                        if held.settle(standing).into_iter().any(|part| tell.send(part).is_err()) {
                             return;
                         }
                     }
@@ -131,17 +141,17 @@ impl<'a> Crew<'a> {
 }
 
 impl Member<'_> {
-    fn run(&mut self, model: &dyn Model, inputs: &[&[f64]], piece: Range<usize>) -> Batch {
+    fn run(&mut self, model: &dyn Model, inputs: &[&[f64]], piece: Range<usize>) -> (Batch, Standing) {
         let began = Instant::now();
         let rows = piece.len();
         let inputs: Vec<&[f64]> = inputs.iter().map(|column| &column[piece.clone()]).collect();
         let mut batch = Batch::of(model);
         batch.reset(rows);
-        self.worker.run(&inputs, &mut batch);
+        let standing = self.worker.run_ahead(&inputs, &mut batch);
         batch.settle();
         let fitting = (PIECE_SECONDS * rows as f64 / began.elapsed().as_secs_f64().max(1e-9)) as usize;
         self.most = fitting.clamp(1, 8 * rows);
-        batch
+        (batch, standing)
     }
 }
 

@@ -6,10 +6,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::held::Held;
 use super::rows::RowRunner;
 use super::store::{Piece, Store};
 use super::{FailurePolicy, Job, Keep, PIECE_SECONDS, Place, Progress, RunError};
-use crate::model::RowFailure;
+use crate::model::{RowFailure, Standing};
 
 /// Most rows of a piece.
 const MOST_ROWS: u64 = 4096;
@@ -35,6 +36,8 @@ struct Shared {
     /// Rows that nobody has taken yet, as (replicate, rows).
     waiting: VecDeque<(u64, Range<u64>)>,
     rows_waiting: u64,
+    /// Rows evaluated that do not stand yet.
+    rows_pending: u64,
     progress: Progress,
     end: Option<RunError>,
     /// The first failed row seen, if the run ends at failures.
@@ -63,7 +66,8 @@ impl Filling<'_> {
             return Ok(());
         }
         let workers = self.workers.min(usize::try_from(rows_waiting).unwrap_or(usize::MAX)).max(1);
-        let shared = Shared { waiting, rows_waiting, progress, end: None, failed: None, working: workers };
+        let shared =
+            Shared { waiting, rows_waiting, rows_pending: 0, progress, end: None, failed: None, working: workers };
         let shared = Mutex::new(shared);
         std::thread::scope(|scope| {
             for _ in 0..workers {
@@ -77,6 +81,10 @@ impl Filling<'_> {
         let shared = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
         match (shared.failed, shared.end) {
             (Some((row, reason)), _) => Err(RunError::RowFailed { row, reason }),
+            // Rows that were pending may have come to stand since.
+            (None, Some(RunError::Interrupted { total, .. })) => {
+                Err(RunError::Interrupted { done: shared.progress.done, total })
+            }
             (None, Some(end)) => Err(end),
             (None, None) => Ok(()),
         }
@@ -108,20 +116,31 @@ impl Filling<'_> {
     fn work(&self, shared: &Mutex<Shared>) {
         let mut runner = RowRunner::new(self.job);
         let mut most = 1;
-        while let Some((replicate, range)) = take(shared, most, self.workers) {
-            let began = Instant::now();
-            let batch = runner.run(self.job, replicate, range.clone());
-            let seconds = began.elapsed().as_secs_f64();
-            let given_up = batch.given_up().cloned();
-            let piece = Piece::of_batch(replicate, range.start, batch);
-            let rows = range.end - range.start;
-            for piece in answered(piece, given_up.as_ref(), self.store.outputs()) {
-                if let Err(source) = self.keep.map_or(Ok(()), |keep| keep(&piece)) {
-                    lock(shared).end.get_or_insert(RunError::NotKept { source });
+        let mut held = Held::new();
+        loop {
+            let again = if is_ended(shared) { None } else { held.next_again() };
+            let Some((replicate, range)) = again.or_else(|| take(shared, most, self.workers)) else {
+                if held.is_empty() || !self.hand_over(shared, &mut held, runner.confirm()) {
                     return;
                 }
-                self.store.insert(&piece);
-                self.note(shared, &piece);
+                continue;
+            };
+            let began = Instant::now();
+            let (batch, mut standing) = runner.run(self.job, replicate, range.clone());
+            let seconds = began.elapsed().as_secs_f64();
+            let given_up = batch.given_up().cloned();
+            let rows = range.end - range.start;
+            let piece = Piece::of_batch(replicate, range.start, batch);
+            if standing == Standing::Pending && self.failures == FailurePolicy::Fail && !piece.failures.is_empty() {
+                standing = runner.confirm();
+            }
+            held.push((replicate, range), answered(piece, given_up.as_ref(), self.store.outputs()));
+            lock(shared).rows_pending += rows;
+            if standing == Standing::Pending {
+                (self.on_progress)(lock(shared).seen(self.start));
+            }
+            if !self.hand_over(shared, &mut held, standing) {
+                return;
             }
             if let Some(reason) = given_up {
                 lock(shared).end.get_or_insert(RunError::GaveUp { reason });
@@ -132,14 +151,37 @@ impl Filling<'_> {
         }
     }
 
+    /// Puts into the store what stands; whether that could be kept.
+    fn hand_over(
+        &self,
+        shared: &Mutex<Shared>,
+        held: &mut Held<(u64, Range<u64>), Vec<Piece>>,
+        standing: Standing,
+    ) -> bool {
+        if standing == Standing::Revoked {
+            let rows: u64 = held.pending().map(|(_, rows)| rows.end - rows.start).sum();
+            lock(shared).rows_pending -= rows;
+        }
+        for piece in held.settle(standing).iter().flatten() {
+            if let Err(source) = self.keep.map_or(Ok(()), |keep| keep(piece)) {
+                lock(shared).end.get_or_insert(RunError::NotKept { source });
+                return false;
+            }
+            self.store.insert(piece);
+            self.note(shared, piece);
+        }
+        true
+    }
+
     fn note(&self, shared: &Mutex<Shared>, piece: &Piece) {
         let mut failed: Vec<u32> = piece.failures.iter().map(|(row, ..)| *row).collect();
         failed.dedup();
         let progress = {
             let mut shared = lock(shared);
-            shared.progress.done += piece.rows(self.store.outputs());
+            let rows = piece.rows(self.store.outputs());
+            shared.progress.done += rows;
+            shared.rows_pending -= rows;
             shared.progress.failed += failed.len() as u64;
-            shared.progress.elapsed = self.start.elapsed();
             if let (FailurePolicy::Fail, Some((row, _, why))) = (self.failures, piece.failures.first()) {
                 let (row, per_point) = (piece.first + u64::from(*row), self.job.design.rows_per_point());
                 let place = Place { replicate: piece.replicate, point: row / per_point, run: row % per_point };
@@ -147,10 +189,23 @@ impl Filling<'_> {
                     shared.failed = Some((place, why.clone()));
                 }
             }
-            shared.progress
+            shared.seen(self.start)
         };
         (self.on_progress)(progress);
     }
+}
+
+impl Shared {
+    /// How far the run has come, rows that do not stand yet included.
+    fn seen(&self, start: Instant) -> Progress {
+        let done = (self.progress.done + self.rows_pending).min(self.progress.total);
+        Progress { done, elapsed: start.elapsed(), ..self.progress }
+    }
+}
+
+fn is_ended(shared: &Mutex<Shared>) -> bool {
+    let shared = lock(shared);
+    shared.end.is_some() || shared.failed.is_some()
 }
 
 /// A worker that leaves, in whatever way.

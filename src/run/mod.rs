@@ -14,6 +14,7 @@ mod crew;
 mod error;
 mod fill;
 mod growing;
+mod held;
 pub mod journal;
 mod rows;
 mod shard;

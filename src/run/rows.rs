@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::Job;
 use crate::design::{BasePoints, Matrix};
-use crate::model::{Batch, Worker};
+use crate::model::{Batch, Standing, Worker};
 
 /// What a thread needs to evaluate any rows.
 pub(super) struct RowRunner<'a> {
@@ -18,14 +18,19 @@ impl<'a> RowRunner<'a> {
         Self { worker: job.model.worker(), batch: Batch::of(job.model), rows: RowValues::default() }
     }
 
-    /// The settled outputs of rows `rows` of `replicate`, counted within the replicate.
-    pub fn run(&mut self, job: Job<'_>, replicate: u64, rows: Range<u64>) -> &Batch {
+    /// The settled outputs of rows `rows` of `replicate`, counted within the replicate, and whether they stand.
+    pub fn run(&mut self, job: Job<'_>, replicate: u64, rows: Range<u64>) -> (&Batch, Standing) {
         let inputs = self.rows.values(job, replicate, rows.clone());
         let inputs: Vec<&[f64]> = inputs.iter().map(Vec::as_slice).collect();
         self.batch.reset((rows.end - rows.start) as usize);
-        self.worker.run(&inputs, &mut self.batch);
+        let standing = self.worker.run_ahead(&inputs, &mut self.batch);
         self.batch.settle();
-        &self.batch
+        (&self.batch, standing)
+    }
+
+    /// Decides on the rows that are pending.
+    pub fn confirm(&mut self) -> Standing {
+        self.worker.confirm()
     }
 }
 

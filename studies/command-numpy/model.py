@@ -14,6 +14,8 @@ while block := sys.stdin.buffer.read1(1 << 20):
     rows, _, rest = (rest + block).rpartition(b"\n")
     if rows:
         values = np.array(rows.replace(b"\n", b",").split(b","), dtype=float).reshape(-1, len(names))
-        answers = model(**dict(zip(names, values.T)))
-        sys.stdout.write("".join(f"{answer!r}\n" for answer in answers.tolist()))
+        x = dict(zip(names, values.T))
+        numbers = x.pop("id").astype(int).tolist()
+        answers = model(**x).tolist()
+        sys.stdout.write("".join(f"{number},{answer!r}\n" for number, answer in zip(numbers, answers)))
         sys.stdout.flush()

@@ -69,7 +69,7 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
     let sha256 = reading.all(&store, request.missing)?;
     // Values that agree to ten digits may still be another version's: those of the study are the ones in force.
     request.manifest.check_points(&sha256)?;
-    if !model.flags().is_empty() && !matches!(study.subject, Subject::External(_)) {
+    if model.flags().iter().any(|flag| !flag.warns) && !matches!(study.subject, Subject::External(_)) {
         let note = "the file holds no validity flags of the model: none are counted".to_owned();
         study.notes.push(note);
     }

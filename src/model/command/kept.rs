@@ -1,73 +1,71 @@
 //! A worker that keeps one process alive and asks it row by row, several rows ahead of the answers.
+//!
+//! Rows that have numbers are matched with their answers by them. Without numbers the answers of a process are certain at
+//! one point only: when its input and then its output have ended, and there is one answer for each row. Until then they are
+//! pending. A process is therefore ended, and another started, at intervals that are long beside its start; its answers are
+//! forgotten if they are too many or too few, and every row is asked by a process of its own from then on.
 
+mod blame;
+mod hear;
+mod numbers;
+mod piece;
+mod talk;
+
+use std::process::ExitStatus;
+use std::sync::PoisonError;
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use super::process::{Ending, Event, IN_TRANSIT, Process};
-use super::program::status_in_words;
-use super::protocol::{Answer, Protocol, parse_answer};
+use super::process::{Ending, Event, PATIENCE, Process};
 use super::row::RowWriter;
-use super::words::{masked, seconds};
-use super::{CommandModel, State, not_a_value};
-use crate::model::{Batch, RowFailure, Worker};
+use super::{CommandModel, KeptAlive, SILENCE, State};
+use crate::model::{Batch, RowFailure, Standing, Worker};
+use numbers::number_of;
+use piece::Piece;
+use talk::Talk;
 
 /// Bytes of rows that are written at once.
 const TEXT: usize = 1 << 15;
-/// Bytes that a line may have.
-const LONGEST_LINE: usize = 1 << 20;
 /// How long it may take until an interruption is seen.
 const ATTENTION: Duration = Duration::from_millis(100);
-/// How long is listened for more than one line after the first row of all, and after each row of a program that has
-/// printed too much before.
-const FIRST_ROW: Duration = Duration::from_millis(50);
-const EACH_ROW: Duration = Duration::from_millis(5);
+/// How many times its start a process without row numbers works before its answers are confirmed, and at least how long.
+const STARTS: u32 = 20;
+const AT_LEAST: Duration = Duration::from_secs(2);
+/// Rows before the first confirmations of a model, while a start is short or little beside the work: a program that is
+/// often wrong is found out where a line too many and a line too few cannot make up for each other.
+const FIRST_ROWS: [usize; 3] = [8, 64, 512];
+const SHORT_START: Duration = Duration::from_millis(100);
+/// Rows that may be pending.
+const MOST_PENDING: usize = 1 << 20;
+/// How long a program may be silent over its rows until it is asked for the rest by the end of its input, and so many times
+/// the longest time that it has taken before.
+const QUIET: Duration = Duration::from_millis(500);
+const TIMES: u32 = 5;
 
 pub(super) struct KeptWorker<'a> {
     model: &'a CommandModel,
-    protocol: Protocol,
+    form: KeptAlive,
     writer: RowWriter,
     talk: Option<Talk>,
+    caution: Caution,
 }
 
-/// A process and what is under way between it and us.
-struct Talk {
-    process: Process,
-    /// Texts that may be handed over before one is written.
-    credit: usize,
-    /// What has come of the line that is not complete.
-    line: Vec<u8>,
-    has_header: bool,
-    /// Its output is closed.
-    closed: bool,
-    /// When it answered last, or was asked first.
-    heard: Instant,
-}
-
-/// The rows of a batch on their way.
-struct Piece<'a> {
-    inputs: &'a [&'a [f64]],
-    rows: usize,
-    /// A value for each output of the program and each answered row; NaN where the row failed.
-    values: Vec<f64>,
-    /// The number of those outputs.
-    outputs: usize,
-    failures: Vec<(usize, RowFailure)>,
-    /// Rows that have their answer, and rows that have been sent: the first so many.
-    answered: usize,
-    sent: usize,
-    /// The first row that the present process was sent.
-    since: usize,
-    /// How often the first row without an answer has been tried in vain.
-    tries: u32,
-    /// That row goes alone; with how many it went before.
+/// What has been learnt from processes that ended early.
+struct Caution {
+    /// The next process gets so many rows, which are then confirmed, and the row behind them goes alone; with how many it
+    /// went before.
+    plan: Option<(usize, usize)>,
+    /// The next row goes alone; with how many it went before.
     alone: Option<usize>,
+    /// How often the row that goes alone has been tried in vain.
+    tries: u32,
     /// How far rows may be ahead of the answers, and answers since it was set.
     window: usize,
     in_window: usize,
-    /// The program has printed too much: every row goes alone.
-    careful: bool,
 }
 
 /// Why a process is of no further use.
+#[derive(Debug)]
 enum Fault {
     Closed,
     Silent,
@@ -75,281 +73,280 @@ enum Fault {
     LongLine,
     /// A line that nobody asked for.
     Surplus,
+    /// A row number that has been answered before.
+    Twice(u64),
+}
+
+/// What has become of a batch.
+struct Outcome {
+    standing: Standing,
+    given_up: Option<RowFailure>,
 }
 
 impl<'a> KeptWorker<'a> {
-    pub(super) fn new(model: &'a CommandModel, protocol: Protocol) -> Self {
-        Self { model, protocol, writer: RowWriter::new(protocol, &model.factors), talk: None }
+    pub(super) fn new(model: &'a CommandModel, form: KeptAlive) -> Self {
+        let writer = RowWriter::new(form.protocol, &model.factors).with_numbers(form.row_numbers);
+        let caution = Caution { plan: None, alone: None, tries: 0, window: usize::MAX, in_window: 0 };
+        Self { model, form, writer, talk: None, caution }
     }
 
-    fn answer(&mut self, piece: &mut Piece<'_>) -> Result<(), RowFailure> {
-        self.leave_if_out_of_step();
+    /// Sees to it that every row of the piece has an answer, which is certain if `closes`.
+    fn answer(&mut self, piece: &mut Piece<'_>, closes: bool) -> Outcome {
         if let Some(talk) = &mut self.talk {
-            talk.heard = Instant::now();
+            piece.begin(talk.session.sent);
+            talk.session.wake();
         }
-        while piece.answered < piece.rows {
+        loop {
             if self.model.state.interrupted() {
-                drop(self.talk.take().map(|talk| talk.process.end(false)));
-                return Err(RowFailure::interrupted());
+                return self.break_off(piece);
             }
-            if self.talk.is_none() {
-                self.talk = Some(self.start()?);
-                (piece.sent, piece.since) = (piece.answered, piece.answered);
+            if let Some(standing) = self.arrived(piece, closes) {
+                return Outcome { standing, given_up: None };
             }
-            if let Err(fault) = self.step(piece) {
-                self.blame(&fault, piece)?;
+            let step = match self.start_if_ended(piece) {
+                Ok(()) => self.step(piece),
+                Err(reason) => return Outcome { standing: Standing::Final, given_up: Some(reason) },
+            };
+            let Err(fault) = step else { continue };
+            match self.blame(&fault, piece) {
+                Ok(Standing::Revoked) => return Outcome { standing: Standing::Revoked, given_up: None },
+                Ok(_) => (),
+                Err(reason) => return Outcome { standing: Standing::Final, given_up: Some(reason) },
             }
         }
-        Ok(())
     }
 
-    fn start(&self) -> Result<Talk, RowFailure> {
+    /// Whether all rows are answered, and how their answers stand; `None` if there is more to wait for.
+    fn arrived(&mut self, piece: &Piece<'_>, closes: bool) -> Option<Standing> {
+        if piece.open > 0 {
+            return None;
+        }
+        let state = &self.model.state;
+        let Some(talk) = self.talk.as_mut().filter(|_| !self.form.row_numbers) else { return Some(Standing::Final) };
+        let session = &talk.session;
+        if session.closed.is_some() {
+            return None;
+        }
+        let is_full = session.answered >= session.most.min(MOST_PENDING);
+        if closes || piece.is_parted || is_full || state.is_out_of_step() || is_due(talk, state) {
+            talk.close();
+            return None;
+        }
+        Some(Standing::Pending)
+    }
+
+    fn start_if_ended(&mut self, piece: &mut Piece<'_>) -> Result<(), RowFailure> {
+        if self.talk.is_some() {
+            return Ok(());
+        }
         let program = &self.model.settings.program;
         let process = Process::start(program, &self.model.state.voice)
             .map_err(|error| RowFailure::new(&program.refusal(&error)))?;
-        Ok(Talk {
-            process,
-            credit: IN_TRANSIT,
-            line: Vec::new(),
-            has_header: false,
-            closed: false,
-            heard: Instant::now(),
-        })
+        let is_single = self.caution.alone.is_some() || self.asks_singly();
+        let most = if is_single { 1 } else { self.caution.plan.map_or(usize::MAX, |(rows, _)| rows) };
+        self.talk = Some(Talk::new(process, most));
+        piece.begin(0);
+        Ok(())
     }
 
-    /// Lines that came after the last row: what they belong to is unknown. A process that has ended since is let go.
-    fn leave_if_out_of_step(&mut self) {
-        let Some(talk) = &mut self.talk else { return };
-        let surplus = loop {
-            match talk.process.event(Duration::ZERO) {
-                Some(Event::Output(_)) => break true,
-                Some(Event::Sent) => talk.credit += 1,
-                Some(Event::Closed) => break false,
-                None if talk.line.is_empty() => return,
-                None => break true,
-            }
-        };
-        if surplus {
-            self.warn();
-        }
-        drop(self.talk.take().map(|talk| talk.process.end(!surplus)));
-    }
-
-    fn warn(&self) {
-        State::say_once(
-            &self.model.state.warned,
-            "warning: the program printed a line that was no answer to a row: the process is started anew, but answers \
-             just before that line may belong to other rows; print to standard error what is no answer",
-        );
+    /// Whether every row is asked by a process of its own.
+    fn asks_singly(&self) -> bool {
+        !self.form.row_numbers && self.model.state.is_out_of_step()
     }
 
     /// Sends what may be sent, and takes what comes next.
     fn step(&mut self, piece: &mut Piece<'_>) -> Result<(), Fault> {
-        let Some(talk) = &mut self.talk else { return Ok(()) };
-        if talk.closed {
-            return Err(Fault::Closed);
-        }
+        self.send(piece);
         let state = &self.model.state;
-        let is_first = !state.has_answered();
-        let ahead = if is_first || piece.careful || piece.alone.is_some() { 1 } else { piece.window };
-        let limit = piece.answered.saturating_add(ahead).min(piece.rows);
-        while piece.sent < limit && talk.credit > 0 {
-            let mut text = if talk.has_header { String::new() } else { self.writer.header() };
-            while piece.sent < limit && text.len() < TEXT {
-                self.writer.write(piece.inputs, piece.sent, &mut text);
-                piece.sent += 1;
-            }
-            talk.has_header = true;
-            talk.credit -= 1;
-            talk.process.send(text);
-        }
-        let silent_for = talk.heard.elapsed();
-        let left = self.model.settings.timeout.map(|timeout| timeout.saturating_sub(silent_for));
-        let event = talk.process.event(left.map_or(ATTENTION, |left| left.min(ATTENTION)));
-        match event {
+        let Some(talk) = &mut self.talk else { return Ok(()) };
+        let silent_for = talk.session.silent_for();
+        let timeout = self.model.settings.timeout.filter(|_| talk.session.under_way() > 0);
+        let left = timeout.map(|timeout| timeout.saturating_sub(silent_for));
+        match talk.process.event(left.map_or(ATTENTION, |left| left.min(ATTENTION))) {
             Some(Event::Output(bytes)) => {
-                let (before, tries) = (piece.answered, piece.tries);
-                let taken = talk.take(&bytes, piece, (self.protocol, &self.model.names));
-                let is_alone = is_first || piece.careful;
-                let taken = taken.and_then(|()| match piece.answered > before && is_alone {
-                    true => talk.listen(if is_first { FIRST_ROW } else { EACH_ROW }),
-                    false => Ok(()),
-                });
-                if matches!(taken, Err(Fault::Surplus)) {
-                    // The row that was answered too often has not been answered.
-                    piece.tries = if piece.answered - piece.since == 1 { tries } else { 0 };
-                }
-                taken?;
-                if piece.answered > before {
-                    talk.heard = Instant::now();
+                let before = talk.session.answered;
+                let heard = self.hear(&bytes, piece);
+                if let Some(Talk { session, .. }) = self.talk.as_mut().filter(|talk| talk.session.answered > before) {
+                    session.note_answers();
                     state.note_answer();
-                    if is_alone {
-                        piece.since = piece.answered;
-                    }
                 }
+                return heard;
             }
             Some(Event::Sent) => talk.credit += 1,
-            Some(Event::Closed) => return Err(Fault::Closed),
+            Some(Event::Closed) => return self.closed(piece),
             None if left == Some(Duration::ZERO) => return Err(Fault::Silent),
-            None if is_first && silent_for > self.model.silence => State::say_once(
-                &state.hinted,
-                "the program has been silent since its first row: does it flush its output, as print(..., flush=True) does?",
-            ),
-            None => (),
+            None => return self.silent(piece),
         }
         Ok(())
     }
 
-    /// Ends the process and decides what becomes of the row that it is found out on.
-    fn blame(&mut self, fault: &Fault, piece: &mut Piece<'_>) -> Result<(), RowFailure> {
-        let Some(talk) = self.talk.take() else { return Ok(()) };
-        let ending = talk.process.end(matches!(fault, Fault::Closed));
-        if matches!(fault, Fault::Surplus) {
-            let suspects = piece.answered - piece.since;
-            if suspects != 1 {
-                self.warn();
+    fn send(&mut self, piece: &mut Piece<'_>) {
+        let Some(talk) = self.talk.as_mut().filter(|talk| talk.session.closed.is_none()) else { return };
+        let session = &mut talk.session;
+        let ahead = if self.model.state.has_answered() { self.caution.window } else { 1 };
+        let may_send = |sent: usize, answered: usize| sent < session.most && sent - answered < ahead;
+        let mut sent = session.sent;
+        while talk.credit > 0 && may_send(sent, session.answered) && piece.has_next() {
+            let mut text = if sent == 0 { self.writer.header() } else { String::new() };
+            while text.len() < TEXT
+                && may_send(sent, session.answered)
+                && let Some(row) = piece.send_next()
+            {
+                self.writer.write(piece.inputs, (row, number_of(sent)), &mut text);
+                sent += 1;
             }
-            piece.careful |= self.model.state.has_answered();
-            piece.take_back();
-            piece.sent = piece.answered + usize::from(suspects == 1);
+            talk.credit -= 1;
+            talk.process.send(text);
         }
-        let ahead = piece.sent - piece.answered;
-        if ahead == 0 {
-            return Ok(());
+        if session.under_way() == 0 && sent > session.sent {
+            session.wake();
         }
-        piece.tries += 1;
-        if ahead > 1 || piece.tries <= self.model.settings.retries {
-            piece.alone = Some(ahead.max(piece.alone.unwrap_or(1)));
-            return Ok(());
+        session.sent = sent;
+        // A row that goes alone needs no process that waits for more. Others end before the end of their input only by
+        // a fault of their own.
+        if session.most == 1 && sent == 1 || session.answered == session.most {
+            talk.close();
         }
-        let reason = self.reason(fault, &ending);
-        let failure = RowFailure::new(&reason);
-        piece.fail(failure);
-        self.model.state.note_barren(&reason)
     }
 
-    fn reason(&self, fault: &Fault, ending: &Ending) -> String {
-        match fault {
-            Fault::Closed if ending.by_itself => {
-                let last = masked(&ending.last_words);
-                let last = if last.is_empty() { last } else { format!(": {last}") };
-                format!("the program ended with {}{last}", status_in_words(ending.status))
+    /// Its output has ended.
+    fn closed(&mut self, piece: &mut Piece<'_>) -> Result<(), Fault> {
+        let Some(talk) = &mut self.talk else { return Ok(()) };
+        let rest = std::mem::take(&mut talk.lines).rest().to_vec();
+        if !rest.is_empty() && talk.session.under_way() == 0 {
+            // A line that nobody asked for, unless it is no answer.
+            self.hear(&[&rest[..], b"\n"].concat(), piece)?;
+        }
+        let Some(talk) = &mut self.talk else { return Ok(()) };
+        let ending = talk.process.end(true);
+        let is_whole = talk.session.under_way() == 0;
+        let is_certain = self.form.row_numbers || talk.session.closed.is_some() && self.ended_well(&ending);
+        if is_whole && is_certain {
+            self.confirmed(piece);
+            return Ok(());
+        }
+        self.talk.iter_mut().for_each(|talk| talk.ending = Some(ending.clone()));
+        Err(Fault::Closed)
+    }
+
+    /// Whether a process did not die: one that died on its last row, and had printed a line too many, has as many answers as
+    /// rows.
+    fn ended_well(&self, ending: &Ending) -> bool {
+        if !ending.by_itself || ending.status.is_some_and(|status| status.success()) {
+            return true;
+        }
+        let mut usual = self.model.state.usual_end.lock().unwrap_or_else(PoisonError::into_inner);
+        usual.get_or_insert_with(|| self.end_without_rows()).is_some_and(|usual| Some(usual) == ending.status)
+    }
+
+    /// How a process ends that gets no row at all.
+    fn end_without_rows(&self) -> Option<ExitStatus> {
+        let mut process = Process::start(&self.model.settings.program, &self.model.state.voice).ok()?;
+        process.send(self.writer.header());
+        process.close_input();
+        let begin = Instant::now();
+        while !matches!(process.event(ATTENTION), Some(Event::Closed)) {
+            process.clear_away();
+            if self.model.state.interrupted() || begin.elapsed() > SILENCE {
+                return None;
             }
-            Fault::Closed => "the program closed its standard output".to_owned(),
-            Fault::Silent => {
-                let timeout = self.model.settings.timeout.map_or_else(String::new, seconds);
-                let hint = if self.model.state.has_answered() { "" } else { "; does the program flush its output?" };
-                format!("no answer within {timeout}{hint}")
-            }
-            Fault::Rubbish(words) => format!("not an answer: {words}"),
-            Fault::LongLine => "the program printed a line of more than 1 MiB".to_owned(),
-            Fault::Surplus => "the program printed more than one line for a row".to_owned(),
+        }
+        let ending = process.end(true);
+        ending.status.filter(|_| ending.by_itself)
+    }
+
+    /// The process has answered all its rows, neither more nor less, and is of no further use.
+    fn confirmed(&mut self, piece: &mut Piece<'_>) {
+        let Some(Talk { session, .. }) = self.talk.take() else { return };
+        self.model.state.note_startup(session.startup());
+        if self.form.row_numbers {
+            return;
+        }
+        piece.confirm();
+        if self.asks_singly() && session.most == 1 {
+            piece.alone += 1;
+        }
+        self.model.state.confirmed.fetch_add(1, Ordering::Relaxed);
+        if session.most == 1 {
+            self.caution.settle();
+        }
+        if let Some((_, ahead)) = self.caution.plan.take_if(|(rows, _)| *rows == session.answered) {
+            self.caution.alone = (ahead > 0).then_some(ahead);
         }
     }
-}
 
-impl Worker for KeptWorker<'_> {
-    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
-        let settings = &self.model.settings;
-        let mut piece = Piece::new(inputs, batch.rows(), settings.outputs.len());
-        if let Err(reason) = self.answer(&mut piece) {
-            batch.give_up(reason);
+    /// Nothing has come for a while.
+    fn silent(&mut self, piece: &mut Piece<'_>) -> Result<(), Fault> {
+        let state = &self.model.state;
+        let Some(talk) = &mut self.talk else { return Ok(()) };
+        talk.process.clear_away();
+        let session = &talk.session;
+        let quiet = if session.has_answered() {
+            QUIET.max(TIMES * session.slowest())
+        } else {
+            SILENCE.max(TIMES * state.startup().unwrap_or_default())
+        };
+        let silent_for = session.silent_for();
+        if session.under_way() > 0 {
+            if !state.has_answered() && silent_for > self.model.silence {
+                State::say_once(
+                    &state.hinted,
+                    "still waiting for the program's first answer: it may still be starting (imports), be long over its \
+                     first row, or not flush what it prints, as print(..., flush=True) does",
+                );
+            }
+            if silent_for > quiet {
+                talk.close();
+            }
+        } else if session.closed.is_some_and(|closed| closed.elapsed().min(silent_for) > PATIENCE.max(TIMES * session.slowest())) {
+            State::say_once(
+                &state.stayed,
+                "warning: the program does not end when its input has ended: whether it prints more is not waited for",
+            );
+            self.confirmed(piece);
         }
-        for (column, place) in settings.asked.iter().enumerate() {
-            let unit = &settings.outputs[*place].unit;
-            for (row, values) in piece.values.chunks(piece.outputs).enumerate() {
-                batch.set(row, column, unit.to_si(values[*place]));
-                let failed = || piece.failures.binary_search_by_key(&row, |(row, _)| *row).is_ok();
-                if !values[*place].is_finite() && !failed() {
-                    batch.fail(row, column, not_a_value(values[*place]));
+        Ok(())
+    }
+
+    /// Ends the work within a moment, with what is certain by then.
+    fn break_off(&mut self, piece: &mut Piece<'_>) -> Outcome {
+        let spans = !self.form.row_numbers && piece.base > 0;
+        let mut standing = Standing::Final;
+        let end = Instant::now() + if self.form.row_numbers { Duration::ZERO } else { PATIENCE };
+        if let Some(talk) = &mut self.talk {
+            talk.close();
+        }
+        while self.talk.is_some() {
+            if Instant::now() >= end || self.step(piece).is_err() {
+                drop(self.talk.take().map(|mut talk| talk.process.end(false)));
+                if !self.form.row_numbers {
+                    piece.rewind();
+                    standing = if spans { Standing::Revoked } else { Standing::Final };
                 }
             }
         }
-        for (row, failure) in &piece.failures {
-            batch.fail_row(*row, failure);
-        }
+        Outcome { standing, given_up: Some(RowFailure::interrupted()) }
+    }
+
+    fn new_piece<'b>(&self, inputs: &'b [&'b [f64]], rows: usize) -> Piece<'b> {
+        Piece::new(inputs, rows, self.model.settings.outputs.len())
     }
 }
 
-impl Talk {
-    /// Takes the answers in `bytes`.
-    fn take(
-        &mut self,
-        bytes: &[u8],
-        piece: &mut Piece<'_>,
-        (protocol, names): (Protocol, &[String]),
-    ) -> Result<(), Fault> {
-        let mut lines = bytes.split_inclusive(|byte| *byte == b'\n');
-        for line in &mut lines {
-            let Some(end) = line.strip_suffix(b"\n") else {
-                self.line.extend_from_slice(line);
-                break;
-            };
-            if piece.answered == piece.sent {
-                return Err(Fault::Surplus);
-            }
-            let answer = if self.line.is_empty() {
-                parse_answer(protocol, names, end, &mut piece.values)
-            } else {
-                self.line.extend_from_slice(end);
-                let answer = parse_answer(protocol, names, &self.line, &mut piece.values);
-                self.line.clear();
-                answer
-            };
-            match answer.map_err(Fault::Rubbish)? {
-                Answer::Values => piece.next(),
-                Answer::Failed(reason) => piece.fail(RowFailure::new(&reason)),
-            }
-        }
-        if self.line.len() > LONGEST_LINE { Err(Fault::LongLine) } else { Ok(()) }
-    }
-
-    /// Hears whether there is more than the answer.
-    fn listen(&mut self, longest: Duration) -> Result<(), Fault> {
-        let end = Instant::now() + longest;
-        while self.line.is_empty() {
-            match self.process.event(end.saturating_duration_since(Instant::now())) {
-                Some(Event::Sent) => self.credit += 1,
-                // That is no fault of a row that has been answered.
-                Some(Event::Closed) => {
-                    self.closed = true;
-                    return Ok(());
-                }
-                None => return Ok(()),
-                Some(Event::Output(_)) => break,
-            }
-        }
-        Err(Fault::Surplus)
-    }
+/// Whether the process has worked long enough, beside its start, for its answers to be confirmed.
+fn is_due(talk: &Talk, state: &State) -> bool {
+    let work = talk.session.work();
+    let startup = state.startup().unwrap_or_else(|| Duration::try_from_secs_f64(talk.session.startup()).unwrap_or_default());
+    let confirmed = state.confirmed.load(Ordering::Relaxed) as usize;
+    let is_early = FIRST_ROWS.get(confirmed).is_some_and(|rows| talk.session.answered >= *rows)
+        && (startup < SHORT_START || work > TIMES * startup);
+    is_early || work > AT_LEAST.max(STARTS * startup)
 }
 
-impl<'a> Piece<'a> {
-    fn new(inputs: &'a [&'a [f64]], rows: usize, outputs: usize) -> Self {
-        Self {
-            inputs,
-            rows,
-            values: Vec::with_capacity(rows * outputs),
-            outputs,
-            failures: Vec::new(),
-            answered: 0,
-            sent: 0,
-            since: 0,
-            tries: 0,
-            alone: None,
-            window: usize::MAX,
-            in_window: 0,
-            careful: false,
-        }
-    }
-
+impl Caution {
     /// A row has its answer.
-    fn next(&mut self) {
-        self.answered += 1;
-        self.tries = 0;
-        if let Some(ahead) = self.alone.take().filter(|ahead| *ahead > 1) {
-            // The row was innocent: one of those that went with it is not.
-            (self.window, self.in_window) = (ahead / 2, 0);
-        } else if self.window < usize::MAX {
+    fn note_answer(&mut self) {
+        if self.window < usize::MAX && self.alone.is_none() {
             self.in_window += 1;
             if self.in_window >= self.window {
                 (self.window, self.in_window) = (self.window.saturating_mul(2), 0);
@@ -357,19 +354,43 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// The first row without an answer has none.
-    fn fail(&mut self, failure: RowFailure) {
-        self.failures.push((self.answered, failure));
-        self.values.extend(std::iter::repeat_n(f64::NAN, self.outputs));
-        self.alone = None;
-        self.next();
+    /// The row that went alone has its answer.
+    fn settle(&mut self) {
+        self.tries = 0;
+        if let Some(ahead) = self.alone.take().filter(|ahead| *ahead > 1) {
+            // The row was innocent: one of those that went with it is not.
+            (self.window, self.in_window) = (ahead / 2, 0);
+        }
+    }
+}
+
+impl Worker for KeptWorker<'_> {
+    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
+        loop {
+            let mut piece = self.new_piece(inputs, batch.rows());
+            let outcome = self.answer(&mut piece, true);
+            // Rows that were pending before are the caller's affair; these are asked again.
+            if outcome.standing == Standing::Revoked && outcome.given_up.is_none() {
+                continue;
+            }
+            piece.hand_over(self.model, batch);
+            return outcome.given_up.map_or((), |reason| batch.give_up(reason));
+        }
     }
 
-    /// Answers of the present process that may belong to other rows are forgotten.
-    fn take_back(&mut self) {
-        self.failures.retain(|(row, _)| *row < self.since);
-        self.values.truncate(self.since * self.outputs);
-        self.answered = self.since;
+    fn run_ahead(&mut self, inputs: &[&[f64]], batch: &mut Batch) -> Standing {
+        let mut piece = self.new_piece(inputs, batch.rows());
+        let outcome = self.answer(&mut piece, false);
+        piece.hand_over(self.model, batch);
+        if let Some(reason) = outcome.given_up {
+            batch.give_up(reason);
+        }
+        outcome.standing
+    }
+
+    fn confirm(&mut self) -> Standing {
+        let mut piece = self.new_piece(&[], 0);
+        self.answer(&mut piece, true).standing
     }
 }
 

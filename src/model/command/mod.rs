@@ -15,17 +15,18 @@ mod template;
 mod voice;
 mod words;
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::process::ExitStatus;
+use std::sync::{Arc, Mutex};
+use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering};
 use std::time::Duration;
 
 pub use per_run::PerRun;
 pub use pick::{Match, Pick, PickError, Source, Way};
 pub use program::Program;
-pub use protocol::{Answer, Protocol, parse_answer};
+pub use protocol::{Answer, Protocol, parse_answer, parse_numbered_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 
-use super::{Model, Output, RowFailure, Worker};
+use super::{Flag, Model, Output, RowFailure, Worker};
 use crate::quantity::Unit;
 use crate::space::Factor;
 use kept::KeptWorker;
@@ -35,10 +36,20 @@ use voice::Voice;
 /// How a program is asked.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Form {
-    /// It is kept alive, and reads rows and writes answers by this protocol.
-    KeptAlive(Protocol),
+    /// It is kept alive, and reads rows and writes answers.
+    KeptAlive(KeptAlive),
     /// It runs once for each row.
     PerRun(PerRun),
+}
+
+/// How a program that is kept alive is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct KeptAlive {
+    /// How rows and answers are written.
+    pub protocol: Protocol,
+    /// Whether each row has a number, which the program writes before its answer. Without numbers answers count only once
+    /// the program has ended and has written one for each row.
+    pub row_numbers: bool,
 }
 
 /// An output that a program gives.
@@ -74,7 +85,7 @@ pub struct CommandSettings {
 /// A program as a model.
 ///
 /// ```
-/// use apportion::model::{CommandModel, CommandOutput, CommandSettings, Form, Model, Program, Protocol};
+/// use apportion::model::{CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, Model, Program, Protocol};
 /// use apportion::quantity::Unit;
 /// use apportion::space::{Distribution, Factor};
 ///
@@ -85,7 +96,7 @@ pub struct CommandSettings {
 /// };
 /// let settings = CommandSettings {
 ///     program,
-///     form: Form::KeptAlive(Protocol::Csv),
+///     form: Form::KeptAlive(KeptAlive { protocol: Protocol::Csv, row_numbers: true }),
 ///     outputs: vec![CommandOutput { name: "force".to_owned(), unit: Unit::parse("nN")?, pick: None }],
 ///     asked: vec![0],
 ///     workers: Some(2),
@@ -108,6 +119,7 @@ pub struct CommandModel {
     names: Vec<String>,
     /// How long it may be silent at its first row without a hint.
     silence: Duration,
+    flags: Vec<Flag>,
     state: State,
 }
 
@@ -119,9 +131,18 @@ struct State {
     has_answered: AtomicBool,
     /// Rows that failed before it ever did.
     barren: AtomicU32,
-    /// Whether its silence, and its surplus lines, have been spoken of.
+    /// Whether it has printed more or fewer answers than it had rows: without numbers every row goes by itself then.
+    out_of_step: AtomicBool,
+    /// Microseconds that processes took to start, and how many they were; how often answers have been confirmed.
+    startup: AtomicI64,
+    started: AtomicU32,
+    confirmed: AtomicU32,
+    /// Whether its silence, lines that are no answers, and a process that did not end have been spoken of.
     hinted: AtomicBool,
-    warned: AtomicBool,
+    strayed: AtomicBool,
+    stayed: AtomicBool,
+    /// How a process ends that gets no row, once that was asked.
+    usual_end: Mutex<Option<Option<ExitStatus>>>,
     voice: Arc<Voice>,
 }
 
@@ -142,6 +163,23 @@ impl State {
 
     fn note_answer(&self) {
         self.has_answered.store(true, Ordering::Relaxed);
+    }
+
+    fn is_out_of_step(&self) -> bool {
+        self.out_of_step.load(Ordering::Relaxed)
+    }
+
+    /// What the start of a process takes on average; nothing before it has been measured.
+    fn startup(&self) -> Option<Duration> {
+        let processes = self.started.load(Ordering::Relaxed);
+        let micros = self.startup.load(Ordering::Relaxed).max(0) as u64;
+        (processes > 0).then(|| Duration::from_micros(micros / u64::from(processes)))
+    }
+
+    /// A measurement may be below zero, where the first row was a short one.
+    fn note_startup(&self, seconds: f64) {
+        self.startup.fetch_add((seconds * 1e6) as i64, Ordering::Relaxed);
+        self.started.fetch_add(1, Ordering::Relaxed);
     }
 
     /// Counts a row that failed without an answer; why the program is given up, if that has happened too often.
@@ -172,13 +210,19 @@ impl CommandModel {
         };
         let outputs = settings.asked.iter().map(output).collect();
         let names = settings.outputs.iter().map(|output| output.name.clone()).collect();
-        Self { settings, factors, outputs, names, silence: SILENCE, state: State::default() }
+        let is_numbered = !matches!(settings.form, Form::KeptAlive(KeptAlive { row_numbers: false, .. }));
+        let flags = if is_numbered { Vec::new() } else { vec![alone()] };
+        Self { settings, factors, outputs, names, silence: SILENCE, flags, state: State::default() }
     }
 }
 
 impl Model for CommandModel {
     fn outputs(&self) -> &[Output] {
         &self.outputs
+    }
+
+    fn flags(&self) -> &[Flag] {
+        &self.flags
     }
 
     fn concurrency(&self) -> Option<usize> {
@@ -192,9 +236,21 @@ impl Model for CommandModel {
 
     fn worker(&self) -> Box<dyn Worker + '_> {
         match &self.settings.form {
-            Form::KeptAlive(protocol) => Box::new(KeptWorker::new(self, *protocol)),
+            Form::KeptAlive(form) => Box::new(KeptWorker::new(self, *form)),
             Form::PerRun(form) => Box::new(PerRunWorker::new(self, form)),
         }
+    }
+}
+
+/// The flag of rows asked by a process of their own.
+fn alone() -> Flag {
+    Flag {
+        name: "asked-alone".into(),
+        description: "the program was out of step: it printed more or fewer answers than it had rows, or died after as \
+                      many; those since it was last known to be in step were asked again, and all that followed asked, each by a process of its \
+                      own; row numbers avoid this (row_numbers = true, see docs/worker-protocol.md)"
+            .into(),
+        warns: true,
     }
 }
 

@@ -22,6 +22,7 @@ pub(super) enum Event {
 }
 
 /// How a process ended.
+#[derive(Clone)]
 pub(super) struct Ending {
     /// Its exit status, where there is one.
     pub status: Option<ExitStatus>,
@@ -47,7 +48,7 @@ pub(super) const IN_TRANSIT: usize = 4;
 /// Bytes read at once.
 const BLOCK: usize = 1 << 16;
 /// How long a process may take to end when its input has ended.
-const PATIENCE: Duration = Duration::from_secs(1);
+pub(super) const PATIENCE: Duration = Duration::from_secs(1);
 
 impl Process {
     /// Starts `program`.
@@ -99,6 +100,18 @@ impl Process {
         Ok(process)
     }
 
+    /// Ends its input behind what has been handed over.
+    pub(super) fn close_input(&mut self) {
+        self.input = None;
+    }
+
+    /// Ends what it has left behind if it has ended by itself: others may hold its output open.
+    pub(super) fn clear_away(&mut self) {
+        if self.running.has_ended() {
+            self.running.end();
+        }
+    }
+
     /// Hands over a text to be written; [`Event::Sent`] follows.
     pub(super) fn send(&self, text: String) {
         // Its end shows as the end of the answers.
@@ -115,9 +128,10 @@ impl Process {
     }
 
     /// Ends it, after a moment to end by itself if its output is `closed` already.
-    pub(super) fn end(mut self, closed: bool) -> Ending {
+    pub(super) fn end(&mut self, closed: bool) -> Ending {
         let by_itself = closed && self.running.ends_within(PATIENCE);
         let status = self.running.end();
+        self.keeper = None;
         // Everything that it said comes before this, unless somebody outside its group still holds the pipe.
         let _ = self.silence.recv_timeout(Duration::from_millis(300));
         let last_words = self.last_words.lock().unwrap_or_else(PoisonError::into_inner).clone();

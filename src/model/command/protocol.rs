@@ -37,7 +37,7 @@ pub enum Answer {
 }
 
 /// Reads the line with which a program answers a row, and appends one value for each of `outputs` to `values`, unless the
-/// row failed: the number, NaN for an empty cell, `nan` or null, or an infinity.
+/// row failed: the number, NaN for an empty cell, `nan` or null, or an infinity. An empty line is no answer.
 ///
 /// ```
 /// use apportion::model::{Answer, Protocol, parse_answer};
@@ -64,9 +64,10 @@ pub fn parse_answer(
     let found = |words: String| format!("expected {}, found {words}", expected(protocol, outputs));
     let answer = match std::str::from_utf8(line) {
         Err(_) => Err("a line that is not text in UTF-8".to_owned()),
+        Ok(text) if text.trim().is_empty() => Err(EMPTY.to_owned()),
         Ok(text) => match protocol {
             Protocol::Csv => csv_answer(outputs, text.trim(), values),
-            Protocol::JsonLines => json_answer(outputs, text.trim(), values),
+            Protocol::JsonLines => json(text.trim()).and_then(|parsed| json_answer(outputs, &parsed, values)),
         },
     };
     answer.map_err(|words| {
@@ -74,6 +75,88 @@ pub fn parse_answer(
         found(words)
     })
 }
+
+/// Reads an answer that begins with the number of its row: a first cell in CSV, the key `id` of a JSON object.
+///
+/// ```
+/// use apportion::model::{Answer, Protocol, parse_numbered_answer};
+///
+/// let (outputs, mut values) = (["force".to_owned()], Vec::new());
+/// let csv = parse_numbered_answer(Protocol::Csv, &outputs, b"711953,1.5", &mut values);
+/// assert_eq!(csv, Ok((711_953, Ok(Answer::Values))));
+/// let json = br#"{"id": 711953, "error": "no root"}"#;
+/// let json = parse_numbered_answer(Protocol::JsonLines, &outputs, json, &mut values);
+/// assert_eq!(json, Ok((711_953, Ok(Answer::Failed("no root".to_owned())))));
+/// assert_eq!(values, [1.5]);
+/// let stray = parse_numbered_answer(Protocol::Csv, &outputs, b"1.5", &mut values);
+/// assert_eq!(stray.unwrap_err(), "expected the row's number and a number, separated by a comma, found `#`");
+/// ```
+///
+/// # Errors
+/// What was expected and what was found, if the line has no row number. The answer behind a number may be none, as in
+/// [`parse_answer`].
+pub fn parse_numbered_answer(
+    protocol: Protocol,
+    outputs: &[String],
+    line: &[u8],
+    values: &mut Vec<f64>,
+) -> Result<(u64, Result<Answer, String>), String> {
+    let found = |words: String| format!("expected {}, found {words}", expected_numbered(protocol, outputs));
+    let Ok(text) = std::str::from_utf8(line) else {
+        return Err(found("a line that is not text in UTF-8".to_owned()));
+    };
+    let text = text.trim();
+    if text.is_empty() {
+        return Err(found(EMPTY.to_owned()));
+    }
+    let before = values.len();
+    let (number, answer) = match protocol {
+        Protocol::Csv => {
+            let (number, rest) = text.split_once(',').ok_or_else(|| found(format!("`{}`", masked(text))))?;
+            let number = whole(number.trim().trim_matches('"'));
+            let rest = rest.trim();
+            // The number has shown that the line is an answer: an empty cell is one.
+            let answer = if rest.is_empty() && outputs.len() == 1 {
+                values.push(f64::NAN);
+                Ok(Answer::Values)
+            } else {
+                csv_answer(outputs, rest, values)
+            };
+            (number.ok_or_else(|| found(format!("`{}`", masked(text))))?, answer)
+        }
+        Protocol::JsonLines => {
+            let parsed = json(text).map_err(&found)?;
+            let number = match parsed.get("id") {
+                Some(Value::Number(number)) => whole(&number.to_string()),
+                Some(Value::String(text)) => whole(text),
+                _ => None,
+            };
+            let number = number.ok_or_else(|| found(format!("`{}`", masked(text))))?;
+            (number, json_answer(outputs, &parsed, values))
+        }
+    };
+    let answer = answer.map_err(|words| {
+        values.truncate(before);
+        found(words)
+    });
+    Ok((number, answer))
+}
+
+/// A row number as languages write it: `711953`, and also `711953.0` and `7.11953e5`.
+fn whole(text: &str) -> Option<u64> {
+    let value: f64 = text.parse().ok()?;
+    ((0.0..1e15).contains(&value) && value.fract() == 0.0).then_some(value as u64)
+}
+
+fn expected_numbered(protocol: Protocol, outputs: &[String]) -> String {
+    match (protocol, outputs) {
+        (Protocol::Csv, [_]) => "the row's number and a number, separated by a comma".to_owned(),
+        (Protocol::Csv, _) => format!("the row's number and {} numbers, separated by commas", outputs.len()),
+        (Protocol::JsonLines, _) => format!("a JSON object with id (the row's number), {}", outputs.join(", ")),
+    }
+}
+
+const EMPTY: &str = "an empty line";
 
 fn expected(protocol: Protocol, outputs: &[String]) -> String {
     match (protocol, outputs) {
@@ -106,15 +189,18 @@ fn csv_answer(outputs: &[String], text: &str, values: &mut Vec<f64>) -> Result<A
     Err(format!("{cells} cell{}: `{}`", if cells == 1 { "" } else { "s" }, masked(text)))
 }
 
-fn json_answer(outputs: &[String], text: &str, values: &mut Vec<f64>) -> Result<Answer, String> {
+fn json(text: &str) -> Result<Value, String> {
     let parsed = serde_json::from_str(text).or_else(|_| serde_json::from_str(&without_nan(text)));
-    let parsed: Value = parsed.map_err(|_| format!("`{}`", masked(text)))?;
+    parsed.map_err(|_| format!("`{}`", masked(text)))
+}
+
+fn json_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f64>) -> Result<Answer, String> {
     let number = |value: &Value, of: &str| match value {
         Value::Null => Ok(f64::NAN),
         Value::Number(number) => Ok(number.as_f64().unwrap_or(f64::NAN)),
         other => Err(format!("{} as `{of}`", kind(other))),
     };
-    match &parsed {
+    match parsed {
         Value::Object(object) => {
             match object.get("error") {
                 Some(Value::String(reason)) => return Ok(failed(reason)),
@@ -133,7 +219,7 @@ fn json_answer(outputs: &[String], text: &str, values: &mut Vec<f64>) -> Result<
             }
         }
         Value::Array(list) => return Err(format!("a list of {}", list.len())),
-        Value::Number(_) if outputs.len() == 1 => values.push(number(&parsed, &outputs[0])?),
+        Value::Number(_) if outputs.len() == 1 => values.push(number(parsed, &outputs[0])?),
         other => return Err(kind(other).to_owned()),
     }
     Ok(Answer::Values)
@@ -204,7 +290,7 @@ mod tests {
 
     #[test]
     fn what_has_no_value_is_not_a_number() {
-        for line in ["", "nan", "NaN", "-nan"] {
+        for line in ["nan", "NaN", "-nan"] {
             assert!(read(Protocol::Csv, 1, line).unwrap()[0].is_nan(), "{line}");
         }
         let both = read(Protocol::Csv, 2, ",inf").unwrap();
@@ -213,6 +299,46 @@ mod tests {
             let value = read(Protocol::JsonLines, 1, line);
             let fits = if line == "NaN" { value.is_err() } else { value.is_ok_and(|values| values[0].is_nan()) };
             assert!(fits, "{line}");
+        }
+    }
+
+    #[test]
+    fn an_empty_line_is_no_answer() {
+        for (protocol, line) in Protocol::ALL.into_iter().flat_map(|p| ["", " ", "\r"].map(|line| (p, line))) {
+            assert!(read(protocol, 1, line).unwrap_err().ends_with("found an empty line"), "{line:?}");
+            let numbered = parse_numbered_answer(protocol, &names(1), line.as_bytes(), &mut Vec::new());
+            assert!(numbered.unwrap_err().ends_with("found an empty line"), "{line:?}");
+        }
+    }
+
+    fn numbered(protocol: Protocol, outputs: usize, line: &str) -> Option<(u64, Result<Vec<f64>, String>)> {
+        let mut values = Vec::new();
+        let (number, answer) = parse_numbered_answer(protocol, &names(outputs), line.as_bytes(), &mut values).ok()?;
+        let read = match answer {
+            Ok(Answer::Values) => Ok(values),
+            Ok(Answer::Failed(reason)) => Err(format!("failed: {reason}")),
+            Err(words) => Err(words),
+        };
+        Some((number, read))
+    }
+
+    #[test]
+    fn row_numbers_are_read_as_languages_write_them() {
+        for line in ["100000,1.5", "100000.0, 1.5\r", "1e+05,1.5", "\"100000\",1.5"] {
+            assert_eq!(numbered(Protocol::Csv, 1, line), Some((100_000, Ok(vec![1.5]))), "{line}");
+        }
+        for line in [r#"{"y1": 1.5, "id": 100000}"#, r#"{"id": "100000", "y1": 1.5}"#, r#"{"id": 1e5, "y1": 1.5}"#] {
+            assert_eq!(numbered(Protocol::JsonLines, 1, line), Some((100_000, Ok(vec![1.5]))), "{line}");
+        }
+        assert!(numbered(Protocol::Csv, 1, "7,").unwrap().1.unwrap()[0].is_nan());
+        assert_eq!(numbered(Protocol::Csv, 1, "7,error: x").unwrap().1, Err("failed: x".to_owned()));
+        let reason = numbered(Protocol::Csv, 2, "7,1.5").unwrap().1.unwrap_err();
+        assert_eq!(reason, "expected the row's number and 2 numbers, separated by commas, found 1 cell: `#`");
+        for stray in ["1.5", "0.5,1", "-1,2", "nan,1", "step 7,1", "1e300,1"] {
+            assert_eq!(numbered(Protocol::Csv, 1, stray), None, "{stray}");
+        }
+        for stray in ["[7, 1.5]", r#"{"y1": 1.5}"#, r#"{"id": 1.5, "y1": 1}"#, r#"{"id": null, "y1": 1}"#] {
+            assert_eq!(numbered(Protocol::JsonLines, 1, stray), None, "{stray}");
         }
     }
 
@@ -254,6 +380,12 @@ mod tests {
                     let answer = parse_answer(protocol, &names(outputs), line, &mut values);
                     let added = if answer == Ok(Answer::Values) { outputs } else { 0 };
                     proptest::prop_assert!(values.len() == 1 + added || matches!(answer, Ok(Answer::Failed(_))));
+                    let mut values = vec![7.0];
+                    let answer = parse_numbered_answer(protocol, &names(outputs), line, &mut values);
+                    let added = if matches!(answer, Ok((_, Ok(Answer::Values)))) { outputs } else { 0 };
+                    proptest::prop_assert!(
+                        values.len() == 1 + added || matches!(answer, Ok((_, Ok(Answer::Failed(_)))))
+                    );
                 }
             }
         }

@@ -10,6 +10,8 @@ use crate::space::{Distribution, Factor};
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RowWriter {
     protocol: Protocol,
+    /// Whether each row begins with its number.
+    numbered: bool,
     columns: Vec<Column>,
 }
 
@@ -28,32 +30,50 @@ enum Cells {
     Labels(Vec<(f64, String)>),
 }
 
+/// What the number of a row is called.
+pub(super) const ROW_NUMBER: &str = "id";
+
 impl RowWriter {
     pub(super) fn new(protocol: Protocol, factors: &[Factor]) -> Self {
         let quoted = |text: &str| match protocol {
             Protocol::Csv => in_csv(text),
             Protocol::JsonLines => in_json(text),
         };
-        Self { protocol, columns: factors.iter().map(|factor| Column::new(factor, &quoted)).collect() }
+        let columns = factors.iter().map(|factor| Column::new(factor, &quoted)).collect();
+        Self { protocol, numbered: false, columns }
+    }
+
+    /// The same with the number of each row in front, if `numbered`.
+    #[must_use]
+    pub(super) fn with_numbers(self, numbered: bool) -> Self {
+        Self { numbered, ..self }
     }
 
     /// What is written before the first row.
     pub(super) fn header(&self) -> String {
         match self.protocol {
             Protocol::Csv => {
-                let names: Vec<&str> = self.columns.iter().map(|column| column.name.as_str()).collect();
+                let names = self.columns.iter().map(|column| column.name.as_str());
+                let names: Vec<&str> = self.numbered.then_some(ROW_NUMBER).into_iter().chain(names).collect();
                 names.join(",") + "\n"
             }
             Protocol::JsonLines => String::new(),
         }
     }
 
-    /// One row of SI values as a line.
-    pub(super) fn write(&self, inputs: &[&[f64]], row: usize, out: &mut String) {
+    /// One row of SI values as a line; `number` is written if rows have numbers.
+    pub(super) fn write(&self, inputs: &[&[f64]], (row, number): (usize, u64), out: &mut String) {
         let (open, close) = if self.protocol == Protocol::JsonLines { ("{", "}\n") } else { ("", "\n") };
         out.push_str(open);
+        if self.numbered {
+            // Into a string, which takes everything.
+            let _ = match self.protocol {
+                Protocol::Csv => write!(out, "{number}"),
+                Protocol::JsonLines => write!(out, "\"{ROW_NUMBER}\":{number}"),
+            };
+        }
         for (place, (column, values)) in self.columns.iter().zip(inputs).enumerate() {
-            if place > 0 {
+            if place > 0 || self.numbered {
                 out.push(',');
             }
             if self.protocol == Protocol::JsonLines {
@@ -143,9 +163,22 @@ mod tests {
         let writer = RowWriter::new(protocol, &factors());
         let mut text = writer.header();
         let inputs: [&[f64]; 4] = [&[225e-6, 1e-13], &[3.0, 4.0], &[0.0, 1.0], &[1.0, 0.0]];
-        writer.write(&inputs, 0, &mut text);
-        writer.write(&inputs, 1, &mut text);
+        writer.write(&inputs, (0, 0), &mut text);
+        writer.write(&inputs, (1, 0), &mut text);
         text
+    }
+
+    #[test]
+    fn numbers_stand_in_front() {
+        let factors = &factors()[..1];
+        for (protocol, expected) in
+            [(Protocol::Csv, "id,length\n711953,225.0\n"), (Protocol::JsonLines, "{\"id\":711953,\"length\":225.0}\n")]
+        {
+            let writer = RowWriter::new(protocol, factors).with_numbers(true);
+            let mut text = writer.header();
+            writer.write(&[&[225e-6]], (0, 711_953), &mut text);
+            assert_eq!(text, expected);
+        }
     }
 
     #[test]
@@ -167,7 +200,7 @@ mod tests {
             let factor = Factor::new("x", Unit::dimensionless(), Distribution::uniform(0.0, 1.0).unwrap()).unwrap();
             for protocol in Protocol::ALL {
                 let mut text = String::new();
-                RowWriter::new(protocol, std::slice::from_ref(&factor)).write(&[&[value]], 0, &mut text);
+                RowWriter::new(protocol, std::slice::from_ref(&factor)).write(&[&[value]], (0, 0), &mut text);
                 let number = text.trim().trim_start_matches("{\"x\":").trim_end_matches('}');
                 proptest::prop_assert_eq!(number.parse::<f64>().unwrap().to_bits(), value.to_bits());
             }

@@ -24,7 +24,7 @@ impl Model for Described {
 
 fn described() -> Described {
     let output = |name| Output::new(name, Unit::dimensionless(), "");
-    let flag = crate::model::Flag { name: "odd".into(), description: "".into() };
+    let flag = crate::model::Flag { name: "odd".into(), description: "".into(), warns: false };
     Described([output("y"), output("z")], [flag])
 }
 

@@ -17,7 +17,7 @@ use super::options::{choice, seconds, wrong};
 use super::resolve::{Context, Fault};
 use super::subject::CommandSubject;
 use super::units::own_inputs;
-use crate::model::{CommandSettings, Form, Input, Program, Protocol};
+use crate::model::{CommandOutput, CommandSettings, Form, Input, KeptAlive, Program, Protocol};
 use crate::space::Space;
 
 /// The inputs of a program: the factors of the study, each in its own unit.
@@ -70,7 +70,11 @@ pub(super) fn subject(
     let (outputs, picks) = outputs::outputs(context, key, section, asked)?;
     let asked = outputs::places(context, section, &outputs, asked)?;
     let (form, notes) = match &section.template {
-        None => (Form::KeptAlive(protocol(context, section, &picks)?), Vec::new()),
+        None => {
+            let form = KeptAlive { protocol: protocol(context, section, &picks)?, row_numbers: numbers(section) };
+            refuse_number(context, section, form, (space, &outputs))?;
+            (Form::KeptAlive(form), Vec::new())
+        }
         Some(template) => {
             let (form, notes) = runs::form(context, section, template, space)?;
             outputs::refuse_without_pick(context, key, &outputs)?;
@@ -85,7 +89,12 @@ pub(super) fn subject(
         stated.push(("env", Value::Object(environment.iter().map(|(k, v)| (k.clone(), json!(v))).collect())));
     }
     match (&form, &section.template) {
-        (Form::KeptAlive(protocol), _) => stated.push(("protocol", json!(protocol.name()))),
+        (Form::KeptAlive(form), _) => {
+            stated.push(("protocol", json!(form.protocol.name())));
+            if form.row_numbers {
+                stated.push(("row_numbers", json!(true)));
+            }
+        }
         (Form::PerRun(form), template) => {
             stated.push(("template", json!(template.as_ref().map(At::get_ref))));
             stated.push(("input", json!(form.input)));
@@ -155,6 +164,28 @@ fn protocol(context: &Context<'_>, section: &CommandSection, picks: &[&At<toml::
     }
     let Some(name) = &section.protocol else { return Ok(Protocol::Csv) };
     choice(context, name, "protocol", &Protocol::ALL, Protocol::name)
+}
+
+fn numbers(section: &CommandSection) -> bool {
+    section.row_numbers.as_ref().is_some_and(|typed| *typed.get_ref())
+}
+
+/// A factor, or an output of JSON, called as the number of a row is.
+fn refuse_number(
+    context: &Context<'_>,
+    section: &CommandSection,
+    form: KeptAlive,
+    (space, outputs): (&Space, &[CommandOutput]),
+) -> Result<(), Fault> {
+    let Some(typed) = section.row_numbers.as_ref().filter(|_| form.row_numbers) else { return Ok(()) };
+    let is_factor = space.factors().iter().any(|factor| factor.name == "id");
+    let is_output = form.protocol == Protocol::JsonLines && outputs.iter().any(|output| output.name == "id");
+    let found = if is_factor { "a factor" } else { "an output" };
+    if is_factor || is_output {
+        let expected = "beside names other than `id`, which is that of a row's number";
+        return Err(context.fault(typed.span(), wrong("row_numbers", expected, format!("{found} of that name"))));
+    }
+    Ok(())
 }
 
 fn workers(context: &Context<'_>, section: &CommandSection) -> Result<Option<usize>, Fault> {

@@ -25,6 +25,10 @@ pub(super) fn form(
         let expected = "only of a program that is kept alive, without `template`";
         return Err(context.fault(protocol.span(), wrong("protocol", expected, "beside one".to_owned())));
     }
+    if let Some(typed) = &section.row_numbers {
+        let expected = "only of a program that is kept alive, without `template`";
+        return Err(context.fault(typed.span(), wrong("row_numbers", expected, "beside one".to_owned())));
+    }
     let folder = folder(context);
     let template_file = folder.join(template.get_ref());
     let file_name = template_file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());

@@ -15,8 +15,9 @@ pub(super) fn program_template(request: &TemplateRequest) -> Result<String, Prob
     let names: Vec<String> = outputs.iter().map(|output| toml::Value::String(output.clone()).to_string()).collect();
     text.push_str(&format!(
         "outputs = [{}]    # the columns that the program prints, in its order\n\n\
-         # The program is started once for each core and kept alive. It reads a header and then lines of factor values on\n\
-         # its standard input, and prints a line for each; docs/worker-protocol.md has it in full. This one is {NEW_PROGRAM}:\n\
+         # The program is started once for each core and kept alive. It reads a header and then a line for each row on its\n\
+         # standard input, the row's number and the factor values, and prints a line for each, the number and the outputs;\n\
+         # docs/worker-protocol.md has it in full. This one is {NEW_PROGRAM}:\n\
          #\n",
         names.join(", ")
     ));
@@ -26,6 +27,7 @@ pub(super) fn program_template(request: &TemplateRequest) -> Result<String, Prob
     }
     text.push_str(&format!(
         "#\n[command]\nprogram = [\"python3\", \"{NEW_PROGRAM}\"]    # relative to this file; no shell reads it\n\
+         row_numbers = true    # the column `id`, which goes back with the answer: none can be taken for another row's\n\
          # outputs.{} = \"nN\"    # or here, each with its unit\n\
          # protocol = \"json-lines\"    # an object for each row instead of a line of CSV\n\
          # workers = 4    # processes at once [default: one for each core]\n\
@@ -57,12 +59,13 @@ fn python_program(factors: &[String], outputs: &[String]) -> String {
     let value = |name: &String| format!("x[{}]", serde_json::Value::from(name.as_str()));
     let sum = factors.iter().map(value).collect::<Vec<_>>().join(" + ");
     let values = vec!["y"; outputs.len()].join(", ");
-    let (comma, join) =
-        if outputs.len() > 1 { (format!("    # {}", outputs.join(", ")), ", sep=\",\"") } else { (String::new(), "") };
     format!(
         "import csv\nimport sys\n\n\
-         # One line of factor values in, one line of outputs out; print nothing else, or to sys.stderr.\n\
-         for row in csv.DictReader(sys.stdin):\n    x = {{name: float(value) for name, value in row.items()}}\n    \
-         y = {sum}\n    print({values}{join}, flush=True){comma}\n"
+         # One line in for each row: its number and the factor values. One line out: the number and the outputs.\n\
+         # Print nothing else, or to sys.stderr.\n\
+         for row in csv.DictReader(sys.stdin):\n    number = row.pop(\"id\")\n    \
+         x = {{name: float(value) for name, value in row.items()}}\n    \
+         y = {sum}\n    print(number, {values}, sep=\",\", flush=True)    # id, {}\n",
+        outputs.join(", ")
     )
 }

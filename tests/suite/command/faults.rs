@@ -1,7 +1,7 @@
 //! Programs that do something wrong: every good row is used, every bad one has its reason.
 
 use super::{Case, FORMULA, by_formula, contains, failures, rows_where};
-use crate::common::{numbers, succeed, text};
+use crate::common::{apportion, numbers, stderr, stdout, succeed, text};
 
 /// The result is that of a program without faults, to the bit.
 #[track_caller]
@@ -31,6 +31,8 @@ fn a_program_without_faults_gives_what_the_formula_gives() {
     is_whole(&Case::each_row("", "    print(y, flush=True)\n"));
     let objects = "import json, sys\nfor line in sys.stdin:\n    x = json.loads(line)\n    print(json.dumps({'y': x['x1'] + 2*x['x2'] + x['x1']*x['x3']}), flush=True)\n";
     is_whole(&Case::new("protocol = \"json-lines\"", objects));
+    let numbered = objects.replace("{'y'", "{'id': x['id'], 'y'");
+    is_whole(&Case::new("protocol = \"json-lines\"\nrow_numbers = true", &numbered));
 }
 
 #[test]
@@ -126,12 +128,6 @@ fn a_banner_on_standard_output_is_named() {
 fn a_line_too_many_is_not_taken_for_the_next_answer() {
     let always = "    print(y)\n    print(0.5, flush=True)\n";
     Case::each_row("", always).gives_up(&["the program printed more than one line for a row"]);
-    let sometimes = "    print(y)\n    if x[0] > 0.9: print('0.5')\n    sys.stdout.flush()\n";
-    let case = Case::each_row("workers = 1", sometimes).replace("workers = 2\n", "");
-    let (result, said) = case.result();
-    // Each of the lines is found out sooner or later; most rows are answered.
-    contains(&said, &["a line that was no answer"]);
-    assert!(result.outputs[0].runs_ok > 100, "{}", result.outputs[0].runs_ok);
 }
 
 #[test]
@@ -193,8 +189,26 @@ fn a_program_that_never_works_is_given_up() {
 #[test]
 fn check_tells_of_rows_that_fail() {
     let all = Case::each_row("", "    print('error: no root', flush=True)\n");
-    let told = succeed(&["check", text(&all.path("study.toml"))]);
-    contains(&told, &[" failed: no root\n", "model runs, in a time that cannot be told"]);
+    let output = apportion(&["check", text(&all.path("study.toml"))]);
+    assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
+    contains(&stdout(&output), &[" failed: no root\n", "model runs, in a time that cannot be told"]);
+    contains(&stderr(&output), &["error: every one of the first runs failed", ": no root"]);
+    let some = Case::each_row("", "    print('error: no root' if x[0] > 0.5 else y, flush=True)\n");
+    contains(&succeed(&["check", text(&some.path("study.toml"))]), &[" failed: no root\n", " model runs, about "]);
+}
+
+#[test]
+fn check_tells_the_start_of_a_program_from_its_runs() {
+    let slow = Case::new("", &format!("import time\ntime.sleep(2.5)\n{}    print(y, flush=True)\n", super::LOOP));
+    let told = succeed(&["check", text(&slow.path("study.toml"))]);
+    let cost = told.lines().find(|line| line.starts_with("cost: ")).unwrap();
+    // 160 rows at 2.5 s would be minutes.
+    let about: f64 = cost.split("about ").nth(1).unwrap().split(" s").next().unwrap().parse().unwrap();
+    assert!((2.0..30.0).contains(&about), "{cost}");
+    assert!(cost.contains(" s of that to start the program"), "{cost}");
+    let quick = Case::each_row("", "    print(y, flush=True)\n    n = globals().get('n', 0) + 1\n    if n == 30: print(y)\n");
+    let told = succeed(&["check", text(&quick.path("study.toml"))]);
+    contains(&told, &["warning: the program is out of step"]);
 }
 
 impl Case {

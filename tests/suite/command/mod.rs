@@ -2,6 +2,7 @@
 
 mod examples;
 mod faults;
+mod misbehaving;
 mod other_commands;
 mod per_run;
 mod processes;
@@ -61,6 +62,12 @@ impl Case {
     /// One whose program does `what`, indented, with every row: the values are in `x`, the answer in `y`.
     pub fn each_row(command: &str, what: &str) -> Self {
         Self::new(command, &format!("{LOOP}{what}"))
+    }
+
+    /// The same with row numbers, each in `number`; `line` is the row without it.
+    pub fn each_numbered_row(what: &str) -> Self {
+        let numbered = LOOP.replace("stdin:\n", "stdin:\n    number, line = line.split(',', 1)\n");
+        Self::new("row_numbers = true", &format!("{numbered}{}", what.replace("print(y,", "print(number, y, sep=',',")))
     }
 
     pub fn path(&self, name: &str) -> PathBuf {

@@ -78,7 +78,7 @@ const UNEVEN: &str =
 
 #[test]
 fn points_are_evaluated_in_several_processes_and_keep_their_order() {
-    let case = Case::each_row("", UNEVEN).replace("workers = 2", "workers = 3");
+    let case = Case::each_numbered_row(UNEVEN).replace("workers = 2", "workers = 3");
     let expected = case.points(500);
     let output = case.other("evaluate", &["@points.csv", "-o", "@outputs.csv"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -92,12 +92,12 @@ fn points_are_evaluated_in_several_processes_and_keep_their_order() {
 
 #[test]
 fn screening_asks_several_processes_and_says_the_same() {
-    let case = Case::each_row("", UNEVEN).replace("workers = 2", "workers = 3");
+    let case = Case::each_numbered_row(UNEVEN).replace("workers = 2", "workers = 3");
     let csv = |case: &Case| std::fs::read_to_string(case.path("out/study-screen.csv")).unwrap();
     let output = case.other("screen", &["--out", "@out"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(processes(&case).len(), 3);
-    let alone = Case::each_row("", UNEVEN).replace("workers = 2", "workers = 1");
+    let alone = Case::each_numbered_row(UNEVEN).replace("workers = 2", "workers = 1");
     assert_eq!(alone.other("screen", &["--out", "@out"]).status.code(), Some(0));
     assert_eq!(processes(&alone).len(), 1);
     assert_eq!(csv(&case), csv(&alone));

@@ -53,7 +53,7 @@ fn an_engine_that_is_killed_asks_no_row_on_record_again_and_leaves_no_process() 
     const ROWS: usize = 512 * 5;
     let slow =
         format!("{NOTES}    open(f'pid-{{os.getpid()}}', 'w')\n    time.sleep(0.004)\n    print(y, flush=True)\n");
-    let case = Case::each_row("", &slow).replace("base_samples = 32", "base_samples = 512");
+    let case = Case::each_numbered_row(&slow).replace("base_samples = 32", "base_samples = 512");
     let journal = case.path("out/study.journal");
     let on_record = || -> usize {
         let contents = read_journal(&journal, &std::fs::read(&journal).unwrap()).unwrap();

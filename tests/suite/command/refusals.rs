@@ -16,6 +16,14 @@ fn refused(keys: &str, expected: &[&str]) {
 fn keys_are_checked_with_their_places() {
     refused("protocl = \"csv\"", &["study.toml:6:1:", "unknown key `protocl`: did you mean `protocol`?"]);
     refused("protocol = \"xml\"", &["study.toml:6:12:", "unknown protocol `xml`", "known: csv, json-lines"]);
+    refused("row_numbers = 1", &["study.toml:6:15:"]);
+    let named = |protocol: &str| Case::new(&format!("row_numbers = true\nprotocol = \"{protocol}\""), "");
+    let case = named("csv").replace("name = \"x1\"", "name = \"id\"");
+    let message = stderr(&apportion(&["check", text(&case.path("study.toml"))]));
+    contains(&message, &["study.toml:6:15:", "`row_numbers` must be beside names other than `id`", "a factor"]);
+    let case = named("json-lines").replace("outputs = [\"y\"]", "outputs = [\"id\"]");
+    let message = stderr(&apportion(&["check", text(&case.path("study.toml"))]));
+    contains(&message, &["study.toml:6:15:", "`row_numbers` must be beside names other than `id`", "an output"]);
     refused("timeout = \"60\"", &["study.toml:6:11:", "`timeout` must be a time above 0"]);
     refused("timeout = 60", &["study.toml:6:11:"]);
     refused("retries = 101", &["study.toml:6:11:", "a whole number from 0 to 100"]);
@@ -29,6 +37,7 @@ fn keys_are_checked_with_their_places() {
     refused("template = \"no.in\"", &["study.toml:6:12:", "no.in: cannot read the template"]);
     refused("template = \"model.py\"", &["`outputs.y` must be a table that says where the number stands"]);
     refused("template = \"model.py\"\nprotocol = \"csv\"", &["study.toml:7:12:", "without `template`"]);
+    refused("template = \"model.py\"\nrow_numbers = true", &["study.toml:7:15:", "without `template`"]);
     refused("template = \"model.py\"\ninput = \"../x\"", &["study.toml:7:9:", "the name of a file, without a folder"]);
     refused("template = \"model.py\"\nfiles = [\"no.dat\"]", &["study.toml:7:10:", "there is no such file"]);
     let pick = "template = \"model.py\"\noutputs.y = ";
@@ -82,6 +91,8 @@ fn a_new_study_comes_with_its_program() {
     let out = folder.path().join("out");
     let shown = succeed(&["run", text(&study), "--base-samples", "64", "--out", text(&out)]);
     contains(&shown, &["the \"b\"", "y [1]", "z [1]"]);
+    assert!(written.contains("\nrow_numbers = true") && program.contains("row.pop(\"id\")"), "{written}");
+    assert!(!shown.contains("asked-alone"), "{shown}");
     std::fs::write(folder.path().join("my_model.py"), "mine").unwrap();
     let again = apportion(&["new", text(&study), "--model", "command", "--force"]);
     contains(&stderr(&again), &["my_model.py is there already and stays as it is"]);

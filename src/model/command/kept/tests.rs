@@ -3,7 +3,7 @@
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use crate::model::{Batch, CommandModel, CommandOutput, CommandSettings, Form, Model, Program, Protocol};
+use crate::model::{Batch, CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, Model, Program, Protocol};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor};
 
@@ -15,7 +15,7 @@ fn model(script: &str) -> CommandModel {
             directory: std::env::temp_dir(),
             environment: Vec::new(),
         },
-        form: Form::KeptAlive(Protocol::Csv),
+        form: Form::KeptAlive(KeptAlive { protocol: Protocol::Csv, row_numbers: false }),
         outputs: vec![CommandOutput { name: "y".to_owned(), unit: Unit::dimensionless(), pick: None }],
         asked: vec![0],
         workers: Some(1),
