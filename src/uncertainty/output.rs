@@ -8,7 +8,7 @@ use super::method::IntervalMethod;
 use super::net_decay::{PartInfluences, StandardError};
 use super::points::KeptPoints;
 use super::ranks::{probability_above, probability_first};
-use super::unseen::{Unseen, unseen};
+use super::unseen::{Unseen, half_seen, unseen};
 use super::{Estimate, Interval, NORMAL_QUANTILE};
 use crate::estimate::{Indices, MomentParts, Moments, Undefined, merged};
 
@@ -150,6 +150,7 @@ pub fn output_indices(
         Influences::of(&[replicates], &|outputs| quantities(layout, &outputs[0])).ok_or(Undefined::NoRuns)?;
     let pooled = layout.pooled(influences.whole.len());
     let unseen = unseen(layout, &whole, &influences.whole);
+    let half_seen: Vec<bool> = (0..layout.swaps()).map(|swap| half_seen(&whole, swap)).collect();
     let still: Vec<bool> = unseen.iter().zip(&influences.parts).map(|(unseen, parts)| unseen.applies(parts)).collect();
     let mut judged = match judgement.by_points() {
         Some(by_points) => {
@@ -163,6 +164,7 @@ pub fn output_indices(
         }
     };
     judged.allow_for_unseen(&unseen, &still);
+    judged.allow_for_half_seen(layout, &half_seen);
     let first = judged.first(layout, judgement.seed);
     let mut effects: Vec<EffectEstimates> = (0..layout.swaps())
         .map(|swap| {
@@ -218,6 +220,31 @@ impl Judged {
         let (errors, intervals): (Vec<StandardError>, Vec<Option<Interval>>) = bounds.into_iter().unzip();
         let estimates = whole.into_iter().zip(intervals).map(|(estimate, interval)| Estimate { estimate, interval });
         Self { estimates: estimates.collect(), errors, parts }
+    }
+
+    /// Bounds the first-order indices of the swaps that are `half_seen` above by their total indices alone, and what is made
+    /// of them accordingly.
+    fn allow_for_half_seen(&mut self, layout: &Layout, half_seen: &[bool]) {
+        for swap in (0..layout.swaps()).filter(|swap| half_seen[*swap]) {
+            let place = layout.swap(swap);
+            let (Some(total), Some(first)) = (self.estimates[place + 1].interval, &mut self.estimates[place].interval)
+            else {
+                continue;
+            };
+            let more = total.high - first.high;
+            if more <= 0.0 {
+                continue;
+            }
+            first.high = total.high;
+            // Total minus first order.
+            if let Some(interaction) = &mut self.estimates[place + 5].interval {
+                interaction.low -= more;
+            }
+            // The sum of the first-order indices.
+            if let (Some(sum), true) = (&mut self.estimates[0].interval, swap < layout.factors) {
+                sum.high += more;
+            }
+        }
     }
 
     fn first(&self, layout: &Layout, seed: u64) -> Option<Vec<f64>> {

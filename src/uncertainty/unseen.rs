@@ -18,6 +18,16 @@ const RULE_OF_THREE: f64 = 2.995_732_273_553_991;
 /// of leaving out one of 256 parts.
 const ROUNDING: f64 = 1e-11;
 
+/// Least part of the sum of squares of A and B that B must have, for first-order indices by rows AB to be judged by their spread.
+const LEAST_PART: f64 = 0.2;
+
+/// Whether the sample B has hardly any of the large outputs: the formula sum (y_B - f0)(y_AB - y_A) has then not seen what
+/// they contribute to a first-order index, and its spread says nothing of it. With rows BA no one sample decides.
+pub(super) fn half_seen(moments: &Moments, swap: usize) -> bool {
+    let sums = moments.swap(swap);
+    sums.ba.is_none() && sums.base.bb < LEAST_PART * (sums.base.aa + sums.base.bb)
+}
+
 /// What an estimate without spread may be off by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unseen {
@@ -83,4 +93,39 @@ pub(super) fn unseen(layout: &Layout, moments: &Moments, values: &[f64]) -> Vec<
         }
     }
     list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimate::{BlockOutputs, Workspace};
+
+    fn moments(a: &[f64], b: &[f64], ab: &[&[f64]]) -> Moments {
+        Moments::of_block(BlockOutputs { a, b, ab, ..BlockOutputs::default() }, &mut Workspace::default())
+    }
+
+    #[test]
+    fn only_a_factor_that_changes_no_row_is_known_to_do_nothing() {
+        let (a, b) = ([0.0, 1.0, 0.0, 1.0], [1.0, 1.0, 0.0, 0.0]);
+        let moments = moments(&a, &b, &[&b, &a]);
+        let layout = Layout::plain(2);
+        let values = super::super::estimates::quantities(&layout, &moments).unwrap();
+        let unseen = unseen(&layout, &moments, &values);
+        let of = |swap: usize| unseen[layout.swap(swap)];
+        // R^2/V = 4, and fewer than 3 of 4 rows: no bound but that of an index.
+        assert_eq!(of(0).half_width, 1.0);
+        assert_eq!(of(1), Unseen::NONE);
+        assert!(of(0).applies(&vec![vec![1e-16, -1e-16]; 2]) && !of(0).applies(&vec![vec![1e-3, 0.0]; 2]));
+        assert!(!of(1).applies(&vec![vec![0.0; 2]; 2]));
+        // The only factor that acts has all of the share.
+        assert_eq!(unseen[layout.swap(0) + 2], Unseen::NONE);
+    }
+
+    #[test]
+    fn a_sample_without_the_large_outputs_has_seen_half() {
+        let (flat, peak) = ([0.0, 0.1, 0.0, 0.1], [0.0, 9.0, 0.0, 0.1]);
+        assert!(half_seen(&moments(&peak, &flat, &[&flat]), 0));
+        assert!(!half_seen(&moments(&flat, &peak, &[&peak]), 0));
+        assert!(!half_seen(&moments(&peak, &peak, &[&peak]), 0));
+    }
 }

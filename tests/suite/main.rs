@@ -22,6 +22,7 @@ mod failures;
 mod fuzz;
 mod given;
 mod given_data;
+mod intervals;
 mod journal;
 mod known;
 mod metamorphic;
