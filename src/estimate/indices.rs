@@ -9,7 +9,8 @@ pub struct Indices {
     pub first_order: Vec<f64>,
     /// Total index of the swapped columns.
     pub total: Vec<f64>,
-    /// First-order index by Janon and Monod's formula, to check the first list.
+    /// First-order index by Janon and Monod's formula, to check the first list; NaN where neither y_B nor y_AB varies,
+    /// whose variance it divides by.
     pub check: Vec<f64>,
 }
 
@@ -58,8 +59,8 @@ impl Indices {
             total: each(&|j| total.estimate(moments, j)),
             check: each(&|j| FirstOrder::JanonMonod2014.estimate(moments, j)),
         };
-        let Self { first_order, total, check } = &indices;
-        if first_order.iter().chain(total).chain(check).all(|index| index.is_finite()) {
+        let Self { first_order, total, .. } = &indices;
+        if first_order.iter().chain(total).all(|index| index.is_finite()) {
             Ok(indices)
         } else {
             Err(Undefined::Unrepresentable)
@@ -122,6 +123,20 @@ mod tests {
     fn too_few_points_have_a_name() {
         assert_eq!(indices(&[], &[], &[]), Err(Undefined::NoRuns));
         assert_eq!(indices(&[1.0], &[2.0], &[3.0]), Err(Undefined::NoRuns));
+    }
+
+    #[test]
+    fn a_rare_event_in_one_sample_alone_has_indices_without_a_check() {
+        // y is 1 in a single row of A, and B has no such row: B and AB, with the factor from B, are 0 everywhere.
+        let zero = [0.0; 16];
+        let mut a = zero;
+        a[5] = 1.0;
+        let got = indices(&a, &zero, &zero).unwrap();
+        let variance = (1.0 / 32.0) * (31.0 / 32.0);
+        // S = mean (y_B - f0)(y_AB - y_A)/V = (1/32)(1/16)/V; ST = mean (y_AB - y_A)^2/(2 V) = (1/32)/V.
+        assert!((got.first_order[0] - 1.0 / 512.0 / variance).abs() < 1e-14, "{got:?}");
+        assert!((got.total[0] - 1.0 / 32.0 / variance).abs() < 1e-14, "{got:?}");
+        assert!(got.check[0].is_nan());
     }
 
     #[test]

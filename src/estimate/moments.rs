@@ -164,6 +164,11 @@ impl Moments {
         self.pairs.as_ref()
     }
 
+    /// Smallest and largest output among the rows A and B; `None` without any.
+    pub fn range(&self) -> Option<(f64, f64)> {
+        self.range
+    }
+
     /// Whether every row A and B has the same output.
     pub fn constant(&self) -> bool {
         self.range.is_none_or(|(low, high)| low == high)

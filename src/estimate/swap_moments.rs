@@ -177,6 +177,12 @@ impl SwapMoments {
         }
     }
 
+    /// Whether no row of the swap differs from the row it was made of: the swapped columns do nothing.
+    pub fn inert(&self) -> bool {
+        let still = |mean: f64, squares: f64| mean == 0.0 && squares == 0.0;
+        still(self.mean_d, self.dd) && self.ba.is_none_or(|ba| still(ba.mean_e, ba.ee))
+    }
+
     /// Base points counted, as a number to divide by.
     pub fn n(&self) -> f64 {
         self.base.n as f64

@@ -17,8 +17,8 @@ use crate::quantity::Unit;
 use crate::run::{Place, Tally, Totals};
 use crate::study::Study;
 use crate::uncertainty::{
-    EffectEstimates, Estimate, Interval, Judgement, KeptPoints, OtherEstimates, OutputIndices, Stage, output_indices,
-    output_moments, stages,
+    EffectEstimates, Estimate, Interval, Judgement, KeptPoints, OtherEstimates, OutputIndices, OutputMoments, Stage,
+    output_indices, output_moments, stages,
 };
 
 /// The record of output number `number`; `whole` holds the counts over all replicates.
@@ -29,21 +29,21 @@ pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usiz
     let unit = &output.unit;
     let kept: Vec<&PointOutputs> = run.replicates.iter().map(|t| &t.outputs[number].kept).collect();
     let judgement = Judgement { points: KeptPoints::all(run.design, &kept), ..judgement(study) };
-    let moments = output_moments(&parts, &judgement);
+    let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>());
+    let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &judgement), used.count());
     let squared = |x: f64| unit.span_from_si(unit.span_from_si(x));
     let in_unit = |x: f64| unit.from_si(x);
-    let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>()).fewest();
     let failure = |(failure, tally): (&RowFailure, &Tally)| failure_record(run, failure, *tally);
     let mut record = OutputRecord {
         name: output.name.to_string(),
         unit: unit.to_string(),
-        mean: moments.map(|m| in_unit(m.mean.estimate)),
-        variance: moments.map(|m| squared(m.variance.estimate)),
-        mean_interval: moments.and_then(|m| interval_record(m.mean.interval, &in_unit)),
-        variance_interval: moments.and_then(|m| interval_record(m.variance.interval, &squared)),
+        mean: mean.map(|mean| in_unit(mean.estimate)),
+        variance: variance.map(|variance| squared(variance.estimate)),
+        mean_interval: mean.and_then(|mean| interval_record(mean.interval, &in_unit)),
+        variance_interval: variance.and_then(|variance| interval_record(variance.interval, &squared)),
         runs_ok: run.design.rows() - totals.runs_failed,
         runs_failed: totals.runs_failed,
-        base_points_used: used,
+        base_points_used: used.fewest(),
         failures: totals.failures.iter().map(failure).collect(),
         sum_first_order: None,
         sum_total: None,
@@ -74,6 +74,7 @@ pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usiz
     match output_indices(&parts, &layout, &judgement) {
         Err(undefined) => record.reason = Some(undefined.to_string()),
         Ok(indices) => {
+            record.warnings.extend(warnings::of_values(&totals.values));
             record.warnings.extend(warnings::of_indices(study, &indices));
             add_indices(&mut record, study, &indices);
             let runs = run.design.rows_per_point();
@@ -82,6 +83,29 @@ pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usiz
         }
     }
     record
+}
+
+/// Mean and variance of all successful rows A and B. The indices rest on the `points` base points at which both rows
+/// succeeded, and so do the `moments` with their intervals; where some succeeded alone, the interval of the mean is moved to the
+/// mean of all, and that of the variance is scaled to theirs.
+fn moments_of_all_rows(
+    values: &CentralMoments,
+    moments: Option<OutputMoments>,
+    points: u64,
+) -> (Option<Estimate>, Option<Estimate>) {
+    let (Some(mean), Some(variance)) = (values.mean(), values.variance()) else { return (None, None) };
+    let unknown = |estimate| Some(Estimate { estimate, interval: None });
+    let Some(moments) = moments else { return (unknown(mean), unknown(variance)) };
+    if values.count() == 2 * points {
+        return (Some(moments.mean), Some(moments.variance));
+    }
+    let changed = |of: Estimate, estimate: f64, change: &dyn Fn(f64) -> f64| {
+        let interval = of.interval.map(|Interval { low, high }| Interval { low: change(low), high: change(high) });
+        Some(Estimate { estimate, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) })
+    };
+    let shift = mean - moments.mean.estimate;
+    let ratio = variance / moments.variance.estimate;
+    (changed(moments.mean, mean, &|bound| bound + shift), changed(moments.variance, variance, &|bound| bound * ratio))
 }
 
 /// How the intervals and probabilities of `study` are found.

@@ -7,6 +7,7 @@ pub mod chart;
 pub mod comparison;
 pub mod distribution;
 pub mod given;
+mod leading;
 pub mod page;
 mod read;
 mod result;

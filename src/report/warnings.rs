@@ -3,6 +3,7 @@
 use super::build::FinishedRun;
 use super::build_output::{effects, names_of_swaps};
 use super::result::{MixedModels, OutputRecord, ResultFile};
+use crate::estimate::CentralMoments;
 use crate::model::Model;
 use crate::run::Totals;
 use crate::study::Study;
@@ -55,15 +56,50 @@ pub(super) fn of_flags(model: &dyn Model, whole: &Totals) -> Vec<String> {
     raised.map(|(flag, count)| format!("{} ({}): {}", flag.name, runs(*count), flag.description)).collect()
 }
 
+/// Effective number of rows behind a variance below which it counts as that of few.
+const FEW_ROWS: f64 = 40.0;
+
+/// Excess kurtosis (that of an exponential distribution) up to which few rows are just a small sample.
+const HEAVY: f64 = 6.0;
+
+/// A warning if the variance of an output rests on few of its `values`: n/(g2 + 3) of n rows with the excess kurtosis g2
+/// is their number if all others did nothing.
+pub(super) fn of_values(values: &CentralMoments) -> Option<String> {
+    let (n, kurtosis) = (values.count(), values.excess_kurtosis()?);
+    let rows = n as f64 / (kurtosis + 3.0);
+    (kurtosis > HEAVY && rows < FEW_ROWS).then(|| {
+        format!(
+            "the variance rests on few rows, as if on {rows:.0} of the {n} of A and B (excess kurtosis {kurtosis:.0}): rows as \
+             large may be missing from the sample, so that intervals are longer above the estimates than below, and may still be \
+             too short; more base samples help, or the logarithm of the output"
+        )
+    })
+}
+
 /// Warnings about indices that cannot all be right. Each compares an estimate with its interval, so that the noise of
 /// a small sample does not raise it.
 pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> {
     let mut warnings = Vec::new();
+    let alone = study.design.settings().replicates == 1 && study.analysis.intervals == IntervalMethod::Replicates;
+    if !alone && indices.factors.iter().all(|effect| effect.total.interval.is_none()) {
+        warnings.push(
+            "no intervals: without the rows of one part of the sample the output does not vary (or too few rows are left), so \
+             that nothing tells the error of the indices: more base samples are needed"
+                .to_owned(),
+        );
+    }
     for (name, effect) in names_of_swaps(study).iter().zip(effects(indices)) {
         if effect.interaction.estimate < 0.0 && differs_clearly(effect.interaction) {
             warnings.push(format!(
                 "{name}: the first-order index {:.4} exceeds the total index {:.4} beyond the error of their difference: \
                  too few samples",
+                effect.first_order.estimate, effect.total.estimate
+            ));
+        }
+        if effect.contradictory {
+            warnings.push(format!(
+                "{name}: the interval of the first-order index {:.4} lay above that of the total index {:.4}, and both were \
+                 lengthened until they met: too few samples",
                 effect.first_order.estimate, effect.total.estimate
             ));
         }
@@ -149,6 +185,19 @@ mod tests {
 
     fn estimate(low: f64, high: f64) -> Estimate {
         Estimate { estimate: (low + high) / 2.0, interval: Some(Interval { low, high }) }
+    }
+
+    #[test]
+    fn heavy_tails_are_warned_of_and_small_samples_are_not() {
+        // 3 rows of 1000 have another value: g2 + 3 = 1/p - 3 + 3 p..., n/(g2 + 3) = 3.0.
+        let rare: Vec<f64> = (0..1000).map(|i| f64::from(u8::from(i % 400 == 0))).collect();
+        let warning = of_values(&CentralMoments::of(&rare)).unwrap();
+        assert!(warning.contains("as if on 3 of the 1000 of A and B"), "{warning}");
+        let normal: Vec<f64> = (0..16).map(|i| f64::from(i * i)).collect();
+        assert_eq!(of_values(&CentralMoments::of(&normal)), None);
+        assert_eq!(of_values(&CentralMoments::of(&[1.0; 8])), None);
+        let many: Vec<f64> = rare.iter().cycle().take(20_000).copied().collect();
+        assert_eq!(of_values(&CentralMoments::of(&many)), None);
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! Indices over several outputs together, with intervals.
 
 use super::Estimate;
+use super::concentration::Side;
 use super::influence::{Influences, Outputs};
 use super::method::IntervalMethod;
-use super::output::Judged;
+use super::output::{Judged, agreeing};
 use crate::design::Companions;
 use crate::estimate::{FirstOrder, MomentParts, Moments, Scaling, Total, Undefined, aggregated, merged};
 
@@ -38,7 +39,9 @@ pub fn aggregate_indices(
     let list = |outputs: &[Moments]| of(outputs).ok().map(|indices| [indices.first_order, indices.total].concat());
     let influences = Influences::of(outputs, &list).ok_or(Undefined::NoRuns)?;
     let pooled = vec![true; influences.whole.len()];
-    let mut first_order = Judged::of(influences, method, &pooled).estimates;
+    let mut first_order = Judged::of(influences, method, &pooled, &|_| Side::Above).estimates;
     let total = first_order.split_off(first_order.len() / 2);
+    let both = first_order.into_iter().zip(total).map(|(first, total)| agreeing(first, total));
+    let (first_order, total) = both.map(|(first, total, _)| (first, total)).unzip();
     Ok(AggregateIndices { first_order, total })
 }

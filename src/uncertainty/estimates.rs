@@ -2,6 +2,7 @@
 //!
 //! Intervals work on lists of numbers: [`quantities`] lays the list out, [`Layout`] knows the places in it.
 
+use super::concentration::Side;
 use crate::estimate::{Estimator, Indices, Moments, SecondOrder, shares};
 
 /// What is estimated from the swaps of a design, which come in this order.
@@ -57,6 +58,18 @@ impl Layout {
     /// The pairs of factors, in the order of their second-order indices.
     pub fn pair_list(&self) -> Vec<(usize, usize)> {
         (0..self.factors).flat_map(|j| (j + 1..self.factors).map(move |k| (j, k))).collect()
+    }
+
+    /// Where the truth may be beyond an interval if few rows carry the quantity number `place`: indices and their sums are
+    /// sums of contributions of one sign, shares and gaps are not.
+    pub(super) fn side(&self, place: usize) -> Side {
+        let (of_swaps, of_others) = (self.swap(0)..self.other(0, 0), self.other(0, 0)..self.pairs());
+        let difference = if of_swaps.contains(&place) {
+            matches!((place - of_swaps.start) % PER_SWAP, 2..=4)
+        } else {
+            of_others.contains(&place) && (place - of_others.start) % PER_ESTIMATOR >= 2
+        };
+        if difference { Side::Both } else { Side::Above }
     }
 
     /// Which quantities tell how errors decay: the default first-order and total indices of everything but the dummy.

@@ -7,6 +7,7 @@
 mod aggregate;
 mod bootstrap;
 mod by_points;
+mod concentration;
 mod convergence;
 mod delta;
 mod estimates;
@@ -18,6 +19,7 @@ mod output;
 mod points;
 mod ranks;
 mod special;
+mod unseen;
 
 pub use aggregate::{AggregateIndices, aggregate_indices};
 pub(crate) use by_points::quantile;

@@ -1,13 +1,15 @@
 //! Indices of one output with their intervals, probabilities and checks.
 
 use super::by_points::{Bounds, ByPoints};
+use super::concentration::{Side, interval};
 use super::estimates::{Layout, quantities};
 use super::influence::Influences;
 use super::method::IntervalMethod;
 use super::net_decay::{PartInfluences, StandardError};
 use super::points::KeptPoints;
 use super::ranks::{probability_above, probability_first};
-use super::{Estimate, Interval, t_interval};
+use super::unseen::{Unseen, half_seen, unseen};
+use super::{Estimate, Interval, NORMAL_QUANTILE};
 use crate::estimate::{Indices, MomentParts, Moments, Undefined, merged};
 
 /// How intervals and probabilities are found.
@@ -72,8 +74,11 @@ pub struct EffectEstimates {
     pub check_gap: Estimate,
     /// Total minus first-order index: not negative, within the interval, if all is well.
     pub interaction: Estimate,
+    /// Whether the interval of the first-order index lay wholly above that of the total index, which no pair of indices can:
+    /// both were then lengthened until they met.
+    pub contradictory: bool,
     /// Probability that the total index is the largest of all factors'; `None` for others than factors, and where errors are
-    /// unknown.
+    /// unknown. Where several total indices are equal in truth, it is as likely to be any number as any other.
     pub probability_first: Option<f64>,
     /// Probability that the total index is above the threshold.
     pub probability_above: Option<f64>,
@@ -120,7 +125,11 @@ pub fn output_moments(replicates: &[MomentParts], judgement: &Judgement<'_>) -> 
     });
     let estimates = match bounds {
         Some(bounds) => Judged::with(influences, bounds).estimates,
-        None => Judged::of(influences, judgement.method, &[true, true]).estimates,
+        // The mean may be missed on both sides, the variance above.
+        None => {
+            let sides = |place| if place == 0 { Side::Both } else { Side::Above };
+            Judged::of(influences, judgement.method, &[true, true], &sides).estimates
+        }
     };
     Some(OutputMoments { mean: estimates[0], variance: estimates[1] })
 }
@@ -140,13 +149,22 @@ pub fn output_indices(
     let influences =
         Influences::of(&[replicates], &|outputs| quantities(layout, &outputs[0])).ok_or(Undefined::NoRuns)?;
     let pooled = layout.pooled(influences.whole.len());
-    let judged = match judgement.by_points() {
+    let unseen = unseen(layout, &whole, &influences.whole);
+    let half_seen: Vec<bool> = (0..layout.swaps()).map(|swap| half_seen(&whole, swap)).collect();
+    let still: Vec<bool> = unseen.iter().zip(&influences.parts).map(|(unseen, parts)| unseen.applies(parts)).collect();
+    let mut judged = match judgement.by_points() {
         Some(by_points) => {
             let bounds = by_points.bounds(whole, &influences.whole, &|moments| quantities(layout, moments));
             Judged::with(influences, bounds)
         }
-        None => Judged::of(influences, judgement.method, &pooled),
+        None => {
+            // Rounding says nothing of how errors decay.
+            let pooled: Vec<bool> = pooled.iter().zip(&still).map(|(pooled, still)| *pooled && !still).collect();
+            Judged::of(influences, judgement.method, &pooled, &|place| layout.side(place))
+        }
     };
+    judged.allow_for_unseen(&unseen, &still);
+    judged.allow_for_half_seen(layout, &half_seen);
     let first = judged.first(layout, judgement.seed);
     let mut effects: Vec<EffectEstimates> = (0..layout.swaps())
         .map(|swap| {
@@ -171,15 +189,29 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    pub fn of(influences: Influences, method: IntervalMethod, pooled: &[bool]) -> Self {
+    /// `side` tells for the number of a quantity where its interval must reach further if few rows carry it.
+    pub fn of(influences: Influences, method: IntervalMethod, pooled: &[bool], side: &dyn Fn(usize) -> Side) -> Self {
         let Influences { whole, parts } = influences;
         let errors = method.errors(&parts, pooled);
-        let estimates = whole
-            .iter()
-            .zip(&errors)
-            .map(|(&estimate, error)| Estimate { estimate, interval: t_interval(estimate, *error) })
-            .collect();
+        let of_quantity = |(place, &estimate): (usize, &f64)| {
+            let interval = interval(estimate, errors[place], &parts[place], side(place));
+            Estimate { estimate, interval }
+        };
+        let estimates = whole.iter().enumerate().map(of_quantity).collect();
         Self { estimates, errors, parts }
+    }
+
+    /// Gives the quantities that are `still` the errors that their rows cannot show.
+    fn allow_for_unseen(&mut self, unseen: &[Unseen], still: &[bool]) {
+        for (place, unseen) in unseen.iter().enumerate().filter(|(place, _)| still[*place]) {
+            let Estimate { estimate, interval } = &mut self.estimates[place];
+            if !estimate.is_finite() || !self.errors[place].error.is_finite() {
+                continue;
+            }
+            let half_width = unseen.half_width;
+            *interval = Some(Interval { low: *estimate - half_width, high: *estimate + half_width });
+            self.errors[place].error = half_width / NORMAL_QUANTILE;
+        }
     }
 
     /// With errors and intervals that are known from elsewhere.
@@ -188,6 +220,31 @@ impl Judged {
         let (errors, intervals): (Vec<StandardError>, Vec<Option<Interval>>) = bounds.into_iter().unzip();
         let estimates = whole.into_iter().zip(intervals).map(|(estimate, interval)| Estimate { estimate, interval });
         Self { estimates: estimates.collect(), errors, parts }
+    }
+
+    /// Bounds the first-order indices of the swaps that are `half_seen` above by their total indices alone, and what is made
+    /// of them accordingly.
+    fn allow_for_half_seen(&mut self, layout: &Layout, half_seen: &[bool]) {
+        for swap in (0..layout.swaps()).filter(|swap| half_seen[*swap]) {
+            let place = layout.swap(swap);
+            let (Some(total), Some(first)) = (self.estimates[place + 1].interval, &mut self.estimates[place].interval)
+            else {
+                continue;
+            };
+            let more = total.high - first.high;
+            if more <= 0.0 {
+                continue;
+            }
+            first.high = total.high;
+            // Total minus first order.
+            if let Some(interaction) = &mut self.estimates[place + 5].interval {
+                interaction.low -= more;
+            }
+            // The sum of the first-order indices.
+            if let (Some(sum), true) = (&mut self.estimates[0].interval, swap < layout.factors) {
+                sum.high += more;
+            }
+        }
     }
 
     fn first(&self, layout: &Layout, seed: u64) -> Option<Vec<f64>> {
@@ -202,6 +259,7 @@ impl Judged {
         let place = layout.swap(swap);
         let [first_order, total, share_first_order, share_total, check_gap, interaction] =
             std::array::from_fn(|k| self.estimates[place + k]);
+        let (first_order, total, contradictory) = agreeing(first_order, total);
         let others = (0..layout.estimators.len()).map(|estimator| {
             let place = layout.other(estimator, swap);
             let [first_order, total, first_order_gap, total_gap] =
@@ -215,10 +273,24 @@ impl Judged {
             share_total: defined(share_total),
             check_gap,
             interaction,
+            contradictory,
             probability_first: None,
             probability_above: probability_above(total.estimate, self.errors[place + 1], threshold),
             others: others.collect(),
         }
+    }
+}
+
+/// The same indices with intervals that can both be true: since a first-order index is at most the total index, an interval
+/// wholly above that of the total one shows that both errors are larger than they look, and at least their distance.
+pub(super) fn agreeing(first_order: Estimate, total: Estimate) -> (Estimate, Estimate, bool) {
+    match (first_order.interval, total.interval) {
+        (Some(first), Some(all)) if first.low > all.high => {
+            let first = Interval { low: total.estimate, ..first };
+            let all = Interval { high: first_order.estimate, ..all };
+            (Estimate { interval: Some(first), ..first_order }, Estimate { interval: Some(all), ..total }, true)
+        }
+        _ => (first_order, total, false),
     }
 }
 
@@ -230,4 +302,24 @@ fn defined(estimate: Estimate) -> Option<Estimate> {
 /// wolf in every study of eight factors.
 pub fn differs_clearly(gap: Estimate) -> bool {
     gap.interval.is_some_and(|Interval { low, high }| gap.estimate.abs() > high - low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals_of_one_factor_can_both_be_true() {
+        let estimate =
+            |low: f64, high: f64| Estimate { estimate: (low + high) / 2.0, interval: Some(Interval { low, high }) };
+        let (first, total, contradictory) = agreeing(estimate(0.30, 0.34), estimate(0.20, 0.24));
+        assert!(contradictory);
+        let (first, total) = (first.interval.unwrap(), total.interval.unwrap());
+        assert!((first.low - 0.22).abs() < 1e-12 && (total.high - 0.32).abs() < 1e-12, "{first:?} {total:?}");
+        assert_eq!((first.high, total.low), (0.34, 0.20));
+        let touching = (estimate(0.23, 0.34), estimate(0.20, 0.24));
+        assert_eq!(agreeing(touching.0, touching.1), (touching.0, touching.1, false));
+        let unknown = Estimate { estimate: 0.9, interval: None };
+        assert_eq!(agreeing(unknown, touching.1), (unknown, touching.1, false));
+    }
 }

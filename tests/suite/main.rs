@@ -23,6 +23,7 @@ mod frozen;
 mod fuzz;
 mod given;
 mod given_data;
+mod intervals;
 mod journal;
 mod known;
 mod metamorphic;

@@ -2,6 +2,7 @@
 
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord};
 use crate::report::chart::{Bar, Chart, GroupedBars, Panel, Role, Series};
+use crate::report::leading::{Contender, may_lead, names, percent};
 use crate::report::result::EstimateRecord;
 
 /// The indices of one output in percent of its variance, one bar per input and method, with their intervals.
@@ -43,16 +44,29 @@ fn series(
 
 /// What is seen, in one sentence.
 fn caption(result: &GivenFile, output: &GivenOutputRecord) -> String {
-    let leading = |index: &GivenIndexRecord| index.rank.or(index.binned.map(|b| b.estimate)).map(|r| r.estimate);
-    let known = output.indices.iter().flatten().filter_map(|index| Some((leading(index)?, &index.input)));
-    match (known.max_by(|a, b| a.0.total_cmp(&b.0)), &output.reason) {
-        (Some((largest, input)), _) => format!(
-            "From {} given rows: of all inputs, {input} alone explains most of {}, {:.0} % of its variance.",
-            result.table.rows,
-            output.name,
-            100.0 * largest
-        ),
-        (None, Some(reason)) => format!("No indices of {}: {reason}.", output.name),
-        (None, None) => format!("No indices of {}.", output.name),
+    let leading = |index: &GivenIndexRecord| {
+        let total = index.rank.or(index.binned.map(|binned| binned.estimate))?;
+        Some(Contender { label: index.input.clone(), first_order: None, total, probability: None })
+    };
+    let known: Vec<Contender> = output.indices.iter().flatten().filter_map(leading).collect();
+    let from = format!("From {} given rows", result.table.rows);
+    match (&may_lead(&known)[..], &output.reason) {
+        ([lead], _) if known[*lead].total.estimate > 0.0 => {
+            let (input, share) = (&known[*lead].label, percent(known[*lead].total.estimate));
+            format!("{from}: of all inputs, {input} alone explains most of {}, {share} of its variance.", output.name)
+        }
+        ([lead, ..], _) if known[*lead].total.estimate <= 0.0 => {
+            format!("{from}: no input alone explains a part of {} that can be told from 0.", output.name)
+        }
+        (leaders @ [_, ..], _) => {
+            let share = |contender: &Contender| percent(contender.total.estimate);
+            let names = names(&known, leaders, &share);
+            format!(
+                "{from}: which input alone explains most of {} cannot be told apart: {names} of its variance.",
+                output.name
+            )
+        }
+        ([], Some(reason)) => format!("No indices of {}: {reason}.", output.name),
+        ([], None) => format!("No indices of {}.", output.name),
     }
 }

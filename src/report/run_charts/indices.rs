@@ -4,6 +4,7 @@ use super::super::asked::{sentence, the};
 use super::super::chart::{
     Axis, Bar, Chart, GroupedBars, Guide, Panel, Role, ScatterChart, ScatterPoint, ScatterSeries, Series,
 };
+use super::super::leading::{Contender, decides_most, percent};
 use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 use super::super::shares_chart::label;
 use super::{headline, no_indices};
@@ -98,19 +99,19 @@ fn bar(index: EstimateRecord) -> Bar {
 /// What is seen, and which factors are left out.
 fn indices_caption(output: &OutputRecord, drawn: usize) -> String {
     let indices = || output.indices.iter().flatten();
-    let Some(first) = indices().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate)) else {
-        return no_indices(output);
+    let contender = |index: &IndexRecord| Contender {
+        label: the(&index.factor),
+        first_order: Some(index.effect.first_order),
+        total: index.effect.total,
+        probability: index.effect.probability_first,
     };
-    let (alone, all) = (first.effect.first_order.estimate, first.effect.total.estimate);
-    let mut caption = format!(
-        "{} decides most: alone it explains {:.1} % of the variance of {}, with all its interactions {:.1} %",
-        sentence(&the(&first.factor)),
-        100.0 * alone,
-        the(&output.name),
-        100.0 * all
-    );
-    if let Some(sum) = output.sum_first_order {
-        caption.push_str(&format!("; all factors alone explain {:.1} %", 100.0 * sum.estimate));
+    let contenders: Vec<Contender> = indices().map(contender).collect();
+    let Some(mut caption) = decides_most(&contenders, &the(&output.name)) else { return no_indices(output) };
+    // A sum below one of its parts, or one that may be 0, says nothing but that the errors are large.
+    let largest = indices().map(|index| index.effect.first_order.estimate).fold(0.0, f64::max);
+    let sum = output.sum_first_order.filter(|sum| sum.estimate >= largest && sum.low.is_none_or(|low| low > 0.0));
+    if let Some(sum) = sum {
+        caption.push_str(&format!("; all factors alone explain {}", percent(sum.estimate)));
     }
     caption + "." + &left_out(indices().count(), drawn)
 }
@@ -119,18 +120,26 @@ fn indices_caption(output: &OutputRecord, drawn: usize) -> String {
 fn interactions_caption(result: &ResultFile, output: &OutputRecord, drawn: usize) -> String {
     let Some(indices) = &output.indices else { return no_indices(output) };
     let threshold = result.provenance.threshold;
-    let mut kinds: [Vec<&str>; 3] = Default::default();
+    let mut kinds: [Vec<&str>; 4] = Default::default();
     let mut idle = Vec::new();
     for index in indices {
-        let (alone, all) = (index.effect.first_order.estimate, index.effect.total.estimate);
-        match alone / all {
+        let (first, all) = (index.effect.first_order, index.effect.total.estimate);
+        let open =
+            first.low.is_some_and(|low| low < TOGETHER * all) && first.high.is_some_and(|high| high > ALONE * all);
+        match first.estimate / all {
             _ if all <= threshold => idle.push(index.factor.as_str()),
+            _ if open => kinds[3].push(&index.factor),
             part if part >= ALONE => kinds[0].push(&index.factor),
             part if part >= TOGETHER => kinds[1].push(&index.factor),
             _ => kinds[2].push(&index.factor),
         }
     }
-    let words = ["almost only alone", "partly alone, partly together with others", "mostly together with others"];
+    let words = [
+        "almost only alone",
+        "partly alone, partly together with others",
+        "mostly together with others",
+        "alone or together with others, which the errors leave open",
+    ];
     let said = kinds.iter().zip(words).filter(|(names, _)| !names.is_empty());
     let act = |(names, how): (&Vec<&str>, &str)| {
         format!("{} {} {how}", named(names), if names.len() == 1 { "acts" } else { "act" })

@@ -1,13 +1,12 @@
 //! What a hurried reader should take along: which factor matters most, how sure that is, and what to mind.
 
 use super::words::{count, first, grouped, half_width, index, name, percent, the};
+use crate::report::leading::{Contender, SURE, may_lead, names};
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 use crate::report::{capitalised, listed, share_of_runs, widest_interval, width_after_doubling};
 
 /// Outputs with a paragraph of their own at the top.
 const OUTPUTS: usize = 6;
-/// Beyond this probability something is said to be so.
-const SURE: f64 = 0.95;
 
 /// The paragraphs at the top of the page.
 pub(super) fn lead(result: &ResultFile) -> Vec<String> {
@@ -26,7 +25,9 @@ pub(super) fn answer(result: &ResultFile, output: &OutputRecord) -> String {
         let reason = output.reason.as_deref().unwrap_or("nothing to compare");
         return format!("There are no indices of {}: {reason}.", the(&output.name));
     };
-    let sentences = [leader(output, &order), others(result, &order), interactions(output.sum_first_order)];
+    let tied = tied(&order);
+    let first = if tied.len() > 1 { tie(output, &order, &tied) } else { leader(output, &order) };
+    let sentences = [first, others(result, &order, &tied), interactions(output.sum_first_order)];
     sentences.into_iter().filter(|sentence| !sentence.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
@@ -35,6 +36,28 @@ pub(super) fn by_total(output: &OutputRecord) -> Option<Vec<&IndexRecord>> {
     let mut order: Vec<&IndexRecord> = output.indices.as_ref()?.iter().collect();
     order.sort_by(|a, b| b.effect.total.estimate.total_cmp(&a.effect.total.estimate));
     (!order.is_empty()).then_some(order)
+}
+
+fn contenders(order: &[&IndexRecord]) -> Vec<Contender> {
+    let contender = |index: &&IndexRecord| Contender {
+        label: name(&index.factor),
+        first_order: Some(index.effect.first_order),
+        total: index.effect.total,
+        probability: index.effect.probability_first,
+    };
+    order.iter().map(contender).collect()
+}
+
+/// The places of those that may have the largest total index.
+fn tied(order: &[&IndexRecord]) -> Vec<usize> {
+    may_lead(&contenders(order))
+}
+
+/// The factors of which none is sure to matter most.
+fn tie(output: &OutputRecord, order: &[&IndexRecord], tied: &[usize]) -> String {
+    let total = |contender: &Contender| index(contender.total);
+    let names = names(&contenders(order), tied, &total);
+    format!("What matters most for {} cannot be told apart, by the total index S_T: {names}.", the(&output.name))
 }
 
 fn leader(output: &OutputRecord, order: &[&IndexRecord]) -> String {
@@ -69,7 +92,7 @@ fn chance(index: &IndexRecord) -> f64 {
 }
 
 /// Who comes next, and how many factors matter at all.
-fn others(result: &ResultFile, order: &[&IndexRecord]) -> String {
+fn others(result: &ResultFile, order: &[&IndexRecord], tied: &[usize]) -> String {
     if order.len() < 2 {
         return String::new();
     }
@@ -77,9 +100,13 @@ fn others(result: &ResultFile, order: &[&IndexRecord]) -> String {
         total if total < 0.005 => format!("{} (below 0.01)", name(&index.factor)),
         total => format!("{} ({total:.2})", name(&index.factor)),
     };
-    let next: Vec<String> = order[1..].iter().take(2).map(next).collect();
-    let verb = if next.len() == 1 { "comes" } else { "come" };
-    let mut sentence = format!("Next {verb} {}", listed(&next));
+    let rest = order.iter().enumerate().filter(|(place, _)| !tied.contains(place)).map(|(_, index)| index);
+    let next: Vec<String> = rest.take(2).map(next).collect();
+    let mut sentence = match next.len() {
+        0 => String::new(),
+        1 => format!("Next comes {}", listed(&next)),
+        _ => format!("Next come {}", listed(&next)),
+    };
     let above = |index: &&IndexRecord| index.effect.probability_above_threshold;
     let chances: Vec<f64> = order.iter().filter_map(above).collect();
     if order.len() > 3 && chances.len() == order.len() {
@@ -87,8 +114,9 @@ fn others(result: &ResultFile, order: &[&IndexRecord]) -> String {
         let no = chances.iter().filter(|chance| **chance < 1.0 - SURE).count();
         let open = chances.len() - yes - no;
         let threshold = result.provenance.threshold;
+        sentence.push_str(if sentence.is_empty() { "Of" } else { "; of" });
         sentence.push_str(&format!(
-            "; of the {} factors, {yes} surely {} S_T = {threshold}, {no} surely {}",
+            " the {} factors, {yes} surely {} S_T = {threshold}, {no} surely {}",
             chances.len(),
             if yes == 1 { "exceeds" } else { "exceed" },
             if no == 1 { "does not" } else { "do not" }
@@ -97,7 +125,7 @@ fn others(result: &ResultFile, order: &[&IndexRecord]) -> String {
             sentence.push_str(&format!(", and {open} may"));
         }
     }
-    sentence + "."
+    if sentence.is_empty() { sentence } else { sentence + "." }
 }
 
 /// How much of the variance no factor accounts for alone.
@@ -117,6 +145,10 @@ pub(super) fn interactions(sum_first_order: Option<EstimateRecord>) -> String {
         }
         (Some(_), Some(_)) => format!(
             "No interactions are seen: the first-order indices sum to {}, which is 1 to within the error.",
+            index(sum)
+        ),
+        _ if rest.estimate <= 0.0 => format!(
+            "No interactions are seen: the first-order indices sum to {}; without intervals, how sure that is, is unknown.",
             index(sum)
         ),
         _ => format!(
@@ -186,6 +218,8 @@ mod tests {
         assert!(interactions(sum(1.01, 1.03)).contains("beyond 1"));
         let alone = Some(EstimateRecord { estimate: 0.6, low: None, high: None });
         assert!(interactions(alone).contains("some 40.0 % of the variance"));
+        let beyond = Some(EstimateRecord { estimate: 1.127, low: None, high: None });
+        assert!(interactions(beyond).starts_with("No interactions are seen: the first-order indices sum to 1.127;"));
         assert_eq!(interactions(None), "");
     }
 }

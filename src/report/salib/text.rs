@@ -2,6 +2,7 @@
 
 use super::record::{SalibFile, SalibIndexRecord, SalibOutputRecord};
 use crate::report::chart::{Bar, Chart, GroupedBars, Panel, Role, Series};
+use crate::report::leading::{Contender, decides_most};
 use crate::report::result::EstimateRecord;
 use crate::report::tables::{csv_field, estimate, significant, table};
 
@@ -105,17 +106,15 @@ pub fn salib_chart(result: &SalibFile, output: &SalibOutputRecord) -> Chart {
 
 /// What is seen, in one sentence.
 fn caption(result: &SalibFile, output: &SalibOutputRecord) -> String {
-    let indices = output.indices.iter().flatten();
-    match (indices.max_by(|a, b| a.total.estimate.total_cmp(&b.total.estimate)), &output.reason) {
-        (Some(most), _) => format!(
-            "{} decides most: alone it explains {:.1} % of the variance of {}, with all its interactions {:.1} % (from {} \
-             base samples made by SALib).",
-            most.input,
-            100.0 * most.first_order.estimate,
-            output.name,
-            100.0 * most.total.estimate,
-            result.table.base_samples
-        ),
+    let contender = |index: &SalibIndexRecord| Contender {
+        label: index.input.clone(),
+        first_order: Some(index.first_order),
+        total: index.total,
+        probability: None,
+    };
+    let contenders: Vec<Contender> = output.indices.iter().flatten().map(contender).collect();
+    match (decides_most(&contenders, &output.name), &output.reason) {
+        (Some(said), _) => format!("{said} (from {} base samples made by SALib).", result.table.base_samples),
         (None, Some(reason)) => format!("No indices of {}: {reason}.", output.name),
         (None, None) => format!("No indices of {}.", output.name),
     }

@@ -4,6 +4,7 @@ use super::super::asked::{Drawing, axis_unit, sentence, short_with_unit, the, wo
 use super::super::chart::{
     Axis, Chart, Guide, Range, RangeBars, RangeRow, Role, ScatterChart, ScatterPoint, ScatterSeries,
 };
+use super::super::leading::{Contender, may_lead, names};
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile};
 use crate::names::file_stems;
 use crate::screening::{FIXABLE, Reading};
@@ -134,13 +135,15 @@ fn idle(output: &OutputScreeningRecord) -> String {
 
 /// What is seen, in one sentence.
 fn leader(output: &OutputScreeningRecord) -> String {
-    let first = output.factors.iter().find(|factor| factor.rank == 1);
-    match first.and_then(|factor| Some((factor, factor.mu_star?))) {
-        Some((factor, mu_star)) if mu_star.estimate > 0.0 => format!(
-            "{} matters most: μ* = {}.",
-            sentence(&the(&factor.factor)),
-            short_with_unit(mu_star.estimate, &output.unit)
-        ),
-        _ => "No factor has any effect.".to_owned(),
+    let contender = |factor: &FactorScreeningRecord| {
+        let total = factor.mu_star.filter(|mu_star| mu_star.estimate > 0.0)?;
+        Some(Contender { label: the(&factor.factor), first_order: None, total, probability: None })
+    };
+    let moving: Vec<Contender> = output.factors.iter().filter_map(contender).collect();
+    let mu_star = |contender: &Contender| short_with_unit(contender.total.estimate, &output.unit);
+    match &may_lead(&moving)[..] {
+        [] => "No factor has any effect.".to_owned(),
+        [lead] => format!("{} matters most: μ* = {}.", sentence(&moving[*lead].label), mu_star(&moving[*lead])),
+        tied => format!("What matters most cannot be told apart, by μ*: {}.", names(&moving, tied, &mu_star)),
     }
 }

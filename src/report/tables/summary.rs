@@ -73,7 +73,10 @@ fn output_summary(result: &ResultFile, output: &OutputRecord) -> String {
 fn heading(output: &OutputRecord) -> String {
     let mut text = format!("{} [{}]", output.name, output.unit);
     if let (Some(mean), Some(variance)) = (output.mean, output.variance) {
-        text.push_str(&format!(": mean {}, standard deviation {}", significant(mean), significant(variance.sqrt())));
+        // The standard deviation of the page and of the file, by the divisor n - 1.
+        let sd = output.distribution.as_ref().and_then(|distribution| distribution.sample.sd);
+        let sd = sd.unwrap_or_else(|| variance.sqrt());
+        text.push_str(&format!(": mean {}, standard deviation {}", significant(mean), significant(sd)));
     }
     if let Some(distribution) = &output.distribution {
         let quantile = |percent| distribution.sample.quantile(percent).map(significant);

@@ -39,6 +39,9 @@ pub(super) fn percent(share: Option<f64>, interval: Option<IntervalRecord>) -> S
 fn certainty(effect: &EffectRecord) -> String {
     match effect.probability_first {
         Some(p) if p > 0.999 => "it leads for certain (> 99.9 %)".to_owned(),
+        Some(p) if p < 0.95 => {
+            format!("it cannot be told apart from the next: it leads with a probability of {} %", fixed(100.0 * p, 1))
+        }
         Some(p) => format!("it leads with a probability of {} %", fixed(100.0 * p, 1)),
         None => "one replicate cannot tell how sure that is".to_owned(),
     }

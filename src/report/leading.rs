@@ -1,0 +1,153 @@
+//! Sentences about who leads: they follow the intervals, name no winner of a tie, and state no share that none can be.
+
+use super::listed;
+use super::result::EstimateRecord;
+
+/// From this probability on a lead is taken for one.
+pub(super) const SURE: f64 = 0.95;
+/// Most names in a sentence.
+const NAMES: usize = 6;
+
+/// One that may lead.
+#[derive(Debug, Clone)]
+pub(super) struct Contender {
+    /// Its name as it stands in a sentence.
+    pub label: String,
+    /// First-order index, where there is one.
+    pub first_order: Option<EstimateRecord>,
+    /// What decides: the total index, or another measure.
+    pub total: EstimateRecord,
+    /// Probability that it is the largest, where it is known.
+    pub probability: Option<f64>,
+}
+
+/// The numbers of those that may be the largest, the largest estimate first: one where it is sure to be (or where nothing
+/// is known of the errors), all that cannot be told apart otherwise.
+///
+/// Those are, where probabilities are known, the largest and every one with a chance of 1 in 20 or more; otherwise the
+/// largest and every one whose interval reaches its own.
+pub(super) fn may_lead(contenders: &[Contender]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..contenders.len()).collect();
+    order.sort_by(|&a, &b| contenders[b].total.estimate.total_cmp(&contenders[a].total.estimate));
+    let Some((&lead, rest)) = order.split_first() else { return order };
+    let rivals: Vec<usize> = match (contenders[lead].probability, contenders[lead].total.low) {
+        (Some(probability), _) if probability >= SURE => Vec::new(),
+        (Some(_), _) => {
+            let chance = |&k: &usize| contenders[k].probability.unwrap_or(0.0);
+            let likely: Vec<usize> = rest.iter().copied().filter(|k| chance(k) >= 1.0 - SURE).collect();
+            if likely.is_empty() { rest.iter().copied().take(1).collect() } else { likely }
+        }
+        (None, Some(low)) => {
+            let reaches = |&k: &usize| contenders[k].total.high.is_some_and(|high| high >= low);
+            rest.iter().copied().filter(reaches).collect()
+        }
+        (None, None) => Vec::new(),
+    };
+    [vec![lead], rivals].concat()
+}
+
+/// `labels` with what stands behind each in brackets, the last ones counted if they are many.
+pub(super) fn names(contenders: &[Contender], which: &[usize], what: &dyn Fn(&Contender) -> String) -> String {
+    let mut all: Vec<String> =
+        which.iter().take(NAMES).map(|&k| format!("{} ({})", contenders[k].label, what(&contenders[k]))).collect();
+    if which.len() > NAMES {
+        all.push(format!("{} more", which.len() - NAMES));
+    }
+    listed(&all)
+}
+
+/// Which factor decides most of `output`: alone, and with all its interactions; without a full stop.
+pub(super) fn decides_most(contenders: &[Contender], output: &str) -> Option<String> {
+    let leaders = may_lead(contenders);
+    let lead = &contenders[*leaders.first()?];
+    if lead.total.estimate <= 0.0 {
+        return Some(format!("No total index of {output} is above 0"));
+    }
+    if leaders.len() > 1 {
+        let total = |contender: &Contender| percent(contender.total.estimate);
+        return Some(format!(
+            "What decides most of {output} cannot be told apart: {} of the variance, each with all its interactions",
+            names(contenders, &leaders, &total)
+        ));
+    }
+    let (label, all) = (super::asked::sentence(&lead.label), percent(lead.total.estimate));
+    Some(match lead.first_order {
+        Some(first) if first.estimate <= 0.0 || first.low.is_some_and(|low| low <= 0.0) => format!(
+            "{label} decides most: with all its interactions it explains {all} of the variance of {output}, alone nothing \
+             that can be told from 0"
+        ),
+        Some(first) if first.estimate < lead.total.estimate => format!(
+            "{label} decides most: alone it explains {} of the variance of {output}, with all its interactions {all}",
+            percent(first.estimate)
+        ),
+        _ => format!(
+            "{label} decides most: it explains {all} of the variance of {output}, and no interactions of it are seen"
+        ),
+    })
+}
+
+/// A part of the variance as a sentence states it: none is below 0 or beyond 100 %, where errors may carry an estimate. Tables have
+/// the estimates as they are.
+pub(super) fn percent(part: f64) -> String {
+    format!("{:.1} %", 100.0 * part.clamp(0.0, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(low: f64, high: f64) -> EstimateRecord {
+        EstimateRecord { estimate: (low + high) / 2.0, low: Some(low), high: Some(high) }
+    }
+
+    fn contender(label: &str, first: (f64, f64), total: (f64, f64), probability: Option<f64>) -> Contender {
+        let (first_order, total) = (Some(record(first.0, first.1)), record(total.0, total.1));
+        Contender { label: label.to_owned(), first_order, total, probability }
+    }
+
+    #[test]
+    fn a_tie_has_no_winner() {
+        let tie = [
+            contender("a", (0.3, 0.5), (0.4, 0.6), Some(0.45)),
+            contender("b", (0.31, 0.51), (0.42, 0.6), Some(0.53)),
+            contender("c", (0.0, 0.1), (0.0, 0.1), Some(0.02)),
+        ];
+        assert_eq!(may_lead(&tie), [1, 0]);
+        let said = decides_most(&tie, "y").unwrap();
+        assert_eq!(
+            said,
+            "What decides most of y cannot be told apart: b (51.0 %) and a (50.0 %) of the variance, each with all its \
+             interactions"
+        );
+        let mut unknown = tie.to_vec();
+        unknown.iter_mut().for_each(|contender| contender.probability = None);
+        assert_eq!(may_lead(&unknown), [1, 0]);
+        unknown.iter_mut().for_each(|contender| (contender.total.low, contender.total.high) = (None, None));
+        assert_eq!(may_lead(&unknown), [1]);
+        assert_eq!(may_lead(&[]), [] as [usize; 0]);
+        // Unsure, and no other likely: the next one.
+        let unsure =
+            [contender("a", (0.0, 0.1), (0.5, 0.6), Some(0.93)), contender("b", (0.0, 0.1), (0.4, 0.5), Some(0.04))];
+        assert_eq!(may_lead(&unsure), [0, 1]);
+    }
+
+    #[test]
+    fn no_share_is_negative_and_no_total_below_its_first_order() {
+        let lead = |first, total| decides_most(&[contender("a", first, total, Some(1.0))], "y").unwrap();
+        assert_eq!(
+            lead((-0.3, 0.05), (0.6, 0.7)),
+            "a decides most: with all its interactions it explains 65.0 % of the variance of y, alone nothing that can be \
+             told from 0"
+        );
+        assert_eq!(
+            lead((0.675, 0.695), (0.666, 0.686)),
+            "a decides most: it explains 67.6 % of the variance of y, and no interactions of it are seen"
+        );
+        assert_eq!(
+            lead((0.2, 0.3), (0.5, 0.6)),
+            "a decides most: alone it explains 25.0 % of the variance of y, with all its interactions 55.0 %"
+        );
+        assert!(lead((0.9, 1.1), (0.95, 1.15)).contains("with all its interactions 100.0 %"));
+        assert_eq!(lead((0.0, 0.0), (0.0, 0.0)), "No total index of y is above 0");
+    }
+}

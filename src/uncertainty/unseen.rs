@@ -1,0 +1,131 @@
+//! Errors of indices whose rows have not shown any.
+//!
+//! An output of few values, such as 0 and 1, can give an index without any spread: a first-order index of exactly 0 because
+//! no base point moved the output on both of its sides, or an index that is the same in every part. The spread then says
+//! 0, which the index is not known to be. What is known is that n rows did not show a contribution of another kind: by
+//! the rule of three (Hanley and Lippman-Hand 1983, JAMA 249, 1743-1745), such rows are fewer than 3 in n, at 95 %. None
+//! moves the index by more than the range of the output allows. Only a factor that leaves the output unchanged in
+//! every row keeps an error of 0.
+
+use super::estimates::Layout;
+use super::net_decay::PartInfluences;
+use crate::estimate::Moments;
+
+/// Rows of a kind of which n rows have shown none are fewer than so many, at 95 %: -ln 0.05.
+const RULE_OF_THREE: f64 = 2.995_732_273_553_991;
+
+/// Influences up to this share of the size of an index are rounding: at most some 64 units in the last place, times n/n_p
+/// of leaving out one of 256 parts.
+const ROUNDING: f64 = 1e-11;
+
+/// Least part of the sum of squares of A and B that B must have, for first-order indices by rows AB to be judged by their spread.
+const LEAST_PART: f64 = 0.2;
+
+/// Whether the sample B has hardly any of the large outputs: the formula sum (y_B - f0)(y_AB - y_A) has then not seen what
+/// they contribute to a first-order index, and its spread says nothing of it. With rows BA no one sample decides.
+pub(super) fn half_seen(moments: &Moments, swap: usize) -> bool {
+    let sums = moments.swap(swap);
+    sums.ba.is_none() && sums.base.bb < LEAST_PART * (sums.base.aa + sums.base.bb)
+}
+
+/// What an estimate without spread may be off by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Unseen {
+    /// Half width of its interval; 0 where the estimate is known to be exact, or where nothing of the kind applies.
+    pub half_width: f64,
+    /// Influences up to this size are rounding.
+    pub rounding: f64,
+}
+
+impl Unseen {
+    const NONE: Self = Self { half_width: 0.0, rounding: 0.0 };
+
+    /// Whether no part moves the estimate although rows might have.
+    pub fn applies(&self, parts: &PartInfluences) -> bool {
+        self.half_width > 0.0 && parts.iter().flatten().all(|influence| influence.abs() <= self.rounding)
+    }
+}
+
+/// For every quantity of [`super::estimates::quantities`] what it may be off by if its influences show no spread;
+/// `values` are the quantities. Differences between estimators have none.
+pub(super) fn unseen(layout: &Layout, moments: &Moments, values: &[f64]) -> Vec<Unseen> {
+    let mut list = vec![Unseen::NONE; values.len()];
+    let Some((low, high)) = moments.range() else { return list };
+    // In two steps: the square of the range may overflow.
+    let sd = moments.variance().sqrt();
+    let spread = (high - low) / sd * ((high - low) / sd);
+    let bound = |n: u64, part: f64| (RULE_OF_THREE / n as f64 * spread * part).min(1.0);
+    let acts: Vec<bool> = (0..layout.swaps()).map(|swap| !moments.swap(swap).inert()).collect();
+    let active = acts[..layout.factors].iter().filter(|acts| **acts).count();
+    let mut most = 0.0f64;
+    for swap in (0..layout.swaps()).filter(|swap| acts[*swap]) {
+        let (place, sums) = (layout.swap(swap), moments.swap(swap));
+        let total = values[place + 1].abs().min(1.0);
+        // A row adds at most R^2/V to a first-order index by Saltelli's formula, and half of that to the others.
+        let first = bound(sums.base.n, if sums.ba.is_some() { 0.5 } else { 1.0 });
+        let half = bound(sums.base.n, 0.5);
+        let of_first = Unseen { half_width: first, rounding: ROUNDING * total.sqrt() };
+        let of_total = Unseen { half_width: half, rounding: ROUNDING * total };
+        (list[place], list[place + 1]) = (of_first, of_total);
+        // The share of the only factor that does anything is 100 % for sure.
+        if active > 1 || swap >= layout.factors {
+            let percent =
+                |unseen: Unseen| Unseen { half_width: 100.0 * unseen.half_width, rounding: 100.0 * unseen.rounding };
+            (list[place + 2], list[place + 3]) = (percent(of_first), percent(of_total));
+        }
+        for estimator in 0..layout.estimators.len() {
+            let place = layout.other(estimator, swap);
+            (list[place], list[place + 1]) = (of_first, of_total);
+        }
+        if swap < layout.factors {
+            most = most.max(first);
+        }
+    }
+    for sum in &mut list[..2] {
+        *sum = Unseen { half_width: most, rounding: ROUNDING };
+    }
+    if layout.second_order {
+        for (pair, (j, k)) in layout.pair_list().into_iter().enumerate().filter(|(_, (j, k))| acts[*j] && acts[*k]) {
+            let total = |swap: usize| values[layout.swap(swap) + 1].abs().min(1.0);
+            let n = moments.swap(j).base.n.min(moments.swap(k).base.n);
+            let rounding = ROUNDING * (total(j) * total(k)).sqrt();
+            list[layout.pairs() + pair] = Unseen { half_width: bound(n, 1.0), rounding };
+        }
+    }
+    list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimate::{BlockOutputs, Workspace};
+
+    fn moments(a: &[f64], b: &[f64], ab: &[&[f64]]) -> Moments {
+        Moments::of_block(BlockOutputs { a, b, ab, ..BlockOutputs::default() }, &mut Workspace::default())
+    }
+
+    #[test]
+    fn only_a_factor_that_changes_no_row_is_known_to_do_nothing() {
+        let (a, b) = ([0.0, 1.0, 0.0, 1.0], [1.0, 1.0, 0.0, 0.0]);
+        let moments = moments(&a, &b, &[&b, &a]);
+        let layout = Layout::plain(2);
+        let values = super::super::estimates::quantities(&layout, &moments).unwrap();
+        let unseen = unseen(&layout, &moments, &values);
+        let of = |swap: usize| unseen[layout.swap(swap)];
+        // R^2/V = 4, and fewer than 3 of 4 rows: no bound but that of an index.
+        assert_eq!(of(0).half_width, 1.0);
+        assert_eq!(of(1), Unseen::NONE);
+        assert!(of(0).applies(&vec![vec![1e-16, -1e-16]; 2]) && !of(0).applies(&vec![vec![1e-3, 0.0]; 2]));
+        assert!(!of(1).applies(&vec![vec![0.0; 2]; 2]));
+        // The only factor that acts has all of the share.
+        assert_eq!(unseen[layout.swap(0) + 2], Unseen::NONE);
+    }
+
+    #[test]
+    fn a_sample_without_the_large_outputs_has_seen_half() {
+        let (flat, peak) = ([0.0, 0.1, 0.0, 0.1], [0.0, 9.0, 0.0, 0.1]);
+        assert!(half_seen(&moments(&peak, &flat, &[&flat]), 0));
+        assert!(!half_seen(&moments(&flat, &peak, &[&peak]), 0));
+        assert!(!half_seen(&moments(&peak, &peak, &[&peak]), 0));
+    }
+}
