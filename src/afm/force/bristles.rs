@@ -6,7 +6,7 @@ use super::slip::Slip;
 use super::substrate::Substrate;
 use crate::afm::Failure;
 use crate::afm::friction::{LuGre, particle_mass};
-use crate::afm::ode::{Control, March, Outcome, Problem, Rodas};
+use crate::afm::ode::{Control, End, March, Outcome, Problem, Rodas};
 
 /// The tip of [`Motion`] whose apex follows the particle, m_p x'' = F_Y - F, F = sigma0 z + sigma1 z' + sigma2 x', where
 /// x is what the particle crept back on the moving substrate. Unknowns, in the units of `Motion`: K_y y_P, theta', x, x'
@@ -26,6 +26,9 @@ pub(super) struct Bristles<'a> {
     viscosity: f64,
 }
 
+/// Most of the swing that is followed, from start to slip (rad): steps by the thousand, not by the million.
+const MOST_TURNS: f64 = 1e3;
+
 impl<'a> Bristles<'a> {
     /// Bristles of a contact of `radius` (m).
     pub fn new(motion: &'a Motion<'a>, substrate: &'a Substrate<'a>, radius: f64) -> Self {
@@ -44,28 +47,48 @@ impl<'a> Bristles<'a> {
         }
     }
 
-    /// Marches until the bristles give way, or so near that what is left to rise is below the tolerance. The force is what
-    /// the particle feels then, the swing of the tip and all.
+    /// Marches to the largest force, or so near that what is left to rise is below the tolerance.
+    ///
+    /// dF/dt vanishes with 1 - x'. That is no sign of it by itself: the swing of the tip takes x' past V for moments from
+    /// the start. But at the maximum F is the force of steady sliding at V, or has passed it: before, either the
+    /// bristles still stretch or the dashpots are still to come up to V. With viscous friction that comes long after the
+    /// bristles have given way, a few sigma2/k_lat.
     pub fn slip(&self) -> Result<(Slip, u64), Failure> {
-        let tolerance = local_tolerance(self.substrate.options);
+        let followed = self.motion.frequency() < MOST_TURNS;
+        let swing = if followed { 0.0 } else { self.motion.swing().spring / self.motion.force };
+        // In vain much finer than the swing that is not followed. And not coarse: where the bristles give way at once, a
+        // long step does not see it.
+        let tolerance = local_tolerance(self.substrate.options).max(0.01 * swing).min(1e-7);
         // Of the particle on its bristles and the spring of the probe.
-        let swing = (self.agility * (1.0 + self.stiffness)).sqrt();
+        let shaking = (self.agility * (1.0 + self.stiffness)).sqrt();
         let control = Control {
             tolerance,
-            scale: [1.0, self.motion.frequency().max(1.0), 1.0, swing.max(1.0), 1.0],
+            scale: [1.0, self.motion.frequency().max(1.0), 1.0, shaking.max(1.0), 1.0],
             first_step: 1e-3,
             longest_step: 0.1,
             step_budget: self.substrate.options.step_budget,
         };
-        let mut march = March::<Rodas, _, 5>::new(self, (0.0, [0.0, 1.0, 0.0, 0.0, 0.0]), control);
-        // At the peak the bristles give way, z' = 0; x' = V alone is no sign of it, since the swing of the tip takes x'
-        // past V for moments from the start.
-        let event = |t: f64, &[q, _, x, u, p]: &[f64; 5]| {
-            let yielding = p / self.strength(self.load(t - x, q), u) - 1.0 + tolerance;
-            Ok(if u > 0.0 { yielding } else { -1.0 })
+        // Where the bristles limit the approach, 1 - x'/V is sigma0/k_lat times what is left to rise.
+        let near = (10.0 * tolerance * self.stiffness).clamp(1e-3, 0.5);
+        let start = [0.0, if followed { 1.0 } else { self.slow_turning() }, 0.0, 0.0, 0.0];
+        let mut largest = End { t: 0.0, y: start };
+        let event = |t: f64, y: &[f64; 5]| {
+            let &[q, _, x, u, _] = y;
+            if q > largest.y[0] {
+                largest = End { t, y: *y };
+            }
+            let steady = self.strength(self.load(t - x, q), 1.0) + self.viscosity;
+            Ok((q / steady - 1.0 + tolerance).min(u - 1.0 + near))
         };
-        let horizon = 10.0 + 100.0 / self.stiffness;
-        let (Outcome::Event(end) | Outcome::Horizon(end)) = march.until(horizon, event)?;
+        // Bristles and dashpots each approach their end exponentially, by 1e-12 in 28 of their times.
+        let horizon = 10.0 + 30.0 * (1.0 + 3.0 / self.stiffness);
+        let mut march = March::<Rodas, _, 5>::new(self, (0.0, start), control);
+        let outcome = march.until(horizon, event)?;
+        let end = match outcome {
+            Outcome::Event(end) => end,
+            // It passed below the force of steady sliding: the largest it had.
+            Outcome::Horizon(_) => largest,
+        };
         let [q, w, creep, _, _] = end.y;
         let tip = self.motion.tip(end.t - creep, &[q, w]);
         let slip = Slip {
@@ -74,9 +97,15 @@ impl<'a> Bristles<'a> {
             lateral_force: q * self.motion.force,
             travel: (end.t - creep) * self.motion.length,
             twist: tip.twist,
-            contact: self.substrate.hold(tip.normal_force)?.contact,
+            contact: self.substrate.contact(tip.normal_force)?,
         };
         Ok((slip, march.evaluations()))
+    }
+
+    /// theta' of the tip in equilibrium at the start, the apex moving at V less what the bristles yield: a start without
+    /// a swing.
+    fn slow_turning(&self) -> f64 {
+        self.motion.turning(0.0) * self.stiffness / (1.0 + self.stiffness)
     }
 
     /// The load that friction feels (N).

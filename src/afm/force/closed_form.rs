@@ -3,6 +3,7 @@
 
 use super::slip::{Error, Slip};
 use super::substrate::Substrate;
+use super::swing::Swing;
 use super::{Cost, Critical, Options};
 use crate::afm::friction::{LuGre, LuGreForm};
 use crate::afm::probe::Probe;
@@ -22,7 +23,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         twist: lateral_force * scene.height / probe.torsional,
         contact: hold.contact,
     };
-    let mut error = twisting(&substrate, &probe, &slip);
+    let mut error = twisting(&substrate, &probe, &slip) + Swing::new(scene, &probe).left_out(&slip, &substrate);
     let mut fast = false;
     if options.friction == FrictionLaw::LuGre {
         let law = LuGre::of(scene);
@@ -46,6 +47,11 @@ fn twisting(substrate: &Substrate, probe: &Probe, slip: &Slip) -> Error {
         return Error { normal: f64::INFINITY, lateral: 0.0 };
     }
     let twist = slip.lateral_force * height / softened;
-    let normal = 0.5 * probe.normal * height * twist * twist;
+    // A twentieth more, for the terms of higher order.
+    let normal = 1.05 * 0.5 * probe.normal * height * twist * twist;
+    if normal >= slip.normal_force - substrate.least_normal_force() {
+        // It lifts the tip until nothing holds the particle down.
+        return Error { normal: f64::INFINITY, lateral: 0.0 };
+    }
     Error { normal, lateral: normal * substrate.slope(slip.lateral_force, slip.normal_force) }
 }

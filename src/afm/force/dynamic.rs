@@ -1,20 +1,25 @@
 //! The equations of motion, adaptively, with the slip as an event.
 //!
-//! The tip swings at some 1e6 to 1e8 rad/s, undamped, while the ramp takes 0.1 s and more. An explicit method would have
-//! to follow every swing: some 1e7 steps. The stiff method ([`Rodas`], L-stable) steps over them: the swing that the
-//! start excites, V k_lat/omega, is 1e-7 of F_Y at the nominal scene; where it lies below the tolerance the first
-//! long step damps it, where above it is followed until the method's own damping has worn it down. Two things make this work. The
-//! error of theta' is weighed by the swing it would cause, theta'/omega, else the start alone, where theta' is off by
-//! k_lat/K_y of itself, would force steps of 1/omega for ever. And the event is located by steps, not by dense output.
+//! The tip swings at some 1e6 to 1e8 rad/s, undamped, while the ramp takes 0.1 s and more. To follow every swing would take
+//! some 1e7 steps. Where the swing that the start excites lies below the tolerance (at the nominal scene it is 1e-7 of
+//! F_Y) the stiff method ([`Rodas`], L-stable) steps over it. The error of theta' is then weighed by the swing it
+//! would cause, theta'/omega, else the start alone, where theta' is off by k_lat/K_y of itself, would force steps of
+//! 1/omega for ever; and the event is located by steps, not by dense output. Where the swing counts, a stuck tip is
+//! [carried](super::carried) to the eve of the slip and followed from there. On LuGre bristles, which change it as they
+//! give way, the swing is left to the damping of the method, and counted as an error.
+
+use std::f64::consts::TAU;
 
 use super::bristles::Bristles;
+use super::carried::Eve;
 use super::motion::{Motion, Tip};
 use super::quasi_static::Statics;
 use super::slip::{Error, Slip};
 use super::substrate::Substrate;
+use super::swing::Swing;
 use super::{Cost, Critical, Options};
 use crate::afm::friction::LuGreForm;
-use crate::afm::ode::{Control, March, Outcome, Rodas};
+use crate::afm::ode::{Control, DormandPrince, End, March, Outcome, Rodas};
 use crate::afm::probe::Probe;
 use crate::afm::{Failure, Fidelity, FrictionLaw, Scene};
 
@@ -39,7 +44,10 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         evaluations += spent;
     }
     // The march aims at a tenth of the tolerance a step.
-    let error = Error { normal: 0.0, lateral: options.tolerance * slip.lateral_force };
+    let mut error = Error { normal: 0.0, lateral: options.tolerance * slip.lateral_force };
+    if options.friction == FrictionLaw::LuGre {
+        error = error + Swing::new(scene, &probe).left_out(&slip, &substrate);
+    }
     let critical = slip.critical(&substrate, Fidelity::Dynamic);
     Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })
 }
@@ -57,6 +65,30 @@ pub(super) fn surely_holds(tip: &Tip, limit: &Slip) -> bool {
 
 /// Marches the stuck tip until F_Y passes F_Y*(F_Z).
 fn stuck(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, u64), Failure> {
+    let lateral = motion.swing().lateral + motion.swing().normal(limit.twist) * substrate.slope_at(limit);
+    let swing = lateral / motion.force;
+    let (end, spent) = if swing <= SMALL * substrate.options.tolerance {
+        damped(motion, substrate, limit)?
+    } else {
+        swinging(motion, substrate, (limit, swing))?
+    };
+    let tip = motion.tip(end.t, &end.y);
+    let hold = substrate.hold(tip.normal_force)?;
+    let slip = Slip {
+        normal_force: tip.normal_force,
+        lateral_force: hold.capacity,
+        travel: end.t * motion.length,
+        twist: tip.twist,
+        contact: hold.contact,
+    };
+    Ok((slip, spent))
+}
+
+/// Share of the tolerance below which the swing need not be followed.
+const SMALL: f64 = 0.2;
+
+/// By the stiff method over a swing too small to matter.
+fn damped(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(End<2>, u64), Failure> {
     let control = Control {
         tolerance: local_tolerance(substrate.options),
         scale: [1.0, motion.frequency().max(1.0)],
@@ -71,26 +103,63 @@ fn stuck(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, 
         if surely_holds(&tip, limit) {
             return Ok(tip.lateral_force - limit.lateral_force);
         }
-        match substrate.hold(tip.normal_force) {
-            Ok(hold) => {
-                spent += hold.evaluations;
-                Ok(tip.lateral_force - hold.capacity)
-            }
-            // A long step may pass the slip and the end of contact together.
-            Err(Failure::BeyondPullOff) => Ok(tip.lateral_force),
-            Err(failure) => Err(failure),
-        }
+        excess(&tip, substrate, &mut spent)
     })?;
     // The quasi-static tip slips at 1.
     let Outcome::Event(end) = outcome else { return Err(Failure::StepBudget) };
-    let tip = motion.tip(end.t, &end.y);
-    let hold = substrate.hold(tip.normal_force)?;
-    let slip = Slip {
-        normal_force: tip.normal_force,
-        lateral_force: hold.capacity,
-        travel: end.t * motion.length,
-        twist: tip.twist,
-        contact: hold.contact,
+    Ok((end, spent + march.evaluations()))
+}
+
+/// By the explicit method, which keeps the swing, over its last turns before the slip; over all of them where they
+/// change on the way. `swing` is its amplitude in F_Y - F_Y*, in units of the slip.
+fn swinging(motion: &Motion, substrate: &Substrate, (limit, swing): (&Slip, f64)) -> Result<(End<2>, u64), Failure> {
+    let tolerance = substrate.options.tolerance;
+    let frequency = motion.frequency();
+    // The force rises by more than 1 in a unit of time. The first crossing comes before the mean by the amplitude at most.
+    let lead = 2.0 * swing + 2.0 * TAU / frequency;
+    let kept = 10.0 * swing * motion.drift(limit.twist) / frequency < 0.05 * tolerance;
+    let start =
+        if kept && lead < 0.5 { motion.carried_to(1.0 - lead, limit.twist)? } else { Eve { t: 0.0, y: [0.0, 1.0] } };
+    let budget = substrate.options.step_budget;
+    if (1.0 - start.t) * frequency / RESOLVED > budget as f64 {
+        return Err(Failure::StepBudget);
+    }
+    let control = Control {
+        // The force stands still once a turn, where an error of it shows by its cube root in the time.
+        tolerance: (1e-3 * tolerance * (tolerance / swing).powi(2).min(1.0)).max(0.1 * FINEST),
+        scale: [1.0, frequency.max(1.0)],
+        first_step: 0.1 * RESOLVED / frequency,
+        longest_step: RESOLVED / frequency,
+        step_budget: budget,
     };
-    Ok((slip, spent + march.evaluations()))
+    let mut march = March::<DormandPrince, _, 2>::new(motion, (start.t, start.y), control);
+    let slope = substrate.slope_at(limit);
+    let mut spent = 0;
+    let outcome = march.until(10.0, |t, y| {
+        let tip = motion.tip(t, y);
+        // Twice, since the slope grows as the load falls.
+        let weakest = limit.lateral_force - 2.0 * slope * (limit.normal_force - tip.normal_force).max(0.0);
+        if tip.lateral_force < (1.0 - 1e-9) * weakest {
+            return Ok(tip.lateral_force - limit.lateral_force.max(weakest));
+        }
+        excess(&tip, substrate, &mut spent)
+    })?;
+    let Outcome::Event(end) = outcome else { return Err(Failure::StepBudget) };
+    Ok((end, spent + march.evaluations()))
+}
+
+/// Longest step that follows a swing (rad): no crossing hides inside.
+const RESOLVED: f64 = 0.2;
+
+/// F_Y - F_Y*(F_Z) (N).
+fn excess(tip: &Tip, substrate: &Substrate, spent: &mut u64) -> Result<f64, Failure> {
+    match substrate.hold(tip.normal_force) {
+        Ok(hold) => {
+            *spent += hold.evaluations;
+            Ok(tip.lateral_force - hold.capacity)
+        }
+        // A long step may pass the slip and the end of contact together.
+        Err(Failure::BeyondPullOff) => Ok(tip.lateral_force),
+        Err(failure) => Err(failure),
+    }
 }

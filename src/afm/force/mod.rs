@@ -3,6 +3,7 @@
 
 mod auto;
 mod bristles;
+mod carried;
 mod closed_form;
 mod dynamic;
 mod fixed_step;
@@ -10,6 +11,7 @@ mod motion;
 mod quasi_static;
 mod slip;
 mod substrate;
+mod swing;
 #[cfg(test)]
 mod tests;
 
@@ -32,7 +34,7 @@ named! {
         /// The equations of motion, marched in steps of [`Options::step`], the forces read at the first step past the
         /// slip. It overshoots by up to k_lat V step, and exists to show what that distorts.
         FixedStep = "fixed-step",
-        /// The lowest of the first three whose error estimate meets [`Options::tolerance`].
+        /// The lowest of the first three whose error estimate meets [`Options::tolerance`], or above which none does better.
         Auto = "auto",
     }
 }
@@ -119,7 +121,8 @@ pub struct Critical {
     /// Travel of the substrate until then, s (m), less what the particle crept on its bristles.
     pub travel: f64,
     /// Time until then, t_cr = s/V (s); or why there is none, [`Failure::VelocityZero`] where V =
-    /// 0.
+    /// 0. Rungs without inertia leave out by how much the swing of the tip brings the slip forward: some 1/(omega t_cr)
+    /// of t_cr, more for a tip on a cantilever that is stiff in torsion.
     pub critical_time: Result<f64, Failure>,
     /// Radius a of the contact between particle and substrate (m).
     pub contact_radius: f64,
@@ -130,7 +133,8 @@ pub struct Critical {
     /// What makes the result doubtful.
     pub flags: Flags,
     /// Estimated relative error of the critical force, from what the rung leaves out and from its
-    /// numerics; not of the laws themselves. At most 1, which claims nothing.
+    /// numerics; not of the laws themselves. At most 1, which claims nothing. On LuGre bristles it includes the swing
+    /// of the tip at every rung.
     pub error_estimate: f64,
     /// What it cost to find.
     pub cost: Cost,

@@ -10,18 +10,19 @@
 
 use super::quasi_static::Statics;
 use super::slip::Slip;
+use super::swing::{Swing, inertia_about_apex};
 use crate::afm::Scene;
 use crate::afm::ode::Problem;
 
 /// The tip pushed by a stuck particle. Unknowns: K_y y_P and theta'.
 pub(super) struct Motion<'a> {
-    scene: &'a Scene,
-    statics: &'a Statics<'a>,
+    pub scene: &'a Scene,
+    pub statics: &'a Statics<'a>,
     /// Units of force (N) and of length V t_cr (m).
     pub force: f64,
     pub length: f64,
     /// I_T (kg m2) and m (kg).
-    inertia: f64,
+    pub inertia: f64,
     mass: f64,
 }
 
@@ -40,7 +41,7 @@ impl<'a> Motion<'a> {
             statics,
             force: slip.lateral_force,
             length: slip.travel,
-            inertia: statics.inertia_about_apex(),
+            inertia: inertia_about_apex(scene),
             mass: scene.effective_tip_mass(),
         }
     }
@@ -52,7 +53,11 @@ impl<'a> Motion<'a> {
 
     /// The fastest motion: the swing of the tip about the apex, in radians per unit of time.
     pub fn frequency(&self) -> f64 {
-        self.statics.frequency() * self.time()
+        self.swing().frequency * self.time()
+    }
+
+    pub fn swing(&self) -> Swing {
+        Swing::new(self.scene, &self.statics.probe)
     }
 
     /// Twist at the apex position `s` (units of length), with the lateral force `q` (units of force). Not a number where

@@ -14,6 +14,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::slip::{Error, Slip};
 use super::substrate::{Hold, Substrate};
+use super::swing::Swing;
 use super::{Cost, Critical, Options};
 use crate::afm::friction::{LuGre, LuGreForm};
 use crate::afm::probe::Probe;
@@ -26,14 +27,13 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let substrate = Substrate::new(scene, options, (&probe, LuGreForm::Ramp));
     let statics = Statics::new(scene, &probe)?;
     let (slip, evaluations) = statics.slip(&substrate)?;
-    let mut error = statics.inertia(&slip, &substrate);
-    if options.friction == FrictionLaw::LuGre || options.friction == FrictionLaw::LemaitreCarlson {
-        error.lateral += substrate.drive.tolerance * slip.lateral_force;
-    }
+    let mut error = Swing::new(scene, &probe).left_out(&slip, &substrate);
+    error.lateral += slip.lateral_force * substrate.error();
     if options.friction == FrictionLaw::LuGre {
-        // Bristles yield to the swing as well, and their dashpots feel its velocity, up to V.
+        // How far a particle that breaks loose overshoots depends on how fast the tip can follow.
         let law = LuGre::with(scene, options.lugre, slip.contact.radius);
-        error.lateral += statics.swing() + 2.0 * (law.damping + law.viscous_friction) * scene.velocity;
+        let steady = law.steady_force(slip.normal_force + substrate.adhesive_load, scene.velocity);
+        error.lateral += (slip.lateral_force - steady).max(0.0);
     }
     let critical = slip.critical(&substrate, Fidelity::QuasiStatic);
     Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })
@@ -76,6 +76,16 @@ impl<'a> Statics<'a> {
     pub fn lateral_moment_slope(&self, theta: f64) -> f64 {
         let (sin, cos) = theta.sin_cos();
         self.restoring - self.normal_force(theta) * cos + self.probe.normal * self.height * sin * sin
+    }
+
+    /// F_Y (N) at the twist `theta`, below a right angle.
+    pub fn lateral_force(&self, theta: f64) -> f64 {
+        self.lateral_moment(theta) / theta.cos()
+    }
+
+    /// Its derivative by the twist (N).
+    pub fn lateral_force_slope(&self, theta: f64) -> f64 {
+        (self.lateral_moment_slope(theta) + self.lateral_force(theta) * theta.sin()) / theta.cos()
     }
 
     /// Travel of the apex (m): s = H sin theta + F_Y/K_y.
@@ -139,37 +149,10 @@ impl<'a> Statics<'a> {
         let (hold, normal_force) = hold(theta)?;
         // The two agree at the root, each to its own conditioning: the geometry's is poor near a right angle, the
         // friction's where its coefficient is so large that one rounding of the twist moves it by itself.
-        let of_geometry = self.lateral_moment(theta) / theta.cos();
+        let of_geometry = self.lateral_force(theta);
         let agree = (hold.capacity - of_geometry).abs() < 1e-6 * of_geometry;
         let lateral_force = if agree || theta.cos() < 1e-6 { hold.capacity } else { of_geometry };
         let travel = self.travel(theta, lateral_force);
         Ok((Slip { normal_force, lateral_force, travel, twist: theta, contact: hold.contact }, evaluations))
-    }
-
-    /// Lateral force of the swing at the start (N): the substrate takes the apex along at V at once, the probe yields
-    /// in the ratio of its stiffnesses, and so swings by V k_lat/omega about the equilibrium, undamped.
-    pub fn swing(&self) -> f64 {
-        self.scene.velocity * self.probe.apex / self.frequency()
-    }
-
-    /// The frequency omega of that swing (rad/s), the apex held: omega^2 = (K_theta + K_y H^2)/I_T.
-    pub fn frequency(&self) -> f64 {
-        ((self.probe.torsional + self.probe.lateral * self.height * self.height) / self.inertia_about_apex()).sqrt()
-    }
-
-    /// I_T = I_c + m H^2/4 (kg m2).
-    pub fn inertia_about_apex(&self) -> f64 {
-        self.scene.effective_tip_inertia() + 0.25 * self.scene.effective_tip_mass() * self.height * self.height
-    }
-
-    /// What inertia, which this rung leaves out, does to the forces: the swing and the centrifugal force act on F_Z
-    /// through the twist, and on the friction with it; the lateral force at the slip is the friction's.
-    fn inertia(&self, slip: &Slip, substrate: &Substrate) -> Error {
-        let swing = self.swing();
-        let spin = self.scene.velocity / self.height;
-        let centrifugal = 0.5 * self.scene.effective_tip_mass() * self.height * spin * spin;
-        let softer = self.probe.normal * self.height * self.height / self.probe.torsional;
-        let normal = centrifugal + slip.twist * swing * (1.0 + softer);
-        Error { normal, lateral: normal * substrate.slope(slip.lateral_force, slip.normal_force).abs() }
     }
 }

@@ -1,6 +1,7 @@
 //! The instant of slip, as every rung finds it, made into the common result.
 
 use std::f64::consts::PI;
+use std::ops::Add;
 
 use super::substrate::Substrate;
 use super::{Cost, Critical, Fidelity};
@@ -27,6 +28,15 @@ pub(super) struct Error {
 
 /// A few dozen roundings: no rung is more accurate.
 const ROUNDING: f64 = 1e-14;
+
+impl Add for Error {
+    type Output = Self;
+
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self { normal: self.normal + other.normal, lateral: self.lateral + other.lateral }
+    }
+}
 
 impl Error {
     /// The relative error of F_cr: |dF_cr| <= (F_Z |dF_Z| + F_Y |dF_Y|)/F_cr. At most 1, which claims nothing.

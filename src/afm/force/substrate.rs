@@ -1,5 +1,6 @@
 //! What holds the particle down: contact and friction on the substrate under a normal force.
 
+use super::slip::Slip;
 use crate::afm::contact::{Contact, Pair};
 use crate::afm::friction::{Drive, LuGreForm, Pressed, particle_mass};
 use crate::afm::probe::Probe;
@@ -48,13 +49,28 @@ impl<'a> Substrate<'a> {
         Self { scene, options, pair, adhesive_load, drive }
     }
 
+    /// The contact alone under `normal_force` (N).
+    #[inline]
+    pub fn contact(&self, normal_force: f64) -> Result<Contact, Failure> {
+        self.options.contact.contact(&self.pair, normal_force)
+    }
+
     /// Contact and friction under `normal_force` (N).
     #[inline]
     pub fn hold(&self, normal_force: f64) -> Result<Hold, Failure> {
-        let contact = self.options.contact.contact(&self.pair, normal_force)?;
+        let contact = self.contact(normal_force)?;
         let pressed = Pressed { load: normal_force + self.adhesive_load, radius: contact.radius };
         let held = self.options.friction.capacity(self.scene, pressed, &self.drive)?;
         Ok(Hold { contact, capacity: held.force, evaluations: 1 + held.evaluations })
+    }
+
+    /// Relative error that the law of friction may add to a capacity.
+    pub fn error(&self) -> f64 {
+        match self.options.friction {
+            FrictionLaw::LuGre => self.drive.near_steady(),
+            FrictionLaw::LemaitreCarlson => self.drive.tolerance,
+            _ => 0.0,
+        }
     }
 
     /// A bound of dF_Y*/dF_Z at a `normal_force` (N) where friction holds `capacity` (N), for estimates: in proportion
@@ -62,14 +78,20 @@ impl<'a> Substrate<'a> {
     /// (F_Z + F_ad)^(2/3) by every theory of contact).
     #[inline]
     pub fn slope(&self, capacity: f64, normal_force: f64) -> f64 {
-        let of_load = if self.options.friction == FrictionLaw::Coulomb { self.scene.static_friction } else { 0.0 };
-        let support = if self.options.friction.lives_on_area() {
-            self.options.contact.pull_off(&self.pair)
-        } else {
-            self.adhesive_load
-        };
-        let of_area = (capacity - of_load * (normal_force + self.adhesive_load)).max(0.0);
-        of_load + if of_area > 0.0 { of_area / (normal_force + support) } else { 0.0 }
+        let law = self.options.friction;
+        let of_load = if law == FrictionLaw::Coulomb { self.scene.static_friction } else { 0.0 };
+        let support = if law.lives_on_area() { self.options.contact.pull_off(&self.pair) } else { self.adhesive_load };
+        // Viscous friction feels no load.
+        let viscous = if law == FrictionLaw::LuGre { self.scene.viscous_friction * self.scene.velocity } else { 0.0 };
+        // A contact that is loaded longer ages longer.
+        let ageing = if law == FrictionLaw::Armstrong { 1.05 } else { 1.0 };
+        let of_area = (capacity - viscous - of_load * (normal_force + self.adhesive_load)).max(0.0);
+        of_load + if of_area > 0.0 { ageing * of_area / (normal_force + support) } else { 0.0 }
+    }
+
+    /// The same at a slip.
+    pub fn slope_at(&self, slip: &Slip) -> f64 {
+        self.slope(slip.lateral_force, slip.normal_force).abs()
     }
 
     /// The least normal force (N) under which there is a contact that friction can hold: minus the pull-off force, or

@@ -108,6 +108,12 @@ impl Drive {
             step_budget: 1_000_000,
         }
     }
+
+    /// How near to the peak of a LuGre ramp the force of steady sliding may stand for it, relatively. What an integration
+    /// gains over a bound this near is lost in the tolerance of a run, of which `tolerance` is the hundredth part.
+    pub(crate) fn near_steady(&self) -> f64 {
+        10.0 * self.tolerance
+    }
 }
 
 impl FrictionLaw {

@@ -61,14 +61,23 @@ pub(super) fn peak(law: &LuGre, load: f64, drive: &Drive) -> Result<Held, Failur
     }
 }
 
-/// Whether the peak lies within the tolerance of the force of steady sliding, by bounds: with z < Fss/sigma0 friction
-/// stays below Fss(v) + sigma2 v, and v below V unless friction weakens faster than the spring relaxes.
+/// Whether the peak lies [near enough](Drive::near_steady) to the force of steady sliding, by bounds.
+///
+/// The force rises while v is below V. Where v only tends to V, it is the steady force that is approached. Where v passes
+/// V, p = sigma0 z must be above Fss(V) then: by Fss(0) - Fss(V) at most. And p passes Fss(V) while v is still below V;
+/// from then on p' <= W F' with W = sigma0 V |Fss'|/(k_lat Fss), the rest, (1 - W) F' at least, moves the dashpots on to V,
+/// and so p gains W/(1 - W) of their force at most.
 fn stays_near_steady(law: &LuGre, load: f64, drive: &Drive) -> bool {
     let velocity = drive.velocity;
-    let steady = law.stribeck(load, velocity);
-    let spread = law.stribeck(load, 0.0) - steady;
-    let weakening = law.stiffness * velocity * law.stribeck_slope(load, velocity).abs() / (drive.stiffness * steady);
-    velocity == 0.0 || spread <= drive.tolerance * steady && weakening < 0.1
+    let strength = law.stribeck(load, velocity);
+    // The curve is steepest at v_s/sqrt(2).
+    let steepest = velocity.min(law.stribeck_velocity * std::f64::consts::FRAC_1_SQRT_2);
+    let slope = (-law.stribeck_slope(load, steepest)).max(0.0);
+    let weakening = law.stiffness * velocity * slope / (drive.stiffness * strength);
+    let spread = (law.stribeck(load, 0.0) - strength).max(0.0);
+    let gained = weakening / (1.0 - weakening) * (law.damping + law.viscous_friction) * velocity;
+    let near = drive.near_steady() * law.steady_force(load, velocity);
+    velocity == 0.0 || weakening < 0.1 && law.damping * velocity < strength && spread.min(gained) <= near
 }
 
 impl Ramp {
@@ -87,7 +96,8 @@ impl Ramp {
         // The rise left when v is this near V is below the tolerance, whether v passes V or only tends to it. The
         // start, where inertia may let v swing past V, is left out.
         let near = drive.tolerance * self.stiffness.min(1.0);
-        let event = |_: f64, y: &[f64; 3]| Ok(if y[0] < 0.1 { -1.0 } else { y[2] - 1.0 + near });
+        let started = |y: &[f64; 3]| y[0] + self.dashpots * y[1] > 0.1;
+        let event = |_: f64, y: &[f64; 3]| Ok(if started(y) { y[2] - 1.0 + near } else { -1.0 });
         let outcome = march.until(f64::MAX, event)?;
         let (Outcome::Event(end) | Outcome::Horizon(end)) = outcome;
         Ok(Held { force: self.unit * (end.y[0] + self.dashpots * end.y[1]), evaluations: march.evaluations() })
