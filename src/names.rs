@@ -71,7 +71,11 @@ pub fn shown(text: &str) -> String {
     const MOST: usize = 60;
     let mut chars = text.chars();
     let begin: String = chars.by_ref().take(MOST).collect();
-    if chars.next().is_some() { format!("{begin:?}... ({} characters)", text.chars().count()) } else { format!("{begin:?}") }
+    if chars.next().is_some() {
+        format!("{begin:?}... ({} characters)", text.chars().count())
+    } else {
+        format!("{begin:?}")
+    }
 }
 
 /// `name` as part of the name of a file: without characters that mean something to a file system, and not too long.
@@ -103,7 +107,8 @@ pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String>
     let mut free = |number: usize, part: &str| {
         let numbered = (number + 1..).map(|n| format!("{study}-{part}-{n}"));
         let mut candidates = std::iter::once(format!("{study}-{part}")).chain(numbered);
-        let files = |stem: &str| suffixes.iter().map(|suffix| format!("{stem}{suffix}").to_lowercase()).collect::<Vec<_>>();
+        let files =
+            |stem: &str| suffixes.iter().map(|suffix| format!("{stem}{suffix}").to_lowercase()).collect::<Vec<_>>();
         let stem = candidates.find(|stem| files(stem).iter().all(|file| !taken.contains(file)));
         let stem = stem.unwrap_or_default();
         taken.extend(files(&stem));
@@ -136,7 +141,8 @@ mod tests {
     fn stems_of_files_are_unique_whatever_the_names() {
         let suffixes = ["", "-indices", "-scatter"];
         let long = "n".repeat(300);
-        let names = ["y", "Y", "y-indices", "y-2", "a/b", "a\\b", "y-scatter-2", "../../x", &long, &long[1..], "É", "é"];
+        let names =
+            ["y", "Y", "y-indices", "y-2", "a/b", "a\\b", "y-scatter-2", "../../x", &long, &long[1..], "É", "é"];
         let stems = file_stems("s", &names, &suffixes);
         let files = stems.iter().flat_map(|stem| suffixes.map(|suffix| format!("{stem}{suffix}").to_lowercase()));
         let unique: HashSet<String> = files.clone().collect();

@@ -183,7 +183,9 @@ pub fn open(study: &Study, path: &Path, asked: Asked) -> Result<Option<Record>, 
     let store = match (&foreign, mixed) {
         (None, _) => own,
         (Some(Foreign { names, rows }), true) => {
-            say(&format!("warning: {rows} of the runs on record were evaluated with another {names}: the result mixes both"));
+            say(&format!(
+                "warning: {rows} of the runs on record were evaluated with another {names}: the result mixes both"
+            ));
             all.unwrap_or(own)
         }
         (Some(Foreign { names, rows }), false) => {
@@ -198,10 +200,7 @@ pub fn open(study: &Study, path: &Path, asked: Asked) -> Result<Option<Record>, 
 }
 
 /// A record that goes on in a journal: if it ends with other files, the journal says that there are new ones.
-fn gone_on(
-    (journal, contents): (Journal, &Contents),
-    (store, files): (Store, ModelFiles),
-) -> Result<Record, Failure> {
+fn gone_on((journal, contents): (Journal, &Contents), (store, files): (Store, ModelFiles)) -> Result<Record, Failure> {
     let last = contents.stretches.last().map_or(&Value::Null, |stretch| &stretch.files);
     if differing(last, files.begun()).is_some() {
         journal.append_files(files.begun()).map_err(|error| {

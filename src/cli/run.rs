@@ -7,17 +7,17 @@ use anyhow::anyhow;
 use apportion::exchange::{Format, save_outputs};
 use apportion::report::chart::{Chart, png};
 use apportion::report::{
-    OutputRecord, RUN_CHARTS, note_mixed_models, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv,
-    file_stems, indices_chart,
-    indices_csv, inputs_in_words, interactions_chart, prepare_file, prepare_folder, prepare_in, read_result, result_json,
-    run_page, scatter_chart, second_order_csv, stream_atomically, study_chart, summary, write_in,
+    OutputRecord, RUN_CHARTS, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv,
+    file_stems, indices_chart, indices_csv, inputs_in_words, interactions_chart, note_mixed_models, prepare_file,
+    prepare_folder, prepare_in, read_result, result_json, run_page, scatter_chart, second_order_csv, stream_atomically,
+    study_chart, summary, write_in,
 };
 use apportion::run::{Keep, Piece, RunError, Shard, Store};
 use apportion::study::Study;
 use apportion::{Running, analyse_with, evaluate_shard};
 
-use super::progress::Meter;
 use super::model_files::ModelFiles;
+use super::progress::Meter;
 use super::record::{self, Asked, Foreign, Record, Use, journal_path, rows_on_record};
 use super::stop::Stoppable;
 use super::{DesignChanges, Failure, StudyArguments, Threads, print, say, stop};

@@ -106,6 +106,7 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
 /// The files a screening of the study called `name` writes.
 fn file_names(name: &str, outputs: &[&str]) -> Vec<String> {
     let charts = screening_suffixes(outputs);
-    let pictures = charts.iter().flatten().flat_map(|suffix| [format!("{name}{suffix}.svg"), format!("{name}{suffix}.png")]);
+    let pictures =
+        charts.iter().flatten().flat_map(|suffix| [format!("{name}{suffix}.svg"), format!("{name}{suffix}.png")]);
     [format!("{name}-screen.json"), format!("{name}-screen.csv")].into_iter().chain(pictures).collect()
 }

@@ -11,7 +11,9 @@ pub enum DesignError {
     #[error("a design needs at least one factor")]
     NoFactors,
     /// More factors than any design is for.
-    #[error("{factors} factors are too many: at most {MAX_FACTORS} are possible; leave out or join those that hardly act")]
+    #[error(
+        "{factors} factors are too many: at most {MAX_FACTORS} are possible; leave out or join those that hardly act"
+    )]
     FarTooManyFactors {
         /// The number asked for.
         factors: usize,

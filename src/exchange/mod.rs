@@ -22,7 +22,8 @@ pub use manifest::{
 };
 pub use points::{PointsError, PointsReader};
 pub use rows::{
-    ColumnKind, Format, RowReader, RowWriter, RowsError, open_rows, open_table, row_writer, rows_of_bytes, table_of_bytes,
+    ColumnKind, Format, RowReader, RowWriter, RowsError, open_rows, open_table, row_writer, rows_of_bytes,
+    table_of_bytes,
 };
 pub use sample::sample;
 pub use save::{SaveError, save_outputs};

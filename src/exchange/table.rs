@@ -260,12 +260,7 @@ mod tests {
         );
         refused("a,y\n", &["y"], &["y"], "`y` is asked for twice");
         refused("y\n1\n", &["y"], &[], "no column of numbers is left as an input");
-        refused(
-            "a,y\n1,2\n3,nan\n",
-            &["y"],
-            &[],
-            "line 3: column 2 (`y`): the value is missing; --drop-missing",
-        );
+        refused("a,y\n1,2\n3,nan\n", &["y"], &[], "line 3: column 2 (`y`): the value is missing; --drop-missing");
         refused("a,y\n1,2\n,2\n", &["y"], &[], "line 3: column 1 (`a`): the value is missing");
         refused(
             "a,y\n1,2\nred,2\n",
@@ -283,7 +278,10 @@ mod tests {
     fn columns_of_text_are_skipped_and_named() {
         let text = "id;a;when;y\nr1;;2026-01-01;2\nr2;0.5;2026-01-02;4\n";
         let table = read(text, &["y"], &[], Missing::Drop).unwrap();
-        assert_eq!((table.inputs.len(), &table.inputs[0].values, table.skipped), (1, &vec![0.5], vec!["id".into(), "when".into()]));
+        assert_eq!(
+            (table.inputs.len(), &table.inputs[0].values, table.skipped),
+            (1, &vec![0.5], vec!["id".into(), "when".into()])
+        );
         // One that is asked for is not.
         assert!(read(text, &["y"], &["id"], Missing::Drop).is_err());
         let tabs = read("a\ty\n1\t2\n", &["y"], &[], Missing::Refuse).unwrap();

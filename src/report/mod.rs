@@ -35,13 +35,14 @@ pub use run_charts::{convergence_chart, distribution_chart, indices_chart, inter
 pub use run_page::{RUN_CHARTS, run_page};
 pub use schema::result_schema;
 pub use shares_chart::{SharesSeries, SharesWords, friction_role, shares_chart, study_chart};
-pub(crate) use tables::{csv_field, plain_field};
 pub use tables::{
     convergence_csv, estimate, estimators_csv, fixed, indices_csv, second_order_csv, share, share_of_runs, significant,
     summary, table, two_digits, with_unit,
 };
+pub(crate) use tables::{csv_field, plain_field};
 pub use trend::{widest_interval, width_after_doubling};
 pub use warnings::note_mixed_models;
 pub use write::{
-    WriteError, prepare_file, prepare_folder, prepare_in, remove_unfinished, stream_atomically, write_atomically, write_in,
+    WriteError, prepare_file, prepare_folder, prepare_in, remove_unfinished, stream_atomically, write_atomically,
+    write_in,
 };

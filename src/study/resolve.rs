@@ -103,11 +103,14 @@ fn refuse_names(context: &Context<'_>, file: &StudyFile) -> Result<(), Fault> {
     for section in &file.factor {
         let fields = section.get_ref();
         let words = |what, at: &At<String>| (what, at.get_ref().clone(), at.span());
-        let labels = fields.labels.iter().flat_map(|labels| labels.get_ref().iter().map(|l| (l.clone(), labels.span())));
+        let labels =
+            fields.labels.iter().flat_map(|labels| labels.get_ref().iter().map(|l| (l.clone(), labels.span())));
         let labels = labels.map(|(label, span)| ("label", label, span));
         let group = fields.group.iter().map(|group| words("group", group));
         for (what, text, span) in [words("name", &fields.name)].into_iter().chain(group).chain(labels) {
-            if let Some(expected) = refused_name(&text) {
+            // Empty ones are told of where it is known what they would be for.
+            let expected = refused_name(&text).filter(|_| what == "group" || !text.trim().is_empty());
+            if let Some(expected) = expected {
                 return wrong(&format!("{what} of a factor"), (&text, span), expected);
             }
         }
@@ -203,11 +206,8 @@ fn name(context: &Context<'_>, name: Option<&At<String>>) -> Result<String, Faul
     let stem = || context.path.file_stem().map_or_else(|| "study".to_owned(), |s| file_part(&s.to_string_lossy()));
     let Some(name) = name else { return Ok(stem()) };
     if !names_files(name.get_ref()) {
-        let problem = Problem::WrongType {
-            key: "name".to_owned(),
-            expected: NAME_RULE.to_owned(),
-            found: shown(name.get_ref()),
-        };
+        let problem =
+            Problem::WrongType { key: "name".to_owned(), expected: NAME_RULE.to_owned(), found: shown(name.get_ref()) };
         return Err(context.fault(name.span(), problem));
     }
     Ok(name.get_ref().clone())

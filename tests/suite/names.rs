@@ -6,7 +6,8 @@ use crate::common::{Folder, apportion, files, stderr, text};
 
 /// A study of formulas with these outputs, all the sum of its two factors.
 fn study(names: &[&str]) -> String {
-    let outputs: String = names.iter().map(|name| format!("outputs.{} = \"a + b\"\n", toml::Value::from(*name))).collect();
+    let outputs: String =
+        names.iter().map(|name| format!("outputs.{} = \"a + b\"\n", toml::Value::from(*name))).collect();
     format!(
         "model = \"expression\"\n[design]\nbase_samples = 64\n[expression]\n{outputs}[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n\
          [[factor]]\nname = \"b\"\nmin = 0\nmax = 2\n"
@@ -33,7 +34,7 @@ fn no_name_of_an_output_leads_out_of_the_folder() {
             let path = folder.with("s.toml", study(other));
             for command in ["run", "check", "screen", "sweep"] {
                 let to: &[&str] = &["--out", text(&out)];
-                refused(&folder, &[&[command, text(&path)], to].concat(), "expected a name without / \\ :");
+                refused(&folder, &[&[command, text(&path)], to].concat(), "a name without / \\ :");
             }
         }
     }
@@ -45,7 +46,11 @@ fn no_name_of_an_output_leads_out_of_the_folder() {
     let answers: String = points.lines().skip(1).map(|line| format!("{line},{line}\n")).collect();
     let data = folder.with("answers.csv", format!("a,x/../../../../EVIL\n{answers}"));
     let outputs = ["--outputs", "x/../../../../EVIL", "--out", text(&out)];
-    refused(&folder, &[&["analyze", text(&data), "--design", text(&design)], &outputs[..]].concat(), "a name without / \\ :");
+    refused(
+        &folder,
+        &[&["analyze", text(&data), "--design", text(&design)], &outputs[..]].concat(),
+        "a name without / \\ :",
+    );
     // Names of columns that are no outputs of a study become plain names of files.
     let mut rows = "x1,../../EVIL,a/../../../../EVIL\n".to_owned();
     (0..64).for_each(|k| rows.push_str(&format!("{},{},{}\n", (k * 37 % 64), k, 64 - k)));
@@ -67,7 +72,10 @@ fn outputs_whose_files_would_be_the_same_have_files_of_their_own() {
     let there = files(&out);
     // Page, result, indices, convergence, journal; and six charts of each output, twice.
     assert_eq!(there.len(), 5 + names.len() * 12, "{there:?}");
-    assert_eq!(there.iter().map(|name| name.to_lowercase()).collect::<std::collections::BTreeSet<_>>().len(), there.len());
+    assert_eq!(
+        there.iter().map(|name| name.to_lowercase()).collect::<std::collections::BTreeSet<_>>().len(),
+        there.len()
+    );
     // Each chart is that of its output: the title names it.
     let title = |file: &str| std::fs::read_to_string(out.join(file)).unwrap();
     assert!(title("s-y-indices.svg").contains("indices of y<"), "the chart of the indices of y");
@@ -97,7 +105,10 @@ fn names_with_marks_that_are_not_seen_and_long_ones_are_refused_before_the_work(
     run(title("a\u{202e}b"), "`title` must be a text without control characters");
     for name in ["y\u{202e}z", "y\u{2066}", "y\u{200f}", "y\u{7}", "y\u{200b}"] {
         run(study(&[name]), "`name of an output` must be a name without control characters");
-        run(plain.replace("name = \"b\"", &format!("name = \"b\"\ngroup = {}", toml::Value::from(name))), "`group of a factor` must be");
+        run(
+            plain.replace("name = \"b\"", &format!("name = \"b\"\ngroup = {}", toml::Value::from(name))),
+            "`group of a factor` must be",
+        );
     }
     run(study(&[&"y".repeat(1 << 20)]), "`name of an output` must be at most 200 characters");
     run(format!("name = \"{}\"\n{plain}", "n".repeat(300)), "at most 120 bytes");
@@ -135,7 +146,9 @@ fn a_template_reads_no_file_outside_of_the_studys_folder_unless_it_says_so() {
         )
     };
     let outside = "the file lies outside of the study's folder";
-    for keys in ["template = \"../secret.in\"", "template = \"link.in\"", "template = \"own.in\"\nfiles = [\"../secret.in\"]"] {
+    for keys in
+        ["template = \"../secret.in\"", "template = \"link.in\"", "template = \"own.in\"\nfiles = [\"../secret.in\"]"]
+    {
         let path = folder.with("inner/s.toml", study(keys));
         let error = apportion::study::Study::load(&path, &[]).unwrap_err().to_string();
         assert!(error.contains(outside) && error.contains("files_outside = true"), "{error}");

@@ -80,7 +80,10 @@ fn tables_of_every_format_give_the_same_indices() {
     let plain = std::fs::read_to_string(folder.path("t.csv")).unwrap();
     folder.with("t.txt", plain.replace(',', ";"));
     folder.with("bare.csv", plain.split_once('\n').unwrap().1);
-    let kinds = plain.lines().enumerate().map(|(k, line)| format!("{}\t{}\n", if k == 0 { "kind" } else { "wet" }, line.replace(',', "\t")));
+    let kinds = plain
+        .lines()
+        .enumerate()
+        .map(|(k, line)| format!("{}\t{}\n", if k == 0 { "kind" } else { "wet" }, line.replace(',', "\t")));
     folder.with("kinds.tsv", kinds.collect::<String>());
     let given = |table: &str, more: &[&str]| {
         let out = folder.path(&format!("given {table}"));
@@ -103,7 +106,10 @@ fn tables_of_every_format_give_the_same_indices() {
         assert_eq!(said.contains("columns of text are skipped: kind"), table == "kinds.tsv", "{said}");
     }
     let (code, said, _) = given("t.npy", &[]);
-    assert!(code == Some(2) && said.contains("its 4 columns have no names: name them in their order (--names)"), "{said}");
+    assert!(
+        code == Some(2) && said.contains("its 4 columns have no names: name them in their order (--names)"),
+        "{said}"
+    );
     let (code, said, _) = given("bare.csv", &[]);
     assert!(code == Some(2) && said.contains("is there no header? --names"), "{said}");
 }
@@ -127,7 +133,10 @@ fn outputs_that_may_have_been_cut_short_are_doubted() {
     let last = whole.trim_end().rfind('\n').unwrap();
     // Within the last number, before it, and within a row.
     for (end, expected) in [
-        (whole.len() - 4, (Some(0), "the last line has no end: if the file was cut short, its last number may be wrong")),
+        (
+            whole.len() - 4,
+            (Some(0), "the last line has no end: if the file was cut short, its last number may be wrong"),
+        ),
         (last + 1, (Some(2), "1 of the 320 rows of the design is missing")),
         (last - 2, (Some(2), "1 of the 320 rows of the design is missing")),
         (whole.len() / 2, (Some(2), "rows of the design are missing")),
@@ -147,6 +156,10 @@ fn doubling_beyond_the_runs_allowed_is_refused() {
     let output = run(&["--double"]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     let expected = "twice the 64 base samples of the result take 640 runs, and the study allows max_runs = 400";
-    assert!(stderr(&output).contains(expected) && stderr(&output).contains("--set design.max_runs=640"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains(expected) && stderr(&output).contains("--set design.max_runs=640"),
+        "{}",
+        stderr(&output)
+    );
     assert_eq!(run(&["--double", "--set", "design.max_runs=640"]).status.code(), Some(0));
 }

@@ -15,7 +15,9 @@ const STUDY: &str = "model = \"command\"\ncommand = [\"python3\", \"model.py\"]\
 const RUNS: u64 = 256;
 
 fn program(formula: &str) -> String {
-    format!("import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    a, b = float(x['a']), float(x['b'])\n    print({formula}, flush=True)\n")
+    format!(
+        "import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    a, b = float(x['a']), float(x['b'])\n    print({formula}, flush=True)\n"
+    )
 }
 
 struct Case {
@@ -70,7 +72,10 @@ fn edited_resumed_reverted_resumed_is_never_a_silent_mixture() {
     case.refused(&with("--resume"), &refusal);
     case.refused(&with("--retry-failed"), &refusal);
     let (mixed, said) = case.result(&[&DOUBLE[..], &["--resume", "--mix-models"]].concat());
-    assert!(said.contains(&format!("warning: {RUNS} of the runs on record were evaluated with another model.py")), "{said}");
+    assert!(
+        said.contains(&format!("warning: {RUNS} of the runs on record were evaluated with another model.py")),
+        "{said}"
+    );
     let noted = &mixed.provenance.mixed_models;
     assert_eq!((noted.len(), noted[0].files.as_str(), noted[0].runs), (1, "model.py", Some(RUNS)));
     assert!(mixed.outputs[0].warnings.iter().any(|warning| warning.contains("the numbers mix two models")));
@@ -86,7 +91,12 @@ fn edited_resumed_reverted_resumed_is_never_a_silent_mixture() {
     // And all is well again.
     let (again, said) = case.result(&with("--resume"));
     assert!(said.contains(&format!("note: {} of {} runs are on record", 2 * RUNS, 2 * RUNS)), "{said}");
-    assert!(again.provenance.mixed_models.is_empty() && again.outputs[0].warnings.is_empty());
+    assert!(again.provenance.mixed_models.is_empty());
+    assert!(
+        !again.outputs[0].warnings.iter().any(|warning| warning.contains("mix")),
+        "{:?}",
+        again.outputs[0].warnings
+    );
 }
 
 #[test]

@@ -101,7 +101,11 @@ fn faults_are_named_with_their_place() {
         "column 1 has no name: if it is the index that pandas writes, leave it out (index=False)",
     );
     refused(Format::Csv, b"a;b\n1,5;0\n", "row 1: column `a`: expected a number with a decimal point, not \"1,5\"");
-    refused(Format::Csv, "a,\u{202e}b\n".as_bytes(), "the name of column 2: expected a name without control characters");
+    refused(
+        Format::Csv,
+        "a,\u{202e}b\n".as_bytes(),
+        "the name of column 2: expected a name without control characters",
+    );
     refused(Format::Csv, format!("a,{}\n", "b".repeat(1000)).as_bytes(), "the name of column 2: expected at most 200");
     refused(Format::Csv, b"a,b,a\n", "column 3: `a` is also the name of column 1");
     refused(Format::Csv, b"a,b\n1,0\n\n2\n", "line 4: expected 2 cells as in the header, not 1");

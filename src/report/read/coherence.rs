@@ -50,7 +50,11 @@ fn file_name(key: &str, name: &str, most: usize) -> Result<(), Fault> {
 /// What is drawn has an end.
 fn short_enough(key: &str, text: &str, most: usize) -> Result<(), Fault> {
     let length = text.chars().count();
-    if length <= most { Ok(()) } else { Err((key.to_owned(), format!("expected at most {most} characters, found {length}"))) }
+    if length <= most {
+        Ok(())
+    } else {
+        Err((key.to_owned(), format!("expected at most {most} characters, found {length}")))
+    }
 }
 
 /// Largest count: up to here sums of a few counts, and the counts as numbers, are exact.

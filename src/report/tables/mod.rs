@@ -7,8 +7,8 @@ mod summary;
 
 use comfy_table::{CellAlignment, ContentArrangement, ContentLineStyle, LineStyle, Table, TableStyle};
 
-pub(crate) use csv::{csv_field, inert, plain_field};
 pub use csv::{convergence_csv, estimators_csv, indices_csv, second_order_csv};
+pub(crate) use csv::{csv_field, inert, plain_field};
 pub(super) use number::{chance, give_or_take};
 pub use number::{estimate, fixed, share, share_of_runs, significant, two_digits, with_unit};
 pub use summary::summary;
