@@ -109,7 +109,9 @@ fn refuse_names(context: &Context<'_>, file: &StudyFile) -> Result<(), Fault> {
         let labels = labels.map(|(label, span)| ("label", label, span));
         let group = fields.group.iter().map(|group| words("group", group));
         for (what, text, span) in [words("name", &fields.name)].into_iter().chain(group).chain(labels) {
-            if let Some(expected) = refused_name(&text) {
+            // Empty ones are told of where it is known what they would be for.
+            let expected = refused_name(&text).filter(|_| what == "group" || !text.trim().is_empty());
+            if let Some(expected) = expected {
                 return wrong(&format!("{what} of a factor"), (&text, span), expected);
             }
         }

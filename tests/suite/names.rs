@@ -34,7 +34,7 @@ fn no_name_of_an_output_leads_out_of_the_folder() {
             let path = folder.with("s.toml", study(other));
             for command in ["run", "check", "screen", "sweep"] {
                 let to: &[&str] = &["--out", text(&out)];
-                refused(&folder, &[&[command, text(&path)], to].concat(), "expected a name without / \\ :");
+                refused(&folder, &[&[command, text(&path)], to].concat(), "a name without / \\ :");
             }
         }
     }

@@ -91,7 +91,12 @@ fn edited_resumed_reverted_resumed_is_never_a_silent_mixture() {
     // And all is well again.
     let (again, said) = case.result(&with("--resume"));
     assert!(said.contains(&format!("note: {} of {} runs are on record", 2 * RUNS, 2 * RUNS)), "{said}");
-    assert!(again.provenance.mixed_models.is_empty() && again.outputs[0].warnings.is_empty());
+    assert!(again.provenance.mixed_models.is_empty());
+    assert!(
+        !again.outputs[0].warnings.iter().any(|warning| warning.contains("mix")),
+        "{:?}",
+        again.outputs[0].warnings
+    );
 }
 
 #[test]

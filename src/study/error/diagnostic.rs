@@ -19,8 +19,10 @@ pub struct Diagnostic {
     pub problem: Problem,
     /// The overrides applied to the text before it was read, if any.
     pub overrides: Vec<String>,
+    /// The line, or the part of a long one around the place.
     source_line: String,
-    width: usize,
+    /// Where the place stands in it, in characters from 0, and how many are marked.
+    mark: (usize, usize),
 }
 
 impl Diagnostic {
@@ -29,16 +31,37 @@ impl Diagnostic {
         let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
         let line_end = text[start..].find('\n').map_or(text.len(), |newline| start + newline);
         let end = floor_char_boundary(text, span.end).clamp(start, line_end);
+        let before = text[line_start..start].chars().count();
+        let width = text[start..end].trim_end().chars().count().max(1);
+        let whole = printable(text[line_start..line_end].trim_end_matches('\r'));
+        let (source_line, mark) = excerpt(&whole, (before, width));
         Self {
             path: path.to_owned(),
             line: text[..start].matches('\n').count() + 1,
-            column: text[line_start..start].chars().count() + 1,
+            column: before + 1,
             problem,
             overrides: Vec::new(),
-            source_line: printable(text[line_start..line_end].trim_end_matches('\r')),
-            width: text[start..end].trim_end().chars().count().max(1),
+            source_line,
+            mark,
         }
     }
+}
+
+/// The part of a long line around the `width` characters after the first `before` ones, and where they stand in it.
+fn excerpt(line: &str, (before, width): (usize, usize)) -> (String, (usize, usize)) {
+    const MOST: usize = 160;
+    const LEAD: usize = 40;
+    const MORE: &str = "...";
+    let length = line.chars().count();
+    if length <= MOST {
+        return (line.to_owned(), (before, width));
+    }
+    let from = before.saturating_sub(LEAD).min(length - MOST);
+    let part: String = line.chars().skip(from).take(MOST).collect();
+    let lead = if from > 0 { MORE } else { "" };
+    let rest = if from + MOST < length { MORE } else { "" };
+    let place = before - from;
+    (format!("{lead}{part}{rest}"), (place + lead.len(), width.min(MOST.saturating_sub(place)).max(1)))
 }
 
 /// The line without characters that would change the terminal.
@@ -60,8 +83,8 @@ impl fmt::Display for Diagnostic {
         writeln!(f, "{margin} |")?;
         writeln!(f, "{line} | {}", self.source_line)?;
         let pad: String =
-            self.source_line.chars().take(column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
-        write!(f, "{margin} | {pad}{}", "^".repeat(self.width))?;
+            self.source_line.chars().take(self.mark.0).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+        write!(f, "{margin} | {pad}{}", "^".repeat(self.mark.1))?;
         if let Some(help) = problem.help() {
             write!(f, "\n{margin} = {help}")?;
         }
@@ -82,6 +105,22 @@ mod tests {
         let start = text.find("'x'").unwrap_or(0);
         let diagnostic = Diagnostic::new(Path::new("s.toml"), text, start..start + 3, Problem::Syntax("no".to_owned()));
         assert_eq!(diagnostic.to_string(), "s.toml:2:5: no\n  |\n2 | µ = 'x'\n  |     ^^^");
+    }
+
+    #[test]
+    fn of_a_long_line_the_part_around_the_place_is_shown() {
+        let text = format!("a = \"{}\", b = 7, c = \"{}\"\n", "x".repeat(1000), "y".repeat(1000));
+        let start = text.find('7').unwrap_or(0);
+        let shown = Diagnostic::new(Path::new("s"), &text, start..start + 1, Problem::NoFactors).to_string();
+        let lines: Vec<&str> = shown.lines().collect();
+        assert!(lines[0].starts_with(&format!("s:1:{}: ", start + 1)) && shown.len() < 600, "{shown}");
+        let caret = lines[3].find('^').unwrap_or(0);
+        assert_eq!(
+            (&lines[2][caret..=caret], lines[2].starts_with("1 | ...xxx"), lines[2].ends_with("y...")),
+            ("7", true, true)
+        );
+        let all = Diagnostic::new(Path::new("s"), &text, 0..text.len(), Problem::NoFactors).to_string();
+        assert!(all.len() < 600, "{all}");
     }
 
     #[test]
