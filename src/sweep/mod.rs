@@ -155,7 +155,8 @@ fn one(
     let offsets = bench.offsets();
     let extents = curves.iter().zip(nominal).zip(&offsets);
     // Of a temperature in degC there are no percent.
-    let extents = extents.map(|((curve, nominal), offset)| Extent::of(curve, nominal.as_ref().ok().filter(|_| !offset)));
+    let extents =
+        extents.map(|((curve, nominal), offset)| Extent::of(curve, nominal.as_ref().ok().filter(|_| !offset)));
     Ok(Sweep {
         factor,
         extents: extents.collect(),

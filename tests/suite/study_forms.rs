@@ -46,7 +46,10 @@ fn factors_are_the_same_study_in_every_form_in_the_order_of_the_file() {
     assert_eq!(single.space.factors().len(), 1);
     // The same numbers, through the binary, and a change of a factor by its name.
     let folder = Folder::new();
-    let table = folder.with("table.toml", format!("{head}[factor.b]\nmin = 0\nmax = 1\n[factor.a]\nmin = -1\nmax = 2\nunit = \"mm\"\n"));
+    let table = folder.with(
+        "table.toml",
+        format!("{head}[factor.b]\nmin = 0\nmax = 1\n[factor.a]\nmin = -1\nmax = 2\nunit = \"mm\"\n"),
+    );
     let list = folder.with("list.toml", LISTED);
     let csv = |study: &Path, name: &str| {
         let out = folder.path(name);
@@ -61,8 +64,14 @@ fn factors_are_the_same_study_in_every_form_in_the_order_of_the_file() {
 fn two_forms_of_factors_at_once_are_refused() {
     let head = "model = \"expression\"\noutputs.y = \"a\"\n";
     let list = "[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n";
-    refused(&format!("{head}{list}[factors.b]\nmin = 0\nmax = 1\n"), &["s.toml:7:2:", "both in `factor` and in `factors`"]);
-    refused(&format!("{head}[factor]\nname = \"a\"\nmin = 0\n[factor.b]\nmin = 0\n"), &["unknown key", "[factor.NAME]"]);
+    refused(
+        &format!("{head}{list}[factors.b]\nmin = 0\nmax = 1\n"),
+        &["s.toml:7:2:", "both in `factor` and in `factors`"],
+    );
+    refused(
+        &format!("{head}[factor]\nname = \"a\"\nmin = 0\n[factor.b]\nmin = 0\n"),
+        &["unknown key", "[factor.NAME]"],
+    );
     let twice = "[factor]\nname = \"a\"\nmin = 0\nmax = 1\n";
     refused(&format!("{head}{twice}{twice}"), &["stands here twice", "[[factor]], with two brackets"]);
     refused(&format!("{head}[factor.a]\nname = \"b\"\nmin = 0\nmax = 1\n"), &["s.toml:4:8:", "as its table is called"]);
@@ -80,18 +89,22 @@ fn outputs_stand_on_top_or_in_the_table_of_the_model() {
         format!("model = \"expression\"\noutputs.y = \"x1^2\"\n{factor}"),
         format!("model = \"expression\"\n[outputs]\ny = \"x1^2\"\n{factor}"),
         format!("model = \"expression\"\noutputs.y = \"a*x1^2\"\n[expression]\nconstants.a = 2\n{factor}"),
-        format!("model = \"expression\"\n[outputs]\ny = {{ formula = \"x1\", unit = \"\" }}\n{factor}").replace("\"\"", "\"1\""),
+        format!("model = \"expression\"\n[outputs]\ny = {{ formula = \"x1\", unit = \"\" }}\n{factor}")
+            .replace("\"\"", "\"1\""),
     ] {
         assert_eq!(outputs(&study), ["y [1]"], "{study}");
     }
-    assert_eq!(outputs(&format!("model = \"external\"\n[outputs]\ny = \"nN\"\nz = \"\"\n{factor}")), ["y [nN]", "z []"]);
+    assert_eq!(
+        outputs(&format!("model = \"external\"\n[outputs]\ny = \"nN\"\nz = \"\"\n{factor}")),
+        ["y [nN]", "z []"]
+    );
     let program = format!("model = \"command\"\ncommand = [\"python3\", \"m.py\"]\n[outputs]\ny = \"nN\"\n{factor}");
     assert_eq!(outputs(&program), ["y [nN]"]);
     let table = format!("model = \"command\"\noutputs.y = \"nN\"\ncommand.program = [\"python3\", \"m.py\"]\n{factor}");
     assert_eq!(outputs(&table), ["y [nN]"]);
     let both = format!("model = \"expression\"\noutputs.y = \"x1\"\n[expression]\noutputs.z = \"x1\"\n{factor}");
     refused(&both, &["s.toml:2:1:", "both in `[outputs]` and in `[expression] outputs`"]);
-    refused(&format!("outputs.y = \"x1\"\n{factor}"), &["s.toml:1:9:", "a list of names", "model = \"expression\""]);
+    refused(&format!("outputs.y = \"x1\"\n{factor}"), &["s.toml:1:1:", "a list of names", "model = \"expression\""]);
     refused(&format!("model = \"command\"\noutputs.y = \"nN\"\n{factor}"), &["the study has no program"]);
     // A place in a formula is that in the file.
     refused(&format!("model = \"expression\"\n[outputs]\ny = \"x1 + x3\"\n{factor}"), &["s.toml:3:11:", "no `x3`"]);
@@ -112,8 +125,14 @@ fn what_stands_in_the_wrong_table_is_told_where_it_belongs() {
         &format!("model = \"expression\"\n[expression]\noutputs.y = \"x1\"\na = 7\n{factor}"),
         &["s.toml:4:1:", "unknown key `a` here", "constants.a = ..."],
     );
-    refused(&format!("[expression]\noutputs.y = \"x1\"\n{factor}"), &["belongs to model = \"expression\"", "by default"]);
-    refused(&format!("seed = 3\n{factor}"), &["s.toml:1:1:", "unknown key `seed` here: it stands in the table [design]"]);
+    refused(
+        &format!("[expression]\noutputs.y = \"x1\"\n{factor}"),
+        &["belongs to model = \"expression\"", "by default"],
+    );
+    refused(
+        &format!("seed = 3\n{factor}"),
+        &["s.toml:1:1:", "unknown key `seed` here: it stands in the table [design]"],
+    );
     refused(&format!("{factor}outputs = [\"y\"]\n"), &["s.toml:5:1:", "above the first table"]);
     refused(&format!("N = 1024\n{factor}"), &["did you mean `base_samples`, which stands in the table [design]?"]);
     refused(
@@ -142,7 +161,9 @@ fn words_of_other_programs_are_answered_by_ours() {
     ] {
         refused(&factor(line), &["s.toml:5:", meant]);
     }
-    for (key, ours) in [("N", "base_samples"), ("samples", "base_samples"), ("n_samples", "base_samples"), ("method", "sampler")] {
+    for (key, ours) in
+        [("N", "base_samples"), ("samples", "base_samples"), ("n_samples", "base_samples"), ("method", "sampler")]
+    {
         let study = factor("min = 0\nmax = 1").replace("seed = 1", &format!("{key} = 1"));
         refused(&study, &["s.toml:8:1:", &format!("unknown key `{key}`: did you mean `{ours}`?")]);
     }
@@ -150,7 +171,8 @@ fn words_of_other_programs_are_answered_by_ours() {
 
 #[test]
 fn formulas_of_python_are_understood() {
-    let study = |formula: &str| format!("model = \"expression\"\noutputs.y = \"{formula}\"\n[factor.x1]\nmin = 1\nmax = 2\n");
+    let study =
+        |formula: &str| format!("model = \"expression\"\noutputs.y = \"{formula}\"\n[factor.x1]\nmin = 1\nmax = 2\n");
     for (python, ours) in [("np.sin(x1)", "sin(x1)"), ("math.log(x1) + np.pi", "ln(x1) + pi")] {
         let value = |formula: &str| {
             let study = parsed(&study(formula));
@@ -171,7 +193,8 @@ fn the_schema_knows_the_forms() {
     assert!(stderr(&output).contains("did you mean `base_samples`?"), "{}", stderr(&output));
     let schema: serde_json::Value = serde_json::from_str(&succeed(&["schema", "study"])).unwrap();
     let validator = jsonschema::validator_for(&schema).unwrap();
-    let valid = |study: &str| validator.is_valid(&serde_json::to_value(toml::from_str::<toml::Value>(study).unwrap()).unwrap());
+    let valid =
+        |study: &str| validator.is_valid(&serde_json::to_value(toml::from_str::<toml::Value>(study).unwrap()).unwrap());
     for study in [
         "factor.a = { min = 0, max = 1 }",
         "[factors]\na = { min = 0, max = 1 }",

@@ -83,8 +83,12 @@ fn sweeps_and_screenings_are_in_the_declared_units() {
     for line in ["T,degF,50,", "T,degF,59,", "T,degF,68,"] {
         assert!(csv.contains(line), "no {line} in\n{csv}");
     }
-    let heat = |fahrenheit: f64| csv.lines().find(|line| line.starts_with(&format!("T,degF,{fahrenheit},"))).unwrap();
-    assert!(heat(50.0).contains(",t,degC,10,") && heat(68.0).contains(",t,degC,20,"), "{csv}");
+    let heat = |fahrenheit: &str| -> f64 {
+        let line = csv.lines().find(|line| line.starts_with(&format!("T,degF,{fahrenheit},"))).unwrap();
+        line.split(',').nth(8).unwrap().parse().unwrap()
+    };
+    // Rounded in kelvin.
+    assert!((heat("50") - 10.0).abs() < 1e-12 && (heat("68") - 20.0).abs() < 1e-12, "{csv}");
     // 1 % of a temperature in degC is nothing.
     let json = std::fs::read_to_string(out.join("s-sweep.json")).unwrap();
     assert!(json.contains("\"elasticity\": null") && json.contains("\"percent\": null"), "{json}");
@@ -95,7 +99,8 @@ fn sweeps_and_screenings_are_in_the_declared_units() {
     let points = folder.with("points.csv", "T,k\n68,1\n50.5,1\n");
     succeed(&["evaluate", text(&study), text(&points), "-o", text(&folder.path("answers.csv"))]);
     let answers = std::fs::read_to_string(folder.path("answers.csv")).unwrap();
-    assert!(answers.lines().nth(1).unwrap().ends_with(",20"), "{answers}");
+    let answer: f64 = answers.lines().nth(1).unwrap().rsplit(',').next().unwrap().parse().unwrap();
+    assert!((answer - 20.0).abs() < 1e-12, "{answers}");
 }
 
 #[test]
@@ -124,7 +129,8 @@ fn spans_have_no_zero_and_ratios_are_refused_in_degrees() {
         // All of them have mean 20 degC and, to what is typed, sd 2 degC.
         assert!((mean - 293.15).abs() < 0.02 && (sd - 2.0).abs() < 0.05, "{keys}: {mean} {sd}");
     }
-    for keys in ["distribution = \"log-normal\"\nmean = 20\nsd = 2", "distribution = \"log-uniform\"\nmin = 1\nmax = 2"] {
+    for keys in ["distribution = \"log-normal\"\nmean = 20\nsd = 2", "distribution = \"log-uniform\"\nmin = 1\nmax = 2"]
+    {
         let error = study(keys).unwrap_err().to_string();
         assert!(error.contains("cannot be in degC") && error.contains("state it in K"), "{error}");
     }
@@ -141,19 +147,30 @@ fn labels_of_outputs_are_any_short_text() {
     fn text_of(path: &Path) -> &str {
         text(path)
     }
-    for unit in ["\"kWh\"", "\"degC\"", "\"h\"", "\"psi\"", "\"USD\"", "\"m\u{b3} H\u{2082}O\"", "\"\"", "\"a / b / c d\""] {
+    for unit in
+        ["\"kWh\"", "\"degC\"", "\"h\"", "\"psi\"", "\"USD\"", "\"m\u{b3} H\u{2082}O\"", "\"\"", "\"a / b / c d\""]
+    {
         let output = study(unit);
         assert_eq!(output.status.code(), Some(0), "{unit}: {}{}", stdout(&output), stderr(&output));
     }
     for unit in ["\"a\\u0000b\"".to_owned(), "\"a\\u202eb\"".to_owned(), format!("\"{}\"", "x".repeat(61))] {
         let output = study(&unit);
         assert_eq!(output.status.code(), Some(2), "{unit}");
-        assert!(stderr(&output).contains("s.toml:2:13:") && stderr(&output).contains("up to 60 characters"), "{}", stderr(&output));
+        assert!(
+            stderr(&output).contains("s.toml:2:13:") && stderr(&output).contains("up to 60 characters"),
+            "{}",
+            stderr(&output)
+        );
     }
     // Other units of one kind convert when results are compared; labels do not.
     let result = |unit: &str, folder: &Folder| {
-        let study = format!("model = \"command\"\ncommand = [\"python3\", \"m.py\"]\noutputs.y = \"{unit}\"\n[factor.x]\nmin = 20\nmax = 30\n[design]\nbase_samples = 64\n");
-        folder.with("m.py", "import sys\nsys.stdin.readline()\nfor line in sys.stdin:\n    print(line.strip(), flush=True)\n");
+        let study = format!(
+            "model = \"command\"\ncommand = [\"python3\", \"m.py\"]\noutputs.y = \"{unit}\"\n[factor.x]\nmin = 20\nmax = 30\n[design]\nbase_samples = 64\n"
+        );
+        folder.with(
+            "m.py",
+            "import sys\nsys.stdin.readline()\nfor line in sys.stdin:\n    print(line.strip(), flush=True)\n",
+        );
         let path = folder.with("s.toml", study);
         let out = folder.path(&unit.replace('/', "_"));
         succeed(&["run", text(&path), "--out", text(&out)]);
@@ -162,7 +179,14 @@ fn labels_of_outputs_are_any_short_text() {
     let (celsius, kelvin, label) = (result("degC", &folder), result("K", &folder), result("EUR", &folder));
     let out = folder.path("compared");
     succeed(&["compare", text(&celsius), text(&kelvin), "--out", text(&out)]);
-    let json = std::fs::read_to_string(std::fs::read_dir(&out).unwrap().map(|e| e.unwrap().path()).find(|p| p.extension().is_some_and(|e| e == "json")).unwrap()).unwrap();
+    let json = std::fs::read_to_string(
+        std::fs::read_dir(&out)
+            .unwrap()
+            .map(|e| e.unwrap().path())
+            .find(|p| p.extension().is_some_and(|e| e == "json"))
+            .unwrap(),
+    )
+    .unwrap();
     let compared: serde_json::Value = serde_json::from_str(&json).unwrap();
     let output = &compared["outputs"][0];
     // 25 degC beside 25 K, which is -248.15 degC, and one spread.

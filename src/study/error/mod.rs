@@ -63,7 +63,9 @@ pub enum OverrideProblem {
     #[error("`{0}` is not a table of the study, so nothing can be set inside it")]
     NotATable(String),
     /// A list of names would take the place of formulas or units.
-    #[error("`outputs` is a table in this study, whose formulas or units a list of names would replace: change one by outputs.NAME=...")]
+    #[error(
+        "`outputs` is a table in this study, whose formulas or units a list of names would replace: change one by outputs.NAME=..."
+    )]
     OutputsTable,
     /// The file can be read, but not changed.
     #[error("the study cannot be changed, because it holds a whole number beyond 2^63 - 1, which is not TOML")]
