@@ -27,6 +27,7 @@ pub(super) struct StudyFile {
     pub model: Option<At<String>>,
     /// Outputs that are asked for; the model's first by default. Of formulas, programs and models outside it can also be
     /// the table that stands in theirs: outputs.y = "x1 + x2", or outputs.y = "nN".
+    #[serde(default)]
     #[schemars(schema_with = "schema::outputs")]
     pub outputs: Option<At<Vec<At<String>>>>,
     /// The physics of the nanoparticle model: choices by name, and inputs that are fixed, with their units.

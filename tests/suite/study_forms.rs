@@ -104,7 +104,7 @@ fn outputs_stand_on_top_or_in_the_table_of_the_model() {
     assert_eq!(outputs(&table), ["y [nN]"]);
     let both = format!("model = \"expression\"\noutputs.y = \"x1\"\n[expression]\noutputs.z = \"x1\"\n{factor}");
     refused(&both, &["s.toml:2:1:", "both in `[outputs]` and in `[expression] outputs`"]);
-    refused(&format!("outputs.y = \"x1\"\n{factor}"), &["s.toml:1:9:", "a list of names", "model = \"expression\""]);
+    refused(&format!("outputs.y = \"x1\"\n{factor}"), &["s.toml:1:1:", "a list of names", "model = \"expression\""]);
     refused(&format!("model = \"command\"\noutputs.y = \"nN\"\n{factor}"), &["the study has no program"]);
     // A place in a formula is that in the file.
     refused(&format!("model = \"expression\"\n[outputs]\ny = \"x1 + x3\"\n{factor}"), &["s.toml:3:11:", "no `x3`"]);

@@ -83,8 +83,12 @@ fn sweeps_and_screenings_are_in_the_declared_units() {
     for line in ["T,degF,50,", "T,degF,59,", "T,degF,68,"] {
         assert!(csv.contains(line), "no {line} in\n{csv}");
     }
-    let heat = |fahrenheit: f64| csv.lines().find(|line| line.starts_with(&format!("T,degF,{fahrenheit},"))).unwrap();
-    assert!(heat(50.0).contains(",t,degC,10,") && heat(68.0).contains(",t,degC,20,"), "{csv}");
+    let heat = |fahrenheit: &str| -> f64 {
+        let line = csv.lines().find(|line| line.starts_with(&format!("T,degF,{fahrenheit},"))).unwrap();
+        line.split(',').nth(8).unwrap().parse().unwrap()
+    };
+    // Rounded in kelvin.
+    assert!((heat("50") - 10.0).abs() < 1e-12 && (heat("68") - 20.0).abs() < 1e-12, "{csv}");
     // 1 % of a temperature in degC is nothing.
     let json = std::fs::read_to_string(out.join("s-sweep.json")).unwrap();
     assert!(json.contains("\"elasticity\": null") && json.contains("\"percent\": null"), "{json}");
@@ -95,7 +99,8 @@ fn sweeps_and_screenings_are_in_the_declared_units() {
     let points = folder.with("points.csv", "T,k\n68,1\n50.5,1\n");
     succeed(&["evaluate", text(&study), text(&points), "-o", text(&folder.path("answers.csv"))]);
     let answers = std::fs::read_to_string(folder.path("answers.csv")).unwrap();
-    assert!(answers.lines().nth(1).unwrap().ends_with(",20"), "{answers}");
+    let answer: f64 = answers.lines().nth(1).unwrap().rsplit(',').next().unwrap().parse().unwrap();
+    assert!((answer - 20.0).abs() < 1e-12, "{answers}");
 }
 
 #[test]

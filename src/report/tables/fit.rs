@@ -64,15 +64,15 @@ fn widths(rows: &[Vec<String>], columns: usize, width: usize) -> Vec<usize> {
         let longest_piece = |text: &str| pieces(text, breaks).iter().map(|piece| piece.width()).max().unwrap_or(0);
         (0..columns).map(|column| longest(column, &longest_piece)).collect()
     };
-    let fits = |widths: &Vec<usize>| widths.iter().sum::<usize>() <= width;
-    let least = [Breaks::Words, Breaks::Joints].into_iter().map(least).find(fits);
-    let least = least.unwrap_or_else(|| natural.iter().map(|natural| (*natural).min(LEAST)).collect());
     let mut widths: Vec<usize> = natural.iter().map(|natural| (*natural).min(width)).collect();
-    // The widest one gives first.
-    while !fits(&widths) {
-        let narrower = (0..columns).filter(|column| widths[*column] > least[*column]);
-        let Some(widest) = narrower.max_by_key(|column| widths[*column]) else { break };
-        widths[widest] -= 1;
+    let anywhere = natural.iter().map(|natural| (*natural).min(LEAST)).collect();
+    // Nothing is broken inside a word as long as something can be broken between words; the widest column gives first.
+    for least in [least(Breaks::Words), least(Breaks::Joints), anywhere] {
+        while widths.iter().sum::<usize>() > width {
+            let narrower = (0..columns).filter(|column| widths[*column] > least[*column]);
+            let Some(widest) = narrower.max_by_key(|column| widths[*column]) else { break };
+            widths[widest] -= 1;
+        }
     }
     // What a broken column leaves free goes to those that need little to be whole.
     for (column, limit) in widths.iter_mut().enumerate() {
@@ -186,6 +186,17 @@ mod tests {
         let narrower = fitted(&table, 28);
         assert_eq!(narrower[1][0], "static_\nfriction");
         assert!(width_of(&narrower) <= 28, "{narrower:?}");
+        // A longer name costs the others nothing that they do not need.
+        let beside = rows(&[
+            &["factor", "S1", "ST"],
+            &["static_friction", "0.3374 ± 0.0024", "0.3374 ± 0.0024"],
+            &["modulus_of_the_tip_of_the_probe", "0.3374 ± 0.0024", "0.3374 ± 0.0024"],
+        ]);
+        let beside = fitted(&beside, 36);
+        assert_eq!(
+            (beside[1][0].as_str(), beside[2][0].as_str()),
+            ("static_friction", "modulus_of_the_tip_\nof_the_probe")
+        );
         let long = rows(&[&["factor", "S1"], &["donaudampfschifffahrtsgesellschaft", "0.1 ± 0.2"]]);
         assert!(width_of(&fitted(&long, 24)) <= 24);
         assert!(fitted(&long, 24)[1][0].starts_with("donaudampfschif"));

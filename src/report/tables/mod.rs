@@ -97,7 +97,7 @@ mod tests {
         let wide = result.drawn(None).to_string();
         assert!(wide.contains("  static_friction   0.3374 ± 0.0024 "), "{wide}");
         let lines = |width| result.drawn(Some(width)).to_string();
-        for width in [60, 72, 80, 100] {
+        for width in [64, 72, 80, 100] {
             let drawn = lines(width);
             assert!(drawn.lines().all(|line| line.width() <= width), "{width}:\n{drawn}");
             for word in ["static_friction", "contact_modulus", "0.3374", "± 0.0124", "P(first)", ">0.999"] {
