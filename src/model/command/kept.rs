@@ -298,7 +298,10 @@ impl<'a> KeptWorker<'a> {
             if silent_for > quiet {
                 talk.close();
             }
-        } else if session.closed.is_some_and(|closed| closed.elapsed().min(silent_for) > PATIENCE.max(TIMES * session.slowest())) {
+        } else if session
+            .closed
+            .is_some_and(|closed| closed.elapsed().min(silent_for) > PATIENCE.max(TIMES * session.slowest()))
+        {
             State::say_once(
                 &state.stayed,
                 "warning: the program does not end when its input has ended: whether it prints more is not waited for",
@@ -336,7 +339,8 @@ impl<'a> KeptWorker<'a> {
 /// Whether the process has worked long enough, beside its start, for its answers to be confirmed.
 fn is_due(talk: &Talk, state: &State) -> bool {
     let work = talk.session.work();
-    let startup = state.startup().unwrap_or_else(|| Duration::try_from_secs_f64(talk.session.startup()).unwrap_or_default());
+    let startup =
+        state.startup().unwrap_or_else(|| Duration::try_from_secs_f64(talk.session.startup()).unwrap_or_default());
     let confirmed = state.confirmed.load(Ordering::Relaxed) as usize;
     let is_early = FIRST_ROWS.get(confirmed).is_some_and(|rows| talk.session.answered >= *rows)
         && (startup < SHORT_START || work > TIMES * startup);

@@ -117,11 +117,7 @@ impl Session {
 
 impl Lines {
     /// Passes on the lines that are complete, until one of them is a fault.
-    pub(super) fn feed(
-        &mut self,
-        bytes: &[u8],
-        mut take: impl FnMut(&[u8]) -> Result<(), Fault>,
-    ) -> Result<(), Fault> {
+    pub(super) fn feed(&mut self, bytes: &[u8], mut take: impl FnMut(&[u8]) -> Result<(), Fault>) -> Result<(), Fault> {
         for line in bytes.split_inclusive(|byte| *byte == b'\n') {
             let Some(end) = line.strip_suffix(b"\n") else {
                 self.rest.extend_from_slice(line);
