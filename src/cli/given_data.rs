@@ -14,7 +14,7 @@ use sha2::{Digest, Sha256};
 use super::evaluate::say_of_table;
 use super::pictures::say_written;
 use super::run::default_folder;
-use super::{Failure, print, say, stop};
+use super::{Failure, print, stop};
 
 #[derive(clap::Args)]
 pub struct Arguments {

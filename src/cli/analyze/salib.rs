@@ -16,7 +16,7 @@ use sha2::{Digest, Sha256};
 use super::super::evaluate::say_of_table;
 use super::super::pictures::say_written;
 use super::super::run::default_folder;
-use super::super::{Failure, print, say, stop};
+use super::super::{Failure, print, stop};
 
 #[derive(clap::Args)]
 pub struct SalibArguments {
