@@ -162,7 +162,12 @@ fn design(study: &Study, pilot: Option<&Pilot>) -> String {
             }
             match pilot.failed == pilot.runs {
                 true => "in a time that cannot be told".to_owned(),
-                false => format!("about {} on this machine (by {} of it{})", duration(pilot.seconds), runs(pilot.runs), start(pilot)),
+                false => format!(
+                    "about {} on this machine (by {} of it{})",
+                    duration(pilot.seconds),
+                    runs(pilot.runs),
+                    start(pilot)
+                ),
             }
         }
     };
@@ -192,7 +197,11 @@ fn design(study: &Study, pilot: Option<&Pilot>) -> String {
 /// What the start of the program takes, where it is worth a word.
 fn start(pilot: &Pilot) -> String {
     const LEAST: f64 = 0.1;
-    if pilot.startup < LEAST { String::new() } else { format!("; {} of that to start the program", duration(pilot.startup)) }
+    if pilot.startup < LEAST {
+        String::new()
+    } else {
+        format!("; {} of that to start the program", duration(pilot.startup))
+    }
 }
 
 /// What is estimated, and what the intervals are.

@@ -17,8 +17,8 @@ pub use afm::{AfmModel, AfmOutput, edge_unit};
 pub use batch::{Batch, Effort, RowFailure};
 pub use catalogue::{Input, ModelKind, known_inputs};
 pub use command::{
-    Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, KeptAlive, Match, PerRun, Pick, PickError,
-    Program, Protocol, Source, TemplateError, TemplateProblem, Way, parse_answer, parse_numbered_answer,
+    Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, KeptAlive, Match, PerRun, Pick,
+    PickError, Program, Protocol, Source, TemplateError, TemplateProblem, Way, parse_answer, parse_numbered_answer,
 };
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
 pub use external::ExternalModel;

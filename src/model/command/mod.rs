@@ -16,8 +16,8 @@ mod voice;
 mod words;
 
 use std::process::ExitStatus;
-use std::sync::{Arc, Mutex};
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 pub use per_run::PerRun;

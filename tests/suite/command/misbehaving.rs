@@ -37,7 +37,8 @@ STRAY = "0.5" if CSV else '{"y": 0.5}'
 n = 0
 "#;
 
-const EACH: &str = "for number, x in rows():\n    n += 1\n    y = x[0] + 2*x[1] + x[0]*x[2]\n    a = answer(number, y)\n";
+const EACH: &str =
+    "for number, x in rows():\n    n += 1\n    y = x[0] + 2*x[1] + x[0]*x[2]\n    a = answer(number, y)\n";
 
 /// What becomes of a study of a program.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -90,12 +91,30 @@ const PROGRAMS: [Program; 25] = [
         after: "",
         ends: [Any, Whole],
     },
-    Program { name: "a number at the start", before: "say('1.0')\n", each: "    say(a)\n", after: "", ends: [Any, Whole] },
+    Program {
+        name: "a number at the start",
+        before: "say('1.0')\n",
+        each: "    say(a)\n",
+        after: "",
+        ends: [Any, Whole],
+    },
     Program { name: "a banner", before: "say('Loading')\n", each: "    say(a)\n", after: "", ends: [Any, Whole] },
     each("words now and then", "    if n % 10 == 9: say('step 9')\n    say(a)\n", [Whole, Whole]),
     each("a log of steps", "    if n % 10 == 9: say('1,0.5')\n    say(a)\n", [Whole, Whole]),
-    Program { name: "a number at the end", before: "", each: "    say(a)\n", after: "say(STRAY)\n", ends: [Any, Whole] },
-    Program { name: "words at the end", before: "", each: "    say(a)\n", after: "say('done')\n", ends: [Whole, Whole] },
+    Program {
+        name: "a number at the end",
+        before: "",
+        each: "    say(a)\n",
+        after: "say(STRAY)\n",
+        ends: [Any, Whole],
+    },
+    Program {
+        name: "words at the end",
+        before: "",
+        each: "    say(a)\n",
+        after: "say('done')\n",
+        ends: [Whole, Whole],
+    },
     each(
         "half an answer at the end",
         "    if x[0] > 0.8:\n        sys.stdout.write('1.'); sys.stdout.flush(); os._exit(0)\n    say(a)\n",
@@ -271,9 +290,15 @@ fn numbered_answers_may_come_in_any_order() {
 
 #[test]
 fn a_program_that_leaves_out_the_numbers_is_told_what_is_missing() {
-    let case = Case::new("row_numbers = true", "import sys\nsys.stdin.readline()\nfor line in sys.stdin: print(1.5, flush=True)\n");
-    case.gives_up(&["answered none of its first 5 rows", "expected the row's number and a number, separated by a comma"]);
-    let twice = "import sys\nsys.stdin.readline()\nfor line in sys.stdin: print(line.split(',')[0], 1.5, sep=',', flush=True)\n";
-    let case = Case::new("row_numbers = true", &twice.replace("print", "for _ in (1, 2): print"));
+    let case = Case::new(
+        "row_numbers = true",
+        "import sys\nsys.stdin.readline()\nfor line in sys.stdin: print(1.5, flush=True)\n",
+    );
+    case.gives_up(&[
+        "answered none of its first 5 rows",
+        "expected the row's number and a number, separated by a comma",
+    ]);
+    let twice = "    print(y, flush=True)\n    print(y, flush=True)\n";
+    let case = Case::each_numbered_row(twice);
     case.gives_up(&["answered the row with the number", "twice"]);
 }
