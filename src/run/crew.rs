@@ -61,7 +61,7 @@ impl<'a> Crew<'a> {
 
     /// How many rows of `model` are best handed over at once.
     pub fn rows_at_once(model: &dyn Model) -> usize {
-        if model.concurrency().is_some() { 8192 } else { 1024 }
+        if model.concurrency().is_some() { 1 << 16 } else { 1024 }
     }
 
     /// Evaluates rows as [`Worker::run`] does, and settles the batch. It is the same for any number of workers.

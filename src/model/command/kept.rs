@@ -6,6 +6,7 @@
 //! forgotten if they are too many or too few, and every row is asked by a process of its own from then on.
 
 mod blame;
+mod caution;
 mod hear;
 mod numbers;
 mod piece;
@@ -20,6 +21,7 @@ use super::process::{Ending, Event, PATIENCE, Process};
 use super::row::RowWriter;
 use super::{CommandModel, KeptAlive, SILENCE, State};
 use crate::model::{Batch, RowFailure, Standing, Worker};
+use caution::Caution;
 use numbers::number_of;
 use piece::Piece;
 use talk::Talk;
@@ -41,6 +43,8 @@ const MOST_PENDING: usize = 1 << 20;
 /// the longest time that it has taken before.
 const QUIET: Duration = Duration::from_millis(500);
 const TIMES: u32 = 5;
+/// The same for a program that has never answered: it may take long to start.
+const FIRST_START: Duration = Duration::from_secs(300);
 
 pub(super) struct KeptWorker<'a> {
     model: &'a CommandModel,
@@ -48,20 +52,6 @@ pub(super) struct KeptWorker<'a> {
     writer: RowWriter,
     talk: Option<Talk>,
     caution: Caution,
-}
-
-/// What has been learnt from processes that ended early.
-struct Caution {
-    /// The next process gets so many rows, which are then confirmed, and the row behind them goes alone; with how many it
-    /// went before.
-    plan: Option<(usize, usize)>,
-    /// The next row goes alone; with how many it went before.
-    alone: Option<usize>,
-    /// How often the row that goes alone has been tried in vain.
-    tries: u32,
-    /// How far rows may be ahead of the answers, and answers since it was set.
-    window: usize,
-    in_window: usize,
 }
 
 /// Why a process is of no further use.
@@ -86,8 +76,7 @@ struct Outcome {
 impl<'a> KeptWorker<'a> {
     pub(super) fn new(model: &'a CommandModel, form: KeptAlive) -> Self {
         let writer = RowWriter::new(form.protocol, &model.factors).with_numbers(form.row_numbers);
-        let caution = Caution { plan: None, alone: None, tries: 0, window: usize::MAX, in_window: 0 };
-        Self { model, form, writer, talk: None, caution }
+        Self { model, form, writer, talk: None, caution: Caution::default() }
     }
 
     /// Sees to it that every row of the piece has an answer, which is certain if `closes`.
@@ -284,7 +273,8 @@ impl<'a> KeptWorker<'a> {
         let quiet = if session.has_answered() {
             QUIET.max(TIMES * session.slowest())
         } else {
-            SILENCE.max(TIMES * state.startup().unwrap_or_default())
+            // Only a process that has started before is known to be longer over it than usual.
+            state.startup().map_or(FIRST_START, |startup| SILENCE.max(TIMES * startup))
         };
         let silent_for = session.silent_for();
         if session.under_way() > 0 {
@@ -300,7 +290,7 @@ impl<'a> KeptWorker<'a> {
             }
         } else if session
             .closed
-            .is_some_and(|closed| closed.elapsed().min(silent_for) > PATIENCE.max(TIMES * session.slowest()))
+            .is_some_and(|closed| closed.elapsed().min(silent_for) > PATIENCE.max(TIMES * session.slowest_row()))
         {
             State::say_once(
                 &state.stayed,
@@ -345,27 +335,6 @@ fn is_due(talk: &Talk, state: &State) -> bool {
     let is_early = FIRST_ROWS.get(confirmed).is_some_and(|rows| talk.session.answered >= *rows)
         && (startup < SHORT_START || work > TIMES * startup);
     is_early || work > AT_LEAST.max(STARTS * startup)
-}
-
-impl Caution {
-    /// A row has its answer.
-    fn note_answer(&mut self) {
-        if self.window < usize::MAX && self.alone.is_none() {
-            self.in_window += 1;
-            if self.in_window >= self.window {
-                (self.window, self.in_window) = (self.window.saturating_mul(2), 0);
-            }
-        }
-    }
-
-    /// The row that went alone has its answer.
-    fn settle(&mut self) {
-        self.tries = 0;
-        if let Some(ahead) = self.alone.take().filter(|ahead| *ahead > 1) {
-            // The row was innocent: one of those that went with it is not.
-            (self.window, self.in_window) = (ahead / 2, 0);
-        }
-    }
 }
 
 impl Worker for KeptWorker<'_> {

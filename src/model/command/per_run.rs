@@ -5,12 +5,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
-use super::pick::MOST_BYTES;
+use super::pick::{MOST_BYTES, PickError, Source};
 use super::program::{Running, status_in_words};
 use super::row::{RowWriter, ValueWriter};
 use super::template::InputTemplate;
@@ -36,6 +36,10 @@ pub struct PerRun {
 /// Names of the files in a run's directory that hold what the program wrote.
 const STDOUT: &str = "stdout.txt";
 const STDERR: &str = "stderr.txt";
+
+/// The time at which files that are copied for a run were written, if outputs are read from them: a run that has written
+/// nothing has no output.
+const BEFORE: SystemTime = SystemTime::UNIX_EPOCH;
 
 pub(super) struct PerRunWorker<'a> {
     model: &'a CommandModel,
@@ -100,11 +104,22 @@ impl<'a> PerRunWorker<'a> {
     fn prepare(&self, directory: &Path, inputs: &[&[f64]], row: usize) -> io::Result<(File, File)> {
         for file in &self.form.files {
             let name = file.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
-            std::fs::copy(file, directory.join(name))?;
+            let copy = directory.join(name);
+            std::fs::copy(file, &copy)?;
+            if self.is_read(name) {
+                // Where that is refused, a file that the run leaves as it was is taken for its own.
+                let _ = File::options().write(true).open(&copy).and_then(|file| file.set_modified(BEFORE));
+            }
         }
         let text = self.form.template.fill(|factor, out| self.values.write(factor, inputs[factor][row], out));
         std::fs::write(directory.join(&self.form.input), text)?;
         Ok((File::create(directory.join(STDOUT))?, File::create(directory.join(STDERR))?))
+    }
+
+    /// Whether some output stands in the file of that name.
+    fn is_read(&self, name: &std::ffi::OsStr) -> bool {
+        let picks = self.model.settings.outputs.iter().filter_map(|output| output.pick.as_ref());
+        picks.into_iter().any(|pick| matches!(&pick.source, Source::File(file) if name == file.as_str()))
     }
 
     fn run_in(&self, directory: &Path, inputs: &[&[f64]], row: usize) -> Result<(), Fault> {
@@ -157,7 +172,11 @@ impl<'a> PerRunWorker<'a> {
         for (column, place) in settings.asked.iter().enumerate() {
             let output = &settings.outputs[*place];
             let Some(pick) = &output.pick else { continue };
-            match pick.number(directory, &directory.join(STDOUT)) {
+            let number = match &pick.source {
+                Source::File(name) if is_from_before(&directory.join(name)) => Err(PickError::Unchanged(name.clone())),
+                _ => pick.number(directory, &directory.join(STDOUT)),
+            };
+            match number {
                 Ok(value) if value.is_finite() => {
                     found = true;
                     batch.set(row, column, output.unit.to_si(value));
@@ -188,6 +207,11 @@ impl Worker for PerRunWorker<'_> {
             }
         }
     }
+}
+
+/// Whether a run has not written a file that was copied for it.
+fn is_from_before(path: &Path) -> bool {
+    std::fs::metadata(path).and_then(|data| data.modified()).is_ok_and(|time| time == BEFORE)
 }
 
 /// The directory of one run.

@@ -77,6 +77,9 @@ pub enum PickError {
     /// The file is not there.
     #[error("the run left no file `{0}`")]
     NoFile(String),
+    /// The file was there before the run, which has not written it.
+    #[error("the run left `{0}` as it was before")]
+    Unchanged(String),
     /// The file cannot be read.
     #[error("`{file}` cannot be read: {reason}")]
     Unreadable {

@@ -78,7 +78,7 @@ impl Case {
         std::fs::write(self.path(name), content).unwrap();
     }
 
-    /// A run of the study, which ends within a minute.
+    /// A run of the study, which ends within some minutes, however busy the machine is.
     pub fn run(&self) -> Output {
         self.run_with(&[])
     }
@@ -87,7 +87,7 @@ impl Case {
         let (study, out) = (self.path("study.toml"), self.path("out"));
         let arguments = ["run", text(&study), "--out", text(&out)];
         let mut command = assert_cmd::Command::cargo_bin("apportion").unwrap();
-        command.args(arguments).args(more).timeout(Duration::from_secs(60)).output().unwrap()
+        command.args(arguments).args(more).timeout(Duration::from_secs(240)).output().unwrap()
     }
 
     /// The result of a run that ends well, and what it said on standard error.

@@ -63,6 +63,17 @@ fn what_a_run_does_not_leave_is_named() {
     }
 }
 
+/// A result of an earlier run of the simulator, copied along, is not taken for that of a row.
+#[test]
+fn a_file_that_was_there_before_is_no_output() {
+    let more = "if (x1 <= 0.9) print \"y = \" y > \"out.txt\"";
+    let case = simulator("", REPORT, more).replace("[\"model.awk\"]", "[\"model.awk\", \"out.txt\"]");
+    case.write("out.txt", "y = 7\n");
+    let (result, _) = case.result();
+    let reason = "the run left `out.txt` as it was before";
+    assert_eq!(failures(&result.outputs[0]), [(reason, rows_where(|x| x > 0.9))]);
+}
+
 #[test]
 fn one_missing_output_leaves_the_others() {
     let outputs = format!("{REPORT}\noutputs.z = {{ file = \"out.txt\", regex = 'z = (\\S+)' }}");

@@ -30,8 +30,9 @@ pub(super) struct Session {
     first_answer: Option<Instant>,
     /// When it answered last, or was sent something after a pause.
     heard: Instant,
-    /// The longest that it took to an answer.
+    /// The longest that it took to an answer, with its start and without.
     slowest: Duration,
+    slowest_row: Duration,
     /// Bytes of lines that were no answers, since the last that was one; and what the last of them was.
     pub strayed: usize,
     pub stray: Option<String>,
@@ -56,6 +57,7 @@ impl Talk {
             first_answer: None,
             heard: now,
             slowest: Duration::ZERO,
+            slowest_row: Duration::ZERO,
             strayed: 0,
             stray: None,
         };
@@ -87,7 +89,11 @@ impl Session {
 
     pub(super) fn note_answers(&mut self) {
         let now = Instant::now();
-        self.slowest = self.slowest.max(now - self.heard);
+        let waited = now - self.heard;
+        self.slowest = self.slowest.max(waited);
+        if self.has_answered() {
+            self.slowest_row = self.slowest_row.max(waited);
+        }
         self.heard = now;
         self.first_answer.get_or_insert(now);
         self.strayed = 0;
@@ -100,6 +106,11 @@ impl Session {
     /// The longest that it took to an answer, its start included.
     pub(super) fn slowest(&self) -> Duration {
         self.slowest
+    }
+
+    /// The longest that it took from one answer to another; to the first if there are no others.
+    pub(super) fn slowest_row(&self) -> Duration {
+        if self.answered > 1 { self.slowest_row } else { self.slowest }
     }
 
     /// How long it has been answering.
