@@ -15,6 +15,7 @@ mod file;
 mod function;
 mod identity;
 mod measured;
+mod names;
 mod nominal;
 mod options;
 mod overrides;
