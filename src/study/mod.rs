@@ -16,6 +16,7 @@ mod forms;
 mod function;
 mod identity;
 mod measured;
+mod names;
 mod nominal;
 mod options;
 mod overrides;

@@ -8,10 +8,10 @@ use super::file::{At, Choices, FactorSection, StudyFile};
 use super::plan::{Plan, plan};
 use super::subject::{AfmSubject, KnownSubject, Subject};
 use super::units::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_unit};
-use super::{Study, command, constants, distribution, expression, external, function, nominal, read};
+use super::{Study, command, constants, distribution, expression, external, function, names, nominal, read};
 use crate::design::{DesignError, MAX_FACTORS};
 use crate::model::{AfmOutput, Input, ModelKind, known_inputs};
-use crate::names::{LONGEST_STUDY_NAME, file_part, refused_name, refused_output_name, refused_title, shown};
+use crate::names::{LONGEST_STUDY_NAME, file_part, shown};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor, Space};
 
@@ -38,7 +38,7 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
         let problem = DesignError::FarTooManyFactors { factors: file.factor.len() };
         return Err(context.fault(file.factor[MAX_FACTORS].span(), problem.into()));
     }
-    refuse_names(context, &file)?;
+    names::refuse_names(context, &file)?;
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
     let function = match kind {
@@ -76,7 +76,7 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
             (afm(context, file.afm.as_ref(), outputs, &space)?, Vec::new())
         }
     };
-    refuse_output_names(context, &subject, &space)?;
+    names::refuse_output_names(context, &subject, &space)?;
     refuse_outputs_of_factors(context, &subject, (&space, &file.factor))?;
     let Plan { design, analysis, stopping, mut notes } =
         plan(context, &file, &space, subject.model(&space).outputs().len())?;
@@ -88,47 +88,6 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let (overrides, source, sha256) = Default::default();
     let title = file.title.as_ref().map(|title| title.get_ref().clone());
     Ok(Study { name, title, subject, space, design, analysis, stopping, overrides, source, sha256, notes })
-}
-
-/// Names stand in every table and chart: they are refused before the work, not when they do not fit.
-fn refuse_names(context: &Context<'_>, file: &StudyFile) -> Result<(), Fault> {
-    let wrong = |key: &str, (found, span): (&str, Range<usize>), expected: String| {
-        let (key, found) = (key.to_owned(), shown(found));
-        Err(context.fault(span, Problem::WrongType { key, expected, found }))
-    };
-    if let Some(title) = &file.title
-        && let Some(expected) = refused_title(title.get_ref())
-    {
-        return wrong("title", (title.get_ref(), title.span()), expected);
-    }
-    for section in &file.factor {
-        let fields = section.get_ref();
-        let words = |what, at: &At<String>| (what, at.get_ref().clone(), at.span());
-        let labels =
-            fields.labels.iter().flat_map(|labels| labels.get_ref().iter().map(|l| (l.clone(), labels.span())));
-        let labels = labels.map(|(label, span)| ("label", label, span));
-        let group = fields.group.iter().map(|group| words("group", group));
-        for (what, text, span) in [words("name", &fields.name)].into_iter().chain(group).chain(labels) {
-            // Empty ones are told of where it is known what they would be for.
-            let expected = refused_name(&text).filter(|_| what == "group" || !text.trim().is_empty());
-            if let Some(expected) = expected {
-                return wrong(&format!("{what} of a factor"), (&text, span), expected);
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The same for outputs, after which files are named.
-fn refuse_output_names(context: &Context<'_>, subject: &Subject, space: &Space) -> Result<(), Fault> {
-    let model = subject.model(space);
-    let refused = |name: &str| Some((name.to_owned(), refused_output_name(name)?));
-    let Some((name, expected)) = model.outputs().iter().find_map(|output| refused(&output.name)) else { return Ok(()) };
-    // Where it stands first; escaped ones are not found.
-    let start = context.text.find(&name).unwrap_or(0);
-    let end = if context.text[start..].starts_with(&name) { start + name.len() } else { start };
-    let (key, found) = ("name of an output".to_owned(), shown(&name));
-    Err(context.fault(start..end, Problem::WrongType { key, expected, found }))
 }
 
 /// Factors and outputs are columns of one table, and need names of their own.

@@ -5,7 +5,6 @@ mod answers;
 mod expression;
 mod journal;
 mod mutation;
-mod parquet;
 mod result;
 mod rows;
 mod study;
@@ -28,7 +27,7 @@ pub const TARGETS: [Target; 8] = [
     Target { name: "answers", run: answers::run, dictionary: include_str!("answers.dict") },
     Target { name: "expression", run: expression::run, dictionary: include_str!("expression.dict") },
     Target { name: "journal", run: journal::run, dictionary: "" },
-    Target { name: "parquet", run: parquet::run, dictionary: "" },
+    Target { name: "parquet", run: rows::run_parquet, dictionary: "" },
     Target { name: "result", run: result::run, dictionary: include_str!("result.dict") },
     Target { name: "rows", run: rows::run, dictionary: include_str!("rows.dict") },
     Target { name: "study", run: study::run, dictionary: include_str!("study.dict") },
