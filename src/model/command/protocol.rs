@@ -114,6 +114,7 @@ pub fn parse_numbered_answer(
         Protocol::Csv => {
             let (number, rest) = text.split_once(',').ok_or_else(|| found(format!("`{}`", masked(text))))?;
             let number = whole(number.trim().trim_matches('"'));
+            let number = number.ok_or_else(|| found(format!("`{}`", masked(text))))?;
             let rest = rest.trim();
             // The number has shown that the line is an answer: an empty cell is one.
             let answer = if rest.is_empty() && outputs.len() == 1 {
@@ -122,7 +123,7 @@ pub fn parse_numbered_answer(
             } else {
                 csv_answer(outputs, rest, values)
             };
-            (number.ok_or_else(|| found(format!("`{}`", masked(text))))?, answer)
+            (number, answer)
         }
         Protocol::JsonLines => {
             let parsed = json(text).map_err(&found)?;

@@ -52,8 +52,13 @@ impl KeptWorker<'_> {
         if let Some(how) = slip.filter(|_| session.most > 1) {
             self.fall_out_of_step(&session, how);
         } else if session.most > 1 && session.answered > 0 {
-            // Whether these answers were in step is unknown. They are asked for again, without the row behind them.
-            self.caution.plan = Some((session.answered, session.under_way()));
+            // Whether these answers were in step is unknown. All but the last are asked for again: if one of the lines was
+            // too many, and the process ended on its own on the last row, there would be as many answers as rows once more.
+            let (rows, ahead) = (session.answered - 1, session.under_way() + 1);
+            match rows {
+                0 => self.caution.alone = Some(ahead),
+                _ => self.caution.plan = Some((rows, ahead)),
+            }
         } else if is_surplus {
             self.caution.tries += 1;
             if self.caution.tries > self.model.settings.retries {
