@@ -12,7 +12,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::slip::{Error, Slip};
+use super::slip::Slip;
 use super::substrate::{Hold, Substrate};
 use super::swing::Swing;
 use super::{Cost, Critical, Options};
