@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod afm_contact_oracle;
+mod afm_slip_oracle;
 mod analytic;
 mod builder;
 mod command;

@@ -56,9 +56,9 @@ impl<'a> Bristles<'a> {
     pub fn slip(&self) -> Result<(Slip, u64), Failure> {
         let followed = self.motion.frequency() < MOST_TURNS;
         let swing = if followed { 0.0 } else { self.motion.swing().spring / self.motion.force };
-        // In vain much finer than the swing that is not followed. And not coarse: where the bristles give way at once, a
+        // In vain finer than a tenth of the swing that is not followed. And not coarse: where the bristles give way at once, a
         // long step does not see it.
-        let tolerance = local_tolerance(self.substrate.options).max(0.01 * swing).min(1e-7);
+        let tolerance = local_tolerance(self.substrate.options).max(0.1 * swing).min(1e-7);
         // Of the particle on its bristles and the spring of the probe.
         let shaking = (self.agility * (1.0 + self.stiffness)).sqrt();
         let control = Control {
