@@ -200,7 +200,7 @@ impl Unit {
             unit.offset = offset;
         }
         let decades = f64::from(unit.decade) + (unit.times / unit.over).log10();
-        if !(decades.abs() <= MOST_DECADES) {
+        if !(-MOST_DECADES..=MOST_DECADES).contains(&decades) {
             return Err(malformed("its factor to SI is beyond 10^100"));
         }
         Ok(unit)
