@@ -201,16 +201,17 @@ impl Judged {
         Self { estimates, errors, parts }
     }
 
-    /// Gives the quantities that are `still` the errors that their rows cannot show.
+    /// Gives the quantities that are `still`, and those whose nets agree to rounding, the errors that their rows cannot show.
     fn allow_for_unseen(&mut self, unseen: &[Unseen], still: &[bool]) {
-        for (place, unseen) in unseen.iter().enumerate().filter(|(place, _)| still[*place]) {
+        for (place, unseen) in unseen.iter().enumerate().filter(|(_, unseen)| unseen.half_width > 0.0) {
             let Estimate { estimate, interval } = &mut self.estimates[place];
-            if !estimate.is_finite() || !self.errors[place].error.is_finite() {
+            let error = &mut self.errors[place].error;
+            if !estimate.is_finite() || !error.is_finite() || !(still[place] || *error <= unseen.rounding) {
                 continue;
             }
             let half_width = unseen.half_width;
             *interval = Some(Interval { low: *estimate - half_width, high: *estimate + half_width });
-            self.errors[place].error = half_width / NORMAL_QUANTILE;
+            *error = half_width / NORMAL_QUANTILE;
         }
     }
 
