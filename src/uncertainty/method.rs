@@ -81,7 +81,8 @@ impl IntervalMethod {
                  differ, and rests on that trend alone"
             ),
             Self::Nets => format!(
-                "95 % t-interval around the estimate from {nets} together; its standard error combines the spread of the nets with how \
+                "95 % t-interval around the estimate from {nets} together, longer above it where few rows carry it; its \
+                 standard error combines the spread of the nets with how \
                  nested parts of each differ (moderated t)"
             ),
             Self::Replicates => format!(
