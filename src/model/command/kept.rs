@@ -43,8 +43,8 @@ const MOST_PENDING: usize = 1 << 20;
 /// the longest time that it has taken before.
 const QUIET: Duration = Duration::from_millis(500);
 const TIMES: u32 = 5;
-/// The same for a program that has never answered: it may take long to start.
-const FIRST_START: Duration = Duration::from_secs(300);
+/// The same for a program that has never answered: it may take long to start. Its input is ended once for nothing if it does.
+const FIRST_START: Duration = Duration::from_secs(60);
 
 pub(super) struct KeptWorker<'a> {
     model: &'a CommandModel,
@@ -214,7 +214,13 @@ impl<'a> KeptWorker<'a> {
             self.confirmed(piece);
             return Ok(());
         }
-        self.talk.iter_mut().for_each(|talk| talk.ending = Some(ending.clone()));
+        if let Some(talk) = &mut self.talk {
+            if talk.session.has_answered() {
+                // That a row has no answer does not make its first answer later.
+                self.model.state.note_startup(talk.session.startup());
+            }
+            talk.ending = Some(ending);
+        }
         Err(Fault::Closed)
     }
 
@@ -274,7 +280,7 @@ impl<'a> KeptWorker<'a> {
             QUIET.max(TIMES * session.slowest())
         } else {
             // Only a process that has started before is known to be longer over it than usual.
-            state.startup().map_or(FIRST_START, |startup| SILENCE.max(TIMES * startup))
+            state.startup().map_or(FIRST_START, |startup| AT_LEAST.max(2 * TIMES * startup))
         };
         let silent_for = session.silent_for();
         if session.under_way() > 0 {

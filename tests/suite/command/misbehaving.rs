@@ -147,14 +147,22 @@ struct Trial {
 const ROWS: usize = 20;
 
 impl Trial {
+    /// Every program in every form and at every speed if the environment has `MISBEHAVING=all`, which takes minutes;
+    /// otherwise three of them each, which together are of all kinds.
     fn all() -> Vec<Self> {
+        let delays = ["0", "0.001", "0.01"];
         let mut trials = Vec::new();
         for (number, program) in PROGRAMS.iter().enumerate() {
-            for delay in ["0", "0.001", "0.01"] {
-                trials.push(Self { program, csv: true, numbered: false, delay });
-                trials.push(Self { program, csv: number % 2 == 0, numbered: true, delay });
+            let trial = |csv, numbered, delay: usize| Self { program, csv, numbered, delay: delays[delay % 3] };
+            if std::env::var_os("MISBEHAVING").is_some_and(|value| value == "all") {
+                let forms = [(true, false), (true, true), (false, false), (false, true)];
+                trials
+                    .extend(forms.iter().flat_map(|(csv, numbered)| (0..3).map(|delay| trial(*csv, *numbered, delay))));
+            } else {
+                trials.push(trial(true, false, number));
+                trials.push(trial(number % 2 == 0, true, number + 1));
+                trials.push(trial(false, false, number + 2));
             }
-            trials.push(Self { program, csv: false, numbered: false, delay: ["0", "0.001", "0.01"][number % 3] });
         }
         trials
     }
