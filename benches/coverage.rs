@@ -147,8 +147,8 @@ fn skewed(seeds: u64) -> String {
                     exact.iter().enumerate().map(|(k, exact)| share(k, &|row| miss(row, *exact))).collect()
                 };
                 let mean = |shares: &[f64]| shares.iter().sum::<f64>() / shares.len() as f64;
-                let above = each(&|[_, _, high], exact| !(exact <= high + 1e-12));
-                let below = each(&|[_, low, _], exact| !(low - 1e-12 <= exact));
+                let above = each(&|[_, _, high], exact| exact > high + 1e-12 || high.is_nan());
+                let below = each(&|[_, low, _], exact| exact < low - 1e-12 || low.is_nan());
                 let worst = above.iter().zip(&below).map(|(a, b)| 1.0 - a - b).fold(1.0, f64::min);
                 let widths = |k: usize| {
                     let width = drawn.rows.iter().map(|row| row[2 * k + offset]).map(|[_, low, high]| high - low);
