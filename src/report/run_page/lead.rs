@@ -128,6 +128,9 @@ fn others(result: &ResultFile, order: &[&IndexRecord], tied: &[usize]) -> String
     if sentence.is_empty() { sentence } else { sentence + "." }
 }
 
+/// A share of the variance that an interval must exclude before interactions count as absent.
+const VISIBLE: f64 = 0.1;
+
 /// How much of the variance no factor accounts for alone.
 pub(super) fn interactions(sum_first_order: Option<EstimateRecord>) -> String {
     let Some(sum) = sum_first_order else { return String::new() };
@@ -142,6 +145,9 @@ pub(super) fn interactions(sum_first_order: Option<EstimateRecord>) -> String {
         }
         (_, Some(high)) if high < 0.0 => {
             format!("The first-order indices sum to {}, beyond 1 by more than their error.", index(sum))
+        }
+        (Some(_), Some(high)) if high > VISIBLE => {
+            format!("How much of the variance is interaction is open: the first-order indices sum to {}.", index(sum))
         }
         (Some(_), Some(_)) => format!(
             "No interactions are seen: the first-order indices sum to {}, which is 1 to within the error.",
@@ -216,6 +222,7 @@ mod tests {
         );
         assert!(interactions(sum(0.99, 1.01)).starts_with("No interactions are seen"));
         assert!(interactions(sum(1.01, 1.03)).contains("beyond 1"));
+        assert!(interactions(sum(0.01, 1.0)).starts_with("How much of the variance is interaction is open"));
         let alone = Some(EstimateRecord { estimate: 0.6, low: None, high: None });
         assert!(interactions(alone).contains("some 40.0 % of the variance"));
         let beyond = Some(EstimateRecord { estimate: 1.127, low: None, high: None });
