@@ -26,10 +26,8 @@
 //! | [`study`] | studies: the file as typed, and what it means |
 //! | [`sweep`] | one factor at a time over its range, and the slopes at the nominal point |
 //! | [`report`] | results as JSON, CSV, text and charts; files written whole or not at all |
-//! | [`simulation`] | one scene of a study in time |
 //! | [`exchange`] | tables of points and outputs, for other programs |
 //! | [`salib`] | indices of outputs at the points of SALib, by its own formulas |
-//! | [`reproduce`] | the papers' studies beside what the papers print |
 //!
 //! # An example
 //!
@@ -89,11 +87,9 @@ pub mod model;
 mod names;
 pub mod quantity;
 pub mod report;
-pub mod reproduce;
 pub mod run;
 pub mod salib;
 pub mod screening;
-pub mod simulation;
 pub mod space;
 pub mod study;
 pub mod sum;

@@ -5,7 +5,7 @@ use std::sync::{Mutex, OnceLock};
 
 use anyhow::anyhow;
 use apportion::report::prepare_folder;
-use apportion::reproduce::{Effort, Event, ReproduceError, Request, Topic, in_words, reproduce as run, write_all};
+use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, in_words, reproduce as run, write_all};
 
 use super::progress::{Meter, PartMeter};
 use super::{DesignChanges, Failure, Threads, print, say};

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use apportion::quantity::{Dimension, Quantity};
 use apportion::report::chart::{Chart, png};
-use apportion::report::scene::{PageParts, mode_diagram_chart, scene_charts, scene_csv, scene_json, scene_page};
+use crate::scene::{PageParts, mode_diagram_chart, scene_charts, scene_csv, scene_json, scene_page};
 use apportion::report::{prepare_folder, with_unit, write_in};
-use apportion::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
+use crate::scene::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
 use apportion::study::Study;
 
 use super::pictures::say_written;

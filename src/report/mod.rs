@@ -15,7 +15,6 @@ mod run_charts;
 mod run_page;
 pub mod salib;
 pub mod scatter;
-pub mod scene;
 mod schema;
 pub mod screening;
 mod shares_chart;

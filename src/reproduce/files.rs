@@ -9,8 +9,8 @@ use super::figures::ANIMATION_STEM;
 use super::page::{page, reading_charts};
 use super::readings::{readings_csv, readings_json, small_samples_csv};
 use super::{ReproduceError, Reproduction, shares_csv};
-use crate::report::chart::png;
-use crate::report::{result_json, write_atomically};
+use apportion::report::chart::png;
+use apportion::report::{result_json, write_atomically};
 
 /// Writes everything about `reproduction` into `folder` and returns the files, the page first.
 ///
@@ -47,7 +47,7 @@ pub fn write_all(folder: &Path, reproduction: &Reproduction) -> Result<Vec<PathB
     }
     files.extend(pictures(reproduction)?);
     std::fs::create_dir_all(folder.join("figures"))
-        .map_err(|source| crate::report::WriteError { path: folder.join("figures"), source })?;
+        .map_err(|source| apportion::report::WriteError { path: folder.join("figures"), source })?;
     let paths: Vec<PathBuf> = files.iter().map(|(name, _)| folder.join(name)).collect();
     for (path, (_, bytes)) in paths.iter().zip(&files) {
         write_atomically(path, bytes)?;

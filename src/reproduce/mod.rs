@@ -23,11 +23,11 @@ pub use published::{Published, published};
 pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
 pub use words::in_words;
 
-use crate::report::chart::{ChartError, PngError};
-use crate::report::page::PageError;
-use crate::report::{ResultFile, WriteError};
-use crate::run::RunError;
-use crate::study::{Study, StudyError};
+use apportion::report::chart::{ChartError, PngError};
+use apportion::report::page::PageError;
+use apportion::report::{ResultFile, WriteError};
+use apportion::run::RunError;
+use apportion::study::{Study, StudyError};
 
 /// How much is computed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

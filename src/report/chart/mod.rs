@@ -36,5 +36,6 @@ pub use png::{PNG_SCALE, Png, PngError, png};
 pub use ranges::{Range, RangeBars, RangeRow, Reference};
 pub use scale::Spacing;
 pub use scatter::{Guide, ScatterChart, ScatterPoint, ScatterSeries};
-pub(in crate::report) use sheet::{Look, Sheet, Sketch};
+#[doc(hidden)]
+pub use sheet::{Look, Sheet, Sketch};
 pub use style::{ChartWidth, Role};

@@ -13,7 +13,7 @@ const HEAD: f64 = 34.0;
 
 /// A sheet: what it says, and what stands above each frame.
 #[derive(Clone, Debug)]
-pub(in crate::report) struct Sheet {
+pub struct Sheet {
     /// Headline.
     pub title: String,
     /// One sentence under the frames.
@@ -71,7 +71,7 @@ impl Sheet {
 
 /// How a shape looks.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::report) struct Look {
+pub struct Look {
     /// Colour inside, or `none`.
     pub fill: &'static str,
     /// Colour of the outline, or `none`.
@@ -95,7 +95,7 @@ impl Look {
 }
 
 /// A rectangle to draw on, its origin at the upper left corner, px. Numbers that are not finite draw nothing.
-pub(in crate::report) struct Sketch<'a> {
+pub struct Sketch<'a> {
     canvas: &'a mut Canvas,
     /// Its width, px.
     pub width: f64,

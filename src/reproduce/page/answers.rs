@@ -1,8 +1,8 @@
 //! The answer in short: which factor leads in each study, how sure that is, and in what order the rest follow.
 
 use super::cells::{plain, strong};
-use crate::report::page::{Cell, OnPhone, PageTable, Part};
-use crate::report::{EffectRecord, IndexRecord, IntervalRecord, fixed, listed, share_of_runs};
+use apportion::report::page::{Cell, OnPhone, PageTable, Part};
+use apportion::report::{EffectRecord, IndexRecord, IntervalRecord, fixed, listed, share_of_runs};
 use crate::reproduce::order::VISIBLE;
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup};
 
@@ -161,8 +161,8 @@ pub(super) fn all_shares(studies: &[Reproduced]) -> Vec<Vec<Cell>> {
                 plain(if place == 0 { study.group.key } else { "" }),
                 plain(if place == 0 { study.friction.name } else { "" }),
                 plain(words(factor)),
-                plain(crate::report::estimate(effect.first_order, 4)),
-                plain(crate::report::estimate(effect.total, 4)),
+                plain(apportion::report::estimate(effect.first_order, 4)),
+                plain(apportion::report::estimate(effect.total, 4)),
                 plain(percent(effect.share_first_order, effect.share_first_order_interval)),
                 plain(percent(effect.share_total, effect.share_total_interval)),
                 plain(printed.map_or_else(String::new, |(_, share)| format!("{share} %"))),

@@ -1,6 +1,6 @@
 //! Cells of tables.
 
-use crate::report::page::{Cell, Mark};
+use apportion::report::page::{Cell, Mark};
 
 pub(super) fn plain(text: impl Into<String>) -> Cell {
     Cell::plain(text)

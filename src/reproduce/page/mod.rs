@@ -9,7 +9,7 @@ mod verdicts;
 
 use super::Reproduction;
 use super::figures::{ANIMATION_STEM, PaperFigure};
-use crate::report::page::{Link, OnPhone, Page, PageFigure, PageTable, Part, Section};
+use apportion::report::page::{Link, OnPhone, Page, PageFigure, PageTable, Part, Section};
 pub(super) use readings::charts as reading_charts;
 
 /// The page about `reproduction`; what was not asked for is left out.

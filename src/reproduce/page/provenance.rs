@@ -1,7 +1,7 @@
 //! How the page came about.
 
 use super::cells::plain;
-use crate::report::page::{Cell, OnPhone, PageTable, Part};
+use apportion::report::page::{Cell, OnPhone, PageTable, Part};
 use crate::reproduce::{Effort, Reproduced, Reproduction};
 
 /// Version, designs, estimators, intervals and cost, as a table of two columns.

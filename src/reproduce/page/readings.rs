@@ -2,9 +2,9 @@
 
 use super::cells::plain;
 use super::{header, link};
-use crate::report::chart::Chart;
-use crate::report::fixed;
-use crate::report::page::{Cell, OnPhone, PageFigure, PageTable, Part, Section};
+use apportion::report::chart::Chart;
+use apportion::report::fixed;
+use apportion::report::page::{Cell, OnPhone, PageFigure, PageTable, Part, Section};
 use crate::reproduce::readings::{
     Chance, Reading, Readings, SmallSample, chances, distance_chart, headline, small_sample_chart, summary,
 };

@@ -2,7 +2,7 @@
 
 use super::cells::plain;
 use super::typeset::typeset;
-use crate::report::page::{Cell, Link, Mark, OnPhone, PageTable, Part};
+use apportion::report::page::{Cell, Link, Mark, OnPhone, PageTable, Part};
 use crate::reproduce::claims::{Claim, Verdict};
 use crate::reproduce::figures::PaperFigure;
 
@@ -76,6 +76,6 @@ pub(super) fn sentence(claims: &[Claim]) -> String {
         "The papers make {} claims, some of two parts; of {} answers {}.",
         claims.last().map_or(0, |claim| claim.number),
         claims.len(),
-        crate::report::listed(&said)
+        apportion::report::listed(&said)
     )
 }

@@ -25,17 +25,17 @@ use thiserror::Error;
 pub use catalogue::{Axis, Effect, Variant};
 pub use charts::{distance_chart, small_sample_chart};
 use distance::distance_error;
-pub use distance::{distance, printed_rest};
-pub use small_samples::{Chance, Estimators, SmallSample, SmallSampleFactor};
+pub use distance::distance;
+pub use small_samples::{Chance, Estimators, SmallSample};
 pub use summary::{chances, headline, summary};
 pub use tables::{readings_csv, readings_json, small_samples_csv};
 
 use super::{Effort, GROUPS, STUDIES};
-use crate::analyse;
-use crate::design::DesignError;
-use crate::model::{AfmOutput, RowFailure};
-use crate::run::{RunError, threads_in_force};
-use crate::study::{Study, StudyError};
+use apportion::analyse;
+use apportion::design::DesignError;
+use apportion::model::{AfmOutput, RowFailure};
+use apportion::run::{RunError, threads_in_force};
+use apportion::study::{Study, StudyError};
 use catalogue::{SMALL_SAMPLE_VARIANTS, VARIANTS, variant};
 
 /// Every reading computed.

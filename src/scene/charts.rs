@@ -2,7 +2,7 @@
 
 use super::words::{change, force, length, short, time};
 use super::{SceneSample, SceneStory};
-use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use apportion::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
 
 /// A chart of a scene.
 #[derive(Clone, Debug, PartialEq)]

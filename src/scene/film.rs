@@ -6,7 +6,7 @@ use super::charts::SUBSTRATE;
 use super::view::View;
 use super::words::{force, length, time};
 use super::{SceneGeometry, SceneSample, SceneStory};
-use crate::report::chart::{Look, Picture, Role, Sheet, Sketch};
+use apportion::report::chart::{Look, Picture, Role, Sheet, Sketch};
 
 /// A film strip.
 #[derive(Clone, Debug, PartialEq)]
@@ -265,7 +265,7 @@ mod tests {
 
     use super::super::fixture;
     use super::*;
-    use crate::report::chart::png;
+    use apportion::report::chart::png;
 
     #[test]
     fn frames_are_states_of_the_story() {

@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn every_column_is_documented() {
-        let documentation = include_str!("../../../docs/scene-format.md");
+        let documentation = include_str!("../../docs/scene-format.md");
         for name in COLUMNS.iter().map(|column| column.name).chain(FLAGS.iter().map(|flag| flag.0)) {
             assert!(documentation.contains(&format!("`{name}`")), "{name}");
         }

@@ -8,14 +8,14 @@ use super::charts::{LATERAL, NORMAL, SUBSTRATE};
 use super::columns::scene_value;
 use super::view::View;
 use super::{SceneChart, SceneStory};
-use crate::report::chart::{ChartError, ChartWidth, Role};
+use apportion::report::chart::{ChartError, ChartWidth, Role};
 
 /// The parts of the page's script, each using those before it.
 const SCRIPT: [&str; 4] = [
-    include_str!("../../../templates/scene/story.js"),
-    include_str!("../../../templates/scene/draw.js"),
-    include_str!("../../../templates/scene/pictures.js"),
-    include_str!("../../../templates/scene/player.js"),
+    include_str!("../../templates/scene/story.js"),
+    include_str!("../../templates/scene/draw.js"),
+    include_str!("../../templates/scene/pictures.js"),
+    include_str!("../../templates/scene/player.js"),
 ];
 
 /// Why a page could not be made.
@@ -89,7 +89,7 @@ pub fn scene_page(story: &SceneStory, parts: PageParts<'_>) -> Result<String, Pa
             ("substrate", SUBSTRATE.colour()),
             ("slip", Role::Other(0).colour()),
         ],
-        style: include_str!("../../../templates/scene/page.css"),
+        style: include_str!("../../templates/scene/page.css"),
         script: SCRIPT,
         data: script_json(&scene_value(story)),
         view: script_json(&view.value()),

@@ -11,16 +11,17 @@ mod film;
 mod fixture;
 pub(crate) mod mode_diagram;
 mod page;
+pub mod simulation;
 mod view;
 pub(crate) mod words;
 
 pub use charts::{SceneChart, scene_charts};
 pub use columns::{scene_csv, scene_json};
-pub use film::{Film, film_strip};
+pub use film::film_strip;
 pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
 pub use page::{PageError, PageParts, scene_page};
 
-use super::chart::Role;
+use apportion::report::chart::Role;
 
 /// One scene, from the start of the push through sticking and slipping.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +34,7 @@ pub struct SceneStory {
     pub geometry: SceneGeometry,
     /// When and at which forces the particle slips.
     pub critical: CriticalInstant,
-    /// The colour of the friction law, see [`friction_role`](crate::report::friction_role).
+    /// The colour of the friction law, see [`friction_role`](apportion::report::friction_role).
     pub friction_role: Role,
     /// The states in the order of time; unevenly spaced, and as few as one or none.
     pub samples: Vec<SceneSample>,
