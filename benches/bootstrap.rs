@@ -7,7 +7,7 @@ use apportion::design::Design;
 use apportion::estimate::{MomentParts, PointOutputs};
 use apportion::run::{GrowingRun, Job, Totals};
 use apportion::study::Study;
-use apportion::uncertainty::{IntervalMethod, Judgement, KeptPoints, Layout, output_indices};
+use apportion::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, Layout, output_indices};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 /// The random design of `base_samples`, and its run through Sobol' G with the outputs kept.
@@ -31,9 +31,9 @@ fn bootstrap(criterion: &mut Criterion) {
         let parts: Vec<MomentParts> = totals.iter().map(|totals| totals.outputs[0].moments.clone()).collect();
         let points = KeptPoints::all(&design, &kept);
         for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
-            let judgement = Judgement { method, threshold: 0.05, seed: 1, resamples: 1000, points };
+            let options = IntervalOptions { method, threshold: 0.05, seed: 1, resamples: 1000, points };
             group.bench_function(format!("{}, 2^{exponent} points", method.name()), |bencher| {
-                bencher.iter(|| output_indices(&parts, &Layout::plain(design.factors()), &judgement).expect("indices"));
+                bencher.iter(|| output_indices(&parts, &Layout::plain(design.factors()), &options).expect("indices"));
             });
         }
     }

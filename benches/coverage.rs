@@ -19,7 +19,7 @@ use apportion::estimate::MomentParts;
 use apportion::model::KnownAnswer;
 use apportion::run::{Job, run};
 use apportion::study::Study;
-use apportion::uncertainty::{IntervalMethod, Judgement, Layout, output_indices};
+use apportion::uncertainty::{IntervalMethod, IntervalOptions, Layout, output_indices};
 
 const SEEDS: u64 = 100;
 const SIZES: std::ops::RangeInclusive<u32> = 8..=14;
@@ -206,9 +206,9 @@ fn sample(
         let job = Job { design: &study.design, space: &study.space, model: model.as_ref() };
         let totals = run(job, 0, &|_| ()).expect("threads");
         let parts: Vec<MomentParts> = totals.iter().map(|t| t.outputs[0].moments.clone()).collect();
-        let judgement = Judgement { method, threshold: 0.05, seed, resamples: 0, points: None };
+        let options = IntervalOptions { method, threshold: 0.05, seed, resamples: 0, points: None };
         let layout = Layout::plain(case.first.len());
-        let Ok(indices) = output_indices(&parts, &layout, &judgement) else { return Vec::new() };
+        let Ok(indices) = output_indices(&parts, &layout, &options) else { return Vec::new() };
         let factors = indices.factors.iter().zip(&case.total).filter(|(_, total)| **total > 1e-12);
         let both = factors.flat_map(|(effect, _)| [effect.first_order, effect.total]);
         both.map(|e| [e.estimate, e.interval.map_or(f64::NAN, |i| i.low), e.interval.map_or(f64::NAN, |i| i.high)])

@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use apportion::design::{Design, DesignSettings, Rows};
 use apportion::model::{Batch, Model};
+use apportion::report::ResultFile;
 use apportion::study::Study;
 
 fn study(base_samples: u64) -> Study {
@@ -31,7 +32,7 @@ fn bare_loop(model: &dyn Model, rows: u64, columns: &[Vec<f64>]) -> f64 {
 
 fn whole_study(study: &Study, threads: usize) -> f64 {
     let start = Instant::now();
-    let result = apportion::analyse(study, threads, &|_| ()).expect("threads");
+    let result = ResultFile::new(study, &apportion::analyse(study, threads, &|_| ()).expect("threads"));
     std::hint::black_box(result);
     start.elapsed().as_secs_f64()
 }

@@ -22,16 +22,14 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .seed(1)
         .build()?;
 
-    let result = analyse(&study, 0, &|_| ())?;
-    let indices = result.outputs[0].indices.as_ref().ok_or("no indices")?;
-    for index in indices {
-        let (alone, all) = (index.effect.first_order, index.effect.total);
-        println!("{}: alone {:.3}, with all interactions {:.3}", index.factor, alone.estimate, all.estimate);
-    }
+    let analysis = analyse(&study, 0, &|_| ())?;
+    let y = analysis.output("y")?;
     // x3 does nothing alone, but a quarter of the variance together with x1.
-    for (index, exact) in indices.iter().zip([(0.3139, 0.5576), (0.4424, 0.4424), (0.0, 0.2437)]) {
-        assert!((index.effect.first_order.estimate - exact.0).abs() < 0.01);
-        assert!((index.effect.total.estimate - exact.1).abs() < 0.01);
+    for (name, exact) in [("x1", (0.3139, 0.5576)), ("x2", (0.4424, 0.4424)), ("x3", (0.0, 0.2437))] {
+        let (alone, all) = (y.factor(name)?.first_order, y.factor(name)?.total);
+        println!("{name}: alone {:.3}, with all interactions {:.3}", alone.estimate, all.estimate);
+        assert!((alone.estimate - exact.0).abs() < 0.01);
+        assert!((all.estimate - exact.1).abs() < 0.01);
     }
     Ok(())
 }

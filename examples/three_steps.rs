@@ -7,6 +7,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use apportion::exchange::{AnswersRequest, Format, Manifest, MissingOutputs, open_rows, read_answers, sample};
+use apportion::report::ResultFile;
 use apportion::report::{stream_atomically, summary, write_atomically};
 use apportion::study::Study;
 use apportion::{Running, analyse_with};
@@ -63,13 +64,13 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let manifest = Manifest::parse(&std::fs::read_to_string(Manifest::path_beside(&points))?)?;
     let request = AnswersRequest { manifest: &manifest, outputs: &[], units: &[], missing: MissingOutputs::Refuse };
     let answers = read_answers(open_rows(&outputs)?.as_mut(), &request)?;
-    let result = analyse_with(&answers.study, Running { store: Some(&answers.store), ..Running::on(0) })?;
-    print!("{}", summary(&result));
+    let analysis = analyse_with(&answers.study, Running { store: Some(&answers.store), ..Running::on(0) })?;
+    print!("{}", summary(&ResultFile::new(&answers.study, &analysis)));
 
     // With c^2 = variance / mean^2, here 1/12 and 1/27: S_i = c_i^2 / ((1 + c_1^2) (1 + c_2^2) - 1).
-    let indices = result.outputs[0].indices.as_ref().ok_or("no indices")?;
-    for (index, exact) in indices.iter().zip([0.675, 0.3]) {
-        assert!((index.effect.first_order.estimate - exact).abs() < 0.005);
+    let indices = analysis.outputs[0].indices.as_ref().map_err(|reason| *reason)?;
+    for (effect, exact) in indices.factors.iter().zip([0.675, 0.3]) {
+        assert!((effect.first_order.estimate - exact).abs() < 0.005);
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use apportion::analyse;
 use apportion::model::{FunctionModel, Output, RowFailure};
 use apportion::quantity::Unit;
-use apportion::report::summary;
+use apportion::report::{ResultFile, summary};
 use apportion::space::Distribution;
 use apportion::study::{AnalysisOptions, Study};
 
@@ -36,13 +36,11 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .analysis(AnalysisOptions { second_order: true, ..AnalysisOptions::for_sampler(sampler) })
         .build()?;
 
-    let result = analyse(&study, 0, &|_| ())?;
-    print!("{}", summary(&result));
-    let output = &result.outputs[0];
-    assert_eq!(output.unit, "kN");
+    let analysis = analyse(&study, 0, &|_| ())?;
+    print!("{}", summary(&ResultFile::new(&study, &analysis)));
+    let output = &analysis.outputs[0];
     assert!(output.runs_failed > 0 && output.failures[0].reason.contains("too stout"));
     // The force grows with the fourth power of the radius: it decides.
-    let indices = output.indices.as_ref().ok_or("no indices")?;
-    assert!(indices[2].effect.share_total.is_some_and(|share| share > 80.0));
+    assert!(output.factor("radius")?.share_total.is_some_and(|share| share.estimate > 80.0));
     Ok(())
 }

@@ -2,12 +2,19 @@
 
 use std::sync::atomic::AtomicBool;
 
+mod estimate;
+mod result;
+mod warnings;
+
+pub use estimate::{names_of_swaps, row_inputs};
+pub use result::{Aggregate, Analysis, FailureCount, LookupError, NoIndices, OutputAnalysis, StopReason, Stopped};
+
 use crate::design::{Design, MAX_POINTS};
 use crate::estimate::{MomentParts, PointOutputs};
-use crate::report::{FinishedRun, ResultFile, RunFacts, StoppingRecord, build_result, judgement};
 use crate::run::{GrowingRun, Job, Keep, Progress, RunError, Shard, Store, threads_in_force};
 use crate::study::{Stopping, Study};
-use crate::uncertainty::{Judgement, KeptPoints, output_indices};
+use crate::uncertainty::{IntervalOptions, KeptPoints, output_indices};
+use estimate::{FinishedRun, interval_options};
 
 /// Runs `study` on `threads` threads (0: one per core) and estimates its indices. `on_progress` is called from time to
 /// time, from any thread. The result is the same for any number of threads, apart from the fields that tell about them
@@ -19,16 +26,16 @@ use crate::uncertainty::{Judgement, KeptPoints, output_indices};
 ///
 /// let text = include_str!("../studies/ishigami.toml");
 /// let study = Study::parse(text, Path::new("ishigami.toml"), &[])?;
-/// let result = analyse(&study, 0, &|_| ())?;
-/// let indices = result.outputs[0].indices.as_ref().ok_or("no indices")?;
-/// assert!((indices[0].effect.first_order.estimate - 0.3139).abs() < 0.003);
+/// let analysis = analyse(&study, 0, &|_| ())?;
+/// let first_order = analysis.output("y")?.factor("x1")?.first_order;
+/// assert!((first_order.estimate - 0.3139).abs() < 0.003);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
 /// [`RunError`] if the threads cannot be started, a row fails in a study that says to stop then, or intervals need more
 /// outputs at once than fit. Otherwise rows that fail are part of the result.
-pub fn analyse(study: &Study, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<ResultFile, RunError> {
+pub fn analyse(study: &Study, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<Analysis, RunError> {
     analyse_with(study, Running { on_progress, ..Running::on(threads) })
 }
 
@@ -89,7 +96,7 @@ fn growing<'a>(study: &Study, job: Job<'a>, running: Running<'a>) -> Result<Grow
 /// let first = analyse_with(&study, running)?;
 /// // The second time nothing is evaluated; twice the points would evaluate the second half of them alone.
 /// let second = analyse_with(&study, running)?;
-/// assert_eq!(first.outputs, second.outputs);
+/// assert_eq!(first.output("y")?.indices, second.output("y")?.indices);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -98,7 +105,7 @@ fn growing<'a>(study: &Study, job: Job<'a>, running: Running<'a>) -> Result<Grow
 /// # Errors
 /// [`RunError`] if the threads cannot be started, a row fails in a study that says to stop then, intervals need more
 /// outputs at once than fit, the model gives up, an output cannot be kept, or the run is asked to end.
-pub fn analyse_with(study: &Study, running: Running<'_>) -> Result<ResultFile, RunError> {
+pub fn analyse_with(study: &Study, running: Running<'_>) -> Result<Analysis, RunError> {
     let model = study.model();
     let longest = if study.stopping.grows() { longest(&study.design) } else { study.design.clone() };
     let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
@@ -110,9 +117,9 @@ pub fn analyse_with(study: &Study, running: Running<'_>) -> Result<ResultFile, R
         run = run.with_store(store);
     }
     run.grow_to(study.design.points_per_replicate(), on_progress)?;
-    let mut stopping = None;
+    let mut stopped = None;
     if study.stopping.grows() {
-        stopping = Some(loop {
+        stopped = Some(loop {
             if let Some(reason) = run.install(|| reason_to_stop(study, &run, &longest)) {
                 break reason;
             }
@@ -125,9 +132,10 @@ pub fn analyse_with(study: &Study, running: Running<'_>) -> Result<ResultFile, R
         model: model.as_ref(),
         design: &design,
         replicates: run.totals(),
-        facts: RunFacts { threads: threads_in_force(threads), wall_seconds: run.elapsed().as_secs_f64() },
+        threads: threads_in_force(threads),
+        wall_seconds: run.elapsed().as_secs_f64(),
     };
-    Ok(run.install(|| build_result(&finished, stopping)))
+    Ok(run.install(|| estimate::analysis(&finished, stopped)))
 }
 
 /// The longest design that a run of `design` can grow into.
@@ -143,58 +151,39 @@ fn longest(design: &Design) -> Design {
 }
 
 /// Why the run should not be doubled once more; `None` if it should.
-fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design) -> Option<StoppingRecord> {
+fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design) -> Option<Stopped> {
     let Stopping { half_width, budget, max_runs } = study.stopping;
     let widest = widest(study, run);
     let met = half_width.map(|target| widest.is_some_and(|widest| widest <= target));
-    let end = |reason: String| StoppingRecord {
-        reason,
-        target_met: met,
-        target_half_width: half_width,
-        budget_seconds: budget,
-        max_runs,
-    };
-    if let (Some(true), Some(target), Some(widest)) = (met, half_width, widest) {
-        return Some(end(format!("every half width is {widest:.2e} or less: the target of {target} is met")));
-    }
-    if half_width.is_some() && widest.is_none() {
-        return Some(end("there are indices or intervals missing: no number of runs would meet the target".to_owned()));
-    }
     let next = run.points_per_replicate() * 2;
     let runs = u128::from(next) * u128::from(longest.settings().replicates) * u128::from(longest.rows_per_point());
-    if next > longest.points_per_replicate() {
-        return Some(end("the sequence of points has come to its end".to_owned()));
-    }
-    if run.room_for(next).is_err() {
-        return Some(end(
-            "the outputs of twice the runs would not fit: these intervals need all of them at once".to_owned()
-        ));
-    }
-    if let Some(most) = max_runs.filter(|most| runs > u128::from(*most)) {
-        return Some(end(format!("twice the runs would be {runs}, more than max_runs = {most}")));
-    }
-    let elapsed = run.elapsed().as_secs_f64();
-    if let Some(budget) = budget.filter(|budget| 2.0 * elapsed > *budget) {
-        return Some(end(format!(
-            "twice the runs would take some {:.1} s, more than the budget of {budget} s",
-            2.0 * elapsed
-        )));
-    }
-    None
+    let seconds = 2.0 * run.elapsed().as_secs_f64();
+    let reason = match (half_width, widest) {
+        (Some(target), Some(widest)) if widest <= target => StopReason::TargetMet { widest, target },
+        (Some(_), None) => StopReason::NoIntervals,
+        _ if next > longest.points_per_replicate() => StopReason::EndOfSequence,
+        _ if run.room_for(next).is_err() => StopReason::Memory,
+        _ => match (max_runs, budget) {
+            (Some(most), _) if runs > u128::from(most) => StopReason::MaxRuns { runs, most },
+            (_, Some(budget)) if seconds > budget => StopReason::Budget { seconds, budget },
+            _ => return None,
+        },
+    };
+    Some(Stopped { reason, target_met: met })
 }
 
 /// Largest half width of the indices of all outputs; `None` if some are missing. An output that does not vary has no
 /// indices and waits for none.
 fn widest(study: &Study, run: &GrowingRun<'_>) -> Option<f64> {
     let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());
-    let (layout, judgement) = (study.layout(), judgement(study));
+    let (layout, options) = (study.layout(), interval_options(study));
     let design = run.design();
     let mut widest = None;
     for number in 0..outputs {
         let parts: Vec<MomentParts> = run.totals().iter().map(|t| t.outputs[number].moments.clone()).collect();
         let kept: Vec<&PointOutputs> = run.totals().iter().map(|t| &t.outputs[number].kept).collect();
-        let judgement = Judgement { points: KeptPoints::all(design, &kept), ..judgement };
-        match output_indices(&parts, &layout, &judgement) {
+        let options = IntervalOptions { points: KeptPoints::all(design, &kept), ..options };
+        match output_indices(&parts, &layout, &options) {
             Ok(indices) => widest = Some(indices.largest_half_width()?.max(widest.unwrap_or(0.0))),
             Err(crate::estimate::Undefined::ZeroVariance) => (),
             Err(_) => return None,

@@ -56,10 +56,9 @@
 //!     unit = "um"
 //! "#;
 //! let study = Study::parse(text, "example.toml".as_ref(), &[])?;
-//! let result = apportion::analyse(&study, 0, &|_| ())?;
-//! let indices = result.outputs[0].indices.as_ref().ok_or("no indices")?;
-//! assert_eq!(indices[0].factor, "thickness");
-//! assert!(indices[0].effect.share_total.is_some_and(|percent| percent > 90.0));
+//! let analysis = apportion::analyse(&study, 0, &|_| ())?;
+//! let thickness = analysis.output("critical_force")?.factor("thickness")?;
+//! assert!(thickness.share_total.is_some_and(|percent| percent.estimate > 90.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -97,4 +96,7 @@ pub mod sweep;
 pub mod uncertainty;
 mod words;
 
-pub use analysis::{Running, analyse, analyse_with, evaluate_shard};
+pub use analysis::{
+    Aggregate, Analysis, FailureCount, LookupError, NoIndices, OutputAnalysis, Running, StopReason, Stopped, analyse,
+    analyse_with, evaluate_shard,
+};

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
+use apportion::report::ResultFile;
 use apportion::report::prepare_folder;
 use apportion::run::{Piece, Shard, Store};
 use apportion::study::Study;
@@ -86,7 +87,7 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         path.display()
     ));
     let running = Running { store: Some(&record.store), ..Running::on(arguments.threads.number()) };
-    let result = analyse_with(&study, running)?;
+    let result = ResultFile::new(&study, &analyse_with(&study, running)?);
     deliver(&study, &folder, &result)
 }
 

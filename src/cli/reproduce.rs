@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::sync::{Mutex, OnceLock};
 
+use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, in_words, reproduce as run, write_all};
 use anyhow::anyhow;
 use apportion::report::prepare_folder;
-use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, in_words, reproduce as run, write_all};
 
 use super::progress::{Meter, PartMeter};
 use super::{DesignChanges, Failure, Threads, print, say};

@@ -138,7 +138,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     }
     let files = ModelFiles::of(&study);
-    let mut result = analyse_with(&study, running).map_err(failed)?;
+    let mut result = ResultFile::new(&study, &analyse_with(&study, running).map_err(failed)?);
     warn_of_files(&mut result, record.as_ref().and_then(|record| record.foreign.as_ref()), files.changed());
     if let Some(record) = &record {
         record.sync()?;

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::scene::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
+use crate::scene::{PageParts, mode_diagram_chart, scene_charts, scene_csv, scene_json, scene_page};
 use apportion::quantity::{Dimension, Quantity};
 use apportion::report::chart::{Chart, png};
-use crate::scene::{PageParts, mode_diagram_chart, scene_charts, scene_csv, scene_json, scene_page};
 use apportion::report::{prepare_folder, with_unit, write_in};
-use crate::scene::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
 use apportion::study::Study;
 
 use super::pictures::say_written;

@@ -1,21 +1,18 @@
-//! From a study and its totals to the result file.
+//! From a study and its analysis to the result file.
 
 use serde_json::Value;
 
-use super::build_output::{estimate_record, output_record};
+use super::build_output::{OutputRecords, estimate_record};
 use super::result::{
-    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, OutputRecord, Provenance,
+    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, MixedModels, Provenance,
     ResultFile, RungRecord, StoppingRecord, StudyRecord, ValidityRecord,
 };
-use super::scatter::{FirstRows, Sampled, scatter_record};
-use crate::design::Design;
-use crate::estimate::{FirstOrder, MomentParts, Scaling, Total};
-use crate::model::{Model, Output};
-use crate::run::Totals;
+use crate::analysis::Analysis;
+use crate::estimate::{FirstOrder, Scaling, Total};
 use crate::study::Study;
-use crate::uncertainty::{AggregateIndices, IntervalMethod, aggregate_indices};
+use crate::uncertainty::{AggregateIndices, IntervalMethod};
 
-/// What the result says about the run besides its totals.
+/// How long a run took, and on how many threads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunFacts {
     /// Threads used.
@@ -24,68 +21,52 @@ pub struct RunFacts {
     pub wall_seconds: f64,
 }
 
-/// A run of a study that is over.
-#[derive(Clone, Copy)]
-pub struct FinishedRun<'a> {
-    /// The study.
-    pub study: &'a Study,
-    /// Its model.
-    pub model: &'a dyn Model,
-    /// The design as it was in the end: a run that grows leaves the study's own behind.
-    pub design: &'a Design,
-    /// Totals of each replicate.
-    pub replicates: &'a [Totals],
-    /// Threads and time.
-    pub facts: RunFacts,
-}
-
-/// The result of a run; `stopping` tells why a growing one ended.
-pub fn build_result(run: &FinishedRun<'_>, stopping: Option<StoppingRecord>) -> ResultFile {
-    let FinishedRun { study, model, replicates, .. } = *run;
-    let mut whole = Totals::none(model);
-    replicates.iter().for_each(|totals| whole.add_counts(totals));
-    let rows = FirstRows::of(run.design);
-    let sampled = Sampled { rows: &rows, space: &study.space, replicates };
-    let record = |(number, output): (usize, &Output)| {
-        let record = output_record(run, output, number, &whole);
-        let indices = record.indices.as_deref();
-        let scatter = indices.and_then(|indices| scatter_record(sampled, (number, &output.unit), indices));
-        OutputRecord { scatter, ..record }
-    };
-    let outputs = model.outputs().iter().enumerate().map(record).collect();
-    let validity = model
-        .flags()
-        .iter()
-        .zip(&whole.flags)
-        .filter(|(flag, runs)| !flag.warns || **runs > 0)
-        .map(|(flag, &runs)| ValidityRecord {
+impl ResultFile {
+    /// The result file of `analysis`, which a run of `study` gave.
+    pub fn new(study: &Study, analysis: &Analysis) -> Self {
+        let runs = analysis.design.rows();
+        let told = analysis.flags.iter().filter(|(flag, runs)| !flag.warns || *runs > 0);
+        let validity = told.map(|(flag, raised)| ValidityRecord {
             flag: flag.name.to_string(),
             description: flag.description.to_string(),
-            runs,
-            share: runs as f64 / whole.runs as f64,
-        })
-        .collect();
-    ResultFile {
-        format: "apportion-result".to_owned(),
-        version: 1,
-        study: study_record(study),
-        provenance: provenance(run),
-        factors: factor_records(study),
-        outputs,
-        validity,
-        effort: effort_record(model, &whole),
-        aggregate: aggregate_record(study, model, replicates),
-        stopping,
+            runs: *raised,
+            share: *raised as f64 / runs as f64,
+        });
+        let records = OutputRecords::new(study, analysis);
+        Self {
+            format: "apportion-result".to_owned(),
+            version: 1,
+            study: study_record(study),
+            provenance: provenance(study, analysis),
+            factors: factor_records(study),
+            outputs: analysis.outputs.iter().map(|output| records.record(output)).collect(),
+            validity: validity.collect(),
+            effort: effort_record(analysis),
+            aggregate: aggregate_record(study, analysis),
+            stopping: stopping_record(study, analysis),
+        }
     }
 }
 
-fn effort_record(model: &dyn Model, whole: &Totals) -> Option<EffortRecord> {
-    let rungs = model.rungs().iter().zip(&whole.effort.rungs).filter(|(_, runs)| **runs > 0);
+fn stopping_record(study: &Study, analysis: &Analysis) -> Option<StoppingRecord> {
+    let stopping = study.stopping;
+    analysis.stopped.as_ref().map(|stopped| StoppingRecord {
+        reason: stopped.reason.to_string(),
+        target_met: stopped.target_met,
+        target_half_width: stopping.half_width,
+        budget_seconds: stopping.budget,
+        max_runs: stopping.max_runs,
+    })
+}
+
+fn effort_record(analysis: &Analysis) -> Option<EffortRecord> {
+    let (names, effort) = analysis.effort.as_ref()?;
+    let rungs = names.iter().zip(&effort.rungs).filter(|(_, runs)| **runs > 0);
     let rungs = rungs.map(|(rung, &runs)| RungRecord { rung: (*rung).to_owned(), runs });
-    (!model.rungs().is_empty()).then(|| EffortRecord {
+    Some(EffortRecord {
         rungs: rungs.collect(),
-        evaluations: whole.effort.evaluations,
-        largest_error_estimate: whole.effort.largest_error,
+        evaluations: effort.evaluations,
+        largest_error_estimate: effort.largest_error,
     })
 }
 
@@ -108,10 +89,10 @@ fn study_record(study: &Study) -> StudyRecord {
     }
 }
 
-fn provenance(run: &FinishedRun<'_>) -> Provenance {
-    let FinishedRun { study, design, .. } = *run;
-    let (settings, analysis) = (design.settings(), &study.analysis);
-    let alone = settings.replicates == 1 && analysis.intervals == IntervalMethod::Replicates;
+fn provenance(study: &Study, analysis: &Analysis) -> Provenance {
+    let (design, options) = (&analysis.design, &study.analysis);
+    let settings = design.settings();
+    let alone = settings.replicates == 1 && options.intervals == IntervalMethod::Replicates;
     Provenance {
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: settings.seed,
@@ -119,14 +100,14 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
         base_samples: settings.base_samples,
         replicates: settings.replicates,
         model_runs: design.rows(),
-        threads: run.facts.threads,
-        wall_seconds: run.facts.wall_seconds,
+        threads: analysis.threads,
+        wall_seconds: analysis.wall_seconds,
         study_sha256: study.sha256.clone(),
         first_order_estimator: FirstOrder::of_rows(design.companions()).source().to_owned(),
         total_estimator: Total::of_rows(design.companions()).source().to_owned(),
-        interval: (!alone).then(|| analysis.intervals.words(settings.replicates, analysis.resamples)),
-        interval_method: analysis.intervals.name().to_owned(),
-        threshold: analysis.threshold,
+        interval: (!alone).then(|| options.intervals.words(settings.replicates, options.resamples)),
+        interval_method: options.intervals.name().to_owned(),
+        threshold: options.threshold,
         mixed_models: Vec::new(),
     }
 }
@@ -142,32 +123,41 @@ fn factor_records(study: &Study) -> Vec<FactorRecord> {
     study.space.factors().iter().map(record).collect()
 }
 
-fn aggregate_record(study: &Study, model: &dyn Model, replicates: &[Totals]) -> Option<AggregateRecord> {
-    let outputs = model.outputs();
-    if !study.analysis.aggregate || outputs.len() < 2 {
-        return None;
-    }
-    let same_unit = outputs.iter().all(|output| output.unit.compatible(&outputs[0].unit));
-    let (scaling, weighting) = if same_unit {
-        (Scaling::Plain, "each output counts by its variance (Gamboa et al. 2014)")
-    } else {
-        (Scaling::Standardised, "each output is divided by its standard deviation first, since their units differ")
+fn aggregate_record(study: &Study, analysis: &Analysis) -> Option<AggregateRecord> {
+    let aggregate = analysis.aggregate.as_ref()?;
+    let weighting = match aggregate.scaling {
+        Scaling::Plain => "each output counts by its variance (Gamboa et al. 2014)",
+        Scaling::Standardised => "each output is divided by its standard deviation first, since their units differ",
     };
-    let parts: Vec<Vec<MomentParts>> = (0..outputs.len())
-        .map(|number| replicates.iter().map(|totals| totals.outputs[number].moments.clone()).collect())
-        .collect();
-    let parts: Vec<&[MomentParts]> = parts.iter().map(Vec::as_slice).collect();
-    let aggregate = aggregate_indices(&parts, scaling, study.analysis.intervals);
     let record = |(number, factor): (usize, &crate::space::Factor), all: &AggregateIndices| AggregateIndexRecord {
         factor: factor.name.clone(),
         first_order: estimate_record(all.first_order[number]),
         total: estimate_record(all.total[number]),
     };
     let factors = || study.space.factors().iter().enumerate();
+    let indices = aggregate.indices.as_ref();
     Some(AggregateRecord {
-        outputs: outputs.iter().map(|output| output.name.to_string()).collect(),
+        outputs: analysis.outputs.iter().map(|output| output.name.clone()).collect(),
         weighting: weighting.to_owned(),
-        indices: aggregate.as_ref().ok().map(|all| factors().map(|factor| record(factor, all)).collect()),
-        reason: aggregate.err().map(|undefined| undefined.to_string()),
+        indices: indices.ok().map(|all| factors().map(|factor| record(factor, all)).collect()),
+        reason: indices.err().map(|undefined| undefined.to_string()),
     })
+}
+
+/// Notes in `result` that runs were answered by another version of the model: so many of those on record, or an unknown
+/// number if `files` changed while the run was under way.
+pub fn note_mixed_models(result: &mut ResultFile, files: &str, runs: Option<u64>) {
+    let warning = match runs {
+        Some(runs) => format!(
+            "{runs} of the runs on record were evaluated with another {files} than the others: the numbers mix two models"
+        ),
+        None => format!(
+            "{files} changed while the run was under way: its runs may have been answered by either version, and the numbers \
+             may mix two models"
+        ),
+    };
+    result.provenance.mixed_models.push(MixedModels { files: files.to_owned(), runs });
+    for output in &mut result.outputs {
+        output.warnings.push(warning.clone());
+    }
 }

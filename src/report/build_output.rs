@@ -1,118 +1,72 @@
-//! From the totals of one output to its part of the result file.
+//! From the analysis of one output to its part of the result file.
 
 use serde_json::{Map, Value};
 
 use super::asked::input_value;
-use super::build::FinishedRun;
 use super::distribution::OutputDistribution;
 use super::result::{
     DistributionRecord, EffectRecord, EstimateRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord,
     IntervalRecord, OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
 };
-use super::warnings;
-use crate::design::Design;
-use crate::estimate::{CentralMoments, FirstOrder, MomentParts, PointOutputs, Total, merged};
-use crate::model::{Output, RowFailure};
-use crate::quantity::Unit;
-use crate::run::{Place, Tally, Totals};
+use super::scatter::{FirstRows, scatter_record};
+use crate::analysis::{Analysis, FailureCount, OutputAnalysis, names_of_swaps, row_inputs};
+use crate::estimate::{FirstOrder, Total};
+use crate::run::Place;
 use crate::study::Study;
-use crate::uncertainty::{
-    EffectEstimates, Estimate, Interval, Judgement, KeptPoints, OtherEstimates, OutputIndices, OutputMoments, Stage,
-    output_indices, output_moments, stages,
-};
+use crate::uncertainty::{EffectEstimates, Estimate, Interval, OtherEstimates, OutputIndices, Stage};
 
-/// The record of output number `number`; `whole` holds the counts over all replicates.
-pub(super) fn output_record(run: &FinishedRun<'_>, output: &Output, number: usize, whole: &Totals) -> OutputRecord {
-    let study = run.study;
-    let totals = &whole.outputs[number];
-    let parts: Vec<MomentParts> = run.replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
-    let unit = &output.unit;
-    let kept: Vec<&PointOutputs> = run.replicates.iter().map(|t| &t.outputs[number].kept).collect();
-    let judgement = Judgement { points: KeptPoints::all(run.design, &kept), ..judgement(study) };
-    let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>());
-    let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &judgement), used.count());
-    let squared = |x: f64| unit.span_from_si(unit.span_from_si(x));
-    let in_unit = |x: f64| unit.from_si(x);
-    let failure = |(failure, tally): (&RowFailure, &Tally)| failure_record(run, failure, *tally);
-    let mut record = OutputRecord {
-        name: output.name.to_string(),
-        unit: unit.to_string(),
-        mean: mean.map(|mean| in_unit(mean.estimate)),
-        variance: variance.map(|variance| squared(variance.estimate)),
-        mean_interval: mean.and_then(|mean| interval_record(mean.interval, &in_unit)),
-        variance_interval: variance.and_then(|variance| interval_record(variance.interval, &squared)),
-        runs_ok: run.design.rows() - totals.runs_failed,
-        runs_failed: totals.runs_failed,
-        base_points_used: used.fewest(),
-        failures: totals.failures.iter().map(failure).collect(),
-        sum_first_order: None,
-        sum_total: None,
-        indices: None,
-        groups: None,
-        subsets: None,
-        dummy: None,
-        second_order: None,
-        estimators: Vec::new(),
-        convergence: Vec::new(),
-        distribution: distribution_record(run.replicates, number, (&totals.values, unit)),
-        scatter: None,
-        reason: None,
-        warnings: Vec::new(),
-    };
-    record.warnings = warnings::of_runs(run, &record);
-    record.warnings.extend(warnings::of_flags(run.model, whole));
-    let failed_share = totals.runs_failed as f64 / run.design.rows() as f64;
-    if failed_share > study.analysis.max_failed {
-        record.reason = Some(format!(
-            "{:.3} % of the runs failed, more than max_failed = {} allows: what is left would not stand for the whole",
-            100.0 * failed_share,
-            study.analysis.max_failed
-        ));
-        return record;
+/// What the records of all outputs are made from.
+pub(super) struct OutputRecords<'a> {
+    study: &'a Study,
+    runs_per_point: u64,
+    rows: FirstRows,
+}
+
+impl<'a> OutputRecords<'a> {
+    pub fn new(study: &'a Study, analysis: &Analysis) -> Self {
+        let design = &analysis.design;
+        Self { study, runs_per_point: design.rows_per_point(), rows: FirstRows::of(design) }
     }
-    let layout = study.layout();
-    match output_indices(&parts, &layout, &judgement) {
-        Err(undefined) => record.reason = Some(undefined.to_string()),
-        Ok(indices) => {
-            record.warnings.extend(warnings::of_values(&totals.values));
-            record.warnings.extend(warnings::of_indices(study, &indices));
-            add_indices(&mut record, study, &indices);
-            let runs = run.design.rows_per_point();
-            record.convergence =
-                stages(&parts, &layout, &judgement).iter().map(|stage| stage_record(study, stage, runs)).collect();
+
+    /// The record of `output`.
+    pub fn record(&self, output: &OutputAnalysis) -> OutputRecord {
+        let (study, unit) = (self.study, &output.unit);
+        let squared = |x: f64| unit.span_from_si(unit.span_from_si(x));
+        let in_unit = |x: f64| unit.from_si(x);
+        let (mean, variance) = (output.mean, output.variance);
+        let stage = |stage: &Stage| stage_record(study, stage, self.runs_per_point);
+        let mut record = OutputRecord {
+            name: output.name.clone(),
+            unit: unit.to_string(),
+            mean: mean.map(|mean| in_unit(mean.estimate)),
+            variance: variance.map(|variance| squared(variance.estimate)),
+            mean_interval: mean.and_then(|mean| interval_record(mean.interval, &in_unit)),
+            variance_interval: variance.and_then(|variance| interval_record(variance.interval, &squared)),
+            runs_ok: output.runs_ok,
+            runs_failed: output.runs_failed,
+            base_points_used: output.base_points_used,
+            failures: output.failures.iter().map(|failure| failure_record(study, failure)).collect(),
+            sum_first_order: None,
+            sum_total: None,
+            indices: None,
+            groups: None,
+            subsets: None,
+            dummy: None,
+            second_order: None,
+            estimators: Vec::new(),
+            convergence: output.convergence.iter().map(stage).collect(),
+            distribution: distribution_record(output),
+            scatter: None,
+            reason: output.indices.as_ref().err().map(ToString::to_string),
+            warnings: output.warnings.clone(),
+        };
+        if let Ok(indices) = &output.indices {
+            add_indices(&mut record, study, indices);
         }
+        let indices = record.indices.as_deref();
+        record.scatter = indices.and_then(|indices| scatter_record(&self.rows, &study.space, output, indices));
+        record
     }
-    record
-}
-
-/// Mean and variance of all successful rows A and B. The indices rest on the `points` base points at which both rows
-/// succeeded, and so do the `moments` with their intervals; where some succeeded alone, the interval of the mean is moved to the
-/// mean of all, and that of the variance is scaled to theirs.
-fn moments_of_all_rows(
-    values: &CentralMoments,
-    moments: Option<OutputMoments>,
-    points: u64,
-) -> (Option<Estimate>, Option<Estimate>) {
-    let (Some(mean), Some(variance)) = (values.mean(), values.variance()) else { return (None, None) };
-    let unknown = |estimate| Some(Estimate { estimate, interval: None });
-    let Some(moments) = moments else { return (unknown(mean), unknown(variance)) };
-    if values.count() == 2 * points {
-        return (Some(moments.mean), Some(moments.variance));
-    }
-    let changed = |of: Estimate, estimate: f64, change: &dyn Fn(f64) -> f64| {
-        let interval = of.interval.map(|Interval { low, high }| Interval { low: change(low), high: change(high) });
-        Some(Estimate { estimate, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) })
-    };
-    let shift = mean - moments.mean.estimate;
-    let ratio = variance / moments.variance.estimate;
-    (changed(moments.mean, mean, &|bound| bound + shift), changed(moments.variance, variance, &|bound| bound * ratio))
-}
-
-/// How the intervals and probabilities of `study` are found.
-pub fn judgement(study: &Study) -> Judgement<'static> {
-    let (analysis, seed) = (&study.analysis, study.design.settings().seed);
-    let (method, threshold, resamples) = (analysis.intervals, analysis.threshold, analysis.resamples);
-    Judgement { method, threshold, seed, resamples, points: None }
 }
 
 fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices) {
@@ -149,23 +103,6 @@ fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices
     record.estimators = estimator_records(study, indices);
 }
 
-/// Names of everything that has indices, in the order of the swaps: factors, groups, subsets, dummy.
-pub(super) fn names_of_swaps(study: &Study) -> Vec<String> {
-    let factors = study.space.factors();
-    let subset = |numbers: &Vec<usize>| {
-        numbers.iter().map(|&number| factors[number].name.as_str()).collect::<Vec<_>>().join(" + ")
-    };
-    let names = factors.iter().map(|factor| factor.name.clone());
-    let names = names.chain(study.space.groups().into_iter().map(|group| group.name));
-    let names = names.chain(study.analysis.subsets.iter().map(subset));
-    names.chain(study.analysis.dummy.then(|| "dummy".to_owned())).collect()
-}
-
-/// All effects of an output in the order of the swaps.
-pub(super) fn effects(indices: &OutputIndices) -> impl Iterator<Item = &EffectEstimates> {
-    indices.factors.iter().chain(&indices.groups).chain(&indices.subsets).chain(&indices.dummy)
-}
-
 fn estimator_records(study: &Study, indices: &OutputIndices) -> Vec<EstimatorRecord> {
     let names = names_of_swaps(study);
     let estimators = study.analysis.estimators.iter().enumerate();
@@ -183,7 +120,7 @@ fn estimator_records(study: &Study, indices: &OutputIndices) -> Vec<EstimatorRec
             estimator: estimator.name().to_owned(),
             first_order_source: first_order.map(FirstOrder::source).map(str::to_owned),
             total_source: total.map(Total::source).map(str::to_owned),
-            indices: names.iter().zip(effects(indices)).map(of_swap).collect(),
+            indices: names.iter().zip(indices.effects()).map(of_swap).collect(),
         }
     };
     estimators.map(record).collect()
@@ -229,13 +166,9 @@ fn interval_record(interval: Option<Interval>, convert: &dyn Fn(f64) -> f64) -> 
 
 /// Moments and range from all values of the rows A and B, the rest from those that were kept. `None` without values, and
 /// where a number is beyond double precision in the unit.
-fn distribution_record(
-    replicates: &[Totals],
-    number: usize,
-    (values, unit): (&CentralMoments, &Unit),
-) -> Option<DistributionRecord> {
-    let kept = replicates.iter().flat_map(|totals| &totals.outputs[number].sample).copied();
-    let kept: Vec<f64> = kept.filter(|value| value.is_finite()).collect();
+fn distribution_record(output: &OutputAnalysis) -> Option<DistributionRecord> {
+    let (values, unit) = (&output.values, &output.unit);
+    let kept: Vec<f64> = output.samples.iter().flatten().copied().filter(|value| value.is_finite()).collect();
     let mut sample = OutputDistribution::of(&kept, unit).ok()?;
     let (min, max) = values.range()?;
     (sample.mean, sample.min, sample.max) = (unit.from_si(values.mean()?), unit.from_si(min), unit.from_si(max));
@@ -250,19 +183,10 @@ fn distribution_record(
     representable.then_some(DistributionRecord { values: n, sample })
 }
 
-fn failure_record(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> FailureRecord {
-    let first_row = tally.first.row(run.design);
-    let values = row_inputs(run.study, run.design, tally.first);
-    let named = |(factor, value): (&crate::space::Factor, f64)| (factor.name.clone(), input_value(factor, value));
-    let first_inputs: Map<String, Value> = run.study.space.factors().iter().zip(values).map(named).collect();
-    FailureRecord { reason: failure.to_string(), runs: tally.count, first_row, first_inputs }
-}
-
-/// The values of the factors at `place` of `design`, in their units.
-fn row_inputs(study: &Study, design: &Design, place: Place) -> Vec<f64> {
-    let mut u = vec![0.0; design.factors()];
-    design.point(place.row(design), &mut u);
-    study.space.values_at(&u)
+fn failure_record(study: &Study, failure: &FailureCount) -> FailureRecord {
+    let named = |(factor, value): (&crate::space::Factor, &f64)| (factor.name.clone(), input_value(factor, *value));
+    let first_inputs: Map<String, Value> = study.space.factors().iter().zip(&failure.first_inputs).map(named).collect();
+    FailureRecord { reason: failure.reason.clone(), runs: failure.runs, first_row: failure.first_row, first_inputs }
 }
 
 /// The inputs of a row of `study` in words, such as `length = 300 um, velocity = 0 nm/s`; `place` may lie beyond the

@@ -21,14 +21,13 @@ mod shares_chart;
 pub mod sweep;
 mod tables;
 mod trend;
-mod warnings;
 mod write;
 
 pub use crate::names::{file_part, file_stems, refused_name};
 pub use crate::words::{capitalised, listed};
 pub use asked::{AskedFactor, AskedRecord, Drawing};
-pub use build::{FinishedRun, RunFacts, build_result, result_json};
-pub use build_output::{inputs_in_words, judgement};
+pub use build::{RunFacts, note_mixed_models, result_json};
+pub use build_output::inputs_in_words;
 pub use read::{ReadError, ReadProblem, parse_result, read_result};
 pub use result::*;
 pub use run_charts::{convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart};
@@ -41,7 +40,6 @@ pub use tables::{
 };
 pub(crate) use tables::{csv_field, plain_field};
 pub use trend::{widest_interval, width_after_doubling};
-pub use warnings::note_mixed_models;
 pub use write::{
     WriteError, prepare_file, prepare_folder, prepare_in, remove_unfinished, stream_atomically, write_atomically,
     write_in,

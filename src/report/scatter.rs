@@ -4,9 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::result::IndexRecord;
+use crate::analysis::OutputAnalysis;
 use crate::design::Design;
 use crate::quantity::Unit;
-use crate::run::{SAMPLE, Totals};
+use crate::run::SAMPLE;
 use crate::space::{Distribution, Factor, Space};
 use crate::sum::{centred_product, mean, rescaled};
 
@@ -115,34 +116,26 @@ impl FirstRows {
     }
 }
 
-/// What the record of an output is made of.
-#[derive(Clone, Copy)]
-pub(super) struct Sampled<'a> {
-    pub rows: &'a FirstRows,
-    pub space: &'a Space,
-    pub replicates: &'a [Totals],
-}
-
-/// The record of output `number`, whose values are in `unit`, for the factors with the largest of `indices`. `None` where
-/// a number is beyond double precision in its unit.
+/// The record of `output` for the factors with the largest of `indices`; `rows` are the first of its design. `None` where a
+/// number is beyond double precision in its unit.
 pub(super) fn scatter_record(
-    sampled: Sampled<'_>,
-    (number, unit): (usize, &Unit),
+    rows: &FirstRows,
+    space: &Space,
+    output: &OutputAnalysis,
     indices: &[IndexRecord],
 ) -> Option<ScatterRecord> {
-    let outputs: Vec<&[f64]> =
-        sampled.replicates.iter().map(|totals| totals.outputs[number].sample.as_slice()).collect();
-    let factors = sampled.space.factors();
+    let outputs: Vec<&[f64]> = output.samples.iter().map(Vec::as_slice).collect();
+    let (factors, unit) = (space.factors(), &output.unit);
     let chosen = largest(indices);
-    let points = sampled.rows.first(&outputs).into_iter().map(|(u, y)| {
+    let points = rows.first(&outputs).into_iter().map(|(u, y)| {
         let x = chosen.iter().map(|&factor| factors[factor].distribution().quantile(u[factor]));
         x.chain([unit.from_si(y)]).collect::<Vec<_>>()
     });
-    let all = sampled.rows.outputs(&outputs);
+    let all = rows.outputs(&outputs);
     let known: Vec<f64> = all.iter().copied().filter(|y| y.is_finite()).collect();
     let (scaled, exponent) = rescaled(&known);
     let means_of = |&factor: &usize| {
-        let known = sampled.rows.coordinates(factor).zip(&all).filter(|(_, y)| y.is_finite());
+        let known = rows.coordinates(factor).zip(&all).filter(|(_, y)| y.is_finite());
         let rows: Vec<(f64, f64)> = known.map(|(u, _)| u).zip(scaled.iter().copied()).collect();
         conditional_means(&factors[factor], unit, (&rows, exponent))
     };

@@ -3,7 +3,9 @@
 use super::order::{Agreement, Standing, VISIBLE, order_of, outweighing};
 use super::published::CLOSE;
 use super::{GROUPS, Published, Reproduced, published};
-use apportion::report::{EffectRecord, IndexRecord, TextTable, capitalised, estimate, fixed, share, share_of_runs, table};
+use apportion::report::{
+    EffectRecord, IndexRecord, TextTable, capitalised, estimate, fixed, share, share_of_runs, table,
+};
 
 /// The table that `reproduce` prints: for each group of studies the shares of every factor under every friction model,
 /// then the order of the factors, ours and the published one, and whether they agree.

@@ -132,7 +132,10 @@ fn run_studies(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Resu
     for (place, (group, friction, study)) in studies.iter().enumerate() {
         let number = (place + 1, count);
         on_event(Event::StudyBegins { number, name: &study.name, runs: study.design.rows() });
-        let result = analyse(study, request.threads, &|progress| on_event(Event::StudyGoesOn(progress)))?;
+        let result = apportion::report::ResultFile::new(
+            study,
+            &analyse(study, request.threads, &|progress| on_event(Event::StudyGoesOn(progress)))?,
+        );
         let provenance = &result.provenance;
         on_event(Event::StudyEnds { runs: provenance.model_runs, seconds: provenance.wall_seconds });
         reproduced.push(Reproduced { friction: *friction, group: *group, result });

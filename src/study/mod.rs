@@ -142,10 +142,10 @@ impl Study {
     ///     .factor("b", Distribution::uniform(1.0, 5.0)?)
     ///     .base_samples(1024)
     ///     .build()?;
-    /// let result = analyse(&study, 0, &|_| ())?;
-    /// let indices = result.outputs[0].indices.as_ref().ok_or("no indices")?;
+    /// let analysis = analyse(&study, 0, &|_| ())?;
+    /// let a = analysis.output("y")?.factor("a")?;
     /// // With c^2 = variance / mean^2 (1/27 and 4/27): S_a = c_a^2 / ((1 + c_a^2) (1 + c_b^2) - 1).
-    /// assert!((indices[0].effect.first_order.estimate - 27.0 / 139.0).abs() < 0.002);
+    /// assert!((a.first_order.estimate - 27.0 / 139.0).abs() < 0.002);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn builder(name: &str, model: impl Model + 'static) -> StudyBuilder {

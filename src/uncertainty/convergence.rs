@@ -1,7 +1,7 @@
 //! How estimates and intervals changed as a run grew, read from its parts once it is over.
 
 use super::estimates::Layout;
-use super::output::{Judgement, OutputIndices, output_indices};
+use super::output::{IntervalOptions, OutputIndices, output_indices};
 use crate::estimate::MomentParts;
 
 /// What an output's indices were when the run had fewer base points.
@@ -18,7 +18,7 @@ const FEWEST_PARTS: usize = 4;
 
 /// The stages of a run at each half of the one after it, the whole last: every prefix of the parts of each replicate is a
 /// run of its own. Stages without indices are left out.
-pub fn stages(replicates: &[MomentParts], layout: &Layout, judgement: &Judgement<'_>) -> Vec<Stage> {
+pub fn stages(replicates: &[MomentParts], layout: &Layout, options: &IntervalOptions<'_>) -> Vec<Stage> {
     let parts = replicates.iter().map(|replicate| replicate.parts().len()).min().unwrap_or(0);
     let mut sizes = vec![parts];
     // Down from the largest power of two below the whole: prefixes of a net are nets.
@@ -32,8 +32,8 @@ pub fn stages(replicates: &[MomentParts], layout: &Layout, judgement: &Judgement
         let prefix: Vec<MomentParts> = replicates.iter().map(|replicate| replicate.prefix(size)).collect();
         let base_samples = prefix.iter().map(MomentParts::points).sum();
         let longest = prefix.iter().map(MomentParts::points).max().unwrap_or(0);
-        let judgement = Judgement { points: judgement.points.map(|points| points.prefix(longest)), ..*judgement };
-        output_indices(&prefix, layout, &judgement).ok().map(|indices| Stage { base_samples, indices })
+        let options = IntervalOptions { points: options.points.map(|points| points.prefix(longest)), ..*options };
+        output_indices(&prefix, layout, &options).ok().map(|indices| Stage { base_samples, indices })
     };
     sizes.into_iter().filter_map(stage).collect()
 }

@@ -30,7 +30,7 @@ pub use jackknife::jackknife;
 pub use method::IntervalMethod;
 pub use net_decay::{PartInfluences, StandardError, net_errors};
 pub use output::{
-    EffectEstimates, Judgement, OtherEstimates, OutputIndices, OutputMoments, differs_clearly, output_indices,
+    EffectEstimates, IntervalOptions, OtherEstimates, OutputIndices, OutputMoments, differs_clearly, output_indices,
     output_moments,
 };
 pub use points::KeptPoints;

@@ -14,7 +14,7 @@ use crate::estimate::{Indices, MomentParts, Moments, Undefined, merged};
 
 /// How intervals and probabilities are found.
 #[derive(Debug, Clone, Copy)]
-pub struct Judgement<'a> {
+pub struct IntervalOptions<'a> {
     /// The kind of interval.
     pub method: IntervalMethod,
     /// The total index above which a factor counts as one that matters.
@@ -48,6 +48,11 @@ pub struct OutputIndices {
 }
 
 impl OutputIndices {
+    /// All effects in the order of the swaps: of factors, groups, subsets and the dummy.
+    pub fn effects(&self) -> impl Iterator<Item = &EffectEstimates> {
+        self.factors.iter().chain(&self.groups).chain(&self.subsets).chain(&self.dummy)
+    }
+
     /// Largest half width of the first-order and total indices of factors, groups and subsets; `None` if one of them
     /// has no interval.
     pub fn largest_half_width(&self) -> Option<f64> {
@@ -108,7 +113,7 @@ pub struct OutputMoments {
     pub variance: Estimate,
 }
 
-impl<'a> Judgement<'a> {
+impl<'a> IntervalOptions<'a> {
     fn by_points(&self) -> Option<ByPoints<'a>> {
         let Self { method, seed, resamples, points, .. } = *self;
         points.filter(|_| method.keeps_outputs()).map(|points| ByPoints { method, points, seed, resamples })
@@ -116,10 +121,10 @@ impl<'a> Judgement<'a> {
 }
 
 /// Mean and variance of one output from the parts of its replicates; `None` without any base point.
-pub fn output_moments(replicates: &[MomentParts], judgement: &Judgement<'_>) -> Option<OutputMoments> {
+pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>) -> Option<OutputMoments> {
     let of = |m: &Moments| (m.count() > 0).then(|| vec![m.mean(), m.variance()]);
     let influences = Influences::of(&[replicates], &|outputs| of(&outputs[0]))?;
-    let bounds = judgement.by_points().map(|by_points| {
+    let bounds = options.by_points().map(|by_points| {
         let whole: Vec<Moments> = replicates.iter().map(MomentParts::whole).collect();
         by_points.bounds(merged(&whole).without_swaps(), &influences.whole, &of)
     });
@@ -128,7 +133,7 @@ pub fn output_moments(replicates: &[MomentParts], judgement: &Judgement<'_>) -> 
         // The mean may be missed on both sides, the variance above.
         None => {
             let sides = |place| if place == 0 { Side::Both } else { Side::Above };
-            Judged::of(influences, judgement.method, &[true, true], &sides).estimates
+            Judged::of(influences, options.method, &[true, true], &sides).estimates
         }
     };
     Some(OutputMoments { mean: estimates[0], variance: estimates[1] })
@@ -141,7 +146,7 @@ pub fn output_moments(replicates: &[MomentParts], judgement: &Judgement<'_>) -> 
 pub fn output_indices(
     replicates: &[MomentParts],
     layout: &Layout,
-    judgement: &Judgement<'_>,
+    options: &IntervalOptions<'_>,
 ) -> Result<OutputIndices, Undefined> {
     let whole: Vec<Moments> = replicates.iter().map(MomentParts::whole).collect();
     let whole = merged(&whole);
@@ -152,7 +157,7 @@ pub fn output_indices(
     let unseen = unseen(layout, &whole, &influences.whole);
     let half_seen: Vec<bool> = (0..layout.swaps()).map(|swap| half_seen(&whole, swap)).collect();
     let still: Vec<bool> = unseen.iter().zip(&influences.parts).map(|(unseen, parts)| unseen.applies(parts)).collect();
-    let mut judged = match judgement.by_points() {
+    let mut judged = match options.by_points() {
         Some(by_points) => {
             let bounds = by_points.bounds(whole, &influences.whole, &|moments| quantities(layout, moments));
             Judged::with(influences, bounds)
@@ -160,15 +165,15 @@ pub fn output_indices(
         None => {
             // Rounding says nothing of how errors decay.
             let pooled: Vec<bool> = pooled.iter().zip(&still).map(|(pooled, still)| *pooled && !still).collect();
-            Judged::of(influences, judgement.method, &pooled, &|place| layout.side(place))
+            Judged::of(influences, options.method, &pooled, &|place| layout.side(place))
         }
     };
     judged.allow_for_unseen(&unseen, &still);
     judged.allow_for_half_seen(layout, &half_seen);
-    let first = judged.first(layout, judgement.seed);
+    let first = judged.first(layout, options.seed);
     let mut effects: Vec<EffectEstimates> = (0..layout.swaps())
         .map(|swap| {
-            let mut effect = judged.effect(layout, swap, judgement.threshold);
+            let mut effect = judged.effect(layout, swap, options.threshold);
             effect.probability_first = first.as_ref().and_then(|first| first.get(swap).copied());
             effect
         })

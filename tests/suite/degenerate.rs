@@ -8,7 +8,7 @@ use apportion::study::Study;
 
 fn analysed(text: &str) -> ResultFile {
     let study = Study::parse(text, Path::new("degenerate.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    analyse(&study, 0, &|_| ()).unwrap()
+    ResultFile::new(&study, &analyse(&study, 0, &|_| ()).unwrap())
 }
 
 fn first_and_total(output: &OutputRecord) -> Vec<(f64, f64)> {

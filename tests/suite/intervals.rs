@@ -16,7 +16,7 @@ fn analysed(formula: &str, distribution: &str, design: &str) -> ResultFile {
     let text =
         format!("model = \"expression\"\n[expression]\noutputs.y = \"{formula}\"\n[design]\n{design}\n{factors}");
     let study = Study::parse(&text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    analyse(&study, 0, &|_| ()).unwrap()
+    ResultFile::new(&study, &analyse(&study, 0, &|_| ()).unwrap())
 }
 
 fn output(result: &ResultFile) -> &OutputRecord {

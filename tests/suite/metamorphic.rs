@@ -6,7 +6,7 @@ use apportion::model::{Batch, KnownAnswer, KnownFunction, Model, Output, Worker}
 use apportion::quantity::Unit;
 use apportion::run::{Job, run};
 use apportion::space::{Distribution, Factor, Space};
-use apportion::uncertainty::{Estimate, IntervalMethod, Judgement, Layout, OutputIndices, output_indices};
+use apportion::uncertainty::{Estimate, IntervalMethod, IntervalOptions, Layout, OutputIndices, output_indices};
 use proptest::prelude::*;
 
 /// Ishigami's function times `scale` plus `offset`, with its inputs in the order `order`.
@@ -56,8 +56,9 @@ fn indices(model: &Changed, base_samples: u64) -> OutputIndices {
     let design = Design::new(settings, 3, Rows::plain((0..3).map(|j| vec![j]).collect())).unwrap();
     let totals = run(Job { design: &design, space: &space, model }, 0, &|_| ()).unwrap();
     let moments: Vec<_> = totals.into_iter().map(|t| t.outputs[0].moments.clone()).collect();
-    let judgement = Judgement { method: IntervalMethod::Nets, threshold: 0.05, seed: 0, resamples: 0, points: None };
-    output_indices(&moments, &Layout::plain(3), &judgement).unwrap()
+    let options =
+        IntervalOptions { method: IntervalMethod::Nets, threshold: 0.05, seed: 0, resamples: 0, points: None };
+    output_indices(&moments, &Layout::plain(3), &options).unwrap()
 }
 
 fn flat(indices: &OutputIndices) -> Vec<f64> {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use apportion::report::ResultFile;
 use apportion::study::Study;
 
 use crate::common::{Folder, apportion, stderr, succeed, text};
@@ -176,7 +177,7 @@ fn formulas_of_python_are_understood() {
     for (python, ours) in [("np.sin(x1)", "sin(x1)"), ("math.log(x1) + np.pi", "ln(x1) + pi")] {
         let value = |formula: &str| {
             let study = parsed(&study(formula));
-            apportion::analyse(&study, 0, &|_| ()).unwrap().outputs[0].mean
+            ResultFile::new(&study, &apportion::analyse(&study, 0, &|_| ()).unwrap()).outputs[0].mean
         };
         assert_eq!(value(python), value(ours));
     }

@@ -8,6 +8,7 @@ use anyhow::anyhow;
 use apportion::exchange::{AnswersError, AnswersRequest, Manifest, MissingOutputs, RowReader, open_rows, read_answers};
 use apportion::files::read_text;
 use apportion::quantity::Unit;
+use apportion::report::ResultFile;
 use apportion::report::prepare_folder;
 use apportion::{Running, analyse_with};
 
@@ -84,8 +85,8 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     prepare_folder(&folder)?;
     prepare_files(study, &folder)?;
     let running = Running { store: Some(&answers.store), ..Running::on(arguments.threads.number()) };
-    let result = analyse_with(study, running).map_err(|error| with_inputs(study, error))?;
-    deliver(study, &folder, &result)
+    let analysis = analyse_with(study, running).map_err(|error| with_inputs(study, error))?;
+    deliver(study, &folder, &ResultFile::new(study, &analysis))
 }
 
 /// A remark for a file with the wrong number of rows, if its first line seems to be a row.

@@ -81,11 +81,11 @@ pub fn read_result(path: &Path) -> Result<ResultFile, ReadError> {
 ///
 /// ```
 /// use std::path::Path;
-/// use apportion::report::{parse_result, result_json};
+/// use apportion::report::{ResultFile, parse_result, result_json};
 /// use apportion::{analyse, study::Study};
 ///
 /// let study = Study::parse("model = \"ishigami\"", Path::new("a.toml"), &["design.base_samples=256".to_owned()])?;
-/// let result = analyse(&study, 0, &|_| ())?;
+/// let result = ResultFile::new(&study, &analyse(&study, 0, &|_| ())?);
 /// assert_eq!(parse_result(result_json(&result).as_bytes())?, result);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

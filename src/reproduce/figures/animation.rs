@@ -2,9 +2,9 @@
 
 use super::history::story;
 use super::{FiguresError, PaperFigure};
+use crate::scene::{PageParts, SceneStory, film_strip, scene_csv, scene_json, scene_page};
 use apportion::afm::FrictionLaw;
 use apportion::report::chart::Chart;
-use crate::scene::{PageParts, SceneStory, film_strip, scene_csv, scene_json, scene_page};
 
 /// Name of the animation's files without extension.
 pub const ANIMATION_STEM: &str = "ts04-14-animation";

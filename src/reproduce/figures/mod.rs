@@ -21,9 +21,9 @@ use thiserror::Error;
 pub use animation::{ANIMATION_STEM, Animation, animation};
 
 use super::{Effort, Reproduced};
+use crate::scene::PageError;
 use apportion::afm::Failure;
 use apportion::report::chart::{Chart, ChartError};
-use crate::scene::PageError;
 use apportion::study::StudyError;
 use apportion::sweep::SweepError;
 

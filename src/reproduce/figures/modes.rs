@@ -2,14 +2,14 @@
 
 use super::table::Table;
 use super::{FiguresError, PaperFigure};
+use crate::reproduce::Effort;
+use crate::scene::ModeDiagram;
+use crate::scene::mode_diagram::mode_lines;
+use crate::scene::simulation::{pushing, scene_modes};
+use crate::scene::words::{force, short};
 use apportion::afm::modes::Mode;
 use apportion::afm::{Failure, Options, Scene, critical_force};
 use apportion::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Spacing, Stroke};
-use crate::scene::ModeDiagram;
-use crate::scene::mode_diagram::mode_lines;
-use crate::scene::words::{force, short};
-use crate::reproduce::Effort;
-use crate::scene::simulation::{pushing, scene_modes};
 
 const NANO: f64 = 1e9;
 /// Contact angles: about the nominal 60 degrees.

@@ -4,10 +4,10 @@ use std::collections::HashSet;
 use std::sync::LazyLock;
 
 use super::*;
+use crate::reproduce::studies;
 use apportion::afm::contact::Pair;
 use apportion::afm::{ContactTheory, Scene};
 use apportion::report::chart::{ChartWidth, png};
-use crate::reproduce::studies;
 
 /// The figures of the issue that need no study.
 const COMPUTED: [&str; 25] = [
@@ -56,7 +56,7 @@ fn data(stem: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 fn reproduced() -> Vec<Reproduced> {
     let studies = studies(&["design.base_samples=64".to_owned()]).unwrap();
     let run = |(group, friction, study)| {
-        let result = apportion::analyse(&study, 0, &|_| ()).unwrap();
+        let result = apportion::report::ResultFile::new(&study, &apportion::analyse(&study, 0, &|_| ()).unwrap());
         Reproduced { friction, group, result }
     };
     studies.into_iter().map(run).collect()

@@ -1,8 +1,8 @@
 //! How the page came about.
 
 use super::cells::plain;
-use apportion::report::page::{Cell, OnPhone, PageTable, Part};
 use crate::reproduce::{Effort, Reproduced, Reproduction};
+use apportion::report::page::{Cell, OnPhone, PageTable, Part};
 
 /// Version, designs, estimators, intervals and cost, as a table of two columns.
 pub(super) fn table(reproduction: &Reproduction) -> Part {

@@ -2,13 +2,13 @@
 
 use super::cells::plain;
 use super::{header, link};
-use apportion::report::chart::Chart;
-use apportion::report::fixed;
-use apportion::report::page::{Cell, OnPhone, PageFigure, PageTable, Part, Section};
 use crate::reproduce::readings::{
     Chance, Reading, Readings, SmallSample, chances, distance_chart, headline, small_sample_chart, summary,
 };
 use crate::reproduce::{GROUPS, Reproduction, published};
+use apportion::report::chart::Chart;
+use apportion::report::fixed;
+use apportion::report::page::{Cell, OnPhone, PageFigure, PageTable, Part, Section};
 
 /// The charts of the readings with the stems of their files.
 pub(in crate::reproduce) fn charts(readings: &Readings) -> [(&'static str, Chart); 2] {

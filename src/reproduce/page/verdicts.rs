@@ -2,9 +2,9 @@
 
 use super::cells::plain;
 use super::typeset::typeset;
-use apportion::report::page::{Cell, Link, Mark, OnPhone, PageTable, Part};
 use crate::reproduce::claims::{Claim, Verdict};
 use crate::reproduce::figures::PaperFigure;
+use apportion::report::page::{Cell, Link, Mark, OnPhone, PageTable, Part};
 
 /// The word and the look of a verdict.
 fn badge(verdict: &Verdict) -> Cell {

@@ -24,8 +24,8 @@ use thiserror::Error;
 
 pub use catalogue::{Axis, Effect, Variant};
 pub use charts::{distance_chart, small_sample_chart};
-use distance::distance_error;
 pub use distance::distance;
+use distance::distance_error;
 pub use small_samples::{Chance, Estimators, SmallSample};
 pub use summary::{chances, headline, summary};
 pub use tables::{readings_csv, readings_json, small_samples_csv};
@@ -208,7 +208,7 @@ fn of_variant(
         Effort::Quick => variant.base_samples / 16,
     };
     let study = study(variant, group, &[format!("design.base_samples={base_samples}")])?;
-    let result = analyse(&study, threads, &|_| ())?;
+    let result = apportion::report::ResultFile::new(&study, &analyse(&study, threads, &|_| ())?);
     let mut readings = Vec::new();
     for (number, &output) in variant.outputs.iter().enumerate() {
         for &effect in variant.effects {

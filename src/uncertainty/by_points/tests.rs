@@ -269,13 +269,14 @@ fn coverage(function: &str, method: &str) -> f64 {
              [analysis]\nintervals = \"{method}\""
         );
         let study = Study::parse(&text, "coverage.toml".as_ref(), &[]).unwrap();
-        let result = crate::analyse(&study, 0, &|_| ()).unwrap();
+        let analysis = crate::analyse(&study, 0, &|_| ()).unwrap();
         let exact = exact.first_order.iter().zip(&exact.total);
         // A factor that does nothing has intervals of no width, which always hold.
-        let effects = result.outputs[0].indices.as_ref().unwrap().iter().zip(exact);
-        for (index, (first, total)) in effects.filter(|(_, (_, total))| **total > 0.0) {
-            for (estimate, exact) in [(index.effect.first_order, *first), (index.effect.total, *total)] {
-                held += f64::from(u8::from(estimate.low.unwrap() <= exact && exact <= estimate.high.unwrap()));
+        let effects = analysis.outputs[0].indices.as_ref().unwrap().factors.iter().zip(exact);
+        for (effect, (first, total)) in effects.filter(|(_, (_, total))| **total > 0.0) {
+            for (estimate, exact) in [(effect.first_order, *first), (effect.total, *total)] {
+                let interval = estimate.interval.unwrap();
+                held += f64::from(u8::from(interval.low <= exact && exact <= interval.high));
                 count += 1.0;
             }
         }

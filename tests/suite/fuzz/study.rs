@@ -4,6 +4,7 @@ use std::path::Path;
 
 use apportion::analyse;
 use apportion::model::Batch;
+use apportion::report::ResultFile;
 use apportion::report::{parse_result, result_json};
 use apportion::study::{Study, StudyError, Subject, TemplateRequest, template};
 
@@ -99,7 +100,8 @@ fn begun(study: &Study) {
 
 /// The whole way; what is written can be read back.
 fn ran(study: &Study, draw: bool) {
-    let Ok(result) = analyse(study, 1, &|_| ()) else { return };
+    let Ok(analysis) = analyse(study, 1, &|_| ()) else { return };
+    let result = ResultFile::new(study, &analysis);
     let json = result_json(&result);
     let read = parse_result(json.as_bytes()).unwrap_or_else(|error| panic!("the result is refused: {error}"));
     assert_eq!(result_json(&read), json);

@@ -1,8 +1,6 @@
 //! What a careful reader of a result should know, in sentences.
 
-use super::build::FinishedRun;
-use super::build_output::{effects, names_of_swaps};
-use super::result::{MixedModels, OutputRecord, ResultFile};
+use super::estimate::{FinishedRun, names_of_swaps};
 use crate::estimate::CentralMoments;
 use crate::model::Model;
 use crate::run::Totals;
@@ -10,16 +8,16 @@ use crate::study::Study;
 use crate::uncertainty::{EffectEstimates, Estimate, IntervalMethod, OutputIndices, differs_clearly};
 
 /// Warnings about the runs behind an output.
-pub(super) fn of_runs(run: &FinishedRun<'_>, record: &OutputRecord) -> Vec<String> {
+pub(super) fn of_runs(run: &FinishedRun<'_>, runs_failed: u64, base_points_used: u64) -> Vec<String> {
     let mut warnings = Vec::new();
     let design = run.design;
     let settings = design.settings();
-    if record.runs_failed > 0 {
-        let left_out = settings.base_samples - record.base_points_used;
+    if runs_failed > 0 {
+        let left_out = settings.base_samples - base_points_used;
         warnings.push(format!(
             "{} of {} runs failed: every index does without the base points at which one of its own runs failed (at most \
              {left_out} of {}), and describes the part of the factor space where they succeed",
-            record.runs_failed,
+            runs_failed,
             design.rows(),
             settings.base_samples
         ));
@@ -88,7 +86,7 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
                 .to_owned(),
         );
     }
-    for (name, effect) in names_of_swaps(study).iter().zip(effects(indices)) {
+    for (name, effect) in names_of_swaps(study).iter().zip(indices.effects()) {
         if effect.interaction.estimate < 0.0 && differs_clearly(effect.interaction) {
             warnings.push(format!(
                 "{name}: the first-order index {:.4} exceeds the total index {:.4} beyond the error of their difference: \
@@ -150,24 +148,6 @@ fn disagreements(study: &Study, name: &str, effect: &EffectEstimates) -> Vec<Str
         }
     }
     warnings
-}
-
-/// Notes in `result` that runs were answered by another version of the model: so many of those on record, or an unknown
-/// number if `files` changed while the run was under way.
-pub fn note_mixed_models(result: &mut ResultFile, files: &str, runs: Option<u64>) {
-    let warning = match runs {
-        Some(runs) => format!(
-            "{runs} of the runs on record were evaluated with another {files} than the others: the numbers mix two models"
-        ),
-        None => format!(
-            "{files} changed while the run was under way: its runs may have been answered by either version, and the numbers \
-             may mix two models"
-        ),
-    };
-    result.provenance.mixed_models.push(MixedModels { files: files.to_owned(), runs });
-    for output in &mut result.outputs {
-        output.warnings.push(warning.clone());
-    }
 }
 
 fn high(estimate: Estimate) -> Option<f64> {

@@ -1,0 +1,259 @@
+//! What a run of a study has found: numbers with their intervals, counts and reasons, in SI units.
+
+use std::fmt;
+
+use thiserror::Error;
+
+use crate::design::Design;
+use crate::estimate::{CentralMoments, Scaling, Undefined};
+use crate::model::{Effort, Flag};
+use crate::quantity::Unit;
+use crate::uncertainty::{AggregateIndices, EffectEstimates, Estimate, OutputIndices, Stage};
+
+/// The result of a run of a [`Study`](crate::study::Study).
+///
+/// ```
+/// use apportion::model::function_model;
+/// use apportion::space::Distribution;
+/// use apportion::{analyse, study::Study};
+///
+/// let study = Study::builder("product", function_model("y", |x| x[0] * x[1]))
+///     .factor("a", Distribution::uniform(1.0, 2.0)?)
+///     .factor("b", Distribution::uniform(1.0, 5.0)?)
+///     .base_samples(1024)
+///     .build()?;
+/// let analysis = analyse(&study, 0, &|_| ())?;
+/// let total = analysis.output("y")?.factor("a")?.total;
+/// assert!(total.interval.is_some_and(|interval| interval.low < total.estimate));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Analysis {
+    /// The design as it was in the end: a run that grows leaves the study's own behind.
+    pub design: Design,
+    /// The outputs in the order of the model.
+    pub outputs: Vec<OutputAnalysis>,
+    /// The validity flags of the model, and how many runs raised each.
+    pub flags: Vec<(Flag, u64)>,
+    /// What a model with a ladder of fidelities spent: its rungs, and the counts for them; `None` for other models.
+    pub effort: Option<(Vec<&'static str>, Effort)>,
+    /// Indices over all outputs together, if the study asks for them and there are two outputs or more.
+    pub aggregate: Option<Aggregate>,
+    /// Why a growing run ended; `None` for one of fixed size.
+    pub stopped: Option<Stopped>,
+    /// Threads that ran the model.
+    pub threads: usize,
+    /// Seconds from the first run to the last.
+    pub wall_seconds: f64,
+}
+
+/// Indices over several outputs together.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Aggregate {
+    /// How outputs are weighed against each other.
+    pub scaling: Scaling,
+    /// The indices of the factors, and then of the other swaps.
+    pub indices: Result<AggregateIndices, Undefined>,
+}
+
+/// What a run has found about one output. Values are in SI units.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct OutputAnalysis {
+    /// The output's name.
+    pub name: String,
+    /// The unit in which it is reported.
+    pub unit: Unit,
+    /// Mean over all successful rows A and B; `None` if there is none.
+    pub mean: Option<Estimate>,
+    /// Variance over the same rows.
+    pub variance: Option<Estimate>,
+    /// Runs with a value.
+    pub runs_ok: u64,
+    /// Runs without one.
+    pub runs_failed: u64,
+    /// Base points that every index rests on at least: each uses those where its own runs have a value.
+    pub base_points_used: u64,
+    /// Why runs failed.
+    pub failures: Vec<FailureCount>,
+    /// The indices, or why there are none.
+    pub indices: Result<OutputIndices, NoIndices>,
+    /// The indices as they were at each half of the runs after it, the whole last.
+    pub convergence: Vec<Stage>,
+    /// Moments and range of all successful rows A and B.
+    pub values: CentralMoments,
+    /// Of every replicate the outputs of its first rows A and B: A, B, A, B, ...; NaN where a run failed.
+    pub samples: Vec<Vec<f64>>,
+    /// What a careful reader should know, in sentences.
+    pub warnings: Vec<String>,
+    /// Names of the factors and of the groups, in the order of their indices.
+    pub(super) names: [Vec<String>; 2],
+}
+
+/// A reason for which runs failed.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct FailureCount {
+    /// The reason.
+    pub reason: String,
+    /// Number of runs.
+    pub runs: u64,
+    /// Row number of the first of them in the design.
+    pub first_row: u64,
+    /// The values of the factors at that row, in the units of the factors.
+    pub first_inputs: Vec<f64>,
+}
+
+/// Why an output has no indices.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum NoIndices {
+    /// More runs failed than the study allows.
+    #[error(
+        "{percent:.3} % of the runs failed, more than max_failed = {allowed} allows: what is left would not stand for the whole",
+        percent = 100.0 * share
+    )]
+    TooManyFailed {
+        /// The share of the runs that failed, from 0 to 1.
+        share: f64,
+        /// The share that may fail.
+        allowed: f64,
+    },
+    /// The estimates do not exist.
+    #[error(transparent)]
+    Undefined(#[from] Undefined),
+}
+
+/// A name that a result does not have, or indices that an output does not have.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum LookupError {
+    /// There is nothing of that name.
+    #[error("there is no {what} `{name}`; there are: {known}", known = known.join(", "))]
+    UnknownName {
+        /// What the name should be of.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The names that there are.
+        known: Vec<String>,
+    },
+    /// The output has no indices.
+    #[error("output `{output}` has no indices: {reason}")]
+    NoIndices {
+        /// The output.
+        output: String,
+        /// Why.
+        reason: NoIndices,
+    },
+}
+
+/// Why a growing run ended, and whether it met its target.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Stopped {
+    /// Why.
+    pub reason: StopReason,
+    /// Whether every index met the target; `None` if there was none.
+    pub target_met: Option<bool>,
+}
+
+/// Why a growing run was not doubled once more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum StopReason {
+    /// Every interval is as narrow as asked for.
+    TargetMet {
+        /// The largest half width.
+        widest: f64,
+        /// The half width that was asked for.
+        target: f64,
+    },
+    /// An output has no indices or no intervals.
+    NoIntervals,
+    /// There are no more points.
+    EndOfSequence,
+    /// The outputs of twice the runs would not fit into memory.
+    Memory,
+    /// Twice the runs would be too many.
+    MaxRuns {
+        /// Twice the runs.
+        runs: u128,
+        /// The runs that it might take.
+        most: u64,
+    },
+    /// Twice the runs would take too long.
+    Budget {
+        /// The seconds that twice the runs would take.
+        seconds: f64,
+        /// The seconds that the run might take.
+        budget: f64,
+    },
+}
+
+impl fmt::Display for StopReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TargetMet { widest, target } => {
+                write!(f, "every half width is {widest:.2e} or less: the target of {target} is met")
+            }
+            Self::NoIntervals => {
+                f.write_str("there are indices or intervals missing: no number of runs would meet the target")
+            }
+            Self::EndOfSequence => f.write_str("the sequence of points has come to its end"),
+            Self::Memory => {
+                f.write_str("the outputs of twice the runs would not fit: these intervals need all of them at once")
+            }
+            Self::MaxRuns { runs, most } => write!(f, "twice the runs would be {runs}, more than max_runs = {most}"),
+            Self::Budget { seconds, budget } => {
+                write!(f, "twice the runs would take some {seconds:.1} s, more than the budget of {budget} s")
+            }
+        }
+    }
+}
+
+impl Analysis {
+    /// The output called `name`.
+    ///
+    /// # Errors
+    /// [`LookupError`] with the names that there are.
+    pub fn output(&self, name: &str) -> Result<&OutputAnalysis, LookupError> {
+        let known = || self.outputs.iter().map(|output| output.name.clone()).collect();
+        let found = self.outputs.iter().find(|output| output.name == name);
+        found.ok_or_else(|| LookupError::UnknownName { what: "output", name: name.to_owned(), known: known() })
+    }
+}
+
+impl OutputAnalysis {
+    /// The indices of the factor called `name`.
+    ///
+    /// # Errors
+    /// [`LookupError`] if there is no such factor, or if the output has no indices.
+    pub fn factor(&self, name: &str) -> Result<&EffectEstimates, LookupError> {
+        self.effect("factor", name, &self.names[0], |indices| &indices.factors)
+    }
+
+    /// The indices of the group called `name`: the first-order one is closed, so it includes interactions in the group.
+    ///
+    /// # Errors
+    /// As for [`factor`](Self::factor).
+    pub fn group(&self, name: &str) -> Result<&EffectEstimates, LookupError> {
+        self.effect("group", name, &self.names[1], |indices| &indices.groups)
+    }
+
+    fn effect(
+        &self,
+        what: &'static str,
+        name: &str,
+        known: &[String],
+        of: fn(&OutputIndices) -> &Vec<EffectEstimates>,
+    ) -> Result<&EffectEstimates, LookupError> {
+        let unknown = || LookupError::UnknownName { what, name: name.to_owned(), known: known.to_vec() };
+        let place = known.iter().position(|known| known == name).ok_or_else(unknown)?;
+        let indices = self.indices.as_ref();
+        let indices = indices.map_err(|&reason| LookupError::NoIndices { output: self.name.clone(), reason })?;
+        of(indices).get(place).ok_or_else(unknown)
+    }
+}
