@@ -117,6 +117,34 @@ pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String>
     parts.iter().enumerate().map(|(number, part)| free(number, part)).collect()
 }
 
+/// What the name of a study may be.
+pub const NAME_RULE: &str =
+    "letters, digits, '-', '_', '.' and spaces, not starting with a dot, at most 120 bytes (files are named after it)";
+
+/// Whether `name` keeps to [`NAME_RULE`].
+pub fn names_files(name: &str) -> bool {
+    let fits = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
+    !name.trim().is_empty() && name.len() <= LONGEST_STUDY_NAME && !name.starts_with('.') && name.chars().all(fits)
+}
+
+/// The name in `known` nearest to `name`, if one is near enough to be meant. Names of more than 100 characters, whose
+/// comparison would take long, are near to none.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    const LONGEST: usize = 100;
+    let is_long = |name: &str| name.chars().nth(LONGEST).is_some();
+    if is_long(name) {
+        return None;
+    }
+    let name = name.to_lowercase();
+    known
+        .into_iter()
+        .filter(|candidate| !is_long(candidate))
+        .map(|candidate| (strsim::damerau_levenshtein(&name, &candidate.to_lowercase()), candidate))
+        .min_by_key(|(distance, _)| *distance)
+        .filter(|(distance, candidate)| *distance <= candidate.chars().count().div_ceil(3).max(1))
+        .map(|(_, candidate)| candidate.to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -150,5 +178,17 @@ mod tests {
         assert!(stems.iter().all(|stem| !stem.contains(['/', '\\']) && stem.len() < 120), "{stems:?}");
         // Names that are no trouble keep theirs.
         assert_eq!(file_stems("s", &["y", "z"], &suffixes), ["s-y", "s-z"]);
+    }
+
+    #[test]
+    fn near_names_are_suggested_and_far_ones_are_not() {
+        let known = ["length", "width", "thickness", "height"];
+        assert_eq!(nearest("lenght", known).as_deref(), Some("length"));
+        assert_eq!(nearest("Width", known).as_deref(), Some("width"));
+        assert_eq!(nearest("temperature", known), None);
+        // Names of 50,000 letters once took half a minute.
+        let long = "x".repeat(50_000);
+        assert_eq!(nearest(&long[1..], [long.as_str(), "width"]), None);
+        assert_eq!(nearest("widht", [long.as_str(), "width"]).as_deref(), Some("width"));
     }
 }

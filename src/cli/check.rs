@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use apportion::design::{Companions, Design, Sampler};
 use apportion::estimate::{FirstOrder, Total};
+use apportion::model::ModelKind;
 use apportion::report::{significant, table, with_unit};
 use apportion::run::{BLOCK, FailurePolicy};
 use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, Factor};
-use apportion::study::{Stopping, Study, Subject};
+use apportion::study::{Stopping, Study};
 use apportion::uncertainty::IntervalMethod;
 
 use super::outlook::outlook;
@@ -32,10 +33,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
     say_notes(&study);
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
-    let pilot = match study.subject {
-        Subject::External(_) => None,
-        _ => Some(pilot(&study)?),
-    };
+    let pilot = if study.subject.is_external() { None } else { Some(pilot(&study)?) };
     let mut text = subject(&study);
     text.push_str(&factors(&study));
     text.push_str(&design(&study, pilot.as_ref()));
@@ -59,7 +57,8 @@ fn subject(study: &Study) -> String {
     if let Some(title) = &study.title {
         text.push_str(&format!(": {title}"));
     }
-    let about = study.subject.kind().map_or_else(String::new, |kind| format!(": {}", kind.description()));
+    let about =
+        ModelKind::from_name(study.subject.name()).map_or_else(String::new, |kind| format!(": {}", kind.description()));
     text.push_str(&format!("\nmodel {}{about}\n", study.subject.name()));
     for (name, value) in study.settings() {
         match value.as_object() {

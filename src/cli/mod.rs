@@ -34,7 +34,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use apportion::report::{ReadError, WriteError, wrapped};
 use apportion::run::RunError;
-use apportion::study::{Study, StudyError, Subject};
+use apportion::study::{Study, StudyError};
 
 /// Sobol' global sensitivity analysis: which factor decides an output, and by how many percent.
 ///
@@ -130,7 +130,7 @@ impl StudyArguments {
     /// The study with the changes of `--set`, then `more`; its model can be run.
     fn load_with(&self, more: &[String]) -> Result<Study, Failure> {
         let study = self.load_any(more)?;
-        if matches!(study.subject, Subject::External(_)) {
+        if study.subject.is_external() {
             return Err(Failure::Input(anyhow::anyhow!(
                 "{}: its model runs outside of this program: write the points by `apportion sample`, and read its outputs \
                  by `apportion analyze`",

@@ -10,7 +10,7 @@ use apportion::model::edge_unit;
 use apportion::report::chart::Role;
 use apportion::report::friction_role;
 use apportion::report::with_unit;
-use apportion::study::{Study, Subject};
+use apportion::study::{AfmSubject, Study};
 
 /// Why a scene cannot be simulated.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -28,7 +28,7 @@ pub enum SimulationError {
 /// # Errors
 /// [`SimulationError::NoScene`] if the study is not about the nanoparticle model.
 fn scene_of(study: &Study) -> Result<(Scene, Options), SimulationError> {
-    let Subject::Afm(afm) = &study.subject else {
+    let Some(afm) = study.subject.downcast_ref::<AfmSubject>() else {
         return Err(SimulationError::NoScene(study.subject.name()));
     };
     let mut scene = afm.scene;

@@ -7,12 +7,13 @@ use std::sync::Arc;
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
-use super::subject::{CustomSubject, Subject};
-use super::{AnalysisOptions, Stopping, Study, plan, resolve};
+use super::options::rows;
+use super::subject::CustomSubject;
+use super::{AnalysisOptions, Stopping, Study};
 use crate::design::{Design, DesignError, DesignSettings, Sampler};
 use crate::estimate::Estimator;
 use crate::model::Model;
-use crate::names::{refused_name, refused_output_name, refused_title, shown};
+use crate::names::{names_files, refused_name, refused_output_name, refused_title, shown};
 use crate::quantity::Unit;
 use crate::space::{Distribution, DistributionError, Factor, Space};
 
@@ -20,7 +21,7 @@ use crate::space::{Distribution, DistributionError, Factor, Space};
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum BuildError {
     /// The name cannot name files.
-    #[error("the name {0:?} of the study: expected {NAME}", NAME = resolve::NAME_RULE)]
+    #[error("the name {0:?} of the study: expected {NAME}", NAME = crate::names::NAME_RULE)]
     Name(String),
     /// A name or title that no table or file has room for, or with marks in it that are not seen.
     #[error("{what} {name}: expected {expected}")]
@@ -169,7 +170,7 @@ impl StudyBuilder {
     /// # Errors
     /// [`BuildError`] with what is wrong and what would be right.
     pub fn build(self) -> Result<Study, BuildError> {
-        if !resolve::names_files(&self.name) {
+        if !names_files(&self.name) {
             return Err(BuildError::Name(self.name));
         }
         if self.model.outputs().is_empty() {
@@ -200,13 +201,13 @@ impl StudyBuilder {
             replicates: self.replicates.unwrap_or(analysis.intervals.default_replicates()),
             seed: self.seed,
         };
-        let design = Design::new(settings, space.factors().len(), plan::rows(&analysis, &space))?;
+        let design = Design::new(settings, space.factors().len(), rows(&analysis, &space))?;
         let source = in_words(&self.name, &design, &space);
         Ok(Study {
             sha256: Sha256::digest(source.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect(),
             name: self.name,
             title: self.title,
-            subject: Subject::Custom(CustomSubject { model: self.model }),
+            subject: Arc::new(CustomSubject(self.model)),
             space,
             design,
             analysis,

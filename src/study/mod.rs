@@ -1,50 +1,28 @@
-//! Studies: what is asked, as typed (`StudyFile`) and as meant ([`Study`]).
+//! Studies: what is asked, checked once.
 //!
-//! A study is read once and checked once; after that nothing re-validates. Everything wrong with a file is reported
-//! with its line and column.
+//! A [`Study`] comes from a file ([`Study::load`]) or is built in code ([`Study::builder`]); after that nothing
+//! re-validates.
 
-mod at;
 mod builder;
-mod command;
-mod constants;
-mod distribution;
-mod error;
-mod expression;
-mod external;
 mod file;
-mod forms;
-mod function;
 mod identity;
-mod measured;
-mod names;
-mod nominal;
 mod options;
-mod overrides;
-mod plan;
-mod read;
-mod resolve;
-mod schema;
 mod subject;
-mod template;
-mod units;
 
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sha2::{Digest, Sha256};
-
 pub use builder::{BuildError, StudyBuilder};
-pub use error::{Diagnostic, OverrideProblem, Problem, StudyError, nearest};
-pub use options::{AnalysisOptions, Stopping};
-pub use schema::study_schema;
-pub use subject::{
-    AfmSubject, CommandSubject, CustomSubject, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula,
-    KnownSubject, Subject,
+pub use file::{
+    AfmSubject, CommandSubject, Diagnostic, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula,
+    KnownSubject, NEW_PROGRAM, OverrideProblem, Problem, StudyError, TemplateRequest, new_program, study_schema,
+    template,
 };
-pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
+pub use options::{AnalysisOptions, Stopping};
+pub use subject::Subject;
+
+pub use crate::names::nearest;
 
 use crate::design::Design;
-use crate::files::read_text;
 use crate::model::Model;
 use crate::space::Space;
 use crate::uncertainty::Layout;
@@ -57,7 +35,7 @@ pub struct Study {
     /// Title for people.
     pub title: Option<String>,
     /// What is studied.
-    pub subject: Subject,
+    pub subject: Arc<dyn Subject>,
     /// The factors.
     pub space: Space,
     /// The points at which the model runs, or starts to; its swaps are the factors, the groups, the subsets of
@@ -78,56 +56,6 @@ pub struct Study {
 }
 
 impl Study {
-    /// Reads a study file, after applying `overrides` of the form `KEY=VALUE`.
-    ///
-    /// # Errors
-    /// [`StudyError`] with the place in the file and what would be right.
-    pub fn load(path: &Path, overrides: &[String]) -> Result<Self, StudyError> {
-        let unreadable = |source| StudyError::Unreadable { path: path.to_owned(), source };
-        let text = read_text(path).map_err(unreadable)?;
-        Self::parse(&text, path, overrides)
-    }
-
-    /// Reads a study from its text; `path` is for messages, and names the study unless the text does.
-    ///
-    /// ```
-    /// use std::path::Path;
-    /// use apportion::study::Study;
-    ///
-    /// let text = r#"
-    ///     model = "ishigami"
-    ///     [[factor]]
-    ///     name = "x1"
-    ///     min = -3.14
-    ///     max = 3.14
-    /// "#;
-    /// let study = Study::parse(text, Path::new("small.toml"), &["design.base_samples=256".to_owned()])?;
-    /// assert_eq!(study.name, "small");
-    /// // A and B: with one factor, A with its column from B is B, and is not run again.
-    /// assert_eq!(study.design.rows(), 2 * 256);
-    /// # Ok::<(), apportion::study::StudyError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`StudyError`] with the place in the text and what would be right.
-    pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Result<Self, StudyError> {
-        let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overridden(text, overrides)? };
-        let context = resolve::Context { path: PathBuf::from(path), text: effective.as_deref().unwrap_or(text) };
-        let mut study = resolve::study(&context).map_err(|mut diagnostic| {
-            diagnostic.overrides = overrides.to_vec();
-            diagnostic
-        })?;
-        if effective.is_none() {
-            // The reader takes whole numbers up to 2^64, the editor up to 2^63, as TOML has it.
-            let (text, problem) = (overrides.join(" "), OverrideProblem::NotEditable);
-            return Err(StudyError::Override { text, problem });
-        }
-        study.overrides = overrides.to_vec();
-        text.clone_into(&mut study.source);
-        study.sha256 = Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
-        Ok(study)
-    }
-
     /// Begins a study of a model that is part of a program: a function (see
     /// [`function_model`](crate::model::function_model) and [`FunctionModel`](crate::model::FunctionModel)), or any other
     /// [`Model`]. Result files are named after `name`.
@@ -178,8 +106,4 @@ impl Study {
     pub fn constants(&self) -> Vec<(String, f64, String)> {
         self.subject.constants(&self.space)
     }
-}
-
-fn overridden(text: &str, overrides: &[String]) -> Result<Option<String>, StudyError> {
-    overrides::apply(text, overrides).map_err(|(text, problem)| StudyError::Override { text, problem })
 }

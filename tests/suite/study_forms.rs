@@ -41,7 +41,7 @@ fn factors_are_the_same_study_in_every_form_in_the_order_of_the_file() {
     ] {
         let study = parsed(&format!("{head}{form}"));
         assert_eq!(study.space, listed.space, "{form}");
-        assert_eq!(study.subject, listed.subject, "{form}");
+        assert_eq!(study.identity(), listed.identity(), "{form}");
     }
     let single = parsed("model = \"expression\"\noutputs.y = \"a\"\n[factor]\nname = \"a\"\nmin = 0\nmax = 1\n");
     assert_eq!(single.space.factors().len(), 1);

@@ -1,5 +1,7 @@
 //! Which columns of a file of outputs are what, and which model they are the outputs of.
 
+use std::sync::Arc;
+
 use super::{AnswersError, AnswersRequest};
 use crate::exchange::design_rows::factor_column;
 use crate::exchange::{ColumnKind, RowReader};
@@ -42,7 +44,7 @@ impl Columns {
         };
         let own_are_there = own.iter().all(|name| names.contains(name) && is_factor(name).is_none());
         let asked = match request.outputs {
-            [] if own_are_there || matches!(study.subject, Subject::External(_)) => own,
+            [] if own_are_there || study.subject.is_external() => own,
             [] => names.iter().filter(|name| is_factor(name).is_none()).cloned().collect(),
             asked => asked.to_vec(),
         };
@@ -72,7 +74,7 @@ pub(super) fn subject(
     study: &Study,
     columns: &[(usize, String)],
     request: &AnswersRequest<'_>,
-) -> Result<Subject, AnswersError> {
+) -> Result<Arc<dyn Subject>, AnswersError> {
     let model = study.model();
     let own = model.outputs();
     if let Some((name, _)) = request.units.iter().find(|(name, _)| columns.iter().all(|(_, column)| column != name)) {
@@ -93,5 +95,5 @@ pub(super) fn subject(
         let unit = unit.or_else(|| stated.map(|output| output.unit.clone())).unwrap_or_else(Unit::dimensionless);
         Output::new(name.clone(), unit, "read from a file")
     };
-    Ok(Subject::External(ExternalSubject { outputs: names.map(output).collect() }))
+    Ok(Arc::new(ExternalSubject { outputs: names.map(output).collect() }))
 }

@@ -13,7 +13,7 @@ use super::rows::{ColumnKind, RowReader};
 use crate::model::{Model, RowFailure};
 use crate::quantity::{Unit, is_same};
 use crate::run::{Piece, Store};
-use crate::study::{Study, Subject};
+use crate::study::Study;
 
 /// Rows counted at a time.
 const COUNTED: usize = 1 << 13;
@@ -69,7 +69,7 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
     let sha256 = reading.all(&store, request.missing)?;
     // Values that agree to ten digits may still be another version's: those of the study are the ones in force.
     request.manifest.check_points(&sha256)?;
-    if model.flags().iter().any(|flag| !flag.warns) && !matches!(study.subject, Subject::External(_)) {
+    if model.flags().iter().any(|flag| !flag.warns) && !study.subject.is_external() {
         let note = "the file holds no validity flags of the model: none are counted".to_owned();
         study.notes.push(note);
     }

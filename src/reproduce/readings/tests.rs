@@ -1,7 +1,7 @@
 use super::*;
 use apportion::afm::{FrictionLaw, LuGreParameters, Options, Parameter, Scene, critical_force};
 use apportion::report::chart::png;
-use apportion::study::Subject;
+use apportion::study::AfmSubject;
 
 const DIMENSIONS: [(&str, f64, f64, f64); 3] =
     [("length", 200.0, 700.0, -2.0), ("width", 5.0, 80.0, 1.0), ("thickness", 0.25, 2.5, 3.0)];
@@ -136,7 +136,7 @@ fn viscous_friction_and_steps_of_14_ms_make_velocity_act() {
 #[test]
 fn held_friction_is_that_of_lugre() {
     let study = study(variant("step-14").unwrap(), "general", &[]).unwrap();
-    let Subject::Afm(afm) = &study.subject else { panic!("the nanoparticle model") };
+    let afm = study.subject.downcast_ref::<AfmSubject>().expect("the nanoparticle model");
     for place in 0..8 {
         let u: Vec<f64> = (0..8).map(|factor| (0.5 + (place * 8 + factor) as f64 * 0.618_034).fract()).collect();
         let mut scene = afm.scene;

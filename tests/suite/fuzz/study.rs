@@ -1,12 +1,13 @@
 //! Study files, with changes from the command line.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use apportion::analyse;
 use apportion::model::Batch;
 use apportion::report::ResultFile;
 use apportion::report::{parse_result, result_json};
-use apportion::study::{Study, StudyError, Subject, TemplateRequest, template};
+use apportion::study::{AfmSubject, Study, StudyError, TemplateRequest, template};
 
 /// What stands between the file and the changes, one a line.
 const CHANGES: &str = "\n--set\n";
@@ -34,12 +35,14 @@ pub fn run(bytes: &[u8]) {
         Ok(study) => study,
         Err(error) => return refused(&error),
     };
-    if let Subject::Afm(afm) = &mut study.subject {
+    if let Some(afm) = study.subject.downcast_ref::<AfmSubject>() {
+        let mut afm = afm.clone();
         afm.options.step_budget = afm.options.step_budget.min(STEPS);
+        study.subject = Arc::new(afm);
     }
     begun(&study);
     // A fuzzer must never start what it has made up.
-    if matches!(study.subject, Subject::Command(_) | Subject::External(_)) {
+    if matches!(study.subject.name(), "command" | "external") {
         return;
     }
     answered(&study);
@@ -87,7 +90,7 @@ fn answered(study: &Study) {
 
 /// A study to begin with, of the same model, factors and outputs.
 fn begun(study: &Study) {
-    let Some(model) = study.subject.kind() else { return };
+    let Some(model) = apportion::model::ModelKind::from_name(study.subject.name()) else { return };
     let names = study.space.factors().iter().map(|factor| factor.name.clone());
     let outputs = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
     let request = TemplateRequest { model, title: study.title.clone(), factors: names.take(8).collect(), outputs };

@@ -1,0 +1,222 @@
+//! `model = "command"`: the user's own program, its outputs, and how it is asked.
+
+mod file;
+mod outputs;
+mod runs;
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use serde_json::{Value, json};
+
+pub(super) use file::{CommandKey, CommandSection};
+
+use super::analysis::seconds;
+use super::context::{Context, Fault};
+use super::context::{choice, wrong};
+use super::error::Problem;
+use super::sections::{At, FactorSection};
+use super::subjects::CommandSubject;
+use super::units::own_inputs;
+use crate::model::{CommandOutput, CommandSettings, Form, Input, KeptAlive, Program, Protocol};
+use crate::space::Space;
+
+/// The inputs of a program: the factors of the study, each in its own unit.
+pub(super) fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
+    for section in factors {
+        let fields = section.get_ref();
+        let names = std::iter::once(fields.name.get_ref());
+        if let Some(name) = names.chain(fields.labels.iter().flat_map(|l| l.get_ref())).find(|name| !fits_a_line(name))
+        {
+            let expected = "without line breaks and control characters (it is written into lines for the program)";
+            let problem = wrong("name or label of a factor", expected, format!("{name:?}"));
+            return Err(context.fault(fields.name.span(), problem));
+        }
+    }
+    own_inputs(context, factors)
+}
+
+fn fits_a_line(name: &str) -> bool {
+    !name.trim().is_empty() && !name.contains(char::is_control)
+}
+
+/// The program with all that is said of it, and notes on what has no effect.
+pub(super) fn subject(
+    context: &Context<'_>,
+    key: Option<&At<CommandKey>>,
+    asked: Option<&At<Vec<At<String>>>>,
+    space: &Space,
+) -> Result<(CommandSubject, Vec<String>), Fault> {
+    let Some(key) = key else { return Err(context.fault(0..0, Problem::NoProgram)) };
+    let unsaid = CommandSection::default();
+    let (section, program) = match key.get_ref() {
+        CommandKey::Program(program) => (&unsaid, program.as_slice()),
+        CommandKey::Table(section) => {
+            (section.as_ref(), section.program.as_ref().map_or(&[][..], |program| program.get_ref().as_slice()))
+        }
+    };
+    let arguments = arguments(context, key, program)?;
+    let folder = folder(context);
+    let directory = match &section.directory {
+        None => folder.clone(),
+        Some(typed) => existing_directory(context, &folder, typed)?,
+    };
+    let environment: Vec<(String, String)> = section.env.clone().into_iter().collect();
+    if let Some((name, _)) =
+        environment.iter().find(|(name, value)| name.is_empty() || name.contains(['=', '\0']) || value.contains('\0'))
+    {
+        let problem = wrong("env", "variables whose names are without \"=\"", format!("{name:?}"));
+        return Err(context.fault(key.span(), problem));
+    }
+    let (outputs, picks) = outputs::outputs(context, key, section, asked)?;
+    let asked = outputs::places(context, section, &outputs, asked)?;
+    let (form, notes) = match &section.template {
+        None => {
+            let form = KeptAlive { protocol: protocol(context, section, &picks)?, row_numbers: numbers(section) };
+            refuse_number(context, section, form, (space, &outputs))?;
+            (Form::KeptAlive(form), Vec::new())
+        }
+        Some(template) => {
+            let (form, notes) = runs::form(context, section, template, space)?;
+            outputs::refuse_without_pick(context, key, &outputs)?;
+            (Form::PerRun(form), notes)
+        }
+    };
+    let mut stated = vec![("program", json!(arguments))];
+    if let Some(directory) = &section.directory {
+        stated.push(("directory", json!(directory.get_ref())));
+    }
+    if !environment.is_empty() {
+        stated.push(("env", Value::Object(environment.iter().map(|(k, v)| (k.clone(), json!(v))).collect())));
+    }
+    match (&form, &section.template) {
+        (Form::KeptAlive(form), _) => {
+            stated.push(("protocol", json!(form.protocol.name())));
+            if form.row_numbers {
+                stated.push(("row_numbers", json!(true)));
+            }
+        }
+        (Form::PerRun(form), template) => {
+            stated.push(("template", json!(template.as_ref().map(At::get_ref))));
+            stated.push(("input", json!(form.input)));
+            let files: Vec<&String> = section.files.iter().map(At::get_ref).collect();
+            if !files.is_empty() {
+                stated.push(("files", json!(files)));
+            }
+        }
+    }
+    stated.push(("outputs", outputs::stated(&outputs)));
+    let settings = CommandSettings {
+        program: Program { arguments, directory, environment },
+        form,
+        outputs,
+        asked,
+        workers: workers(context, section)?,
+        timeout: timeout(context, section)?,
+        retries: retries(context, section)?,
+    };
+    Ok((CommandSubject { settings, stated }, notes))
+}
+
+fn arguments(context: &Context<'_>, key: &At<CommandKey>, program: &[At<String>]) -> Result<Vec<String>, Fault> {
+    if program.first().is_none_or(|name| name.get_ref().trim().is_empty()) {
+        let span = program.first().map_or_else(|| key.span(), At::span);
+        return Err(context.fault(span, Problem::NoProgram));
+    }
+    if let Some(typed) = program.iter().find(|argument| argument.get_ref().contains('\0')) {
+        return Err(context.fault(typed.span(), wrong("program", "without NUL characters", "one with them".to_owned())));
+    }
+    Ok(program.iter().map(|argument| argument.get_ref().clone()).collect())
+}
+
+/// The folder of the study, absolute: programs run elsewhere.
+fn folder(context: &Context<'_>) -> PathBuf {
+    let folder = context.path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    // Without the "." that stood for here.
+    absolute.components().collect()
+}
+
+fn existing_directory(context: &Context<'_>, folder: &Path, typed: &At<String>) -> Result<PathBuf, Fault> {
+    let directory = folder.join(typed.get_ref());
+    if directory.is_dir() {
+        return Ok(directory);
+    }
+    let problem = Problem::ProgramFile {
+        place: directory.display().to_string(),
+        reason: "there is no such directory".to_owned(),
+        help: "the path is relative to the study".to_owned(),
+    };
+    Err(context.fault(typed.span(), problem))
+}
+
+/// The protocol of a program that is kept alive; what belongs to the other form has no place here.
+fn protocol(context: &Context<'_>, section: &CommandSection, picks: &[&At<toml::Value>]) -> Result<Protocol, Fault> {
+    const RUNS: &str = "only beside `template`, of a program that runs once for each row";
+    let spans = [
+        ("input", section.input.as_ref().map(At::span)),
+        ("files", section.files.first().map(At::span)),
+        ("keep", section.keep.as_ref().map(At::span)),
+        ("files_outside", section.files_outside.as_ref().map(At::span)),
+        ("regex, column, pointer, file, match", picks.first().map(|value| value.span())),
+    ];
+    if let Some((key, span)) = spans.into_iter().find_map(|(key, span)| Some((key, span?))) {
+        return Err(context.fault(span, wrong(key, RUNS, "without one".to_owned())));
+    }
+    let Some(name) = &section.protocol else { return Ok(Protocol::Csv) };
+    choice(context, name, "protocol", &Protocol::ALL, Protocol::name)
+}
+
+fn numbers(section: &CommandSection) -> bool {
+    section.row_numbers.as_ref().is_some_and(|typed| *typed.get_ref())
+}
+
+/// A factor, or an output of JSON, called as the number of a row is.
+fn refuse_number(
+    context: &Context<'_>,
+    section: &CommandSection,
+    form: KeptAlive,
+    (space, outputs): (&Space, &[CommandOutput]),
+) -> Result<(), Fault> {
+    let Some(typed) = section.row_numbers.as_ref().filter(|_| form.row_numbers) else { return Ok(()) };
+    let is_factor = space.factors().iter().any(|factor| factor.name == "id");
+    let is_output = form.protocol == Protocol::JsonLines && outputs.iter().any(|output| output.name == "id");
+    let found = if is_factor { "a factor" } else { "an output" };
+    if is_factor || is_output {
+        let expected = "beside names other than `id`, which is that of a row's number";
+        return Err(context.fault(typed.span(), wrong("row_numbers", expected, format!("{found} of that name"))));
+    }
+    Ok(())
+}
+
+fn workers(context: &Context<'_>, section: &CommandSection) -> Result<Option<usize>, Fault> {
+    whole(context, "workers", section.workers.as_ref(), 1..=1024).map(|number| number.map(|number| number as usize))
+}
+
+fn retries(context: &Context<'_>, section: &CommandSection) -> Result<u32, Fault> {
+    const DEFAULT: u32 = 1;
+    let number = whole(context, "retries", section.retries.as_ref(), 0..=100)?;
+    Ok(number.map_or(DEFAULT, |number| number as u32))
+}
+
+fn whole(
+    context: &Context<'_>,
+    key: &str,
+    typed: Option<&At<u64>>,
+    range: std::ops::RangeInclusive<u64>,
+) -> Result<Option<u64>, Fault> {
+    let Some(typed) = typed else { return Ok(None) };
+    if range.contains(typed.get_ref()) {
+        return Ok(Some(*typed.get_ref()));
+    }
+    let expected = format!("a whole number from {} to {}", range.start(), range.end());
+    Err(context.fault(typed.span(), wrong(key, &expected, typed.get_ref().to_string())))
+}
+
+fn timeout(context: &Context<'_>, section: &CommandSection) -> Result<Option<Duration>, Fault> {
+    let Some(typed) = &section.timeout else { return Ok(None) };
+    let seconds = seconds("timeout", typed.get_ref()).map_err(|problem| context.fault(typed.span(), problem))?;
+    let duration = Duration::try_from_secs_f64(seconds).ok().filter(|time| *time > Duration::ZERO);
+    let problem = || wrong("timeout", "a time above 0, as in \"30 s\"", format!("{:?}", typed.get_ref()));
+    duration.map(Some).ok_or_else(|| context.fault(typed.span(), problem()))
+}

@@ -1,0 +1,129 @@
+//! A program that runs once for each row: its template, and the files of a run's directory.
+
+use std::path::{Component, Path, PathBuf};
+
+use super::file::CommandSection;
+use super::{Context, Fault, folder};
+use crate::files::read_text;
+use crate::model::{InputTemplate, PerRun, TemplateProblem};
+use crate::names::nearest;
+use crate::space::Space;
+use crate::study::file::at::At;
+use crate::study::file::context::wrong;
+use crate::study::file::error::Problem;
+
+/// Names that the engine writes in the directory of a run.
+const TAKEN: [&str; 3] = ["stdout.txt", "stderr.txt", "factors.csv"];
+
+/// The form, and notes on factors that the template does not mention.
+pub(super) fn form(
+    context: &Context<'_>,
+    section: &CommandSection,
+    template: &At<String>,
+    space: &Space,
+) -> Result<(PerRun, Vec<String>), Fault> {
+    if let Some(protocol) = &section.protocol {
+        let expected = "only of a program that is kept alive, without `template`";
+        return Err(context.fault(protocol.span(), wrong("protocol", expected, "beside one".to_owned())));
+    }
+    if let Some(typed) = &section.row_numbers {
+        let expected = "only of a program that is kept alive, without `template`";
+        return Err(context.fault(typed.span(), wrong("row_numbers", expected, "beside one".to_owned())));
+    }
+    let folder = folder(context);
+    let template_file = folder.join(template.get_ref());
+    let file_name = template_file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let input = section.input.as_ref().map_or(file_name, |input| input.get_ref().clone());
+    inside(context, section, &folder, template)?;
+    let span = || section.input.as_ref().map_or_else(|| template.span(), At::span);
+    refuse_place("input", &input).map_err(|problem| context.fault(span(), problem))?;
+    let read = read_template(&template_file, space).map_err(|problem| context.fault(template.span(), problem))?;
+    let unused = |number: &usize| !read.uses(*number);
+    let notes = (0..space.factors().len())
+        .filter(unused)
+        .map(|number| format!("factor `{}` does not stand in the template", space.factors()[number].name));
+    let notes = notes.collect();
+    let files = files(context, section, &folder, &input)?;
+    let keep = section.keep.as_ref().map(|keep| folder.join(keep.get_ref()));
+    Ok((PerRun { template_file, template: read, input, files, keep }, notes))
+}
+
+/// A study that somebody hands on reads no file elsewhere, by whatever path or link, unless it says so.
+fn inside(context: &Context<'_>, section: &CommandSection, folder: &Path, typed: &At<String>) -> Result<(), Fault> {
+    if section.files_outside.as_ref().is_some_and(|allowed| *allowed.get_ref()) {
+        return Ok(());
+    }
+    let path = folder.join(typed.get_ref());
+    // What is not there is told of by whoever reads it.
+    let (Ok(real), Ok(folder)) = (path.canonicalize(), folder.canonicalize()) else { return Ok(()) };
+    if real.starts_with(folder) {
+        return Ok(());
+    }
+    let problem = Problem::ProgramFile {
+        place: path.display().to_string(),
+        reason: "the file lies outside of the study's folder".to_owned(),
+        help: "move it there, or add files_outside = true to [command]".to_owned(),
+    };
+    Err(context.fault(typed.span(), problem))
+}
+
+fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
+    let problem = |place: String, reason: String, help: String| Problem::ProgramFile { place, reason, help };
+    let text = read_text(path).map_err(|error| {
+        let reason = format!("cannot read the template: {error}");
+        problem(
+            path.display().to_string(),
+            reason,
+            "it is a text in UTF-8; its path is relative to the study".to_owned(),
+        )
+    })?;
+    let names = || space.factors().iter().map(|factor| factor.name.as_str());
+    InputTemplate::parse(&text, &|name| names().position(|known| known == name)).map_err(|error| {
+        let place = format!("{}:{}:{}", path.display(), error.line, error.column);
+        let near = match &error.problem {
+            TemplateProblem::Unknown(name) => nearest(name, names()),
+            TemplateProblem::Open => None,
+        };
+        let near = near.map_or_else(String::new, |name| format!(": did you mean `{name}`?"));
+        let known = names().collect::<Vec<_>>().join(", ");
+        problem(
+            place,
+            format!("{error}{near}"),
+            format!("factors: {known}; write `{{{{{{{{` for two braces of the text"),
+        )
+    })
+}
+
+/// A file in the directory of a run is named without a way out of it.
+fn refuse_place(key: &str, name: &str) -> Result<(), Problem> {
+    let mut parts = Path::new(name).components();
+    let is_name = matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None));
+    if !is_name || name.contains('\0') {
+        return Err(wrong(key, "the name of a file, without a folder", format!("{name:?}")));
+    }
+    if TAKEN.contains(&name) {
+        return Err(wrong(key, "another name: the directory of a run has a file of that one", format!("{name:?}")));
+    }
+    Ok(())
+}
+
+fn files(context: &Context<'_>, section: &CommandSection, folder: &Path, input: &str) -> Result<Vec<PathBuf>, Fault> {
+    let mut paths: Vec<PathBuf> = Vec::with_capacity(section.files.len());
+    for typed in &section.files {
+        let path = folder.join(typed.get_ref());
+        let fault = |problem| context.fault(typed.span(), problem);
+        inside(context, section, folder, typed)?;
+        if !path.is_file() {
+            let (place, reason) = (path.display().to_string(), "there is no such file".to_owned());
+            let help = "the path is relative to the study; folders are not copied".to_owned();
+            return Err(fault(Problem::ProgramFile { place, reason, help }));
+        }
+        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        refuse_place("files", &name).map_err(fault)?;
+        if name == input || paths.iter().any(|other| other.file_name() == path.file_name()) {
+            return Err(fault(Problem::Repeated { what: "file of a run's directory", name }));
+        }
+        paths.push(path);
+    }
+    Ok(paths)
+}

@@ -1,0 +1,180 @@
+//! The `[afm]` table: choices by name, and constants of the scene with their units.
+
+use std::collections::BTreeMap;
+
+use toml::Value;
+
+use super::context::{Context, Fault};
+use super::error::Problem;
+use super::sections::At;
+use super::units::{in_words_of_units, with_unit};
+use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion};
+use crate::model::edge_unit;
+use crate::names::nearest;
+use crate::quantity::{Dimension, Quantity, Unit};
+
+pub(super) const CHOICES: [&str; 9] = [
+    "friction",
+    "contact",
+    "fidelity",
+    "torsion",
+    "adhesion_in_load",
+    "lugre_parameters",
+    "tolerance",
+    "step",
+    "step_budget",
+];
+
+/// Reads the table into a scene and options, starting from the defaults. `is_factor` tells the names that must not be
+/// fixed.
+pub(super) fn afm(
+    context: &Context<'_>,
+    table: &BTreeMap<At<String>, At<Value>>,
+    is_factor: &dyn Fn(&str) -> bool,
+) -> Result<(Scene, Options), Fault> {
+    let (mut scene, mut options) = (Scene::default(), Options::default());
+    for (key, value) in table {
+        let name = key.get_ref().as_str();
+        let fault = |problem| context.fault(value.span(), problem);
+        match name {
+            "friction" => options.friction = choice(value, name, FrictionLaw::ALL, FrictionLaw::name).map_err(fault)?,
+            "contact" => {
+                options.contact = choice(value, name, ContactTheory::ALL, ContactTheory::name).map_err(fault)?
+            }
+            "fidelity" => options.fidelity = choice(value, name, Fidelity::ALL, Fidelity::name).map_err(fault)?,
+            "torsion" => options.torsion = choice(value, name, Torsion::ALL, Torsion::name).map_err(fault)?,
+            "lugre_parameters" => {
+                options.lugre = choice(value, name, LuGreParameters::ALL, LuGreParameters::name).map_err(fault)?;
+            }
+            "tolerance" => options.tolerance = positive(name, "1e-6", value).map_err(fault)?,
+            "step" => options.step = positive(name, "\"10 ms\"", value).map_err(fault)?,
+            "step_budget" => {
+                let budget = value.get_ref().as_integer().and_then(|steps| u64::try_from(steps).ok());
+                let budget = budget.filter(|&steps| steps > 0);
+                options.step_budget = budget.ok_or_else(|| fault(wrong_type(name, "a whole number from 1", value)))?;
+            }
+            "adhesion_in_load" => {
+                options.adhesion_in_load =
+                    value.get_ref().as_bool().ok_or_else(|| fault(wrong_type(name, "true or false", value)))?;
+            }
+            _ => {
+                let Some(parameter) = Parameter::from_name(name) else {
+                    return Err(context.fault(key.span(), unknown_key(name)));
+                };
+                if is_factor(name) {
+                    return Err(context.fault(key.span(), Problem::FixedFactor(name.to_owned())));
+                }
+                (parameter.set)(&mut scene, constant(parameter, value).map_err(fault)?);
+            }
+        }
+    }
+    Ok((scene, options))
+}
+
+/// Notes on keys of the table that are understood but cannot act under `options`.
+pub(super) fn idle(table: &BTreeMap<At<String>, At<Value>>, options: &Options) -> Vec<String> {
+    let marched = !matches!(options.fidelity, Fidelity::ClosedForm);
+    let acts = |name: &str| match name {
+        "step" => options.fidelity == Fidelity::FixedStep,
+        "tolerance" => marched && options.fidelity != Fidelity::FixedStep,
+        "step_budget" => marched,
+        "lugre_parameters" => marched && options.friction == FrictionLaw::LuGre,
+        _ => true,
+    };
+    let (friction, fidelity) = (options.friction.name(), options.fidelity.name());
+    let idle = table.keys().map(|key| key.get_ref().as_str()).filter(|name| !acts(name));
+    idle.map(|name| format!("`{name}` has no effect with friction = \"{friction}\" and fidelity = \"{fidelity}\""))
+        .collect()
+}
+
+fn unknown_key(name: &str) -> Problem {
+    let expected: Vec<&str> = CHOICES.into_iter().chain(Parameter::ALL.iter().map(|p| p.name)).collect();
+    Problem::UnknownKey {
+        name: name.to_owned(),
+        nearest: nearest(name, expected.iter().copied()),
+        expected: expected.into_iter().map(str::to_owned).collect(),
+    }
+}
+
+fn choice<T: Copy>(value: &At<Value>, key: &str, all: &[T], name: fn(T) -> &'static str) -> Result<T, Problem> {
+    let names = || all.iter().map(|&variant| name(variant));
+    let Some(text) = value.get_ref().as_str() else {
+        let expected = format!("one of {}", names().map(|n| format!("{n:?}")).collect::<Vec<_>>().join(", "));
+        return Err(wrong_type(key, &expected, value));
+    };
+    all.iter().copied().find(|&variant| name(variant) == text).ok_or_else(|| Problem::UnknownName {
+        what: match key {
+            "friction" => "friction law",
+            "contact" => "contact theory",
+            "fidelity" => "fidelity",
+            "torsion" => "torsion formula",
+            _ => "source of LuGre parameters",
+        },
+        name: text.to_owned(),
+        nearest: nearest(text, names()),
+        expected: names().map(str::to_owned).collect(),
+    })
+}
+
+/// The SI value of a constant given as `"0.7 deg"`, or as a bare number where the parameter has no dimension.
+fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
+    let unit = edge_unit(parameter);
+    let dimensionless = unit.compatible(&Unit::dimensionless());
+    let example = || match dimensionless {
+        true => format!("{} = {}", parameter.name, (parameter.get)(&Scene::default())),
+        false => format!("{} = \"{} {unit}\"", parameter.name, unit.from_si((parameter.get)(&Scene::default()))),
+    };
+    let quantity = match value.get_ref() {
+        Value::String(text) => Quantity::parse(text)?,
+        Value::Integer(number) => Quantity { value: *number as f64, unit: Unit::dimensionless() },
+        Value::Float(number) => Quantity { value: *number, unit: Unit::dimensionless() },
+        _ => return Err(wrong_type(parameter.name, &format!("a quantity, as in {}", example()), value)),
+    };
+    if !quantity.unit.compatible(&unit) {
+        let name = format!("`{}`", parameter.name);
+        let dimension = unit.dimension().to_string();
+        return Err(if quantity.unit.compatible(&Unit::dimensionless()) {
+            Problem::MissingUnit { name, dimension, example: example() }
+        } else {
+            let found = quantity.unit.dimension().to_string();
+            Problem::WrongUnit { name, expected: dimension, unit: quantity.unit.to_string(), found, example: example() }
+        });
+    }
+    let si = quantity.unit.to_si(quantity.value);
+    if !parameter.domain.contains(si) || !unit.from_si(si).is_finite() {
+        return Err(Problem::OutOfDomain {
+            name: format!("`{}`", parameter.name),
+            domain: in_words_of_units(parameter.domain),
+            found: format!("it is {}", with_unit(quantity.value, quantity.unit.symbol())),
+        });
+    }
+    Ok(si)
+}
+
+/// A number greater than 0: bare where it has no dimension, as `example` shows, or a time with its unit.
+fn positive(key: &str, example: &str, value: &At<Value>) -> Result<f64, Problem> {
+    let is_time = example.starts_with('"');
+    let number = match value.get_ref() {
+        Value::String(text) if is_time => {
+            let quantity = Quantity::parse(text)?;
+            (quantity.unit.dimension() == Dimension::TIME).then(|| quantity.to_si())
+        }
+        Value::Integer(number) if !is_time => Some(*number as f64),
+        Value::Float(number) if !is_time => Some(*number),
+        _ => None,
+    };
+    let expected = || format!("greater than 0, as in {key} = {example}");
+    number.filter(|number| *number > 0.0 && number.is_finite()).ok_or_else(|| Problem::WrongType {
+        key: key.to_owned(),
+        expected: expected(),
+        found: value.get_ref().to_string(),
+    })
+}
+
+fn wrong_type(key: &str, expected: &str, value: &At<Value>) -> Problem {
+    Problem::WrongType {
+        key: key.to_owned(),
+        expected: expected.to_owned(),
+        found: value.get_ref().type_str().to_owned(),
+    }
+}

@@ -1,0 +1,80 @@
+//! The text of a study file while it is read, and how its faults are told.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use super::at::At;
+use super::error::{Diagnostic, Problem, meant};
+use crate::names::nearest;
+
+/// A diagnostic on its way up.
+pub(super) type Fault = Box<Diagnostic>;
+
+/// The text being read.
+pub(super) struct Context<'a> {
+    pub path: PathBuf,
+    pub text: &'a str,
+}
+
+impl Context<'_> {
+    pub(super) fn fault(&self, span: Range<usize>, problem: Problem) -> Fault {
+        Box::new(Diagnostic::new(&self.path, self.text, span, problem))
+    }
+}
+
+pub(super) fn unknown_name<'a>(
+    what: &'static str,
+    name: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> Problem {
+    Problem::UnknownName {
+        what,
+        name: name.to_owned(),
+        nearest: meant(name, known.clone()),
+        expected: known.map(str::to_owned).collect(),
+    }
+}
+
+/// Places of the outputs asked for among those that are `known`, in the order asked for.
+pub(super) fn chosen(context: &Context<'_>, known: &[&str], asked: &At<Vec<At<String>>>) -> Result<Vec<usize>, Fault> {
+    if asked.get_ref().is_empty() {
+        return Err(context.fault(asked.span(), Problem::NoOutputs));
+    }
+    let mut places = Vec::new();
+    for output in asked.get_ref() {
+        let name = output.get_ref();
+        let Some(place) = known.iter().position(|known| known == name) else {
+            return Err(context.fault(output.span(), unknown_name("output", name, known.iter().copied())));
+        };
+        if places.contains(&place) {
+            let problem = Problem::Repeated { what: "output", name: name.clone() };
+            return Err(context.fault(output.span(), problem));
+        }
+        places.push(place);
+    }
+    Ok(places)
+}
+
+pub(super) fn choice<T: Copy>(
+    context: &Context<'_>,
+    typed: &At<String>,
+    what: &'static str,
+    all: &[T],
+    name: fn(T) -> &'static str,
+) -> Result<T, Fault> {
+    let found = all.iter().copied().find(|&choice| name(choice) == typed.get_ref());
+    found.ok_or_else(|| {
+        let names = || all.iter().map(|&choice| name(choice));
+        let problem = Problem::UnknownName {
+            what,
+            name: typed.get_ref().clone(),
+            nearest: nearest(typed.get_ref(), names()),
+            expected: names().map(str::to_owned).collect(),
+        };
+        context.fault(typed.span(), problem)
+    })
+}
+
+pub(super) fn wrong(key: &str, expected: &str, found: String) -> Problem {
+    Problem::WrongType { key: key.to_owned(), expected: expected.to_owned(), found }
+}

@@ -1,0 +1,168 @@
+//! The `[expression]` table: formulas of the factors, one for each output, and constants.
+
+use std::ops::Range;
+
+use toml::Value;
+
+use super::context::{Context, Fault, chosen};
+use super::error::Problem;
+use super::sections::{At, Choices, ExpressionSection, FactorSection};
+use super::subjects::{ExpressionConstant, ExpressionSubject, Formula};
+use super::units::own_inputs;
+use crate::model::{Expression, ExpressionProblem, Input, Symbol};
+use crate::names::nearest;
+use crate::quantity::{Quantity, Unit};
+use crate::space::Space;
+
+/// The inputs of formulas: the factors of the study, each in its own unit.
+pub(super) fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
+    factors.iter().try_for_each(|section| refuse_name(context, "factor", &section.get_ref().name))?;
+    own_inputs(context, factors)
+}
+
+fn refuse_name(context: &Context<'_>, what: &'static str, name: &At<String>) -> Result<(), Fault> {
+    let reason = match name.get_ref() {
+        name if !Expression::is_name(name) => {
+            "letters, digits and '_', not beginning with a digit (it stands in formulas)"
+        }
+        name if Expression::is_reserved(name) => "no function or number of the formula language",
+        _ => return Ok(()),
+    };
+    let (key, found) = (format!("name of a {what}"), format!("{:?}", name.get_ref()));
+    Err(context.fault(name.span(), Problem::WrongType { key, expected: reason.to_owned(), found }))
+}
+
+/// The formulas with their constants, and notes on what stands in none of them.
+pub(super) fn subject(
+    context: &Context<'_>,
+    table: Option<&At<ExpressionSection>>,
+    asked: Option<&At<Vec<At<String>>>>,
+    space: &Space,
+) -> Result<(ExpressionSubject, Vec<String>), Fault> {
+    let Some(table) = table else { return Err(context.fault(0..0, Problem::NoFormulas)) };
+    let section = table.get_ref();
+    let mut entries: Vec<(&At<String>, &At<Value>)> = section.outputs.iter().collect();
+    if entries.is_empty() {
+        return Err(context.fault(table.span(), Problem::NoFormulas));
+    }
+    // In the order of the file.
+    entries.sort_by_key(|(name, _)| name.span().start);
+    let constants = constants(context, &section.constants, space)?;
+    let mut formulas = Vec::with_capacity(entries.len());
+    for (name, value) in entries {
+        formulas.push(formula(context, (name, value), space, &constants)?);
+    }
+    let notes = notes(&formulas, section, space);
+    if let Some(asked) = asked {
+        let names: Vec<&str> = formulas.iter().map(|formula| formula.name.as_str()).collect();
+        let places = chosen(context, &names, asked)?;
+        formulas = places.into_iter().map(|place| formulas[place].clone()).collect();
+    }
+    Ok((ExpressionSubject { formulas, constants }, notes))
+}
+
+fn constants(context: &Context<'_>, table: &Choices, space: &Space) -> Result<Vec<ExpressionConstant>, Fault> {
+    let mut entries: Vec<(&At<String>, &At<Value>)> = table.iter().collect();
+    entries.sort_by_key(|(name, _)| name.span().start);
+    let mut constants = Vec::with_capacity(entries.len());
+    for (name, value) in entries {
+        refuse_name(context, "constant", name)?;
+        if space.factors().iter().any(|factor| factor.name == *name.get_ref()) {
+            let problem =
+                Problem::Repeated { what: "name of a factor and of a constant", name: name.get_ref().clone() };
+            return Err(context.fault(name.span(), problem));
+        }
+        let number = |value: f64| Quantity { value, unit: Unit::dimensionless() };
+        let quantity = match value.get_ref() {
+            Value::Integer(whole) => Some(number(*whole as f64)),
+            Value::Float(float) => Some(number(*float)),
+            Value::String(text) => {
+                Some(Quantity::parse(text).map_err(|error| context.fault(value.span(), error.into()))?)
+            }
+            _ => None,
+        };
+        let quantity = quantity.filter(|quantity| quantity.to_si().is_finite()).ok_or_else(|| {
+            let (key, found) = (name.get_ref().clone(), value.get_ref().to_string());
+            let expected = format!("a finite number or a quantity, as in {key} = 7 or {key} = \"169 GPa\"");
+            context.fault(value.span(), Problem::WrongType { key, expected, found })
+        })?;
+        constants.push(ExpressionConstant { name: name.get_ref().clone(), quantity });
+    }
+    Ok(constants)
+}
+
+fn formula(
+    context: &Context<'_>,
+    (name, value): (&At<String>, &At<Value>),
+    space: &Space,
+    constants: &[ExpressionConstant],
+) -> Result<Formula, Fault> {
+    let wrong = |found: String| {
+        let key = name.get_ref().clone();
+        let expected = "a formula, or { formula = \"...\", unit = \"...\" }".to_owned();
+        context.fault(value.span(), Problem::WrongType { key, expected, found })
+    };
+    let (text, unit) = match value.get_ref() {
+        Value::String(text) => (text, None),
+        Value::Table(table) => {
+            if let Some(key) = table.keys().find(|key| !matches!(key.as_str(), "formula" | "unit")) {
+                return Err(wrong(format!("a table with `{key}`")));
+            }
+            let formula = table.get("formula").and_then(Value::as_str);
+            let (Some(Value::String(text)), true) =
+                (table.get("formula"), formula.is_some() && table.get("unit").is_none_or(Value::is_str))
+            else {
+                return Err(wrong("a table without such texts".to_owned()));
+            };
+            (text, table.get("unit").and_then(Value::as_str))
+        }
+        other => return Err(wrong(other.type_str().to_owned())),
+    };
+    let unit = Unit::parse(unit.unwrap_or("1")).map_err(|error| context.fault(value.span(), error.into()))?;
+    let symbol = |name: &str| {
+        let factor = space.factors().iter().position(|factor| factor.name == name).map(Symbol::Input);
+        let constant = || constants.iter().find(|constant| constant.name == name);
+        factor.or_else(|| constant().map(|constant| Symbol::Number(constant.quantity.to_si())))
+    };
+    let expression = Expression::parse(text, &symbol).map_err(|error| {
+        let known = || space.factors().iter().map(|f| f.name.as_str()).chain(constants.iter().map(|c| c.name.as_str()));
+        let functions = Expression::vocabulary();
+        let (near, expected) = match &error.problem {
+            ExpressionProblem::UnknownName(name) => {
+                (nearest(name, known()), format!("factors and constants: {}", known().collect::<Vec<_>>().join(", ")))
+            }
+            ExpressionProblem::UnknownFunction(name) => {
+                (nearest(name, functions.iter().copied()), format!("functions: {}", functions.join(", ")))
+            }
+            _ => (None, String::new()),
+        };
+        let span = place(context, value, text, error.place.clone());
+        context.fault(span, Problem::Expression { source: error, nearest: near, expected })
+    })?;
+    Ok(Formula { name: name.get_ref().clone(), unit, expression })
+}
+
+/// Where a part of a formula stands in the file: exactly, unless the text is written with escapes.
+fn place(context: &Context<'_>, value: &At<Value>, formula: &str, part: Range<usize>) -> Range<usize> {
+    let whole = value.span();
+    match context.text.get(whole.clone()).and_then(|written| written.find(formula)) {
+        Some(offset) => {
+            let start = whole.start + offset;
+            start + part.start..start + part.end
+        }
+        None => whole,
+    }
+}
+
+/// Factors and constants that stand in no formula.
+fn notes(formulas: &[Formula], section: &ExpressionSection, space: &Space) -> Vec<String> {
+    let unused = |number: &usize| formulas.iter().all(|formula| !formula.expression.uses(*number));
+    let factors = (0..space.factors().len()).filter(unused).map(|number| &space.factors()[number].name);
+    let stands = |name: &str| {
+        let words = |text: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
+        formulas.iter().any(|formula| words(formula.expression.text()))
+    };
+    let constants = section.constants.keys().map(At::get_ref).filter(|name| !stands(name));
+    let note = |(what, name): (&str, &String)| format!("{what} `{name}` stands in no formula");
+    factors.map(|name| note(("factor", name))).chain(constants.map(|name| note(("constant", name)))).collect()
+}

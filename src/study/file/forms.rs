@@ -1,0 +1,163 @@
+//! What a study file may say in several ways, brought to one before it is read: factors as a list or as tables by name,
+//! outputs with their formulas or units above the table of the model. Every value keeps its place in the file.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+use super::context::wrong;
+use super::context::{Context, Fault};
+use super::error::Problem;
+use crate::names::nearest;
+
+/// Brings `root`, a study file, to the form that `StudyFile` has.
+pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
+    factors(context, root)?;
+    outputs_above(context, root)?;
+    outputs_below(context, root)?;
+    formulas(context, root)
+}
+
+fn key(name: &'static str, span: Range<usize>) -> Spanned<Cow<'static, str>> {
+    Spanned::new(span, Cow::Borrowed(name))
+}
+
+fn type_of(value: &DeValue<'_>) -> String {
+    match value.type_str() {
+        "array" => "a list".to_owned(),
+        "string" => "a text".to_owned(),
+        other => format!("a value of type {other}"),
+    }
+}
+
+/// `[[factor]]`, `[factor]` of a single one, or `[factor.NAME]`; each also with `factors`. Their order is that of the file.
+fn factors(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
+    if let Some((plural, value)) = root.remove_entry("factors") {
+        if root.contains_key("factor") {
+            let problem = Problem::TwoForms { what: "factors", one: "factor", other: "factors" };
+            return Err(context.fault(plural.span(), problem));
+        }
+        root.insert(key("factor", plural.span()), value);
+    }
+    let Some(value) = root.get_mut("factor") else { return Ok(()) };
+    let span = value.span();
+    let DeValue::Table(table) = value.get_mut() else { return Ok(()) };
+    let table = std::mem::take(table);
+    let by_name = table.iter().any(|(_, value)| value.get_ref().is_table());
+    let factors = if by_name { by_order(context, table)? } else { vec![Spanned::new(span, DeValue::Table(table))] };
+    *value.get_mut() = DeValue::Array(DeArray::from_iter(factors));
+    Ok(())
+}
+
+/// The tables `[factor.NAME]` in the order of the file, each with its name inside.
+fn by_order<'a>(context: &Context<'_>, table: DeTable<'a>) -> Result<Vec<Spanned<DeValue<'a>>>, Fault> {
+    let mut entries: Vec<_> = table.into_iter().collect();
+    entries.sort_by_key(|(name, _)| name.span().start);
+    let mut factors = Vec::with_capacity(entries.len());
+    for (name, mut value) in entries {
+        let DeValue::Table(fields) = value.get_mut() else {
+            let right = "beside [factor.NAME] every factor is such a table, with its own keys";
+            let problem = Problem::Misplaced { name: name.get_ref().to_string(), right: right.to_owned() };
+            return Err(context.fault(name.span(), problem));
+        };
+        match fields.get("name") {
+            Some(inside) if inside.get_ref().as_str() != Some(name.get_ref()) => {
+                let expected = format!("\"{}\", as its table is called, or left out", name.get_ref());
+                return Err(context.fault(inside.span(), wrong("name", &expected, "another one".to_owned())));
+            }
+            Some(_) => (),
+            None => {
+                let inside = Spanned::new(name.span(), DeValue::String(name.get_ref().clone()));
+                fields.insert(key("name", name.span()), inside);
+            }
+        }
+        factors.push(value);
+    }
+    Ok(factors)
+}
+
+/// `[outputs]` above the table of the model, or `outputs.y = "..."` there: the same as in that table.
+fn outputs_above(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
+    let Some(value) = root.get("outputs").filter(|value| value.get_ref().is_table()) else { return Ok(()) };
+    let place = value.span();
+    let model = root.get("model").and_then(|model| model.get_ref().as_str()).unwrap_or_default();
+    let Some(section) = ["expression", "command", "external"].into_iter().find(|section| *section == model) else {
+        let expected =
+            "a list of names, as in outputs = [\"y\"] (a table of formulas stands beside model = \"expression\")";
+        return Err(context.fault(place, wrong("outputs", expected, "a table".to_owned())));
+    };
+    let Some((name, outputs)) = root.remove_entry("outputs") else { return Ok(()) };
+    let Some(model) = root.get_mut(section) else {
+        if section == "command" {
+            return Err(context.fault(0..0, Problem::NoProgram));
+        }
+        let table = DeTable::from_iter([(name, outputs)]);
+        root.insert(key(section, place.clone()), Spanned::new(place, DeValue::Table(table)));
+        return Ok(());
+    };
+    let span = model.span();
+    match model.get_mut() {
+        DeValue::Table(table) if table.contains_key("outputs") => {
+            let (one, other) = match section {
+                "expression" => ("[outputs]", "[expression] outputs"),
+                "command" => ("[outputs]", "[command] outputs"),
+                _ => ("[outputs]", "[external] outputs"),
+            };
+            return Err(context.fault(name.span(), Problem::TwoForms { what: "outputs", one, other }));
+        }
+        DeValue::Table(table) => {
+            table.insert(name, outputs);
+        }
+        // `command = ["python3", "my_model.py"]`.
+        program @ DeValue::Array(_) if section == "command" => {
+            let list = std::mem::replace(program, DeValue::Boolean(false));
+            let program_key = key("program", span.clone());
+            *program = DeValue::Table(DeTable::from_iter([(program_key, Spanned::new(span, list)), (name, outputs)]));
+        }
+        other => {
+            let found = type_of(other);
+            return Err(context.fault(span, wrong(section, "a table", found)));
+        }
+    }
+    Ok(())
+}
+
+/// `outputs = ["y"]` below a table: it has become part of that table.
+fn outputs_below(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Fault> {
+    for section in ["expression", "command", "external"] {
+        let table = root.get(section).and_then(|value| value.get_ref().as_table());
+        let Some((name, _)) =
+            table.and_then(|table| table.get_key_value("outputs").filter(|(_, outputs)| outputs.get_ref().is_array()))
+        else {
+            continue;
+        };
+        let example = if section == "expression" { "outputs.y = \"x1 + x2\"" } else { "outputs.y = \"nN\"" };
+        let expected = format!(
+            "a table in [{section}], as in {example}: a list of names stands at the top of the file, above the first \
+             table"
+        );
+        return Err(context.fault(name.span(), wrong("outputs", &expected, "a list".to_owned())));
+    }
+    Ok(())
+}
+
+/// `y = "x1 + x2"` in `[expression]`, which wants to be an output, and `a = 7`, which wants to be a constant.
+fn formulas(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Fault> {
+    const KEYS: [&str; 2] = ["outputs", "constants"];
+    let Some(table) = root.get("expression").and_then(|value| value.get_ref().as_table()) else { return Ok(()) };
+    let misplaced = table.iter().filter_map(|(name, value)| match value.get_ref() {
+        _ if KEYS.contains(&&**name.get_ref()) || nearest(name.get_ref(), KEYS).is_some() => None,
+        DeValue::String(_) => Some((name, "outputs")),
+        DeValue::Integer(_) | DeValue::Float(_) => Some((name, "constants")),
+        _ => None,
+    });
+    let first = misplaced.min_by_key(|(name, _)| name.span().start);
+    first.map_or(Ok(()), |(name, table)| {
+        let what = if table == "outputs" { "an output with its formula" } else { "a constant" };
+        let written = context.text.get(name.span()).unwrap_or_default();
+        let right = format!("{what} is written {table}.{written} = ..., or stands below [expression.{table}]");
+        Err(context.fault(name.span(), Problem::Misplaced { name: name.get_ref().to_string(), right }))
+    })
+}

@@ -1,0 +1,64 @@
+//! The `[function]` table: parameters of a function with known indices.
+
+use toml::Value;
+
+use super::context::{Context, Fault};
+use super::error::Problem;
+use super::sections::{At, Choices};
+use crate::model::{KnownAnswer, KnownFunction, ParameterError, ParameterValue};
+use crate::names::nearest;
+
+/// The function with the parameters of the table.
+pub(super) fn known(
+    context: &Context<'_>,
+    answer: KnownAnswer,
+    table: Option<&At<Choices>>,
+) -> Result<KnownFunction, Fault> {
+    let Some(table) = table else { return Ok(answer.default_function()) };
+    let mut parameters = Vec::new();
+    for (key, value) in table.get_ref() {
+        let name = key.get_ref();
+        if answer.parameters().iter().all(|parameter| parameter.name != name) {
+            return Err(context.fault(key.span(), unknown_key(answer, name)));
+        }
+        let number = number_or_list(value.get_ref()).ok_or_else(|| {
+            let expected = "a number or a list of numbers".to_owned();
+            let found = value.get_ref().type_str().to_owned();
+            context.fault(value.span(), Problem::WrongType { key: name.clone(), expected, found })
+        })?;
+        parameters.push((name.clone(), number));
+    }
+    answer.with(&parameters).map_err(|error| {
+        let about = |key: &At<String>| key.get_ref() == error.parameter();
+        let span = table.get_ref().iter().find(|(key, _)| about(key)).map_or(table.span(), |(_, value)| value.span());
+        context.fault(span, Problem::Parameter(error))
+    })
+}
+
+fn unknown_key(answer: KnownAnswer, name: &str) -> Problem {
+    let known = || answer.parameters().iter().map(|parameter| parameter.name);
+    if answer.parameters().is_empty() {
+        let error = ParameterError::Unknown { parameter: name.to_owned(), known: Vec::new() };
+        return Problem::Parameter(error);
+    }
+    Problem::UnknownKey {
+        name: name.to_owned(),
+        nearest: nearest(name, known()),
+        expected: known().map(str::to_owned).collect(),
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Integer(number) => Some(*number as f64),
+        Value::Float(number) => Some(*number),
+        _ => None,
+    }
+}
+
+fn number_or_list(value: &Value) -> Option<ParameterValue> {
+    match value {
+        Value::Array(list) => list.iter().map(number).collect::<Option<_>>().map(ParameterValue::List),
+        other => number(other).map(ParameterValue::Number),
+    }
+}

@@ -1,0 +1,96 @@
+//! Study files: TOML as typed ([`StudyFile`](sections::StudyFile)), and what it means. Everything wrong with a file is
+//! reported with its line and column.
+
+mod analysis;
+mod at;
+mod command;
+mod constants;
+mod context;
+mod design;
+mod distribution;
+mod error;
+mod expression;
+mod external;
+mod forms;
+mod function;
+mod measured;
+mod names;
+mod nominal;
+mod overrides;
+mod read;
+mod resolve;
+mod schema;
+mod sections;
+mod subjects;
+mod template;
+mod units;
+
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+pub use error::{Diagnostic, OverrideProblem, Problem, StudyError};
+pub use schema::study_schema;
+pub use subjects::{
+    AfmSubject, CommandSubject, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula, KnownSubject,
+};
+pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
+
+use super::Study;
+use crate::files::read_text;
+
+impl Study {
+    /// Reads a study file, after applying `overrides` of the form `KEY=VALUE`.
+    ///
+    /// # Errors
+    /// [`StudyError`] with the place in the file and what would be right.
+    pub fn load(path: &Path, overrides: &[String]) -> Result<Self, StudyError> {
+        let unreadable = |source| StudyError::Unreadable { path: path.to_owned(), source };
+        let text = read_text(path).map_err(unreadable)?;
+        Self::parse(&text, path, overrides)
+    }
+
+    /// Reads a study from its text; `path` is for messages, and names the study unless the text does.
+    ///
+    /// ```
+    /// use std::path::Path;
+    /// use apportion::study::Study;
+    ///
+    /// let text = r#"
+    ///     model = "ishigami"
+    ///     [[factor]]
+    ///     name = "x1"
+    ///     min = -3.14
+    ///     max = 3.14
+    /// "#;
+    /// let study = Study::parse(text, Path::new("small.toml"), &["design.base_samples=256".to_owned()])?;
+    /// assert_eq!(study.name, "small");
+    /// // A and B: with one factor, A with its column from B is B, and is not run again.
+    /// assert_eq!(study.design.rows(), 2 * 256);
+    /// # Ok::<(), apportion::study::StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StudyError`] with the place in the text and what would be right.
+    pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Result<Self, StudyError> {
+        let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overridden(text, overrides)? };
+        let context = context::Context { path: PathBuf::from(path), text: effective.as_deref().unwrap_or(text) };
+        let mut study = resolve::study(&context).map_err(|mut diagnostic| {
+            diagnostic.overrides = overrides.to_vec();
+            diagnostic
+        })?;
+        if effective.is_none() {
+            // The reader takes whole numbers up to 2^64, the editor up to 2^63, as TOML has it.
+            let (text, problem) = (overrides.join(" "), OverrideProblem::NotEditable);
+            return Err(StudyError::Override { text, problem });
+        }
+        study.overrides = overrides.to_vec();
+        text.clone_into(&mut study.source);
+        study.sha256 = Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(study)
+    }
+}
+
+fn overridden(text: &str, overrides: &[String]) -> Result<Option<String>, StudyError> {
+    overrides::apply(text, overrides).map_err(|(text, problem)| StudyError::Override { text, problem })
+}

@@ -1,0 +1,136 @@
+//! `--set KEY=VALUE`: changes to a study file from the command line, applied to its text before it is read.
+
+use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
+
+use super::error::OverrideProblem;
+use crate::names::nearest;
+
+/// Applies `overrides` in order. A key is a path of names joined by dots; `factor.NAME.KEY` reaches the factor of that
+/// name. A value is TOML if it reads as TOML, else a string: `afm.friction=hk` needs no quotes.
+///
+/// `None` if the text is not TOML: the reader will say so, with the place.
+pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, (String, OverrideProblem)> {
+    let Ok(mut document) = text.parse::<DocumentMut>() else { return Ok(None) };
+    for text in overrides {
+        set(document.as_table_mut(), text).map_err(|problem| (text.clone(), problem))?;
+    }
+    Ok(Some(document.to_string()))
+}
+
+/// Most parts of a key. Those of a study have up to four; tables inside each other by the thousand take the reader's time
+/// and stack.
+const PARTS: usize = 16;
+
+fn set(root: &mut Table, text: &str) -> Result<(), OverrideProblem> {
+    let (key, value) = text.split_once('=').ok_or(OverrideProblem::NoEquals)?;
+    let names: Vec<&str> = key.split('.').map(str::trim).collect();
+    if names.iter().any(|name| name.is_empty()) {
+        return Err(OverrideProblem::EmptyKey(key.trim().to_owned()));
+    }
+    if names.len() > PARTS {
+        return Err(OverrideProblem::TooDeep(names.len()));
+    }
+    let value = value.trim();
+    let value: Value = value.parse().unwrap_or_else(|_| Value::from(value));
+    match names[..] {
+        ["factor" | "factors", factor, ref rest @ ..] if !rest.is_empty() => {
+            set_in(find_factor(root, factor)?, rest, value)
+        }
+        ["outputs"] if root.get("outputs").is_some_and(Item::is_table_like) => Err(OverrideProblem::OutputsTable),
+        _ => set_in(root, &names, value),
+    }
+}
+
+fn find_factor<'a>(root: &'a mut Table, name: &str) -> Result<&'a mut dyn TableLike, OverrideProblem> {
+    fn factor_name(table: &dyn TableLike) -> Option<&str> {
+        table.get("name").and_then(Item::as_str)
+    }
+    fn named<'a>(tables: impl Iterator<Item = &'a mut dyn TableLike>) -> Vec<(String, &'a mut dyn TableLike)> {
+        tables.filter_map(|table| Some((factor_name(table)?.to_owned(), table))).collect()
+    }
+    let key = if root.contains_key("factor") { "factor" } else { "factors" };
+    let mut factors: Vec<(String, &mut dyn TableLike)> = match root.get_mut(key) {
+        Some(Item::ArrayOfTables(tables)) => named(tables.iter_mut().map(|table| table as &mut dyn TableLike)),
+        Some(Item::Value(Value::Array(values))) => {
+            let tables = values.iter_mut().filter_map(Value::as_inline_table_mut);
+            named(tables.map(|table| table as &mut dyn TableLike))
+        }
+        // The only factor, or one table for each by its name.
+        Some(item) => match item.as_table_like_mut() {
+            Some(table) if factor_name(table).is_some() => named(std::iter::once(table)),
+            Some(table) => {
+                let entries = table.iter_mut().map(|(name, item)| (name.get().to_owned(), item));
+                entries.filter_map(|(name, item)| Some((name, item.as_table_like_mut()?))).collect()
+            }
+            None => Vec::new(),
+        },
+        None => Vec::new(),
+    };
+    let Some(place) = factors.iter().position(|(found, _)| found == name) else {
+        let nearest = nearest(name, factors.iter().map(|(name, _)| name.as_str()));
+        return Err(OverrideProblem::NoFactor { name: name.to_owned(), nearest });
+    };
+    Ok(factors.swap_remove(place).1)
+}
+
+fn set_in(table: &mut dyn TableLike, names: &[&str], value: Value) -> Result<(), OverrideProblem> {
+    let Some((last, path)) = names.split_last() else { return Ok(()) };
+    let mut table = table;
+    for name in path {
+        let next = table.entry(name).or_insert_with(|| Item::Table(Table::new()));
+        table = next.as_table_like_mut().ok_or_else(|| OverrideProblem::NotATable((*name).to_owned()))?;
+    }
+    table.insert(last, Item::Value(value));
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STUDY: &str =
+        "outputs = ['y'] # kept\n[afm]\nfriction = \"coulomb\"\n[[factor]]\nname = \"length\"\nmin = 1\n";
+
+    fn applied(text: &str) -> Result<String, OverrideProblem> {
+        let applied = apply(STUDY, &[text.to_owned()]).map_err(|(_, problem)| problem);
+        applied.map(|text| text.expect("the study is TOML"))
+    }
+
+    #[test]
+    fn values_are_replaced_in_place_and_new_ones_added() {
+        assert_eq!(applied("afm.friction=hk"), Ok(STUDY.replace("\"coulomb\"", "\"hk\"")));
+        assert_eq!(applied("factor.length.min=2.5"), Ok(STUDY.replace("min = 1", "min = 2.5")));
+        assert!(applied("design.base_samples = 64").unwrap().contains("[design]\nbase_samples = 64"));
+        assert!(applied("outputs=[\"a\", \"b\"]").unwrap().contains("[\"a\", \"b\"]"));
+        assert!(applied("afm.preload_angle=0.5 deg").unwrap().contains("preload_angle = \"0.5 deg\""));
+    }
+
+    #[test]
+    fn a_factor_is_found_in_every_form() {
+        for (text, from, to) in [
+            ("[factor.a]\nmin = 1\n[factor.b]\nmin = 2\n", "min = 2", "min = 5"),
+            ("[factors]\na = { min = 1 }\nb = { min = 2 }\n", "min = 2", "min = 5"),
+            ("factor.a.min = 1\nfactor.b.min = 2\n", "min = 2", "min = 5"),
+            ("factors = [{ name = 'b', min = 2 }]\n", "min = 2", "min = 5"),
+            ("[factor]\nname = 'b'\nmin = 2\n", "min = 2", "min = 5"),
+        ] {
+            let applied = apply(text, &["factor.b.min=5".to_owned()]).unwrap();
+            assert_eq!(applied.as_deref(), Some(text.replace(from, to).as_str()));
+            assert!(matches!(apply(text, &["factor.c.min=5".to_owned()]), Err((_, OverrideProblem::NoFactor { .. }))));
+        }
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_named() {
+        assert_eq!(applied("afm.friction"), Err(OverrideProblem::NoEquals));
+        let formulas = apply("outputs.y = 'x1'\n", &["outputs=['y']".to_owned()]);
+        assert_eq!(formulas.unwrap_err().1, OverrideProblem::OutputsTable);
+        assert_eq!(applied("=3"), Err(OverrideProblem::EmptyKey(String::new())));
+        assert_eq!(applied("afm.friction.x=3"), Err(OverrideProblem::NotATable("friction".to_owned())));
+        // 30,000 parts once took more than a minute.
+        let deep = format!("{}=1", ["a"; 30_000].join("."));
+        assert_eq!(applied(&deep), Err(OverrideProblem::TooDeep(30_000)));
+        let missing = OverrideProblem::NoFactor { name: "lenght".to_owned(), nearest: Some("length".to_owned()) };
+        assert_eq!(applied("factor.lenght.min=3"), Err(missing));
+    }
+}

@@ -1,0 +1,79 @@
+//! From the text of a study file to [`StudyFile`], and what the reader of TOML says in the words of studies.
+
+use serde::Deserialize;
+use toml::de::{DeTable, Deserializer};
+
+use super::context::{Context, Fault};
+use super::error::{Problem, meant};
+use super::forms::normalise;
+use super::schema;
+use super::sections::StudyFile;
+
+/// What stands in the text of `context`.
+pub(super) fn study_file(context: &Context<'_>) -> Result<StudyFile, Fault> {
+    let mut root = DeTable::parse(context.text).map_err(|error| syntax(context, &error))?;
+    normalise(context, root.get_mut())?;
+    StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))
+}
+
+fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
+    let message = error.message();
+    let span = error.span().unwrap_or(0..0);
+    let mut quoted = message.split('`').skip(1).step_by(2).map(str::to_owned);
+    let problem = match quoted.next() {
+        Some(name) if message.starts_with("unknown field") => unknown_key(name, quoted.collect()),
+        _ if message.starts_with("duplicate key") && is_factor(context.text.get(span.clone())) => {
+            let right = "of several factors each is a table [[factor]], with two brackets, or [factor.NAME]";
+            Problem::Syntax(format!("the table [factor] stands here twice: {right}"))
+        }
+        _ => Problem::Syntax(in_words(message)),
+    };
+    context.fault(span, problem)
+}
+
+fn is_factor(key: Option<&str>) -> bool {
+    matches!(key, Some("factor" | "factors"))
+}
+
+/// A key of no meaning where it stands: of another table perhaps, by our name or by another one.
+fn unknown_key(name: String, expected: Vec<String>) -> Problem {
+    let nearest = meant(&name, expected.iter().map(String::as_str));
+    let elsewhere = || match schema::table_of(&name) {
+        Some(table) => Some(format!("it stands {table}")),
+        None => {
+            let ours = meant_elsewhere(&name)?;
+            Some(format!("did you mean `{ours}`, which stands {}?", schema::table_of(&ours)?))
+        }
+    };
+    match elsewhere().filter(|_| nearest.is_none()) {
+        Some(right) => Problem::Misplaced { name, right },
+        None => Problem::UnknownKey { name, nearest, expected },
+    }
+}
+
+/// Our key for one of another program, whichever table it belongs to.
+fn meant_elsewhere(name: &str) -> Option<String> {
+    ["base_samples", "sampler", "max_runs", "second_order", "factor", "command"]
+        .into_iter()
+        .find(|ours| meant(name, [*ours]).is_some())
+        .map(str::to_owned)
+}
+
+/// The deserialiser's message without the names of Rust types.
+fn in_words(message: &str) -> String {
+    const WORDS: [(&str, &str); 12] = [
+        ("expected f64", "expected a number"),
+        ("expected u64", "expected a whole number from 0 to 9223372036854775807"),
+        ("expected struct DesignSection", "expected a table [design]"),
+        ("expected struct AnalysisSection", "expected a table [analysis]"),
+        ("expected struct TargetSection", "expected a table, as in { half_width = 0.01 }"),
+        ("expected struct FactorSection", "expected a table [[factor]]"),
+        ("expected struct CommandSection", "expected a table [command]"),
+        ("expected struct ExpressionSection", "expected a table [expression]"),
+        ("expected a map", "expected a table"),
+        ("expected a sequence", "expected a list in square brackets"),
+        ("expected a string", "expected a text in quotes"),
+        ("floating point", "the number"),
+    ];
+    WORDS.iter().fold(message.to_owned(), |text, (from, to)| text.replace(from, to))
+}
