@@ -1,6 +1,7 @@
 //! Units of inputs and outputs: what people type at the edges, SI inside.
 
 mod dimension;
+mod domain;
 mod error;
 mod same;
 mod unit;
@@ -8,6 +9,7 @@ mod unit;
 use std::fmt;
 
 pub use dimension::Dimension;
+pub use domain::Domain;
 pub use error::UnitError;
 pub use same::{SAME_VALUE, is_same};
 pub use unit::Unit;

@@ -8,9 +8,10 @@
 
 use super::contact::{Contact, Pair};
 use super::force::Statics;
-use super::{Critical, Domain, Failure, Fidelity, Options, Scene, critical_force};
+use super::{Critical, Failure, Fidelity, Options, Scene, critical_force};
 use crate::afm::probe::Probe;
 use crate::afm::root::{self, Point};
+use crate::quantity::Domain;
 
 /// The scene at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]

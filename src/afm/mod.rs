@@ -46,6 +46,6 @@ pub use failure::Failure;
 pub use flags::{Flag, Flags};
 pub use force::{Cost, Critical, Fidelity, Options, critical_force};
 pub use friction::{FrictionLaw, LuGreParameters};
-pub use parameter::{Domain, Parameter};
+pub use parameter::Parameter;
 pub use probe::Torsion;
 pub use scene::Scene;

@@ -11,7 +11,8 @@ use std::f64::consts::PI;
 
 use super::contact::{Contact, Pair};
 use super::named::named;
-use super::{ContactTheory, Domain, Failure, Scene};
+use super::{ContactTheory, Failure, Scene};
+use crate::quantity::Domain;
 
 named! {
     /// A way for the particle to give way to the tip.

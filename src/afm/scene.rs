@@ -243,7 +243,7 @@ impl Scene {
             self.rest_time,
             self.frictional_lag,
         ];
-        use super::Domain::{AcuteAngle, PoissonRatio};
+        use crate::quantity::Domain::{AcuteAngle, PoissonRatio};
         // As integers the positive finite numbers are one range, so that one comparison of the largest does for all.
         let positive = positive.iter().fold(0, |largest, value| value.to_bits().wrapping_sub(1).max(largest));
         // Adding zero makes minus zero zero.

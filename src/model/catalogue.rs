@@ -3,7 +3,8 @@
 use super::Output;
 use super::afm::{AfmOutput, edge_unit};
 use super::known::{KnownAnswer, KnownFunction, KnownModel};
-use crate::afm::{ContactTheory, Domain, Fidelity, FrictionLaw, LuGreParameters, Parameter, Scene, Torsion};
+use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Scene, Torsion};
+use crate::quantity::Domain;
 use crate::quantity::Unit;
 use crate::space::Distribution;
 

@@ -19,7 +19,8 @@ pub(super) use quasi_static::Statics;
 
 use super::friction::LuGreParameters;
 use super::named::named;
-use super::{ContactTheory, Domain, Failure, Flags, FrictionLaw, Scene, Torsion};
+use super::{ContactTheory, Failure, Flags, FrictionLaw, Scene, Torsion};
+use crate::quantity::Domain;
 
 named! {
     /// How much of the mechanics is kept.

@@ -178,7 +178,7 @@ fn parameters_a_law_does_not_know_do_not_act() {
 #[test]
 fn an_unusable_option_is_named() {
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let domain = crate::afm::Domain::Positive;
+        let domain = crate::quantity::Domain::Positive;
         let tolerance = Options { tolerance: value, ..Options::default() };
         let named = |parameter| Err(Failure::OutOfDomain { parameter, domain });
         assert_eq!(critical_force(&Scene::default(), &tolerance), named("tolerance"));

@@ -1,7 +1,7 @@
 //! What a function with known indices has to tell.
 
 use super::{Exact, ParameterValue};
-use crate::afm::Domain;
+use crate::quantity::Domain;
 use crate::space::Distribution;
 
 /// An input of a function.

@@ -74,9 +74,9 @@ pub(super) fn output_unit(context: &Context<'_>, value: &At<Value>, text: &str) 
 }
 
 /// A domain for people who may be thinking in degrees.
-pub(super) fn in_words_of_units(domain: crate::afm::Domain) -> String {
+pub(super) fn in_words_of_units(domain: crate::quantity::Domain) -> String {
     match domain {
-        crate::afm::Domain::AcuteAngle => "in [0, 90 deg]".to_owned(),
+        crate::quantity::Domain::AcuteAngle => "in [0, 90 deg]".to_owned(),
         other => other.to_string(),
     }
 }
