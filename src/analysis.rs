@@ -6,7 +6,8 @@ mod estimate;
 mod result;
 mod warnings;
 
-pub use estimate::{names_of_swaps, row_inputs};
+#[cfg(feature = "report")]
+pub(crate) use estimate::{names_of_swaps, row_inputs};
 pub use result::{Aggregate, Analysis, FailureCount, LookupError, NoIndices, OutputAnalysis, StopReason, Stopped};
 
 use crate::design::{Design, MAX_POINTS};

@@ -79,14 +79,17 @@ pub mod afm;
 mod analysis;
 pub mod design;
 pub mod estimate;
+#[cfg(feature = "study")]
 pub mod exchange;
 pub mod files;
 pub mod given;
 pub mod model;
 mod names;
 pub mod quantity;
+#[cfg(feature = "report")]
 pub mod report;
 pub mod run;
+#[cfg(feature = "study")]
 pub mod salib;
 pub mod screening;
 pub mod space;
@@ -94,6 +97,7 @@ pub mod study;
 pub mod sum;
 pub mod sweep;
 pub mod uncertainty;
+#[cfg(feature = "study")]
 mod words;
 
 pub use analysis::{

@@ -7,6 +7,7 @@
 mod afm;
 mod batch;
 mod catalogue;
+#[cfg(feature = "study")]
 mod command;
 mod expression;
 mod external;
@@ -16,6 +17,7 @@ mod known;
 pub use afm::{AfmModel, AfmOutput, edge_unit};
 pub use batch::{Batch, Effort, RowFailure};
 pub use catalogue::{Input, ModelKind, known_inputs};
+#[cfg(feature = "study")]
 pub use command::{
     Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, KeptAlive, Match, PerRun, Pick,
     PickError, Program, Protocol, Source, TemplateError, TemplateProblem, Way, parse_answer, parse_numbered_answer,

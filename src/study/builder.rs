@@ -261,7 +261,9 @@ fn in_words(name: &str, design: &Design, space: &Space) -> String {
     );
     for factor in space.factors() {
         let law = serde_json::to_string(factor.distribution()).unwrap_or_default();
-        let (name, unit) = (toml::Value::String(factor.name.clone()), factor.unit());
+        // Escapes of JSON are escapes of TOML.
+        let name = serde_json::to_string(&factor.name).unwrap_or_default();
+        let unit = factor.unit();
         // Into a string, which takes everything.
         let _ = write!(text, "\n[[factor]]\nname = {name}\n# {law} ({unit}), nominal {}\n", factor.nominal);
     }

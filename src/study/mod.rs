@@ -4,6 +4,7 @@
 //! re-validates.
 
 mod builder;
+#[cfg(feature = "study")]
 mod file;
 mod identity;
 mod options;
@@ -12,6 +13,7 @@ mod subject;
 use std::sync::Arc;
 
 pub use builder::{BuildError, StudyBuilder};
+#[cfg(feature = "study")]
 pub use file::{
     AfmSubject, CommandSubject, Diagnostic, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula,
     KnownSubject, NEW_PROGRAM, OverrideProblem, Problem, StudyError, TemplateRequest, new_program, study_schema,

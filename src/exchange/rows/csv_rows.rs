@@ -177,7 +177,7 @@ fn wrong_record(source: csv::Error, line: u64) -> RowsError {
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
             RowsError::WrongLength { line, expected: *expected_len, found: *len }
         }
-        _ => RowsError::NoCsv { line, source },
+        _ => RowsError::NoCsv { line, source: source.into() },
     }
 }
 

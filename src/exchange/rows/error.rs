@@ -25,7 +25,7 @@ pub enum RowsError {
         /// Line of the file, from 1.
         line: u64,
         /// What the reader said.
-        source: csv::Error,
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A line with too many or too few cells.
     #[error("line {line}: expected {expected} cells as in the header, not {found}")]
@@ -97,6 +97,9 @@ pub enum RowsError {
     /// A file that is no Parquet, or damaged, or written in a way that is not read here.
     #[error("not a Parquet file that can be read: {0}")]
     NoParquet(String),
+    /// A Parquet file, and the library was built without the feature that reads and writes them.
+    #[error("Parquet files need the feature `parquet`, which this build does not have")]
+    WithoutParquet,
     /// A Parquet column of something else than numbers or text.
     #[error("column `{name}` is {found}; columns of numbers (double, float, integer, boolean) and of text are read")]
     WrongColumn {

@@ -7,6 +7,7 @@
 mod csv_rows;
 mod error;
 mod npy;
+#[cfg(feature = "parquet")]
 mod parquet_rows;
 mod plain_lines;
 #[cfg(test)]
@@ -171,7 +172,7 @@ pub fn open_rows(path: &Path) -> Result<Box<dyn RowReader>, RowsError> {
     }
     Ok(match format {
         Format::Csv => Box::new(csv_rows::CsvRows::new(file, &[])?),
-        Format::Parquet => Box::new(parquet_rows::ParquetRows::new(file)?),
+        Format::Parquet => parquet_reader(file)?,
         Format::Npy => Box::new(npy::NpyRows::new(file)?),
     })
 }
@@ -198,7 +199,7 @@ pub fn open_table(path: &Path, names: &[String]) -> Result<Box<dyn RowReader>, R
         }
         Format::Parquet if about.is_file() => {
             file.rewind()?;
-            named(Box::new(parquet_rows::ParquetRows::new(file)?), names)
+            named(parquet_reader(file)?, names)
         }
         _ => {
             begin.extend(read_opened(&mut file)?);
@@ -225,9 +226,29 @@ pub fn table_of_bytes(bytes: Vec<u8>, names: &[String]) -> Result<Box<dyn RowRea
 pub fn rows_of_bytes(format: Format, bytes: Vec<u8>) -> Result<Box<dyn RowReader>, RowsError> {
     Ok(match format {
         Format::Csv => Box::new(csv_rows::CsvRows::new(Cursor::new(bytes), &[])?),
-        Format::Parquet => Box::new(parquet_rows::ParquetRows::new(bytes::Bytes::from(bytes))?),
+        Format::Parquet => parquet_of_bytes(bytes)?,
         Format::Npy => Box::new(npy::NpyRows::new(Cursor::new(bytes))?),
     })
+}
+
+#[cfg(feature = "parquet")]
+fn parquet_reader(file: File) -> Result<Box<dyn RowReader>, RowsError> {
+    Ok(Box::new(parquet_rows::ParquetRows::new(file)?))
+}
+
+#[cfg(feature = "parquet")]
+fn parquet_of_bytes(bytes: Vec<u8>) -> Result<Box<dyn RowReader>, RowsError> {
+    Ok(Box::new(parquet_rows::ParquetRows::new(bytes::Bytes::from(bytes))?))
+}
+
+#[cfg(not(feature = "parquet"))]
+fn parquet_reader(_file: File) -> Result<Box<dyn RowReader>, RowsError> {
+    Err(RowsError::WithoutParquet)
+}
+
+#[cfg(not(feature = "parquet"))]
+fn parquet_of_bytes(_bytes: Vec<u8>) -> Result<Box<dyn RowReader>, RowsError> {
+    Err(RowsError::WithoutParquet)
 }
 
 /// `rows` with names given for its columns.
@@ -295,7 +316,10 @@ pub fn row_writer<'a>(
 ) -> std::io::Result<Box<dyn RowWriter + 'a>> {
     Ok(match format {
         Format::Csv => Box::new(csv_rows::CsvWriter::new(out, columns)?),
+        #[cfg(feature = "parquet")]
         Format::Parquet => Box::new(parquet_rows::ParquetWriter::new(out, columns)?),
+        #[cfg(not(feature = "parquet"))]
+        Format::Parquet => return Err(std::io::Error::other(RowsError::WithoutParquet)),
         Format::Npy => Box::new(npy::NpyWriter::new(out, (rows, columns.len()))?),
     })
 }

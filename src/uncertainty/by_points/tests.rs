@@ -257,18 +257,21 @@ fn constant_outputs_have_a_certain_mean_and_no_indices() {
 }
 
 /// Share of intervals, over the first-order and total indices of active factors, that hold the exact index.
-fn coverage(function: &str, method: &str) -> f64 {
-    use crate::model::KnownAnswer;
-    use crate::study::Study;
+fn coverage(function: &str, method: IntervalMethod) -> f64 {
+    use crate::design::Sampler;
+    use crate::model::{KnownAnswer, function_model};
+    use crate::study::{AnalysisOptions, Study};
     const SEEDS: u64 = 200;
-    let exact = KnownAnswer::from_name(function).unwrap().default_function().exact().indices.unwrap();
+    let function = KnownAnswer::from_name(function).unwrap().default_function();
+    let exact = function.exact().indices.unwrap();
+    let options = AnalysisOptions { intervals: method, ..AnalysisOptions::for_sampler(Sampler::Random) };
     let (mut held, mut count) = (0.0, 0.0);
     for seed in 0..SEEDS {
-        let text = format!(
-            "model = \"{function}\"\n[design]\nsampler = \"random\"\nbase_samples = 512\nseed = {seed}\n\
-             [analysis]\nintervals = \"{method}\""
-        );
-        let study = Study::parse(&text, "coverage.toml".as_ref(), &[]).unwrap();
+        let model = function.clone();
+        let study = Study::builder("coverage", function_model("y", move |x| model.value(x)));
+        let study = study.sampler(Sampler::Random).base_samples(512).seed(seed).analysis(options.clone());
+        let inputs = function.inputs().into_iter();
+        let study = inputs.fold(study, |study, input| study.factor(&input.name, input.distribution)).build().unwrap();
         let analysis = crate::analyse(&study, 0, &|_| ()).unwrap();
         let exact = exact.first_order.iter().zip(&exact.total);
         // A factor that does nothing has intervals of no width, which always hold.
@@ -288,7 +291,7 @@ fn coverage(function: &str, method: &str) -> f64 {
 fn ninety_five_percent_is_about_that() {
     // 1200 intervals or more, in groups that come from one sample: the standard error of the share is about 1 %.
     let mut shares = Vec::new();
-    for method in ["delta", "percentile", "bca"] {
+    for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
         for function in ["ishigami", "linear"] {
             let share = coverage(function, method);
             shares.push((function, method, share));

@@ -1,0 +1,64 @@
+//! Where a quantity is physical.
+
+use std::f64::consts::FRAC_PI_2;
+use std::fmt;
+
+/// Where a quantity is physical. Every domain holds finite numbers only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Domain {
+    /// Greater than zero.
+    Positive,
+    /// Zero or greater.
+    NonNegative,
+    /// From -1, excluded, to 1/2, included: the Poisson ratio of a stable isotropic solid.
+    PoissonRatio,
+    /// From 0 to a right angle, both included (rad).
+    AcuteAngle,
+}
+
+impl Domain {
+    /// Whether `value` is finite and lies in the domain.
+    #[inline]
+    pub fn contains(self, value: f64) -> bool {
+        match self {
+            Self::Positive => value > 0.0 && value < f64::INFINITY,
+            Self::NonNegative => (0.0..f64::INFINITY).contains(&value),
+            Self::PoissonRatio => value > -1.0 && value <= 0.5,
+            Self::AcuteAngle => (0.0..=FRAC_PI_2).contains(&value),
+        }
+    }
+}
+
+/// Reads after "must be": `> 0`, `>= 0`, `in (-1, 0.5]`, `in [0, pi/2]`.
+impl fmt::Display for Domain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Positive => "> 0",
+            Self::NonNegative => ">= 0",
+            Self::PoissonRatio => "in (-1, 0.5]",
+            Self::AcuteAngle => "in [0, pi/2]",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn domains_hold_their_edges_and_no_infinities() {
+        let cases = [
+            (Domain::Positive, f64::MIN_POSITIVE, 0.0, "> 0"),
+            (Domain::NonNegative, 0.0, -f64::MIN_POSITIVE, ">= 0"),
+            (Domain::PoissonRatio, 0.5, -1.0, "in (-1, 0.5]"),
+            (Domain::AcuteAngle, FRAC_PI_2, FRAC_PI_2.next_up(), "in [0, pi/2]"),
+        ];
+        for (domain, inside, outside, text) in cases {
+            assert!(domain.contains(inside), "{domain}: {inside}");
+            for value in [outside, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                assert!(!domain.contains(value), "{domain}: {value}");
+            }
+            assert_eq!(domain.to_string(), text);
+        }
+    }
+}
