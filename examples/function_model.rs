@@ -5,7 +5,6 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use apportion::analyse;
 use apportion::model::function_model;
 use apportion::space::Distribution;
 use apportion::study::Study;
@@ -22,7 +21,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .seed(1)
         .build()?;
 
-    let result = analyse(&study, 0, &|_| ())?;
+    let result = study.run()?;
     let indices = result.outputs[0].indices.as_ref().ok_or("no indices")?;
     for index in indices {
         let (alone, all) = (index.effect.first_order, index.effect.total);

@@ -4,7 +4,6 @@
 
 use std::error::Error;
 
-use apportion::analyse;
 use apportion::model::{
     CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, Program, Protocol, function_model,
 };
@@ -51,7 +50,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let builder = Study::builder("beam", model).base_samples(128);
     let study = factors.into_iter().fold(builder, |builder, factor| builder.with_factor(factor)).build()?;
 
-    let result = analyse(&study, 0, &|_| ())?;
+    let result = study.run()?;
     for output in &result.outputs {
         assert_eq!(output.runs_failed, 0, "{:?}", output.failures);
         let indices = output.indices.as_ref().ok_or("no indices")?;
@@ -68,7 +67,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .factor("load", Distribution::uniform(4.0, 6.0)?)
         .base_samples(128)
         .build()?;
-    let expected = analyse(&check, 0, &|_| ())?;
+    let expected = check.run()?;
     let pairs = result.outputs[1].indices.iter().flatten().zip(expected.outputs[0].indices.iter().flatten());
     for (mine, theirs) in pairs {
         assert!((mine.effect.total.estimate - theirs.effect.total.estimate).abs() < 1e-9);

@@ -9,7 +9,6 @@ use std::path::Path;
 use apportion::exchange::{AnswersRequest, Format, Manifest, MissingOutputs, open_rows, read_answers, sample};
 use apportion::report::{stream_atomically, summary, write_atomically};
 use apportion::study::Study;
-use apportion::{Running, analyse_with};
 
 const STUDY: &str = r#"
 title = "The force of a spring"
@@ -63,7 +62,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let manifest = Manifest::parse(&std::fs::read_to_string(Manifest::path_beside(&points))?)?;
     let request = AnswersRequest { manifest: &manifest, outputs: &[], units: &[], missing: MissingOutputs::Refuse };
     let answers = read_answers(open_rows(&outputs)?.as_mut(), &request)?;
-    let result = analyse_with(&answers.study, Running { store: Some(&answers.store), ..Running::on(0) })?;
+    let result = answers.study.runner().store(&answers.store).run()?;
     print!("{}", summary(&result));
 
     // With c^2 = variance / mean^2, here 1/12 and 1/27: S_i = c_i^2 / ((1 + c_1^2) (1 + c_2^2) - 1).

@@ -5,7 +5,6 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use apportion::analyse;
 use apportion::model::{FunctionModel, Output, RowFailure};
 use apportion::quantity::Unit;
 use apportion::report::summary;
@@ -36,7 +35,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .analysis(AnalysisOptions { second_order: true, ..AnalysisOptions::for_sampler(sampler) })
         .build()?;
 
-    let result = analyse(&study, 0, &|_| ())?;
+    let result = study.run()?;
     print!("{}", summary(&result));
     let output = &result.outputs[0];
     assert_eq!(output.unit, "kN");

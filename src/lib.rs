@@ -6,8 +6,8 @@
 //!
 //! # The map
 //!
-//! The modules in the order of the data's way; each uses only those above it. [`analyse`] is the whole way in one
-//! function of a few lines.
+//! The modules in the order of the data's way; each uses only those above it. [`Study::run`](study::Study::run) is the
+//! whole way in one call, and [`Runner`] the same with threads, progress and a journal.
 //!
 //! | module | what it is for |
 //! |---|---|
@@ -19,7 +19,7 @@
 //! | [`afm`] | the physics of pushing a nanoparticle: plain functions, no knowledge of the engine |
 //! | [`model`] | what can be studied: a shared description that lends out workers, one per thread |
 //! | [`estimate`] | centred sums of constant size, and the indices read from them |
-//! | [`run`] | a design through a model: fixed blocks on a thread pool, merged in a fixed tree |
+//! | [`run`] | the executor: rows from a source, through workers, to a sink; sums merged in a fixed tree; the journal |
 //! | [`uncertainty`] | intervals from few nets, replicates or batches; ranks and convergence |
 //! | [`given`] | first-order indices from a table that exists already |
 //! | [`screening`] | elementary effects: which of many factors matter, for a few runs each |
@@ -58,7 +58,7 @@
 //!     unit = "um"
 //! "#;
 //! let study = Study::parse(text, "example.toml".as_ref(), &[])?;
-//! let result = apportion::analyse(&study, 0, &|_| ())?;
+//! let result = study.run()?;
 //! let indices = result.outputs[0].indices.as_ref().ok_or("no indices")?;
 //! assert_eq!(indices[0].factor, "thickness");
 //! assert!(indices[0].effect.share_total.is_some_and(|percent| percent > 90.0));
@@ -79,7 +79,7 @@
 //! | `three_steps` | points to a file, outputs from anywhere, analysed ([`exchange`]) |
 
 pub mod afm;
-mod analysis;
+mod binary;
 pub mod design;
 pub mod estimate;
 pub mod exchange;
@@ -91,6 +91,7 @@ pub mod quantity;
 pub mod report;
 pub mod reproduce;
 pub mod run;
+mod runner;
 pub mod salib;
 pub mod screening;
 pub mod simulation;
@@ -101,4 +102,4 @@ pub mod sweep;
 pub mod uncertainty;
 mod words;
 
-pub use analysis::{Running, analyse, analyse_with, evaluate_shard};
+pub use runner::{Resume, Runner};

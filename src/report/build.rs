@@ -10,7 +10,7 @@ use super::result::{
 use super::scatter::{FirstRows, Sampled, scatter_record};
 use crate::design::Design;
 use crate::estimate::{FirstOrder, MomentParts, Scaling, Total};
-use crate::model::{Model, Output};
+use crate::model::{EVALUATIONS, LARGEST_ERROR, Model, Output, RUNGS};
 use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::{AggregateIndices, IntervalMethod, aggregate_indices};
@@ -80,12 +80,16 @@ pub fn build_result(run: &FinishedRun<'_>, stopping: Option<StoppingRecord>) -> 
 }
 
 fn effort_record(model: &dyn Model, whole: &Totals) -> Option<EffortRecord> {
-    let rungs = model.rungs().iter().zip(&whole.effort.rungs).filter(|(_, runs)| **runs > 0);
-    let rungs = rungs.map(|(rung, &runs)| RungRecord { rung: (*rung).to_owned(), runs });
-    (!model.rungs().is_empty()).then(|| EffortRecord {
+    let counts: Vec<(&str, f64)> =
+        model.counters().iter().zip(whole.counts.values()).map(|(counter, value)| (&*counter.name, value)).collect();
+    let value = |name| counts.iter().find(|(other, _)| *other == name).map_or(0.0, |(_, value)| *value);
+    let rungs = counts.iter().filter(|(_, runs)| *runs > 0.0).filter_map(|(name, runs)| {
+        Some(RungRecord { rung: name.strip_prefix(RUNGS)?.to_owned(), runs: *runs as u64 })
+    });
+    (!counts.is_empty()).then(|| EffortRecord {
         rungs: rungs.collect(),
-        evaluations: whole.effort.evaluations,
-        largest_error_estimate: whole.effort.largest_error,
+        evaluations: value(EVALUATIONS) as u64,
+        largest_error_estimate: value(LARGEST_ERROR),
     })
 }
 

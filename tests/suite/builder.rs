@@ -1,6 +1,5 @@
 //! Studies built in code.
 
-use apportion::analyse;
 use apportion::design::Sampler;
 use apportion::estimate::Estimator;
 use apportion::model::{FunctionModel, Output, function_model};
@@ -25,10 +24,10 @@ fn a_built_study_gives_the_bits_of_the_file() {
     let known = apportion::model::KnownAnswer::from_name("ishigami").unwrap().default_function();
     let study = Study::builder("ishigami", function_model("y", move |x| known.value(x)));
     let study = ["x1", "x2", "x3"].into_iter().fold(study, |study, name| study.factor(name, angle()));
-    let built = analyse(&study.base_samples(1024).seed(3).build().unwrap(), 2, &|_| ()).unwrap();
+    let built = study.base_samples(1024).seed(3).build().unwrap().runner().threads(2).run().unwrap();
     let path = std::path::Path::new("ishigami.toml");
     let typed = Study::parse("model = \"ishigami\"\n[design]\nbase_samples = 1024\nseed = 3", path, &[]).unwrap();
-    let typed = analyse(&typed, 1, &|_| ()).unwrap();
+    let typed = typed.runner().threads(1).run().unwrap();
     assert_eq!(built.outputs[0].indices, typed.outputs[0].indices);
     assert_eq!((built.study.model.as_str(), built.provenance.study_sha256.len()), ("custom", 64));
     // What is written of it is read back like any result.
@@ -50,7 +49,7 @@ fn factors_reach_the_function_in_si_and_in_order() {
     share.group = Some("rest".to_owned());
     let study =
         Study::builder("units", model).title("Units").factor_in("a", um, Distribution::uniform(2.0, 4.0).unwrap());
-    let result = analyse(&study.with_factor(share).base_samples(256).build().unwrap(), 1, &|_| ()).unwrap();
+    let result = study.with_factor(share).base_samples(256).build().unwrap().run().unwrap();
     let output = &result.outputs[0];
     // Evenly spread points: the mean of 256 is known to 1e-3 of the range.
     assert!((output.mean.unwrap() - 3.0).abs() < 2e-3 && output.unit == "um");
@@ -65,7 +64,7 @@ fn what_the_function_leaves_out_is_a_failed_run() {
         Ok(())
     });
     let study = Study::builder("half", model).factor("x", unit()).base_samples(64).build().unwrap();
-    let result = analyse(&study, 1, &|_| ()).unwrap();
+    let result = study.runner().threads(1).run().unwrap();
     assert_eq!((result.outputs[0].runs_failed, result.outputs[1].runs_ok), (0, 0));
     assert!(result.outputs[1].failures[0].reason.contains("not finite"));
 }
@@ -79,7 +78,7 @@ fn options_ask_for_more() {
         ..AnalysisOptions::for_sampler(Sampler::Sobol)
     };
     let study = sum().factor("a", unit()).factor("b", unit()).base_samples(256).analysis(options).build().unwrap();
-    let output = &analyse(&study, 1, &|_| ()).unwrap().outputs[0];
+    let output = &study.runner().threads(1).run().unwrap().outputs[0];
     assert_eq!(output.second_order.as_ref().unwrap().len(), 1);
     assert_eq!(output.subsets.as_ref().unwrap()[0].factors, ["a", "b"]);
     assert!(output.estimators.is_empty());

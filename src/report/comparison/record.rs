@@ -90,11 +90,11 @@ pub struct ComparedFactor {
 /// ```
 /// use std::path::Path;
 /// use apportion::report::comparison::{ComparedSide, compare_results};
-/// use apportion::{analyse, study::Study};
+/// use apportion::study::Study;
 ///
 /// let result = |choice: &str| -> Result<_, Box<dyn std::error::Error>> {
 ///     let text = format!("model = \"ishigami\"\n[function]\n{choice}\n[design]\nbase_samples = 4096");
-///     Ok(analyse(&Study::parse(&text, Path::new("a.toml"), &[])?, 0, &|_| ())?)
+///     Ok(Study::parse(&text, Path::new("a.toml"), &[])?.run()?)
 /// };
 /// let (a, b) = (result("b = 0.1")?, result("b = 0.2")?);
 /// let file = compare_results((&a, "A", "a.json"), (&b, "B", "b.json"))?;

@@ -24,10 +24,10 @@ use super::result::{AggregateRecord, ResultFile};
 /// # Example
 /// ```
 /// use std::path::Path;
-/// use apportion::{analyse, report::run_page, study::Study};
+/// use apportion::{report::run_page, study::Study};
 ///
 /// let study = Study::parse(include_str!("../../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
-/// let result = analyse(&study, 0, &|_| ())?;
+/// let result = study.run()?;
 /// let page = run_page(&result, &["ishigami.csv".to_owned()]);
 /// assert!(page.lead[0].starts_with("x1 matters most for y"));
 /// assert!(page.html()?.contains("href=\"ishigami.csv\""));

@@ -55,8 +55,8 @@ fn data(stem: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 
 fn reproduced() -> Vec<Reproduced> {
     let studies = studies(&["design.base_samples=64".to_owned()]).unwrap();
-    let run = |(group, friction, study)| {
-        let result = crate::analyse(&study, 0, &|_| ()).unwrap();
+    let run = |(group, friction, study): (_, _, crate::study::Study)| {
+        let result = study.run().unwrap();
         Reproduced { friction, group, result }
     };
     studies.into_iter().map(run).collect()

@@ -269,7 +269,7 @@ fn coverage(function: &str, method: &str) -> f64 {
              [analysis]\nintervals = \"{method}\""
         );
         let study = Study::parse(&text, "coverage.toml".as_ref(), &[]).unwrap();
-        let result = crate::analyse(&study, 0, &|_| ()).unwrap();
+        let result = study.run().unwrap();
         let exact = exact.first_order.iter().zip(&exact.total);
         // A factor that does nothing has intervals of no width, which always hold.
         let effects = result.outputs[0].indices.as_ref().unwrap().iter().zip(exact);

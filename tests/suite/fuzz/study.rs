@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use apportion::analyse;
-use apportion::model::Batch;
+use apportion::model::{Batch, RunContext};
 use apportion::report::{parse_result, result_json};
 use apportion::study::{Study, StudyError, Subject, TemplateRequest, template};
 
@@ -71,10 +70,10 @@ fn answered(study: &Study) {
             assert!(column[place].is_finite(), "{}: {}", factor.name, column[place]);
         }
     }
-    let mut batch = Batch::of(model.as_ref());
+    let mut batch = Batch::new(model.as_ref());
     batch.reset(rows.len());
     let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    model.worker().run(&inputs, &mut batch);
+    model.worker(&RunContext::default()).run(&inputs, &mut batch);
     batch.settle();
     for output in 0..model.outputs().len() {
         for (row, value) in batch.column(output).iter().enumerate() {
@@ -99,7 +98,7 @@ fn begun(study: &Study) {
 
 /// The whole way; what is written can be read back.
 fn ran(study: &Study, draw: bool) {
-    let Ok(result) = analyse(study, 1, &|_| ()) else { return };
+    let Ok(result) = study.runner().threads(1).run() else { return };
     let json = result_json(&result);
     let read = parse_result(json.as_bytes()).unwrap_or_else(|error| panic!("the result is refused: {error}"));
     assert_eq!(result_json(&read), json);
