@@ -5,6 +5,7 @@
 
 use apportion::design::Design;
 use apportion::estimate::{MomentParts, PointOutputs};
+use apportion::model::RunContext;
 use apportion::run::{GrowingRun, Job, Totals};
 use apportion::study::Study;
 use apportion::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, Layout, output_indices};
@@ -16,7 +17,8 @@ fn finished(base_samples: u64) -> (Design, Vec<Totals>) {
     let study = Study::parse(&text, "bootstrap.toml".as_ref(), &[]).expect("a study");
     let model = study.model();
     let job = Job { design: &study.design, space: &study.space, model: model.as_ref() };
-    let mut run = GrowingRun::new(job, 0).expect("threads").with_outputs_kept(true);
+    let context = RunContext::default();
+    let mut run = GrowingRun::new(job, &context, 0).expect("threads").with_outputs_kept(true);
     run.grow_to(base_samples, &|_| ()).expect("no failures");
     let totals = run.totals().to_vec();
     (study.design.clone(), totals)

@@ -45,7 +45,7 @@ fn seconds_of_study(folder: &Path, program: &str, workers: &str) -> (f64, u64) {
     }
     let study = Study::parse(&text, &folder.join("study.toml"), &[]).expect("a study");
     let start = Instant::now();
-    let result = ResultFile::new(&study, &apportion::analyse(&study, 0, &|_| ()).expect("the program answers"));
+    let result = ResultFile::new(&study, &study.run().expect("the program answers"));
     (start.elapsed().as_secs_f64(), result.provenance.model_runs)
 }
 

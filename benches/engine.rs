@@ -19,8 +19,9 @@ fn study(base_samples: u64) -> Study {
 /// Seconds for `rows` evaluations in blocks of 256 on one thread, nothing else: no sampling, no sums.
 fn bare_loop(model: &dyn Model, rows: u64, columns: &[Vec<f64>]) -> f64 {
     let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let mut worker = model.worker();
-    let mut batch = Batch::of(model);
+    let context = RunContext::default();
+    let mut worker = model.worker(&context);
+    let mut batch = Batch::new(model);
     let start = Instant::now();
     for _ in 0..rows / 256 {
         batch.reset(256);
@@ -32,7 +33,7 @@ fn bare_loop(model: &dyn Model, rows: u64, columns: &[Vec<f64>]) -> f64 {
 
 fn whole_study(study: &Study, threads: usize) -> f64 {
     let start = Instant::now();
-    let result = ResultFile::new(study, &apportion::analyse(study, threads, &|_| ()).expect("threads"));
+    let result = ResultFile::new(study, &study.runner().threads(threads).run().expect("threads"));
     std::hint::black_box(result);
     start.elapsed().as_secs_f64()
 }

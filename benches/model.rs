@@ -4,7 +4,7 @@
 use std::hint::black_box;
 
 use apportion::design::{Design, DesignSettings, Rows};
-use apportion::model::Batch;
+use apportion::model::{Batch, RunContext};
 use apportion::study::Study;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -31,8 +31,9 @@ fn group(criterion: &mut Criterion, title: &str, studies: &[(&str, &str)]) {
         let study = Study::parse(text, name.as_ref(), &[]).expect("a study of this repository");
         let (model, columns) = (study.model(), columns(&study));
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        let mut worker = model.worker();
-        let mut batch = Batch::of(model.as_ref());
+        let context = RunContext::default();
+        let mut worker = model.worker(&context);
+        let mut batch = Batch::new(model.as_ref());
         group.bench_function(name, |bencher| {
             bencher.iter(|| {
                 batch.reset(ROWS);

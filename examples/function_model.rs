@@ -5,7 +5,6 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use apportion::analyse;
 use apportion::model::function_model;
 use apportion::space::Distribution;
 use apportion::study::Study;
@@ -22,7 +21,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .seed(1)
         .build()?;
 
-    let analysis = analyse(&study, 0, &|_| ())?;
+    let analysis = study.run()?;
     let y = analysis.output("y")?;
     // x3 does nothing alone, but a quarter of the variance together with x1.
     for (name, exact) in [("x1", (0.3139, 0.5576)), ("x2", (0.4424, 0.4424)), ("x3", (0.0, 0.2437))] {

@@ -4,7 +4,6 @@
 
 use std::error::Error;
 
-use apportion::analyse;
 use apportion::model::{
     CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, Program, Protocol, function_model,
 };
@@ -51,7 +50,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let builder = Study::builder("beam", model).base_samples(128);
     let study = factors.into_iter().fold(builder, |builder, factor| builder.with_factor(factor)).build()?;
 
-    let analysis = analyse(&study, 0, &|_| ())?;
+    let analysis = study.run()?;
     for output in &analysis.outputs {
         assert_eq!(output.runs_failed, 0, "{:?}", output.failures);
         for factor in study.space.factors() {
@@ -68,7 +67,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .factor("load", Distribution::uniform(4.0, 6.0)?)
         .base_samples(128)
         .build()?;
-    let expected = analyse(&check, 0, &|_| ())?;
+    let expected = check.run()?;
     for factor in ["length", "thickness", "load"] {
         let (mine, theirs) = (analysis.output("stress")?.factor(factor)?, expected.output("stress")?.factor(factor)?);
         assert!((mine.total.estimate - theirs.total.estimate).abs() < 1e-9);

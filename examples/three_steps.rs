@@ -10,7 +10,6 @@ use apportion::exchange::{AnswersRequest, Format, Manifest, MissingOutputs, open
 use apportion::report::ResultFile;
 use apportion::report::{stream_atomically, summary, write_atomically};
 use apportion::study::Study;
-use apportion::{Running, analyse_with};
 
 const STUDY: &str = r#"
 title = "The force of a spring"
@@ -64,7 +63,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let manifest = Manifest::parse(&std::fs::read_to_string(Manifest::path_beside(&points))?)?;
     let request = AnswersRequest { manifest: &manifest, outputs: &[], units: &[], missing: MissingOutputs::Refuse };
     let answers = read_answers(open_rows(&outputs)?.as_mut(), &request)?;
-    let analysis = analyse_with(&answers.study, Running { store: Some(&answers.store), ..Running::on(0) })?;
+    let analysis = answers.study.runner().store(&answers.store).run()?;
     print!("{}", summary(&ResultFile::new(&answers.study, &analysis)));
 
     // With c^2 = variance / mean^2, here 1/12 and 1/27: S_i = c_i^2 / ((1 + c_1^2) (1 + c_2^2) - 1).

@@ -5,7 +5,6 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use apportion::analyse;
 use apportion::model::{FunctionModel, Output, RowFailure};
 use apportion::quantity::Unit;
 use apportion::report::{ResultFile, summary};
@@ -36,7 +35,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .analysis(AnalysisOptions { second_order: true, ..AnalysisOptions::for_sampler(sampler) })
         .build()?;
 
-    let analysis = analyse(&study, 0, &|_| ())?;
+    let analysis = study.run()?;
     print!("{}", summary(&ResultFile::new(&study, &analysis)));
     let output = &analysis.outputs[0];
     assert!(output.runs_failed > 0 && output.failures[0].reason.contains("too stout"));

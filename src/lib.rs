@@ -6,8 +6,8 @@
 //!
 //! # The map
 //!
-//! The modules in the order of the data's way; each uses only those above it. [`analyse`] is the whole way in one
-//! function of a few lines.
+//! The modules in the order of the data's way; each uses only those above it. [`Study::run`](study::Study::run) is the
+//! whole way in one call, and [`Runner`] the same with threads, progress and a journal.
 //!
 //! | module | what it is for |
 //! |---|---|
@@ -19,7 +19,7 @@
 //! | [`afm`] | the physics of pushing a nanoparticle: plain functions, no knowledge of the engine |
 //! | [`model`] | what can be studied: a shared description that lends out workers, one per thread |
 //! | [`estimate`] | centred sums of constant size, and the indices read from them |
-//! | [`run`] | a design through a model: fixed blocks on a thread pool, merged in a fixed tree |
+//! | [`run`] | the executor: rows from a source, through workers, to a sink; sums merged in a fixed tree; the journal |
 //! | [`uncertainty`] | intervals from few nets, replicates or batches; ranks and convergence |
 //! | [`given`] | first-order indices from a table that exists already |
 //! | [`screening`] | elementary effects: which of many factors matter, for a few runs each |
@@ -56,7 +56,7 @@
 //!     unit = "um"
 //! "#;
 //! let study = Study::parse(text, "example.toml".as_ref(), &[])?;
-//! let analysis = apportion::analyse(&study, 0, &|_| ())?;
+//! let analysis = study.run()?;
 //! let thickness = analysis.output("critical_force")?.factor("thickness")?;
 //! assert!(thickness.share_total.is_some_and(|percent| percent.estimate > 90.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -77,6 +77,7 @@
 
 pub mod afm;
 mod analysis;
+mod binary;
 pub mod design;
 pub mod estimate;
 #[cfg(feature = "study")]
@@ -89,6 +90,7 @@ pub mod quantity;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod run;
+mod runner;
 #[cfg(feature = "study")]
 pub mod salib;
 pub mod screening;
@@ -101,6 +103,6 @@ pub mod uncertainty;
 mod words;
 
 pub use analysis::{
-    Aggregate, Analysis, FailureCount, LookupError, NoIndices, OutputAnalysis, Running, StopReason, Stopped, analyse,
-    analyse_with, evaluate_shard,
+    Aggregate, Analysis, FailureCount, LookupError, MixedModels, NoIndices, OutputAnalysis, StopReason, Stopped,
 };
+pub use runner::{Resume, Runner};

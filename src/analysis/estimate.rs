@@ -14,7 +14,7 @@ use crate::uncertainty::{
 
 /// A run of a study that is over.
 #[derive(Clone, Copy)]
-pub(super) struct FinishedRun<'a> {
+pub(crate) struct FinishedRun<'a> {
     pub study: &'a Study,
     pub model: &'a dyn Model,
     /// The design as it was in the end.
@@ -26,7 +26,7 @@ pub(super) struct FinishedRun<'a> {
 }
 
 /// The result of a run; `stopped` tells why a growing one ended.
-pub(super) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analysis {
+pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analysis {
     let FinishedRun { study, model, replicates, .. } = *run;
     let mut whole = Totals::none(model);
     replicates.iter().for_each(|totals| whole.add_counts(totals));
@@ -35,16 +35,17 @@ pub(super) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
         design: run.design.clone(),
         outputs: outputs.map(|(number, output)| output_analysis(run, output, number, &whole)).collect(),
         flags: model.flags().iter().cloned().zip(whole.flags).collect(),
-        effort: (!model.rungs().is_empty()).then(|| (model.rungs().to_vec(), whole.effort)),
+        counts: model.counters().iter().cloned().zip(whole.counts.values()).collect(),
         aggregate: aggregate(study, model, replicates),
         stopped,
         threads: run.threads,
         wall_seconds: run.wall_seconds,
+        mixed_models: Vec::new(),
     }
 }
 
 /// How the intervals and probabilities of `study` are found.
-pub(super) fn interval_options(study: &Study) -> IntervalOptions<'static> {
+pub(crate) fn interval_options(study: &Study) -> IntervalOptions<'static> {
     let (analysis, seed) = (&study.analysis, study.design.settings().seed);
     let (method, threshold, resamples) = (analysis.intervals, analysis.threshold, analysis.resamples);
     IntervalOptions { method, threshold, seed, resamples, points: None }

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::design::Design;
 use crate::estimate::{CentralMoments, Scaling, Undefined};
-use crate::model::{Effort, Flag};
+use crate::model::{Counter, Flag};
 use crate::quantity::Unit;
 use crate::uncertainty::{AggregateIndices, EffectEstimates, Estimate, OutputIndices, Stage};
 
@@ -15,14 +15,14 @@ use crate::uncertainty::{AggregateIndices, EffectEstimates, Estimate, OutputIndi
 /// ```
 /// use apportion::model::function_model;
 /// use apportion::space::Distribution;
-/// use apportion::{analyse, study::Study};
+/// use apportion::study::Study;
 ///
 /// let study = Study::builder("product", function_model("y", |x| x[0] * x[1]))
 ///     .factor("a", Distribution::uniform(1.0, 2.0)?)
 ///     .factor("b", Distribution::uniform(1.0, 5.0)?)
 ///     .base_samples(1024)
 ///     .build()?;
-/// let analysis = analyse(&study, 0, &|_| ())?;
+/// let analysis = study.run()?;
 /// let total = analysis.output("y")?.factor("a")?.total;
 /// assert!(total.interval.is_some_and(|interval| interval.low < total.estimate));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -36,8 +36,8 @@ pub struct Analysis {
     pub outputs: Vec<OutputAnalysis>,
     /// The validity flags of the model, and how many runs raised each.
     pub flags: Vec<(Flag, u64)>,
-    /// What a model with a ladder of fidelities spent: its rungs, and the counts for them; `None` for other models.
-    pub effort: Option<(Vec<&'static str>, Effort)>,
+    /// What the model counted, in the order of its counters.
+    pub counts: Vec<(Counter, f64)>,
     /// Indices over all outputs together, if the study asks for them and there are two outputs or more.
     pub aggregate: Option<Aggregate>,
     /// Why a growing run ended; `None` for one of fixed size.
@@ -46,6 +46,18 @@ pub struct Analysis {
     pub threads: usize,
     /// Seconds from the first run to the last.
     pub wall_seconds: f64,
+    /// Where more than one version of the model answered, or may have: an entry for each reason; empty otherwise.
+    pub mixed_models: Vec<MixedModels>,
+}
+
+/// Runs that another version of the model answered.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct MixedModels {
+    /// The files of the model that differ.
+    pub files: String,
+    /// How many of the runs on record were evaluated with others; `None` if the files changed while the run was under way.
+    pub runs: Option<u64>,
 }
 
 /// Indices over several outputs together.
@@ -215,6 +227,23 @@ impl fmt::Display for StopReason {
 }
 
 impl Analysis {
+    /// Notes that runs were answered by another version of the model, and warns of it at every output.
+    pub(crate) fn note_mixed_models(&mut self, files: &str, runs: Option<u64>) {
+        let warning = match runs {
+            Some(runs) => format!(
+                "{runs} of the runs on record were evaluated with another {files} than the others: the numbers mix two models"
+            ),
+            None => format!(
+                "{files} changed while the run was under way: its runs may have been answered by either version, and the \
+                 numbers may mix two models"
+            ),
+        };
+        self.mixed_models.push(MixedModels { files: files.to_owned(), runs });
+        for output in &mut self.outputs {
+            output.warnings.push(warning.clone());
+        }
+    }
+
     /// The output called `name`.
     ///
     /// # Errors

@@ -6,17 +6,18 @@ use anyhow::anyhow;
 use apportion::design::{Companions, Design, Sampler};
 use apportion::estimate::{FirstOrder, Total};
 use apportion::model::ModelKind;
+use apportion::model::RunContext;
 use apportion::report::{significant, table, with_unit};
-use apportion::run::{BLOCK, FailurePolicy};
+use apportion::run::{BLOCK, FailurePolicy, Job, Pilot};
 use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, Factor};
 use apportion::study::{Stopping, Study};
 use apportion::uncertainty::IntervalMethod;
 
-use super::outlook::outlook;
-use super::pilot::{Pilot, pilot};
+use super::past_runs::past_runs;
 use super::run::{default_folder, files};
-use super::{DesignChanges, Failure, StudyArguments, print, say_notes};
+use super::stop::on_signal;
+use super::{DesignChanges, Failure, StudyArguments, print, say, say_notes};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -37,7 +38,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let mut text = subject(&study);
     text.push_str(&factors(&study));
     text.push_str(&design(&study, pilot.as_ref()));
-    text.push_str(&outlook(&study, &folder)?);
+    text.push_str(&past_runs(&study, &folder)?);
     text.push_str(&format!("\nwill be written to {}:\n", folder.display()));
     for file in files(&study) {
         text.push_str(&format!("  {}  {}\n", file.name, file.content));
@@ -50,6 +51,12 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
             Err(Failure::Run(anyhow!("every one of the first runs failed ({number}): {reason}")))
         }
     }
+}
+
+fn pilot(study: &Study) -> Result<Pilot, Failure> {
+    let model = study.model();
+    let context = RunContext::new(Some(on_signal()), say);
+    Ok(Pilot::new(Job { design: &study.design, space: &study.space, model: model.as_ref() }, &context)?)
 }
 
 fn subject(study: &Study) -> String {

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::exchange::{EvaluateError, Evaluated, evaluate_until, open_table};
+use apportion::exchange::{EvaluateError, Evaluated, evaluate_in, open_table};
+use apportion::model::RunContext;
 use apportion::report::{prepare_file, stream_atomically};
 
 use super::stop::{Stoppable, on_signal};
@@ -31,9 +32,10 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     let mut rows =
         open_table(&arguments.points, &names).map_err(|error| Failure::Input(anyhow!("{points}: {error}")))?;
     prepare_file(&arguments.output)?;
+    let context = RunContext::new(Some(on_signal()), say);
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
-        let result = evaluate_until(&study, rows.as_mut(), &mut Stoppable::new(out), Some(on_signal()));
+        let result = evaluate_in(&study, rows.as_mut(), &mut Stoppable::new(out), &context);
         let complete = result.is_ok();
         outcome = Some(result);
         // Whatever went wrong, half a file must not take the target's place.

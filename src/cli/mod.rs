@@ -8,14 +8,11 @@ mod evaluate;
 mod given_data;
 mod man;
 mod merge;
-mod model_files;
 mod models;
 mod new;
-mod outlook;
+mod past_runs;
 mod pictures;
-mod pilot;
 mod progress;
-mod record;
 mod report;
 mod reproduce;
 mod run;
@@ -34,6 +31,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use apportion::report::{ReadError, WriteError, wrapped};
 use apportion::run::RunError;
+use apportion::run::journal::JournalError;
 use apportion::study::{Study, StudyError};
 
 /// Sobol' global sensitivity analysis: which factor decides an output, and by how many percent.
@@ -198,7 +196,13 @@ impl From<ReadError> for Failure {
 
 impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
-        Self::Run(error.into())
+        match error {
+            RunError::Refused { .. }
+            | RunError::Journal(
+                JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. } | JournalError::NoFile { .. },
+            ) => Self::Input(error.into()),
+            _ => Self::Run(error.into()),
+        }
     }
 }
 

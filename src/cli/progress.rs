@@ -13,6 +13,8 @@ pub struct Meter {
     label: String,
     /// Runs that have failed, for the bar, which is drawn by a thread of its own.
     failed: Arc<AtomicU64>,
+    /// Runs that were on record when the run began.
+    recalled: AtomicU64,
     display: Display,
 }
 
@@ -48,11 +50,12 @@ impl Meter {
         } else {
             Display::Lines(Mutex::new(Instant::now()))
         };
-        Self { label: label.to_owned(), failed, display }
+        Self { label: label.to_owned(), failed, recalled: AtomicU64::new(0), display }
     }
 
     /// Takes note of progress; may be called from any thread.
     pub fn update(&self, progress: Progress) {
+        self.recalled.store(progress.recalled, Ordering::Relaxed);
         match &self.display {
             Display::Bar(bar) => {
                 if bar.is_hidden() {
@@ -74,8 +77,9 @@ impl Meter {
         }
     }
 
-    /// Ends the display with one line that stays.
+    /// Ends the display with one line that stays, about those of `runs` that were not on record.
     pub fn finish(&self, runs: u64, seconds: f64) {
+        let runs = runs.saturating_sub(self.recalled.load(Ordering::Relaxed));
         if let Display::Bar(bar) = &self.display {
             bar.finish_and_clear();
         }

@@ -4,22 +4,20 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::anyhow;
+use apportion::Resume;
 use apportion::exchange::{Format, save_outputs};
 use apportion::report::chart::{Chart, png};
 use apportion::report::{
     OutputRecord, RUN_CHARTS, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv,
-    file_stems, indices_chart, indices_csv, inputs_in_words, interactions_chart, note_mixed_models, prepare_file,
-    prepare_folder, prepare_in, read_result, result_json, run_page, scatter_chart, second_order_csv, stream_atomically,
-    study_chart, summary, write_in,
+    file_stems, indices_chart, indices_csv, inputs_in_words, interactions_chart, prepare_file, prepare_folder,
+    prepare_in, read_result, result_json, run_page, scatter_chart, second_order_csv, stream_atomically, study_chart,
+    summary, write_in,
 };
-use apportion::run::{Keep, Piece, RunError, Shard, Store};
+use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
-use apportion::{Running, analyse_with, evaluate_shard};
 
-use super::model_files::ModelFiles;
 use super::pictures::say_written;
 use super::progress::Meter;
-use super::record::{self, Asked, Foreign, Record, Use, journal_path, rows_on_record};
 use super::stop::Stoppable;
 use super::{DesignChanges, Failure, StudyArguments, Threads, print, say, stop};
 
@@ -69,12 +67,12 @@ struct RecordArguments {
 }
 
 impl RecordArguments {
-    fn how(&self) -> Use {
+    fn resume(&self) -> Resume {
         match self {
-            Self { retry_failed: true, .. } => Use::RequireButFailures,
-            Self { resume: true, .. } => Use::Require,
-            Self { restart: true, .. } => Use::Discard,
-            _ => Use::IfThere,
+            Self { retry_failed: true, .. } => Resume::RetryFailed,
+            Self { resume: true, .. } => Resume::Require,
+            Self { restart: true, .. } => Resume::Never,
+            _ => Resume::IfThere,
         }
     }
 }
@@ -104,53 +102,39 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             Some((path.as_path(), format))
         }
     };
-    let record = if asked.no_journal {
-        None
-    } else {
-        let of_record = Asked { how: asked.how(), mixed: asked.mix_models, shard: asked.shard };
-        record::open(&study, &journal_path(&folder, &study.name, asked.shard), of_record)?
-    };
-    // Without a journal there is a store only for what is to be saved from it.
-    let own = (record.is_none() && saved.is_some()).then(|| Store::new(&study.design, study.model().as_ref()));
-    let store = record.as_ref().map(|record| &record.store).or(own.as_ref());
+    let journal = (!asked.no_journal).then(|| journal_path(&folder, &study.name, asked.shard));
+    let store = saved.as_ref().map(|_| Store::new(&study.design, study.model().as_ref()));
     let meter = Meter::new(&study.name, study.design.rows());
-    let on_progress = |progress| meter.update(progress);
-    let keep = |piece: &Piece| record.as_ref().map_or(Ok(()), |record| record.keep(piece));
-    let running = Running {
-        on_progress: &on_progress,
-        store,
-        keep: record.as_ref().map(|_| &keep as Keep<'_>),
-        stop: Some(stop),
-        ..Running::on(arguments.threads.number())
-    };
-    let failed = |error| with_record(&study, error, record.as_ref());
-    let on_record = record.as_ref().map_or(0, |record| rows_on_record(&study, &record.store));
-    if let Some(record) = record.as_ref().filter(|_| on_record > 0) {
-        say(&format!("note: {on_record} of {} runs are on record in {}", study.design.rows(), record.path().display()));
+    let runner = study.runner().threads(arguments.threads.number()).on_progress(|progress| meter.update(progress));
+    let mut runner = runner.on_message(say).stop(stop).resume(asked.resume()).mix_models(asked.mix_models);
+    if let Some(journal) = &journal {
+        runner = runner.journal(journal);
     }
-    if let Some((shard, record)) = asked.shard.zip(record.as_ref()) {
+    if let Some(store) = &store {
+        runner = runner.store(store);
+    }
+    let failed = |error| with_journal(&study, error, journal.as_deref());
+    if let Some((shard, journal)) = asked.shard.zip(journal.as_ref()) {
         let begun = Instant::now();
-        evaluate_shard(&study, shard, running).map_err(failed)?;
-        record.sync()?;
-        let rows: u64 = shard.rows(&study.design).iter().map(|(_, rows)| rows.end - rows.start).sum();
-        meter.finish(rows.saturating_sub(on_record), begun.elapsed().as_secs_f64());
-        say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name, record.path().display()));
+        let rows = runner.run_shard(shard).map_err(failed)?;
+        meter.finish(rows, begun.elapsed().as_secs_f64());
+        say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name, journal.display()));
         return Ok(());
     }
-    let files = ModelFiles::of(&study);
-    let mut result = ResultFile::new(&study, &analyse_with(&study, running).map_err(failed)?);
-    warn_of_files(&mut result, record.as_ref().and_then(|record| record.foreign.as_ref()), files.changed());
-    if let Some(record) = &record {
-        record.sync()?;
-    }
-    meter.finish(
-        result.provenance.model_runs - on_record.min(result.provenance.model_runs),
-        result.provenance.wall_seconds,
-    );
-    if let Some((target, store)) = saved.zip(store) {
+    let result = ResultFile::new(&study, &runner.run().map_err(failed)?);
+    meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
+    if let Some((target, store)) = saved.zip(store.as_ref()) {
         save(&study, &result, store, target)?;
     }
     deliver(&study, &folder, &result)
+}
+
+/// The journal of the study called `name`, or of one of its shards, in `folder`.
+pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf {
+    match shard {
+        None => folder.join(format!("{name}.journal")),
+        Some(shard) => folder.join(format!("{name}-shard-{}-of-{}.journal", shard.number(), shard.of())),
+    }
 }
 
 /// Writes points and outputs of all runs, which may be more than the study began with.
@@ -161,16 +145,6 @@ fn save(study: &Study, result: &ResultFile, store: &Store, (path, format): (&Pat
     stream_atomically(path, |out| Ok(save_outputs(study, (&design, store), format, &mut Stoppable::new(out))?))?;
     say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
     Ok(())
-}
-
-/// Says in the result that more than one model may have answered.
-fn warn_of_files(result: &mut ResultFile, foreign: Option<&Foreign>, changed: Option<&str>) {
-    if let Some(Foreign { names, rows }) = foreign {
-        note_mixed_models(result, names, Some(*rows));
-    }
-    if let Some(names) = changed {
-        note_mixed_models(result, names, None);
-    }
 }
 
 /// The study, with the changes that the command line makes to it.
@@ -234,17 +208,15 @@ pub fn deliver(study: &Study, folder: &Path, result: &ResultFile) -> Result<(), 
 }
 
 /// What was done before an error is of use to the user.
-fn with_record(study: &Study, error: RunError, record: Option<&Record>) -> Failure {
-    let kept = match (&error, record) {
-        (RunError::Interrupted { .. } | RunError::GaveUp { .. } | RunError::NotKept { .. }, Some(record)) => {
-            // Whatever can be forced to the disk still.
-            let _ = record.sync();
+fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failure {
+    let kept = match (&error, journal) {
+        (RunError::Interrupted { .. } | RunError::GaveUp { .. } | RunError::NotKept { .. }, Some(journal)) => {
             // What failed before the model gave up is no answer of a model that has been mended.
             let (option, again) = match error {
                 RunError::GaveUp { .. } => ("--retry-failed", ", and evaluates those that failed again"),
                 _ => ("--resume", ""),
             };
-            let path = record.path().display();
+            let path = journal.display();
             format!("\nfinished runs are kept in {path}: the same command with {option} goes on with them{again}")
         }
         (RunError::Interrupted { .. }, None) => "\nno journal was kept: the runs are lost".to_owned(),

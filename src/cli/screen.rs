@@ -4,13 +4,14 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::anyhow;
+use apportion::model::RunContext;
 use apportion::report::RunFacts;
 use apportion::report::screening::{
     build_screening, screening_charts, screening_csv, screening_json, screening_suffixes, screening_summary,
 };
 use apportion::run::threads_in_force;
 use apportion::screening::{MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningJob};
-use apportion::screening::{ScreeningSettings, screen_until};
+use apportion::screening::{ScreeningSettings, screen_in};
 use apportion::study::Study;
 
 use super::pictures::{prepare, write};
@@ -89,8 +90,8 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
     let meter = Meter::new(&study.name, runs);
     let start = Instant::now();
     let job = ScreeningJob { space: &study.space, model: model.as_ref(), settings };
-    let screening =
-        screen_until(job, arguments.threads.number(), &|progress| meter.update(progress), Some(on_signal()))?;
+    let context = RunContext::new(Some(on_signal()), say);
+    let screening = screen_in(job, arguments.threads.number(), &|progress| meter.update(progress), &context)?;
     let threads = threads_in_force(arguments.threads.number());
     let facts = RunFacts { threads, wall_seconds: start.elapsed().as_secs_f64() };
     meter.finish(screening.runs, facts.wall_seconds);

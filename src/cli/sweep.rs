@@ -3,15 +3,16 @@
 use std::path::PathBuf;
 
 use anyhow::anyhow;
+use apportion::model::RunContext;
 use apportion::report::sweep::{build_sweep, sweep_charts, sweep_csv, sweep_json, sweep_suffixes, sweep_summary};
 use apportion::space::Space;
 use apportion::study::Study;
-use apportion::sweep::{FactorValues, MAX_POINTS, SweepError, SweepRequest, find, sweep_until};
+use apportion::sweep::{FactorValues, MAX_POINTS, SweepError, SweepRequest, find, sweep_in};
 
 use super::pictures::{prepare, say_written, write};
 use super::run::default_folder;
 use super::stop::on_signal;
-use super::{Failure, StudyArguments, print};
+use super::{Failure, StudyArguments, print, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -88,7 +89,8 @@ pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     let model = study.model();
     let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     prepare(&folder, &file_names(&study, &request, &outputs))?;
-    let sweeps = sweep_until(&study.space, model.as_ref(), &request, Some(on_signal()))?;
+    let context = RunContext::new(Some(on_signal()), say);
+    let sweeps = sweep_in(&study.space, model.as_ref(), &request, &context)?;
     let file = build_sweep(&study, model.as_ref(), &sweeps);
     let charts = sweep_charts(&file);
     let tables = [("-sweep.json", sweep_json(&file)), ("-sweep.csv", sweep_csv(&file))];

@@ -4,7 +4,8 @@ use super::base_moments::BaseMoments;
 use super::pair_moments::PairMoments;
 use super::swap_moments::{Columns, SwapMoments};
 use super::workspace::Workspace;
-use crate::design::Companions;
+use crate::binary::binary_fields;
+use crate::design::{Companions, Design};
 
 /// First and second moments of the outputs of a Saltelli design, all centred on their own means.
 ///
@@ -18,6 +19,8 @@ pub struct Moments {
     swaps: Vec<SwapMoments>,
     pairs: Option<PairMoments>,
 }
+
+binary_fields!(Moments { base, range, swaps, pairs });
 
 /// The outputs of a block of base points, columns of one length. An output that is not finite is a failed run.
 #[derive(Debug, Clone, Copy, Default)]
@@ -152,6 +155,13 @@ impl Moments {
     pub fn companions(&self) -> Companions {
         let has = |row: fn(&SwapMoments) -> bool| !self.swaps.is_empty() && self.swaps.iter().all(row);
         Companions { ba: has(|s| s.ba.is_some()), bc: has(|s| s.bc.is_some()), cb: has(|s| s.cb.is_some()) }
+    }
+
+    /// Whether they may be moments of the rows of `design`.
+    pub(crate) fn fits(&self, design: &Design) -> bool {
+        let swaps = self.swaps.len() == design.swaps().len();
+        let pairs = self.pairs.as_ref().is_none_or(|pairs| pairs.fits(design.paired()));
+        swaps && pairs && (self.swaps.is_empty() || self.companions() == design.companions())
     }
 
     /// The sums of y_A and y_B.

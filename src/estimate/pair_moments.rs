@@ -1,6 +1,7 @@
 //! The means from which second-order indices are read.
 
 use super::workspace::Workspace;
+use crate::binary::binary_fields;
 use crate::sum::{centred_product, mean};
 
 /// Means of E_j D_k over the ordered pairs j != k of the paired swaps, with D = y_AB - y_A and E = y_BA - y_B.
@@ -18,6 +19,9 @@ struct PairMean {
     n: u64,
     mean: f64,
 }
+
+binary_fields!(PairMoments { swaps, means });
+binary_fields!(PairMean { n, mean });
 
 /// D and E of one swap, with 0 at the base points that failed and, if any did, 0 there and 1 elsewhere.
 #[derive(Debug, Default)]
@@ -52,6 +56,11 @@ impl Difference {
 }
 
 impl PairMoments {
+    /// Whether they are means of the pairs of `swaps`.
+    pub(super) fn fits(&self, swaps: &[usize]) -> bool {
+        self.swaps == swaps && self.means.len() == swaps.len() * swaps.len().saturating_sub(1)
+    }
+
     /// The means of one block for `swaps`: `a` and `b` are the outputs of A and B, `ab` and `ba` those of all swaps.
     pub(super) fn of(
         swaps: &[usize],

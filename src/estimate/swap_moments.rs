@@ -2,6 +2,7 @@
 
 use super::base_moments::{BaseMoments, Shift};
 use super::workspace::Workspace;
+use crate::binary::binary_fields;
 use crate::sum::{centred_product, mean};
 
 /// Means and sums of centred products of the outputs of one swap s, over the base points at which all of its rows have
@@ -65,6 +66,11 @@ pub struct CbMoments {
     /// Sum of products of E and G; 0 without the row BA_s, when no estimator reads it.
     pub eg: f64,
 }
+
+binary_fields!(SwapMoments { base, mean_d, dd, ad, bd, ba, bc, cb });
+binary_fields!(BaMoments { mean_e, ee, ae, be, de });
+binary_fields!(BcMoments { mean_f, df });
+binary_fields!(CbMoments { mean_g, ag, bg, eg });
 
 /// Outputs of the rows of one swap, and of A and B.
 #[derive(Clone, Copy)]

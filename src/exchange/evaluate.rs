@@ -2,15 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::io::Write;
-use std::sync::atomic::AtomicBool;
 
 use thiserror::Error;
 
 use super::points::{PointsError, PointsReader};
 use super::rows::RowReader;
-use crate::model::{Batch, Output, RowFailure};
+use crate::model::{Batch, Output, RowFailure, RunContext};
 use crate::report::csv_field;
-use crate::run::{Crew, Halt};
+use crate::run::{Executor, Halt};
 use crate::study::Study;
 
 /// Why points could not be evaluated.
@@ -58,25 +57,25 @@ pub fn evaluate(
     points: &mut dyn RowReader,
     outputs: &mut dyn Write,
 ) -> Result<Evaluated, EvaluateError> {
-    evaluate_until(study, points, outputs, None)
+    evaluate_in(study, points, outputs, &RunContext::default())
 }
 
-/// The same, ended when `stop` is set.
+/// The same as the run of `context`, which may end it.
 ///
 /// # Errors
-/// As for [`evaluate`], and [`Halt::Interrupted`] if `stop` is set before the end.
-pub fn evaluate_until(
+/// As for [`evaluate`], and [`Halt::Interrupted`] if the run is to end.
+pub fn evaluate_in(
     study: &Study,
     points: &mut dyn RowReader,
     outputs: &mut dyn Write,
-    stop: Option<&AtomicBool>,
+    context: &RunContext<'_>,
 ) -> Result<Evaluated, EvaluateError> {
     let mut reader = PointsReader::new(points, &study.space)?;
     let model = study.model();
     let factors = study.space.factors();
-    let mut crew = Crew::new(model.as_ref(), stop);
-    let most = Crew::rows_at_once(model.as_ref());
-    let mut batch = Batch::of(model.as_ref());
+    let executor = Executor::new(model.as_ref(), context, 0);
+    let most = executor.rows_at_once();
+    let mut batch = Batch::new(model.as_ref());
     let mut columns = vec![Vec::with_capacity(most); factors.len()];
     let mut evaluated = Evaluated { skipped: reader.skipped().to_vec(), ..Evaluated::default() };
     let mut out = std::io::BufWriter::new(outputs);
@@ -95,11 +94,12 @@ pub fn evaluate_until(
         batch.reset(rows);
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let points = evaluated.points;
-        crew.run(&inputs, &mut batch).map_err(|halt| EvaluateError::Halted { points, halt })?;
+        executor.run_table(&inputs, &mut batch).map_err(|halt| EvaluateError::Halted { points, halt })?;
         evaluated.count(model.outputs(), &batch);
         write_rows(&mut out, model.outputs(), &batch)?;
     }
     out.flush()?;
+    context.messages().finish();
     evaluated.unended = reader.is_unended();
     Ok(evaluated)
 }

@@ -1,7 +1,7 @@
 //! Tables of points and outputs as files: what joins the steps of a study when other programs take part.
 //!
 //! [`sample()`] writes the points, any program computes the outputs, [`read_answers`] reads them back into a
-//! [`Store`](crate::run::Store) for [`analyse_with`](crate::analyse_with): `examples/three_steps.rs` goes this way.
+//! [`Store`](crate::run::Store) for a [`Runner`](crate::Runner): `examples/three_steps.rs` goes this way.
 //! [`evaluate()`] is the other direction: the model of a study at points from anywhere.
 
 mod answers;
@@ -16,7 +16,7 @@ mod table;
 
 pub use answers::{Answers, AnswersError, AnswersRequest, MissingOutputs, read_answers};
 pub use design_rows::{DesignRows, RowBlock};
-pub use evaluate::{EvaluateError, Evaluated, evaluate, evaluate_until};
+pub use evaluate::{EvaluateError, Evaluated, evaluate, evaluate_in};
 pub use manifest::{
     Manifest, ManifestDesign, ManifestError, ManifestFactor, ManifestRun, ManifestStudy, design_sha256,
 };

@@ -1,6 +1,6 @@
 //! The critical pushing force of a nanoparticle as a model: the adapter between factors and [`crate::afm`].
 
-use super::{Batch, Flag, Model, Output, RowFailure, Worker};
+use super::{Batch, Counter, CounterKind, Flag, Model, Output, RowFailure, RunContext, Worker};
 use crate::afm::{self, Critical, Failure, Fidelity, Options, Parameter, Scene, critical_force};
 use crate::quantity::Unit;
 
@@ -105,6 +105,16 @@ fn edge(symbol: &str) -> Unit {
     Unit::parse(symbol).unwrap_or_else(|_| Unit::dimensionless())
 }
 
+/// Beginning of the names of counters of rows that a rung of the ladder of fidelities answered.
+pub const RUNGS: &str = "rungs.";
+/// Name of the counter of evaluations of the right-hand side.
+pub const EVALUATIONS: &str = "evaluations";
+/// Name of the counter of the largest relative error estimate of any row.
+pub const LARGEST_ERROR: &str = "largest_error_estimate";
+
+/// Rows between two looks at whether the run is to end: rows of the finest fidelity take milliseconds.
+const ROWS_BETWEEN_LOOKS: usize = 16;
+
 /// A study's version of the nanoparticle model.
 #[derive(Debug, Clone)]
 pub struct AfmModel {
@@ -114,7 +124,8 @@ pub struct AfmModel {
     outputs: Vec<Output>,
     which: Vec<AfmOutput>,
     flags: Vec<Flag>,
-    rungs: Vec<&'static str>,
+    /// Rows by rung, in the order of [`Fidelity::ALL`]; then [`EVALUATIONS`] and [`LARGEST_ERROR`].
+    counters: Vec<Counter>,
 }
 
 impl AfmModel {
@@ -125,8 +136,11 @@ impl AfmModel {
             .iter()
             .map(|f| Flag { name: f.name().into(), description: f.description().into(), warns: false })
             .collect();
-        let rungs = Fidelity::ALL.iter().map(|rung| rung.name()).collect();
-        Self { scene, options, factors, outputs, which, flags, rungs }
+        let counter = |name: String, kind| Counter { name: name.into(), kind };
+        let rungs = Fidelity::ALL.iter().map(|rung| counter(format!("{RUNGS}{}", rung.name()), CounterKind::Sum));
+        let cost = [(EVALUATIONS, CounterKind::Sum), (LARGEST_ERROR, CounterKind::Maximum)];
+        let counters = rungs.chain(cost.map(|(name, kind)| counter(name.to_owned(), kind))).collect();
+        Self { scene, options, factors, outputs, which, flags, counters }
     }
 }
 
@@ -139,25 +153,39 @@ impl Model for AfmModel {
         &self.flags
     }
 
-    fn rungs(&self) -> &[&'static str] {
-        &self.rungs
+    fn counters(&self) -> &[Counter] {
+        &self.counters
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
-        Box::new(AfmWorker { model: self, scene: self.scene, reasons: Vec::new() })
+    fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
+        Box::new(AfmWorker { model: self, context, scene: self.scene, reasons: Vec::new(), spent: Spent::default() })
     }
 }
 
 struct AfmWorker<'a> {
     model: &'a AfmModel,
+    context: &'a RunContext<'a>,
     scene: Scene,
     /// The failures met so far, in words: there are few, and each is put into words once.
     reasons: Vec<(Failure, RowFailure)>,
+    spent: Spent,
+}
+
+/// What was spent on the rows of a batch.
+#[derive(Default)]
+struct Spent {
+    rungs: [u64; Fidelity::ALL.len()],
+    evaluations: u64,
+    largest_error: f64,
 }
 
 impl Worker for AfmWorker<'_> {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
+        self.spent = Spent::default();
         for row in 0..batch.rows() {
+            if row % ROWS_BETWEEN_LOOKS == 0 && self.context.is_stopped() {
+                return batch.give_up(RowFailure::interrupted());
+            }
             for (parameter, column) in self.model.factors.iter().zip(inputs) {
                 (parameter.set)(&mut self.scene, column[row]);
             }
@@ -166,6 +194,11 @@ impl Worker for AfmWorker<'_> {
                 Ok(critical) => self.write(row, &critical, batch),
             }
         }
+        let Spent { rungs, evaluations, largest_error } = &self.spent;
+        for (counter, rows) in rungs.iter().chain([evaluations]).enumerate() {
+            batch.count(counter, *rows as f64);
+        }
+        batch.count(rungs.len() + 1, *largest_error);
     }
 }
 
@@ -188,7 +221,9 @@ impl AfmWorker<'_> {
             }
         }
         // `Fidelity::ALL` is in the order of the declaration.
-        batch.spend(critical.rung as usize, critical.cost.evaluations, critical.error_estimate);
+        self.spent.rungs[critical.rung as usize] += 1;
+        self.spent.evaluations += critical.cost.evaluations;
+        self.spent.largest_error = self.spent.largest_error.max(critical.error_estimate);
         if !critical.flags.is_empty() {
             for (number, &flag) in afm::Flag::ALL.iter().enumerate() {
                 if critical.flags.contains(flag) {
@@ -219,9 +254,9 @@ mod tests {
         let outputs = vec![AfmOutput::CriticalForce, AfmOutput::CriticalTime];
         let velocity = Parameter::from_name("velocity").unwrap();
         let model = AfmModel::new(Scene::default(), Options::default(), vec![velocity], outputs);
-        let mut batch = Batch::of(&model);
+        let mut batch = Batch::new(&model);
         batch.reset(2);
-        model.worker().run(&[&[100e-9, 0.0]], &mut batch);
+        model.worker(&RunContext::default()).run(&[&[100e-9, 0.0]], &mut batch);
         batch.settle();
         assert_eq!(batch.column(0)[0], batch.column(0)[1]);
         assert!(batch.column(1)[0] > 0.0);

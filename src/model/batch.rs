@@ -3,7 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::Model;
+use super::{Counts, Model};
+use crate::binary::{Binary, Reader};
 
 /// Why a row has no value of an output, in the words of its model. Equal reasons are counted together, so that they
 /// name no values of the row; cheap to clone.
@@ -27,41 +28,19 @@ impl RowFailure {
     }
 }
 
+impl Binary for RowFailure {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.0.to_string().write(out);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        Some(Self::new(&String::read(from)?))
+    }
+}
+
 impl fmt::Display for RowFailure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
-    }
-}
-
-/// What a model with a ladder of fidelities spent on some rows, and what it says of its own error.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Effort {
-    /// Rows that each rung answered.
-    pub rungs: Vec<u64>,
-    /// Evaluations of the right-hand side, in all.
-    pub evaluations: u64,
-    /// Largest error estimate of any row, relative.
-    pub largest_error: f64,
-}
-
-impl Effort {
-    /// Nothing spent on a ladder of `rungs` rungs.
-    pub fn none(rungs: usize) -> Self {
-        Self { rungs: vec![0; rungs], ..Self::default() }
-    }
-
-    /// Whether nothing was spent.
-    pub fn is_none(&self) -> bool {
-        self.evaluations == 0 && self.largest_error == 0.0 && self.rungs.iter().all(|rows| *rows == 0)
-    }
-
-    /// Adds what was spent on other rows. The order does not matter, in any bit.
-    pub fn merge(&mut self, other: &Self) {
-        for (mine, theirs) in self.rungs.iter_mut().zip(&other.rungs) {
-            *mine += theirs;
-        }
-        self.evaluations += other.evaluations;
-        self.largest_error = self.largest_error.max(other.largest_error);
     }
 }
 
@@ -72,17 +51,17 @@ pub struct Batch {
     columns: Vec<Vec<f64>>,
     failures: Vec<(usize, usize, RowFailure)>,
     flags: Vec<u64>,
-    effort: Effort,
+    counts: Counts,
     given_up: Option<RowFailure>,
 }
 
 impl Batch {
-    /// An empty batch for the outputs, validity flags and rungs of `model`.
-    pub fn of(model: &dyn Model) -> Self {
+    /// An empty batch for the outputs, validity flags and counters of `model`.
+    pub fn new(model: &dyn Model) -> Self {
         Self {
             columns: vec![Vec::new(); model.outputs().len()],
             flags: vec![0; model.flags().len()],
-            effort: Effort::none(model.rungs().len()),
+            counts: Counts::new(model.counters()),
             ..Self::default()
         }
     }
@@ -96,7 +75,7 @@ impl Batch {
         }
         self.failures.clear();
         self.flags.fill(0);
-        self.effort = Effort::none(self.effort.rungs.len());
+        self.counts.clear();
         self.given_up = None;
     }
 
@@ -149,11 +128,9 @@ impl Batch {
         self.flags[flag] += 1;
     }
 
-    /// Counts one row answered by `rung` after `evaluations`, with its relative error estimate.
-    pub fn spend(&mut self, rung: usize, evaluations: u64, error_estimate: f64) {
-        self.effort.rungs[rung] += 1;
-        self.effort.evaluations += evaluations;
-        self.effort.largest_error = self.effort.largest_error.max(error_estimate);
+    /// Counts `amount` by the counter of that number.
+    pub fn count(&mut self, counter: usize, amount: f64) {
+        self.counts.add(counter, amount);
     }
 
     /// Takes over the rows of a settled batch of the same model, from row `first` on.
@@ -162,7 +139,7 @@ impl Batch {
             mine[first..first + part.rows].copy_from_slice(theirs);
         }
         self.failures.extend(part.failures.iter().map(|(output, row, why)| (*output, first + row, why.clone())));
-        self.add_counts(&part.flags, &part.effort);
+        self.add_counts(&part.flags, &part.counts);
     }
 
     /// Names every value that is not finite and has no failure yet [`RowFailure::not_finite`], or the reason why the model
@@ -203,15 +180,15 @@ impl Batch {
         &self.flags
     }
 
-    /// What was spent on the rows.
-    pub fn effort(&self) -> &Effort {
-        &self.effort
+    /// What the model counted.
+    pub fn counts(&self) -> &Counts {
+        &self.counts
     }
 
-    /// Counts flags that were raised, and effort that was spent, when rows of this batch were evaluated earlier.
-    pub fn add_counts(&mut self, flags: &[u64], effort: &Effort) {
+    /// Adds flags and counts of rows of this batch that were evaluated earlier.
+    pub fn add_counts(&mut self, flags: &[u64], counts: &Counts) {
         self.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
-        self.effort.merge(effort);
+        self.counts.merge(counts);
     }
 }
 

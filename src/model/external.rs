@@ -1,6 +1,6 @@
 //! A model outside of this program, whose outputs come from a file.
 
-use super::{Batch, Model, Output, RowFailure, Worker};
+use super::{Batch, Model, Output, RowFailure, RunContext, Worker};
 
 /// A model that runs elsewhere: it has outputs with names and units, but every row asked of it fails by name. Its
 /// outputs are read from a file, into a [`Store`](crate::run::Store).
@@ -26,7 +26,7 @@ impl Model for ExternalModel {
         &self.outputs
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         Box::new(Elsewhere)
     }
 }

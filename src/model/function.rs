@@ -1,6 +1,6 @@
 //! Functions of the program that uses the library, as models.
 
-use super::{Batch, Model, Output, RowFailure, Worker};
+use super::{Batch, Model, Output, RowFailure, RunContext, Worker};
 use crate::quantity::Unit;
 
 /// A Rust function as a model.
@@ -67,7 +67,7 @@ where
         &self.outputs
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         Box::new(FunctionWorker { function: &self.function, x: Vec::new(), y: vec![f64::NAN; self.outputs.len()] })
     }
 }

@@ -9,19 +9,23 @@ mod batch;
 mod catalogue;
 #[cfg(feature = "study")]
 mod command;
+mod context;
+mod counter;
 mod expression;
 mod external;
 mod function;
 mod known;
 
-pub use afm::{AfmModel, AfmOutput, edge_unit};
-pub use batch::{Batch, Effort, RowFailure};
+pub use afm::{AfmModel, AfmOutput, EVALUATIONS, LARGEST_ERROR, RUNGS, edge_unit};
+pub use batch::{Batch, RowFailure};
 pub use catalogue::{Input, ModelKind, known_inputs};
 #[cfg(feature = "study")]
 pub use command::{
     Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, KeptAlive, Match, PerRun, Pick,
     PickError, Program, Protocol, Source, TemplateError, TemplateProblem, Way, parse_answer, parse_numbered_answer,
 };
+pub use context::{Messages, RunContext};
+pub use counter::{Counter, CounterKind, Counts};
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
 pub use external::ExternalModel;
 pub use function::{FunctionModel, function_model};
@@ -74,9 +78,8 @@ pub trait Model: Send + Sync {
         &[]
     }
 
-    /// The rungs of its ladder of fidelities, in the order of their numbers in a [`Batch`]; none for a model without a
-    /// ladder.
-    fn rungs(&self) -> &[&'static str] {
+    /// What it counts over its rows, in the order of the numbers in a [`Batch`].
+    fn counters(&self) -> &[Counter] {
         &[]
     }
 
@@ -86,12 +89,8 @@ pub trait Model: Send + Sync {
         None
     }
 
-    /// Asks the workers to end soon what they are at, from any thread; they then [give up](Batch::give_up) with
-    /// [`RowFailure::interrupted`]. A model whose rows take no time worth speaking of need not listen.
-    fn interrupt(&self) {}
-
-    /// A worker for one thread.
-    fn worker(&self) -> Box<dyn Worker + '_>;
+    /// A worker for one thread of the run that `context` tells of.
+    fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a>;
 }
 
 impl<M: Model + ?Sized> Model for Arc<M> {
@@ -103,20 +102,16 @@ impl<M: Model + ?Sized> Model for Arc<M> {
         (**self).flags()
     }
 
-    fn rungs(&self) -> &[&'static str] {
-        (**self).rungs()
+    fn counters(&self) -> &[Counter] {
+        (**self).counters()
     }
 
     fn concurrency(&self) -> Option<usize> {
         (**self).concurrency()
     }
 
-    fn interrupt(&self) {
-        (**self).interrupt();
-    }
-
-    fn worker(&self) -> Box<dyn Worker + '_> {
-        (**self).worker()
+    fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
+        (**self).worker(context)
     }
 }
 

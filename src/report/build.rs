@@ -9,6 +9,7 @@ use super::result::{
 };
 use crate::analysis::Analysis;
 use crate::estimate::{FirstOrder, Scaling, Total};
+use crate::model::{EVALUATIONS, LARGEST_ERROR, RUNGS};
 use crate::study::Study;
 use crate::uncertainty::{AggregateIndices, IntervalMethod};
 
@@ -60,13 +61,15 @@ fn stopping_record(study: &Study, analysis: &Analysis) -> Option<StoppingRecord>
 }
 
 fn effort_record(analysis: &Analysis) -> Option<EffortRecord> {
-    let (names, effort) = analysis.effort.as_ref()?;
-    let rungs = names.iter().zip(&effort.rungs).filter(|(_, runs)| **runs > 0);
-    let rungs = rungs.map(|(rung, &runs)| RungRecord { rung: (*rung).to_owned(), runs });
-    Some(EffortRecord {
+    let counts = || analysis.counts.iter();
+    let value = |name| counts().find(|(counter, _)| counter.name == name).map_or(0.0, |(_, value)| *value);
+    let rungs = counts().filter(|(_, runs)| *runs > 0.0).filter_map(|(counter, runs)| {
+        Some(RungRecord { rung: counter.name.strip_prefix(RUNGS)?.to_owned(), runs: *runs as u64 })
+    });
+    (!analysis.counts.is_empty()).then(|| EffortRecord {
         rungs: rungs.collect(),
-        evaluations: effort.evaluations,
-        largest_error_estimate: effort.largest_error,
+        evaluations: value(EVALUATIONS) as u64,
+        largest_error_estimate: value(LARGEST_ERROR),
     })
 }
 
@@ -93,6 +96,8 @@ fn provenance(study: &Study, analysis: &Analysis) -> Provenance {
     let (design, options) = (&analysis.design, &study.analysis);
     let settings = design.settings();
     let alone = settings.replicates == 1 && options.intervals == IntervalMethod::Replicates;
+    let mixed = analysis.mixed_models.iter();
+    let mixed = mixed.map(|mixed| MixedModels { files: mixed.files.clone(), runs: mixed.runs });
     Provenance {
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: settings.seed,
@@ -108,7 +113,7 @@ fn provenance(study: &Study, analysis: &Analysis) -> Provenance {
         interval: (!alone).then(|| options.intervals.words(settings.replicates, options.resamples)),
         interval_method: options.intervals.name().to_owned(),
         threshold: options.threshold,
-        mixed_models: Vec::new(),
+        mixed_models: mixed.collect(),
     }
 }
 
@@ -142,22 +147,4 @@ fn aggregate_record(study: &Study, analysis: &Analysis) -> Option<AggregateRecor
         indices: indices.ok().map(|all| factors().map(|factor| record(factor, all)).collect()),
         reason: indices.err().map(|undefined| undefined.to_string()),
     })
-}
-
-/// Notes in `result` that runs were answered by another version of the model: so many of those on record, or an unknown
-/// number if `files` changed while the run was under way.
-pub fn note_mixed_models(result: &mut ResultFile, files: &str, runs: Option<u64>) {
-    let warning = match runs {
-        Some(runs) => format!(
-            "{runs} of the runs on record were evaluated with another {files} than the others: the numbers mix two models"
-        ),
-        None => format!(
-            "{files} changed while the run was under way: its runs may have been answered by either version, and the numbers \
-             may mix two models"
-        ),
-    };
-    result.provenance.mixed_models.push(MixedModels { files: files.to_owned(), runs });
-    for output in &mut result.outputs {
-        output.warnings.push(warning.clone());
-    }
 }

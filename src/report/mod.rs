@@ -26,7 +26,7 @@ mod write;
 pub use crate::names::{file_part, file_stems, refused_name};
 pub use crate::words::{capitalised, listed};
 pub use asked::{AskedFactor, AskedRecord, Drawing};
-pub use build::{RunFacts, note_mixed_models, result_json};
+pub use build::{RunFacts, result_json};
 pub use build_output::inputs_in_words;
 pub use read::{ReadError, ReadProblem, parse_result, read_result};
 pub use result::*;

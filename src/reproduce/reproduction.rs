@@ -6,7 +6,6 @@ use super::claims::{Claim, claims};
 use super::figures::{Animation, PaperFigure, animation, figures};
 use super::readings::{Readings, readings};
 use super::{Effort, ReproduceError, Reproduced, studies};
-use apportion::analyse;
 use apportion::run::Progress;
 
 /// What to reproduce.
@@ -132,10 +131,12 @@ fn run_studies(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Resu
     for (place, (group, friction, study)) in studies.iter().enumerate() {
         let number = (place + 1, count);
         on_event(Event::StudyBegins { number, name: &study.name, runs: study.design.rows() });
-        let result = apportion::report::ResultFile::new(
-            study,
-            &analyse(study, request.threads, &|progress| on_event(Event::StudyGoesOn(progress)))?,
-        );
+        let analysis = study
+            .runner()
+            .threads(request.threads)
+            .on_progress(|progress| on_event(Event::StudyGoesOn(progress)))
+            .run()?;
+        let result = apportion::report::ResultFile::new(study, &analysis);
         let provenance = &result.provenance;
         on_event(Event::StudyEnds { runs: provenance.model_runs, seconds: provenance.wall_seconds });
         reproduced.push(Reproduced { friction: *friction, group: *group, result });

@@ -1,7 +1,10 @@
 //! Why a run ends without its totals.
 
+use std::path::PathBuf;
+
 use thiserror::Error;
 
+use super::journal::JournalError;
 use super::{MOST_KEPT, Place};
 use crate::model::RowFailure;
 
@@ -13,8 +16,8 @@ pub enum RunError {
     Threads {
         /// The number asked for.
         threads: usize,
-        /// What rayon said.
-        source: rayon::ThreadPoolBuildError,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A row failed, and the run was to stop at the first one.
     #[error("a run failed, and the study says to stop then: {reason}")]
@@ -27,7 +30,8 @@ pub enum RunError {
     /// The outputs of all runs were to be kept, and are too many.
     #[error(
         "the outputs of {runs} runs, which are to be kept all at once, take {bytes} bytes of memory, more than the \
-         {MOST_KEPT} that they may: take fewer base samples or fewer outputs, intervals = \"batches\", or no journal"
+         {MOST_KEPT} that they may: take fewer base samples or fewer outputs, intervals = \"batches\", or begin anew without \
+         saved outputs (--restart)"
     )]
     TooManyOutputs {
         /// Model runs.
@@ -48,6 +52,27 @@ pub enum RunError {
     GaveUp {
         /// Why.
         reason: RowFailure,
+    },
+    /// The journal cannot be used.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+    /// What is on record, or was asked of it, does not fit the study.
+    #[error("{}: {reason}", .path.display())]
+    Refused {
+        /// The journal.
+        path: PathBuf,
+        /// What is wrong, and what would be right.
+        reason: String,
+    },
+    /// The parts of a run are not all there.
+    #[error("{missing} of {total} runs are missing: {places}")]
+    Incomplete {
+        /// Runs that are missing.
+        missing: u64,
+        /// Runs of the whole design.
+        total: u64,
+        /// Which they are, in words.
+        places: String,
     },
     /// Outputs could not be kept.
     #[error("cannot keep the outputs of finished runs: {source}")]

@@ -1,88 +1,85 @@
-//! A run of totals that can be doubled, and the blocks on their way through the model or out of a store.
+//! A run of totals that can be doubled.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::block::{BlockPlace, Scratch};
-use super::fill::Filling;
-use super::{
-    BLOCK, FailurePolicy, Job, Keep, MOST_KEPT, Place, Progress, RunError, SAMPLE, Store, Totals, threads_in_force,
-};
-use crate::design::{BasePoints, Design};
-use crate::estimate::part_length;
-use crate::model::RowFailure;
+use super::blocks::{BlockOptions, Blocks};
+use super::executor::Executor;
+use super::fold::{Fold, Sums};
+use super::journal::Checkpoint;
+use super::rows::{Known, MissingRows};
+use super::{BLOCK, FailurePolicy, Job, MOST_KEPT, PieceSink, Progress, RunError, Store, Totals, threads_in_force};
+use crate::design::Design;
+use crate::model::RunContext;
 
 /// A run that can go on: every replicate holds the same number of base points, and can be given more.
 pub struct GrowingRun<'a> {
     job: Job<'a>,
-    /// As asked for: 0 if not said.
-    threads: usize,
+    executor: Executor<'a>,
+    /// For what is estimated from the totals.
     pool: rayon::ThreadPool,
     start: Instant,
     failures: FailurePolicy,
     keeps_outputs: bool,
     store: Option<&'a Store>,
-    keep: Option<Keep<'a>>,
-    stop: Option<&'a AtomicBool>,
+    sink: Option<PieceSink<'a>>,
+    checkpoint: Option<&'a Checkpoint>,
+    /// Sums from which the run begins, until it does.
+    recorded: Option<Sums>,
+    /// The sums of all that was run, as bytes, if there is a checkpoint.
+    last_sums: Vec<u8>,
     /// Base points of every replicate that have been run.
     points: u64,
+    /// See [`Sums`].
+    began: u64,
     totals: Vec<Totals>,
-    done: u64,
-    failed: u64,
+    progress: Progress,
 }
 
 impl<'a> GrowingRun<'a> {
-    /// A run of nothing yet, on `threads` threads (0: one per core).
+    /// A run of nothing yet, on `threads` threads (0: one per core), whose workers know of `context`.
     ///
     /// # Panics
     /// If the space has not as many factors as the design.
     ///
     /// # Errors
     /// [`RunError::Threads`] if the threads cannot be started.
-    pub fn new(job: Job<'a>, threads: usize) -> Result<Self, RunError> {
+    pub fn new(job: Job<'a>, context: &'a RunContext<'a>, threads: usize) -> Result<Self, RunError> {
         assert_eq!(job.space.factors().len(), job.design.factors(), "space and design have the same factors");
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads_in_force(threads))
             .build()
-            .map_err(|source| RunError::Threads { threads: threads_in_force(threads), source })?;
-        let (totals, start) = (Vec::new(), Instant::now());
-        let (failures, keeps_outputs) = (FailurePolicy::DropBlock, false);
-        let (store, keep, stop) = (None, None, None);
+            .map_err(|source| RunError::Threads { threads: threads_in_force(threads), source: source.into() })?;
         Ok(Self {
             job,
-            threads,
+            executor: Executor::new(job.model, context, threads),
             pool,
-            start,
-            failures,
-            keeps_outputs,
-            store,
-            keep,
-            stop,
+            start: Instant::now(),
+            failures: FailurePolicy::DropBlock,
+            keeps_outputs: false,
+            store: None,
+            sink: None,
+            checkpoint: None,
+            recorded: None,
+            last_sums: Vec::new(),
             points: 0,
-            totals,
-            done: 0,
-            failed: 0,
+            began: 0,
+            totals: Vec::new(),
+            progress: Progress { done: 0, recalled: 0, total: 0, failed: 0, elapsed: Duration::ZERO },
         })
     }
 
-    /// The same run with outputs kept in `store`: rows that are there are not evaluated.
+    /// The same run with outputs kept in `store`: rows that are there are not evaluated. `sink` takes every piece of
+    /// outputs before it joins the store.
     #[must_use]
-    pub fn with_store(self, store: &'a Store) -> Self {
-        Self { store: Some(store), ..self }
+    pub fn with_store(self, store: &'a Store, sink: Option<PieceSink<'a>>) -> Self {
+        Self { store: Some(store), sink, ..self }
     }
 
-    /// The same run, with a store, that tells `keep` of what it evaluates.
+    /// The same run with its sums recorded in `checkpoint` from time to time. It begins from `sums`.
     #[must_use]
-    pub fn with_keep(self, keep: Option<Keep<'a>>) -> Self {
-        Self { keep, ..self }
-    }
-
-    /// The same run, ending as soon as `stop` is set.
-    #[must_use]
-    pub fn with_stop(self, stop: Option<&'a AtomicBool>) -> Self {
-        Self { stop, ..self }
+    pub fn with_checkpoint(self, checkpoint: &'a Checkpoint, sums: Sums) -> Self {
+        Self { checkpoint: Some(checkpoint), recorded: Some(sums), ..self }
     }
 
     /// The same run under another policy than [`FailurePolicy::DropBlock`].
@@ -132,71 +129,87 @@ impl<'a> GrowingRun<'a> {
         self.room_for(points)?;
         let design = self.job.design;
         let replicates = design.settings().replicates;
-        if self.store.is_some() {
+        if let Some(store) = self.store {
             let rows = points * design.rows_per_point();
             let all: Vec<(u64, Range<u64>)> = (0..replicates).map(|replicate| (replicate, 0..rows)).collect();
-            self.fill(&all, on_progress)?;
+            self.run_missing(&all, store, on_progress)?;
         }
-        let growth = Growth {
-            job: self.job,
-            range: self.points..points,
-            total: points * replicates * design.rows_per_point(),
-            on_progress,
-            start: self.start,
-            done: AtomicU64::new(self.done),
-            failed: AtomicU64::new(self.failed),
+        let sums = self.recorded.take().unwrap_or_else(|| self.sums());
+        self.began = sums.began;
+        let total = points * replicates * design.rows_per_point();
+        let known = |count: fn(&Totals) -> u64| sums.totals().map(count).sum::<u64>();
+        let (done, failed) = (known(|totals| totals.runs), known(|totals| totals.failed_runs));
+        let recalled = if self.points == 0 { done } else { self.progress.recalled };
+        let before = Progress { done, recalled, total, failed, elapsed: self.start.elapsed() };
+        if recalled > 0 {
+            on_progress(before);
+        }
+        let options = BlockOptions {
             failures: self.failures,
             keeps_outputs: self.keeps_outputs,
             store: self.store,
-            stop: self.stop,
-            given_up: AtomicBool::new(false),
-            end: Mutex::new(None),
-            failure: Mutex::new(None),
-            idle: Mutex::new(Vec::new()),
+            checkpoint: self.checkpoint,
         };
-        let grown = self.pool.install(|| growth.replicates(0..replicates));
-        if let Some((row, reason)) = growth.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
-            return Err(RunError::RowFailed { row, reason });
-        }
-        if let Some(end) = growth.end.into_inner().unwrap_or_else(PoisonError::into_inner) {
-            return Err(end);
-        }
-        if self.totals.is_empty() {
-            self.totals = grown;
+        let blocks = Blocks::new(self.job, self.executor.context(), Fold::new(sums), points, options);
+        let outcome = if self.store.is_some() {
+            // The rows were counted when they were evaluated.
+            self.executor.execute(&blocks, (before, self.start), &|_| ())
         } else {
-            self.totals.iter_mut().zip(&grown).for_each(|(totals, more)| totals.merge(more));
+            self.executor.execute(&blocks, (before, self.start), on_progress)
+        };
+        let fold = blocks.into_fold();
+        if self.checkpoint.is_some() {
+            self.last_sums.clear();
+            fold.write_sums(&mut self.last_sums);
         }
-        (self.done, self.failed) = (growth.done.into_inner(), growth.failed.into_inner());
+        self.progress = outcome?;
+        self.totals = fold.into_totals();
         self.points = points;
         Ok(())
     }
 
-    /// Evaluates those of `rows` (replicate, and rows counted within it) that the store of the run lacks; nothing without a
-    /// store.
+    /// The sums of all that has been run, to go on with.
+    fn sums(&mut self) -> Sums {
+        let replicates = self.job.design.settings().replicates;
+        if self.began == 0 && self.points > 0 && !(self.points.is_power_of_two() && self.points >= BLOCK) {
+            self.began = self.points;
+        }
+        let heads = std::mem::take(&mut self.totals);
+        Sums { began: self.began, from: self.points, heads, ..Sums::new(replicates) }
+    }
+
+    /// Evaluates those of `rows` (replicate, and rows counted within it) that `store` lacks.
     ///
     /// # Errors
     /// [`RunError`] if the run ends before that.
-    pub fn fill(&self, rows: &[(u64, Range<u64>)], on_progress: &(dyn Fn(Progress) + Sync)) -> Result<(), RunError> {
-        let Some(store) = self.store else { return Ok(()) };
-        let filling = Filling {
-            job: self.job,
-            store,
-            keep: self.keep,
-            failures: self.failures,
-            workers: self.workers(),
-            stop: self.stop,
-            on_progress,
-            start: self.start,
-        };
-        filling.fill(rows)
+    pub fn run_missing(
+        &self,
+        rows: &[(u64, Range<u64>)],
+        store: &'a Store,
+        on_progress: &(dyn Fn(Progress) + Sync),
+    ) -> Result<(), RunError> {
+        let (task, known) = MissingRows::new(self.job, rows, store, self.sink, self.failures);
+        let Known { total, rows: done, failed } = known;
+        let before = Progress { done, recalled: done, total, failed, elapsed: self.start.elapsed() };
+        if done > 0 {
+            on_progress(before);
+        }
+        if done < total {
+            self.executor.execute(&task, (before, self.start), on_progress)?;
+        }
+        Ok(())
     }
 
-    /// Workers at once: what the model asks for, but no more than the threads that somebody has asked for.
-    fn workers(&self) -> usize {
-        match (self.job.model.concurrency(), self.threads) {
-            (None, _) => self.pool.current_num_threads(),
-            (Some(workers), 0) => workers,
-            (Some(workers), threads) => workers.min(threads),
+    /// Writes a last checkpoint, if there are checkpoints.
+    ///
+    /// # Errors
+    /// [`RunError::NotKept`] if it cannot be written.
+    pub fn write_checkpoint(&self) -> Result<(), RunError> {
+        match self.checkpoint {
+            Some(checkpoint) if !self.last_sums.is_empty() => {
+                checkpoint.write(&self.last_sums).map_err(|source| RunError::NotKept { source })
+            }
+            _ => Ok(()),
         }
     }
 
@@ -222,121 +235,5 @@ impl<'a> GrowingRun<'a> {
     /// Time since the run was made.
     pub fn elapsed(&self) -> Duration {
         self.start.elapsed()
-    }
-}
-
-/// The base points `range` of every replicate, on their way through the model.
-struct Growth<'a, 'p> {
-    job: Job<'a>,
-    range: Range<u64>,
-    /// Rows there will be in all.
-    total: u64,
-    on_progress: &'p (dyn Fn(Progress) + Sync),
-    start: Instant,
-    done: AtomicU64,
-    failed: AtomicU64,
-    failures: FailurePolicy,
-    keeps_outputs: bool,
-    store: Option<&'a Store>,
-    stop: Option<&'a AtomicBool>,
-    given_up: AtomicBool,
-    end: Mutex<Option<RunError>>,
-    failure: Mutex<Option<(Place, RowFailure)>>,
-    /// Scratch space and workers not in use: one per thread that has ever been busy at once.
-    idle: Mutex<Vec<Scratch<'a>>>,
-}
-
-impl Growth<'_, '_> {
-    fn replicates(&self, range: Range<u64>) -> Vec<Totals> {
-        match range.end - range.start {
-            1 => vec![self.replicate(range.start)],
-            n => {
-                let middle = range.start + n / 2;
-                let (mut left, right) =
-                    rayon::join(|| self.replicates(range.start..middle), || self.replicates(middle..range.end));
-                left.extend(right);
-                left
-            }
-        }
-    }
-
-    fn replicate(&self, replicate: u64) -> Totals {
-        let points = self.job.design.replicate(replicate);
-        let blocks = self.range.start / BLOCK..self.range.end.div_ceil(BLOCK);
-        self.tree(&|block| self.block(&points, replicate, block), blocks)
-    }
-
-    /// Folds the blocks of `range`: the left branch holds the largest power of two below their number, so a design
-    /// that is doubled has the tree of the shorter one as its left branch.
-    fn tree(&self, leaf: &(dyn Fn(u64) -> Totals + Sync), range: Range<u64>) -> Totals {
-        match range.end - range.start {
-            1 => leaf(range.start),
-            n => {
-                let middle = range.start + n.next_power_of_two() / 2;
-                let (mut left, right) =
-                    rayon::join(|| self.tree(leaf, range.start..middle), || self.tree(leaf, middle..range.end));
-                left.merge(&right);
-                left
-            }
-        }
-    }
-
-    fn block(&self, points: &BasePoints, replicate: u64, block: u64) -> Totals {
-        let first = (block * BLOCK).max(self.range.start);
-        let rows = ((block + 1) * BLOCK).min(self.range.end) - first;
-        if self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-            let (done, total) = (self.done.load(Ordering::Relaxed), self.total);
-            self.end(RunError::Interrupted { done, total });
-        }
-        if self.given_up.load(Ordering::Relaxed) {
-            return Totals::none(self.job.model);
-        }
-        // A thread that panicked holding the lock has ended the run already; its scratch space is as good as any.
-        let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
-        let taken = idle().pop();
-        let mut scratch = taken.unwrap_or_else(|| Scratch::new(self.job));
-        let sample = (SAMPLE / self.job.design.settings().replicates).max(1);
-        let place = BlockPlace {
-            first: Place { replicate, point: first, run: 0 },
-            part_length: part_length(block, BLOCK),
-            sampled: sample.saturating_sub(first) as usize,
-            keeps_outputs: self.keeps_outputs,
-        };
-        let recalled = self.store.is_some_and(|store| scratch.recall(store, place, rows as usize));
-        if !recalled {
-            points.fill(first, scratch.unit_columns(rows as usize));
-            if let Some(reason) = scratch.run_rows(self.job, &|runs, failed| self.report(runs, failed)) {
-                self.end(RunError::GaveUp { reason });
-                return Totals::none(self.job.model);
-            }
-        }
-        let totals = scratch.totals(self.job, place);
-        idle().push(scratch);
-        if self.failures == FailurePolicy::Fail {
-            self.note_failure(&totals);
-        }
-        totals
-    }
-
-    /// The run ends, by the first reason given.
-    fn end(&self, error: RunError) {
-        self.given_up.store(true, Ordering::Relaxed);
-        self.end.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
-    }
-
-    fn note_failure(&self, totals: &Totals) {
-        let failures = totals.outputs.iter().flat_map(|output| &output.failures);
-        let Some((reason, tally)) = failures.min_by_key(|(_, tally)| tally.first) else { return };
-        self.given_up.store(true, Ordering::Relaxed);
-        let mut noted = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
-        if noted.as_ref().is_none_or(|(place, _)| tally.first < *place) {
-            *noted = Some((tally.first, reason.clone()));
-        }
-    }
-
-    fn report(&self, runs: u64, failed: u64) {
-        let done = self.done.fetch_add(runs, Ordering::Relaxed) + runs;
-        let failed = self.failed.fetch_add(failed, Ordering::Relaxed) + failed;
-        (self.on_progress)(Progress { done, recalled: 0, total: self.total, failed, elapsed: self.start.elapsed() });
     }
 }

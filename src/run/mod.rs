@@ -7,41 +7,43 @@
 //!
 //! A run may keep the outputs of its rows in a [`Store`]: what is there already, from an interrupted run, another machine
 //! or a file, is not evaluated again, and what is not is evaluated in pieces of any size. The totals are then folded from
-//! the store, to the same bits.
+//! the store, to the same bits. Without a store the open branches of the tree are recorded from time to time, which is
+//! all that it takes to go on.
 
-mod block;
-mod crew;
+mod blocks;
+mod each;
 mod error;
-mod fill;
+mod executor;
+mod fold;
 mod growing;
-mod held;
 pub mod journal;
+mod pilot;
 mod rows;
 mod shard;
 mod store;
+mod table;
 mod totals;
 
 use std::time::Duration;
 
-pub(crate) use crew::Crew;
-pub use crew::Halt;
+pub use each::run_each;
 pub use error::RunError;
+pub(crate) use executor::Executor;
+pub use fold::Sums;
 pub use growing::GrowingRun;
+pub use pilot::Pilot;
 pub use rows::RowValues;
 pub use shard::{Shard, ShardError};
 pub use store::{Piece, Store};
+pub use table::Halt;
 pub use totals::{OutputTotals, Place, SAMPLE, Tally, Totals};
 
 use crate::design::Design;
-use crate::model::Model;
+use crate::model::{Model, RunContext};
 use crate::space::Space;
 
 /// Base points in a block: their columns stay in the cache, and a block takes long enough to be worth a task.
 pub const BLOCK: u64 = 256;
-
-/// Time that a piece of rows should take: short enough to lose little, and to share out evenly; long enough to be worth a
-/// record.
-const PIECE_SECONDS: f64 = 0.2;
 
 /// What is run: every row of `design`, as points of `space`, through `model`.
 #[derive(Clone, Copy)]
@@ -74,7 +76,7 @@ pub const MOST_KEPT: u64 = 8 << 30;
 
 /// Runs the whole job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
 ///
-/// `on_progress` is called whenever a block has gone through one kind of row, from the thread that did it. The result
+/// `on_progress` is called from time to time, from any of the threads. The result
 /// does not depend on the number of threads, in any bit.
 ///
 /// # Panics
@@ -83,14 +85,15 @@ pub const MOST_KEPT: u64 = 8 << 30;
 /// # Errors
 /// [`RunError::Threads`] if the threads cannot be started. Rows that fail are part of the totals, not errors.
 pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<Vec<Totals>, RunError> {
-    let mut run = GrowingRun::new(job, threads)?;
+    let context = RunContext::default();
+    let mut run = GrowingRun::new(job, &context, threads)?;
     run.grow_to(job.design.points_per_replicate(), on_progress)?;
     Ok(run.into_totals())
 }
 
-/// What is told of every piece of outputs that a run evaluates, from the thread that did it, before the piece counts as
-/// done; an error ends the run.
-pub type Keep<'a> = &'a (dyn Fn(&Piece) -> std::io::Result<()> + Sync);
+/// Takes every piece of outputs that a run evaluates, from the thread that did it, before the piece counts as done; an
+/// error ends the run.
+pub type PieceSink<'a> = &'a (dyn Fn(&Piece) -> std::io::Result<()> + Sync);
 
 /// Number of threads that a run uses when asked for `threads`.
 pub fn threads_in_force(threads: usize) -> usize {

@@ -1,37 +1,146 @@
-//! Single rows of a design, in any number, through a worker.
+//! Rows of a design as a task: those that a store lacks, through the workers into the store.
 
+use std::collections::VecDeque;
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
-use super::Job;
+use super::executor::{Evaluated, Finished, Task};
+use super::store::{Piece, Store};
+use super::{FailurePolicy, Job, PieceSink, Place, RunError};
 use crate::design::{BasePoints, Matrix};
-use crate::model::{Batch, Standing, Worker};
+use crate::model::{Batch, RowFailure, Worker};
 
-/// What a thread needs to evaluate any rows.
-pub(super) struct RowRunner<'a> {
-    worker: Box<dyn Worker + 'a>,
-    batch: Batch,
-    rows: RowValues,
+/// The rows of some replicates that a store lacks.
+pub(super) struct MissingRows<'a> {
+    job: Job<'a>,
+    store: &'a Store,
+    /// Takes every piece before the store does.
+    sink: Option<PieceSink<'a>>,
+    failures: FailurePolicy,
+    waiting: Mutex<Waiting>,
 }
 
-impl<'a> RowRunner<'a> {
-    pub fn new(job: Job<'a>) -> Self {
-        Self { worker: job.model.worker(), batch: Batch::of(job.model), rows: RowValues::default() }
+struct Waiting {
+    /// As (replicate, rows), in the order in which they are run.
+    ranges: VecDeque<(u64, Range<u64>)>,
+    rows: u64,
+}
+
+/// How many of some rows are known, and how many of these have failed.
+pub(super) struct Known {
+    pub total: u64,
+    pub rows: u64,
+    pub failed: u64,
+}
+
+impl<'a> MissingRows<'a> {
+    /// Those of `rows` (replicate, and rows counted within it) that `store` lacks; and what it knows.
+    pub fn new(
+        job: Job<'a>,
+        rows: &[(u64, Range<u64>)],
+        store: &'a Store,
+        sink: Option<PieceSink<'a>>,
+        failures: FailurePolicy,
+    ) -> (Self, Known) {
+        let mut known = Known { total: 0, rows: 0, failed: 0 };
+        let mut ranges = VecDeque::new();
+        for (replicate, rows) in rows {
+            let (present, failed) = store.count(*replicate, rows.clone());
+            known.total += rows.end - rows.start;
+            known.rows += present;
+            known.failed += failed;
+            ranges.extend(store.missing(*replicate, rows.clone()).into_iter().map(|range| (*replicate, range)));
+        }
+        let waiting = Mutex::new(Waiting { ranges, rows: known.total - known.rows });
+        (Self { job, store, sink, failures, waiting }, known)
+    }
+}
+
+impl Task for MissingRows<'_> {
+    type Piece = (u64, Range<u64>);
+    type Output = Vec<Piece>;
+    type Scratch = (RowValues, Batch);
+
+    fn scratch(&self) -> Self::Scratch {
+        (RowValues::default(), Batch::new(self.job.model))
     }
 
-    /// The settled outputs of rows `rows` of `replicate`, counted within the replicate, and whether they stand.
-    pub fn run(&mut self, job: Job<'_>, replicate: u64, rows: Range<u64>) -> (&Batch, Standing) {
-        let inputs = self.rows.values(job, replicate, rows.clone());
-        let inputs: Vec<&[f64]> = inputs.iter().map(Vec::as_slice).collect();
-        self.batch.reset((rows.end - rows.start) as usize);
-        let standing = self.worker.run_ahead(&inputs, &mut self.batch);
-        self.batch.settle();
-        (&self.batch, standing)
+    /// `most` rows, or fewer so that all workers have some to the end.
+    fn next(&self, most: u64, workers: usize) -> Option<Self::Piece> {
+        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        let share = (waiting.rows / (2 * workers as u64)).max(1);
+        let (replicate, rows) = waiting.ranges.front_mut()?;
+        let taken = rows.start..rows.end.min(rows.start + most.min(share));
+        rows.start = taken.end;
+        let replicate = *replicate;
+        if rows.is_empty() {
+            waiting.ranges.pop_front();
+        }
+        waiting.rows -= taken.end - taken.start;
+        Some((replicate, taken))
     }
 
-    /// Decides on the rows that are pending.
-    pub fn confirm(&mut self) -> Standing {
-        self.worker.confirm()
+    fn rows(&self, (_, rows): &Self::Piece) -> u64 {
+        rows.end - rows.start
     }
+
+    fn evaluate(
+        &self,
+        worker: &mut dyn Worker,
+        (values, batch): &mut Self::Scratch,
+        (replicate, rows): &Self::Piece,
+        _: &dyn Fn(u64),
+    ) -> Evaluated<Vec<Piece>> {
+        let inputs: Vec<&[f64]> = values.values(self.job, *replicate, rows.clone()).iter().map(Vec::as_slice).collect();
+        batch.reset((rows.end - rows.start) as usize);
+        let standing = worker.run_ahead(&inputs, batch);
+        batch.settle();
+        let given_up = batch.given_up().cloned();
+        let piece = Piece::from_batch(*replicate, rows.start, batch);
+        let is_urgent = self.failures == FailurePolicy::Fail && !piece.failures.is_empty();
+        let output = Some(answered(piece, given_up.as_ref(), self.store.outputs()));
+        Evaluated { output, standing, given_up, is_urgent }
+    }
+
+    fn accept(&self, _: &Self::Piece, pieces: Vec<Piece>) -> Result<Finished, RunError> {
+        let mut finished = Finished { rows: 0, failed: 0 };
+        for piece in &pieces {
+            self.sink.map_or(Ok(()), |sink| sink(piece)).map_err(|source| RunError::NotKept { source })?;
+            self.store.insert(piece);
+            let mut failed: Vec<u32> = piece.failures.iter().map(|(row, ..)| *row).collect();
+            failed.dedup();
+            finished.rows += piece.rows(self.store.outputs());
+            finished.failed += failed.len() as u64;
+            if let (FailurePolicy::Fail, Some((row, _, reason))) = (self.failures, piece.failures.first()) {
+                let (row, per_point) = (piece.first + u64::from(*row), self.job.design.rows_per_point());
+                let row = Place { replicate: piece.replicate, point: row / per_point, run: row % per_point };
+                return Err(RunError::RowFailed { row, reason: reason.clone() });
+            }
+        }
+        Ok(finished)
+    }
+}
+
+/// The rows of a piece that were answered: all, unless the model has given up for `reason`.
+fn answered(piece: Piece, reason: Option<&RowFailure>, outputs: usize) -> Vec<Piece> {
+    let Some(reason) = reason else { return vec![piece] };
+    let open: Vec<u32> = piece.failures.iter().filter(|(.., why)| why == reason).map(|(row, ..)| *row).collect();
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut counted = Some((piece.flags, piece.counts));
+    for row in (0..piece.values.len() / outputs.max(1)).filter(|row| !open.contains(&(*row as u32))) {
+        let at = piece.first + row as u64;
+        if pieces.last().is_none_or(|last| last.first + last.rows(outputs) != at) {
+            let (flags, counts) = counted.take().unwrap_or_default();
+            let (replicate, first) = (piece.replicate, at);
+            pieces.push(Piece { replicate, first, flags, counts, ..Piece::default() });
+        }
+        let Some(last) = pieces.last_mut() else { continue };
+        let here = last.rows(outputs) as u32;
+        last.values.extend_from_slice(&piece.values[row * outputs..][..outputs]);
+        let of_row = piece.failures.iter().filter(|(failed, ..)| *failed == row as u32);
+        last.failures.extend(of_row.map(|(_, output, why)| (here, *output, why.clone())));
+    }
+    pieces
 }
 
 /// Makes the values of any rows of a design.
@@ -85,3 +194,6 @@ impl RowValues {
         &self.inputs
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::BLOCK;
 use crate::design::Design;
-use crate::model::{Batch, Effort, Model, RowFailure};
+use crate::model::{Batch, Counts, Model, RowFailure};
 
 /// Outputs of consecutive rows of one replicate. Rows are counted within the replicate, base point by base point
 /// (row = point * [`Design::rows_per_point`] + run), so that their numbers stay the same when the design is made longer.
@@ -23,13 +23,13 @@ pub struct Piece {
     pub failures: Vec<(u32, u32, RowFailure)>,
     /// How many of the rows raised each validity flag of the model.
     pub flags: Vec<u64>,
-    /// What a model with a ladder of fidelities spent on them.
-    pub effort: Effort,
+    /// What the model counted over them.
+    pub counts: Counts,
 }
 
 impl Piece {
     /// The rows of a settled batch, from row `first` of `replicate` on.
-    pub fn of_batch(replicate: u64, first: u64, batch: &Batch) -> Self {
+    pub fn from_batch(replicate: u64, first: u64, batch: &Batch) -> Self {
         let outputs = batch.outputs();
         let mut values = vec![f64::NAN; batch.rows() * outputs];
         for output in 0..outputs {
@@ -43,8 +43,13 @@ impl Piece {
         for (row, output, _) in &failures {
             values[*row as usize * outputs + *output as usize] = f64::NAN;
         }
-        let (flags, effort) = (batch.flags().to_vec(), batch.effort().clone());
-        Self { replicate, first, values, failures, flags, effort }
+        let (flags, counts) = (batch.flags().to_vec(), batch.counts().clone());
+        Self { replicate, first, values, failures, flags, counts }
+    }
+
+    /// Whether flags were raised or anything counted over its rows: such a piece cannot be divided.
+    pub(crate) fn is_counted(&self) -> bool {
+        self.flags.iter().any(|raised| *raised > 0) || !self.counts.is_zero()
     }
 
     /// Number of rows, of `outputs` outputs each.
@@ -53,8 +58,8 @@ impl Piece {
     }
 }
 
-/// The outputs that are there, of a design that may still grow. Shared between threads. [`analyse_with`](crate::analyse_with)
-/// evaluates what is missing; `examples/interrupted.rs` fills one from a [`journal`](super::journal).
+/// The outputs that are there, of a design that may still grow. Shared between threads. A run
+/// with a [store](crate::Runner::store) evaluates what is missing.
 #[derive(Debug)]
 pub struct Store {
     outputs: usize,
@@ -69,8 +74,8 @@ struct Chunk {
     values: Vec<f64>,
     present: Vec<bool>,
     failures: BTreeMap<(u32, u32), RowFailure>,
-    /// Flags and effort of every piece, by its first row.
-    counts: Vec<(u32, Vec<u64>, Effort)>,
+    /// Flags and counts of every piece, by its first row.
+    counts: Vec<(u32, Vec<u64>, Counts)>,
 }
 
 impl Store {
@@ -98,8 +103,8 @@ impl Store {
     pub fn insert(&self, piece: &Piece) -> u64 {
         let rows = piece.rows(self.outputs);
         let mut new = 0;
-        let mut counts = Some((&piece.flags, &piece.effort));
-        let counted = piece.flags.iter().any(|raised| *raised > 0) || !piece.effort.is_none();
+        let mut counts = Some((&piece.flags, &piece.counts));
+        let is_counted = piece.is_counted();
         let mut chunks = self.chunks();
         for (block, range) in self.by_block(piece.first..piece.first + rows) {
             let length = self.chunk_rows() as usize;
@@ -117,8 +122,8 @@ impl Store {
             for (row, output, why) in piece.failures.iter().filter(|(row, ..)| here(*row)) {
                 chunk.failures.insert(((*row as usize - from + at) as u32, *output), why.clone());
             }
-            if let Some((flags, effort)) = counts.take().filter(|_| counted) {
-                chunk.counts.push((at as u32, flags.clone(), effort.clone()));
+            if let Some((flags, counts)) = counts.take().filter(|_| is_counted) {
+                chunk.counts.push((at as u32, flags.clone(), counts.clone()));
             }
         }
         new
@@ -183,7 +188,7 @@ impl Store {
         forgotten
     }
 
-    /// The rows `rows` of `replicate` as one piece; `None` if one of them is missing. Flags and effort are those of the
+    /// The rows `rows` of `replicate` as one piece; `None` if one of them is missing. Flags and counts are those of the
     /// pieces that began among them.
     pub fn piece(&self, replicate: u64, rows: Range<u64>) -> Option<Piece> {
         let chunks = self.chunks();
@@ -199,12 +204,12 @@ impl Store {
             for ((row, output), why) in chunk.failures_among(here.clone()) {
                 piece.failures.push(((start + u64::from(row) - rows.start) as u32, output, why.clone()));
             }
-            for (flags, effort) in chunk.counts_among(here) {
+            for (flags, counts) in chunk.counts_among(here) {
                 if piece.flags.is_empty() {
-                    (piece.flags, piece.effort) = (flags.clone(), effort.clone());
+                    (piece.flags, piece.counts) = (flags.clone(), counts.clone());
                 } else {
                     piece.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
-                    piece.effort.merge(effort);
+                    piece.counts.merge(counts);
                 }
             }
         }
@@ -255,8 +260,8 @@ impl Store {
             batches[row % runs].fail(row / runs, output as usize, why.clone());
         }
         // Counts are summed over all runs of a block: any batch may hold them.
-        for (flags, effort) in chunk.counts_among(here) {
-            batches[0].add_counts(flags, effort);
+        for (flags, counts) in chunk.counts_among(here) {
+            batches[0].add_counts(flags, counts);
         }
         batches.iter_mut().for_each(Batch::settle);
         true
@@ -278,9 +283,9 @@ impl Chunk {
         self.failures_among(rows).filter(|((row, _), _)| last.replace(*row) != Some(*row)).count() as u64
     }
 
-    fn counts_among(&self, rows: Range<usize>) -> impl Iterator<Item = (&Vec<u64>, &Effort)> {
+    fn counts_among(&self, rows: Range<usize>) -> impl Iterator<Item = (&Vec<u64>, &Counts)> {
         let here = move |first: u32| rows.contains(&(first as usize));
-        self.counts.iter().filter(move |(first, ..)| here(*first)).map(|(_, flags, effort)| (flags, effort))
+        self.counts.iter().filter(move |(first, ..)| here(*first)).map(|(_, flags, counts)| (flags, counts))
     }
 }
 

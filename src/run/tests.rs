@@ -24,7 +24,7 @@ impl Model for Sum {
         &self.outputs
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         Box::new(SumWorker { fails: self.fails })
     }
 }
@@ -75,7 +75,8 @@ fn a_run_that_grows_ends_in_the_bits_of_a_run_that_began_long_and_runs_no_row_tw
         let design = design(sampler, 2 << 15, 2);
         let model = Sum::new(true);
         let space = space();
-        let mut growing = GrowingRun::new(Job { design: &design, space: &space, model: &model }, 2).unwrap();
+        let context = RunContext::default();
+        let mut growing = GrowingRun::new(Job { design: &design, space: &space, model: &model }, &context, 2).unwrap();
         let rows = AtomicU64::new(0);
         let count = |progress: Progress| {
             rows.fetch_max(progress.done, Ordering::Relaxed);
@@ -100,7 +101,8 @@ fn a_run_can_be_given_up_at_the_first_failure() {
     let model = Sum::new(true);
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
-    let mut run = GrowingRun::new(job, 2).unwrap().with_failures(FailurePolicy::Fail);
+    let context = RunContext::default();
+    let mut run = GrowingRun::new(job, &context, 2).unwrap().with_failures(FailurePolicy::Fail);
     let failed = run.grow_to(1 << 15, &|_| ()).unwrap_err();
     let RunError::RowFailed { row, reason } = failed else { panic!("{failed}") };
     assert_eq!(reason, RowFailure::not_finite());
@@ -165,7 +167,7 @@ impl Model for Of {
         &self.1
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         Box::new(OfWorker { model: self, rows: 0 })
     }
 }
@@ -281,7 +283,8 @@ fn outputs_are_kept_in_order_when_asked_for_and_refused_when_too_many() {
     let kept = |threads| {
         let design = design(Sampler::Random, 1000, 2);
         let job = Job { design: &design, space: &space, model: &model };
-        let mut run = GrowingRun::new(job, threads).unwrap().with_outputs_kept(true);
+        let context = RunContext::default();
+        let mut run = GrowingRun::new(job, &context, threads).unwrap().with_outputs_kept(true);
         run.grow_to(300, &|_| ()).unwrap();
         run.grow_to(500, &|_| ()).unwrap();
         run.totals().iter().map(|totals| totals.outputs[0].clone()).collect::<Vec<_>>()
@@ -300,7 +303,8 @@ fn outputs_are_kept_in_order_when_asked_for_and_refused_when_too_many() {
     // 4 runs of 8 bytes per base point: 2^28 of them take 8 GiB.
     let long = design(Sampler::Random, 1 << 29, 1);
     let job = Job { design: &long, space: &space, model: &model };
-    let run = GrowingRun::new(job, 1).unwrap();
+    let context = RunContext::default();
+    let run = GrowingRun::new(job, &context, 1).unwrap();
     assert!(run.room_for(1 << 29).is_ok());
     let mut run = run.with_outputs_kept(true);
     assert!(run.room_for(1 << 28).is_ok());

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use crate::binary::{Binary, Reader, binary_fields};
 use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs};
-use crate::model::{Effort, Model, RowFailure};
+use crate::model::{Counts, Model, RowFailure};
 
 /// Where a row stands in a design, however many base points that has. Places are ordered as rows are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -79,8 +80,35 @@ pub struct Totals {
     pub outputs: Vec<OutputTotals>,
     /// How many rows raised each validity flag of the model.
     pub flags: Vec<u64>,
-    /// What a model with a ladder of fidelities spent.
-    pub effort: Effort,
+    /// What the model counted.
+    pub counts: Counts,
+}
+
+binary_fields!(Totals { runs, failed_runs, outputs, flags, counts });
+binary_fields!(Tally { count, first });
+binary_fields!(Place { replicate, point, run });
+
+/// Outputs that are kept are no part of the bytes: sums are written where none are.
+impl Binary for OutputTotals {
+    fn write(&self, out: &mut Vec<u8>) {
+        let Self { moments, values, sample, kept: _, runs_failed, failures } = self;
+        moments.write(out);
+        values.write(out);
+        sample.write(out);
+        runs_failed.write(out);
+        failures.write(out);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        Some(Self {
+            moments: MomentParts::read(from)?,
+            values: CentralMoments::read(from)?,
+            sample: Vec::read(from)?,
+            kept: PointOutputs::default(),
+            runs_failed: u64::read(from)?,
+            failures: BTreeMap::read(from)?,
+        })
+    }
 }
 
 impl Totals {
@@ -91,8 +119,25 @@ impl Totals {
             failed_runs: 0,
             outputs: vec![OutputTotals::default(); model.outputs().len()],
             flags: vec![0; model.flags().len()],
-            effort: Effort::none(model.rungs().len()),
+            counts: Counts::new(model.counters()),
         }
+    }
+
+    /// The first row that failed, and why.
+    pub(super) fn first_failure(&self) -> Option<(Place, RowFailure)> {
+        let failures = self.outputs.iter().flat_map(|output| &output.failures);
+        let (reason, tally) = failures.min_by_key(|(_, tally)| tally.first)?;
+        Some((tally.first, reason.clone()))
+    }
+
+    /// Whether they may be totals of rows of `design` through `model`.
+    pub(crate) fn fits(&self, design: &Design, model: &dyn Model) -> bool {
+        let none = Self::none(model);
+        let fits = |output: &OutputTotals| output.moments.parts().iter().all(|part| part.fits(design));
+        self.outputs.len() == none.outputs.len()
+            && self.flags.len() == none.flags.len()
+            && self.counts.is_like(&none.counts)
+            && self.outputs.iter().all(fits)
     }
 
     /// Adds the rows that follow in the same replicate.
@@ -110,7 +155,7 @@ impl Totals {
     pub fn add_counts(&mut self, other: &Self) {
         self.runs += other.runs;
         self.failed_runs += other.failed_runs;
-        self.effort.merge(&other.effort);
+        self.counts.merge(&other.counts);
         for (mine, theirs) in self.flags.iter_mut().zip(&other.flags) {
             *mine += theirs;
         }

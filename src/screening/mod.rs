@@ -27,9 +27,7 @@ pub use settings::{
     MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningSettings,
 };
 
-use std::sync::atomic::AtomicBool;
-
-use crate::model::{Model, Output, RowFailure};
+use crate::model::{Model, Output, RowFailure, RunContext};
 use crate::run::Progress;
 use crate::space::Space;
 use points::Trajectories;
@@ -128,23 +126,24 @@ pub fn screen(
     threads: usize,
     on_progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Screening, ScreeningError> {
-    screen_until(job, threads, on_progress, None)
+    screen_in(job, threads, on_progress, &RunContext::default())
 }
 
-/// The same, ended when `stop` is set.
+/// The same as the run of `context`, which may end it.
 ///
 /// # Errors
-/// As for [`screen`], and [`RunError::Interrupted`](crate::run::RunError::Interrupted) if `stop` is set before the end.
-pub fn screen_until(
+/// As for [`screen`], and [`RunError::Interrupted`](crate::run::RunError::Interrupted) if the run is to end.
+pub fn screen_in(
     job: ScreeningJob<'_>,
     threads: usize,
     on_progress: &(dyn Fn(Progress) + Sync),
-    stop: Option<&AtomicBool>,
+    context: &RunContext<'_>,
 ) -> Result<Screening, ScreeningError> {
     let factors = job.space.factors();
     let (settings, parts) = job.settings.in_force(factors.len())?;
     let points = Trajectories::new(job.space, &settings, parts)?;
-    let outcome = run::run(job, (&points, settings.trajectories), (threads, stop), on_progress)?;
+    let outcome = run::run(job, (&points, settings.trajectories), (threads, context), on_progress)?;
+    context.messages().finish();
     let failures = |number: usize| {
         let of_output = outcome.failures.iter().filter(|((output, _), _)| *output == number);
         let in_units = |first: &[f64]| first.iter().zip(factors).map(|(x, factor)| factor.unit().from_si(*x)).collect();

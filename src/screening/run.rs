@@ -1,15 +1,12 @@
-//! Trajectories through a model: blocks of them on a thread pool, each to its elementary effects.
+//! Trajectories through a model: blocks of them through its workers, each to its elementary effects.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
-
-use rayon::prelude::*;
 
 use super::points::{Move, Trajectories};
 use super::{ScreeningError, ScreeningJob};
-use crate::model::{Batch, RowFailure};
-use crate::run::{Crew, Halt, Progress, RunError, threads_in_force};
+use crate::model::{Batch, RowFailure, RunContext};
+use crate::run::{Executor, Halt, Progress, RunError};
 use crate::space::Factor;
 
 /// What became of some trajectories.
@@ -27,74 +24,52 @@ pub(super) struct Outcome {
     pub flags: Vec<u64>,
 }
 
-/// Runs `trajectories` of them on as many threads as are asked for (0: one per core), until `stop` is set. The outcome does not depend on the number of
-/// threads, in any bit.
+/// Runs `trajectories` of them in the run of `context` on at most so many threads (0: one per core). The outcome does not
+/// depend on the number of threads, in any bit.
 pub(super) fn run(
     job: ScreeningJob<'_>,
     (points, trajectories): (&Trajectories, u64),
-    (asked, stop): (usize, Option<&AtomicBool>),
+    (threads, context): (usize, &RunContext<'_>),
     on_progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Outcome, ScreeningError> {
-    let threads = threads_in_force(asked);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|source| RunError::Threads { threads, source })?;
+    let executor = Executor::new(job.model, context, threads);
     let rows = job.space.factors().len() + 1;
     // Whole trajectories, and one at least.
-    let block = (Crew::rows_at_once(job.model) / rows).max(1) as u64;
+    let block = (executor.rows_at_once() / rows).max(1) as u64;
     let start = Instant::now();
     let total = trajectories * rows as u64;
-    let (done, failed) = (AtomicU64::new(0), AtomicU64::new(0));
-    let one = |bench: &mut Bench<'_>, number: u64| {
-        let first = number * block;
+    let columns = vec![Vec::new(); job.space.factors().len()];
+    let mut bench = Bench { executor, batch: Batch::new(job.model), columns, rows };
+    let mut whole = Outcome::new(job);
+    for first in (0..trajectories).step_by(block as usize) {
         let last = (first + block).min(trajectories);
-        let outcome = bench.block(job, points, first..last)?;
-        let runs = (last - first) * rows as u64;
-        let done = done.fetch_add(runs, Ordering::Relaxed) + runs;
-        let failed = failed.fetch_add(outcome.failed, Ordering::Relaxed) + outcome.failed;
-        on_progress(Progress { done, recalled: 0, total, failed, elapsed: start.elapsed() });
-        Ok(outcome)
-    };
-    let blocks = trajectories.div_ceil(block);
-    let outcomes: Result<Vec<Outcome>, Halt> = if job.model.concurrency().is_some() {
-        // Its workers share out the rows of every block among them.
-        let mut bench = Bench::new(job, rows, stop);
-        bench.crew = bench.crew.at_most(asked);
-        (0..blocks).map(|number| one(&mut bench, number)).collect()
-    } else {
-        pool.install(|| (0..blocks).into_par_iter().map_init(|| Bench::new(job, rows, stop), one).collect())
-    };
-    let outcomes = outcomes.map_err(|halt| match halt {
-        Halt::GaveUp(reason) => RunError::GaveUp { reason },
-        Halt::Interrupted => RunError::Interrupted { done: done.load(Ordering::Relaxed), total },
-    })?;
-    let mut whole = Outcome::of(job);
-    outcomes.into_iter().for_each(|outcome| whole.append(outcome));
+        let outcome = bench.block(job, points, first..last).map_err(|halt| match halt {
+            Halt::GaveUp(reason) => RunError::GaveUp { reason },
+            Halt::Interrupted => RunError::Interrupted { done: first * rows as u64, total },
+        })?;
+        whole.append(outcome);
+        let done = last * rows as u64;
+        on_progress(Progress { done, recalled: 0, total, failed: whole.failed, elapsed: start.elapsed() });
+    }
     Ok(whole)
 }
 
-/// What a thread needs to evaluate blocks.
+/// What it takes to evaluate blocks.
 struct Bench<'a> {
-    crew: Crew<'a>,
+    executor: Executor<'a>,
     batch: Batch,
     columns: Vec<Vec<f64>>,
     rows: usize,
 }
 
-impl<'a> Bench<'a> {
-    fn new(job: ScreeningJob<'a>, rows: usize, stop: Option<&'a AtomicBool>) -> Self {
-        let columns = vec![Vec::new(); job.space.factors().len()];
-        Self { crew: Crew::new(job.model, stop), batch: Batch::of(job.model), columns, rows }
-    }
-
+impl Bench<'_> {
     fn block(
         &mut self,
         job: ScreeningJob<'_>,
         points: &Trajectories,
         numbers: std::ops::Range<u64>,
     ) -> Result<Outcome, Halt> {
-        let mut outcome = Outcome::of(job);
+        let mut outcome = Outcome::new(job);
         let moves: Vec<Vec<Move>> = numbers.map(|number| points.moves(number)).collect();
         let rows = self.rows * moves.len();
         for (j, (column, factor)) in self.columns.iter_mut().zip(job.space.factors()).enumerate() {
@@ -107,7 +82,7 @@ impl<'a> Bench<'a> {
         }
         self.batch.reset(rows);
         let inputs: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
-        self.crew.run(&inputs, &mut self.batch)?;
+        self.executor.run_table(&inputs, &mut self.batch)?;
         for (output, effects) in outcome.effects.iter_mut().enumerate() {
             let values = self.batch.column(output).chunks_exact(self.rows);
             for (moves, values) in moves.iter().zip(values) {
@@ -141,7 +116,7 @@ fn effect(Move { step, rows: [before, after], .. }: &Move, values: &[f64]) -> f6
 }
 
 impl Outcome {
-    fn of(job: ScreeningJob<'_>) -> Self {
+    fn new(job: ScreeningJob<'_>) -> Self {
         Self {
             effects: vec![Vec::new(); job.model.outputs().len()],
             idle: vec![0; job.space.factors().len()],

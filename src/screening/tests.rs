@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::points::Trajectories;
 use super::*;
 use crate::design::Sampler;
-use crate::model::{Batch, Worker};
+use crate::model::{Batch, RunContext, Worker};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor};
 
@@ -24,7 +24,7 @@ impl<F: Fn(&[f64]) -> Option<f64> + Send + Sync> Model for Function<F> {
         &self.outputs
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         Box::new(Calls(&self.f))
     }
 }

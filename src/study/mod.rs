@@ -65,14 +65,14 @@ impl Study {
     /// ```
     /// use apportion::model::function_model;
     /// use apportion::space::Distribution;
-    /// use apportion::{analyse, study::Study};
+    /// use apportion::study::Study;
     ///
     /// let study = Study::builder("product", function_model("y", |x| x[0] * x[1]))
     ///     .factor("a", Distribution::uniform(1.0, 2.0)?)
     ///     .factor("b", Distribution::uniform(1.0, 5.0)?)
     ///     .base_samples(1024)
     ///     .build()?;
-    /// let analysis = analyse(&study, 0, &|_| ())?;
+    /// let analysis = study.run()?;
     /// let a = analysis.output("y")?.factor("a")?;
     /// // With c^2 = variance / mean^2 (1/27 and 4/27): S_a = c_a^2 / ((1 + c_a^2) (1 + c_b^2) - 1).
     /// assert!((a.first_order.estimate - 27.0 / 139.0).abs() < 0.002);

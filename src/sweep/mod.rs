@@ -13,9 +13,7 @@ mod tests;
 pub use local::{LocalSensitivity, NoDerivative};
 pub use request::{FactorValues, MAX_POINTS, SweepError, SweepRequest, TAIL, find, is_logarithmic};
 
-use std::sync::atomic::AtomicBool;
-
-use crate::model::{Model, RowFailure};
+use crate::model::{Model, RowFailure, RunContext};
 use crate::run::Halt;
 use crate::space::Space;
 use rows::Bench;
@@ -111,29 +109,30 @@ pub struct Extent {
 /// # Panics
 /// If a factor's number is not one of the space.
 pub fn sweep(space: &Space, model: &dyn Model, request: &SweepRequest) -> Result<Sweeps, SweepError> {
-    sweep_until(space, model, request, None)
+    sweep_in(space, model, request, &RunContext::default())
 }
 
-/// The same, ended when `stop` is set.
+/// The same as the run of `context`, which may end it.
 ///
 /// # Errors
-/// As for [`sweep`], and [`Halt::Interrupted`] if `stop` is set before the end.
+/// As for [`sweep`], and [`Halt::Interrupted`] if the run is to end.
 ///
 /// # Panics
 /// As for [`sweep`].
-pub fn sweep_until(
+pub fn sweep_in(
     space: &Space,
     model: &dyn Model,
     request: &SweepRequest,
-    stop: Option<&AtomicBool>,
+    context: &RunContext<'_>,
 ) -> Result<Sweeps, SweepError> {
     request.check(space)?;
-    let mut bench = Bench::new(space, model, stop);
+    let mut bench = Bench::new(space, model, context);
     let first = space.factors().first().map_or(f64::NAN, |factor| factor.nominal);
     let nominal: Vec<Result<f64, RowFailure>> =
         bench.curve((0, &[first]), None)?.into_iter().map(CurveOutput::single).collect();
     let sweeps = request.factors.iter().map(|asked| one(&mut bench, (space, asked), (&nominal, request)));
     let sweeps = sweeps.collect::<Result<_, _>>()?;
+    context.messages().finish();
     Ok(Sweeps { nominal, sweeps, runs: bench.runs, flags: bench.flags })
 }
 

@@ -1,17 +1,15 @@
 //! Runs of a model around the nominal point.
 
-use std::sync::atomic::AtomicBool;
-
 use super::CurveOutput;
-use crate::model::{Batch, Model};
-use crate::run::{Crew, Halt};
+use crate::model::{Batch, Model, RunContext};
+use crate::run::{Executor, Halt};
 use crate::space::Space;
 
 /// A model with its factors at their nominal values.
 pub(super) struct Bench<'a> {
     space: &'a Space,
     model: &'a dyn Model,
-    crew: Crew<'a>,
+    executor: Executor<'a>,
     batch: Batch,
     /// Nominal values in SI units.
     nominal: Vec<f64>,
@@ -22,10 +20,11 @@ pub(super) struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    pub fn new(space: &'a Space, model: &'a dyn Model, stop: Option<&'a AtomicBool>) -> Self {
+    pub fn new(space: &'a Space, model: &'a dyn Model, context: &'a RunContext<'a>) -> Self {
         let nominal = space.factors().iter().map(|factor| factor.unit().to_si(factor.nominal)).collect();
         let flags = vec![0; model.flags().len()];
-        Self { space, model, crew: Crew::new(model, stop), batch: Batch::of(model), nominal, runs: 0, flags }
+        let (executor, batch) = (Executor::new(model, context, 0), Batch::new(model));
+        Self { space, model, executor, batch, nominal, runs: 0, flags }
     }
 
     /// For each output: whether its unit has a zero of its own.
@@ -49,13 +48,13 @@ impl<'a> Bench<'a> {
             base[other] = self.space.factors()[other].unit().to_si(value);
         }
         let mut outputs = vec![CurveOutput::default(); self.model.outputs().len()];
-        let most = Crew::rows_at_once(self.model);
+        let most = self.executor.rows_at_once();
         for (block, values) in values.chunks(most).enumerate() {
             let mut columns: Vec<Vec<f64>> = base.iter().map(|value| vec![*value; values.len()]).collect();
             columns[factor] = values.iter().map(|value| unit.to_si(*value)).collect();
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
             self.batch.reset(values.len());
-            self.crew.run(&inputs, &mut self.batch)?;
+            self.executor.run_table(&inputs, &mut self.batch)?;
             self.runs += values.len() as u64;
             for (sum, raised) in self.flags.iter_mut().zip(self.batch.flags()) {
                 *sum += raised;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::model::{Batch, Output, Worker};
+use crate::model::{Batch, Output, RunContext, Worker};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor};
 
@@ -22,7 +22,7 @@ impl Model for Powers {
         &self.outputs
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         Box::new(Row)
     }
 }

@@ -1,6 +1,5 @@
 //! Studies built in code.
 
-use apportion::analyse;
 use apportion::design::Sampler;
 use apportion::estimate::Estimator;
 use apportion::model::{FunctionModel, Output, function_model};
@@ -27,10 +26,10 @@ fn a_built_study_gives_the_bits_of_the_file() {
     let study = Study::builder("ishigami", function_model("y", move |x| known.value(x)));
     let study = ["x1", "x2", "x3"].into_iter().fold(study, |study, name| study.factor(name, angle()));
     let study = study.base_samples(1024).seed(3).build().unwrap();
-    let built = ResultFile::new(&study, &analyse(&study, 2, &|_| ()).unwrap());
+    let built = ResultFile::new(&study, &study.runner().threads(2).run().unwrap());
     let path = std::path::Path::new("ishigami.toml");
     let typed = Study::parse("model = \"ishigami\"\n[design]\nbase_samples = 1024\nseed = 3", path, &[]).unwrap();
-    let typed = ResultFile::new(&typed, &analyse(&typed, 1, &|_| ()).unwrap());
+    let typed = ResultFile::new(&typed, &typed.runner().threads(1).run().unwrap());
     assert_eq!(built.outputs[0].indices, typed.outputs[0].indices);
     assert_eq!((built.study.model.as_str(), built.provenance.study_sha256.len()), ("custom", 64));
     // What is written of it is read back like any result.
@@ -53,7 +52,7 @@ fn factors_reach_the_function_in_si_and_in_order() {
     let study =
         Study::builder("units", model).title("Units").factor_in("a", um, Distribution::uniform(2.0, 4.0).unwrap());
     let study = study.with_factor(share).base_samples(256).build().unwrap();
-    let result = ResultFile::new(&study, &analyse(&study, 1, &|_| ()).unwrap());
+    let result = ResultFile::new(&study, &study.runner().threads(1).run().unwrap());
     let output = &result.outputs[0];
     // Evenly spread points: the mean of 256 is known to 1e-3 of the range.
     assert!((output.mean.unwrap() - 3.0).abs() < 2e-3 && output.unit == "um");
@@ -68,7 +67,7 @@ fn what_the_function_leaves_out_is_a_failed_run() {
         Ok(())
     });
     let study = Study::builder("half", model).factor("x", unit()).base_samples(64).build().unwrap();
-    let result = ResultFile::new(&study, &analyse(&study, 1, &|_| ()).unwrap());
+    let result = ResultFile::new(&study, &study.runner().threads(1).run().unwrap());
     assert_eq!((result.outputs[0].runs_failed, result.outputs[1].runs_ok), (0, 0));
     assert!(result.outputs[1].failures[0].reason.contains("not finite"));
 }
@@ -82,7 +81,7 @@ fn options_ask_for_more() {
         ..AnalysisOptions::for_sampler(Sampler::Sobol)
     };
     let study = sum().factor("a", unit()).factor("b", unit()).base_samples(256).analysis(options).build().unwrap();
-    let output = &ResultFile::new(&study, &analyse(&study, 1, &|_| ()).unwrap()).outputs[0];
+    let output = &ResultFile::new(&study, &study.runner().threads(1).run().unwrap()).outputs[0];
     assert_eq!(output.second_order.as_ref().unwrap().len(), 1);
     assert_eq!(output.subsets.as_ref().unwrap()[0].factors, ["a", "b"]);
     assert!(output.estimators.is_empty());

@@ -71,7 +71,7 @@ pub fn study_path(name: &str) -> PathBuf {
 pub fn analysed(name: &str, overrides: &[&str]) -> ResultFile {
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
     let study = Study::load(&study_path(name), &overrides).unwrap();
-    ResultFile::new(&study, &apportion::analyse(&study, 0, &|_| ()).unwrap())
+    ResultFile::new(&study, &study.run().unwrap())
 }
 
 /// The indices of the first output.

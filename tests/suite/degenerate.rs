@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use apportion::analyse;
 use apportion::report::{OutputRecord, ResultFile};
 use apportion::study::Study;
 
 fn analysed(text: &str) -> ResultFile {
     let study = Study::parse(text, Path::new("degenerate.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &analyse(&study, 0, &|_| ()).unwrap())
+    ResultFile::new(&study, &study.run().unwrap())
 }
 
 fn first_and_total(output: &OutputRecord) -> Vec<(f64, f64)> {

@@ -32,7 +32,7 @@ max = 3.141592653589793
 #[test]
 fn ishigami_by_formula_is_the_built_in_one() {
     let study = Study::parse(ISHIGAMI, Path::new("formula.toml"), &[]).unwrap();
-    let by_formula = ResultFile::new(&study, &apportion::analyse(&study, 0, &|_| ()).unwrap());
+    let by_formula = ResultFile::new(&study, &study.run().unwrap());
     let built_in = analysed("ishigami", &["design.base_samples=4096"]);
     let (first, total) = numbers(&by_formula.outputs[0]);
     let (known_first, known_total) = numbers(&built_in.outputs[0]);

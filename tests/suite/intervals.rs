@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use apportion::analyse;
 use apportion::report::{OutputRecord, ResultFile, indices_chart, run_page, summary};
 use apportion::study::Study;
 
@@ -16,7 +15,7 @@ fn analysed(formula: &str, distribution: &str, design: &str) -> ResultFile {
     let text =
         format!("model = \"expression\"\n[expression]\noutputs.y = \"{formula}\"\n[design]\n{design}\n{factors}");
     let study = Study::parse(&text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &analyse(&study, 0, &|_| ()).unwrap())
+    ResultFile::new(&study, &study.run().unwrap())
 }
 
 fn output(result: &ResultFile) -> &OutputRecord {

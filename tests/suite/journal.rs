@@ -10,10 +10,20 @@ use crate::common::{apportion, stderr, study_path, succeed, text};
 /// Some 1500 runs of a millisecond: long enough to be interrupted, short enough to be run to its end.
 const SLOW: [&str; 4] = ["--set", "afm.fidelity=dynamic", "--base-samples", "256"];
 
+/// Outputs that are saved are put on record too.
 fn slow(out: &Path, more: &[&str]) -> Vec<String> {
     let study = study_path("lugre-environmental");
-    let arguments = ["run", text(&study), "--out", text(out)];
+    std::fs::create_dir_all(out).unwrap();
+    let outputs = out.join("outputs.csv");
+    let arguments = ["run", text(&study), "--out", text(out), "--save-outputs", text(&outputs)];
     [&arguments[..], &SLOW, more].concat().iter().map(ToString::to_string).collect()
+}
+
+/// A run of 393,216 quick rows, whose sums are on record.
+fn quick(out: &Path, more: &[&str]) -> Vec<String> {
+    let study = study_path("coulomb-general");
+    let arguments = ["run", text(&study), "--out", text(out), "--base-samples", "32768"];
+    [&arguments[..], more].concat().iter().map(ToString::to_string).collect()
 }
 
 fn words(arguments: &[String]) -> Vec<&str> {
@@ -147,7 +157,8 @@ fn refused(output: &Output, code: i32, expected: &str) {
 fn a_journal_that_was_cut_short_or_damaged_is_used_as_far_as_it_goes() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, cut) = (folder.path().join("whole"), folder.path().join("cut"));
-    ishigami_runs(&whole, &["--base-samples", "4096"]);
+    let saved = folder.path().join("outputs.csv");
+    ishigami_runs(&whole, &["--base-samples", "4096", "--save-outputs", text(&saved)]);
     let (expected, journal) = (numbers(&whole, "ishigami"), cut.join("ishigami.journal"));
     let bytes = std::fs::read(whole.join("ishigami.journal")).unwrap();
     std::fs::create_dir(&cut).unwrap();
@@ -173,7 +184,7 @@ fn a_journal_that_was_cut_short_or_damaged_is_used_as_far_as_it_goes() {
 fn a_journal_of_another_study_is_refused_with_the_reason_or_moved_aside() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path();
-    let small = ["--base-samples", "256"];
+    let small = ["--base-samples", "1024"];
     refused(&ishigami(out, &["--resume"]), 2, "there is no journal here: nothing is on record to go on with");
     ishigami_runs(out, &small);
     let other = |more: &[&str]| ishigami(out, &[&small[..], more].concat());
@@ -184,7 +195,7 @@ fn a_journal_of_another_study_is_refused_with_the_reason_or_moved_aside() {
     refused(&other(&["--retry-failed", "--set", "analysis.second_order=true"]), 2, "design.rows_per_point was 5");
     // What changes no output is no other study.
     let same = ["--resume", "--set", "analysis.threshold=0.1", "--set", "title=\"Other words\""];
-    assert_eq!(ishigami_runs(out, &[&small[..], &same].concat()), 1280);
+    assert_eq!(ishigami_runs(out, &[&small[..], &same].concat()), 5120);
     // Without --resume the journal makes way.
     let output = other(&["--seed", "9"]);
     assert_eq!((output.status.code(), on_record(&stderr(&output))), (Some(0), 0));
@@ -231,7 +242,8 @@ fn parts_add_to_what_an_interrupted_run_and_other_parts_have_done() {
     let size = ["--base-samples", "4096"];
     ishigami_runs(&whole, &size);
     // A journal that was cut short is that of a run that was interrupted.
-    ishigami_runs(&out, &size);
+    let saved = folder.path().join("outputs.csv");
+    ishigami_runs(&out, &[&size[..], &["--save-outputs", text(&saved)]].concat());
     let journal = out.join("ishigami.journal");
     let bytes = std::fs::read(&journal).unwrap();
     std::fs::write(&journal, &bytes[..bytes.len() / 3]).unwrap();
@@ -291,16 +303,35 @@ fn a_finished_study_goes_on_with_every_run_it_has() {
     let folder = tempfile::tempdir().unwrap();
     let (long, grown) = (folder.path().join("long"), folder.path().join("grown"));
     refused(&ishigami(&grown, &["--double"]), 2, "--double: there is no result to double");
-    assert_eq!(ishigami_runs(&grown, &["--base-samples", "512"]), 0);
-    assert_eq!(ishigami_runs(&grown, &["--double"]), 512 * 5);
+    assert_eq!(ishigami_runs(&grown, &["--base-samples", "1024"]), 0);
     assert_eq!(ishigami_runs(&grown, &["--double"]), 1024 * 5);
-    assert_eq!(ishigami_runs(&grown, &["--base-samples", "4096"]), 2048 * 5);
-    assert_eq!(ishigami_runs(&long, &["--base-samples", "4096"]), 0);
+    assert_eq!(ishigami_runs(&grown, &["--double"]), 2048 * 5);
+    assert_eq!(ishigami_runs(&grown, &["--base-samples", "8192"]), 4096 * 5);
+    assert_eq!(ishigami_runs(&long, &["--base-samples", "8192"]), 0);
     assert!(numbers(&grown, "ishigami") == numbers(&long, "ishigami"));
-    // Fewer points are on record too; and with --restart nothing is.
-    assert_eq!(ishigami_runs(&grown, &["--base-samples", "512"]), 512 * 5);
-    assert_eq!(ishigami_runs(&grown, &["--base-samples", "512", "--restart"]), 0);
-    assert_eq!(ishigami_runs(&grown, &["--base-samples", "512", "--no-journal"]), 0);
+    // Sums cannot be divided: a shorter run leaves them as they are. With --restart nothing is on record.
+    let fewer = ishigami(&grown, &["--base-samples", "1024"]);
+    assert!(stderr(&fewer).contains("the sums of 8192 base samples, which cannot be divided"), "{}", stderr(&fewer));
+    refused(
+        &ishigami(&grown, &["--base-samples", "1024", "--resume"]),
+        2,
+        "ask for as many or more, or leave out --resume",
+    );
+    assert_eq!(ishigami_runs(&grown, &["--base-samples", "8192"]), 8192 * 5);
+    assert_eq!(ishigami_runs(&grown, &["--base-samples", "1024", "--no-journal"]), 0);
+    assert_eq!(ishigami_runs(&grown, &["--base-samples", "1024", "--restart"]), 0);
+    assert_eq!(ishigami_runs(&grown, &["--base-samples", "1024"]), 1024 * 5);
+    // Outputs are not in the sums, but sums are made of outputs.
+    let saved = folder.path().join("outputs.csv");
+    let save = ["--base-samples", "1024", "--save-outputs", text(&saved)];
+    refused(
+        &ishigami(&grown, &[&save[..], &["--resume"]].concat()),
+        2,
+        "holds the sums of the runs, and their outputs are needed",
+    );
+    let anew = ishigami(&grown, &save);
+    assert!(stderr(&anew).contains("their outputs are needed: the journal was moved to "), "{}", stderr(&anew));
+    assert_eq!(ishigami_runs(&grown, &["--double"]), 1024 * 5);
 }
 
 #[test]
@@ -308,18 +339,26 @@ fn failures_that_come_back_leave_the_result_as_it_was() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("holes.toml");
     std::fs::write(&study, "model = \"ishigami-holes\"\n[design]\nbase_samples = 512\n").unwrap();
+    let saved = folder.path().join("outputs.csv");
     let with = |more: &[&str]| {
         let output = apportion(&[&["run", text(&study), "--out", text(folder.path())], more].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         (numbers(folder.path(), "holes"), stderr(&output))
     };
-    let (first, _) = with(&[]);
+    let (first, _) = with(&["--save-outputs", text(&saved)]);
     let failed = first["outputs"][0]["runs_failed"].as_u64().unwrap();
     assert!(failed > 10);
     let (again, messages) = with(&["--retry-failed"]);
     assert!(messages.contains(&format!("the {failed} runs that failed are evaluated again")), "{messages}");
     assert_eq!(on_record(&messages.replace("note: the", "")), 2560 - failed, "{messages}");
     assert!(again == first);
+    // Sums say nothing of single runs.
+    let bits = |json: &serde_json::Value| json["outputs"].clone();
+    with(&["--base-samples", "1024", "--restart"]);
+    let (again, messages) = with(&["--base-samples", "1024", "--retry-failed"]);
+    assert!(messages.contains("the journal holds sums: all runs are evaluated anew"), "{messages}");
+    assert_eq!(on_record(&messages), 0);
+    assert!(bits(&again) == bits(&with(&["--base-samples", "1024", "--no-journal"]).0));
 }
 
 #[test]
@@ -387,11 +426,97 @@ fn two_runs_do_not_write_one_journal() {
 }
 
 #[test]
-fn a_large_journal_of_a_quick_run_is_not_kept() {
+fn the_journal_of_a_quick_run_does_not_grow_with_it() {
     let folder = tempfile::tempdir().unwrap();
-    // Two million base samples: ten million runs of some nanoseconds.
-    assert_eq!(ishigami_runs(folder.path(), &["--base-samples", "2097152"]), 0);
-    assert!(!folder.path().join("ishigami.journal").exists());
+    let journal = folder.path().join("ishigami.journal");
+    let size = |base_samples: &str| {
+        assert_eq!(ishigami(folder.path(), &["--base-samples", base_samples]).status.code(), Some(0));
+        std::fs::metadata(&journal).unwrap().len()
+    };
+    // Beyond the values that are kept for charts.
+    let sizes = ["65536", "131072", "524288"].map(size);
+    assert!(sizes[2] < 2_000_000 && sizes[2] <= sizes[0] + sizes[0] / 4, "{sizes:?}");
+}
+
+#[test]
+fn a_quick_run_killed_at_any_moment_ends_in_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, killed) = (folder.path().join("whole"), folder.path().join("killed"));
+    succeed(&words(&quick(&whole, &["--no-journal"])));
+    let (journal, mut state, mut recorded) = (killed.join("coulomb-general.journal"), 7, 0);
+    for round in 0..3 {
+        for _ in 0..4 {
+            let mut child = spawn(&quick(&killed, &[]));
+            std::thread::sleep(Duration::from_millis(random(&mut state) % 5000));
+            child.kill().unwrap();
+            let (_, messages) = ended(child);
+            assert!(!messages.contains("moved"), "a journal of no use after a kill: {messages}");
+            recorded += on_record(&messages);
+            if journal.exists() {
+                assert!(apportion::run::journal::read_journal_file(&journal).unwrap().sums.is_some());
+            }
+        }
+        succeed(&words(&quick(&killed, &[])));
+        assert!(result(&killed, "coulomb-general") == result(&whole, "coulomb-general"), "round {round}");
+        // Whatever a kill may have left behind is gone or overwritten.
+        assert!(!killed.join("coulomb-general.journal.new").exists());
+        std::fs::remove_dir_all(&killed).unwrap();
+    }
+    eprintln!("{recorded} runs were on record after kills");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_quick_run_that_is_interrupted_goes_on_and_grows() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, stopped) = (folder.path().join("whole"), folder.path().join("stopped"));
+    let long = ["--base-samples", "65536"];
+    let arguments = |out: &Path, more: &[&str]| {
+        let study = study_path("coulomb-general");
+        let all = [&["run", text(&study), "--out", text(out)], more].concat();
+        all.iter().map(ToString::to_string).collect::<Vec<String>>()
+    };
+    succeed(&words(&arguments(&whole, &long)));
+    let child = spawn(&arguments(&stopped, &long));
+    let journal = stopped.join("coulomb-general.journal");
+    wait_for_bytes(&journal, 100);
+    std::thread::sleep(Duration::from_millis(500));
+    let second = apportion(&words(&arguments(&stopped, &long)));
+    signal(&child, "-INT");
+    let (code, messages) = ended(child);
+    if code == Some(0) {
+        eprintln!("the run was over before it was interrupted");
+        return;
+    }
+    refused(&second, 1, "coulomb-general.journal: another run is writing this journal");
+    assert!(messages.contains("error: interrupted after "), "{messages}");
+    assert!(messages.contains("the same command with --resume goes on"), "{messages}");
+    let resumed = apportion(&words(&arguments(&stopped, &[&long[..], &["--resume"]].concat())));
+    assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
+    assert!(on_record(&stderr(&resumed)) > 0, "{}", stderr(&resumed));
+    assert!(numbers(&stopped, "coulomb-general") == numbers(&whole, "coulomb-general"));
+}
+
+#[test]
+fn a_damaged_journal_of_sums_is_never_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, damaged) = (folder.path().join("whole"), folder.path().join("damaged"));
+    let size = ["--base-samples", "4096"];
+    ishigami_runs(&whole, &size);
+    let bytes = std::fs::read(whole.join("ishigami.journal")).unwrap();
+    std::fs::create_dir(&damaged).unwrap();
+    let journal = damaged.join("ishigami.journal");
+    for place in [bytes.len() / 2, bytes.len() - 1] {
+        let mut torn = bytes.clone();
+        torn[place] ^= 1;
+        for torn in [&torn[..], &bytes[..place]] {
+            std::fs::write(&journal, torn).unwrap();
+            refused(&ishigami(&damaged, &[&size[..], &["--resume"]].concat()), 2, "its sums are damaged");
+            let anew = ishigami(&damaged, &size);
+            assert!(stderr(&anew).contains("its sums are damaged: the journal was moved to "), "{}", stderr(&anew));
+            assert!(numbers(&damaged, "ishigami") == numbers(&whole, "ishigami"));
+        }
+    }
 }
 
 /// The commands of `docs/clusters.md` for GNU parallel, with whatever stands for it here.

@@ -10,7 +10,7 @@ use crate::common::numbers;
 
 fn analysed(text: &str, overrides: &[String]) -> ResultFile {
     let study = Study::parse(text, Path::new("known.toml"), overrides).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &apportion::analyse(&study, 0, &|_| ()).unwrap())
+    ResultFile::new(&study, &study.run().unwrap())
 }
 
 const SEEDS: u64 = 32;

@@ -2,7 +2,7 @@
 
 use crate::common::{analysed, apportion, gap, numbers, study_path};
 use apportion::design::{Design, DesignSettings, Rows};
-use apportion::model::{Batch, KnownAnswer, KnownFunction, Model, Output, Worker};
+use apportion::model::{Batch, KnownAnswer, KnownFunction, Model, Output, RunContext, Worker};
 use apportion::quantity::Unit;
 use apportion::run::{Job, run};
 use apportion::space::{Distribution, Factor, Space};
@@ -31,7 +31,7 @@ impl Model for Changed {
         &self.outputs
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         Box::new(ChangedWorker(self))
     }
 }

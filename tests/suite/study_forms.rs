@@ -177,7 +177,7 @@ fn formulas_of_python_are_understood() {
     for (python, ours) in [("np.sin(x1)", "sin(x1)"), ("math.log(x1) + np.pi", "ln(x1) + pi")] {
         let value = |formula: &str| {
             let study = parsed(&study(formula));
-            ResultFile::new(&study, &apportion::analyse(&study, 0, &|_| ()).unwrap()).outputs[0].mean
+            ResultFile::new(&study, &study.run().unwrap()).outputs[0].mean
         };
         assert_eq!(value(python), value(ours));
     }

@@ -10,7 +10,6 @@ use apportion::files::read_text;
 use apportion::quantity::Unit;
 use apportion::report::ResultFile;
 use apportion::report::prepare_folder;
-use apportion::{Running, analyse_with};
 
 use super::evaluate::say_of_table;
 use super::run::{default_folder, deliver, prepare_files, with_inputs};
@@ -84,8 +83,8 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     prepare_folder(&folder)?;
     prepare_files(study, &folder)?;
-    let running = Running { store: Some(&answers.store), ..Running::on(arguments.threads.number()) };
-    let analysis = analyse_with(study, running).map_err(|error| with_inputs(study, error))?;
+    let runner = study.runner().threads(arguments.threads.number()).store(&answers.store);
+    let analysis = runner.run().map_err(|error| with_inputs(study, error))?;
     deliver(study, &folder, &ResultFile::new(study, &analysis))
 }
 

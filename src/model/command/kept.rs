@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 use super::process::{Ending, Event, PATIENCE, Process};
 use super::row::RowWriter;
 use super::{CommandModel, KeptAlive, SILENCE, State};
-use crate::model::{Batch, RowFailure, Standing, Worker};
+use crate::model::{Batch, RowFailure, RunContext, Standing, Worker};
 use caution::Caution;
 use numbers::number_of;
 use piece::Piece;
@@ -48,6 +48,7 @@ const FIRST_START: Duration = Duration::from_secs(60);
 
 pub(super) struct KeptWorker<'a> {
     model: &'a CommandModel,
+    context: &'a RunContext<'a>,
     form: KeptAlive,
     writer: RowWriter,
     talk: Option<Talk>,
@@ -74,9 +75,9 @@ struct Outcome {
 }
 
 impl<'a> KeptWorker<'a> {
-    pub(super) fn new(model: &'a CommandModel, form: KeptAlive) -> Self {
+    pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, form: KeptAlive) -> Self {
         let writer = RowWriter::new(form.protocol, &model.factors).with_numbers(form.row_numbers);
-        Self { model, form, writer, talk: None, caution: Caution::default() }
+        Self { model, context, form, writer, talk: None, caution: Caution::default() }
     }
 
     /// Sees to it that every row of the piece has an answer, which is certain if `closes`.
@@ -86,7 +87,7 @@ impl<'a> KeptWorker<'a> {
             talk.session.wake();
         }
         loop {
-            if self.model.state.interrupted() {
+            if self.context.is_stopped() {
                 return self.break_off(piece);
             }
             if let Some(standing) = self.arrived(piece, closes) {
@@ -129,7 +130,7 @@ impl<'a> KeptWorker<'a> {
             return Ok(());
         }
         let program = &self.model.settings.program;
-        let process = Process::start(program, &self.model.state.voice)
+        let process = Process::start(program, self.context.messages())
             .map_err(|error| RowFailure::new(&program.refusal(&error)))?;
         let is_single = self.caution.alone.is_some() || self.asks_singly();
         let most = if is_single { 1 } else { self.caution.plan.map_or(usize::MAX, |(rows, _)| rows) };
@@ -236,13 +237,13 @@ impl<'a> KeptWorker<'a> {
 
     /// How a process ends that gets no row at all.
     fn end_without_rows(&self) -> Option<ExitStatus> {
-        let mut process = Process::start(&self.model.settings.program, &self.model.state.voice).ok()?;
+        let mut process = Process::start(&self.model.settings.program, self.context.messages()).ok()?;
         process.send(self.writer.header());
         process.close_input();
         let begin = Instant::now();
         while !matches!(process.event(ATTENTION), Some(Event::Closed)) {
             process.clear_away();
-            if self.model.state.interrupted() || begin.elapsed() > SILENCE {
+            if self.context.is_stopped() || begin.elapsed() > SILENCE {
                 return None;
             }
         }
@@ -285,8 +286,9 @@ impl<'a> KeptWorker<'a> {
         let silent_for = session.silent_for();
         if session.under_way() > 0 {
             if !state.has_answered() && silent_for > self.model.silence {
-                State::say_once(
+                State::send_once(
                     &state.hinted,
+                    self.context.messages(),
                     "still waiting for the program's first answer: it may still be starting (imports), be long over its \
                      first row, or not flush what it prints, as print(..., flush=True) does",
                 );
@@ -298,8 +300,9 @@ impl<'a> KeptWorker<'a> {
             .closed
             .is_some_and(|closed| closed.elapsed().min(silent_for) > PATIENCE.max(TIMES * session.slowest_row()))
         {
-            State::say_once(
+            State::send_once(
                 &state.stayed,
+                self.context.messages(),
                 "warning: the program does not end when its input has ended: whether it prints more is not waited for",
             );
             self.confirmed(piece);

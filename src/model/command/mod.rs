@@ -11,13 +11,13 @@ mod process;
 mod program;
 mod protocol;
 mod row;
+mod standard_error;
 mod template;
-mod voice;
 mod words;
 
 use std::process::ExitStatus;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering};
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 pub use per_run::PerRun;
@@ -26,12 +26,11 @@ pub use program::Program;
 pub use protocol::{Answer, Protocol, parse_answer, parse_numbered_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 
-use super::{Flag, Model, Output, RowFailure, Worker};
+use super::{Flag, Messages, Model, Output, RowFailure, RunContext, Worker};
 use crate::quantity::Unit;
 use crate::space::Factor;
 use kept::KeptWorker;
 use per_run::PerRunWorker;
-use voice::Voice;
 
 /// How a program is asked.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,7 +125,6 @@ pub struct CommandModel {
 /// What the workers of a model share.
 #[derive(Debug, Default)]
 struct State {
-    interrupted: AtomicBool,
     /// Whether the program has ever answered.
     has_answered: AtomicBool,
     /// Rows that failed before it ever did.
@@ -143,7 +141,6 @@ struct State {
     stayed: AtomicBool,
     /// How a process ends that gets no row, once that was asked.
     usual_end: Mutex<Option<Option<ExitStatus>>>,
-    voice: Arc<Voice>,
 }
 
 /// How long a program that has never answered may be silent without a hint.
@@ -153,10 +150,6 @@ const SILENCE: Duration = Duration::from_secs(10);
 const MOST_BARREN: u32 = 5;
 
 impl State {
-    fn interrupted(&self) -> bool {
-        self.interrupted.load(Ordering::Relaxed)
-    }
-
     fn has_answered(&self) -> bool {
         self.has_answered.load(Ordering::Relaxed)
     }
@@ -190,10 +183,10 @@ impl State {
         Err(RowFailure::new(&format!("the program has answered none of its first {MOST_BARREN} rows: {reason}")))
     }
 
-    /// Says `line` on standard error if `said` is the first to do so.
-    fn say_once(said: &AtomicBool, line: &str) {
-        if !said.swap(true, Ordering::Relaxed) {
-            voice::say(line);
+    /// Sends `line` if `sent` says that nobody has.
+    fn send_once(sent: &AtomicBool, messages: &Messages, line: &str) {
+        if !sent.swap(true, Ordering::Relaxed) {
+            messages.send(line);
         }
     }
 }
@@ -230,14 +223,10 @@ impl Model for CommandModel {
         Some(self.settings.workers.unwrap_or_else(cores))
     }
 
-    fn interrupt(&self) {
-        self.state.interrupted.store(true, Ordering::Relaxed);
-    }
-
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         match &self.settings.form {
-            Form::KeptAlive(form) => Box::new(KeptWorker::new(self, *form)),
-            Form::PerRun(form) => Box::new(PerRunWorker::new(self, form)),
+            Form::KeptAlive(form) => Box::new(KeptWorker::new(self, context, *form)),
+            Form::PerRun(form) => Box::new(PerRunWorker::new(self, context, form)),
         }
     }
 }

@@ -13,10 +13,11 @@ use tempfile::TempDir;
 use super::pick::{MOST_BYTES, PickError, Source};
 use super::program::{Running, status_in_words};
 use super::row::{RowWriter, ValueWriter};
+use super::standard_error::listen;
 use super::template::InputTemplate;
 use super::words::{masked, seconds};
 use super::{CommandModel, Protocol, not_a_value};
-use crate::model::{Batch, RowFailure, Worker};
+use crate::model::{Batch, RowFailure, RunContext, Worker};
 
 /// How a program runs once for each row.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -43,6 +44,7 @@ const BEFORE: SystemTime = SystemTime::UNIX_EPOCH;
 
 pub(super) struct PerRunWorker<'a> {
     model: &'a CommandModel,
+    context: &'a RunContext<'a>,
     form: &'a PerRun,
     values: ValueWriter,
     rows: RowWriter,
@@ -57,9 +59,9 @@ enum Fault {
 }
 
 impl<'a> PerRunWorker<'a> {
-    pub(super) fn new(model: &'a CommandModel, form: &'a PerRun) -> Self {
+    pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, form: &'a PerRun) -> Self {
         let (values, rows) = (ValueWriter::new(&model.factors), RowWriter::new(Protocol::Csv, &model.factors));
-        Self { model, form, values, rows }
+        Self { model, context, form, values, rows }
     }
 
     /// Runs the program on one row, again if it fails, and sets what it gives.
@@ -123,7 +125,7 @@ impl<'a> PerRunWorker<'a> {
     }
 
     fn run_in(&self, directory: &Path, inputs: &[&[f64]], row: usize) -> Result<(), Fault> {
-        let CommandModel { settings, state, .. } = self.model;
+        let CommandModel { settings, .. } = self.model;
         let prepared = self.prepare(directory, inputs, row);
         let (stdout, stderr) = prepared.map_err(|error| Fault::Fatal(self.unwritable(&error)))?;
         let mut command = settings.program.command(directory);
@@ -135,7 +137,7 @@ impl<'a> PerRunWorker<'a> {
         let status = running.end();
         let last_words = Mutex::new(String::new());
         if let Ok(file) = File::open(directory.join(STDERR)) {
-            state.voice.listen(file, &last_words);
+            listen(self.context.messages(), file, &last_words);
         }
         cut?;
         if status.is_some_and(|status| status.success()) {
@@ -150,7 +152,7 @@ impl<'a> PerRunWorker<'a> {
     fn wait(&self, running: &mut Running, directory: &Path) -> Result<(), Fault> {
         let (start, mut pause) = (Instant::now(), Duration::from_millis(1));
         while !running.ends_within(pause) {
-            if self.model.state.interrupted() {
+            if self.context.is_stopped() {
                 return Err(Fault::Fatal(RowFailure::interrupted()));
             }
             if let Some(timeout) = self.model.settings.timeout.filter(|timeout| start.elapsed() >= *timeout) {
@@ -198,7 +200,7 @@ impl<'a> PerRunWorker<'a> {
 impl Worker for PerRunWorker<'_> {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
         for row in 0..batch.rows() {
-            let outcome = match self.model.state.interrupted() {
+            let outcome = match self.context.is_stopped() {
                 true => Err(RowFailure::interrupted()),
                 false => self.row(inputs, row, batch),
             };

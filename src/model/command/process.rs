@@ -9,7 +9,8 @@ use std::thread;
 use std::time::Duration;
 
 use super::program::{Program, Running};
-use super::voice::Voice;
+use super::standard_error::listen;
+use crate::model::Messages;
 
 /// What comes from a process.
 pub(super) enum Event {
@@ -52,7 +53,7 @@ pub(super) const PATIENCE: Duration = Duration::from_secs(1);
 
 impl Process {
     /// Starts `program`.
-    pub(super) fn start(program: &Program, voice: &Arc<Voice>) -> io::Result<Self> {
+    pub(super) fn start(program: &Program, messages: &Messages) -> io::Result<Self> {
         let mut command = program.command(&program.directory);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let (input, texts) = mpsc::channel::<String>();
@@ -91,9 +92,9 @@ impl Process {
             thread::Builder::new().spawn(move || read_all(stdout, &tell))?;
         }
         if let Some(stderr) = stderr {
-            let (voice, last) = (Arc::clone(voice), Arc::clone(&process.last_words));
+            let (messages, last) = (messages.clone(), Arc::clone(&process.last_words));
             thread::Builder::new().spawn(move || {
-                voice.listen(stderr, &last);
+                listen(&messages, stderr, &last);
                 drop(hush);
             })?;
         }

@@ -12,7 +12,7 @@ mod token;
 
 pub use error::{ExpressionError, ExpressionProblem};
 
-use super::{Batch, Model, Output, RowFailure, Worker};
+use super::{Batch, Model, Output, RowFailure, RunContext, Worker};
 use program::{Program, Stack, TILE};
 
 /// What a name in a formula stands for.
@@ -121,7 +121,7 @@ impl Model for ExpressionModel {
         &self.outputs
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         let failures = [
             RowFailure::new("the formula has no value (it is NaN, as 0/0 and ln(-1) are)"),
             RowFailure::new("the formula is infinite"),

@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::model::KnownAnswer;
+use crate::model::{KnownAnswer, RunContext};
 
 fn symbol(name: &str) -> Option<Symbol> {
     match name {
@@ -107,9 +107,9 @@ fn columns_of_any_length_are_their_rows() {
     let rows = 2 * TILE + 3;
     let column = |shift: f64| (0..rows).map(|row| (0.618 * row as f64 + shift).fract()).collect::<Vec<f64>>();
     let (x, y) = (column(0.0), column(0.3));
-    let mut batch = Batch::of(&model);
+    let mut batch = Batch::new(&model);
     batch.reset(rows);
-    model.worker().run(&[&x, &y], &mut batch);
+    model.worker(&RunContext::default()).run(&[&x, &y], &mut batch);
     batch.settle();
     for row in 0..rows {
         let alone = expression.value(&[x[row], y[row]]);

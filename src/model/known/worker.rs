@@ -1,7 +1,7 @@
 //! A function with known indices as a model.
 
 use super::KnownFunction;
-use crate::model::{Batch, Model, Output, RowFailure, Worker};
+use crate::model::{Batch, Model, Output, RowFailure, RunContext, Worker};
 
 /// Rows gathered at a time: as many as there are numbers in a cache line.
 const TILE: usize = 8;
@@ -36,7 +36,7 @@ impl Model for KnownModel {
         &self.outputs
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         Box::new(KnownWorker { model: self, rows: self.base.repeat(TILE), reasons: Vec::new() })
     }
 }

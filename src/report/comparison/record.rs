@@ -90,12 +90,12 @@ pub struct ComparedFactor {
 /// ```
 /// use std::path::Path;
 /// use apportion::report::comparison::{ComparedSide, compare_results};
-/// use apportion::{analyse, report::ResultFile, study::Study};
+/// use apportion::{report::ResultFile, study::Study};
 ///
 /// let result = |choice: &str| -> Result<_, Box<dyn std::error::Error>> {
 ///     let text = format!("model = \"ishigami\"\n[function]\n{choice}\n[design]\nbase_samples = 4096");
 ///     let study = Study::parse(&text, Path::new("a.toml"), &[])?;
-///     Ok(ResultFile::new(&study, &analyse(&study, 0, &|_| ())?))
+///     Ok(ResultFile::new(&study, &study.run()?))
 /// };
 /// let (a, b) = (result("b = 0.1")?, result("b = 0.2")?);
 /// let file = compare_results((&a, "A", "a.json"), (&b, "B", "b.json"))?;

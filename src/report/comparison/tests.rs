@@ -8,7 +8,7 @@ use crate::study::Study;
 
 fn result(text: &str) -> ResultFile {
     let study = Study::parse(text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &crate::analyse(&study, 1, &|_| ()).unwrap())
+    ResultFile::new(&study, &study.runner().threads(1).run().unwrap())
 }
 
 fn linear(coefficients: &str, design: &str) -> ResultFile {

@@ -82,10 +82,10 @@ pub fn read_result(path: &Path) -> Result<ResultFile, ReadError> {
 /// ```
 /// use std::path::Path;
 /// use apportion::report::{ResultFile, parse_result, result_json};
-/// use apportion::{analyse, study::Study};
+/// use apportion::study::Study;
 ///
 /// let study = Study::parse("model = \"ishigami\"", Path::new("a.toml"), &["design.base_samples=256".to_owned()])?;
-/// let result = ResultFile::new(&study, &analyse(&study, 0, &|_| ())?);
+/// let result = ResultFile::new(&study, &study.run()?);
 /// assert_eq!(parse_result(result_json(&result).as_bytes())?, result);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -22,7 +22,7 @@ dummy = true
 
 fn result() -> ResultFile {
     let study = Study::parse(STUDY, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &crate::analyse(&study, 1, &|_| ()).unwrap())
+    ResultFile::new(&study, &study.runner().threads(1).run().unwrap())
 }
 
 fn parsed(value: &Value) -> Result<ResultFile, ReadProblem> {

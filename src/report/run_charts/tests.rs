@@ -13,7 +13,7 @@ const CHARTS: [Draw; 5] = [indices_chart, interactions_chart, scatter_chart, dis
 
 fn analysed(text: &str) -> ResultFile {
     let study = Study::parse(text, Path::new("charts.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &crate::analyse(&study, 0, &|_| ()).expect("a run"))
+    ResultFile::new(&study, &study.run().expect("a run"))
 }
 
 #[test]

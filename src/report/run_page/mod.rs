@@ -25,10 +25,10 @@ use super::result::{AggregateRecord, ResultFile};
 /// ```
 /// use std::path::Path;
 /// use apportion::report::{ResultFile, run_page};
-/// use apportion::{analyse, study::Study};
+/// use apportion::study::Study;
 ///
 /// let study = Study::parse(include_str!("../../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
-/// let result = ResultFile::new(&study, &analyse(&study, 0, &|_| ())?);
+/// let result = ResultFile::new(&study, &study.run()?);
 /// let page = run_page(&result, &["ishigami.csv".to_owned()]);
 /// assert!(page.lead[0].starts_with("x1 matters most for y"));
 /// assert!(page.html()?.contains("href=\"ishigami.csv\""));

@@ -6,7 +6,7 @@ use crate::study::Study;
 
 fn analysed(text: &str) -> ResultFile {
     let study = Study::parse(text, Path::new("scatter.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &crate::analyse(&study, 0, &|_| ()).expect("a run"))
+    ResultFile::new(&study, &study.run().expect("a run"))
 }
 
 fn scatter(text: &str) -> ScatterRecord {

@@ -13,7 +13,7 @@ fn nine_studies() -> Vec<Reproduced> {
     let run = |(group, friction, study)| Reproduced {
         group,
         friction,
-        result: apportion::report::ResultFile::new(&study, &apportion::analyse(&study, 0, &|_| ()).unwrap()),
+        result: apportion::report::ResultFile::new(&study, &study.run().unwrap()),
     };
     studies.into_iter().map(run).collect()
 }

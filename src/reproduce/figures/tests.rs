@@ -56,7 +56,7 @@ fn data(stem: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 fn reproduced() -> Vec<Reproduced> {
     let studies = studies(&["design.base_samples=64".to_owned()]).unwrap();
     let run = |(group, friction, study)| {
-        let result = apportion::report::ResultFile::new(&study, &apportion::analyse(&study, 0, &|_| ()).unwrap());
+        let result = apportion::report::ResultFile::new(&study, &study.run().unwrap());
         Reproduced { friction, group, result }
     };
     studies.into_iter().map(run).collect()
@@ -90,7 +90,10 @@ fn every_figure_is_there_once_and_in_order() {
     }
     let dimensional = all.iter().find(|figure| figure.stem == "lg-4a").unwrap();
     let caption = dimensional.chart.caption();
-    assert!(caption.starts_with("The thickness has the largest") && caption.contains("printed for LuGre are"), "{caption}");
+    assert!(
+        caption.starts_with("The thickness has the largest") && caption.contains("printed for LuGre are"),
+        "{caption}"
+    );
     assert_eq!(dimensional.csv.lines().count(), 5);
 }
 

@@ -31,9 +31,9 @@ pub use summary::{chances, headline, summary};
 pub use tables::{readings_csv, readings_json, small_samples_csv};
 
 use super::{Effort, GROUPS, STUDIES};
-use apportion::analyse;
 use apportion::design::DesignError;
 use apportion::model::{AfmOutput, RowFailure};
+use apportion::report::ResultFile;
 use apportion::run::{RunError, threads_in_force};
 use apportion::study::{Study, StudyError};
 use catalogue::{SMALL_SAMPLE_VARIANTS, VARIANTS, variant};
@@ -178,10 +178,6 @@ fn compute(
             (0..readings).flat_map(|reading| of_groups.iter().filter_map(move |rows| rows.get(reading)).cloned()),
         );
     }
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads_in_force(threads))
-        .build()
-        .map_err(|source| RunError::Threads { threads: threads_in_force(threads), source })?;
     let mut small_samples = Vec::new();
     let count = small.len() * GROUPS.len();
     for (number, variant) in small.iter().filter_map(|id| variant(id)).enumerate() {
@@ -189,7 +185,7 @@ fn compute(
             let done = (number * GROUPS.len() + group_number) as f64 / count as f64;
             on_progress("small samples", part(variants.len()) + (1.0 - part(variants.len())) * done);
             let study = study(variant, group.key, &[])?;
-            small_samples.extend(small_samples::of_study(&study, (variant.id, group.key), (effort, &pool))?);
+            small_samples.extend(small_samples::of_study(&study, (variant.id, group.key), (effort, threads))?);
         }
     }
     on_progress("readings", 1.0);
@@ -208,7 +204,7 @@ fn of_variant(
         Effort::Quick => variant.base_samples / 16,
     };
     let study = study(variant, group, &[format!("design.base_samples={base_samples}")])?;
-    let result = apportion::report::ResultFile::new(&study, &analyse(&study, threads, &|_| ())?);
+    let result = ResultFile::new(&study, &study.runner().threads(threads).run()?);
     let mut readings = Vec::new();
     for (number, &output) in variant.outputs.iter().enumerate() {
         for &effect in variant.effects {

@@ -3,7 +3,7 @@
 use super::shares::printed;
 use super::{Effect, ReadingsError, Share};
 use apportion::estimate;
-use apportion::model::{Batch, Model};
+use apportion::model::{Batch, Model, RunContext};
 use apportion::study::Study;
 use apportion::sum::{centred_product, mean};
 
@@ -73,9 +73,9 @@ fn curve(study: &Study, model: &dyn Model, number: usize) -> Result<Vec<Vec<f64>
         })
         .collect();
     let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let mut batch = Batch::of(model);
+    let mut batch = Batch::new(model);
     batch.reset(u.len());
-    model.worker().run(&inputs, &mut batch);
+    model.worker(&RunContext::default()).run(&inputs, &mut batch);
     batch.settle();
     match batch.failures().first() {
         Some((_, _, reason)) => Err(reason.clone()),

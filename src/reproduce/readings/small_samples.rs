@@ -1,6 +1,5 @@
 //! What chance does to the percentages of small samples.
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::catalogue::{BOTH, SMALL_SAMPLES};
@@ -9,8 +8,9 @@ use super::{Effect, ReadingsError, output_name};
 use crate::reproduce::Effort;
 use apportion::design::{BasePoints, Design, DesignSettings, Rows, Sampler};
 use apportion::estimate::{BlockOutputs, FirstOrder, Moments, Total, Workspace, shares};
-use apportion::model::{AfmOutput, Batch, Model};
+use apportion::model::{AfmOutput, Batch, Model, Worker};
 use apportion::report::distribution::quantile;
+use apportion::run::run_each;
 use apportion::study::Study;
 
 /// Probabilities of the quantiles that sum up the repetitions.
@@ -134,7 +134,7 @@ impl Chance {
 pub(super) fn of_study(
     study: &Study,
     (variant, group): (&'static str, &'static str),
-    (effort, pool): (Effort, &rayon::ThreadPool),
+    (effort, threads): (Effort, usize),
 ) -> Result<Vec<SmallSample>, ReadingsError> {
     let repetitions: u64 = match effort {
         Effort::Full => 1000,
@@ -146,25 +146,28 @@ pub(super) fn of_study(
     let settings = DesignSettings { sampler, base_samples: longest * repetitions, replicates: repetitions, seed };
     let design = Design::new(settings, factors, Rows::plain((0..factors).map(|factor| vec![factor]).collect()))?;
     let model = study.model();
-    Ok(pool.install(|| {
-        let repetition = |number| repetition(study, model.as_ref(), &design.replicate(number));
-        let moments: Vec<[SampleMoments; SMALL_SAMPLES.len()]> =
-            (0..repetitions).into_par_iter().map(repetition).collect();
-        let of_size = |(size, &base_samples): (usize, &u64)| {
-            let moments: Vec<&SampleMoments> = moments.iter().map(|sizes| &sizes[size]).collect();
-            Sample { study, variant, group, base_samples }.of_moments(&moments)
-        };
-        SMALL_SAMPLES.iter().enumerate().flat_map(of_size).collect()
-    }))
+    let moments: Vec<[SampleMoments; SMALL_SAMPLES.len()]> =
+        run_each(model.as_ref(), threads, repetitions, |worker, number| {
+            repetition(study, (model.as_ref(), worker), &design.replicate(number))
+        })?;
+    let of_size = |(size, &base_samples): (usize, &u64)| {
+        let moments: Vec<&SampleMoments> = moments.iter().map(|sizes| &sizes[size]).collect();
+        Sample { study, variant, group, base_samples }.of_moments(&moments)
+    };
+    Ok(SMALL_SAMPLES.iter().enumerate().flat_map(of_size).collect())
 }
 
 /// Moments of one sample, for each of [`BOTH`].
 type SampleMoments = [Moments; BOTH.len()];
 
 /// The moments of one repetition at every size of [`SMALL_SAMPLES`].
-fn repetition(study: &Study, model: &dyn Model, points: &BasePoints) -> [SampleMoments; SMALL_SAMPLES.len()] {
+fn repetition(
+    study: &Study,
+    (model, worker): (&dyn Model, &mut dyn Worker),
+    points: &BasePoints,
+) -> [SampleMoments; SMALL_SAMPLES.len()] {
     let factors = study.space.factors();
-    let (mut worker, mut batch, mut work) = (model.worker(), Batch::of(model), Workspace::default());
+    let (mut batch, mut work) = (Batch::new(model), Workspace::default());
     let mut so_far = [(); BOTH.len()].map(|()| Moments::empty(factors.len()));
     let mut first = 0;
     SMALL_SAMPLES.map(|size| {

@@ -162,9 +162,8 @@ fn held_friction_is_that_of_lugre() {
 
 #[test]
 fn small_samples_scatter_about_the_shares_of_large_ones() {
-    let pool = rayon::ThreadPoolBuilder::new().build().unwrap();
     let study = study(variant("lugre").unwrap(), "dimensional", &[]).unwrap();
-    let samples = small_samples::of_study(&study, ("lugre", "dimensional"), (Effort::Quick, &pool)).unwrap();
+    let samples = small_samples::of_study(&study, ("lugre", "dimensional"), (Effort::Quick, 2)).unwrap();
     assert_eq!(samples.len(), 4 * 2 * 2 * 2);
     let exact = in_percent(DIMENSIONS.map(|(_, a, b, p)| p * p * log_variance((a, b))));
     let of = |base_samples: u64| {

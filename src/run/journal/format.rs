@@ -1,18 +1,23 @@
 //! The bytes of a journal. All numbers are little-endian.
 //!
 //! Header: `apportion journal` (17 bytes), version (u32), length of the JSON text (u32), its CRC-32 (u32), the text.
-//! Record: length of the body (u32), CRC-32 of those four bytes and the body (u32), the body.
+//! Format 1, outputs, goes on with records: length of the body (u32), CRC-32 of those four bytes and the body (u32), the
+//! body. Format 2, sums, goes on with one body: its length (u64), CRC-32 of those eight bytes and the body (u32), the body.
 
 use std::path::Path;
 
 use serde_json::Value;
 
 use super::error::JournalError;
-use crate::model::{Effort, RowFailure};
-use crate::run::Piece;
+use crate::binary::{Binary, Reader};
+use crate::model::{CounterKind, Counts, RowFailure};
+use crate::run::{Piece, Sums};
 
 const MAGIC: &[u8] = b"apportion journal";
-const VERSION: u32 = 1;
+/// Version of journals of outputs.
+const OUTPUTS: u32 = 1;
+/// Version of journals of sums.
+const SUMS: u32 = 2;
 
 /// What a journal holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +29,8 @@ pub struct Contents {
     /// The files of the model that the pieces were evaluated with: the first stretch is that of the header, and there is
     /// another one wherever they changed.
     pub stretches: Vec<Stretch>,
+    /// The sums of a journal of sums, which has no pieces.
+    pub sums: Option<Sums>,
     /// Bytes up to the end of the last whole record.
     pub length: u64,
     /// Bytes after it: of a record that was cut short or damaged, and all that follows.
@@ -69,9 +76,25 @@ fn files_in(piece: &Piece) -> Option<Option<Value>> {
 }
 
 pub(super) fn write_header(out: &mut Vec<u8>, header: &Value) {
+    write_header_of(out, header, OUTPUTS);
+}
+
+/// Begins a journal of sums: [`write_sums`] follows.
+pub(super) fn write_sums_header(out: &mut Vec<u8>, header: &Value) {
+    write_header_of(out, header, SUMS);
+}
+
+pub(super) fn write_sums(out: &mut Vec<u8>, sums: &[u8]) {
+    let length = (sums.len() as u64).to_le_bytes();
+    out.extend_from_slice(&length);
+    out.extend_from_slice(&checksum(&length, sums).to_le_bytes());
+    out.extend_from_slice(sums);
+}
+
+fn write_header_of(out: &mut Vec<u8>, header: &Value, version: u32) {
     let text = header.to_string();
     out.extend_from_slice(MAGIC);
-    for number in [VERSION, text.len() as u32, crc32fast::hash(text.as_bytes())] {
+    for number in [version, text.len() as u32, crc32fast::hash(text.as_bytes())] {
         out.extend_from_slice(&number.to_le_bytes());
     }
     out.extend_from_slice(text.as_bytes());
@@ -92,23 +115,21 @@ pub(super) fn write_record(out: &mut Vec<u8>, piece: &Piece) {
         }
         out.extend_from_slice(why.as_bytes());
     }
-    let Effort { rungs, evaluations, largest_error } = &piece.effort;
-    for list in [&piece.flags, rungs] {
-        out.extend_from_slice(&(list.len() as u32).to_le_bytes());
-        list.iter().for_each(|number| out.extend_from_slice(&number.to_le_bytes()));
-    }
-    out.extend_from_slice(&evaluations.to_le_bytes());
-    out.extend_from_slice(&largest_error.to_bits().to_le_bytes());
+    out.extend_from_slice(&(piece.flags.len() as u32).to_le_bytes());
+    piece.flags.iter().for_each(|raised| raised.write(out));
+    // Where effort stood before models had counters.
+    out.extend_from_slice(&[0; 20]);
+    piece.counts.write(out);
     let length = ((out.len() - begin - 8) as u32).to_le_bytes();
     out[begin..begin + 4].copy_from_slice(&length);
-    let checksum = checksum(length, &out[begin + 8..]).to_le_bytes();
+    let checksum = checksum(&length, &out[begin + 8..]).to_le_bytes();
     out[begin + 4..begin + 8].copy_from_slice(&checksum);
 }
 
 /// The length is part of what is checked: a run of zeros, which some file systems leave after a power cut, is no record.
-fn checksum(length: [u8; 4], body: &[u8]) -> u32 {
+fn checksum(length: &[u8], body: &[u8]) -> u32 {
     let mut hasher = crc32fast::Hasher::new();
-    hasher.update(&length);
+    hasher.update(length);
     hasher.update(body);
     hasher.finalize()
 }
@@ -125,7 +146,7 @@ pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError>
     }
     let short = || wrong("its header is cut short");
     let version = reader.u32().ok_or_else(short)?;
-    if version != VERSION {
+    if ![OUTPUTS, SUMS].contains(&version) {
         return Err(JournalError::OtherVersion { path: path.to_owned(), version });
     }
     let (length, checksum) = (reader.u32().ok_or_else(short)?, reader.u32().ok_or_else(short)?);
@@ -134,6 +155,12 @@ pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError>
         return Err(wrong("its header is damaged"));
     }
     let header: Value = serde_json::from_slice(text).map_err(|error| wrong(&error.to_string()))?;
+    if version == SUMS {
+        let sums = sums(&mut reader).ok_or_else(|| wrong("its sums are damaged"))?;
+        let stretches = vec![Stretch { first: 0, files: header["files"].clone() }];
+        let length = bytes.len() as u64;
+        return Ok(Contents { header, pieces: Vec::new(), stretches, sums: Some(sums), length, cut_off: 0 });
+    }
     let mut pieces = Vec::new();
     let mut stretches = vec![Stretch { first: 0, files: header["files"].clone() }];
     let mut whole = reader.bytes.len();
@@ -145,14 +172,25 @@ pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError>
         }
         whole = reader.bytes.len();
     }
-    Ok(Contents { header, pieces, stretches, length: (bytes.len() - whole) as u64, cut_off: whole as u64 })
+    Ok(Contents { header, pieces, stretches, sums: None, length: (bytes.len() - whole) as u64, cut_off: whole as u64 })
+}
+
+fn sums(reader: &mut Reader<'_>) -> Option<Sums> {
+    let (length, expected) = (u64::read(reader)?, reader.u32()?);
+    let body = reader.take(usize::try_from(length).ok()?)?;
+    if checksum(&length.to_le_bytes(), body) != expected {
+        return None;
+    }
+    let mut reader = Reader { bytes: body };
+    let sums = Sums::read(&mut reader)?;
+    reader.bytes.is_empty().then_some(sums)
 }
 
 /// The next record, if it is whole.
 fn record(reader: &mut Reader<'_>) -> Option<Piece> {
     let (length, expected) = (reader.u32()?, reader.u32()?);
     let body = reader.take(length as usize)?;
-    if checksum(length.to_le_bytes(), body) != expected {
+    if checksum(&length.to_le_bytes(), body) != expected {
         return None;
     }
     let mut reader = Reader { bytes: body };
@@ -164,7 +202,7 @@ fn record(reader: &mut Reader<'_>) -> Option<Piece> {
 const MOST_ROWS: u64 = 1 << 60;
 
 fn piece(reader: &mut Reader<'_>) -> Option<Piece> {
-    let (replicate, first, count) = (reader.u64()?, reader.u64()?, reader.u64()?);
+    let (replicate, first, count) = (u64::read(reader)?, u64::read(reader)?, u64::read(reader)?);
     if first > MOST_ROWS {
         return None;
     }
@@ -176,34 +214,23 @@ fn piece(reader: &mut Reader<'_>) -> Option<Piece> {
         let why = std::str::from_utf8(reader.take(length as usize)?).ok()?;
         failures.push((row, output, RowFailure::new(why)));
     }
-    let (flags, rungs) = (reader.list()?, reader.list()?);
-    let effort = Effort { rungs, evaluations: reader.u64()?, largest_error: f64::from_bits(reader.u64()?) };
-    Some(Piece { replicate, first, values, failures, flags, effort })
+    let (flags, rungs) = (list(reader)?, list(reader)?);
+    let (evaluations, largest_error) = (u64::read(reader)?, f64::read(reader)?);
+    let counts =
+        if reader.bytes.is_empty() { effort(&rungs, evaluations, largest_error) } else { Counts::read(reader)? };
+    Some(Piece { replicate, first, values, failures, flags, counts })
 }
 
-/// Bytes still to be read.
-struct Reader<'a> {
-    bytes: &'a [u8],
+/// What stood in a record before models had counters: the rows of every rung, evaluations and the largest error estimate
+/// are the counters of the model that had them.
+fn effort(rungs: &[u64], evaluations: u64, largest_error: f64) -> Counts {
+    if rungs.is_empty() {
+        return Counts::default();
+    }
+    let sums = rungs.iter().chain([&evaluations]).map(|sum| (CounterKind::Sum, *sum as f64));
+    Counts::from_values(sums.chain([(CounterKind::Maximum, largest_error)]))
 }
 
-impl<'a> Reader<'a> {
-    fn take(&mut self, count: usize) -> Option<&'a [u8]> {
-        let (taken, rest) = self.bytes.split_at_checked(count)?;
-        self.bytes = rest;
-        Some(taken)
-    }
-
-    fn u32(&mut self) -> Option<u32> {
-        Some(u32::from_le_bytes(self.take(4)?.try_into().ok()?))
-    }
-
-    fn u64(&mut self) -> Option<u64> {
-        Some(u64::from_le_bytes(self.take(8)?.try_into().ok()?))
-    }
-
-    fn list(&mut self) -> Option<Vec<u64>> {
-        let count = self.u32()? as usize;
-        let bytes = self.take(count.checked_mul(8)?)?;
-        Some(bytes.as_chunks().0.iter().map(|bytes| u64::from_le_bytes(*bytes)).collect())
-    }
+fn list(reader: &mut Reader<'_>) -> Option<Vec<u64>> {
+    (0..reader.u32()?).map(|_| u64::read(reader)).collect()
 }

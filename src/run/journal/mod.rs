@@ -4,38 +4,13 @@
 //! record that was cut short or damaged ends what is read: it and all after it are evaluated again. The format is
 //! described in `docs/journal-format.md`.
 //!
-//! The pieces of a journal go into a [`Store`](super::Store), and those that a run adds to the store into the journal
-//! (`keep` of [`Running`](crate::Running)); `examples/interrupted.rs` is a program that does so. In short:
+//! A journal of quick runs holds their sums instead of their outputs, in constant size: a [`Checkpoint`] takes the place
+//! of the one before.
 //!
-//! ```
-//! use std::path::Path;
-//! use apportion::run::journal::Journal;
-//! use apportion::run::{Piece, Store};
-//! use apportion::study::Study;
-//! use apportion::{Running, analyse_with};
-//! use serde_json::json;
-//!
-//! let study = Study::parse("model = \"ishigami\"", Path::new("a.toml"), &["design.base_samples=256".to_owned()])?;
-//! let folder = tempfile::tempdir()?;
-//! let path = folder.path().join("a.journal");
-//!
-//! let store = Store::new(&study.design, study.model().as_ref());
-//! let journal = Journal::create(&path, &json!({ "identity": study.identity() }))?;
-//! let keep = |piece: &Piece| journal.append(piece);
-//! let first = analyse_with(&study, Running { store: Some(&store), keep: Some(&keep), ..Running::on(0) })?;
-//! drop(journal);
-//!
-//! let (_journal, contents) = Journal::resume(&path)?;
-//! let store = Store::new(&study.design, study.model().as_ref());
-//! for piece in &contents.pieces {
-//!     store.insert(piece);
-//! }
-//! // Nothing is evaluated.
-//! let second = analyse_with(&study, Running { store: Some(&store), ..Running::on(0) })?;
-//! assert_eq!(first.outputs, second.outputs);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! [`Runner::journal`](crate::Runner::journal) keeps a journal, and goes on with one; `examples/interrupted.rs` is a program
+//! that does so.
 
+mod checkpoint;
 mod error;
 mod format;
 mod identity;
@@ -49,6 +24,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
+pub use checkpoint::Checkpoint;
 pub use error::JournalError;
 pub use format::{Contents, Stretch, read_journal};
 pub use identity::differences;
@@ -87,9 +63,7 @@ impl Journal {
     pub fn create(path: &Path, header: &Value) -> Result<Self, JournalError> {
         refuse_no_file(path)?;
         // Truncated only once the lock is held: the file may be another run's.
-        let file = OpenOptions::new().create(true).truncate(false).read(true).write(true).open(path);
-        let file = file.map_err(|source| JournalError::unwritable(path, source))?;
-        lock(path, &file)?;
+        let file = open_locked(path, true)?;
         let journal = Self::writing(path, file, 0);
         let mut buffer = Vec::new();
         format::write_header(&mut buffer, header);
@@ -107,9 +81,7 @@ impl Journal {
     /// [`JournalError`] if the file cannot be read or written, is no journal, or another run is writing it.
     pub fn resume(path: &Path) -> Result<(Self, Contents), JournalError> {
         refuse_no_file(path)?;
-        let file = OpenOptions::new().read(true).write(true).open(path);
-        let mut file = file.map_err(|source| JournalError::unreadable(path, source))?;
-        lock(path, &file)?;
+        let mut file = open_locked(path, false)?;
         let bytes = read_opened(&mut file).map_err(|source| JournalError::unreadable(path, source))?;
         let contents = read_journal(path, &bytes)?;
         Ok((Self::writing(path, file, contents.length), contents))
@@ -118,6 +90,12 @@ impl Journal {
     fn writing(path: &Path, file: File, length: u64) -> Self {
         let writer = Writer { file, length, synced: Instant::now(), buffer: Vec::new() };
         Self { path: path.to_owned(), writer: Mutex::new(writer) }
+    }
+
+    /// The same file as a journal of sums, which take the place of all that is there at the next checkpoint.
+    pub(crate) fn into_checkpoint(self, header: &Value) -> Checkpoint {
+        let writer = self.writer.into_inner().unwrap_or_else(PoisonError::into_inner);
+        Checkpoint::new(&self.path, writer.file, header)
     }
 
     /// Where it is.
@@ -202,6 +180,34 @@ pub fn read_journal_file(path: &Path) -> Result<Contents, JournalError> {
     refuse_no_file(path)?;
     let bytes = read_whole(path).map_err(|source| JournalError::unreadable(path, source))?;
     read_journal(path, &bytes)
+}
+
+/// Opens the journal at `path` and locks it, made anew if it is not there and `creates`.
+fn open_locked(path: &Path, creates: bool) -> Result<File, JournalError> {
+    loop {
+        let file = OpenOptions::new().create(creates).truncate(false).read(true).write(true).open(path);
+        let wrong = if creates { JournalError::unwritable } else { JournalError::unreadable };
+        let file = file.map_err(|source| wrong(path, source))?;
+        lock(path, &file)?;
+        // A checkpoint may have taken the place of the file that was opened.
+        if is_at(&file, path) {
+            return Ok(file);
+        }
+    }
+}
+
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    match (file.metadata(), std::fs::metadata(path)) {
+        (Ok(opened), Ok(there)) => (opened.dev(), opened.ino()) == (there.dev(), there.ino()),
+        _ => false,
+    }
+}
+
+#[cfg(not(unix))]
+fn is_at(_: &File, _: &Path) -> bool {
+    true
 }
 
 fn lock(path: &Path, file: &File) -> Result<(), JournalError> {

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::design::{DesignSettings, Rows};
-use crate::model::Output;
+use crate::model::{Output, RunContext};
 use crate::quantity::Unit;
 
 /// Two outputs, one validity flag; never run.
@@ -17,7 +17,7 @@ impl Model for Described {
         &self.1
     }
 
-    fn worker(&self) -> Box<dyn crate::model::Worker + '_> {
+    fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn crate::model::Worker + 'a> {
         unreachable!("only described")
     }
 }
@@ -84,7 +84,7 @@ proptest! {
 fn the_runs_of_base_points_are_recalled_as_batches() {
     let (store, model) = (Store::new(&design(), &described()), described());
     store.insert(&piece(0..2000));
-    let mut batches = vec![Batch::of(&model); 5];
+    let mut batches = vec![Batch::new(&model); 5];
     // Base points 100 to 110 are rows 500 to 550.
     batches.iter_mut().for_each(|batch| batch.reset(10));
     assert!(store.recall(0, 100, &mut batches));

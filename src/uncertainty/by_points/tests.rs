@@ -272,7 +272,7 @@ fn coverage(function: &str, method: IntervalMethod) -> f64 {
         let study = study.sampler(Sampler::Random).base_samples(512).seed(seed).analysis(options.clone());
         let inputs = function.inputs().into_iter();
         let study = inputs.fold(study, |study, input| study.factor(&input.name, input.distribution)).build().unwrap();
-        let analysis = crate::analyse(&study, 0, &|_| ()).unwrap();
+        let analysis = study.run().unwrap();
         let exact = exact.first_order.iter().zip(&exact.total);
         // A factor that does nothing has intervals of no width, which always hold.
         let effects = analysis.outputs[0].indices.as_ref().unwrap().factors.iter().zip(exact);

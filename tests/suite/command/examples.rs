@@ -9,7 +9,7 @@ use crate::common::{gap, numbers, study_path};
 fn analysed(name: &str, base_samples: u64) -> Vec<OutputRecord> {
     let path = study_path(&format!("{name}/{name}"));
     let study = Study::load(&path, &[format!("design.base_samples={base_samples}")]).unwrap();
-    let result = ResultFile::new(&study, &apportion::analyse(&study, 0, &|_| ()).unwrap());
+    let result = ResultFile::new(&study, &study.run().unwrap());
     assert_eq!(
         result.outputs.iter().map(|output| output.runs_failed).sum::<u64>(),
         0,

@@ -132,7 +132,7 @@ pub fn by_formula(case: &Case, formula: &str) -> ResultFile {
     let text = format!("{}[expression]\noutputs.y = \"{formula}\"\n{}", &text[..start], &text[end..]);
     let text = text.replace("model = \"command\"", "model = \"expression\"");
     let study = apportion::study::Study::parse(&text, Path::new("formula.toml"), &[]).unwrap();
-    ResultFile::new(&study, &apportion::analyse(&study, 0, &|_| ()).unwrap())
+    ResultFile::new(&study, &study.run().unwrap())
 }
 
 /// The formula of [`LOOP`], in the same order of operations.

@@ -1,6 +1,6 @@
 //! Formulas.
 
-use apportion::model::{Batch, Expression, ExpressionModel, Model, Output, Symbol};
+use apportion::model::{Batch, Expression, ExpressionModel, Model, Output, RunContext, Symbol};
 use apportion::quantity::Unit;
 
 const POINTS: [[f64; 3]; 5] =
@@ -27,11 +27,11 @@ pub fn run(bytes: &[u8]) {
         }
     };
     let model = ExpressionModel::new(vec![(Output::new("y", Unit::dimensionless(), ""), formula.clone())]);
-    let mut batch = Batch::of(&model);
+    let mut batch = Batch::new(&model);
     batch.reset(POINTS.len());
     let columns: Vec<Vec<f64>> = (0..3).map(|input| POINTS.iter().map(|point| point[input]).collect()).collect();
     let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    model.worker().run(&inputs, &mut batch);
+    model.worker(&RunContext::default()).run(&inputs, &mut batch);
     for (row, point) in POINTS.iter().enumerate() {
         let (alone, among) = (formula.value(point), batch.column(0)[row]);
         // A value that is not finite has failed in the batch, which knows no infinities.

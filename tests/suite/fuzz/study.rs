@@ -3,8 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use apportion::analyse;
-use apportion::model::Batch;
+use apportion::model::{Batch, RunContext};
 use apportion::report::ResultFile;
 use apportion::report::{parse_result, result_json};
 use apportion::study::{AfmSubject, Study, StudyError, TemplateRequest, template};
@@ -75,10 +74,10 @@ fn answered(study: &Study) {
             assert!(column[place].is_finite(), "{}: {}", factor.name, column[place]);
         }
     }
-    let mut batch = Batch::of(model.as_ref());
+    let mut batch = Batch::new(model.as_ref());
     batch.reset(rows.len());
     let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    model.worker().run(&inputs, &mut batch);
+    model.worker(&RunContext::default()).run(&inputs, &mut batch);
     batch.settle();
     for output in 0..model.outputs().len() {
         for (row, value) in batch.column(output).iter().enumerate() {
@@ -103,7 +102,7 @@ fn begun(study: &Study) {
 
 /// The whole way; what is written can be read back.
 fn ran(study: &Study, draw: bool) {
-    let Ok(analysis) = analyse(study, 1, &|_| ()) else { return };
+    let Ok(analysis) = study.runner().threads(1).run() else { return };
     let result = ResultFile::new(study, &analysis);
     let json = result_json(&result);
     let read = parse_result(json.as_bytes()).unwrap_or_else(|error| panic!("the result is refused: {error}"));

@@ -5,7 +5,6 @@ use std::sync::atomic::Ordering;
 
 use super::super::process::Ending;
 use super::super::program::status_in_words;
-use super::super::voice;
 use super::super::words::{masked, seconds};
 use super::piece::Piece;
 use super::talk::{Session, Talk};
@@ -96,7 +95,7 @@ impl KeptWorker<'_> {
             return;
         }
         let rows = if session.sent == 1 { "the row".to_owned() } else { format!("the {} rows", session.sent) };
-        voice::say(&format!(
+        self.context.messages().send(&format!(
             "warning: the program is out of step: {how}; {rows} since it was last known to be in \
              step are asked again, and all that follow, each by a process of its own; {ADVICE}"
         ));

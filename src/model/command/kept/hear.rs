@@ -6,13 +6,15 @@ use super::numbers::count_of;
 use super::piece::Piece;
 use super::talk::{LONGEST, Session, Talk};
 use super::{Caution, Fault, KeptWorker};
+use crate::model::Messages;
 
 impl KeptWorker<'_> {
     /// Takes the answers in `bytes`.
     pub(super) fn hear(&mut self, bytes: &[u8], piece: &mut Piece<'_>) -> Result<(), Fault> {
-        let Self { model, form, talk, caution, .. } = self;
+        let Self { model, context, form, talk, caution, .. } = self;
+        let messages = context.messages();
         let Some(Talk { lines, session, .. }) = talk else { return Ok(()) };
-        let mut hearing = Hearing { model, session, caution, piece, values: Vec::new() };
+        let mut hearing = Hearing { model, messages, session, caution, piece, values: Vec::new() };
         lines.feed(bytes, |line| {
             hearing.values.clear();
             if form.row_numbers {
@@ -28,6 +30,7 @@ impl KeptWorker<'_> {
 
 struct Hearing<'a, 'b> {
     model: &'a CommandModel,
+    messages: &'a Messages,
     session: &'a mut Session,
     caution: &'a mut Caution,
     piece: &'a mut Piece<'b>,
@@ -83,8 +86,9 @@ impl Hearing<'_, '_> {
         if is_flood || is_first {
             return Err(Fault::Rubbish(words));
         }
-        State::say_once(
+        State::send_once(
             &self.model.state.strayed,
+            self.messages,
             &format!("warning: the program printed a line that is no answer, which is left out: {words}"),
         );
         self.session.stray = Some(words);

@@ -1,9 +1,14 @@
 //! What takes too long, or too much luck, to be seen through the program.
 
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::thread;
 use std::time::Duration;
 
-use crate::model::{Batch, CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, Model, Program, Protocol};
+use crate::model::{
+    Batch, CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, Model, Program, Protocol, RowFailure,
+    RunContext,
+};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor};
 
@@ -29,9 +34,9 @@ fn model(script: &str) -> CommandModel {
 /// What the model answers to `x`; no row may fail.
 #[track_caller]
 fn answers(model: &CommandModel, x: &[f64]) -> Vec<f64> {
-    let mut batch = Batch::of(model);
+    let mut batch = Batch::new(model);
     batch.reset(x.len());
-    model.worker().run(&[x], &mut batch);
+    model.worker(&RunContext::default()).run(&[x], &mut batch);
     batch.settle();
     assert_eq!((batch.given_up(), batch.failures()), (None, &[][..]));
     batch.column(0).to_vec()
@@ -57,6 +62,26 @@ fn a_program_that_has_answered_is_not_asked_that() {
     model.silence = Duration::from_millis(50);
     assert_eq!(answers(&model, &[1.0, 2.0, 3.0]), [1.0, 2.0, 3.0]);
     assert!(!model.state.hinted.load(Ordering::Relaxed));
+}
+
+#[test]
+fn a_model_can_be_run_again_after_it_was_interrupted_and_messages_go_to_the_run() {
+    let model = model("read -r header; echo started >&2; while read -r x; do sleep 0.1; echo \"$x\"; done");
+    let (stop, messages) = (AtomicBool::new(false), Arc::new(Mutex::new(Vec::new())));
+    let receiver = Arc::clone(&messages);
+    let context = RunContext::new(Some(&stop), move |line| receiver.lock().unwrap().push(line.to_owned()));
+    let mut batch = Batch::new(&model);
+    batch.reset(100);
+    thread::scope(|scope| {
+        scope.spawn(|| {
+            thread::sleep(Duration::from_millis(500));
+            stop.store(true, Ordering::Relaxed);
+        });
+        model.worker(&context).run(&[&[1.0; 100]], &mut batch);
+    });
+    assert_eq!(batch.given_up(), Some(&RowFailure::interrupted()));
+    assert!(messages.lock().unwrap().contains(&"the program: started".to_owned()));
+    assert_eq!(answers(&model, &[1.5, 2.5]), [1.5, 2.5]);
 }
 
 /// Each process answers one row: all rows are answered, each by a process of its own.

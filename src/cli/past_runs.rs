@@ -6,42 +6,32 @@ use apportion::report::{ResultFile, read_result, two_digits, widest_interval, wi
 use apportion::study::Study;
 
 use super::Failure;
-use super::record::{filled, journal_path, keeps_journal, read, rows_on_record};
+use super::run::journal_path;
 
 /// The lines of `check` about the folder of the results.
-pub fn outlook(study: &Study, folder: &Path) -> Result<String, Failure> {
-    let mut text = disk(study, folder)?;
+pub fn past_runs(study: &Study, folder: &Path) -> Result<String, Failure> {
     let path = journal_path(folder, &study.name, None);
+    let runner = study.runner().journal(&path);
+    let megabytes = study.design.rows() as f64 * study.model().outputs().len() as f64 * 8e-6;
+    let mut text = if runner.records_outputs() {
+        let megabytes = two_digits(megabytes.max(0.01));
+        format!("disk: about {megabytes} MB for the journal {}, and as much memory for its outputs\n", path.display())
+    } else {
+        format!("disk: the journal {} holds the sums of the runs, whatever their number\n", path.display())
+    };
     if path.exists() {
-        text.push_str(&match read(study, &path) {
-            Ok(contents) => {
-                let rows = rows_on_record(study, &filled(study, &contents));
-                format!("on record: {rows} of {} runs, which a run does not repeat\n", study.design.rows())
+        text.push_str(&match runner.recorded_runs() {
+            Ok(rows) => {
+                let total = study.design.rows();
+                format!("on record: {} of {total} runs, which a run does not repeat\n", rows.min(total))
             }
-            Err(Failure::Input(error) | Failure::Run(error)) => format!("on record: nothing of use: {error}\n"),
+            Err(error) => format!("on record: nothing of use: {error}\n"),
         });
     }
     if let Ok(result) = read_result(&folder.join(format!("{}.json", study.name))) {
         text.push_str(&last_result(&result));
     }
     Ok(text)
-}
-
-fn disk(study: &Study, folder: &Path) -> Result<String, Failure> {
-    let megabytes = study.design.rows() as f64 * study.model().outputs().len() as f64 * 8e-6;
-    let path = journal_path(folder, &study.name, None);
-    Ok(if keeps_journal(study)? {
-        format!(
-            "disk: about {} MB for the journal {}, and as much memory for its outputs\n",
-            two_digits(megabytes.max(0.01)),
-            path.display()
-        )
-    } else {
-        format!(
-            "disk: no journal: it would take {} MB, and the runs are quick enough to be evaluated again\n",
-            two_digits(megabytes)
-        )
-    })
 }
 
 fn last_result(result: &ResultFile) -> String {

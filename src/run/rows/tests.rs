@@ -1,10 +1,11 @@
-use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Duration;
 
 use super::*;
 use crate::design::{Design, DesignSettings, Rows};
-use crate::model::{Batch, FunctionModel, Model, Output, Worker};
+use crate::model::{Batch, FunctionModel, Model, Output, RunContext, Worker};
 use crate::quantity::Unit;
-use crate::run::{BLOCK, GrowingRun, Shard, Totals, run};
+use crate::run::{BLOCK, GrowingRun, Progress, Shard, Totals, run};
 use crate::space::{Distribution, Factor, Space};
 use crate::study::Study;
 
@@ -31,7 +32,8 @@ fn counted(rows: &AtomicU64) -> impl Model + '_ {
 
 fn with_store(design: &Design, model: &dyn Model, (store, points): (&Store, u64)) -> Result<Vec<Totals>, RunError> {
     let space = space();
-    let mut run = GrowingRun::new(Job { design, space: &space, model }, 2)?.with_store(store);
+    let context = RunContext::default();
+    let mut run = GrowingRun::new(Job { design, space: &space, model }, &context, 2)?.with_store(store, None);
     run.grow_to(points, &|_| ())?;
     Ok(run.totals().to_vec())
 }
@@ -63,7 +65,8 @@ fn the_physics_gives_the_same_bits_row_by_row() {
         let job = Job { design: &study.design, space: &study.space, model: model.as_ref() };
         let plain = run(job, 1, &|_| ()).unwrap();
         let store = Store::new(&study.design, model.as_ref());
-        let mut run = GrowingRun::new(job, 2).unwrap().with_store(&store);
+        let context = RunContext::default();
+        let mut run = GrowingRun::new(job, &context, 2).unwrap().with_store(&store, None);
         run.grow_to(u64::MAX, &|_| ()).unwrap();
         assert!(run.totals() == plain, "{fidelity}");
     }
@@ -92,15 +95,16 @@ fn shards_make_up_the_whole_run() {
     for number in [3, 1, 2] {
         let shard: Shard = format!("{number}/3").parse().unwrap();
         let (part, kept) = (Store::new(&design, &model), Mutex::new(Vec::new()));
-        let keep = |piece: &Piece| {
+        let sink = |piece: &Piece| {
             kept.lock().unwrap().push(piece.clone());
             Ok(())
         };
         let space = space();
         let job = Job { design: &design, space: &space, model: &model };
-        let run = GrowingRun::new(job, 2).unwrap().with_store(&part).with_keep(Some(&keep));
-        run.fill(&shard.rows(&design), &|_| ()).unwrap();
-        kept.into_inner().unwrap().iter().for_each(|piece| {
+        let context = RunContext::default();
+        let run = GrowingRun::new(job, &context, 2).unwrap().with_store(&part, Some(&sink));
+        run.run_missing(&shard.rows(&design), &part, &|_| ()).unwrap();
+        kept.lock().unwrap().iter().for_each(|piece| {
             whole.insert(piece);
         });
     }
@@ -118,7 +122,8 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
     let on_progress = |progress: Progress| stop.store(progress.done > 1000, Ordering::Relaxed);
-    let mut stopped = GrowingRun::new(job, 2).unwrap().with_store(&store).with_stop(Some(&stop));
+    let context = RunContext::new(Some(&stop), |_| ());
+    let mut stopped = GrowingRun::new(job, &context, 2).unwrap().with_store(&store, None);
     let slow = |progress| {
         on_progress(progress);
         std::thread::sleep(Duration::from_millis(5));
@@ -141,7 +146,8 @@ fn a_run_without_a_store_stops_too() {
     let stop = AtomicBool::new(false);
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
-    let mut run = GrowingRun::new(job, 2).unwrap().with_stop(Some(&stop));
+    let context = RunContext::new(Some(&stop), |_| ());
+    let mut run = GrowingRun::new(job, &context, 2).unwrap();
     let error = run.grow_to(u64::MAX, &|_| stop.store(true, Ordering::Relaxed)).unwrap_err();
     assert!(matches!(error, RunError::Interrupted { .. }), "{error}");
     assert!(rows.load(Ordering::Relaxed) < design.rows());
@@ -159,7 +165,7 @@ impl Model for Tired {
         Some(3)
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         Box::new(TiredWorker(&self.1))
     }
 }
@@ -201,7 +207,8 @@ fn outputs_that_cannot_be_kept_end_the_run() {
     let full = |_: &Piece| Err(std::io::Error::from(std::io::ErrorKind::StorageFull));
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
-    let mut run = GrowingRun::new(job, 2).unwrap().with_store(&store).with_keep(Some(&full));
+    let context = RunContext::default();
+    let mut run = GrowingRun::new(job, &context, 2).unwrap().with_store(&store, Some(&full));
     let error = run.grow_to(u64::MAX, &|_| ()).unwrap_err();
     assert!(matches!(error, RunError::NotKept { .. }), "{error}");
     assert_eq!(store.count(0, 0..design.rows()).0, 0);
@@ -215,8 +222,9 @@ fn a_failed_row_ends_a_run_that_says_so() {
     let store = Store::new(&design, &model);
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
-    let run = GrowingRun::new(job, 1).unwrap().with_failures(FailurePolicy::Fail);
-    let error = run.with_store(&store).grow_to(u64::MAX, &|_| ()).unwrap_err();
+    let context = RunContext::default();
+    let run = GrowingRun::new(job, &context, 1).unwrap().with_failures(FailurePolicy::Fail);
+    let error = run.with_store(&store, None).grow_to(u64::MAX, &|_| ()).unwrap_err();
     let RunError::RowFailed { row, reason } = error else { panic!("{error}") };
     assert_eq!(reason.to_string(), "too large");
     let mut u = [0.0; 2];

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock};
 use std::time::SystemTime;
 
-use apportion::files::read_whole;
-use apportion::study::Study;
+use crate::files::read_whole;
+use crate::study::Study;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
@@ -22,7 +22,7 @@ fn digests(paths: &[PathBuf]) -> Value {
 
 /// The names of files (path: digest) that are not the same before and now, if any. They are known by their names, so that a
 /// study may move, and be called by any path.
-pub fn differing(before: &Value, now: &Value) -> Option<String> {
+pub(super) fn differing(before: &Value, now: &Value) -> Option<String> {
     let known = |files: &Value| -> BTreeSet<(String, String)> {
         let name = |path: &String| Path::new(path).file_name().map(|name| name.to_string_lossy().into_owned());
         let entries = files.as_object().into_iter().flatten();
@@ -38,7 +38,7 @@ pub fn differing(before: &Value, now: &Value) -> Option<String> {
 type Stamp = Option<(SystemTime, u64)>;
 
 /// The files of a study as they were when its run began, looked at again while it goes on.
-pub struct ModelFiles {
+pub(super) struct ModelFiles {
     paths: Vec<PathBuf>,
     begun: Value,
     seen: Mutex<Vec<Stamp>>,
@@ -47,7 +47,7 @@ pub struct ModelFiles {
 
 impl ModelFiles {
     /// The files of `study` as they are now.
-    pub fn of(study: &Study) -> Self {
+    pub fn new(study: &Study) -> Self {
         let paths = study.subject.files();
         // Before the digests: a change in between is seen.
         let seen = Mutex::new(stamps(&paths));
@@ -55,7 +55,7 @@ impl ModelFiles {
     }
 
     /// Files that nobody evaluates anything with here.
-    pub fn on_record(files: &Value) -> Self {
+    pub fn from_record(files: &Value) -> Self {
         Self { paths: Vec::new(), begun: files.clone(), seen: Mutex::default(), changed: OnceLock::new() }
     }
 

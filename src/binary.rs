@@ -1,0 +1,154 @@
+//! Numbers as bytes, little-endian, every bit kept: what files of a run are made of.
+
+use std::collections::BTreeMap;
+
+/// Bytes still to be read.
+#[derive(Clone, Copy)]
+pub(crate) struct Reader<'a> {
+    pub bytes: &'a [u8],
+}
+
+impl<'a> Reader<'a> {
+    /// The next `count` bytes, if there are as many.
+    pub fn take(&mut self, count: usize) -> Option<&'a [u8]> {
+        let (taken, rest) = self.bytes.split_at_checked(count)?;
+        self.bytes = rest;
+        Some(taken)
+    }
+
+    pub fn u32(&mut self) -> Option<u32> {
+        Some(u32::from_le_bytes(self.take(4)?.try_into().ok()?))
+    }
+}
+
+/// A value that is written as bytes, and read back with the same bits.
+pub(crate) trait Binary: Sized {
+    /// Appends the value to `out`.
+    fn write(&self, out: &mut Vec<u8>);
+
+    /// The next value; `None` if the bytes are none.
+    fn read(from: &mut Reader<'_>) -> Option<Self>;
+}
+
+/// Implements [`Binary`] for a structure by its fields, all of them, in this order.
+macro_rules! binary_fields {
+    ($name:ident { $($field:ident),* $(,)? }) => {
+        impl $crate::binary::Binary for $name {
+            fn write(&self, out: &mut Vec<u8>) {
+                let Self { $($field),* } = self;
+                $($crate::binary::Binary::write($field, out);)*
+            }
+
+            fn read(from: &mut $crate::binary::Reader<'_>) -> Option<Self> {
+                Some(Self { $($field: $crate::binary::Binary::read(from)?),* })
+            }
+        }
+    };
+}
+pub(crate) use binary_fields;
+
+impl Binary for u64 {
+    fn write(&self, out: &mut Vec<u8>) {
+        out.extend_from_slice(&self.to_le_bytes());
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        Some(Self::from_le_bytes(from.take(8)?.try_into().ok()?))
+    }
+}
+
+impl Binary for usize {
+    fn write(&self, out: &mut Vec<u8>) {
+        (*self as u64).write(out);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        Self::try_from(u64::read(from)?).ok()
+    }
+}
+
+impl Binary for f64 {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.to_bits().write(out);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        Some(Self::from_bits(u64::read(from)?))
+    }
+}
+
+impl Binary for bool {
+    fn write(&self, out: &mut Vec<u8>) {
+        out.push(u8::from(*self));
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        match from.take(1)? {
+            [0] => Some(false),
+            [1] => Some(true),
+            _ => None,
+        }
+    }
+}
+
+impl Binary for String {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.len().write(out);
+        out.extend_from_slice(self.as_bytes());
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        let length = usize::read(from)?;
+        String::from_utf8(from.take(length)?.to_vec()).ok()
+    }
+}
+
+impl<A: Binary, B: Binary> Binary for (A, B) {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.0.write(out);
+        self.1.write(out);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        Some((A::read(from)?, B::read(from)?))
+    }
+}
+
+impl<T: Binary> Binary for Option<T> {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.is_some().write(out);
+        if let Some(value) = self {
+            value.write(out);
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        Some(if bool::read(from)? { Some(T::read(from)?) } else { None })
+    }
+}
+
+impl<T: Binary> Binary for Vec<T> {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.len().write(out);
+        self.iter().for_each(|value| value.write(out));
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        // Every value takes a byte at least: a count beyond the bytes ends with them, and reserves no memory.
+        (0..u64::read(from)?).map(|_| T::read(from)).collect()
+    }
+}
+
+impl<K: Binary + Ord, V: Binary> Binary for BTreeMap<K, V> {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.len().write(out);
+        for (key, value) in self {
+            key.write(out);
+            value.write(out);
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        (0..u64::read(from)?).map(|_| <(K, V)>::read(from)).collect()
+    }
+}

@@ -1,0 +1,95 @@
+//! What a run tells its workers, and what they tell it.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// What workers know of the run they work for: whether it is to end, and where their messages go.
+///
+/// ```
+/// use std::sync::atomic::{AtomicBool, Ordering};
+/// use apportion::model::RunContext;
+///
+/// let stop = AtomicBool::new(false);
+/// let context = RunContext::new(Some(&stop), |line| eprintln!("{line}"));
+/// stop.store(true, Ordering::Relaxed);
+/// assert!(context.is_stopped());
+/// ```
+#[derive(Debug, Default)]
+pub struct RunContext<'a> {
+    stop: Option<&'a AtomicBool>,
+    ended: AtomicBool,
+    messages: Messages,
+}
+
+impl<'a> RunContext<'a> {
+    /// A run that ends when `stop` is set, and passes every message of its workers, a line, to `on_message`. (The
+    /// default is a run that nobody stops or listens to.)
+    pub fn new(stop: Option<&'a AtomicBool>, on_message: impl Fn(&str) + Send + Sync + 'static) -> Self {
+        let messages = Messages { receiver: Some(Arc::new(on_message)), lines: Arc::default() };
+        Self { stop, ended: AtomicBool::new(false), messages }
+    }
+
+    /// Whether workers are to end soon what they are at: they then [give up](super::Batch::give_up) with
+    /// [`RowFailure::interrupted`](super::RowFailure::interrupted). A model whose rows take no time worth speaking of need
+    /// not look.
+    pub fn is_stopped(&self) -> bool {
+        self.ended.load(Ordering::Relaxed) || self.is_interrupted()
+    }
+
+    /// Where messages go.
+    pub fn messages(&self) -> &Messages {
+        &self.messages
+    }
+
+    /// Whether whoever started the run wants it to end.
+    pub(crate) fn is_interrupted(&self) -> bool {
+        self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
+    }
+
+    /// Lets the workers end what they are at, for a reason of the run's own.
+    pub(crate) fn end(&self) {
+        self.ended.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Lines that a program prints on standard error and that are passed on; the others are counted.
+const MOST_LINES: u64 = 20;
+
+/// Messages of the workers of one run, in the order in which they come. Clones go to the same place.
+#[derive(Clone, Default)]
+pub struct Messages {
+    receiver: Option<Arc<dyn Fn(&str) + Send + Sync>>,
+    /// Lines of programs so far.
+    lines: Arc<AtomicU64>,
+}
+
+impl std::fmt::Debug for Messages {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Messages").field("lines", &self.lines).finish_non_exhaustive()
+    }
+}
+
+impl Messages {
+    /// Sends a line.
+    pub fn send(&self, line: &str) {
+        if let Some(receiver) = &self.receiver {
+            receiver(line);
+        }
+    }
+
+    /// Sends a line that a program has printed, unless there have been enough.
+    pub(crate) fn send_printed(&self, line: &str) {
+        if self.lines.fetch_add(1, Ordering::Relaxed) < MOST_LINES {
+            self.send(line);
+        }
+    }
+
+    /// Says how many lines of programs were not sent; to be called at the end of a run.
+    pub(crate) fn finish(&self) {
+        let left_out = self.lines.swap(0, Ordering::Relaxed).saturating_sub(MOST_LINES);
+        if left_out > 0 {
+            let lines = if left_out == 1 { "line" } else { "lines" };
+            self.send(&format!("the program: {left_out} more {lines} on standard error left out"));
+        }
+    }
+}

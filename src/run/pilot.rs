@@ -1,0 +1,102 @@
+//! How long the runs of a design will take, by a few of them.
+
+use std::collections::BTreeSet;
+use std::time::Instant;
+
+use super::{Job, RowValues, RunError, run};
+use crate::design::{Design, DesignError, DesignSettings};
+use crate::model::{Batch, RunContext, Standing};
+
+/// A few runs of a design, and how long the whole of it would take by them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pilot {
+    /// Runs it took.
+    pub runs: u64,
+    /// Seconds that the whole design will take, the start included.
+    pub seconds: f64,
+    /// Seconds that a worker takes before its first run, where it takes any.
+    pub startup: f64,
+    /// Whether what it answered was not known to be in step with its rows in the end.
+    pub is_out_of_step: bool,
+    /// Runs that failed in some output.
+    pub failed: u64,
+    /// Why the first of them did.
+    pub reason: Option<String>,
+}
+
+impl Pilot {
+    /// Runs ever larger first parts of the design until they take long enough to be measured, or are all of it.
+    ///
+    /// # Errors
+    /// [`RunError`] if the model gives up or the run of `context` is to end.
+    pub fn new(job: Job<'_>, context: &RunContext<'_>) -> Result<Self, RunError> {
+        const ENOUGH: f64 = 0.1;
+        let design = job.design;
+        if let Some(workers) = job.model.concurrency() {
+            return Self::of_one_worker(job, context, workers);
+        }
+        let shorter = |base_samples| {
+            let settings = DesignSettings { base_samples, replicates: 1, ..design.settings().clone() };
+            Design::new(settings, design.factors(), design.asked().clone())
+        };
+        let mut points = 2;
+        loop {
+            // A design that cannot be shorter is run as a whole.
+            let part = shorter(points).unwrap_or_else(|_: DesignError| design.clone());
+            let start = Instant::now();
+            let totals = run(Job { design: &part, ..job }, 0, &|_| ())?;
+            let seconds = start.elapsed().as_secs_f64();
+            if seconds >= ENOUGH || points >= design.settings().base_samples {
+                let share = design.rows() as f64 / part.rows() as f64;
+                let failures = totals.iter().flat_map(|totals| &totals.outputs).flat_map(|output| &output.failures);
+                let first = failures.min_by_key(|(_, tally)| tally.first);
+                return Ok(Self {
+                    runs: part.rows(),
+                    seconds: seconds * share,
+                    startup: 0.0,
+                    is_out_of_step: false,
+                    failed: totals.iter().map(|totals| totals.failed_runs).sum(),
+                    reason: first.map(|(reason, _)| reason.to_string()),
+                });
+            }
+            points = (points * 4).min(design.settings().base_samples);
+        }
+    }
+
+    /// A pilot of a model that takes its time, by one of its workers. What the first row takes longer than the same row once
+    /// more is the start.
+    fn of_one_worker(job: Job<'_>, context: &RunContext<'_>, workers: usize) -> Result<Self, RunError> {
+        const ENOUGH: f64 = 0.5;
+        const MOST: u64 = 4096;
+        let Job { design, model, .. } = job;
+        let (mut worker, mut batch, mut values) = (model.worker(context), Batch::new(model), RowValues::default());
+        let (mut failed, mut reason, mut is_out_of_step) = (0, None, false);
+        let mut timed = |rows: u64| {
+            let columns = values.values(job, 0, 0..rows);
+            let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+            batch.reset(rows as usize);
+            let start = Instant::now();
+            while worker.run_ahead(&inputs, &mut batch) == Standing::Revoked && batch.given_up().is_none() {
+                is_out_of_step = true;
+                batch.reset(rows as usize);
+            }
+            let seconds = start.elapsed().as_secs_f64();
+            // Every piece begins with the first row, so that the last one has them all.
+            let rows: BTreeSet<usize> = batch.failures().iter().map(|(_, row, _)| *row).collect();
+            failed = rows.len() as u64;
+            reason = batch.failures().first().map(|(.., reason)| reason.to_string());
+            batch.given_up().map_or(Ok(seconds), |reason| Err(RunError::GaveUp { reason: reason.clone() }))
+        };
+        let first = timed(1)?;
+        let rows = design.points_per_replicate() * design.rows_per_point();
+        let (mut runs, mut seconds) = (1, timed(1)?);
+        let startup = (first - seconds).max(0.0);
+        while seconds < ENOUGH && runs < rows.min(MOST) {
+            runs = (runs * 4).min(rows).min(MOST);
+            seconds = timed(runs)?;
+        }
+        is_out_of_step |= worker.confirm() == Standing::Revoked;
+        let whole = seconds * design.rows() as f64 / runs as f64 / workers as f64;
+        Ok(Self { runs, seconds: whole + startup, startup, is_out_of_step, failed, reason })
+    }
+}

@@ -1,0 +1,510 @@
+//! The journal of a study's run: found, checked against the study, and gone on with or begun anew.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use serde_json::{Value, json};
+
+use super::Resume;
+use super::model_files::{ModelFiles, differing};
+use crate::model::Messages;
+use crate::run::journal::{Checkpoint, Contents, Journal, JournalError, differences, read_journal_file};
+use crate::run::{Piece, RunError, Shard, Store, Sums};
+use crate::study::Study;
+
+/// Outputs of more bytes than this are not put on record for quick runs: it takes longer than to evaluate them again.
+const LARGE: u64 = 64 << 20;
+
+impl Resume {
+    /// The option that asks for it.
+    fn option(self) -> &'static str {
+        if self == Self::RetryFailed { "--retry-failed" } else { "--resume" }
+    }
+
+    fn is_required(self) -> bool {
+        matches!(self, Self::Require | Self::RetryFailed)
+    }
+}
+
+/// What is asked of a record.
+#[derive(Clone, Copy)]
+pub(super) struct JournalRequest {
+    pub resume: Resume,
+    /// Whether runs that were evaluated with other files of the model are used too.
+    pub mixes_models: bool,
+    pub shard: Option<Shard>,
+    pub needs_outputs: bool,
+}
+
+/// Runs on record that were evaluated with other files of the model than those of now.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Foreign {
+    /// The names of the files that differ.
+    pub names: String,
+    pub rows: u64,
+}
+
+/// The runs of a study that are on record, and where more are put on record.
+pub(super) struct OpenJournal {
+    kind: Kind,
+    /// Those of them that another model answered, if they were asked for.
+    pub foreign: Option<Foreign>,
+}
+
+enum Kind {
+    None,
+    Outputs(Outputs),
+    Sums(Checkpoint, Option<Sums>),
+}
+
+struct Outputs {
+    store: Store,
+    journal: Journal,
+    files: ModelFiles,
+    /// Whether the journal says that the files have changed under the run.
+    is_uncertain: Mutex<bool>,
+}
+
+impl OpenJournal {
+    /// No record.
+    pub fn none() -> Self {
+        Self { kind: Kind::None, foreign: None }
+    }
+
+    fn from_outputs(store: Store, journal: Journal, files: ModelFiles) -> Self {
+        let outputs = Outputs { store, journal, files, is_uncertain: Mutex::new(false) };
+        Self { kind: Kind::Outputs(outputs), foreign: None }
+    }
+
+    fn from_sums(checkpoint: Checkpoint, sums: Sums) -> Self {
+        Self { kind: Kind::Sums(checkpoint, Some(sums)), foreign: None }
+    }
+
+    /// The outputs on record, if outputs are.
+    pub fn store(&self) -> Option<&Store> {
+        if let Kind::Outputs(outputs) = &self.kind { Some(&outputs.store) } else { None }
+    }
+
+    pub fn checkpoint(&self) -> Option<&Checkpoint> {
+        if let Kind::Sums(checkpoint, _) = &self.kind { Some(checkpoint) } else { None }
+    }
+
+    /// The sums on record, if sums are.
+    pub fn take_sums(&mut self) -> Option<Sums> {
+        if let Kind::Sums(_, sums) = &mut self.kind { sums.take() } else { None }
+    }
+
+    /// Puts a piece on record, with the files that it was evaluated with.
+    pub fn append(&self, piece: &Piece) -> std::io::Result<()> {
+        let Kind::Outputs(Outputs { journal, files, is_uncertain, .. }) = &self.kind else { return Ok(()) };
+        // Held until the piece is there: it must not come to lie on the wrong side of the note.
+        let mut is_uncertain = is_uncertain.lock().unwrap_or_else(PoisonError::into_inner);
+        if !*is_uncertain && files.changed().is_some() {
+            journal.append_files(&files.uncertain())?;
+            *is_uncertain = true;
+        }
+        journal.append(piece)
+    }
+
+    /// Forces what is on record to the disk.
+    pub fn sync(&self) -> Result<(), RunError> {
+        let Kind::Outputs(Outputs { journal, .. }) = &self.kind else { return Ok(()) };
+        journal.sync().map_err(|source| RunError::NotKept { source })
+    }
+}
+
+/// Whether the outputs of every run of `study` are needed, besides their sums.
+pub(super) fn needs_outputs(study: &Study, saves_outputs: bool) -> bool {
+    saves_outputs || study.model().concurrency().is_some() || study.analysis.intervals.keeps_outputs()
+}
+
+/// Opens the record of `study` at `path` for parts that were evaluated with `files`, however quick its runs are. What is
+/// there is used if it was evaluated with the same files, and else moved aside.
+pub(super) fn open_for_parts(
+    study: &Study,
+    path: &Path,
+    files: &Value,
+    messages: &Messages,
+) -> Result<OpenJournal, RunError> {
+    let of_parts = ModelFiles::from_record(files);
+    if path.exists() {
+        match Journal::resume(path) {
+            Ok((journal, contents)) => {
+                let recalled = recall(study, &contents, files, Resume::IfThere);
+                let why = match &contents.sums {
+                    Some(_) => Some("the journal holds sums, and parts are merged by their outputs".to_owned()),
+                    None => another_study(study, &contents.header).or_else(|| recalled.of_another_model()),
+                };
+                let Some(why) = why else { return go_on(journal, &contents, recalled.own, of_parts) };
+                drop(journal);
+                move_aside(path, &why, messages)?;
+            }
+            Err(error @ (JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. })) => {
+                move_aside(path, &error.to_string(), messages)?;
+            }
+            Err(error) => return Err(error.into()),
+        }
+    }
+    begin(study, path, None, of_parts)
+}
+
+/// Opens the record of `study` at `path`. A journal of something else, or one that is not wanted, is moved aside.
+pub(super) fn open(
+    study: &Study,
+    path: &Path,
+    request: JournalRequest,
+    messages: &Messages,
+) -> Result<OpenJournal, RunError> {
+    let JournalRequest { resume, mixes_models, .. } = request;
+    if !path.exists() {
+        if resume.is_required() {
+            return Err(refused(path, "there is no journal here: nothing is on record to go on with".to_owned()));
+        }
+        return fresh(study, path, request);
+    }
+    let (journal, mut contents) = match Journal::resume(path) {
+        Ok(found) => found,
+        Err(error @ (JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. }))
+            if !resume.is_required() =>
+        {
+            move_aside(path, &error.to_string(), messages)?;
+            return fresh(study, path, request);
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let other = another_study(study, &contents.header);
+    if let (true, Some(why)) = (resume.is_required(), &other) {
+        return Err(refused(path, why.clone()));
+    }
+    if let Some(sums) = contents.sums.take() {
+        return open_sums(study, path, (journal, sums, other), request, messages);
+    }
+    let files = ModelFiles::new(study);
+    let recalled = recall(study, &contents, files.begun(), resume);
+    let why = match resume {
+        Resume::Never => Some("--restart".to_owned()),
+        _ if mixes_models => other,
+        Resume::Require | Resume::RetryFailed => recalled.refuse(path, resume).map(|()| None)?,
+        Resume::IfThere => other.or_else(|| recalled.of_another_model()),
+    };
+    if why.is_some() || contents.pieces.is_empty() && !request.needs_outputs {
+        drop(journal);
+        return anew(study, path, request, contents.pieces.is_empty(), (why, messages));
+    }
+    if contents.cut_off > 0 {
+        let what = "behind its last whole record, of runs that are evaluated again";
+        messages.send(&format!("note: {}: {} bytes were cut off {what}", path.display(), contents.cut_off));
+    }
+    if resume == Resume::RetryFailed {
+        match recalled.forgotten {
+            0 => messages.send(&format!("note: no run on record in {} has failed", path.display())),
+            1 => messages.send("note: the run that failed is evaluated again"),
+            failed => messages.send(&format!("note: the {failed} runs that failed are evaluated again")),
+        }
+    }
+    let Recalled { own, all, foreign, .. } = recalled;
+    let store = match (&foreign, mixes_models) {
+        (None, _) => own,
+        (Some(Foreign { names, rows }), true) => {
+            messages.send(&format!(
+                "warning: {rows} of the runs on record were evaluated with another {names}: the result mixes both"
+            ));
+            all.unwrap_or(own)
+        }
+        (Some(Foreign { names, rows }), false) => {
+            messages.send(&format!(
+                "note: {rows} of the runs on record were evaluated with another {names}: they are evaluated again"
+            ));
+            own
+        }
+    };
+    tell_recorded(study, path, rows_on_record(study, &store), messages);
+    let record = go_on(journal, &contents, store, files)?;
+    Ok(OpenJournal { foreign: foreign.filter(|_| mixes_models), ..record })
+}
+
+/// Opens a record of sums, which is of another study if `other` says so.
+fn open_sums(
+    study: &Study,
+    path: &Path,
+    (journal, sums, other): (Journal, Sums, Option<String>),
+    request: JournalRequest,
+    messages: &Messages,
+) -> Result<OpenJournal, RunError> {
+    let JournalRequest { resume, needs_outputs, .. } = request;
+    let (model, settings) = (study.model(), study.design.settings());
+    let (points, grows) = (study.design.points_per_replicate(), study.stopping.grows());
+    let is_empty = sums.rows() == 0;
+    let fits = || {
+        let coherent = sums.is_coherent(settings.replicates);
+        coherent && sums.totals().all(|totals| totals.fits(&study.design, model.as_ref()))
+    };
+    let why = if resume == Resume::Never {
+        Some("--restart".to_owned())
+    } else if other.is_some() {
+        other
+    } else if needs_outputs && !is_empty {
+        let what = "the journal holds the sums of the runs, and their outputs are needed";
+        Some(if resume.is_required() { format!("{what}: leave out {}", resume.option()) } else { what.to_owned() })
+    } else if !fits() {
+        Some("this is no journal of a run: its sums are not of this design".to_owned())
+    } else if !sums.is_stage_of(points, grows) {
+        Some("the journal holds sums of a run that grew from another number of base samples".to_owned())
+    } else {
+        None
+    };
+    match why {
+        Some(why) if resume.is_required() => return Err(refused(path, why)),
+        None if !grows && sums.points() > points => {
+            let recorded = sums.points() * settings.replicates;
+            let what = format!(
+                "the journal holds the sums of {recorded} base samples, which cannot be divided into those of {}",
+                settings.base_samples
+            );
+            if resume.is_required() {
+                return Err(refused(
+                    path,
+                    format!("{what}: ask for as many or more, or leave out {}", resume.option()),
+                ));
+            }
+            messages
+                .send(&format!("note: {}: {what}: it stays as it is, and this run is not recorded", path.display()));
+            return Ok(OpenJournal::none());
+        }
+        None if !needs_outputs => (),
+        why => {
+            drop(journal);
+            return anew(study, path, request, is_empty, (why, messages));
+        }
+    }
+    let header = header(study, None, &ModelFiles::new(study));
+    if resume == Resume::RetryFailed {
+        messages.send("note: the journal holds sums: all runs are evaluated anew, those that failed among them");
+        let checkpoint = journal.into_checkpoint(&header);
+        return Ok(OpenJournal::from_sums(checkpoint, Sums::new(settings.replicates)));
+    }
+    tell_recorded(study, path, sums.rows(), messages);
+    Ok(OpenJournal::from_sums(journal.into_checkpoint(&header), sums))
+}
+
+fn tell_recorded(study: &Study, path: &Path, rows: u64, messages: &Messages) {
+    if rows > 0 {
+        let total = study.design.rows();
+        messages.send(&format!("note: {rows} of {total} runs are on record in {}", path.display()));
+    }
+}
+
+/// Begins a record anew, in place of one that is moved aside if there is something in it.
+fn anew(
+    study: &Study,
+    path: &Path,
+    request: JournalRequest,
+    is_empty: bool,
+    (why, messages): (Option<String>, &Messages),
+) -> Result<OpenJournal, RunError> {
+    if is_empty {
+        std::fs::remove_file(path).map_err(|error| in_the_way(path, &error))?;
+    } else {
+        move_aside(path, why.as_deref().unwrap_or_default(), messages)?;
+    }
+    fresh(study, path, request)
+}
+
+/// A record that goes on in a journal: if it ends with other files, the journal says that there are new ones.
+fn go_on(journal: Journal, contents: &Contents, store: Store, files: ModelFiles) -> Result<OpenJournal, RunError> {
+    let last = contents.stretches.last().map_or(&Value::Null, |stretch| &stretch.files);
+    if differing(last, files.begun()).is_some() {
+        journal.append_files(files.begun()).map_err(|source| RunError::NotKept { source })?;
+    }
+    Ok(OpenJournal::from_outputs(store, journal, files))
+}
+
+/// What is on record, by the model that answered.
+struct Recalled {
+    /// Runs that were evaluated with the files of now.
+    own: Store,
+    /// These and all others, if there are others.
+    all: Option<Store>,
+    foreign: Option<Foreign>,
+    /// Runs that failed, and are to be evaluated again.
+    forgotten: u64,
+}
+
+/// What a journal holds of `study`, whose model has `files` now. Where a run is there twice, that of the files of now
+/// counts, and else the later one.
+fn recall(study: &Study, contents: &Contents, files: &Value, resume: Resume) -> Recalled {
+    let again = |store: &Store| if resume == Resume::RetryFailed { store.forget_failures() } else { 0 };
+    let is_own = |now: &Value| differing(now, files).is_none();
+    let mut names = None;
+    for (_, before) in contents.pieces_with_files() {
+        names = names.or_else(|| differing(before, files));
+    }
+    let own = filled_by(study, contents, &is_own);
+    let Some(names) = names else {
+        let forgotten = again(&own);
+        return Recalled { own, all: None, foreign: None, forgotten };
+    };
+    let all = filled_by(study, contents, &|before| !is_own(before));
+    own.pieces().iter().for_each(|piece| {
+        all.insert(piece);
+    });
+    let forgotten = again(&all);
+    again(&own);
+    let rows = all.rows().saturating_sub(own.rows());
+    let foreign = (rows > 0).then_some(Foreign { names, rows });
+    Recalled { own, all: Some(all), foreign, forgotten }
+}
+
+impl Recalled {
+    /// Why nothing of it is of use, if runs are there, but all of another model.
+    fn of_another_model(&self) -> Option<String> {
+        let foreign = self.foreign.as_ref().filter(|_| self.own.rows() == 0)?;
+        Some(format!("{} changed since the journal was written", foreign.names))
+    }
+
+    /// Refuses runs of another model, of which the user may not know.
+    fn refuse(&self, path: &Path, resume: Resume) -> Result<(), RunError> {
+        let Some(Foreign { names, rows }) = &self.foreign else { return Ok(()) };
+        let option = resume.option();
+        Err(refused(
+            path,
+            format!(
+                "{names} changed since {rows} of the runs on record were evaluated: the result would mix two models. Undo \
+             the change; or leave out {option}, and they are evaluated again; or add --mix-models, and they are used, which \
+             the result then says"
+            ),
+        ))
+    }
+}
+
+/// A store of what a journal of this study holds of the model as it is now.
+fn filled(study: &Study, contents: &Contents) -> Store {
+    recall(study, contents, ModelFiles::new(study).begun(), Resume::IfThere).own
+}
+
+/// What a journal of a part holds, and the files that it was evaluated with.
+///
+/// # Errors
+/// [`RunError::Refused`] if several models have answered.
+pub(super) fn part(study: &Study, path: &Path, contents: &Contents) -> Result<(Store, Value), RunError> {
+    if contents.sums.is_some() {
+        return Err(refused(
+            path,
+            "this journal holds the sums of a run, and not the outputs of a part of one".to_owned(),
+        ));
+    }
+    let last = contents.pieces_with_files().last().map(|(_, files)| files);
+    let files = last.or(contents.stretches.last().map(|stretch| &stretch.files)).unwrap_or(&Value::Null);
+    let recalled = recall(study, contents, files, Resume::IfThere);
+    match recalled.foreign {
+        None => Ok((recalled.own, files.clone())),
+        Some(Foreign { names, rows }) => {
+            let what = "of its runs were evaluated with another";
+            Err(refused(path, format!("{rows} {what} {names} than the others: evaluate this part again")))
+        }
+    }
+}
+
+fn filled_by(study: &Study, contents: &Contents, wanted: &dyn Fn(&Value) -> bool) -> Store {
+    let model = study.model();
+    let store = Store::new(&study.design, model.as_ref());
+    let outputs = store.outputs();
+    let fits = |piece: &Piece| {
+        let rows = piece.rows(outputs);
+        let failures =
+            piece.failures.iter().all(|(row, output, _)| u64::from(*row) < rows && (*output as usize) < outputs);
+        piece.replicate < study.design.settings().replicates
+            && failures
+            && rows as usize * outputs == piece.values.len()
+    };
+    for (piece, files) in contents.pieces_with_files() {
+        if wanted(files) && fits(piece) {
+            store.insert(piece);
+        }
+    }
+    store
+}
+
+/// Rows of the design that are in `store`.
+fn rows_on_record(study: &Study, store: &Store) -> u64 {
+    let rows = study.design.points_per_replicate() * study.design.rows_per_point();
+    (0..study.design.settings().replicates).map(|replicate| store.count(replicate, 0..rows).0).sum()
+}
+
+fn fresh(study: &Study, path: &Path, request: JournalRequest) -> Result<OpenJournal, RunError> {
+    let (model, files) = (study.model(), ModelFiles::new(study));
+    if !request.needs_outputs {
+        let sums = Sums::new(study.design.settings().replicates);
+        let checkpoint = Checkpoint::create(path, &header(study, None, &files), &sums)?;
+        return Ok(OpenJournal::from_sums(checkpoint, sums));
+    }
+    let bytes = study.design.rows().saturating_mul(8 * model.outputs().len() as u64);
+    if request.shard.is_some() || model.concurrency().is_some() || bytes <= LARGE {
+        begin(study, path, request.shard, files)
+    } else {
+        Ok(OpenJournal::none())
+    }
+}
+
+fn begin(study: &Study, path: &Path, shard: Option<Shard>, files: ModelFiles) -> Result<OpenJournal, RunError> {
+    let store = Store::new(&study.design, study.model().as_ref());
+    let journal = Journal::create(path, &header(study, shard, &files))?;
+    Ok(OpenJournal::from_outputs(store, journal, files))
+}
+
+fn header(study: &Study, shard: Option<Shard>, files: &ModelFiles) -> Value {
+    json!({
+        "study": study.name,
+        "shard": shard.map(|shard| shard.to_string()),
+        "identity": study.identity(),
+        "files": files.begun(),
+    })
+}
+
+/// Why a journal with this header is not one of `study`, if it is not.
+fn another_study(study: &Study, header: &Value) -> Option<String> {
+    let found = differences(&header["identity"], &study.identity());
+    let name = header["study"].as_str().unwrap_or_default();
+    (!found.is_empty()).then(|| format!("the journal is of another study ({name}): {}", found.join("; ")))
+}
+
+/// Moves a journal out of the way, to a name that no other has.
+fn move_aside(path: &Path, why: &str, messages: &Messages) -> Result<(), RunError> {
+    let more = (2..).map(|number| format!("journal.old{number}"));
+    let mut names = std::iter::once("journal.old".to_owned()).chain(more).map(|ending| path.with_extension(ending));
+    let aside: PathBuf = names.find(|name| !name.exists()).unwrap_or_else(|| path.with_extension("journal.old"));
+    std::fs::rename(path, &aside).map_err(|error| in_the_way(path, &error))?;
+    messages.send(&format!("note: {why}: the journal was moved to {}, and its runs are not used", aside.display()));
+    Ok(())
+}
+
+fn in_the_way(path: &Path, source: &std::io::Error) -> RunError {
+    let source = std::io::Error::new(source.kind(), format!("cannot move it aside: {source}"));
+    JournalError::Unwritable { path: path.to_owned(), source }.into()
+}
+
+pub(super) fn refused(path: &Path, reason: String) -> RunError {
+    RunError::Refused { path: path.to_owned(), reason }
+}
+
+/// Reads the journal at `path`, which must be one of `study`, without locking it.
+pub(super) fn read(study: &Study, path: &Path) -> Result<Contents, RunError> {
+    let contents = read_journal_file(path).map_err(|error| match error {
+        // Named by the user, or found a moment ago.
+        JournalError::Unreadable { source, .. } => refused(path, format!("cannot read the journal: {source}")),
+        error => error.into(),
+    })?;
+    match another_study(study, &contents.header) {
+        Some(why) => Err(refused(path, why)),
+        None => Ok(contents),
+    }
+}
+
+/// Runs of `study` on record in the journal at `path`.
+pub(super) fn recorded_runs(study: &Study, path: &Path) -> Result<u64, RunError> {
+    let contents = read(study, path)?;
+    Ok(match &contents.sums {
+        Some(sums) => sums.rows(),
+        None => rows_on_record(study, &filled(study, &contents)),
+    })
+}

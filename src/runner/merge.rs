@@ -1,0 +1,138 @@
+//! The parts of a run, evaluated anywhere, joined in one record.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::journal::{self, OpenJournal, refused};
+use super::model_files::differing;
+use crate::model::Messages;
+use crate::run::{Piece, RunError, Shard, Store};
+use crate::study::Study;
+
+/// The record at `path` with what is in `journals`, the whole of the design.
+pub(super) fn merged(
+    study: &Study,
+    path: &Path,
+    journals: &[PathBuf],
+    messages: &Messages,
+) -> Result<OpenJournal, RunError> {
+    let files = files_of_all(study, journals)?;
+    let record = journal::open_for_parts(study, path, &files, messages)?;
+    let Some(store) = record.store() else { return Ok(record) };
+    let put = |piece: &Piece| {
+        store.insert(piece);
+        record.append(piece).map_err(|source| RunError::NotKept { source })
+    };
+    let mut shards = Shards::default();
+    for journal in journals {
+        let contents = journal::read(study, journal)?;
+        let (part, _) = journal::part(study, journal, &contents)?;
+        shards.note(study, contents.header["shard"].as_str(), &part);
+        for piece in part.pieces() {
+            let rows = piece.first..piece.first + piece.rows(part.outputs());
+            let gaps = store.missing(piece.replicate, rows.clone());
+            if gaps.iter().map(|gap| gap.end - gap.start).sum::<u64>() == rows.end - rows.start {
+                put(&piece)?;
+                continue;
+            }
+            // What is counted over a piece cannot be divided.
+            if piece.is_counted() && !gaps.is_empty() {
+                let why = "holds some of the runs that are there already, and some that are not: merge the parts of one \
+                           division only, into a folder without a journal (--out)";
+                return Err(refused(journal, why.to_owned()));
+            }
+            for gap in gaps {
+                part.piece(piece.replicate, gap).map_or(Ok(()), |piece| put(&piece))?;
+            }
+        }
+    }
+    record.sync()?;
+    let missing = missing(study, store);
+    if missing.is_empty() {
+        return Ok(record);
+    }
+    Err(RunError::Incomplete {
+        missing: missing.iter().map(|(_, rows)| rows.end - rows.start).sum(),
+        total: study.design.rows(),
+        places: shards.in_words().unwrap_or_else(|| in_words(study, &missing)),
+    })
+}
+
+/// Checks, before anything is touched, that all journals are of this study and were evaluated with the same files; these
+/// files.
+fn files_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, RunError> {
+    let mut first: Option<(&PathBuf, Value)> = None;
+    for journal in journals {
+        let contents = journal::read(study, journal)?;
+        let (_, files) = journal::part(study, journal, &contents)?;
+        let Some((other, known)) = &first else {
+            first = Some((journal, files));
+            continue;
+        };
+        if let Some(names) = differing(known, &files) {
+            let other = other.display();
+            let reason = format!("evaluated with another {names} than {other}: evaluate one of the two parts again");
+            return Err(refused(journal, reason));
+        }
+    }
+    Ok(first.map_or(Value::Null, |(_, files)| files))
+}
+
+/// Rows of the design that the store lacks.
+fn missing(study: &Study, store: &Store) -> Vec<(u64, std::ops::Range<u64>)> {
+    let rows = study.design.points_per_replicate() * study.design.rows_per_point();
+    let replicates = 0..study.design.settings().replicates;
+    replicates
+        .flat_map(|replicate| store.missing(replicate, 0..rows).into_iter().map(move |r| (replicate, r)))
+        .collect()
+}
+
+fn in_words(study: &Study, missing: &[(u64, std::ops::Range<u64>)]) -> String {
+    const SHOWN: usize = 3;
+    let per_point = study.design.rows_per_point();
+    let place = |(replicate, rows): &(u64, std::ops::Range<u64>)| {
+        format!(
+            "base points {} to {} of replicate {}",
+            rows.start / per_point,
+            (rows.end - 1) / per_point,
+            replicate + 1
+        )
+    };
+    let mut places: Vec<String> = missing.iter().take(SHOWN).map(place).collect();
+    if missing.len() > SHOWN {
+        places.push("and more".to_owned());
+    }
+    places.join(", ")
+}
+
+/// The parts that were found: how many of their runs each lacks, by the number of parts and their own.
+#[derive(Default)]
+struct Shards(BTreeMap<u64, BTreeMap<u64, u64>>);
+
+impl Shards {
+    fn note(&mut self, study: &Study, name: Option<&str>, store: &Store) {
+        let Some(shard) = name.and_then(|name| name.parse::<Shard>().ok()) else { return };
+        let rows = shard.rows(&study.design);
+        let lacking = rows.into_iter().flat_map(|(replicate, rows)| store.missing(replicate, rows));
+        let lacking = lacking.map(|rows| rows.end - rows.start).sum();
+        self.0.entry(shard.of()).or_default().insert(shard.number(), lacking);
+    }
+
+    /// Which parts are missing or incomplete; `None` if the journals are not of one division into parts.
+    fn in_words(&self) -> Option<String> {
+        const SHOWN: usize = 8;
+        let (of, found) = self.0.iter().next().filter(|_| self.0.len() == 1)?;
+        let state = |number: u64| match found.get(&number) {
+            None => Some(format!("there is no journal of shard {number}/{of}")),
+            Some(0) => None,
+            Some(lacking) => Some(format!("shard {number}/{of} lacks {lacking} runs")),
+        };
+        let mut states: Vec<String> = (1..=*of).filter_map(state).take(SHOWN + 1).collect();
+        if states.len() > SHOWN {
+            states[SHOWN] = "and more".to_owned();
+        }
+        (!states.is_empty()).then(|| states.join(", "))
+    }
+}

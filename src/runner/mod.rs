@@ -1,0 +1,295 @@
+//! A study through its model: the whole way of the data in one call.
+
+mod growth;
+mod journal;
+mod merge;
+mod model_files;
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use crate::analysis::{Analysis, FinishedRun, analysis};
+use crate::model::{Messages, RunContext};
+use crate::run::{GrowingRun, Job, Piece, Progress, RunError, Shard, Store, threads_in_force};
+use crate::study::Study;
+use growth::{longest, reason_to_stop};
+use journal::{JournalRequest, OpenJournal};
+use model_files::ModelFiles;
+
+impl Study {
+    /// Runs the study on all cores and estimates its indices.
+    ///
+    /// ```
+    /// use std::path::Path;
+    /// use apportion::study::Study;
+    ///
+    /// let text = include_str!("../../studies/ishigami.toml");
+    /// let study = Study::parse(text, Path::new("ishigami.toml"), &[])?;
+    /// let result = study.run()?;
+    /// assert!((result.output("y")?.factor("x1")?.first_order.estimate - 0.3139).abs() < 0.003);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Runner::run`].
+    pub fn run(&self) -> Result<Analysis, RunError> {
+        self.runner().run()
+    }
+
+    /// A run of the study, to be set up and started.
+    pub fn runner(&self) -> Runner<'_> {
+        Runner {
+            study: self,
+            threads: 0,
+            on_progress: Box::new(|_| ()),
+            on_message: Arc::new(|_: &str| ()),
+            stop: None,
+            journal: None,
+            resume: Resume::IfThere,
+            mixes_models: false,
+            store: None,
+        }
+    }
+}
+
+/// What to do with runs that are on record in a journal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Resume {
+    /// Use them if they are of this study, or else begin anew.
+    #[default]
+    IfThere,
+    /// Refuse to run without them.
+    Require,
+    /// The same, but evaluate those that failed again.
+    RetryFailed,
+    /// Begin anew.
+    Never,
+}
+
+/// A run of a study, as it is set up.
+///
+/// ```
+/// use std::path::Path;
+/// use apportion::study::Study;
+///
+/// let text = include_str!("../../studies/ishigami.toml");
+/// let study = Study::parse(text, Path::new("ishigami.toml"), &["design.base_samples=1024".to_owned()])?;
+/// let folder = tempfile::tempdir()?;
+/// let journal = folder.path().join("ishigami.journal");
+/// let first = study.runner().threads(2).on_progress(|progress| eprintln!("{}", progress.done)).journal(&journal).run()?;
+/// // The second time nothing is evaluated; twice the points would evaluate the second half of them alone.
+/// let second = study.runner().journal(&journal).run()?;
+/// assert_eq!(first.output("y")?.indices, second.output("y")?.indices);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub struct Runner<'a> {
+    study: &'a Study,
+    threads: usize,
+    on_progress: Box<dyn Fn(Progress) + Sync + 'a>,
+    on_message: Arc<dyn Fn(&str) + Send + Sync>,
+    stop: Option<&'a AtomicBool>,
+    journal: Option<PathBuf>,
+    resume: Resume,
+    mixes_models: bool,
+    store: Option<&'a Store>,
+}
+
+impl fmt::Debug for Runner<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { study, threads, journal, resume, .. } = self;
+        let mut fields = f.debug_struct("Runner");
+        fields.field("study", &study.name).field("threads", threads).field("journal", journal).field("resume", resume);
+        fields.finish_non_exhaustive()
+    }
+}
+
+impl<'a> Runner<'a> {
+    /// On so many threads (0, the default: one per core). The result is the same in every bit on any number.
+    pub fn threads(self, threads: usize) -> Self {
+        Self { threads, ..self }
+    }
+
+    /// Calls `on_progress` from time to time, from any thread.
+    pub fn on_progress(self, on_progress: impl Fn(Progress) + Sync + 'a) -> Self {
+        Self { on_progress: Box::new(on_progress), ..self }
+    }
+
+    /// Passes notes and warnings, a line each, to `on_message`: what becomes of a journal, and what programs say.
+    pub fn on_message(self, on_message: impl Fn(&str) + Send + Sync + 'static) -> Self {
+        Self { on_message: Arc::new(on_message), ..self }
+    }
+
+    /// Ends the run soon after `stop` is set.
+    pub fn stop(self, stop: &'a AtomicBool) -> Self {
+        Self { stop: Some(stop), ..self }
+    }
+
+    /// Keeps what is evaluated on record in a file, and uses what is there already. The record of a model that takes its
+    /// time, or whose outputs are needed, holds the outputs of every run; that of a quick model holds their sums, in
+    /// constant size.
+    pub fn journal(self, path: impl Into<PathBuf>) -> Self {
+        Self { journal: Some(path.into()), ..self }
+    }
+
+    /// What becomes of runs that are on record in the journal.
+    pub fn resume(self, resume: Resume) -> Self {
+        Self { resume, ..self }
+    }
+
+    /// Whether runs on record are used that were evaluated with other files of the model than those of now; the result
+    /// then says so.
+    pub fn mix_models(self, mixes_models: bool) -> Self {
+        Self { mixes_models, ..self }
+    }
+
+    /// Uses the outputs in `store`, and puts all others there.
+    pub fn store(self, store: &'a Store) -> Self {
+        Self { store: Some(store), ..self }
+    }
+
+    /// Runs the study and estimates its indices. The result is the same in every bit for any number of threads and
+    /// wherever outputs come from, apart from the fields that tell about time and threads (and but for a study with a
+    /// budget of time, which ends when it is spent).
+    ///
+    /// # Errors
+    /// [`RunError`] if the threads cannot be started, a row fails in a study that says to stop then, intervals need more
+    /// outputs at once than fit, the model gives up, the journal cannot be used or written, or the run is asked to end.
+    /// Otherwise rows that fail are part of the result.
+    pub fn run(self) -> Result<Analysis, RunError> {
+        let context = self.context();
+        let result = self.open(None, context.messages()).and_then(|record| self.analyse(&context, record));
+        context.messages().finish();
+        result
+    }
+
+    /// Evaluates the rows of `shard` that the journal lacks, and no others; nothing is estimated. Returns how many rows
+    /// the shard has.
+    ///
+    /// # Errors
+    /// As for [`run`](Self::run).
+    pub fn run_shard(self, shard: Shard) -> Result<u64, RunError> {
+        let context = self.context();
+        let record = self.open(Some(shard), context.messages())?;
+        let (study, model) = (self.study, self.study.model());
+        let own = Store::new(&study.design, model.as_ref());
+        let store = record.store().unwrap_or(&own);
+        let rows = shard.rows(&study.design);
+        let sink = |piece: &Piece| record.append(piece);
+        let filled = self
+            .set_up(Job { design: &study.design, space: &study.space, model: model.as_ref() }, &context)
+            .and_then(|run| run.with_store(store, Some(&sink)).run_missing(&rows, store, &*self.on_progress));
+        context.messages().finish();
+        finish(filled, record.sync())?;
+        Ok(rows.iter().map(|(_, rows)| rows.end - rows.start).sum())
+    }
+
+    /// Joins the parts of a run, the `journals` of shards, in the journal of this run, and estimates the indices. The
+    /// merged runs are put on record whatever their number: they may have cost much elsewhere.
+    ///
+    /// # Errors
+    /// As for [`run`](Self::run), and [`RunError::Refused`] if a part is of another study or model;
+    /// [`RunError::Incomplete`] if runs are missing.
+    pub fn merge(self, journals: &[PathBuf]) -> Result<Analysis, RunError> {
+        let context = self.context();
+        let path = self.journal.clone().unwrap_or_default();
+        let record = merge::merged(self.study, &path, journals, context.messages())?;
+        self.analyse(&context, record)
+    }
+
+    /// Runs on record in the journal that a run would use, and whether the journal holds sums; nothing is locked or
+    /// written.
+    ///
+    /// # Errors
+    /// As for [`run`](Self::run), if the journal is of no use.
+    pub fn recorded_runs(&self) -> Result<u64, RunError> {
+        let path = self.journal.as_deref().unwrap_or(Path::new(""));
+        journal::recorded_runs(self.study, path)
+    }
+
+    /// Whether a journal of this run holds the outputs of every run, and not their sums alone.
+    pub fn records_outputs(&self) -> bool {
+        journal::needs_outputs(self.study, self.store.is_some())
+    }
+
+    fn context(&self) -> RunContext<'a> {
+        let on_message = Arc::clone(&self.on_message);
+        RunContext::new(self.stop, move |line| on_message(line))
+    }
+
+    fn open(&self, shard: Option<Shard>, messages: &Messages) -> Result<OpenJournal, RunError> {
+        let Some(path) = &self.journal else { return Ok(OpenJournal::none()) };
+        let Self { study, resume, mixes_models, store, .. } = self;
+        let needs_outputs = shard.is_some() || journal::needs_outputs(study, store.is_some());
+        let request = JournalRequest { resume: *resume, mixes_models: *mixes_models, shard, needs_outputs };
+        journal::open(study, path, request, messages)
+    }
+
+    fn set_up<'r>(&self, job: Job<'r>, context: &'r RunContext<'r>) -> Result<GrowingRun<'r>, RunError> {
+        let analysis = &self.study.analysis;
+        let run = GrowingRun::new(job, context, self.threads)?.with_failures(analysis.failures);
+        Ok(run.with_outputs_kept(analysis.intervals.keeps_outputs()))
+    }
+
+    fn analyse(&self, context: &RunContext<'_>, mut record: OpenJournal) -> Result<Analysis, RunError> {
+        let (study, model) = (self.study, self.study.model());
+        let files = ModelFiles::new(study);
+        let longest = if study.stopping.grows() { longest(&study.design) } else { study.design.clone() };
+        let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
+        let (foreign, sums) = (record.foreign.take(), record.take_sums());
+        let own = Store::new(&longest, model.as_ref());
+        if let Some((given, recorded)) = self.store.zip(record.store()) {
+            for piece in recorded.pieces() {
+                given.insert(&piece);
+            }
+        }
+        let store = self.store.or(record.store()).or_else(|| model.concurrency().map(|_| &own));
+        let sink = |piece: &Piece| record.append(piece);
+        let mut run = self.set_up(job, context)?;
+        if let Some(store) = store {
+            run = run.with_store(store, record.store().map(|_| &sink as _));
+        }
+        let mut points = study.design.points_per_replicate();
+        if let Some((checkpoint, sums)) = record.checkpoint().zip(sums) {
+            points = sums.first_stage(points, study.stopping.grows());
+            run = run.with_checkpoint(checkpoint, sums);
+        }
+        let grown = run.grow_to(points, &*self.on_progress).and_then(|()| {
+            if !study.stopping.grows() {
+                return Ok(None);
+            }
+            loop {
+                if let Some(reason) = run.install(|| reason_to_stop(study, &run, &longest)) {
+                    return Ok(Some(reason));
+                }
+                run.grow_to(run.points_per_replicate() * 2, &*self.on_progress)?;
+            }
+        });
+        let recorded = run.write_checkpoint().and_then(|()| record.sync());
+        let stopped = finish(grown, recorded)?;
+        let design = longest.with_points(run.points_per_replicate()).unwrap_or(longest.clone());
+        let finished = FinishedRun {
+            study,
+            model: model.as_ref(),
+            design: &design,
+            replicates: run.totals(),
+            threads: threads_in_force(self.threads),
+            wall_seconds: run.elapsed().as_secs_f64(),
+        };
+        let mut result = run.install(|| analysis(&finished, stopped));
+        if let Some(foreign) = foreign {
+            result.note_mixed_models(&foreign.names, Some(foreign.rows));
+        }
+        if let Some(names) = files.changed() {
+            result.note_mixed_models(names, None);
+        }
+        Ok(result)
+    }
+}
+
+/// The outcome of a run whose record was written as `recorded` says. An error of the run is told before one of the record.
+fn finish<T>(outcome: Result<T, RunError>, recorded: Result<(), RunError>) -> Result<T, RunError> {
+    outcome.and_then(|value| recorded.map(|()| value))
+}
