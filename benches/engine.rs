@@ -6,6 +6,7 @@
 use std::time::Instant;
 
 use apportion::design::{Design, DesignSettings, Rows};
+use apportion::model::RunContext;
 use apportion::model::{Batch, Model};
 use apportion::report::ResultFile;
 use apportion::study::Study;
