@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use apportion::exchange::{AnswersRequest, Format, Manifest, MissingOutputs, open_rows, read_answers, sample};
-use apportion::report::{stream_atomically, summary, write_atomically};
+use apportion::report::{run_document, stream_atomically, write_atomically};
 use apportion::study::Study;
 use apportion::{Running, analyse_with};
 
@@ -64,7 +64,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let request = AnswersRequest { manifest: &manifest, outputs: &[], units: &[], missing: MissingOutputs::Refuse };
     let answers = read_answers(open_rows(&outputs)?.as_mut(), &request)?;
     let result = analyse_with(&answers.study, Running { store: Some(&answers.store), ..Running::on(0) })?;
-    print!("{}", summary(&result));
+    print!("{}", run_document(&result).text());
 
     // With c^2 = variance / mean^2, here 1/12 and 1/27: S_i = c_i^2 / ((1 + c_1^2) (1 + c_2^2) - 1).
     let indices = result.outputs[0].indices.as_ref().ok_or("no indices")?;

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use apportion::analyse;
 use apportion::model::{FunctionModel, Output, RowFailure};
 use apportion::quantity::Unit;
-use apportion::report::summary;
+use apportion::report::run_document;
 use apportion::space::Distribution;
 use apportion::study::{AnalysisOptions, Study};
 
@@ -37,7 +37,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .build()?;
 
     let result = analyse(&study, 0, &|_| ())?;
-    print!("{}", summary(&result));
+    print!("{}", run_document(&result).text());
     let output = &result.outputs[0];
     assert_eq!(output.unit, "kN");
     assert!(output.runs_failed > 0 && output.failures[0].reason.contains("too stout"));

@@ -11,8 +11,9 @@ use apportion::{Running, analyse_with};
 use serde_json::Value;
 
 use super::model_files::differing;
+use super::output::{ChartArguments, default_folder};
 use super::record::{self, journal_path};
-use super::run::{default_folder, deliver, prepare_files};
+use super::run::{deliver, file_names};
 use super::{DesignChanges, Failure, StudyArguments, Threads, say};
 
 #[derive(clap::Args)]
@@ -27,6 +28,8 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
+    charts: ChartArguments,
+    #[command(flatten)]
     threads: Threads,
 }
 
@@ -36,7 +39,8 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     let journals =
         if arguments.journals.is_empty() { in_folder(&folder, &study.name)? } else { arguments.journals.clone() };
     prepare_folder(&folder)?;
-    prepare_files(&study, &folder)?;
+    let artefacts = arguments.charts.artefacts(&folder);
+    artefacts.check(&file_names(&study))?;
     let files = files_of_all(&study, &journals)?;
     let path = journal_path(&folder, &study.name, None);
     // The merged runs are put on record whatever their number: they may have cost much elsewhere.
@@ -87,7 +91,7 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     ));
     let running = Running { store: Some(&record.store), ..Running::on(arguments.threads.number()) };
     let result = analyse_with(&study, running)?;
-    deliver(&study, &folder, &result)
+    deliver(&study, &artefacts, &result)
 }
 
 /// Checks, before anything is touched, that all journals are of this study and were evaluated with the same files; these

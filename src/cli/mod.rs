@@ -12,7 +12,7 @@ mod model_files;
 mod models;
 mod new;
 mod outlook;
-mod pictures;
+mod output;
 mod pilot;
 mod progress;
 mod record;

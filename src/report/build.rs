@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 
-use super::build_output::{estimate_record, output_record};
+use super::build_output::output_record;
+use super::records::estimate_record;
 use super::result::{
     AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, OutputRecord, Provenance,
     ResultFile, RungRecord, StoppingRecord, StudyRecord, ValidityRecord,

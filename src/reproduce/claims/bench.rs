@@ -3,7 +3,7 @@
 use super::ClaimsError;
 use super::curve::{Curve, grid};
 use super::judge::{Holding, Share};
-use super::words::number;
+use super::numbers::number;
 use crate::afm::history::{History, history};
 use crate::afm::modes::Pushing;
 use crate::afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};

@@ -14,7 +14,7 @@ mod judge;
 mod models;
 mod modes;
 mod shares;
-mod words;
+mod numbers;
 
 #[cfg(test)]
 mod tests;

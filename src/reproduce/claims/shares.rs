@@ -1,7 +1,7 @@
 //! Claims about the shares of the variance: 17 to 20. They rest on the nine studies.
 
 use super::bench::{Bench, Region, closed};
-use super::words::{change, nano};
+use super::numbers::{change, nano};
 use super::{Claim, ClaimsError, Verdict};
 use crate::afm::{Failure, FrictionLaw, Scene};
 use crate::report::{EffectRecord, EstimateRecord, IndexRecord, estimate, fixed, share};

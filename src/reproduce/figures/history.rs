@@ -4,9 +4,9 @@ use super::table::Table;
 use super::{FiguresError, PaperFigure};
 use crate::afm::{Failure, FrictionLaw, Options, Scene};
 use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use crate::report::format::{force, length, time};
 use crate::report::listed;
 use crate::report::scene::charts::{contacts, forces, positions, pushing};
-use crate::report::scene::words::{force, length, time};
 use crate::report::scene::{SceneSample, SceneStory};
 use crate::simulation::scene_story;
 

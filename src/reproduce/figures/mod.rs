@@ -23,7 +23,7 @@ pub use animation::{ANIMATION_STEM, Animation, animation};
 use super::{Effort, Reproduced};
 use crate::afm::Failure;
 use crate::report::chart::{Chart, ChartError};
-use crate::report::scene::PageError;
+use crate::report::document::DocumentError;
 use crate::study::StudyError;
 use crate::sweep::SweepError;
 
@@ -65,7 +65,7 @@ pub enum FiguresError {
     Chart(#[from] ChartError),
     /// The animation's page cannot be made.
     #[error(transparent)]
-    Page(#[from] PageError),
+    Page(#[from] DocumentError),
 }
 
 /// The stems of all figures, in the order of the papers: CHK, LG, TS04, then the friction models side by side.

@@ -5,9 +5,9 @@ use super::{FiguresError, PaperFigure};
 use crate::afm::modes::Mode;
 use crate::afm::{Failure, Options, Scene, critical_force};
 use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Spacing, Stroke};
+use crate::report::format::{force, three_digits as short};
 use crate::report::scene::ModeDiagram;
 use crate::report::scene::mode_diagram::mode_lines;
-use crate::report::scene::words::{force, short};
 use crate::reproduce::Effort;
 use crate::simulation::{pushing, scene_modes};
 

@@ -8,7 +8,7 @@ use super::table::Table;
 use super::{FiguresError, PaperFigure, edge};
 use crate::afm::{Fidelity, Options, Parameter, critical_force};
 use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Stroke};
-use crate::report::scene::words::short;
+use crate::report::format::three_digits as short;
 use crate::report::{capitalised, listed};
 use crate::reproduce::{Effort, STUDIES};
 use crate::space::{Factor, Space};
