@@ -5,7 +5,7 @@ use std::sync::{Mutex, OnceLock};
 
 use anyhow::anyhow;
 use apportion::report::FileNames;
-use apportion::reproduce::{Effort, Event, ReproduceError, Request, Topic, document, in_words, reproduce as run};
+use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, document, in_words, reproduce as run};
 
 use super::output::{ChartArguments, deliver_with};
 use super::progress::{Meter, PartMeter};

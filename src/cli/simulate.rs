@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use apportion::quantity::{Dimension, Quantity};
-use apportion::report::scene::{file_names, mode_document, mode_file_names, scene_document};
-use apportion::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
+use crate::scene::{file_names, mode_document, mode_file_names, scene_document};
+use crate::scene::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
 
 use super::output::{ChartArguments, default_folder, deliver};
 use super::{Failure, StudyArguments};

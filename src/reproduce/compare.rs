@@ -3,10 +3,10 @@
 use super::order::{Agreement, Standing, VISIBLE, order_of, outweighing};
 use super::published::CLOSE;
 use super::{GROUPS, Published, Reproduced, published};
-use crate::report::csv::{Csv, Field, fields};
-use crate::report::document::Value;
-use crate::report::{EffectRecord, EstimateRecord, IndexRecord, IntervalRecord, TextTable};
-use crate::report::{capitalised, estimate, fixed, share, share_of_runs, table};
+use apportion::report::csv::{Csv, Field, fields};
+use apportion::report::document::Value;
+use apportion::report::{EffectRecord, EstimateRecord, IndexRecord, IntervalRecord, TextTable};
+use apportion::report::{capitalised, estimate, fixed, share, share_of_runs, table};
 
 /// The table that `reproduce` prints: for each group of studies the shares of every factor under every friction model,
 /// then the order of the factors, ours and the published one, and whether they agree.

@@ -22,9 +22,9 @@ pub use published::{Published, published};
 pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
 pub use terminal::in_words;
 
-use crate::report::ResultFile;
-use crate::run::RunError;
-use crate::study::{Study, StudyError};
+use apportion::report::ResultFile;
+use apportion::run::RunError;
+use apportion::study::{Study, StudyError};
 
 /// How much is computed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

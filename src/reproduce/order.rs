@@ -1,7 +1,7 @@
 //! Whether our order of the factors is the published one, as far as our intervals decide it.
 
 use super::{Published, Reproduced, published};
-use crate::report::{EstimateRecord, IndexRecord};
+use apportion::report::{EstimateRecord, IndexRecord};
 
 /// A factor counts as having a share from this many percent on: less would be printed as 0 in whole percents, which is
 /// how LG prints, and is hardly to be seen as a bar.

@@ -6,8 +6,8 @@ use super::claims::{Claim, claims};
 use super::figures::{Animation, PaperFigure, animation, figures};
 use super::readings::{Readings, readings};
 use super::{Effort, ReproduceError, Reproduced, studies};
-use crate::analyse;
-use crate::run::Progress;
+use apportion::analyse;
+use apportion::run::Progress;
 
 /// What to reproduce.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -4,15 +4,15 @@ use super::ClaimsError;
 use super::curve::{Curve, grid};
 use super::judge::{Holding, Share};
 use super::numbers::number;
-use crate::afm::history::{History, history};
-use crate::afm::modes::Pushing;
-use crate::afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
-use crate::design::SobolSequence;
-use crate::model::edge_unit;
+use apportion::afm::history::{History, history};
+use apportion::afm::modes::Pushing;
+use apportion::afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
+use apportion::design::SobolSequence;
+use apportion::model::edge_unit;
 use crate::reproduce::{Effort, studies};
-use crate::space::Space;
-use crate::sum;
-use crate::uncertainty::{Interval, StandardError, t_interval};
+use apportion::space::Space;
+use apportion::sum;
+use apportion::uncertainty::{Interval, StandardError, t_interval};
 
 /// The friction laws of CHK and LG, with their names for people.
 pub(super) const LAWS: [(FrictionLaw, &str); 3] =

@@ -1,6 +1,6 @@
 //! The shape of a curve, as a statement about it says.
 
-use crate::sum;
+use apportion::sum;
 
 /// A quantity over a rising grid.
 #[derive(Clone, Debug, PartialEq)]

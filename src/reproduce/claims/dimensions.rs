@@ -5,7 +5,7 @@ use super::curve::Curve;
 use super::judge::{Holding, judge};
 use super::numbers::{change, nano, number};
 use super::{Claim, ClaimsError};
-use crate::afm::{Failure, FrictionLaw, Options, Scene};
+use apportion::afm::{Failure, FrictionLaw, Options, Scene};
 
 /// A curve flattens if no step is steeper than the one before by more than this share of the mean steepness: what would
 /// not be seen in a chart.

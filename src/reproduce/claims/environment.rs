@@ -7,7 +7,7 @@ use super::dimensions::{
 use super::judge::{in_words, judge};
 use super::numbers::{change, nano};
 use super::{Claim, ClaimsError};
-use crate::afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
+use apportion::afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
 
 /// Up to where CHK and LG see no effect of the velocity (m/s).
 const SLOW: f64 = 600e-9;

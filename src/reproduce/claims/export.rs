@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::{Claim, ClaimsError};
-use crate::report::csv::{Csv, fields};
-use crate::report::document::Value;
+use apportion::report::csv::{Csv, fields};
+use apportion::report::document::Value;
 
 /// The claims as CSV, a line each: number, source, statement, verdict in a word, where it holds in part or what of the
 /// paper's own contradicts it, finding, setting, figures (separated by spaces).

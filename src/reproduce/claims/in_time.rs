@@ -4,9 +4,9 @@ use super::bench::{Bench, LAWS, Sweep, closed};
 use super::judge::{in_words, judge, judge_at_nominal};
 use super::numbers::{change, nano, number};
 use super::{Claim, ClaimsError, Verdict};
-use crate::afm::contact::Contact;
-use crate::afm::history::{History, Sample};
-use crate::afm::{Failure, FrictionLaw, Parameter, Scene};
+use apportion::afm::contact::Contact;
+use apportion::afm::history::{History, Sample};
+use apportion::afm::{Failure, FrictionLaw, Parameter, Scene};
 
 /// The duration of TS04's run (s).
 const DURATION: f64 = 0.4;

@@ -2,7 +2,7 @@
 
 use super::Verdict;
 use super::numbers::percent_of;
-use crate::uncertainty::Interval;
+use apportion::uncertainty::Interval;
 
 /// From this share of the box on a rule holds everywhere: what is left is a corner that no chart of the papers shows.
 const EVERYWHERE: f64 = 0.999;

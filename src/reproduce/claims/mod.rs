@@ -27,8 +27,8 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::{Effort, Reproduced};
-use crate::afm::Failure;
-use crate::study::StudyError;
+use apportion::afm::Failure;
+use apportion::study::StudyError;
 use bench::{Bench, Physics};
 
 /// A claim of the papers with our answer.

@@ -4,7 +4,7 @@ use super::bench::{Bench, Region, closed};
 use super::judge::{Holding, judge};
 use super::numbers::nano;
 use super::{Claim, ClaimsError};
-use crate::afm::{FrictionLaw, Scene};
+use apportion::afm::{FrictionLaw, Scene};
 
 pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));

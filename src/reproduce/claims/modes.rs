@@ -7,8 +7,8 @@ use super::curve::grid;
 use super::judge::judge;
 use super::numbers::{change, nano, number};
 use super::{Claim, ClaimsError, Verdict};
-use crate::afm::modes::{Mode, Onset, TipForce};
-use crate::afm::{Failure, FrictionLaw, Parameter, Scene};
+use apportion::afm::modes::{Mode, Onset, TipForce};
+use apportion::afm::{Failure, FrictionLaw, Parameter, Scene};
 
 /// How far above the angle of friction the mode diagram begins (rad): at the angle itself F* has no bound.
 const ABOVE_FRICTION: f64 = 0.05;

@@ -1,6 +1,6 @@
 //! Numbers of findings.
 
-use crate::report::{fixed, significant, with_unit};
+use apportion::report::{fixed, significant, with_unit};
 
 /// To four significant digits.
 fn rounded(value: f64) -> f64 {

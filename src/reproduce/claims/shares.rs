@@ -3,8 +3,8 @@
 use super::bench::{Bench, Region, closed};
 use super::numbers::{change, nano};
 use super::{Claim, ClaimsError, Verdict};
-use crate::afm::{Failure, FrictionLaw, Scene};
-use crate::report::{EffectRecord, EstimateRecord, IndexRecord, estimate, fixed, share};
+use apportion::afm::{Failure, FrictionLaw, Scene};
+use apportion::report::{EffectRecord, EstimateRecord, IndexRecord, estimate, fixed, share};
 use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
 use crate::reproduce::published::CLOSE;
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, published};

@@ -1,8 +1,8 @@
 //! The answer in short: which factor leads in each study, how sure that is, and in what order the rest follow.
 
-use crate::report::document::{Cell, Column, Mark, OnPhone, Part, Table};
-use crate::report::format::{estimate, words};
-use crate::report::{EffectRecord, IndexRecord, IntervalRecord, fixed, listed, share_of_runs};
+use apportion::report::document::{Cell, Column, Mark, OnPhone, Part, Table};
+use apportion::report::format::{estimate, words};
+use apportion::report::{EffectRecord, IndexRecord, IntervalRecord, fixed, listed, share_of_runs};
 use crate::reproduce::order::VISIBLE;
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup};
 

@@ -10,8 +10,8 @@ use super::claims::{claims_csv, claims_json};
 use super::figures::{ANIMATION_STEM, PaperFigure};
 use super::readings::{readings_csv, readings_json, small_samples_csv};
 use super::{ReproduceError, Reproduction, shares_csv};
-use crate::report::document::{Column, DataFile, Document, Figure, Link, Part, Section, Table};
-use crate::report::result_json;
+use apportion::report::document::{Column, DataFile, Document, Figure, Link, Part, Section, Table};
+use apportion::report::result_json;
 
 /// The document about `reproduction`; what was not asked for is left out. But for the times in the results, its files are
 /// the same for every run of the same version.

@@ -1,6 +1,6 @@
 //! How the page came about.
 
-use crate::report::document::{Part, Table};
+use apportion::report::document::{Part, Table};
 use crate::reproduce::{Effort, Reproduced, Reproduction};
 
 /// Version, designs, estimators, intervals and cost, as a table of two columns.

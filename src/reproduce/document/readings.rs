@@ -1,9 +1,9 @@
 //! What the published percentages could mean: sentences, the chart of distances, and every reading with its numbers.
 
-use crate::report::chart::Chart;
-use crate::report::document::{Cell, Column, Figure, Link, Part, Section, Table};
-use crate::report::fixed;
-use crate::report::format::words;
+use apportion::report::chart::Chart;
+use apportion::report::document::{Cell, Column, Figure, Link, Part, Section, Table};
+use apportion::report::fixed;
+use apportion::report::format::words;
 use crate::reproduce::readings::{
     Chance, Reading, Readings, SmallSample, chances, distance_chart, headline, small_sample_chart, summary,
 };

@@ -1,7 +1,7 @@
 //! The verdicts on the claims: a table, and a sentence that counts them.
 
 use super::typeset::typeset;
-use crate::report::document::{Cell, Column, Link, Mark, OnPhone, Part, Table};
+use apportion::report::document::{Cell, Column, Link, Mark, OnPhone, Part, Table};
 use crate::reproduce::claims::{Claim, Verdict};
 use crate::reproduce::figures::PaperFigure;
 
@@ -67,6 +67,6 @@ pub(super) fn sentence(claims: &[Claim]) -> String {
         "The papers make {} claims, some of two parts; of {} answers {}.",
         claims.last().map_or(0, |claim| claim.number),
         claims.len(),
-        crate::report::listed(&said)
+        apportion::report::listed(&said)
     )
 }

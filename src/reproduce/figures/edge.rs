@@ -1,6 +1,6 @@
 //! Names and units of factors as figures write them.
 
-use crate::afm::Parameter;
+use apportion::afm::Parameter;
 
 /// A unit as a chart prints it.
 pub(super) fn printed(unit: &str) -> &str {

@@ -21,11 +21,11 @@ use thiserror::Error;
 pub use animation::{ANIMATION_STEM, Animation, animation};
 
 use super::{Effort, Reproduced};
-use crate::afm::Failure;
-use crate::report::chart::{Chart, ChartError};
-use crate::report::document::DocumentError;
-use crate::study::StudyError;
-use crate::sweep::SweepError;
+use apportion::afm::Failure;
+use apportion::report::chart::{Chart, ChartError};
+use apportion::report::document::DocumentError;
+use apportion::study::StudyError;
+use apportion::sweep::SweepError;
 
 /// One figure of the papers, from our computation.
 #[derive(Clone, Debug, PartialEq)]

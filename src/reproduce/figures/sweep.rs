@@ -6,14 +6,14 @@ use super::curve::{Curve, crossing};
 use super::sweep_list::{Line, SWEEPS, SweepFigure, Variant};
 use super::table::Table;
 use super::{FiguresError, PaperFigure, edge};
-use crate::afm::{Fidelity, Options, Parameter, critical_force};
-use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Stroke};
-use crate::report::format::three_digits as short;
-use crate::report::{capitalised, listed};
+use apportion::afm::{Fidelity, Options, Parameter, critical_force};
+use apportion::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Stroke};
+use apportion::report::format::three_digits as short;
+use apportion::report::{capitalised, listed};
 use crate::reproduce::{Effort, STUDIES};
-use crate::space::{Factor, Space};
-use crate::study::Study;
-use crate::sweep::{FactorValues, find};
+use apportion::space::{Factor, Space};
+use apportion::study::Study;
+use apportion::sweep::{FactorValues, find};
 
 const NANO: f64 = 1e9;
 /// The quasi-static rung is drawn beside the closed form where they differ by more than this part of the force's range.

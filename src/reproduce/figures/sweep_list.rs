@@ -1,7 +1,7 @@
 //! Which sweeps the papers draw, and what they say of them.
 
-use crate::afm::{Fidelity, FrictionLaw, Options, Scene};
-use crate::report::chart::{Role, Stroke};
+use apportion::afm::{Fidelity, FrictionLaw, Options, Scene};
+use apportion::report::chart::{Role, Stroke};
 
 /// A figure of the critical force against one factor.
 pub(super) struct SweepFigure {

@@ -1,7 +1,7 @@
 //! The data of a figure as CSV.
 
-use crate::report::csv::{Csv, Field};
-use crate::report::document::Value;
+use apportion::report::csv::{Csv, Field};
+use apportion::report::document::Value;
 
 /// Columns of numbers under names with units.
 #[derive(Clone, Debug, Default)]

@@ -4,9 +4,9 @@ use std::collections::HashSet;
 use std::sync::LazyLock;
 
 use super::*;
-use crate::afm::contact::Pair;
-use crate::afm::{ContactTheory, Scene};
-use crate::report::chart::{ChartWidth, png};
+use apportion::afm::contact::Pair;
+use apportion::afm::{ContactTheory, Scene};
+use apportion::report::chart::{ChartWidth, png};
 use crate::reproduce::studies;
 
 /// The figures of the issue that need no study.
@@ -56,7 +56,7 @@ fn data(stem: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 fn reproduced() -> Vec<Reproduced> {
     let studies = studies(&["design.base_samples=64".to_owned()]).unwrap();
     let run = |(group, friction, study)| {
-        let result = crate::analyse(&study, 0, &|_| ()).unwrap();
+        let result = apportion::analyse(&study, 0, &|_| ()).unwrap();
         Reproduced { friction, group, result }
     };
     studies.into_iter().map(run).collect()
@@ -150,7 +150,7 @@ fn captions_say_what_the_data_hold() {
     assert!(caption("chk-14").contains("the two approach each other"), "{}", caption("chk-14"));
     assert!(caption("chk-12").contains("the two diverge"), "{}", caption("chk-12"));
     let (_, rows) = data("chk-6");
-    let ends = [rows[0][1], rows[40][1]].map(crate::report::format::three_digits);
+    let ends = [rows[0][1], rows[40][1]].map(apportion::report::format::three_digits);
     assert!(caption("chk-6").contains(&format!("falls from {} to {} nN under Coulomb", ends[0], ends[1])));
     assert!(caption("ts04-11").contains("the later the particle slips"), "{}", caption("ts04-11"));
 }

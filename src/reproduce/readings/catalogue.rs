@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::model::AfmOutput;
+use apportion::model::AfmOutput;
 
 /// What "percentage of a factor" could mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

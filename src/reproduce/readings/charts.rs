@@ -3,11 +3,11 @@
 use super::catalogue::{BASE, BOTH, SMALL_SAMPLES, symbol};
 use super::nearest::{ALIKE, Joint, distinct, joint};
 use super::{Effect, Estimators, Readings, SmallSample};
-use crate::model::AfmOutput;
-use crate::report::chart::{
+use apportion::model::AfmOutput;
+use apportion::report::chart::{
     Axis, Chart, LineChart, LinePanel, LineSeries, Range, RangeBars, RangeRow, Role, Spacing, Stroke,
 };
-use crate::report::fixed;
+use apportion::report::fixed;
 use crate::reproduce::{GROUPS, published};
 
 /// Most readings that are drawn, the nearest ones.
@@ -75,7 +75,7 @@ fn printed(group: &str) -> String {
 
 /// The symbol of a factor in the papers.
 fn letter(factor: &str) -> &str {
-    crate::afm::Parameter::from_name(factor).map_or(factor, |parameter| parameter.symbol)
+    apportion::afm::Parameter::from_name(factor).map_or(factor, |parameter| parameter.symbol)
 }
 
 /// How the percentage of the first printed factor of each group scatters with the size of the sample, in the base

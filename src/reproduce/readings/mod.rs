@@ -31,11 +31,11 @@ pub use summary::{chances, headline, summary};
 pub use tables::{readings_csv, readings_json, small_samples_csv};
 
 use super::{Effort, GROUPS, STUDIES};
-use crate::analyse;
-use crate::design::DesignError;
-use crate::model::{AfmOutput, RowFailure};
-use crate::run::{RunError, threads_in_force};
-use crate::study::{Study, StudyError};
+use apportion::analyse;
+use apportion::design::DesignError;
+use apportion::model::{AfmOutput, RowFailure};
+use apportion::run::{RunError, threads_in_force};
+use apportion::study::{Study, StudyError};
 use catalogue::{SMALL_SAMPLE_VARIANTS, VARIANTS, variant};
 
 /// Every reading computed.

@@ -2,10 +2,10 @@
 
 use super::shares::printed;
 use super::{Effect, ReadingsError, Share};
-use crate::estimate;
-use crate::model::{Batch, Model};
-use crate::study::Study;
-use crate::sum::{centred_product, mean};
+use apportion::estimate;
+use apportion::model::{Batch, Model};
+use apportion::study::Study;
+use apportion::sum::{centred_product, mean};
 
 /// Values of a factor within its range, at the middles of as many equal parts of the probability: the variance of a
 /// smooth function is then good to about 1e-6.
@@ -45,7 +45,7 @@ pub(super) fn shares(
     let runs = (factors.len() * (VALUES + ENDS.len())) as u64;
     let percents = estimate::shares(&sizes);
     let with_names = |percents: Vec<f64>| {
-        let share = |(factor, share): (&crate::space::Factor, f64)| Share {
+        let share = |(factor, share): (&apportion::space::Factor, f64)| Share {
             factor: factor.name.clone(),
             share,
             interval: None,
@@ -57,7 +57,7 @@ pub(super) fn shares(
 }
 
 /// Every output where factor `number` takes the middles of equal parts, then the ends of its range.
-fn curve(study: &Study, model: &dyn Model, number: usize) -> Result<Vec<Vec<f64>>, crate::model::RowFailure> {
+fn curve(study: &Study, model: &dyn Model, number: usize) -> Result<Vec<Vec<f64>>, apportion::model::RowFailure> {
     let u: Vec<f64> = (0..VALUES).map(|i| (i as f64 + 0.5) / VALUES as f64).chain(ENDS).collect();
     let columns: Vec<Vec<f64>> = study
         .space

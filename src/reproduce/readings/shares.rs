@@ -1,7 +1,7 @@
 //! Percentages of the indices of a result.
 
 use super::{Effect, Share};
-use crate::report::{EffectRecord, EstimateRecord, OutputRecord};
+use apportion::report::{EffectRecord, EstimateRecord, OutputRecord};
 use crate::reproduce::published;
 
 /// The printed percentage of `factor` in the study `group`.

@@ -6,12 +6,12 @@ use serde::Serialize;
 use super::catalogue::{BOTH, SMALL_SAMPLES};
 use super::shares::printed;
 use super::{Effect, ReadingsError, output_name};
-use crate::design::{BasePoints, Design, DesignSettings, Rows, Sampler};
-use crate::estimate::{BlockOutputs, FirstOrder, Moments, Total, Workspace, shares};
-use crate::model::{AfmOutput, Batch, Model};
-use crate::report::distribution::quantile;
+use apportion::design::{BasePoints, Design, DesignSettings, Rows, Sampler};
+use apportion::estimate::{BlockOutputs, FirstOrder, Moments, Total, Workspace, shares};
+use apportion::model::{AfmOutput, Batch, Model};
+use apportion::report::distribution::quantile;
 use crate::reproduce::Effort;
-use crate::study::Study;
+use apportion::study::Study;
 
 /// Probabilities of the quantiles that sum up the repetitions.
 pub(super) const QUANTILES: [f64; 5] = [0.025, 0.25, 0.5, 0.75, 0.975];

@@ -3,8 +3,8 @@
 use super::catalogue::{BASE, BOTH, SMALL_SAMPLES, symbol, variant};
 use super::nearest::{Joint, joint, name};
 use super::{Chance, Effect, Estimators, Reading, Readings, SmallSample, Variant};
-use crate::model::AfmOutput;
-use crate::report::{capitalised, fixed};
+use apportion::model::AfmOutput;
+use apportion::report::{capitalised, fixed};
 use crate::reproduce::{GROUPS, published};
 
 /// Percentage points within which a reading meets a group: three times the rounding of the printed numbers.

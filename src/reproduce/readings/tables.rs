@@ -4,9 +4,9 @@ use serde_json::json;
 
 use super::Readings;
 use super::small_samples::QUANTILES;
-use crate::report::EstimateRecord;
-use crate::report::csv::{Csv, Field, fields};
-use crate::report::document::Value;
+use apportion::report::EstimateRecord;
+use apportion::report::csv::{Csv, Field, fields};
+use apportion::report::document::Value;
 
 /// One line per group, reading and factor; the distance and the runs are those of the whole reading. Percentages and
 /// distances in percent, empty where there is none.

@@ -1,7 +1,7 @@
 use super::*;
-use crate::afm::{FrictionLaw, LuGreParameters, Options, Parameter, Scene, critical_force};
-use crate::report::chart::png;
-use crate::study::Subject;
+use apportion::afm::{FrictionLaw, LuGreParameters, Options, Parameter, Scene, critical_force};
+use apportion::report::chart::png;
+use apportion::study::Subject;
 
 const DIMENSIONS: [(&str, f64, f64, f64); 3] =
     [("length", 200.0, 700.0, -2.0), ("width", 5.0, 80.0, 1.0), ("thickness", 0.25, 2.5, 3.0)];
@@ -143,7 +143,7 @@ fn held_friction_is_that_of_lugre() {
         for (factor, value) in study.space.factors().iter().zip(study.space.values_at(&u)) {
             (Parameter::from_name(&factor.name).unwrap().set)(&mut scene, factor.unit().to_si(value));
         }
-        let quasi_static = Options { fidelity: crate::afm::Fidelity::QuasiStatic, ..afm.options };
+        let quasi_static = Options { fidelity: apportion::afm::Fidelity::QuasiStatic, ..afm.options };
         for held in [afm.options, quasi_static] {
             let force = |options: &Options, scene: &Scene| critical_force(scene, options).unwrap().critical_force;
             let expected = force(&held, &scene);

@@ -3,8 +3,8 @@
 use serde_json::{Map, Value, json};
 
 use super::{SceneSample, SceneStory};
-use crate::report::csv::{Csv, Field};
-use crate::report::document::Value as Cell;
+use apportion::report::csv::{Csv, Field};
+use apportion::report::document::Value as Cell;
 
 /// A column of numbers.
 struct Column {
@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn every_column_is_documented() {
-        let documentation = include_str!("../../../docs/scene-format.md");
+        let documentation = include_str!("../../docs/scene-format.md");
         for name in COLUMNS.iter().map(|column| column.name).chain(FLAGS.iter().map(|flag| flag.0)) {
             assert!(documentation.contains(&format!("`{name}`")), "{name}");
         }

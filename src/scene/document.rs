@@ -1,11 +1,11 @@
 //! A scene, and the diagram of its modes, as documents.
 
 use super::{ModeDiagram, SceneStory, mode_diagram_chart, player_page, scene_charts, scene_csv, scene_json};
-use crate::report::artefacts::FileNames;
-use crate::report::chart::ChartError;
-use crate::report::csv::{Csv, Field};
-use crate::report::document::{DataFile, Document, DocumentError, Figure, Part, Section, Table, Value};
-use crate::report::format::value;
+use apportion::report::artefacts::FileNames;
+use apportion::report::chart::ChartError;
+use apportion::report::csv::{Csv, Field};
+use apportion::report::document::{DataFile, Document, DocumentError, Figure, Part, Section, Table, Value};
+use apportion::report::format::value;
 
 /// The document of a scene of the study called `study`.
 ///

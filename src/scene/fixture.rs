@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{CriticalInstant, SceneGeometry, SceneSample, SceneStory};
-use crate::report::chart::Role;
+use apportion::report::chart::Role;
 
 const NORMAL_FORCE: f64 = 489.4e-9;
 const VELOCITY: f64 = 100e-9;

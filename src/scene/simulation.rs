@@ -2,15 +2,15 @@
 
 use thiserror::Error;
 
-use crate::afm::history::{Sample, history};
-use crate::afm::modes::{Mode, Pushing, TipForce};
-use crate::afm::{Failure, Fidelity, Options, Parameter, Scene, critical_force};
-use crate::model::edge_unit;
-use crate::report::chart::Role;
-use crate::report::friction_role;
-use crate::report::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneGeometry, SceneSample, SceneStory};
-use crate::report::with_unit;
-use crate::study::{Study, Subject};
+use apportion::afm::history::{Sample, history};
+use apportion::afm::modes::{Mode, Pushing, TipForce};
+use apportion::afm::{Failure, Fidelity, Options, Parameter, Scene, critical_force};
+use apportion::model::edge_unit;
+use apportion::report::chart::Role;
+use apportion::report::friction_role;
+use crate::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneGeometry, SceneSample, SceneStory};
+use apportion::report::with_unit;
+use apportion::study::{Study, Subject};
 
 /// Why a scene cannot be simulated.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -110,7 +110,7 @@ fn scene_sample(sample: &Sample, pushing: &Pushing) -> Result<SceneSample, Failu
         Err(failure) => Err(failure),
     };
     let tip =
-        |quantity: fn(&crate::afm::contact::Contact) -> f64| sample.tip_contact.as_ref().map_or(f64::NAN, quantity);
+        |quantity: fn(&apportion::afm::contact::Contact) -> f64| sample.tip_contact.as_ref().map_or(f64::NAN, quantity);
     Ok(SceneSample {
         time: sample.time,
         lateral_force: sample.lateral_force,

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::charts::SUBSTRATE;
 use super::view::View;
 use super::{SceneGeometry, SceneSample, SceneStory};
-use crate::report::chart::{Look, Picture, Role, Sheet, Sketch};
-use crate::report::format::{force, length, time};
+use apportion::report::chart::{Look, Picture, Role, Sheet, Sketch};
+use apportion::report::format::{force, length, time};
 
 /// A film strip.
 #[derive(Clone, Debug, PartialEq)]
@@ -265,7 +265,7 @@ mod tests {
 
     use super::super::fixture;
     use super::*;
-    use crate::report::chart::png;
+    use apportion::report::chart::png;
 
     #[test]
     fn frames_are_states_of_the_story() {

@@ -7,15 +7,15 @@ use super::SceneStory;
 use super::charts::{LATERAL, NORMAL, SUBSTRATE};
 use super::columns::scene_value;
 use super::view::View;
-use crate::report::chart::Role;
-use crate::report::document::DocumentError;
+use apportion::report::chart::Role;
+use apportion::report::document::DocumentError;
 
 /// The parts of the page's script, each using those before it.
 const SCRIPT: [&str; 4] = [
-    include_str!("../../../templates/scene/story.js"),
-    include_str!("../../../templates/scene/draw.js"),
-    include_str!("../../../templates/scene/pictures.js"),
-    include_str!("../../../templates/scene/player.js"),
+    include_str!("../../templates/scene/story.js"),
+    include_str!("../../templates/scene/draw.js"),
+    include_str!("../../templates/scene/pictures.js"),
+    include_str!("../../templates/scene/player.js"),
 ];
 
 /// The template escapes every text; what it takes as it is (`safe`) comes from this program: style, script, data made
@@ -53,7 +53,7 @@ pub fn player_page(story: &SceneStory) -> Result<String, DocumentError> {
             ("substrate", SUBSTRATE.colour()),
             ("slip", Role::Other(0).colour()),
         ],
-        style: include_str!("../../../templates/scene/player.css"),
+        style: include_str!("../../templates/scene/player.css"),
         script: SCRIPT,
         data: script_json(&scene_value(story)),
         view: script_json(&view.value()),

@@ -35,7 +35,7 @@ pub struct SceneStory {
     pub geometry: SceneGeometry,
     /// When and at which forces the particle slips.
     pub critical: CriticalInstant,
-    /// The colour of the friction law, see [`friction_role`](crate::report::friction_role).
+    /// The colour of the friction law, see [`friction_role`](apportion::report::friction_role).
     pub friction_role: Role,
     /// The states in the order of time; unevenly spaced, and as few as one or none.
     pub samples: Vec<SceneSample>,
