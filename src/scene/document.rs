@@ -35,11 +35,11 @@ pub fn scene_document(story: &SceneStory, study: &str) -> Result<Document, Docum
         lead: [Some(story.outcome()), numbers(story)].into_iter().flatten().collect(),
         sections,
         footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
-                files: vec![
+        files: vec![
             DataFile::new(names.data[0].clone(), scene_json(story)),
             DataFile::new(names.data[1].clone(), scene_csv(story)),
         ],
-                ..Document::default()
+        ..Document::default()
     })
 }
 
@@ -92,8 +92,8 @@ pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Result<
         lead,
         sections: vec![Section::new("diagram", "Mode diagram", vec![figure.into()])],
         footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
-                files: vec![DataFile::new(data, csv.text())],
-                ..Document::default()
+        files: vec![DataFile::new(data, csv.text())],
+        ..Document::default()
     })
 }
 

@@ -2,13 +2,13 @@
 
 use thiserror::Error;
 
+use crate::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneGeometry, SceneSample, SceneStory};
 use apportion::afm::history::{Sample, history};
 use apportion::afm::modes::{Mode, Pushing, TipForce};
 use apportion::afm::{Failure, Fidelity, Options, Parameter, Scene, critical_force};
 use apportion::model::edge_unit;
 use apportion::report::chart::Role;
 use apportion::report::friction_role;
-use crate::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneGeometry, SceneSample, SceneStory};
 use apportion::report::with_unit;
 use apportion::study::{Study, Subject};
 

@@ -13,8 +13,8 @@ mod in_time;
 mod judge;
 mod models;
 mod modes;
-mod shares;
 mod numbers;
+mod shares;
 
 #[cfg(test)]
 mod tests;

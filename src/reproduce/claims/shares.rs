@@ -3,11 +3,11 @@
 use super::bench::{Bench, Region, closed};
 use super::numbers::{change, nano};
 use super::{Claim, ClaimsError, Verdict};
-use apportion::afm::{Failure, FrictionLaw, Scene};
-use apportion::report::{EffectRecord, EstimateRecord, IndexRecord, estimate, fixed, share};
 use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
 use crate::reproduce::published::CLOSE;
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, published};
+use apportion::afm::{Failure, FrictionLaw, Scene};
+use apportion::report::{EffectRecord, EstimateRecord, IndexRecord, estimate, fixed, share};
 
 /// F_cr counts as a product of a function of the dimensions and one of the environment if it is one to this: a
 /// thousandth moves no percentage by more than a tenth.

@@ -2,16 +2,19 @@
 
 use super::bench::{Bench, ForceOf, HistoryOf, Physics};
 use super::*;
+use crate::reproduce::studies;
 use apportion::afm::history::{History, history};
 use apportion::afm::modes::{ModeConstants, Pushing};
 use apportion::afm::{Critical, FrictionLaw, Options, Scene, critical_force};
-use crate::reproduce::studies;
 
 /// The nine studies at 4096 base points: enough to decide every order, and soon done.
 fn nine_studies() -> Vec<Reproduced> {
     let studies = studies(&["design.base_samples=4096".to_owned()]).unwrap();
-    let run =
-        |(group, friction, study)| Reproduced { group, friction, result: apportion::analyse(&study, 0, &|_| ()).unwrap() };
+    let run = |(group, friction, study)| Reproduced {
+        group,
+        friction,
+        result: apportion::analyse(&study, 0, &|_| ()).unwrap(),
+    };
     studies.into_iter().map(run).collect()
 }
 

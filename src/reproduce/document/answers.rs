@@ -1,10 +1,10 @@
 //! The answer in short: which factor leads in each study, how sure that is, and in what order the rest follow.
 
+use crate::reproduce::order::VISIBLE;
+use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup};
 use apportion::report::document::{Cell, Column, Mark, OnPhone, Part, Table};
 use apportion::report::format::{estimate, words};
 use apportion::report::{EffectRecord, IndexRecord, IntervalRecord, fixed, listed, share_of_runs};
-use crate::reproduce::order::VISIBLE;
-use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup};
 
 /// The factors of a study, the largest total share first.
 fn ranked(study: &Reproduced) -> Vec<(&IndexRecord, f64)> {

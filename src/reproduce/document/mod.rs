@@ -37,7 +37,7 @@ pub fn document(reproduction: &Reproduction) -> Result<Document, ReproduceError>
         lead: lead(reproduction),
         sections: sections.into_iter().flatten().collect(),
         footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
-                files: files(reproduction)?,
+        files: files(reproduction)?,
         ..Document::default()
     })
 }

@@ -1,7 +1,7 @@
 //! How the page came about.
 
-use apportion::report::document::{Part, Table};
 use crate::reproduce::{Effort, Reproduced, Reproduction};
+use apportion::report::document::{Part, Table};
 
 /// Version, designs, estimators, intervals and cost, as a table of two columns.
 pub(super) fn table(reproduction: &Reproduction) -> Part {

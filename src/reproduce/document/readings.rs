@@ -1,13 +1,13 @@
 //! What the published percentages could mean: sentences, the chart of distances, and every reading with its numbers.
 
-use apportion::report::chart::Chart;
-use apportion::report::document::{Cell, Column, Figure, Link, Part, Section, Table};
-use apportion::report::fixed;
-use apportion::report::format::words;
 use crate::reproduce::readings::{
     Chance, Reading, Readings, SmallSample, chances, distance_chart, headline, small_sample_chart, summary,
 };
 use crate::reproduce::{GROUPS, Reproduction, published};
+use apportion::report::chart::Chart;
+use apportion::report::document::{Cell, Column, Figure, Link, Part, Section, Table};
+use apportion::report::fixed;
+use apportion::report::format::words;
 
 /// The charts of the readings with the stems of their files.
 fn charts(readings: &Readings) -> [(&'static str, Chart); 2] {

@@ -1,9 +1,9 @@
 //! The verdicts on the claims: a table, and a sentence that counts them.
 
 use super::typeset::typeset;
-use apportion::report::document::{Cell, Column, Link, Mark, OnPhone, Part, Table};
 use crate::reproduce::claims::{Claim, Verdict};
 use crate::reproduce::figures::PaperFigure;
+use apportion::report::document::{Cell, Column, Link, Mark, OnPhone, Part, Table};
 
 /// The word and the look of a verdict.
 fn badge(verdict: &Verdict) -> Cell {

@@ -2,9 +2,9 @@
 
 use super::history::story;
 use super::{FiguresError, PaperFigure};
+use crate::scene::{SceneStory, film_strip, player_page, scene_csv, scene_json};
 use apportion::afm::FrictionLaw;
 use apportion::report::chart::Chart;
-use crate::scene::{SceneStory, film_strip, player_page, scene_csv, scene_json};
 
 /// Name of the animation's files without extension.
 pub const ANIMATION_STEM: &str = "ts04-14-animation";

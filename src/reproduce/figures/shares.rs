@@ -1,10 +1,10 @@
 //! The charts of shares, from the studies that were run.
 
 use super::PaperFigure;
+use crate::reproduce::{GROUPS, Reproduced, StudyGroup, published, shares_csv};
 use apportion::report::capitalised;
 use apportion::report::chart::Chart;
 use apportion::report::{SharesSeries, SharesWords, friction_role, shares_chart};
-use crate::reproduce::{GROUPS, Reproduced, StudyGroup, published, shares_csv};
 
 /// For each group, in the order of [`GROUPS`]: the figure of CHK and that of LG.
 const PAPERS: [[Paper; 2]; 3] = [

@@ -4,10 +4,10 @@ use std::collections::HashSet;
 use std::sync::LazyLock;
 
 use super::*;
+use crate::reproduce::studies;
 use apportion::afm::contact::Pair;
 use apportion::afm::{ContactTheory, Scene};
 use apportion::report::chart::{ChartWidth, png};
-use crate::reproduce::studies;
 
 /// The figures of the issue that need no study.
 const COMPUTED: [&str; 25] = [

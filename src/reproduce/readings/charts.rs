@@ -3,12 +3,12 @@
 use super::catalogue::{BASE, BOTH, SMALL_SAMPLES, symbol};
 use super::nearest::{ALIKE, Joint, distinct, joint};
 use super::{Effect, Estimators, Readings, SmallSample};
+use crate::reproduce::{GROUPS, published};
 use apportion::model::AfmOutput;
 use apportion::report::chart::{
     Axis, Chart, LineChart, LinePanel, LineSeries, Range, RangeBars, RangeRow, Role, Spacing, Stroke,
 };
 use apportion::report::fixed;
-use crate::reproduce::{GROUPS, published};
 
 /// Most readings that are drawn, the nearest ones.
 const MOST: usize = 32;

@@ -1,8 +1,8 @@
 //! Percentages of the indices of a result.
 
 use super::{Effect, Share};
-use apportion::report::{EffectRecord, EstimateRecord, OutputRecord};
 use crate::reproduce::published;
+use apportion::report::{EffectRecord, EstimateRecord, OutputRecord};
 
 /// The printed percentage of `factor` in the study `group`.
 pub(super) fn printed(group: &str, factor: &str) -> Option<f64> {

@@ -6,11 +6,11 @@ use serde::Serialize;
 use super::catalogue::{BOTH, SMALL_SAMPLES};
 use super::shares::printed;
 use super::{Effect, ReadingsError, output_name};
+use crate::reproduce::Effort;
 use apportion::design::{BasePoints, Design, DesignSettings, Rows, Sampler};
 use apportion::estimate::{BlockOutputs, FirstOrder, Moments, Total, Workspace, shares};
 use apportion::model::{AfmOutput, Batch, Model};
 use apportion::report::distribution::quantile;
-use crate::reproduce::Effort;
 use apportion::study::Study;
 
 /// Probabilities of the quantiles that sum up the repetitions.

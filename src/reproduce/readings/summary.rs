@@ -3,9 +3,9 @@
 use super::catalogue::{BASE, BOTH, SMALL_SAMPLES, symbol, variant};
 use super::nearest::{Joint, joint, name};
 use super::{Chance, Effect, Estimators, Reading, Readings, SmallSample, Variant};
+use crate::reproduce::{GROUPS, published};
 use apportion::model::AfmOutput;
 use apportion::report::{capitalised, fixed};
-use crate::reproduce::{GROUPS, published};
 
 /// Percentage points within which a reading meets a group: three times the rounding of the printed numbers.
 const MEETS: f64 = 1.5;
