@@ -28,7 +28,7 @@ for group, factors in groups.items():
             assert abs(sum(index[share] for index in output["indices"]) - 100) < 1e-6, path
         assert len(output["groups"]) == (2 if group == "general" else 0), path
 
-figures = sorted((folder / "figures").glob("*.svg"))
+figures = sorted((folder / "charts").glob("*.svg"))
 assert len(figures) == 36, [figure.stem for figure in figures]
 for figure in figures:
     assert ElementTree.parse(figure).getroot().tag.endswith("svg"), figure

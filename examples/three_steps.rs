@@ -7,8 +7,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use apportion::exchange::{AnswersRequest, Format, Manifest, MissingOutputs, open_rows, read_answers, sample};
-use apportion::report::ResultFile;
-use apportion::report::{stream_atomically, summary, write_atomically};
+use apportion::report::{ResultFile, run_document, stream_atomically, write_atomically};
 use apportion::study::Study;
 
 const STUDY: &str = r#"
@@ -64,7 +63,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let request = AnswersRequest { manifest: &manifest, outputs: &[], units: &[], missing: MissingOutputs::Refuse };
     let answers = read_answers(open_rows(&outputs)?.as_mut(), &request)?;
     let analysis = answers.study.runner().store(&answers.store).run()?;
-    print!("{}", summary(&ResultFile::new(&answers.study, &analysis)));
+    print!("{}", run_document(&ResultFile::new(&answers.study, &analysis)).text());
 
     // With c^2 = variance / mean^2, here 1/12 and 1/27: S_i = c_i^2 / ((1 + c_1^2) (1 + c_2^2) - 1).
     let indices = analysis.outputs[0].indices.as_ref().map_err(|reason| *reason)?;

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use apportion::model::{FunctionModel, Output, RowFailure};
 use apportion::quantity::Unit;
-use apportion::report::{ResultFile, summary};
+use apportion::report::{ResultFile, run_document};
 use apportion::space::Distribution;
 use apportion::study::{AnalysisOptions, Study};
 
@@ -36,7 +36,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .build()?;
 
     let analysis = study.run()?;
-    print!("{}", summary(&ResultFile::new(&study, &analysis)));
+    print!("{}", run_document(&ResultFile::new(&study, &analysis)).text());
     let output = &analysis.outputs[0];
     assert!(output.runs_failed > 0 && output.failures[0].reason.contains("too stout"));
     // The force grows with the fourth power of the radius: it decides.

@@ -3,14 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::report::comparison::{
-    compare_results, comparison_charts, comparison_csv, comparison_json, comparison_summary,
-};
+use apportion::report::comparison::{compare_results, comparison_document};
 use apportion::report::{file_part, read_result, refused_name};
 
-use super::pictures::{prepare, say_written, write};
-use super::run::default_folder;
-use super::{Failure, print};
+use super::Failure;
+use super::output::{ChartArguments, default_folder, deliver};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -29,6 +26,8 @@ pub struct Arguments {
     /// Folder for tables and charts [default: results/A-vs-B]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    charts: ChartArguments,
 }
 
 pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
@@ -46,16 +45,7 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
         .map_err(|error| Failure::Input(anyhow!("A is {}, B is {}: {error}", files[0], files[1])))?;
     let name = format!("{}-vs-{}", file_part(&told_a), file_part(&told_b));
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&name));
-    let charts = comparison_charts(&file);
-    let tables = [(".json", comparison_json(&file)), (".csv", comparison_csv(&file))];
-    let endings = tables.iter().map(|(ending, _)| (*ending).to_owned());
-    let pictures = charts.iter().flat_map(|c| [format!("{}.svg", c.suffix), format!("{}.png", c.suffix)]);
-    let planned: Vec<String> = endings.chain(pictures).map(|ending| format!("{name}{ending}")).collect();
-    prepare(&folder, &planned)?;
-    let written = write(&folder, &name, (&tables, &charts))?;
-    print(&comparison_summary(&file))?;
-    say_written(&written);
-    Ok(())
+    deliver(&arguments.charts.artefacts(folder), &comparison_document(&file, &name))
 }
 
 /// Two names that are not the same: the studies', the files', their folders', or else A and B.

@@ -1,20 +1,17 @@
 //! `apportion given-data`: first-order indices from a table that exists already.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::anyhow;
 use apportion::exchange::{Missing, Selection, Table, read_table, table_of_bytes};
 use apportion::files::read_whole;
 use apportion::given::{Method, analyse};
-use apportion::report::chart::png;
-use apportion::report::given::{GivenFacts, GivenFile, build_given, given_chart, given_csv, given_json, given_summary};
-use apportion::report::{file_stems, prepare_folder, prepare_in, write_in};
+use apportion::report::given::{GivenFacts, build_given, file_names, given_document};
 use sha2::{Digest, Sha256};
 
+use super::Failure;
 use super::evaluate::say_of_table;
-use super::pictures::say_written;
-use super::run::default_folder;
-use super::{Failure, print, stop};
+use super::output::{ChartArguments, default_folder, deliver, stem};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -42,6 +39,8 @@ pub struct Arguments {
     /// Folder for the results [default: results/NAME of the table]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    charts: ChartArguments,
 }
 
 fn column_name(text: &str) -> Result<String, String> {
@@ -65,6 +64,10 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let table = read_table(rows.as_mut(), &selection).map_err(|error| wrong(&error))?;
     say_of_table(&arguments.table, (&table.skipped, rows.is_unended()));
     let Table { inputs, outputs, dropped, .. } = table;
+    let name = stem(&arguments.table);
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&name));
+    let artefacts = arguments.charts.artefacts(folder).beside_input(&arguments.table);
+    artefacts.check(&file_names(&name, &outputs.iter().map(|column| column.name.as_str()).collect::<Vec<_>>()))?;
     let indices = analyse(&inputs, &outputs, arguments.method, arguments.seed).map_err(|error| wrong(&error))?;
     let facts = GivenFacts {
         file: path.to_string(),
@@ -74,43 +77,5 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
         seed: arguments.seed,
     };
     let result = build_given(&indices, (&inputs, &outputs), &facts);
-    let files = write_files(arguments, &result)?;
-    print(&given_summary(&result))?;
-    say_written(&files);
-    Ok(())
-}
-
-fn write_files(arguments: &Arguments, result: &GivenFile) -> Result<Vec<PathBuf>, Failure> {
-    let stem =
-        arguments.table.file_stem().map_or_else(|| "table".to_owned(), |stem| stem.to_string_lossy().into_owned());
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&stem));
-    prepare_folder(&folder)?;
-    stop::writing()?;
-    let mut written = Vec::new();
-    let mut write = |name: String, bytes: &[u8]| -> Result<(), Failure> {
-        let path = folder.join(&name);
-        // A second run of a table called `x.csv` in the folder of its results must not take its place.
-        if same_file(&path, &arguments.table) {
-            return Err(Failure::Input(anyhow!("{}: this is the table itself; choose another --out", path.display())));
-        }
-        prepare_in(&folder, &name)?;
-        written.push(write_in(&folder, &name, bytes)?);
-        Ok(())
-    };
-    write(format!("{stem}.json"), given_json(result).as_bytes())?;
-    write(format!("{stem}-indices.csv"), given_csv(result).as_bytes())?;
-    let names: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
-    for (output, name) in result.outputs.iter().zip(file_stems(&stem, &names, &[""])) {
-        stop::unless_stopped()?;
-        let svg = given_chart(result, output).svg().map_err(|error| Failure::Run(error.into()))?;
-        write(format!("{name}.svg"), svg.as_bytes())?;
-        let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
-        write(format!("{name}.png"), &picture.bytes)?;
-    }
-    Ok(written)
-}
-
-fn same_file(a: &Path, b: &Path) -> bool {
-    let real = |path: &Path| std::fs::canonicalize(path).ok();
-    real(a).zip(real(b)).is_some_and(|(a, b)| a == b)
+    deliver(&artefacts, &given_document(&result, &name))
 }

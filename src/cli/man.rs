@@ -7,8 +7,7 @@ use apportion::report::{prepare_folder, write_atomically};
 use apportion::study::nearest;
 use clap_mangen::Man;
 
-use super::pictures::say_written;
-use super::{Failure, print_raw};
+use super::{Failure, print_raw, say};
 
 #[derive(clap::Args)]
 #[command(after_help = "To read a page: apportion man run | man -l -
@@ -32,13 +31,10 @@ pub fn man(arguments: &Arguments) -> Result<(), Failure> {
         };
     };
     prepare_folder(folder)?;
-    let mut written = Vec::new();
-    for (name, page) in pages {
-        let path = folder.join(format!("{name}.1"));
-        write_atomically(&path, &page)?;
-        written.push(path);
+    for (name, page) in &pages {
+        write_atomically(&folder.join(format!("{name}.1")), page)?;
     }
-    say_written(&written);
+    say(&format!("wrote {} pages to {}", pages.len(), folder.display()));
     Ok(())
 }
 

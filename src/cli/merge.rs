@@ -7,7 +7,8 @@ use apportion::report::ResultFile;
 use apportion::report::prepare_folder;
 use apportion::run::RunError;
 
-use super::run::{default_folder, deliver, journal_path, prepare_files};
+use super::output::{ChartArguments, default_folder};
+use super::run::{deliver, file_names, journal_path};
 use super::{DesignChanges, Failure, StudyArguments, Threads, say};
 
 #[derive(clap::Args)]
@@ -22,6 +23,8 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
+    charts: ChartArguments,
+    #[command(flatten)]
     threads: Threads,
 }
 
@@ -31,7 +34,8 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     let journals =
         if arguments.journals.is_empty() { in_folder(&folder, &study.name)? } else { arguments.journals.clone() };
     prepare_folder(&folder)?;
-    prepare_files(&study, &folder)?;
+    let artefacts = arguments.charts.artefacts(&folder);
+    artefacts.check(&file_names(&study))?;
     let path = journal_path(&folder, &study.name, None);
     let runner = study.runner().threads(arguments.threads.number()).on_message(say).journal(&path);
     let result = runner.merge(&journals).map_err(|error| match error {
@@ -50,7 +54,7 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         if journals.len() == 1 { "1 journal".to_owned() } else { format!("{} journals", journals.len()) },
         path.display()
     ));
-    deliver(&study, &folder, &ResultFile::new(&study, &result))
+    deliver(&study, &artefacts, &ResultFile::new(&study, &result))
 }
 
 /// The journals of shards in `folder`, in the order of their names.

@@ -4,13 +4,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::files::read_whole;
-use apportion::report::{
-    ReadError, ReadProblem, ResultFile, parse_result, prepare_folder, prepare_in, summary, write_atomically,
-};
+use apportion::report::{ReadError, ReadProblem, parse_result, run_document};
 
-use super::pictures::say_written;
-use super::run::{Contents, files_of, write_selected};
-use super::{Failure, print, say};
+use super::output::{ChartArguments, deliver};
+use super::{Failure, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -19,6 +16,8 @@ pub struct Arguments {
     /// Folder for what is drawn [default: that of the result]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    charts: ChartArguments,
 }
 
 pub fn report(arguments: &Arguments) -> Result<(), Failure> {
@@ -28,39 +27,20 @@ pub fn report(arguments: &Arguments) -> Result<(), Failure> {
     let result = parse_result(&bytes).map_err(wrong)?;
     let beside = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let folder = arguments.out.as_deref().unwrap_or(beside);
-    let files = files_of(&contents(&result));
+    let mut document = run_document(&result);
+    let name = format!("{}.json", result.study.name);
     // The page links to the result, so it must lie beside it: this one, word for word.
-    let json = files.iter().find(|file| file.is_result()).map(|file| folder.join(&file.name));
-    let copy = json.filter(|json| !same_file(json, path));
-    if let Some(json) = &copy {
-        refuse_another(json, &bytes)?;
+    let json = folder.join(&name);
+    if !same_file(&json, path) {
+        refuse_another(&json, &bytes)?;
     }
-    prepare_folder(folder)?;
-    for file in &files {
-        prepare_in(folder, &file.name)?;
-    }
-    let mut written = write_selected(folder, &files, (&result, &|file| !file.is_result()))?;
-    if let Some(json) = copy {
-        write_atomically(&json, &bytes)?;
-        written.push(json);
-    }
-    print(&summary(&result))?;
+    let text = String::from_utf8(bytes).map_err(|_| Failure::Input(anyhow!("{}: not text", path.display())))?;
+    document.files.iter_mut().filter(|file| file.name == name).for_each(|file| file.text.clone_from(&text));
     if result.provenance.apportion_version != env!("CARGO_PKG_VERSION") {
         let version = &result.provenance.apportion_version;
         say(&format!("note: the numbers are those of apportion {version}; only the drawing is this version's"));
     }
-    say_written(&written);
-    Ok(())
-}
-
-fn contents(result: &ResultFile) -> Contents<'_> {
-    let outputs = &result.outputs;
-    Contents {
-        name: &result.study.name,
-        outputs: outputs.iter().map(|output| output.name.as_str()).collect(),
-        second_order: outputs.iter().any(|output| output.second_order.is_some()),
-        estimators: outputs.iter().any(|output| !output.estimators.is_empty()),
-    }
+    deliver(&arguments.charts.artefacts(folder), &document)
 }
 
 fn same_file(a: &Path, b: &Path) -> bool {

@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 use std::sync::{Mutex, OnceLock};
 
-use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, in_words, reproduce as run, write_all};
+use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, document, in_words, reproduce as run};
 use anyhow::anyhow;
-use apportion::report::prepare_folder;
+use apportion::report::FileNames;
 
+use super::output::{ChartArguments, deliver_with};
 use super::progress::{Meter, PartMeter};
-use super::{DesignChanges, Failure, Threads, print, say};
+use super::{DesignChanges, Failure, Threads};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -23,6 +24,8 @@ pub struct Arguments {
     only: Option<Part>,
     #[command(flatten)]
     design: DesignChanges,
+    #[command(flatten)]
+    charts: ChartArguments,
     #[command(flatten)]
     threads: Threads,
 }
@@ -50,7 +53,8 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
             "--base-samples and --seed are for the nine studies, which --only readings does not run: leave them out"
         )));
     }
-    prepare_folder(&arguments.out)?;
+    let artefacts = arguments.charts.artefacts(&arguments.out);
+    artefacts.check(&FileNames { name: "index".to_owned(), ..FileNames::default() })?;
     let request = Request {
         effort: if arguments.quick { Effort::Quick } else { Effort::Full },
         only: arguments.only.map(|part| match part {
@@ -63,13 +67,7 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
     };
     let meters = Meters::default();
     let reproduction = run(&request, &|event| meters.show(&event))?;
-    let files = write_all(&arguments.out, &reproduction)?;
-    print(&in_words(&reproduction))?;
-    say(&format!("wrote {} files to {}", files.len(), arguments.out.display()));
-    if let Some(page) = files.first() {
-        say(&format!("open {} in a browser", page.display()));
-    }
-    Ok(())
+    deliver_with(&artefacts, &document(&reproduction)?, &in_words(&reproduction))
 }
 
 /// The meter of what goes on at present.

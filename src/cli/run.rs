@@ -6,20 +6,17 @@ use std::time::Instant;
 use anyhow::anyhow;
 use apportion::Resume;
 use apportion::exchange::{Format, save_outputs};
-use apportion::report::chart::{Chart, png};
 use apportion::report::{
-    OutputRecord, RUN_CHARTS, ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv,
-    file_stems, indices_chart, indices_csv, inputs_in_words, interactions_chart, prepare_file, prepare_folder,
-    prepare_in, read_result, result_json, run_page, scatter_chart, second_order_csv, stream_atomically, study_chart,
-    summary, write_in,
+    Artefacts, FileNames, OutputRecord, ResultFile, inputs_in_words, prepare_file, prepare_folder, read_result,
+    run_document, run_file_names, stream_atomically,
 };
 use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
 
-use super::pictures::say_written;
+use super::output::{self, ChartArguments, default_folder};
 use super::progress::Meter;
 use super::stop::Stoppable;
-use super::{DesignChanges, Failure, StudyArguments, Threads, print, say, stop};
+use super::{DesignChanges, Failure, StudyArguments, Threads, say, stop};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -30,6 +27,8 @@ pub struct Arguments {
     /// Folder for the results [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    charts: ChartArguments,
     #[command(flatten)]
     threads: Threads,
     /// Also write the points and outputs of all runs to a file (.csv, .parquet or .npy)
@@ -77,19 +76,15 @@ impl RecordArguments {
     }
 }
 
-/// The folder for results of the study called `name`.
-pub fn default_folder(name: &str) -> PathBuf {
-    Path::new("results").join(name)
-}
-
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = stop::on_signal();
     let study = study_of(arguments)?;
     let folder = folder_of(arguments, &study);
+    let artefacts = arguments.charts.artefacts(&folder);
     let asked = &arguments.record;
     prepare_folder(&folder)?;
     if asked.shard.is_none() {
-        prepare_files(&study, &folder)?;
+        artefacts.check(&file_names(&study))?;
     } else if study.stopping.grows() {
         let why = "a study with a target, a budget or max_runs has no size that could be shared out beforehand";
         return Err(Failure::Input(anyhow!("--shard: {why}")));
@@ -126,7 +121,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some((target, store)) = saved.zip(store.as_ref()) {
         save(&study, &result, store, target)?;
     }
-    deliver(&study, &folder, &result)
+    deliver(&study, &artefacts, &result)
 }
 
 /// The journal of the study called `name`, or of one of its shards, in `folder`.
@@ -182,20 +177,16 @@ fn folder_of(arguments: &Arguments, study: &Study) -> PathBuf {
     arguments.out.clone().unwrap_or_else(|| default_folder(&study.name))
 }
 
-/// Checks, before anything is run, that the files of a run of `study` can be written.
-pub fn prepare_files(study: &Study, folder: &Path) -> Result<(), Failure> {
-    for file in files(study) {
-        prepare_in(folder, &file.name)?;
-    }
-    Ok(())
+/// The names of the files of a run of `study`.
+pub fn file_names(study: &Study) -> FileNames {
+    let model = study.model();
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
+    run_file_names(&study.name, &outputs, study.analysis.second_order, !study.analysis.estimators.is_empty())
 }
 
 /// Writes the files of a result, and says what came out.
-pub fn deliver(study: &Study, folder: &Path, result: &ResultFile) -> Result<(), Failure> {
-    stop::writing()?;
-    let written = write_files(folder, &files(study), result)?;
-    print(&summary(result))?;
-    say_written(&written);
+pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile) -> Result<(), Failure> {
+    output::deliver(artefacts, &run_document(result))?;
     let lost: Vec<&str> =
         result.outputs.iter().filter(|output| lost(study, output)).map(|output| output.name.as_str()).collect();
     if lost.is_empty() {
@@ -240,123 +231,4 @@ pub fn with_inputs(study: &Study, error: RunError) -> Failure {
         }
         _ => error.into(),
     }
-}
-
-/// A file that a run writes.
-pub struct ResultFileName {
-    /// Its name in the folder of results.
-    pub name: String,
-    /// What it holds, in words.
-    pub content: &'static str,
-    kind: Kind,
-}
-
-impl ResultFileName {
-    /// Whether it is the result itself, from which all others can be drawn.
-    pub fn is_result(&self) -> bool {
-        matches!(self.kind, Kind::Result)
-    }
-}
-
-enum Kind {
-    /// The result itself.
-    Result,
-    Text(fn(&ResultFile) -> String),
-    /// The page, which links to the other files.
-    Page,
-    /// The chart of the output of that number, as SVG.
-    Svg(Draw, usize),
-    /// The same as PNG.
-    Png(Draw, usize),
-}
-
-type Draw = fn(&ResultFile, &OutputRecord) -> Chart;
-
-/// What decides which files there are.
-pub struct Contents<'a> {
-    /// Name of the study.
-    pub name: &'a str,
-    /// Names of the outputs.
-    pub outputs: Vec<&'a str>,
-    /// Whether there are second-order indices.
-    pub second_order: bool,
-    /// Whether there are indices by other estimators.
-    pub estimators: bool,
-}
-
-/// The files that a run of `study` writes.
-pub fn files(study: &Study) -> Vec<ResultFileName> {
-    let model = study.model();
-    files_of(&Contents {
-        name: &study.name,
-        outputs: model.outputs().iter().map(|output| &*output.name).collect(),
-        second_order: study.analysis.second_order,
-        estimators: !study.analysis.estimators.is_empty(),
-    })
-}
-
-/// The files of a result with these contents.
-pub fn files_of(contents: &Contents<'_>) -> Vec<ResultFileName> {
-    let Contents { name: study, outputs, .. } = contents;
-    let file = |name: String, content, kind| ResultFileName { name, content, kind };
-    let mut files = vec![
-        file(format!("{study}.html"), "the result as a page, to read", Kind::Page),
-        file(format!("{study}.json"), "the result, for programs", Kind::Result),
-    ];
-    let mut table =
-        |suffix: &str, content, text| files.push(file(format!("{study}{suffix}"), content, Kind::Text(text)));
-    table(".csv", "the indices, for spreadsheets", indices_csv);
-    if contents.second_order {
-        table("-second-order.csv", "the second-order indices of all pairs", second_order_csv);
-    }
-    if contents.estimators {
-        table("-estimators.csv", "the indices by the other estimators", estimators_csv);
-    }
-    table("-convergence.csv", "the indices at every stage of the run", convergence_csv);
-    let charts: [(&str, Draw); RUN_CHARTS.len()] = [
-        ("chart of the shares", study_chart),
-        ("chart of the first-order and total indices", indices_chart),
-        ("chart of first-order against total indices", interactions_chart),
-        ("chart of the output against its factors", scatter_chart),
-        ("chart of the output's distribution", distribution_chart),
-        ("chart of how the indices settled", convergence_chart),
-    ];
-    for (number, stem) in file_stems(study, outputs, &RUN_CHARTS).iter().enumerate() {
-        for (suffix, (content, draw)) in RUN_CHARTS.iter().zip(charts) {
-            files.push(file(format!("{stem}{suffix}.svg"), content, Kind::Svg(draw, number)));
-            files.push(file(format!("{stem}{suffix}.png"), "the same as a picture", Kind::Png(draw, number)));
-        }
-    }
-    files
-}
-
-/// Writes `files` of `result` to `folder`; the page links to all of them.
-pub fn write_files(folder: &Path, files: &[ResultFileName], result: &ResultFile) -> Result<Vec<PathBuf>, Failure> {
-    write_selected(folder, files, (result, &|_| true))
-}
-
-/// Writes those of `files` that are `wanted`; the page links to all of them.
-pub fn write_selected(
-    folder: &Path,
-    files: &[ResultFileName],
-    (result, wanted): (&ResultFile, &dyn Fn(&ResultFileName) -> bool),
-) -> Result<Vec<PathBuf>, Failure> {
-    let drawn = |draw: Draw, number: usize| {
-        draw(result, &result.outputs[number]).svg().map_err(|error| Failure::Run(error.into()))
-    };
-    let others = files.iter().filter(|file| !matches!(file.kind, Kind::Page)).map(|file| file.name.clone());
-    let others: Vec<String> = others.collect();
-    let mut written = Vec::with_capacity(files.len());
-    for file in files.iter().filter(|file| wanted(file)) {
-        stop::unless_stopped()?;
-        let bytes = match file.kind {
-            Kind::Page => run_page(result, &others).html().map_err(|error| Failure::Run(error.into()))?.into_bytes(),
-            Kind::Result => result_json(result).into_bytes(),
-            Kind::Text(text) => text(result).into_bytes(),
-            Kind::Svg(draw, number) => drawn(draw, number)?.into_bytes(),
-            Kind::Png(draw, number) => png(&drawn(draw, number)?).map_err(|error| Failure::Run(error.into()))?.bytes,
-        };
-        written.push(write_in(folder, &file.name, &bytes)?);
-    }
-    Ok(written)
 }

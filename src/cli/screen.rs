@@ -6,19 +6,16 @@ use std::time::Instant;
 use anyhow::anyhow;
 use apportion::model::RunContext;
 use apportion::report::RunFacts;
-use apportion::report::screening::{
-    build_screening, screening_charts, screening_csv, screening_json, screening_suffixes, screening_summary,
-};
+use apportion::report::screening::{build_screening, file_names, screening_document};
 use apportion::run::threads_in_force;
 use apportion::screening::{MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningJob};
 use apportion::screening::{ScreeningSettings, screen_in};
 use apportion::study::Study;
 
-use super::pictures::{prepare, write};
+use super::output::{ChartArguments, default_folder, deliver};
 use super::progress::Meter;
-use super::run::default_folder;
 use super::stop::on_signal;
-use super::{Failure, StudyArguments, Threads, print, say, whole_number};
+use super::{Failure, StudyArguments, Threads, say, whole_number};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -39,6 +36,8 @@ pub struct Arguments {
     /// Folder for the results [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    charts: ChartArguments,
     #[command(flatten)]
     threads: Threads,
 }
@@ -85,7 +84,8 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     let model = study.model();
     let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
-    prepare(&folder, &file_names(&study.name, &outputs))?;
+    let artefacts = arguments.charts.artefacts(folder);
+    artefacts.check(&file_names(&study.name, &outputs))?;
     let runs = in_force.trajectories * (study.space.factors().len() as u64 + 1);
     let meter = Meter::new(&study.name, runs);
     let start = Instant::now();
@@ -96,18 +96,5 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
     let facts = RunFacts { threads, wall_seconds: start.elapsed().as_secs_f64() };
     meter.finish(screening.runs, facts.wall_seconds);
     let file = build_screening(&study, model.as_ref(), &screening, facts);
-    let charts = screening_charts(&file);
-    let tables = [("-screen.json", screening_json(&file)), ("-screen.csv", screening_csv(&file))];
-    let files = write(&folder, &study.name, (&tables, &charts))?;
-    print(&screening_summary(&file))?;
-    super::pictures::say_written(&files);
-    Ok(())
-}
-
-/// The files a screening of the study called `name` writes.
-fn file_names(name: &str, outputs: &[&str]) -> Vec<String> {
-    let charts = screening_suffixes(outputs);
-    let pictures =
-        charts.iter().flatten().flat_map(|suffix| [format!("{name}{suffix}.svg"), format!("{name}{suffix}.png")]);
-    [format!("{name}-screen.json"), format!("{name}-screen.csv")].into_iter().chain(pictures).collect()
+    deliver(&artefacts, &screening_document(&file))
 }

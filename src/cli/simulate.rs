@@ -1,17 +1,13 @@
 //! `apportion simulate`: one scene of a study in time.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::scene::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
-use crate::scene::{PageParts, mode_diagram_chart, scene_charts, scene_csv, scene_json, scene_page};
+use crate::scene::{file_names, mode_document, mode_file_names, scene_document};
 use apportion::quantity::{Dimension, Quantity};
-use apportion::report::chart::{Chart, png};
-use apportion::report::{prepare_folder, with_unit, write_in};
-use apportion::study::Study;
 
-use super::pictures::say_written;
-use super::run::default_folder;
-use super::{Failure, StudyArguments, print};
+use super::output::{ChartArguments, default_folder, deliver};
+use super::{Failure, StudyArguments};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -26,6 +22,8 @@ pub struct Arguments {
     /// Draw the mode diagram instead: the force at which the particle slides, slips at the tip, rolls or spins
     #[arg(long, conflicts_with = "duration")]
     mode_diagram: bool,
+    #[command(flatten)]
+    charts: ChartArguments,
 }
 
 fn parse_time(text: &str) -> Result<f64, String> {
@@ -49,73 +47,17 @@ impl From<SimulationError> for Failure {
 pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
-    prepare_folder(&folder)?;
-    let files = if arguments.mode_diagram { draw_modes(&study, &folder)? } else { tell(arguments, &study, &folder)? };
-    say_written(&files);
-    Ok(())
-}
-
-fn tell(arguments: &Arguments, study: &Study, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let story = simulate_scene(study, arguments.duration)?;
-    let charts = scene_charts(&story);
-    let stem = format!("{}-scene", study.name);
-    let (csv, json) = (format!("{stem}.csv"), format!("{stem}.json"));
-    let parts = PageParts { charts: &charts, csv_file: &csv, json_file: &json };
-    let page = scene_page(&story, parts).map_err(|error| Failure::Run(error.into()))?;
-    let mut files = vec![
-        (format!("{stem}.html"), page.into_bytes()),
-        (csv, scene_csv(&story).into_bytes()),
-        (json, scene_json(&story).into_bytes()),
-    ];
-    for chart in &charts {
-        files.extend(pictures(&format!("{}-{}", study.name, chart.stem), &chart.chart)?);
-    }
-    let critical = &story.critical;
-    let nanonewtons = |force: f64| with_unit(force * 1e9, "nN");
-    let time = critical.time.map_or_else(|| "never".to_owned(), |time| format!("after {}", with_unit(time, "s")));
-    let state = story.samples.last().map_or_else(String::new, |end| {
-        let moved = with_unit(end.relative_position * 1e9, "nm");
-        format!("; after {} it has moved {moved} relative to the substrate", with_unit(end.time, "s"))
-    });
-    print(&format!(
-        "the particle slips {time}, at a tip force of {} (lateral {}, normal {}){state}\n",
-        nanonewtons(critical.critical_force),
-        nanonewtons(critical.lateral_force),
-        nanonewtons(critical.normal_force)
-    ))?;
-    write(folder, files)
-}
-
-fn draw_modes(study: &Study, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let diagram = mode_diagram(study)?;
-    let chart = mode_diagram_chart(&diagram).map_err(|error| Failure::Run(error.into()))?;
-    let mut csv = String::from("angle_rad");
-    for line in &diagram.forces {
-        csv.push_str(&format!(",{}_N", line.mode));
-    }
-    csv.push('\n');
-    for (row, angle) in diagram.angle.iter().enumerate() {
-        let forces = diagram.forces.iter().map(|line| line.force[row].map_or_else(String::new, |f| f.to_string()));
-        csv.push_str(&format!("{angle},{}\n", forces.collect::<Vec<_>>().join(",")));
-    }
-    let stem = format!("{}-modes", study.name);
-    let mut files = vec![(format!("{stem}.csv"), csv.into_bytes())];
-    files.extend(pictures(&stem, &chart)?);
-    write(folder, files)
-}
-
-/// A chart as its two files.
-fn pictures(stem: &str, chart: &Chart) -> Result<[(String, Vec<u8>); 2], Failure> {
-    let svg = chart.svg().map_err(|error| Failure::Run(error.into()))?;
-    let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
-    Ok([(format!("{stem}.svg"), svg.into_bytes()), (format!("{stem}.png"), picture.bytes)])
-}
-
-fn write(folder: &Path, files: Vec<(String, Vec<u8>)>) -> Result<Vec<PathBuf>, Failure> {
-    super::stop::writing()?;
-    let mut written = Vec::with_capacity(files.len());
-    for (name, bytes) in files {
-        written.push(write_in(folder, &name, &bytes)?);
-    }
-    Ok(written)
+    let artefacts = arguments.charts.artefacts(folder);
+    let failed = |error: anyhow::Error| Failure::Run(error);
+    let document = if arguments.mode_diagram {
+        let diagram = mode_diagram(&study)?;
+        artefacts.check(&mode_file_names(&study.name))?;
+        let title = study.title.as_deref().unwrap_or(&study.name);
+        mode_document(&diagram, &study.name, title).map_err(|error| failed(error.into()))?
+    } else {
+        artefacts.check(&file_names(&study.name))?;
+        let story = simulate_scene(&study, arguments.duration)?;
+        scene_document(&story, &study.name).map_err(|error| failed(error.into()))?
+    };
+    deliver(&artefacts, &document)
 }

@@ -4,15 +4,14 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use apportion::model::RunContext;
-use apportion::report::sweep::{build_sweep, sweep_charts, sweep_csv, sweep_json, sweep_suffixes, sweep_summary};
+use apportion::report::sweep::{build_sweep, file_names, sweep_document};
 use apportion::space::Space;
 use apportion::study::Study;
 use apportion::sweep::{FactorValues, MAX_POINTS, SweepError, SweepRequest, find, sweep_in};
 
-use super::pictures::{prepare, say_written, write};
-use super::run::default_folder;
+use super::output::{ChartArguments, default_folder, deliver};
 use super::stop::on_signal;
-use super::{Failure, StudyArguments, print, say};
+use super::{Failure, StudyArguments, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -30,6 +29,8 @@ pub struct Arguments {
     /// Folder for the results [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    charts: ChartArguments,
 }
 
 fn parse_points(text: &str) -> Result<usize, String> {
@@ -88,24 +89,11 @@ pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
     let model = study.model();
     let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
-    prepare(&folder, &file_names(&study, &request, &outputs))?;
-    let context = RunContext::new(Some(on_signal()), say);
-    let sweeps = sweep_in(&study.space, model.as_ref(), &request, &context)?;
-    let file = build_sweep(&study, model.as_ref(), &sweeps);
-    let charts = sweep_charts(&file);
-    let tables = [("-sweep.json", sweep_json(&file)), ("-sweep.csv", sweep_csv(&file))];
-    let files = write(&folder, &study.name, (&tables, &charts))?;
-    print(&sweep_summary(&file))?;
-    say_written(&files);
-    Ok(())
-}
-
-/// The files that the sweeps write.
-fn file_names(study: &Study, request: &SweepRequest, outputs: &[&str]) -> Vec<String> {
     let factors: Vec<&str> =
         request.factors.iter().map(|asked| study.space.factors()[asked.factor].name.as_str()).collect();
-    let charts = sweep_suffixes(&factors, outputs);
-    let pictures = charts.iter().flat_map(|suffix| [format!("{suffix}.svg"), format!("{suffix}.png")]);
-    let endings = ["-sweep.json".to_owned(), "-sweep.csv".to_owned()].into_iter().chain(pictures);
-    endings.map(|ending| format!("{}{ending}", study.name)).collect()
+    let artefacts = arguments.charts.artefacts(folder);
+    artefacts.check(&file_names(&study.name, &factors, &outputs))?;
+    let context = RunContext::new(Some(on_signal()), say);
+    let sweeps = sweep_in(&study.space, model.as_ref(), &request, &context)?;
+    deliver(&artefacts, &sweep_document(&build_sweep(&study, model.as_ref(), &sweeps)))
 }

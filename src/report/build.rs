@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 
-use super::build_output::{OutputRecords, estimate_record};
+use super::build_output::OutputRecords;
+use super::records::estimate_record;
 use super::result::{
     AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, MixedModels, Provenance,
     ResultFile, RungRecord, StoppingRecord, StudyRecord, ValidityRecord,

@@ -2,11 +2,11 @@
 
 use serde_json::{Map, Value};
 
-use super::asked::input_value;
 use super::distribution::OutputDistribution;
+use super::records::{estimate_record, input_value};
 use super::result::{
-    DistributionRecord, EffectRecord, EstimateRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord,
-    IntervalRecord, OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
+    DistributionRecord, EffectRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord, IntervalRecord,
+    OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
 };
 use super::scatter::{FirstRows, scatter_record};
 use crate::analysis::{Analysis, FailureCount, OutputAnalysis, names_of_swaps, row_inputs};
@@ -154,10 +154,6 @@ fn effect_record(effect: &EffectEstimates) -> EffectRecord {
         probability_first: effect.probability_first,
         probability_above_threshold: effect.probability_above,
     }
-}
-
-pub(super) fn estimate_record(Estimate { estimate, interval }: Estimate) -> EstimateRecord {
-    EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) }
 }
 
 fn interval_record(interval: Option<Interval>, convert: &dyn Fn(f64) -> f64) -> Option<IntervalRecord> {

@@ -70,7 +70,7 @@ pub(super) fn decides_most(contenders: &[Contender], output: &str) -> Option<Str
             names(contenders, &leaders, &total)
         ));
     }
-    let (label, all) = (super::asked::sentence(&lead.label), percent(lead.total.estimate));
+    let (label, all) = (super::format::sentence(&lead.label), percent(lead.total.estimate));
     Some(match lead.first_order {
         Some(first) if first.estimate <= 0.0 || first.low.is_some_and(|low| low <= 0.0) => format!(
             "{label} decides most: with all its interactions it explains {all} of the variance of {output}, alone nothing \

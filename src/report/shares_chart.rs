@@ -1,7 +1,7 @@
 //! The chart of percentages: first-order and total shares of every factor, studies side by side.
 
-use super::asked::the;
 use super::chart::{Bar, Chart, GroupedBars, Panel, Role, Series};
+use super::format::the;
 use super::result::{EffectRecord, IntervalRecord, OutputRecord, ResultFile};
 
 /// One study in a chart of shares.

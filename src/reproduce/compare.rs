@@ -3,9 +3,10 @@
 use super::order::{Agreement, Standing, VISIBLE, order_of, outweighing};
 use super::published::CLOSE;
 use super::{GROUPS, Published, Reproduced, published};
-use apportion::report::{
-    EffectRecord, IndexRecord, TextTable, capitalised, estimate, fixed, share, share_of_runs, table,
-};
+use apportion::report::csv::{Csv, Field, fields};
+use apportion::report::document::Value;
+use apportion::report::{EffectRecord, EstimateRecord, IndexRecord, IntervalRecord, TextTable};
+use apportion::report::{capitalised, estimate, fixed, share, share_of_runs, table};
 
 /// The table that `reproduce` prints: for each group of studies the shares of every factor under every friction model,
 /// then the order of the factors, ours and the published one, and whether they agree.
@@ -164,27 +165,28 @@ fn validity(member: &Reproduced) -> String {
 
 /// The percentages of all studies as CSV, the published ones in the last column; an empty cell where there is none.
 pub fn shares_csv<'a>(studies: impl IntoIterator<Item = &'a Reproduced>) -> String {
-    let mut text = String::from(
-        "study,friction,factor,share_first_order,share_first_order_low,share_first_order_high,\
-         share_total,share_total_low,share_total_high,published\n",
-    );
+    let names = ["study", "friction", "factor"];
+    let mut columns = fields(&names, &["share_first_order", "share_total"]);
+    columns.push(Field::new("published"));
+    let mut csv = Csv::new(columns);
+    let share = |share: Option<f64>, interval: Option<IntervalRecord>| {
+        let bounds =
+            |estimate| EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) };
+        Value::Estimate(share.map(bounds))
+    };
     for member in studies {
         let print = published(member.group.key, member.friction.key);
         for IndexRecord { factor, effect } in indices(member) {
-            let EffectRecord { share_first_order_interval: first, share_total_interval: total, .. } = effect;
             let printed = print.shares.iter().find(|(name, _)| name == factor).map(|(_, share)| *share);
-            let numbers = [
-                effect.share_first_order,
-                first.map(|i| i.low),
-                first.map(|i| i.high),
-                effect.share_total,
-                total.map(|i| i.low),
-                total.map(|i| i.high),
-                printed,
-            ];
-            let cells = numbers.map(|number| number.map_or_else(String::new, |x| x.to_string()));
-            text.push_str(&format!("{},{},{factor},{}\n", member.group.key, member.friction.key, cells.join(",")));
+            csv.row::<Value>([
+                member.group.key.into(),
+                member.friction.key.into(),
+                factor.into(),
+                share(effect.share_first_order, effect.share_first_order_interval),
+                share(effect.share_total, effect.share_total_interval),
+                printed.into(),
+            ]);
         }
     }
-    text
+    csv.text()
 }

@@ -1,31 +1,28 @@
 //! The papers reproduced: their studies, figures and claims, and what their published percentages could mean.
 //!
-//! [`reproduce()`] computes, [`write_all`] writes the page and the files beside it, [`in_words`] says it on a terminal.
+//! [`reproduce()`] computes, [`document()`] makes the page and its files of it, [`in_words`] says it on a terminal.
 
 pub mod claims;
 mod compare;
+mod document;
 pub mod figures;
-mod files;
 mod order;
-mod page;
 mod published;
 pub mod readings;
 mod reproduction;
-mod words;
+mod terminal;
 
 use std::path::PathBuf;
 
 use thiserror::Error;
 
 pub use compare::{comparison_table, shares_csv};
-pub use files::write_all;
+pub use document::document;
 pub use published::{Published, published};
 pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
-pub use words::in_words;
+pub use terminal::in_words;
 
-use apportion::report::chart::{ChartError, PngError};
-use apportion::report::page::PageError;
-use apportion::report::{ResultFile, WriteError};
+use apportion::report::ResultFile;
 use apportion::run::RunError;
 use apportion::study::{Study, StudyError};
 
@@ -93,18 +90,6 @@ pub enum ReproduceError {
     /// A study cannot be run.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A file cannot be written.
-    #[error(transparent)]
-    Write(#[from] WriteError),
-    /// A chart cannot be drawn.
-    #[error(transparent)]
-    Chart(#[from] ChartError),
-    /// A chart cannot be turned into a picture.
-    #[error(transparent)]
-    Png(#[from] PngError),
-    /// The page cannot be made.
-    #[error(transparent)]
-    Page(#[from] PageError),
     /// A figure cannot be made.
     #[error(transparent)]
     Figures(#[from] figures::FiguresError),

@@ -1,8 +1,8 @@
 //! The charts of a scene in time, after the figures of Tafazzoli & Sitti 2004.
 
-use super::words::{change, force, length, short, time};
 use super::{SceneSample, SceneStory};
 use apportion::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use apportion::report::format::{change, force, length, three_digits as short, time};
 
 /// A chart of a scene.
 #[derive(Clone, Debug, PartialEq)]

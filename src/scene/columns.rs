@@ -3,6 +3,8 @@
 use serde_json::{Map, Value, json};
 
 use super::{SceneSample, SceneStory};
+use apportion::report::csv::{Csv, Field};
+use apportion::report::document::Value as Cell;
 
 /// A column of numbers.
 struct Column {
@@ -49,18 +51,13 @@ const FLAGS: [Flag; 4] =
 /// The samples as CSV: a header of names with units, then one line per sample, numbers with as many digits as it takes
 /// to read the same bits back, flags as `true` and `false`. The columns are described in `docs/scene-format.md`.
 pub fn scene_csv(story: &SceneStory) -> String {
-    let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).chain(FLAGS.iter().map(|flag| flag.0)).collect();
-    let mut text = names.join(",") + "\n";
+    let names = COLUMNS.iter().map(|column| column.name).chain(FLAGS.iter().map(|flag| flag.0));
+    let mut csv = Csv::new(names.map(Field::new));
     for sample in &story.samples {
-        let numbers = COLUMNS.iter().map(|column| {
-            let value = column.factor * (column.read)(sample);
-            if value.is_finite() { value.to_string() } else { String::new() }
-        });
-        let cells: Vec<String> = numbers.chain(FLAGS.iter().map(|flag| (flag.1)(sample).to_string())).collect();
-        text.push_str(&cells.join(","));
-        text.push('\n');
+        let numbers = COLUMNS.iter().map(|column| Cell::Number(column.factor * (column.read)(sample)));
+        csv.row(numbers.chain(FLAGS.iter().map(|flag| Cell::Flag((flag.1)(sample)))));
     }
-    text
+    csv.text()
 }
 
 /// The story as JSON, format `apportion-scene`, version 1: see `docs/scene-format.md`. The samples are columns of the

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use super::charts::SUBSTRATE;
 use super::view::View;
-use super::words::{force, length, time};
 use super::{SceneGeometry, SceneSample, SceneStory};
 use apportion::report::chart::{Look, Picture, Role, Sheet, Sketch};
+use apportion::report::format::{force, length, time};
 
 /// A film strip.
 #[derive(Clone, Debug, PartialEq)]

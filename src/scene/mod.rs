@@ -1,4 +1,4 @@
-//! A scene in time as CSV, JSON, charts and one page with an animation.
+//! A scene in time: its document with an animation, its charts, CSV and JSON.
 //!
 //! A [`SceneStory`] is plain data in SI; who computed it does not matter here. The exporters draw the figures of
 //! Tafazzoli & Sitti 2004 (8, 9, 10, 12, 13 and, moving, 14). A number that is not finite is an empty cell in CSV,
@@ -6,22 +6,24 @@
 
 pub(crate) mod charts;
 mod columns;
+mod document;
 mod film;
 #[cfg(test)]
 mod fixture;
 pub(crate) mod mode_diagram;
-mod page;
+mod player;
 pub mod simulation;
 mod view;
-pub(crate) mod words;
 
-pub use charts::{SceneChart, scene_charts};
+pub use charts::scene_charts;
 pub use columns::{scene_csv, scene_json};
+pub use document::{file_names, mode_document, mode_file_names, scene_document};
 pub use film::film_strip;
 pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
-pub use page::{PageError, PageParts, scene_page};
+pub use player::player_page;
 
 use apportion::report::chart::Role;
+use apportion::report::format;
 
 /// One scene, from the start of the push through sticking and slipping.
 #[derive(Clone, Debug, PartialEq)]
@@ -130,15 +132,14 @@ impl SceneStory {
 
     /// The outcome in one sentence.
     fn outcome(&self) -> String {
-        let force = words::force(self.critical.critical_force);
+        let at = format::force(self.critical.critical_force);
         match (self.critical.time.filter(|time| time.is_finite()), self.slip()) {
-            (_, Some(time)) => format!("The particle slips after {}, at a tip force of {force}.", words::time(time)),
-            (Some(time), None) => format!(
-                "The particle slips at {}, outside the time shown, at a tip force of {force}.",
-                words::time(time)
-            ),
+            (_, Some(time)) => format!("The particle slips after {}, at a tip force of {at}.", format::time(time)),
+            (Some(time), None) => {
+                format!("The particle slips at {}, outside the time shown, at a tip force of {at}.", format::time(time))
+            }
             (None, None) => {
-                format!("The particle does not slip in a finite time; its critical force would be {force}.")
+                format!("The particle does not slip in a finite time; its critical force would be {at}.")
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The mode diagram: which force moves the particle in which way, against the angle of the force.
 
-use super::words::{force, short};
 use apportion::report::chart::{Axis, Chart, ChartError, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
+use apportion::report::format::{force, three_digits as short};
 
 /// The forces at which the modes set in, against the angle of the tip force (TS04 figure 12).
 #[derive(Clone, Debug, PartialEq)]

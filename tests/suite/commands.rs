@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::common::{apportion, stderr, study_path, succeed, text};
+use crate::common::{all_files, apportion, stderr, study_path, succeed, text};
 
 /// What it says on standard error when the input is wrong.
 #[track_caller]
@@ -15,11 +15,7 @@ fn refused(arguments: &[&str]) -> String {
 }
 
 fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let entry = |entry: std::io::Result<std::fs::DirEntry>| {
-        let path = entry.unwrap().path();
-        (path.file_name().unwrap().to_str().unwrap().to_owned(), std::fs::read(path).unwrap())
-    };
-    std::fs::read_dir(folder).unwrap().map(entry).collect()
+    all_files(folder).into_iter().map(|name| (name.clone(), std::fs::read(folder.join(name)).unwrap())).collect()
 }
 
 fn run(study: &str, folder: &Path, changes: &[&str]) {
@@ -38,9 +34,10 @@ fn report_draws_every_file_of_a_run_again_to_the_byte() {
         let (original, copy) = (folder.path().join(study), folder.path().join(format!("{study}-again")));
         run(study, &original, &changes);
         let before = contents(&original);
+        assert!(before.keys().any(|name| name.starts_with("charts/")));
         let json = original.join(format!("{study}.json"));
         let said = succeed(&["report", text(&json), "--out", text(&copy)]);
-        assert!(said.contains("first order S1"), "{said}");
+        assert!(said.contains("First-order index S_1"), "{said}");
         assert_eq!(contents(&copy), before);
         // In its own folder: all but the result comes again.
         for name in before.keys().filter(|name| !name.ends_with(&format!("{study}.json"))) {
@@ -117,10 +114,12 @@ fn compare_tells_what_differs_and_by_how_much() {
     // The studies have one name and the files too: their folders tell them apart.
     let written = contents(&out);
     let charts = ["critical_force", "critical_force-differences", "critical_time", "critical_time-differences"];
-    for chart in charts.iter().flat_map(|chart| [format!("a-vs-b-{chart}.svg"), format!("a-vs-b-{chart}.png")]) {
+    for chart in
+        charts.iter().flat_map(|chart| [format!("charts/a-vs-b-{chart}.svg"), format!("charts/a-vs-b-{chart}.png")])
+    {
         assert!(written.contains_key(&chart), "{chart}: {:?}", written.keys());
     }
-    assert_eq!(written.len(), 2 + 8);
+    assert_eq!(written.len(), 3 + 8);
     let json: serde_json::Value = serde_json::from_slice(&written["a-vs-b.json"]).unwrap();
     assert_eq!((&json["format"], &json["version"]), (&"apportion-comparison".into(), &1.into()));
     // Every number of the table is that of the results.
@@ -218,7 +217,7 @@ fn a_new_study_runs_as_it_is() {
         assert_eq!(checked.status.code(), Some(0), "{}", stderr(&checked));
         assert!(!stderr(&checked).contains("note:"), "{}", stderr(&checked));
         let said = succeed(&["run", text(&study), "--out", text(&out), "--base-samples", "256"]);
-        assert!(said.contains("first order S1"), "{said}");
+        assert!(said.contains("First-order index S_1"), "{said}");
     }
     let written = std::fs::read_to_string(folder.path().join("force.toml")).unwrap();
     assert!(

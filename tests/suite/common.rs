@@ -62,6 +62,14 @@ pub fn files(folder: &Path) -> BTreeSet<String> {
     std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
+/// Every file in `folder` and in its folder of charts, as paths below it.
+pub fn all_files(folder: &Path) -> BTreeSet<String> {
+    let charts = folder.join("charts");
+    let charts = if charts.is_dir() { files(&charts) } else { BTreeSet::new() };
+    let others = files(folder).into_iter().filter(|name| name != "charts");
+    others.chain(charts.into_iter().map(|name| format!("charts/{name}"))).collect()
+}
+
 /// A study of this repository.
 pub fn study_path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("studies").join(format!("{name}.toml"))

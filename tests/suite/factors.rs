@@ -96,12 +96,12 @@ fn labels_are_kept_in_results_points_and_sweeps() {
     let json: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["sweeps"][0]["labels"][1], "brass");
     assert_eq!(json["sweeps"][0]["curves"][2]["against"]["label"], "true");
-    let chart = std::fs::read_to_string(out.join("study-sweep-material.svg")).unwrap();
+    let chart = std::fs::read_to_string(out.join("charts/study-sweep-material.svg")).unwrap();
     for label in ["steel", "brass", "soft, pure copper", "wet = true"] {
         assert!(chart.contains(&format!(">{label}<")), "{label}");
     }
     let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
-    let (scatter, ranges) = (read("study-scatter.svg"), read("study-sweep-ranges.svg"));
+    let (scatter, ranges) = (read("charts/study-scatter.svg"), read("charts/study-sweep-ranges.svg"));
     for label in ["steel", "brass", "false", "true"] {
         assert!(scatter.contains(&format!(">{label}<")), "{label}");
     }

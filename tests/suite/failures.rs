@@ -249,7 +249,7 @@ fn an_output_lost_to_failed_runs_is_a_failed_run() {
     let result: apportion::report::ResultFile = serde_json::from_str(&json).unwrap();
     assert!(result.outputs[0].reason.as_ref().unwrap().contains("max_failed = 0"), "{json}");
     assert!(result.outputs[0].distribution.is_some(), "the values that there are");
-    assert!(out.join("holes-convergence.png").exists());
+    assert!(out.join("charts/holes-convergence.png").exists());
     // What was allowed to fail is no failure.
     let study = folder.with("holes.toml", holes("max_failed = 1"));
     let output = apportion(&["run", text(&study), "--out", text(&out)]);
@@ -264,7 +264,7 @@ fn an_output_lost_to_failed_runs_is_a_failed_run() {
         .to_owned();
     let output = apportion(&["run", text(&folder.with("none.toml", none)), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    assert!(out.join("none.json").exists() && out.join("none-distribution.png").exists());
+    assert!(out.join("none.json").exists() && out.join("charts/none-distribution.png").exists());
     // An output that does not vary has no indices either, but nothing failed.
     let constant = folder.with("constant.toml", "model = \"constant\"\n[design]\nbase_samples = 64\n");
     let output = apportion(&["run", text(&constant), "--out", text(&out)]);

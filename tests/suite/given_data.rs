@@ -69,18 +69,18 @@ fn a_table_becomes_a_result() {
         assert!((rank.estimate - exact / 14.0).abs() < width && width < 0.2, "{index:?}");
     }
     let printed = stdout(&run.output);
-    for part in ["500 rows, 3 inputs", "by ranks", "by bins", "note: given data yield first-order indices only"] {
+    for part in ["500 rows, 3 inputs", "by ranks", "by bins", "note: Given data yield first-order indices only"] {
         assert!(printed.contains(part), "no {part:?} in {printed}");
     }
     let csv = std::fs::read_to_string(run.out().join("table-indices.csv")).unwrap();
     assert_eq!(csv.lines().count(), 4);
     for chart in ["table.svg", "table.png"] {
-        assert!(run.out().join(chart).is_file());
+        assert!(run.out().join("charts").join(chart).is_file());
     }
     // The same again gives the same bytes, whatever the threads and the time.
     let again = Run::of(&content, &["--outputs", "y"]);
     let bytes = |run: &Run, name: &str| std::fs::read(run.out().join(name)).unwrap();
-    assert_eq!(bytes(&run, "table.svg"), bytes(&again, "table.svg"));
+    assert_eq!(bytes(&run, "charts/table.svg"), bytes(&again, "charts/table.svg"));
     assert_eq!(result.outputs, again.result().outputs);
 }
 
@@ -143,7 +143,7 @@ fn an_output_that_does_not_vary_has_no_indices_but_a_reason() {
         (&result.outputs[1].indices, result.outputs[1].reason.as_deref()),
         (&None, Some("the output is constant"))
     );
-    assert!(stdout(&run.output).contains("no indices: the output is constant"));
+    assert!(stdout(&run.output).contains("no indices: There are no indices of c: the output is constant"));
 }
 
 #[cfg(unix)]

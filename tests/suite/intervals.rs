@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::report::{OutputRecord, ResultFile, indices_chart, run_page, summary};
+use apportion::report::{OutputRecord, ResultFile, indices_chart, run_document};
 use apportion::study::Study;
 
 const UNIFORM: &str = "distribution = \"uniform\"\nmin = 0\nmax = 1";
@@ -114,8 +114,8 @@ fn mean_and_variance_are_those_of_all_rows_that_succeeded() {
     let interval = output.variance_interval.unwrap();
     assert!(interval.low < variance && variance < interval.high);
     let said = |number: f64| apportion::report::significant(number);
-    let text = summary(&result);
-    let heading = format!("mean {}, standard deviation {}", said(mean), said(distribution.sample.sd.unwrap()));
+    let text = run_document(&result).text();
+    let heading = format!("Mean {}, standard deviation {}", said(mean), said(distribution.sample.sd.unwrap()));
     assert!(text.contains(&heading), "{heading} in {text}");
 }
 
@@ -127,7 +127,7 @@ fn no_sentence_names_a_winner_of_a_tie_or_a_negative_share() {
     assert!(leads.fold(0.0, f64::max) < 0.95, "a seed in which the tie is one");
     let caption = indices_chart(&result, output(&result)).caption().to_owned();
     assert!(caption.contains("cannot be told apart: ") && !caption.contains("decides most:"), "{caption}");
-    let lead = &run_page(&result, &[]).lead[0];
+    let lead = &run_document(&result).lead[0];
     assert!(lead.starts_with("What matters most for y cannot be told apart"), "{lead}");
     assert!(!lead.contains("matters most for y:"), "{lead}");
     // x1 matters by interactions alone: estimates of its first-order index may be below 0.

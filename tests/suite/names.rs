@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::common::{Folder, apportion, files, stderr, text};
+use crate::common::{Folder, all_files, apportion, files, stderr, text};
 
 /// A study of formulas with these outputs, all the sum of its two factors.
 fn study(names: &[&str]) -> String {
@@ -58,7 +58,7 @@ fn no_name_of_an_output_leads_out_of_the_folder() {
     let named = ["--outputs", "../../EVIL,a/../../../../EVIL", "--out", text(&out)];
     let output = apportion(&[&["given-data", text(&table)], &named[..]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(files(&out).contains("table-.._.._EVIL.svg"), "{:?}", files(&out));
+    assert!(files(&out.join("charts")).contains("table-.._.._EVIL.svg"), "{:?}", all_files(&out));
     assert_eq!(files(&folder.path("a/b/c")).len(), 1);
 }
 
@@ -69,7 +69,7 @@ fn outputs_whose_files_would_be_the_same_have_files_of_their_own() {
     let (path, out) = (folder.with("s.toml", study(&names)), folder.path("out"));
     let output = apportion(&["run", text(&path), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let there = files(&out);
+    let there = all_files(&out);
     // Page, result, indices, convergence, journal; and six charts of each output, twice.
     assert_eq!(there.len(), 5 + names.len() * 12, "{there:?}");
     assert_eq!(
@@ -78,16 +78,16 @@ fn outputs_whose_files_would_be_the_same_have_files_of_their_own() {
     );
     // Each chart is that of its output: the title names it.
     let title = |file: &str| std::fs::read_to_string(out.join(file)).unwrap();
-    assert!(title("s-y-indices.svg").contains("indices of y<"), "the chart of the indices of y");
+    assert!(title("charts/s-y-indices.svg").contains("indices of y<"), "the chart of the indices of y");
     // The same again from the result, and from two of them.
     let (json, again) = (out.join("s.json"), folder.path("again"));
     assert_eq!(apportion(&["report", text(&json), "--out", text(&again)]).status.code(), Some(0));
-    assert_eq!(files(&again).len(), 4 + names.len() * 12);
+    assert_eq!(all_files(&again).len(), 4 + names.len() * 12);
     let (both, screened) = (folder.path("both"), folder.path("screened"));
     assert_eq!(apportion(&["compare", text(&json), text(&json), "--out", text(&both)]).status.code(), Some(0));
-    assert_eq!(files(&both).len(), 2 + names.len() * 4);
+    assert_eq!(all_files(&both).len(), 3 + names.len() * 4);
     assert_eq!(apportion(&["screen", text(&path), "--out", text(&screened)]).status.code(), Some(0));
-    assert_eq!(files(&screened).len(), 2 + names.len() * 4);
+    assert_eq!(all_files(&screened).len(), 3 + names.len() * 4);
 }
 
 #[test]

@@ -36,7 +36,7 @@ fn a_run_writes_a_page_that_needs_nothing_else() {
         }
     }
     for file in
-        ["coulomb-general.json", "coulomb-general.csv", "coulomb-general.svg", "coulomb-general-convergence.csv"]
+        ["coulomb-general.json", "coulomb-general.csv", "charts/coulomb-general.svg", "coulomb-general-convergence.csv"]
     {
         assert!(links.contains(&file), "{file}");
     }

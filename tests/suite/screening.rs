@@ -7,7 +7,7 @@ use apportion::report::screening::{ScreeningFile, screening_json};
 use apportion::report::sweep::{SweepFile, sweep_json};
 use apportion::screening::Reading;
 
-use crate::common::{apportion, files, stderr, study_path, succeed, text};
+use crate::common::{all_files, apportion, files, stderr, study_path, succeed, text};
 
 fn read(folder: &Path, name: &str) -> String {
     std::fs::read_to_string(folder.join(name)).unwrap()
@@ -48,10 +48,10 @@ fn a_screening_finds_what_the_indices_find() {
     }
     assert_eq!(by("thickness").could_be_fixed, Some(false));
     assert!(by("length").mu.unwrap().estimate < 0.0);
-    assert!(table.contains("could be fixed for critical force: height, velocity"));
-    let expected = ["screen-bars.png", "screen-bars.svg", "screen.csv", "screen.json", "screen.png", "screen.svg"];
-    let expected: BTreeSet<String> = expected.iter().map(|name| format!("coulomb-general-{name}")).collect();
-    assert_eq!(files(folder.path()), expected);
+    assert!(table.contains("Could be fixed for the critical force: height and velocity"));
+    let charts = ["-bars.png", "-bars.svg", ".png", ".svg"].map(|end| format!("charts/coulomb-general-screen{end}"));
+    let others = ["csv", "html", "json"].map(|ending| format!("coulomb-general-screen.{ending}"));
+    assert_eq!(all_files(folder.path()), charts.into_iter().chain(others).collect::<BTreeSet<_>>());
     let csv = read(folder.path(), "coulomb-general-screen.csv");
     assert_eq!(csv.lines().count(), 1 + 8);
     assert!(csv.starts_with("output,unit,factor,rank,mu_star,mu_star_low,mu_star_high,mu,"));
@@ -83,7 +83,7 @@ fn designs_seeds_and_threads_do_what_they_say() {
     assert_ne!(walk, csv(&["--design", "trajectory", "--levels", "6"]));
     let (folder, file, _) = screened("soft-cantilever", &["--trajectories", "10"]);
     assert_eq!((file.provenance.trajectories, file.provenance.parts), (10, 5));
-    assert_eq!(files(folder.path()).len(), 2 + 2 * 4);
+    assert_eq!(all_files(folder.path()).len(), 3 + 2 * 4);
     assert!(file.notes[0].contains("velocity (log-uniform)"));
 }
 
@@ -115,7 +115,7 @@ fn a_sweep_shows_curves_ranges_and_slopes() {
         assert!((elasticity - power).abs() < 0.02, "{name}: {elasticity}");
         assert!(sweep.effects[0].elasticity_error.unwrap() < 1e-3);
     }
-    assert_eq!(files(folder.path()).len(), 2 + 2 * (8 + 1));
+    assert_eq!(all_files(folder.path()).len(), 3 + 2 * (8 + 1));
     assert_eq!(read(folder.path(), "coulomb-general-sweep.csv").lines().count(), 1 + 8 * 11);
     assert!(table.contains("critical_force = 631.3 nN where every factor is nominal"));
 }
@@ -140,7 +140,7 @@ fn a_family_has_its_gaps_and_its_own_values() {
     let csv = read(folder.path(), "coulomb-general-sweep.csv");
     assert_eq!(csv.lines().count(), 1 + 4 * 2 + 4 * 5);
     assert!(csv.contains("\nvelocity,nm/s,0,thickness,um,0.5,critical_time,s,,"));
-    let svg = read(folder.path(), "coulomb-general-sweep-length.svg");
+    let svg = read(folder.path(), "charts/coulomb-general-sweep-length.svg");
     assert!(svg.contains("thickness = 0.5 um") && svg.contains("thickness = 2 um"));
 }
 
@@ -185,7 +185,8 @@ fn bad_requests_are_refused_before_anything_is_written() {
 fn targets_are_checked_before_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let study = study_path("ishigami");
-    for (command, blocked) in [("screen", "ishigami-screen-bars.png"), ("sweep", "ishigami-sweep-x2.svg")] {
+    for (command, blocked) in [("screen", "charts/ishigami-screen-bars.png"), ("sweep", "charts/ishigami-sweep-x2.svg")]
+    {
         let out = folder.path().join(command);
         std::fs::create_dir_all(out.join(blocked)).unwrap();
         let output = apportion(&[command, text(&study), "--out", text(&out)]);

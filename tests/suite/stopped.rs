@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::common::{Folder, apportion, files, stderr, text};
+use crate::common::{Folder, all_files, apportion, stderr, text};
 
 /// A study whose charts take a while: six of each of 16 outputs, twice.
 fn many_charts() -> String {
@@ -19,7 +19,7 @@ fn many_charts() -> String {
 
 /// Every picture is whole, and nothing is left half written.
 fn assert_whole(folder: &Path) {
-    for name in files(folder) {
+    for name in all_files(folder) {
         let bytes = std::fs::read(folder.join(&name)).unwrap();
         let whole = match name.rsplit('.').next().unwrap() {
             "svg" => bytes.ends_with(b"</svg>\n") || bytes.ends_with(b"</svg>"),
@@ -27,7 +27,7 @@ fn assert_whole(folder: &Path) {
             "json" => serde_json::from_slice::<serde_json::Value>(&bytes).is_ok(),
             "html" => String::from_utf8(bytes).unwrap().trim_end().ends_with("</html>"),
             "csv" => bytes.ends_with(b"\n"),
-            _ => !name.starts_with(".apportion-"),
+            _ => !name.contains(".apportion-"),
         };
         assert!(whole, "{name}");
     }
@@ -44,7 +44,7 @@ fn a_signal_is_heard_while_charts_are_drawn() {
         let mut run = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         let begun = Instant::now();
         let drawn = || {
-            std::fs::read_dir(&out)
+            std::fs::read_dir(out.join("charts"))
                 .map_or(0, |all| all.flatten().filter(|f| f.path().extension().is_some_and(|e| e == "png")).count())
         };
         while drawn() < moment {
@@ -140,19 +140,19 @@ fn what_a_killed_run_left_half_written_is_removed_by_the_next() {
         command.args(["run", text(&study), "--out", text(&out), "--no-journal"]);
         let mut run = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         let begun = Instant::now();
-        while !out.join("s-y0.svg").exists() && begun.elapsed() < Duration::from_secs(60) {
+        while !out.join("charts/s-y0.svg").exists() && begun.elapsed() < Duration::from_secs(60) {
             std::thread::sleep(Duration::from_millis(5));
         }
         std::thread::sleep(Duration::from_millis(37 * kill));
         run.kill().unwrap();
         run.wait().unwrap();
-        left += files(&out).iter().filter(|name| name.starts_with(".apportion-")).count();
+        left += all_files(&out).iter().filter(|name| name.contains(".apportion-")).count();
     }
     folder.with("out/.apportion-abcdef", "of a version before");
     std::thread::sleep(Duration::from_millis(1100));
     let small = folder.with("small.toml", "model = \"ishigami\"\n[design]\nbase_samples = 64\n");
     let output = apportion(&["run", text(&small), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(!files(&out).iter().any(|name| name.starts_with(".apportion-")), "{left} were left behind");
+    assert!(!all_files(&out).iter().any(|name| name.contains(".apportion-")), "{left} were left behind");
     assert_whole(&out);
 }

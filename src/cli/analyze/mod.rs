@@ -9,10 +9,10 @@ use apportion::exchange::{AnswersError, AnswersRequest, Manifest, MissingOutputs
 use apportion::files::read_text;
 use apportion::quantity::Unit;
 use apportion::report::ResultFile;
-use apportion::report::prepare_folder;
 
 use super::evaluate::say_of_table;
-use super::run::{default_folder, deliver, prepare_files, with_inputs};
+use super::output::{ChartArguments, default_folder};
+use super::run::{deliver, file_names, with_inputs};
 use super::{Failure, Threads, say, say_notes};
 
 #[derive(clap::Args)]
@@ -46,6 +46,8 @@ pub struct Arguments {
     /// Folder for the results [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    charts: ChartArguments,
     #[command(flatten)]
     threads: Threads,
 }
@@ -81,11 +83,11 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
         _ => say("the points in the file are those of the design, in its order"),
     }
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
-    prepare_folder(&folder)?;
-    prepare_files(study, &folder)?;
+    let artefacts = arguments.charts.artefacts(folder);
+    artefacts.check(&file_names(study))?;
     let runner = study.runner().threads(arguments.threads.number()).store(&answers.store);
     let analysis = runner.run().map_err(|error| with_inputs(study, error))?;
-    deliver(study, &folder, &ResultFile::new(study, &analysis))
+    deliver(study, &artefacts, &ResultFile::new(study, &analysis))
 }
 
 /// A remark for a file with the wrong number of rows, if its first line seems to be a row.

@@ -6,17 +6,15 @@ use anyhow::anyhow;
 use apportion::exchange::{ColumnKind, RowReader, open_rows};
 use apportion::files::{read_text, read_whole};
 use apportion::given::Column;
-use apportion::report::chart::png;
-use apportion::report::salib::{SalibFacts, SalibFile, build_salib, salib_chart, salib_csv, salib_json, salib_summary};
-use apportion::report::{file_stems, prepare_folder, prepare_in, refused_name, write_in};
+use apportion::report::refused_name;
+use apportion::report::salib::{SalibFacts, build_salib, file_names, salib_document};
 use apportion::salib::{LayoutError, SalibLayout, SalibProblem, check_points, recognise, salib_indices};
 use apportion::study::Study;
 use sha2::{Digest, Sha256};
 
+use super::super::Failure;
 use super::super::evaluate::say_of_table;
-use super::super::pictures::say_written;
-use super::super::run::default_folder;
-use super::super::{Failure, print, stop};
+use super::super::output::{default_folder, deliver, stem};
 
 #[derive(clap::Args)]
 pub struct SalibArguments {
@@ -77,6 +75,10 @@ pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
         LayoutError::NoMultiple { .. } => wrong(&format!("{error}{header}")),
         _ => wrong(&error),
     })?;
+    let name = stem(&arguments.data);
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&name));
+    let artefacts = arguments.charts.artefacts(folder).beside_input(&arguments.data);
+    artefacts.check(&file_names(&name, &outputs.iter().map(|column| column.name.as_str()).collect::<Vec<_>>()))?;
     let names: Vec<String> = problem.members.iter().map(|(name, _)| name.clone()).collect();
     let analysed = outputs.into_iter().map(|column| {
         let indices = salib_indices(&column.values, (d, layout), (resamples, seed));
@@ -85,10 +87,7 @@ pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
     let file = arguments.data.display().to_string();
     let facts = SalibFacts { file, sha256, layout, points_checked: inputs.is_some(), bootstrap: (resamples, seed) };
     let result = build_salib(&names, &analysed.collect::<Vec<_>>(), &facts);
-    let written = write_files(arguments, &result)?;
-    print(&salib_summary(&result))?;
-    say_written(&written);
-    Ok(())
+    deliver(&artefacts, &salib_document(&result, &name))
 }
 
 /// What the problem file says, if there is one.
@@ -200,41 +199,4 @@ fn unnamed(width: usize, inputs: Option<Vec<String>>, outputs: &[String]) -> any
     };
     let inputs = if first == 0 { Vec::new() } else { inputs };
     Ok((inputs.into_iter().enumerate().collect(), (first..).zip(outputs.iter().cloned()).collect()))
-}
-
-fn write_files(arguments: &super::Arguments, result: &SalibFile) -> Result<Vec<PathBuf>, Failure> {
-    let stem =
-        arguments.data.file_stem().map_or_else(|| "table".to_owned(), |stem| stem.to_string_lossy().into_owned());
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&stem));
-    prepare_folder(&folder)?;
-    stop::writing()?;
-    let mut files = vec![
-        (format!("{stem}.json"), salib_json(result).into_bytes()),
-        (format!("{stem}-indices.csv"), salib_csv(result).into_bytes()),
-    ];
-    let names: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
-    for (output, name) in result.outputs.iter().zip(file_stems(&stem, &names, &["-indices"])) {
-        stop::unless_stopped()?;
-        let svg = salib_chart(result, output).svg().map_err(|error| Failure::Run(error.into()))?;
-        let picture = png(&svg).map_err(|error| Failure::Run(error.into()))?;
-        files.push((format!("{name}-indices.svg"), svg.into_bytes()));
-        files.push((format!("{name}-indices.png"), picture.bytes));
-    }
-    let mut written = Vec::with_capacity(files.len());
-    for (name, bytes) in files {
-        let path = folder.join(&name);
-        if std::fs::canonicalize(&path)
-            .ok()
-            .zip(std::fs::canonicalize(&arguments.data).ok())
-            .is_some_and(|(a, b)| a == b)
-        {
-            return Err(Failure::Input(anyhow!(
-                "{}: this is the file of outputs itself; choose another --out",
-                path.display()
-            )));
-        }
-        prepare_in(&folder, &name)?;
-        written.push(write_in(&folder, &name, &bytes)?);
-    }
-    Ok(written)
 }

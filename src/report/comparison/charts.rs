@@ -4,8 +4,8 @@ use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparisonFile};
 use crate::names::file_stems;
 use crate::report::Drawing;
-use crate::report::asked::{sentence, the};
 use crate::report::chart::{Bar, Chart, GroupedBars, Panel, Role, Series};
+use crate::report::format::{sentence, the};
 use crate::report::result::EstimateRecord;
 use crate::report::shares_chart::label;
 

@@ -1,24 +1,24 @@
 //! Two results side by side: by how much their indices differ, and whether that is more than the errors of both.
 
 mod charts;
+mod document;
 mod error;
 mod index;
 mod record;
 mod settings;
 #[cfg(test)]
 mod tests;
-mod text;
 
 pub use charts::comparison_charts;
+pub use document::comparison_document;
 pub use error::CompareError;
 pub use index::{ComparedIndex, difference};
 pub use record::{
     ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile, OneSided, compare_results, shared_points,
 };
 pub use settings::SettingDifference;
-pub use text::{comparison_csv, comparison_summary};
 
 /// The comparison as JSON text, ending in a newline, as described in `docs/comparison-format.md`.
 pub fn comparison_json(file: &ComparisonFile) -> String {
-    super::asked::json(file)
+    super::records::json(file)
 }

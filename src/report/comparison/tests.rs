@@ -35,7 +35,7 @@ fn differences_of_known_indices_are_found() {
     assert!(!file.shared_points);
     let settings: Vec<&str> = file.settings.iter().map(|s| s.what.as_str()).collect();
     assert_eq!(settings, ["c", "seed"]);
-    let text = comparison_summary(&file);
+    let text = comparison_document(&file, "a-vs-b").text();
     assert!(text.contains("A: before (a.json)") && text.contains("x2 has the largest total index in both"), "{text}");
     assert!(text.contains("4 of 6"), "{text}");
 }
@@ -49,7 +49,7 @@ fn a_result_does_not_differ_from_itself() {
         assert_eq!(factor.total.difference.unwrap().estimate, 0.0);
         assert_eq!(factor.total.differs, Some(false));
     }
-    assert!(comparison_summary(&file).contains("all indices are the same, to the last bit"));
+    assert!(comparison_document(&file, "a-vs-b").text().contains("All indices are the same, to the last bit"));
 }
 
 #[test]
@@ -90,19 +90,20 @@ fn one_sided_factors_and_missing_indices_have_their_place() {
     assert_eq!((&file.factors_left_out.a, &file.factors_left_out.b), (&vec![], &vec!["x3".to_owned()]));
     let x3 = &file.outputs[0].factors[2];
     assert!(x3.total.a.is_none() && x3.total.b.is_some() && x3.total.difference.is_none());
-    assert!(comparison_summary(&file).contains("factors of B alone: x3"));
+    assert!(comparison_document(&file, "a-vs-b").text().contains("factors of B alone: x3"));
 
     let mut none = a.clone();
     none.outputs[0].indices = None;
     none.outputs[0].reason = Some("zero variance".to_owned());
     let file = compared(&a, &none).unwrap();
     assert_eq!(file.outputs[0].reasons, [None, Some("zero variance".to_owned())]);
-    let text = comparison_summary(&file);
-    assert!(text.contains("no indices in B: zero variance") && text.contains("no intervals"), "{text}");
+    let text = comparison_document(&file, "a-vs-b").text();
+    assert!(text.contains("no indices: There are none in B: zero variance") && text.contains("no intervals"), "{text}");
     for drawing in comparison_charts(&file) {
         drawing.chart.svg().unwrap();
     }
-    assert_eq!(comparison_csv(&file).lines().count(), 1 + 2 * 2);
+    let files = comparison_document(&file, "a-vs-b").data_files();
+    assert_eq!(files.iter().find(|file| file.name == "a-vs-b.csv").unwrap().text.lines().count(), 1 + 2 * 2);
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Histogram and density of an output in one picture.
 
 use super::OutputDistribution;
-use crate::report::asked::the;
 use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use crate::report::format::the;
 use crate::report::significant;
 
 /// The words and colour of a density chart.

@@ -1,13 +1,14 @@
-//! Indices from given data as JSON, CSV, text and charts.
+//! Indices from given data: their record, their document and their chart.
 
 mod chart;
+mod document;
 mod record;
-mod text;
-mod words;
+mod sentences;
 
 pub use chart::given_chart;
+pub(super) use document::moments;
+pub use document::{file_names, given_document};
 pub use record::{
     BinnedRecord, DependenceRecord, GivenFacts, GivenFile, GivenIndexRecord, GivenInputRecord, GivenOutputRecord,
-    GivenProvenance, TableRecord, build_given, given_json,
+    GivenProvenance, TableRecord, build_given,
 };
-pub use text::{given_csv, given_summary};

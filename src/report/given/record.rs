@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::words;
+use super::sentences;
 use crate::given::{Binned, Column, GivenIndices, InputIndices, Method, OutputIndices, PointSet};
 use crate::quantity::Unit;
 use crate::report::distribution::OutputDistribution;
+use crate::report::records::estimate_record;
 use crate::report::result::EstimateRecord;
-use crate::uncertainty::Estimate;
 
 /// A result from given data, as described in `docs/given-data-format.md`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -156,8 +156,8 @@ pub fn build_given(indices: &GivenIndices, (inputs, outputs): (&[Column], &[Colu
             apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
             method: facts.method.name().to_owned(),
             seed: facts.seed,
-            estimators: words::estimators(indices, facts.method),
-            interval: words::interval(indices),
+            estimators: sentences::estimators(indices, facts.method),
+            interval: sentences::interval(indices),
         },
         table: TableRecord {
             file: facts.file.clone(),
@@ -176,8 +176,8 @@ pub fn build_given(indices: &GivenIndices, (inputs, outputs): (&[Column], &[Colu
             uneven: dependence.uneven.clone(),
         }),
         outputs,
-        warnings: words::warnings(indices, facts),
-        notes: words::notes(),
+        warnings: sentences::warnings(indices, facts),
+        notes: sentences::notes(),
     }
 }
 
@@ -204,7 +204,7 @@ fn output_record(output: &OutputIndices, column: &Column) -> GivenOutputRecord {
         indices: indices.ok().map(|indices| indices.iter().map(index_record).collect()),
         sum_first_order: indices.ok().and_then(|indices| indices.iter().map(leading).sum()),
         reason: indices.err().map(ToString::to_string),
-        warnings: words::output_warnings(output),
+        warnings: sentences::output_warnings(output),
     }
 }
 
@@ -217,14 +217,4 @@ fn index_record(index: &InputIndices) -> GivenIndexRecord {
             .binned
             .map(|Binned { estimate, bins }| BinnedRecord { estimate: estimate_record(estimate), bins: bins as u64 }),
     }
-}
-
-fn estimate_record(Estimate { estimate, interval }: Estimate) -> EstimateRecord {
-    EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) }
-}
-
-/// The result as JSON, ending in a line feed.
-pub fn given_json(result: &GivenFile) -> String {
-    // Serialisation fails on maps without text keys only, of which there is none; a number that is not finite is null.
-    serde_json::to_string_pretty(result).expect("a result is plain data") + "\n"
 }

@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 
 use super::*;
 use crate::report::{
-    convergence_chart, convergence_csv, distribution_chart, estimators_csv, indices_chart, indices_csv,
-    interactions_chart, result_json, run_page, scatter_chart, second_order_csv, study_chart, summary,
+    convergence_chart, distribution_chart, indices_chart, interactions_chart, result_json, run_document, scatter_chart,
+    study_chart,
 };
 use crate::study::Study;
 
@@ -125,8 +125,8 @@ fn draw(result: &ResultFile) {
             let _ = draw(result, output).svg();
         }
     }
-    let _ = run_page(result, &[]).html();
-    for text in [summary, indices_csv, second_order_csv, estimators_csv, convergence_csv] {
-        text(result);
-    }
+    let document = run_document(result);
+    let _ = document.html();
+    document.text();
+    document.data_files();
 }

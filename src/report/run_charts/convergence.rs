@@ -1,7 +1,7 @@
 //! How the indices settled.
 
-use super::super::asked::the;
 use super::super::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
+use super::super::format::the;
 use super::super::result::{EstimateRecord, OutputRecord, ResultFile, StageIndexRecord, StageRecord};
 use super::super::shares_chart::label;
 use super::super::significant;

@@ -1,8 +1,8 @@
 //! How an output is distributed.
 
-use super::super::asked::{the, words};
 use super::super::chart::{Axis, Chart, LineChart, LinePanel};
 use super::super::distribution::{DensityWords, density_chart};
+use super::super::format::{the, words};
 use super::super::result::{OutputRecord, ResultFile};
 use super::{friction, headline};
 

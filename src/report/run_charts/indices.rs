@@ -1,9 +1,9 @@
 //! The indices themselves: first order beside total, and total against first order.
 
-use super::super::asked::{sentence, the};
 use super::super::chart::{
     Axis, Bar, Chart, GroupedBars, Guide, Panel, Role, ScatterChart, ScatterPoint, ScatterSeries, Series,
 };
+use super::super::format::{sentence, the};
 use super::super::leading::{Contender, decides_most, percent};
 use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 use super::super::shares_chart::label;

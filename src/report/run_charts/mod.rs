@@ -12,8 +12,8 @@ pub use distribution::distribution_chart;
 pub use indices::{indices_chart, interactions_chart};
 pub use scatter::scatter_chart;
 
-use super::asked::the;
 use super::chart::Role;
+use super::format::the;
 use super::friction_role;
 use super::result::{OutputRecord, ResultFile};
 

@@ -1,7 +1,7 @@
 //! The output over its most influential factors.
 
-use super::super::asked::{axis_unit, printed, the, words};
 use super::super::chart::{Axis, Chart, CloudChart, CloudPanel, LineSeries, Role, Spacing, Stroke};
+use super::super::format::{axis_unit, printed, the, words};
 use super::super::result::{FactorRecord, OutputRecord, ResultFile};
 use super::super::scatter::{ConditionalMeansRecord, ScatterRecord};
 use super::categories::Categories;

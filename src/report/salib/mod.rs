@@ -1,10 +1,12 @@
-//! Indices at the points of SALib as JSON, CSV, text and a chart.
+//! Indices at the points of SALib: their record, their document and their chart.
 
+mod chart;
+mod document;
 mod record;
-mod text;
 
+pub use chart::salib_chart;
+pub use document::{file_names, salib_document};
 pub use record::{
     SalibFacts, SalibFile, SalibIndexRecord, SalibOutputRecord, SalibPairRecord, SalibProvenance, SalibTableRecord,
-    build_salib, salib_json,
+    build_salib,
 };
-pub use text::{salib_chart, salib_csv, salib_summary};

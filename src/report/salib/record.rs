@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use crate::given::{Column, NoVariance};
 use crate::quantity::Unit;
 use crate::report::distribution::OutputDistribution;
+use crate::report::records::estimate_record;
 use crate::report::result::EstimateRecord;
 use crate::salib::{SalibIndex, SalibIndices, SalibLayout};
-use crate::uncertainty::Estimate;
 
 /// A result at the points of SALib, as described in `docs/exchange-formats.md`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -178,14 +178,4 @@ fn output_record(inputs: &[String], column: &Column, indices: &Result<SalibIndic
         second_order: known.ok().and_then(pairs),
         reason: known.err().map(ToString::to_string),
     }
-}
-
-fn estimate_record(Estimate { estimate, interval }: Estimate) -> EstimateRecord {
-    EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) }
-}
-
-/// The result as JSON, ending in a line feed.
-pub fn salib_json(result: &SalibFile) -> String {
-    // Serialisation fails on maps without text keys only, of which there is none; a number that is not finite is null.
-    serde_json::to_string_pretty(result).expect("a result is plain data") + "\n"
 }

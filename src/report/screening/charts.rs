@@ -1,9 +1,10 @@
 //! The charts of a screening: mu* against sigma, and mu* with its intervals.
 
-use super::super::asked::{Drawing, axis_unit, sentence, short_with_unit, the, words};
+use super::super::Drawing;
 use super::super::chart::{
     Axis, Chart, Guide, Range, RangeBars, RangeRow, Role, ScatterChart, ScatterPoint, ScatterSeries,
 };
+use super::super::format::{axis_unit, sentence, short_with_unit, the, words};
 use super::super::leading::{Contender, may_lead, names};
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile};
 use crate::names::file_stems;

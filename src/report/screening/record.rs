@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::super::asked::{AskedRecord, asked, input_value, validity};
+use super::super::records::{StudySetup, estimate_record, input_value, study_setup, validity};
 use super::super::result::{EstimateRecord, ValidityRecord};
 use super::super::{RunFacts, with_unit};
 use crate::design::Sampler;
@@ -16,7 +16,6 @@ use crate::screening::{
 };
 use crate::space::Distribution;
 use crate::study::Study;
-use crate::uncertainty::Estimate;
 
 /// A whole screening.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -26,7 +25,7 @@ pub struct ScreeningFile {
     /// Version of the format.
     pub version: u32,
     /// What was asked.
-    pub study: AskedRecord,
+    pub study: StudySetup,
     /// How it was answered.
     pub provenance: ScreeningProvenance,
     /// The outputs in the order of the study.
@@ -129,7 +128,7 @@ pub fn build_screening(study: &Study, model: &dyn Model, screening: &Screening, 
     ScreeningFile {
         format: "apportion-screening".to_owned(),
         version: 1,
-        study: asked(study),
+        study: study_setup(study),
         provenance: provenance(screening, facts),
         outputs: outputs.map(|(output, screened)| output_record(study, output, (screening, screened))).collect(),
         validity: validity(model, &screening.flags, screening.runs),
@@ -193,21 +192,16 @@ fn factor_record(factor: String, screened: &ScreenedFactor, idle_steps: u64) -> 
     FactorScreeningRecord {
         factor,
         rank: screened.rank,
-        mu_star: measures.map(|m| estimate(m.mu_star)),
-        mu: measures.map(|m| estimate(m.mu)),
-        sigma: measures.map(|m| estimate(m.sigma)),
-        ratio: measures.and_then(|m| m.ratio).map(estimate),
+        mu_star: measures.map(|m| estimate_record(m.mu_star)),
+        mu: measures.map(|m| estimate_record(m.mu)),
+        sigma: measures.map(|m| estimate_record(m.sigma)),
+        ratio: measures.and_then(|m| m.ratio).map(estimate_record),
         reading: screened.reading,
         could_be_fixed: screened.could_be_fixed,
         effects: screened.effects,
         dropped: screened.dropped,
         idle_steps,
     }
-}
-
-fn estimate(estimate: Estimate) -> EstimateRecord {
-    let (low, high) = estimate.interval.map(|interval| (interval.low, interval.high)).unzip();
-    EstimateRecord { estimate: estimate.estimate, low, high }
 }
 
 fn failure_record(study: &Study, failure: &ScreeningFailure) -> ScreeningFailureRecord {

@@ -1,9 +1,10 @@
 //! The charts of sweeps: every output against each factor, and how far each factor moves each output.
 
-use super::super::asked::{Drawing, axis_unit, printed, sentence, short_with_unit, the, words};
+use super::super::Drawing;
 use super::super::chart::{
     Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Range, RangeBars, RangeRow, Reference, Role, Spacing, Stroke,
 };
+use super::super::format::{axis_unit, printed, sentence, short_with_unit, the, words};
 use super::super::friction_role;
 use crate::names::file_stems;
 

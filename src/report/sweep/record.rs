@@ -5,7 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::super::asked::{AskedRecord, asked, short_with_unit, validity};
+use super::super::format::short_with_unit;
+use super::super::records::{StudySetup, study_setup, validity};
 use super::super::result::ValidityRecord;
 use crate::model::Model;
 use crate::study::Study;
@@ -19,7 +20,7 @@ pub struct SweepFile {
     /// Version of the format.
     pub version: u32,
     /// What was asked.
-    pub study: AskedRecord,
+    pub study: StudySetup,
     /// How it was answered.
     pub provenance: SweepProvenance,
     /// Every output where all factors are nominal.
@@ -184,7 +185,7 @@ pub fn build_sweep(study: &Study, model: &dyn Model, sweeps: &Sweeps) -> SweepFi
     SweepFile {
         format: "apportion-sweep".to_owned(),
         version: 1,
-        study: asked(study),
+        study: study_setup(study),
         provenance: SweepProvenance {
             apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
             model_runs: sweeps.runs,

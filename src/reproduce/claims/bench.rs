@@ -3,7 +3,7 @@
 use super::ClaimsError;
 use super::curve::{Curve, grid};
 use super::judge::{Holding, Share};
-use super::words::number;
+use super::numbers::number;
 use crate::reproduce::{Effort, studies};
 use apportion::afm::history::{History, history};
 use apportion::afm::modes::Pushing;

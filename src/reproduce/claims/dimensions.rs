@@ -3,7 +3,7 @@
 use super::bench::{Bench, LAWS, Sweep, closed, exact};
 use super::curve::Curve;
 use super::judge::{Holding, judge};
-use super::words::{change, nano, number};
+use super::numbers::{change, nano, number};
 use super::{Claim, ClaimsError};
 use apportion::afm::{Failure, FrictionLaw, Options, Scene};
 

@@ -5,7 +5,7 @@ use super::dimensions::{
     NO_EFFECT, STRAIGHT, closed_setting, effect_setting, from_to, nominal_curves, straightness, without_effect,
 };
 use super::judge::{in_words, judge};
-use super::words::{change, nano};
+use super::numbers::{change, nano};
 use super::{Claim, ClaimsError};
 use apportion::afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
 

@@ -3,26 +3,21 @@
 use serde::Serialize;
 
 use super::{Claim, ClaimsError};
+use apportion::report::csv::{Csv, fields};
+use apportion::report::document::Value;
 
 /// The claims as CSV, a line each: number, source, statement, verdict in a word, where it holds in part or what of the
 /// paper's own contradicts it, finding, setting, figures (separated by spaces).
-///
-/// # Errors
-/// [`ClaimsError::Format`] if a line cannot be written, which memory does not refuse.
-pub fn claims_csv(claims: &[Claim]) -> Result<String, ClaimsError> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let failed = |error: csv::Error| ClaimsError::Format(error.to_string());
-    writer
-        .write_record(["number", "source", "statement", "verdict", "where", "finding", "setting", "figures"])
-        .map_err(failed)?;
+pub fn claims_csv(claims: &[Claim]) -> String {
+    let names = ["number", "source", "statement", "verdict", "where", "finding", "setting", "figures"];
+    let mut csv = Csv::new(fields(&names, &[]));
     for claim in claims {
-        let Claim { number, source, statement, verdict, finding, setting, figures } = claim;
-        let (number, figures) = (number.to_string(), figures.join(" "));
-        let (word, place) = (verdict.word(), verdict.place());
-        writer.write_record([&number, *source, *statement, word, place, finding, setting, &figures]).map_err(failed)?;
+        let texts =
+            [claim.verdict.word(), claim.verdict.place(), &claim.finding, &claim.setting, &claim.figures.join(" ")];
+        let begin: [Value; 3] = [(claim.number as u64).into(), claim.source.into(), claim.statement.into()];
+        csv.row(begin.into_iter().chain(texts.map(Value::from)));
     }
-    let bytes = writer.into_inner().map_err(|error| ClaimsError::Format(error.to_string()))?;
-    String::from_utf8(bytes).map_err(|error| ClaimsError::Format(error.to_string()))
+    csv.text()
 }
 
 #[derive(Serialize)]
@@ -65,7 +60,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back() {
-        let text = claims_csv(&sample()).unwrap();
+        let text = claims_csv(&sample());
         let mut reader = csv::Reader::from_reader(text.as_bytes());
         let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
         assert_eq!(rows.len(), 2);

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, LAWS, Sweep, closed};
 use super::judge::{in_words, judge, judge_at_nominal};
-use super::words::{change, nano, number};
+use super::numbers::{change, nano, number};
 use super::{Claim, ClaimsError, Verdict};
 use apportion::afm::contact::Contact;
 use apportion::afm::history::{History, Sample};

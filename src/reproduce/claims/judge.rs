@@ -1,7 +1,7 @@
 //! From what holds where to a verdict, and to words.
 
 use super::Verdict;
-use super::words::percent_of;
+use super::numbers::percent_of;
 use apportion::uncertainty::Interval;
 
 /// From this share of the box on a rule holds everywhere: what is left is a corner that no chart of the papers shows.

@@ -13,8 +13,8 @@ mod in_time;
 mod judge;
 mod models;
 mod modes;
+mod numbers;
 mod shares;
-mod words;
 
 #[cfg(test)]
 mod tests;

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, Region, closed};
 use super::judge::{Holding, judge};
-use super::words::nano;
+use super::numbers::nano;
 use super::{Claim, ClaimsError};
 use apportion::afm::{FrictionLaw, Scene};
 

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::bench::{Bench, Region, Sweep, closed, exact};
 use super::curve::grid;
 use super::judge::judge;
-use super::words::{change, nano, number};
+use super::numbers::{change, nano, number};
 use super::{Claim, ClaimsError, Verdict};
 use apportion::afm::modes::{Mode, Onset, TipForce};
 use apportion::afm::{Failure, FrictionLaw, Parameter, Scene};

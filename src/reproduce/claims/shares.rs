@@ -1,7 +1,7 @@
 //! Claims about the shares of the variance: 17 to 20. They rest on the nine studies.
 
 use super::bench::{Bench, Region, closed};
-use super::words::{change, nano};
+use super::numbers::{change, nano};
 use super::{Claim, ClaimsError, Verdict};
 use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
 use crate::reproduce::published::CLOSE;

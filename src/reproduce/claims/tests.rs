@@ -38,7 +38,7 @@ fn the_verdicts_are_those_reviewed() {
         );
         assert!(!claim.figures.is_empty());
     }
-    let csv = claims_csv(&claims).unwrap();
+    let csv = claims_csv(&claims);
     assert_eq!(csv::Reader::from_reader(csv.as_bytes()).records().count(), claims.len());
 }
 

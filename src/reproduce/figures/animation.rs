@@ -2,7 +2,7 @@
 
 use super::history::story;
 use super::{FiguresError, PaperFigure};
-use crate::scene::{PageParts, SceneStory, film_strip, scene_csv, scene_json, scene_page};
+use crate::scene::{SceneStory, film_strip, player_page, scene_csv, scene_json};
 use apportion::afm::FrictionLaw;
 use apportion::report::chart::Chart;
 
@@ -12,7 +12,7 @@ pub const ANIMATION_STEM: &str = "ts04-14-animation";
 /// The moving version of TS04 figure 14, with its data.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Animation {
-    /// A whole page that needs nothing else; it links to its data as `ts04-14-animation.csv` and `.json`.
+    /// A whole page that needs nothing else.
     pub html: String,
     /// Every state.
     pub csv: String,
@@ -29,14 +29,12 @@ pub struct Animation {
 /// # Example
 /// ```
 /// let animation = apportion::reproduce::figures::animation()?;
-/// assert!(animation.html.contains("ts04-14-animation.csv"));
+/// assert!(animation.html.contains("id=\"player\""));
 /// # Ok::<(), apportion::reproduce::figures::FiguresError>(())
 /// ```
 pub fn animation() -> Result<Animation, FiguresError> {
     let story = story(FrictionLaw::Coulomb, |_| ())?;
-    let (csv_file, json_file) = (format!("{ANIMATION_STEM}.csv"), format!("{ANIMATION_STEM}.json"));
-    let parts = PageParts { charts: &[], csv_file: &csv_file, json_file: &json_file };
-    Ok(Animation { html: scene_page(&story, parts)?, csv: scene_csv(&story), json: scene_json(&story) })
+    Ok(Animation { html: player_page(&story)?, csv: scene_csv(&story), json: scene_json(&story) })
 }
 
 /// The film strip of the same scene.

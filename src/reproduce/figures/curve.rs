@@ -1,6 +1,6 @@
 //! What a curve does, in words.
 
-use crate::scene::words::short;
+use apportion::report::format::three_digits as short;
 
 /// Below this part of its size a change is rounding.
 const ROUNDING: f64 = 1e-6;

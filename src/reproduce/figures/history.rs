@@ -4,10 +4,10 @@ use super::table::Table;
 use super::{FiguresError, PaperFigure};
 use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
-use crate::scene::words::{force, length, time};
 use crate::scene::{SceneSample, SceneStory};
 use apportion::afm::{Failure, FrictionLaw, Options, Scene};
 use apportion::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use apportion::report::format::{force, length, time};
 use apportion::report::listed;
 
 /// How long the papers follow the scene (s).

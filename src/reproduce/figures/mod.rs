@@ -21,9 +21,9 @@ use thiserror::Error;
 pub use animation::{ANIMATION_STEM, Animation, animation};
 
 use super::{Effort, Reproduced};
-use crate::scene::PageError;
 use apportion::afm::Failure;
 use apportion::report::chart::{Chart, ChartError};
+use apportion::report::document::DocumentError;
 use apportion::study::StudyError;
 use apportion::sweep::SweepError;
 
@@ -65,7 +65,7 @@ pub enum FiguresError {
     Chart(#[from] ChartError),
     /// The animation's page cannot be made.
     #[error(transparent)]
-    Page(#[from] PageError),
+    Page(#[from] DocumentError),
 }
 
 /// The stems of all figures, in the order of the papers: CHK, LG, TS04, then the friction models side by side.

@@ -6,10 +6,10 @@ use crate::reproduce::Effort;
 use crate::scene::ModeDiagram;
 use crate::scene::mode_diagram::mode_lines;
 use crate::scene::simulation::{pushing, scene_modes};
-use crate::scene::words::{force, short};
 use apportion::afm::modes::Mode;
 use apportion::afm::{Failure, Options, Scene, critical_force};
 use apportion::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Spacing, Stroke};
+use apportion::report::format::{force, three_digits as short};
 
 const NANO: f64 = 1e9;
 /// Contact angles: about the nominal 60 degrees.

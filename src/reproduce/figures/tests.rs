@@ -153,7 +153,7 @@ fn captions_say_what_the_data_hold() {
     assert!(caption("chk-14").contains("the two approach each other"), "{}", caption("chk-14"));
     assert!(caption("chk-12").contains("the two diverge"), "{}", caption("chk-12"));
     let (_, rows) = data("chk-6");
-    let ends = [rows[0][1], rows[40][1]].map(crate::scene::words::short);
+    let ends = [rows[0][1], rows[40][1]].map(apportion::report::format::three_digits);
     assert!(caption("chk-6").contains(&format!("falls from {} to {} nN under Coulomb", ends[0], ends[1])));
     assert!(caption("ts04-11").contains("the later the particle slips"), "{}", caption("ts04-11"));
 }

@@ -4,70 +4,75 @@ use serde_json::json;
 
 use super::Readings;
 use super::small_samples::QUANTILES;
+use apportion::report::EstimateRecord;
+use apportion::report::csv::{Csv, Field, fields};
+use apportion::report::document::Value;
 
 /// One line per group, reading and factor; the distance and the runs are those of the whole reading. Percentages and
 /// distances in percent, empty where there is none.
 pub fn readings_csv(readings: &Readings) -> String {
-    let mut text = String::from(
-        "group,reading,axis,settings,effect,output,factor,share,share_low,share_high,published,distance,distance_error,model_runs,runs_failed\n",
-    );
+    let names = ["group", "reading", "axis", "settings", "effect", "output", "factor"];
+    let more = ["published", "distance", "distance_error", "model_runs", "runs_failed"];
+    let columns = fields(&names, &["share"]).into_iter().chain(fields(&more, &[]));
+    let mut csv = Csv::new(columns);
     for reading in &readings.rows {
-        let settings = reading.settings.join("; ");
         let axis = json!(reading.axis);
         for share in &reading.shares {
-            let cells = [
-                reading.group.to_owned(),
-                reading.id.clone(),
-                axis.as_str().unwrap_or_default().to_owned(),
-                settings.clone(),
-                reading.effect.name().to_owned(),
-                reading.output.name().to_owned(),
-                share.factor.clone(),
-                share.share.to_string(),
-                cell(share.interval.map(|interval| interval.0)),
-                cell(share.interval.map(|interval| interval.1)),
-                cell(share.published),
-                reading.distance.to_string(),
-                cell(reading.distance_error),
-                reading.runs.to_string(),
-                reading.runs_failed.to_string(),
-            ];
-            text.push_str(&(cells.join(",") + "\n"));
+            csv.row::<Value>([
+                reading.group.into(),
+                (&reading.id).into(),
+                axis.as_str().unwrap_or_default().into(),
+                reading.settings.join("; ").into(),
+                reading.effect.name().into(),
+                reading.output.name().into(),
+                (&share.factor).into(),
+                estimate((share.share, share.interval)),
+                share.published.into(),
+                reading.distance.into(),
+                reading.distance_error.into(),
+                reading.runs.into(),
+                reading.runs_failed.into(),
+            ]);
         }
     }
-    text
+    csv.text()
+}
+
+fn estimate((estimate, interval): (f64, Option<(f64, f64)>)) -> Value {
+    EstimateRecord { estimate, low: interval.map(|i| i.0), high: interval.map(|i| i.1) }.into()
 }
 
 /// One line per sample and factor: quantiles of its percentage over the repetitions, the printed percentage, its place
 /// among them, and how often all printed percentages of the group are met.
 pub fn small_samples_csv(readings: &Readings) -> String {
-    let quantiles = QUANTILES.map(|p| format!("q{}", 100.0 * p)).join(",");
-    let mut text = format!(
-        "variant,group,base_samples,estimators,effect,output,repetitions,with_shares,factor,{quantiles},published,\
-         published_quantile,within_1,within_1_low,within_1_high,within_3,within_3_low,within_3_high\n"
-    );
+    let names =
+        ["variant", "group", "base_samples", "estimators", "effect", "output", "repetitions", "with_shares", "factor"];
+    let quantiles = QUANTILES.map(|p| Field::new(format!("q{}", 100.0 * p)));
+    let columns = fields(&names, &[]).into_iter().chain(quantiles);
+    let mut csv = Csv::new(columns.chain(fields(&["published", "published_quantile"], &["within_1", "within_3"])));
     for sample in &readings.small_samples {
         for factor in &sample.factors {
-            let mut cells = vec![
-                sample.variant.to_owned(),
-                sample.group.to_owned(),
-                sample.base_samples.to_string(),
-                sample.estimators.name().to_owned(),
-                sample.effect.name().to_owned(),
-                sample.output.name().to_owned(),
-                sample.repetitions.to_string(),
-                sample.with_shares.to_string(),
-                factor.factor.clone(),
+            let mut values: Vec<Value> = vec![
+                sample.variant.into(),
+                sample.group.into(),
+                sample.base_samples.into(),
+                sample.estimators.name().into(),
+                sample.effect.name().into(),
+                sample.output.name().into(),
+                (sample.repetitions as u64).into(),
+                (sample.with_shares as u64).into(),
+                (&factor.factor).into(),
             ];
-            cells.extend((0..QUANTILES.len()).map(|place| cell(factor.quantiles.map(|quantiles| quantiles[place]))));
-            cells.extend([cell(factor.published), cell(factor.published_quantile)]);
+            let quantile = |place: usize| Value::from(factor.quantiles.map(|quantiles| quantiles[place]));
+            values.extend((0..QUANTILES.len()).map(quantile));
+            values.extend([factor.published.into(), factor.published_quantile.into()]);
             for chance in [sample.within_1, sample.within_3] {
-                cells.extend([chance.share, chance.low, chance.high].map(|x| x.to_string()));
+                values.push(estimate((chance.share, Some((chance.low, chance.high)))));
             }
-            text.push_str(&(cells.join(",") + "\n"));
+            csv.row(values);
         }
     }
-    text
+    csv.text()
 }
 
 /// Everything as JSON, ending in a newline: `readings`, `small_samples`, `summary` (sentences), and `timing`, which alone
@@ -83,8 +88,4 @@ pub fn readings_json(readings: &Readings) -> String {
         "timing": { "threads": threads, "wall_seconds": wall_seconds },
     });
     format!("{value:#}\n")
-}
-
-fn cell(number: Option<f64>) -> String {
-    number.map_or_else(String::new, |number| number.to_string())
 }

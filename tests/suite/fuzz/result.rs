@@ -1,12 +1,8 @@
 //! Result files: whatever is read as one can be drawn.
 
-use apportion::report::comparison::{
-    compare_results, comparison_charts, comparison_csv, comparison_json, comparison_summary,
-};
-use apportion::report::{
-    ResultFile, convergence_chart, convergence_csv, distribution_chart, estimators_csv, indices_chart, indices_csv,
-    interactions_chart, parse_result, result_json, run_page, scatter_chart, second_order_csv, study_chart, summary,
-};
+use apportion::report::comparison::{compare_results, comparison_document};
+use apportion::report::document::Document;
+use apportion::report::{ResultFile, parse_result, result_json, run_document};
 
 /// A result is refused, or drawn in every way there is; written again it is the same.
 pub fn run(bytes: &[u8]) {
@@ -19,23 +15,19 @@ pub fn run(bytes: &[u8]) {
 
 /// Draws everything that can be drawn of a result.
 pub fn drawn(result: &ResultFile) {
-    run_page(result, &["a.csv".to_owned()]).html().expect("a page");
-    for output in &result.outputs {
-        let charts =
-            [study_chart, indices_chart, interactions_chart, scatter_chart, distribution_chart, convergence_chart];
-        for draw in charts {
-            draw(result, output).svg().expect("a chart");
-        }
-    }
-    for table in [indices_csv, second_order_csv, estimators_csv, convergence_csv, summary] {
-        table(result);
-    }
+    written(&run_document(result));
     if let Ok(file) = compare_results((result, "A", "a.json"), (result, "B", "b.json")) {
-        for drawing in comparison_charts(&file) {
-            drawing.chart.svg().expect("a chart");
-        }
-        for table in [comparison_csv, comparison_json, comparison_summary] {
-            table(&file);
-        }
+        written(&comparison_document(&file, "a-vs-b"));
     }
+}
+
+/// Makes everything that is written of a document.
+pub fn written(document: &Document) {
+    // Every chart is on the page or among the charts that are files alone.
+    document.html().expect("a page");
+    for figure in &document.charts {
+        figure.chart.svg().expect("a chart");
+    }
+    assert!(!document.text().is_empty());
+    assert!(document.data_files().iter().all(|file| !file.name.ends_with(".csv") || !file.text.contains("NaN")));
 }

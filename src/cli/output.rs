@@ -1,0 +1,107 @@
+//! The files of a command: in which formats, written, and told.
+
+use std::path::{Path, PathBuf};
+
+use apportion::report::document::Document;
+use apportion::report::{ArtefactError, Artefacts, ChartFormat};
+
+use super::{Failure, print, say, stop};
+
+#[derive(clap::Args)]
+pub struct ChartArguments {
+    /// Formats of the charts in the folder `charts`, separated by commas: svg, png; or none. The page has its charts inside
+    #[arg(long, value_name = "FORMATS", default_value = "svg,png", value_parser = formats)]
+    charts: Formats,
+}
+
+#[derive(Clone)]
+struct Formats(Vec<ChartFormat>);
+
+fn formats(text: &str) -> Result<Formats, String> {
+    if text == "none" {
+        return Ok(Formats(Vec::new()));
+    }
+    let mut formats = Vec::new();
+    for name in text.split(',').map(str::trim) {
+        match ChartFormat::ALL.into_iter().find(|format| format.ending() == name) {
+            Some(format) if formats.contains(&format) => (),
+            Some(format) => formats.push(format),
+            None if name == "pdf" => {
+                return Err(
+                    "charts are not written as PDF: write svg, which `rsvg-convert -f pdf` turns into it".to_owned()
+                );
+            }
+            None => return Err("expected svg, png, both separated by a comma, or none".to_owned()),
+        }
+    }
+    Ok(Formats(formats))
+}
+
+impl ChartArguments {
+    /// The files of a document in `folder`.
+    pub fn artefacts(&self, folder: impl Into<PathBuf>) -> Artefacts {
+        Artefacts::new(folder).with_charts(&self.charts.0)
+    }
+}
+
+impl From<ArtefactError> for Failure {
+    fn from(error: ArtefactError) -> Self {
+        match error {
+            ArtefactError::Input { .. } => Self::Input(error.into()),
+            _ => Self::Run(error.into()),
+        }
+    }
+}
+
+/// The folder for results of the study called `name`.
+pub fn default_folder(name: &str) -> PathBuf {
+    Path::new("results").join(name)
+}
+
+/// The name of a table's results: that of its file without the ending.
+pub fn stem(table: &Path) -> String {
+    table.file_stem().map_or_else(|| "table".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Writes the files of `document`, prints `text`, and says where the files are.
+pub fn deliver_with(artefacts: &Artefacts, document: &Document, text: &str) -> Result<(), Failure> {
+    stop::writing()?;
+    let written = artefacts.write_until(document, stop::on_signal())?;
+    print(text)?;
+    say(&format!("wrote {}", written.page.display()));
+    let is_json = |path: &&PathBuf| path.extension().is_some_and(|ending| ending == "json");
+    let (json, others): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(is_json);
+    let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
+    match (&json[..], others.len()) {
+        ([], 0) => (),
+        ([json], 0) => say(&format!("wrote {}", json.display())),
+        ([json], tables) => say(&format!("wrote {} and {} beside it", json.display(), count(tables, "table"))),
+        (several, tables) => say(&format!("wrote {} beside it", count(several.len() + tables, "file"))),
+    }
+    if let Some((folder, charts)) = &written.charts {
+        say(&format!("wrote {} to {}", count(*charts, "chart"), folder.display()));
+    }
+    Ok(())
+}
+
+/// The same with the text of the document.
+pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure> {
+    deliver_with(artefacts, document, &document.text())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_are_a_list_or_none() {
+        let read = |text: &str| formats(text).map(|formats| formats.0);
+        assert_eq!(read("none"), Ok(Vec::new()));
+        assert_eq!(read("png"), Ok(vec![ChartFormat::Png]));
+        assert_eq!(read("svg, png,svg"), Ok(vec![ChartFormat::Svg, ChartFormat::Png]));
+        assert!(read("pdf").unwrap_err().contains("rsvg-convert"));
+        for wrong in ["", "gif", "svg,", "none,svg"] {
+            assert!(read(wrong).unwrap_err().contains("or none"), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! The files of a document: their names, whether they can be written, and the writing.
+
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+use thiserror::Error;
+
+use super::atomic_write::{WriteError, prepare_folder, prepare_in, write_in};
+use super::chart::{ChartError, PngError, png};
+use super::document::{Document, DocumentError};
+
+/// The folder of the charts, below that of the page.
+pub(super) const CHARTS: &str = "charts";
+
+/// A format of charts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChartFormat {
+    /// Vector graphics.
+    Svg,
+    /// Pixels.
+    Png,
+}
+
+impl ChartFormat {
+    /// All formats.
+    pub const ALL: [Self; 2] = [Self::Svg, Self::Png];
+
+    /// The ending of its files.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+        }
+    }
+}
+
+/// The names of the files of a document, which are known before the document is.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FileNames {
+    /// The name of the page without its ending.
+    pub name: String,
+    /// The files for programs.
+    pub data: Vec<String>,
+    /// The charts, without the folder and without endings.
+    pub charts: Vec<String>,
+}
+
+impl FileNames {
+    /// The paths of all files but the page, below the folder of the page.
+    pub fn paths(&self, formats: &[ChartFormat]) -> Vec<String> {
+        let pictures = self.charts.iter().flat_map(|stem| formats.iter().map(move |format| chart_path(stem, *format)));
+        self.data.iter().cloned().chain(pictures).collect()
+    }
+
+    /// The page.
+    pub fn page(&self) -> String {
+        format!("{}.html", self.name)
+    }
+}
+
+fn chart_path(stem: &str, format: ChartFormat) -> String {
+    format!("{CHARTS}/{stem}.{}", format.ending())
+}
+
+/// Why the files of a document were not written.
+#[derive(Debug, Error)]
+pub enum ArtefactError {
+    /// A file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// The page cannot be made.
+    #[error(transparent)]
+    Document(#[from] DocumentError),
+    /// A chart cannot be drawn.
+    #[error("cannot draw {file}: {source}")]
+    Chart {
+        /// The chart.
+        file: String,
+        /// Why.
+        source: ChartError,
+    },
+    /// A chart cannot be turned into pixels.
+    #[error("cannot draw {file}: {source}")]
+    Png {
+        /// The chart.
+        file: String,
+        /// Why.
+        source: PngError,
+    },
+    /// Two files would have one name.
+    #[error("two files would be called {name}")]
+    Twice {
+        /// The name.
+        name: String,
+    },
+    /// A file would take the place of one that must stay.
+    #[error("{path}: this is the input itself; choose another folder", path = path.display())]
+    Input {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The flag to stop was set.
+    #[error("interrupted while files were written: those that are there are whole, others are missing")]
+    Stopped,
+}
+
+/// Where the files of a document go: a folder with the page and the files for programs, and `charts` below it.
+///
+/// # Example
+/// ```
+/// use std::path::Path;
+/// use apportion::report::{Artefacts, run_document};
+/// use apportion::{analyse, study::Study};
+///
+/// let study = Study::parse(include_str!("../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
+/// let result = analyse(&study, 0, &|_| ())?;
+/// let folder = tempfile::tempdir()?;
+/// let written = Artefacts::new(folder.path()).write(&run_document(&result))?;
+/// assert_eq!(written.page, folder.path().join("ishigami.html"));
+/// assert!(folder.path().join("ishigami.json").exists());
+/// assert!(folder.path().join("charts/ishigami-indices.svg").exists());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Artefacts {
+    folder: PathBuf,
+    formats: Vec<ChartFormat>,
+    input: Option<PathBuf>,
+}
+
+/// The files that were written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// The page.
+    pub page: PathBuf,
+    /// The files for programs.
+    pub data: Vec<PathBuf>,
+    /// The folder of the charts and how many there are; `None` where none was written.
+    pub charts: Option<(PathBuf, usize)>,
+}
+
+impl Artefacts {
+    /// Files in `folder`, charts as SVG and PNG.
+    pub fn new(folder: impl Into<PathBuf>) -> Self {
+        Self { folder: folder.into(), formats: ChartFormat::ALL.to_vec(), input: None }
+    }
+
+    /// The same with charts in these formats; none for no charts.
+    pub fn with_charts(self, formats: &[ChartFormat]) -> Self {
+        Self { formats: formats.to_vec(), ..self }
+    }
+
+    /// The same, which never takes the place of the file `input`.
+    pub fn beside_input(self, input: impl Into<PathBuf>) -> Self {
+        Self { input: Some(input.into()), ..self }
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The formats of charts.
+    pub fn formats(&self) -> &[ChartFormat] {
+        &self.formats
+    }
+
+    /// Makes the folder and checks that every file can be written, so that a run fails in its first second and not in its
+    /// last.
+    ///
+    /// # Errors
+    /// [`ArtefactError`] with the file and the reason.
+    pub fn check(&self, names: &FileNames) -> Result<(), ArtefactError> {
+        let paths: Vec<String> = std::iter::once(names.page()).chain(names.paths(&self.formats)).collect();
+        let mut seen = HashSet::new();
+        // There are file systems that do not tell capitals from small letters.
+        if let Some(name) = paths.iter().find(|path| !seen.insert(path.to_lowercase())) {
+            return Err(ArtefactError::Twice { name: name.clone() });
+        }
+        prepare_folder(&self.folder)?;
+        for path in &paths {
+            let (folder, name) = self.place(path);
+            self.refuse_input(&folder.join(name))?;
+            // A folder that is not there yet holds nothing that could be in the way.
+            prepare_in(if folder.exists() { &folder } else { &self.folder }, name)?;
+        }
+        Ok(())
+    }
+
+    /// Writes all files of `document`: the page last, since it links to the others.
+    ///
+    /// # Errors
+    /// [`ArtefactError`] if a chart cannot be drawn or a file cannot be written; files written before that stay.
+    pub fn write(&self, document: &Document) -> Result<Written, ArtefactError> {
+        self.write_until(document, &AtomicBool::new(false))
+    }
+
+    /// The same, until `stop` is set.
+    ///
+    /// # Errors
+    /// As for [`write`](Self::write), and [`ArtefactError::Stopped`].
+    pub fn write_until(&self, document: &Document, stop: &AtomicBool) -> Result<Written, ArtefactError> {
+        self.check(&document.file_names())?;
+        let data = document.data_files();
+        let data = data.into_iter().map(|file| self.put(&file.name, stop, || Ok(file.text.into_bytes())));
+        let data = data.collect::<Result<_, _>>()?;
+        let figures = document.figures();
+        if !self.formats.is_empty() && !figures.is_empty() {
+            prepare_folder(&self.folder.join(CHARTS))?;
+        }
+        let drawn: Vec<_> = figures.into_iter().filter(|figure| !figure.stem.is_empty()).collect();
+        drawn.par_iter().try_for_each(|figure| {
+            if self.formats.is_empty() || stop.load(Ordering::SeqCst) {
+                return Ok(());
+            }
+            let svg =
+                figure.chart.svg().map_err(|source| ArtefactError::Chart { file: figure.stem.clone(), source })?;
+            self.formats.iter().try_for_each(|format| {
+                let bytes = || match format {
+                    ChartFormat::Svg => Ok(svg.clone().into_bytes()),
+                    ChartFormat::Png => png(&svg)
+                        .map(|picture| picture.bytes)
+                        .map_err(|source| ArtefactError::Png { file: figure.stem.clone(), source }),
+                };
+                self.put(&chart_path(&figure.stem, *format), stop, bytes).map(|_| ())
+            })
+        })?;
+        let page = self.put(&format!("{}.html", document.name), stop, || {
+            Ok(document.html_in_folder(&self.formats)?.into_bytes())
+        })?;
+        let has_charts = !drawn.is_empty() && !self.formats.is_empty();
+        let charts = has_charts.then(|| (self.folder.join(CHARTS), drawn.len()));
+        Ok(Written { page, data, charts })
+    }
+
+    /// Writes the file at `path` below the folder, and gives where it lies.
+    fn put(
+        &self,
+        path: &str,
+        stop: &AtomicBool,
+        bytes: impl FnOnce() -> Result<Vec<u8>, ArtefactError>,
+    ) -> Result<PathBuf, ArtefactError> {
+        if stop.load(Ordering::SeqCst) {
+            return Err(ArtefactError::Stopped);
+        }
+        let (folder, name) = self.place(path);
+        Ok(write_in(&folder, name, &bytes()?)?)
+    }
+
+    /// The folder and the name of the file at `path`, which may lie one folder down.
+    fn place<'a>(&self, path: &'a str) -> (PathBuf, &'a str) {
+        match path.split_once('/') {
+            Some((CHARTS, name)) => (self.folder.join(CHARTS), name),
+            _ => (self.folder.clone(), path),
+        }
+    }
+
+    fn refuse_input(&self, path: &Path) -> Result<(), ArtefactError> {
+        let real = |path: &Path| std::fs::canonicalize(path).ok();
+        let input = self.input.as_ref().and_then(|input| real(input));
+        match input.is_some() && real(path) == input {
+            true => Err(ArtefactError::Input { path: path.to_owned() }),
+            false => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::document::DataFile;
+
+    fn names(data: &[&str], charts: &[&str]) -> FileNames {
+        let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+        FileNames { name: "s".to_owned(), data: owned(data), charts: owned(charts) }
+    }
+
+    #[test]
+    fn files_are_checked_before_they_are_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let artefacts = Artefacts::new(folder.path().join("out"));
+        artefacts.check(&names(&["s.json", "s.csv"], &["s", "s-y"])).unwrap();
+        assert!(artefacts.check(&names(&[], &[&"n".repeat(300)])).is_err());
+        let twice = artefacts.check(&names(&["s.json"], &["s-Y", "s-y"])).unwrap_err();
+        assert!(twice.to_string().contains("charts/s-y.svg"), "{twice}");
+        for outside in ["../s.csv", "/tmp/s.csv", "a/s.csv", "charts/../s.csv"] {
+            assert!(artefacts.check(&names(&[outside], &[])).is_err(), "{outside}");
+        }
+        assert!(artefacts.check(&names(&[], &["../../s"])).is_err());
+        std::fs::create_dir_all(folder.path().join("out/charts/s.png")).unwrap();
+        assert!(artefacts.check(&names(&[], &["s"])).unwrap_err().to_string().contains("charts/s.png"));
+        artefacts.clone().with_charts(&[ChartFormat::Svg]).check(&names(&[], &["s"])).unwrap();
+        std::fs::write(folder.path().join("out/s.csv"), "the input").unwrap();
+        let beside = artefacts.beside_input(folder.path().join("out/s.csv"));
+        assert!(beside.check(&names(&["s.csv"], &[])).unwrap_err().to_string().contains("the input itself"));
+    }
+
+    #[test]
+    fn nothing_is_written_once_it_shall_stop() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = DataFile { name: "s.json".to_owned(), text: "{}".to_owned() };
+        let document = Document { name: "s".to_owned(), files: vec![file], ..Document::default() };
+        let artefacts = Artefacts::new(folder.path());
+        let stopped = artefacts.write_until(&document, &AtomicBool::new(true)).unwrap_err();
+        assert!(matches!(stopped, ArtefactError::Stopped));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        let written = artefacts.write(&document).unwrap();
+        assert_eq!((written.data, written.charts), (vec![folder.path().join("s.json")], None));
+        assert!(std::fs::read_to_string(written.page).unwrap().contains("href=\"s.json\""));
+    }
+}

@@ -1,0 +1,150 @@
+//! A comparison as a document.
+
+use super::index::ComparedIndex;
+use super::record::{ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile};
+use super::{comparison_charts, comparison_json};
+use crate::report::csv::{Csv, fields};
+use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table, Value};
+use crate::report::format::{give_or_take, heading, name, significant, the};
+use crate::report::result::EstimateRecord;
+
+/// The document of a comparison, whose files begin with `name`. A star marks the differences whose intervals leave out 0.
+pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
+    let mut lead: Vec<String> = file.outputs.iter().map(leaders).collect();
+    lead.push(legend(file));
+    let mut sections = vec![Section::new("sides", "What is compared", sides(file))];
+    // Two charts for each output: the indices side by side, and their differences.
+    let mut charts = comparison_charts(file).into_iter().enumerate().map(|(place, drawing)| {
+        let (stem, data) = (format!("{files}{}", drawing.suffix), format!("{files}.csv"));
+        Part::from(Figure::new(place + 1, drawing.chart, stem, data))
+    });
+    for (place, output) in file.outputs.iter().enumerate() {
+        let mut parts = output_parts(output);
+        parts.extend(charts.by_ref().take(2));
+        sections.push(Section::new(&format!("output-{}", place + 1), &heading(&output.name, &output.unit), parts));
+    }
+    Document {
+        name: files.to_owned(),
+        kicker: "Comparison of two results".to_owned(),
+        title: format!("{} and {}", file.a.label, file.b.label),
+        lead,
+        sections,
+        footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
+        files: vec![
+            DataFile::new(format!("{files}.json"), comparison_json(file)),
+            DataFile::new(format!("{files}.csv"), comparison_csv(file)),
+        ],
+        ..Document::default()
+    }
+}
+
+/// The two results, in what their studies differ, and what only one of them has.
+fn sides(file: &ComparisonFile) -> Vec<Part> {
+    let side = |letter: &str, side: &ComparedSide| {
+        let title = side.title.as_ref().map_or_else(String::new, |title| format!(", {title}"));
+        Part::Text(format!("{letter}: {}{title} ({})", side.label, side.file))
+    };
+    let mut parts = vec![side("A", &file.a), side("B", &file.b)];
+    let said = |value: &Option<String>| Cell::from(value.as_deref().unwrap_or("–"));
+    let rows = file.settings.iter().map(|setting| vec![Cell::from(&setting.what), said(&setting.a), said(&setting.b)]);
+    let columns = Column::list(3, &["what differs", "A", "B"]);
+    let settings = Table::new("In what the studies differ.", columns).with_rows(rows);
+    if !settings.rows.is_empty() {
+        parts.push(Part::Table(settings));
+    }
+    for (what, sided) in [("outputs", &file.outputs_left_out), ("factors", &file.factors_left_out)] {
+        for (side, names) in [("A", &sided.a), ("B", &sided.b)] {
+            if !names.is_empty() {
+                parts.push(Part::Text(format!("{what} of {side} alone: {}", names.join(", "))));
+            }
+        }
+    }
+    parts
+}
+
+fn output_parts(output: &ComparedOutput) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for (letter, reason) in ["A", "B"].into_iter().zip(&output.reasons) {
+        parts.extend(reason.as_ref().map(|reason| Part::no_indices(format!("There are none in {letter}: {reason}."))));
+    }
+    for (what, [a, b]) in [("Mean", output.mean), ("Standard deviation", output.sd)] {
+        if let (Some(a), Some(b)) = (a, b) {
+            parts.push(Part::Text(format!("{what}: A {}, B {}.", significant(a), significant(b))));
+        }
+    }
+    let row = |factor: &ComparedFactor| {
+        let label = if factor.group { format!("group {}", name(&factor.name)) } else { name(&factor.name) };
+        let numbers = cells(&factor.first_order).into_iter().chain(cells(&factor.total));
+        [label].into_iter().chain(numbers).map(Cell::from).collect()
+    };
+    let headings = ["factor", "S_1 of A", "S_1 of B", "B − A", "S_T of A", "S_T of B", "B − A"];
+    let caption = "First-order index S_1 and total index S_T in both, each with the half width of its 95 % interval, and \
+                   their difference; a star marks those whose interval leaves out 0.";
+    let table = Table::new(caption, Column::list(1, &headings)).with_rows(output.factors.iter().map(row));
+    parts.push(Part::Table(table));
+    parts
+}
+
+fn cells(index: &ComparedIndex) -> [String; 3] {
+    let said = |estimate: Option<EstimateRecord>| estimate.map_or_else(|| "–".to_owned(), give_or_take);
+    let star = if index.differs == Some(true) { " *" } else { "" };
+    [said(index.a), said(index.b), said(index.difference) + star]
+}
+
+/// Which factor has the largest total index in each.
+fn leaders(output: &ComparedOutput) -> String {
+    let leader = |of: fn(&ComparedFactor) -> Option<EstimateRecord>| {
+        let singles = output.factors.iter().filter(|factor| !factor.group);
+        let known = singles.filter_map(|factor| Some((factor, of(factor)?.estimate)));
+        known.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(factor, _)| factor.name.as_str())
+    };
+    let output = the(&output.name);
+    match (leader(|f| f.total.a), leader(|f| f.total.b)) {
+        (Some(a), Some(b)) if a == b => format!("For {output}, {} has the largest total index in both.", the(a)),
+        (Some(a), Some(b)) => {
+            format!("For {output}, the largest total index is that of {} in A, that of {} in B.", the(a), the(b))
+        }
+        _ => format!("One of the results has no indices of {output}."),
+    }
+}
+
+/// What the stars mean, and how far they can be trusted.
+fn legend(file: &ComparisonFile) -> String {
+    let indices = || file.outputs.iter().flat_map(|o| &o.factors).flat_map(|f| [&f.first_order, &f.total]);
+    let compared = indices().filter(|index| index.differs.is_some()).count();
+    if compared == 0 {
+        return "There are no intervals: nothing can be said about the errors of the differences.".to_owned();
+    }
+    let differing = indices().filter(|index| index.differs == Some(true)).count();
+    let mut text = format!(
+        "A star marks a difference whose 95 % interval leaves out 0: {differing} of {compared}, where chance alone makes \
+         about one in twenty."
+    );
+    if indices().all(|index| index.a == index.b) {
+        text.push_str(" All indices are the same, to the last bit.");
+    } else if file.shared_points {
+        text.push_str(
+            " Both use the same points, so their errors have much in common: the intervals of differences are rather too \
+             wide.",
+        );
+    }
+    text
+}
+
+/// A comparison as CSV: one line per output, factor or group, and index.
+fn comparison_csv(file: &ComparisonFile) -> String {
+    let mut fields = fields(&["output", "kind", "name", "index"], &["a", "b", "difference"]);
+    fields.push(crate::report::csv::Field::new("differs"));
+    let mut csv = Csv::new(fields);
+    for output in &file.outputs {
+        for factor in &output.factors {
+            let kind = if factor.group { "group" } else { "factor" };
+            for (name, index) in [("first_order", &factor.first_order), ("total", &factor.total)] {
+                let texts = [&output.name, kind, &factor.name, name].map(Value::from);
+                let numbers = [index.a, index.b, index.difference].map(Value::Estimate);
+                csv.row(texts.into_iter().chain(numbers).chain([index.differs.into()]));
+            }
+        }
+    }
+    csv.text()
+}

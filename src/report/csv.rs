@@ -1,0 +1,197 @@
+//! CSV: numbers with as many digits as it takes to read the same bits back, an empty cell where there is none.
+
+use super::document::Value;
+use super::result::EstimateRecord;
+
+/// The name of a column, or of the three columns of an estimate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Field {
+    name: String,
+    is_estimate: bool,
+}
+
+impl Field {
+    /// A column.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: name.into(), is_estimate: false }
+    }
+
+    /// The columns `name`, `name_low` and `name_high`.
+    pub fn estimate(name: impl Into<String>) -> Self {
+        Self { name: name.into(), is_estimate: true }
+    }
+}
+
+/// Columns of these names, of which the last `estimates` are estimates with their bounds.
+pub fn fields(names: &[&str], estimates: &[&str]) -> Vec<Field> {
+    let plain = names.iter().map(|name| Field::new(*name));
+    plain.chain(estimates.iter().map(|name| Field::estimate(*name))).collect()
+}
+
+/// Lines of CSV under a header.
+pub struct Csv {
+    writer: ::csv::Writer<Vec<u8>>,
+}
+
+impl Csv {
+    /// A table with a header alone.
+    pub fn new(fields: impl IntoIterator<Item = Field>) -> Self {
+        let mut csv = Self { writer: ::csv::Writer::from_writer(Vec::new()) };
+        for Field { name, is_estimate } in fields {
+            csv.cell(&inert(name.clone()));
+            if is_estimate {
+                csv.cell(&inert(format!("{name}_low")));
+                csv.cell(&inert(format!("{name}_high")));
+            }
+        }
+        csv.end();
+        csv
+    }
+
+    /// Adds a line, which must have as many cells as the header.
+    pub fn row<V: Into<Value>>(&mut self, values: impl IntoIterator<Item = V>) {
+        for value in values {
+            match value.into() {
+                Value::Printed | Value::Empty => self.cell(""),
+                Value::Text(text) => self.cell(&inert(text)),
+                Value::Number(number) => self.cell(&exact(Some(number))),
+                Value::Count(count) => self.cell(&count.to_string()),
+                Value::Flag(flag) => self.cell(if flag { "true" } else { "false" }),
+                Value::Estimate(estimate) => {
+                    let bounds = |e: EstimateRecord| [Some(e.estimate), e.low, e.high];
+                    estimate.map_or([None; 3], bounds).iter().for_each(|bound| self.cell(&exact(*bound)));
+                }
+            }
+        }
+        self.end();
+    }
+
+    /// The lines.
+    pub fn text(self) -> String {
+        String::from_utf8(self.writer.into_inner().expect("into memory")).expect("text in, text out")
+    }
+
+    fn cell(&mut self, text: &str) {
+        self.writer.write_field(text).expect("into memory");
+    }
+
+    fn end(&mut self) {
+        self.writer.write_record(None::<&[u8]>).expect("lines of one length, into memory");
+    }
+}
+
+/// A number that reads back to the same bits; empty without one.
+fn exact(value: Option<f64>) -> String {
+    value.filter(|value| value.is_finite()).map_or_else(String::new, |value| value.to_string())
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<&String> for Value {
+    fn from(text: &String) -> Self {
+        Self::Text(text.clone())
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<u64> for Value {
+    fn from(count: u64) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl From<bool> for Value {
+    fn from(flag: bool) -> Self {
+        Self::Flag(flag)
+    }
+}
+
+impl From<EstimateRecord> for Value {
+    fn from(estimate: EstimateRecord) -> Self {
+        Self::Estimate(Some(estimate))
+    }
+}
+
+impl From<Option<EstimateRecord>> for Value {
+    fn from(estimate: Option<EstimateRecord>) -> Self {
+        Self::Estimate(estimate)
+    }
+}
+
+impl From<Option<f64>> for Value {
+    fn from(number: Option<f64>) -> Self {
+        number.map_or(Self::Empty, Self::Number)
+    }
+}
+
+impl From<Option<bool>> for Value {
+    fn from(flag: Option<bool>) -> Self {
+        flag.map_or(Self::Empty, Self::Flag)
+    }
+}
+
+/// A text as a CSV field, quoted where it must be (RFC 4180).
+pub(crate) fn csv_field(text: &str) -> String {
+    let text = inert(text.to_owned());
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
+}
+
+/// What a text begins with that a spreadsheet takes for a formula.
+const FORMULA: [char; 4] = ['=', '+', '-', '@'];
+
+/// A cell that no spreadsheet runs: a text that it would take for a formula begins with an apostrophe. Numbers stay.
+fn inert(text: String) -> String {
+    if text.starts_with(FORMULA) && text.parse::<f64>().is_err() { format!("'{text}") } else { text }
+}
+
+/// A text without the apostrophe of [`inert`].
+pub(crate) fn plain_field(text: &str) -> &str {
+    text.strip_prefix('\'').filter(|text| text.starts_with(FORMULA)).unwrap_or(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_no_formulas() {
+        for (text, field) in [
+            ("=HYPERLINK(\"http://x\",\"y\")", "\"'=HYPERLINK(\"\"http://x\"\",\"\"y\"\")\""),
+            ("+x", "'+x"),
+            ("-a", "'-a"),
+            ("@SUM(1)", "'@SUM(1)"),
+            ("-1.5e-3", "-1.5e-3"),
+            ("+4", "+4"),
+            ("a-b", "a-b"),
+        ] {
+            assert_eq!(csv_field(text), field);
+            let inert = inert(text.to_owned());
+            assert_eq!(plain_field(&inert), text);
+        }
+        assert_eq!(plain_field("'quoted'"), "'quoted'");
+    }
+
+    #[test]
+    fn values_keep_their_bits_and_gaps_are_empty() {
+        let mut csv = Csv::new(fields(&["a,b", "n"], &["S"]));
+        let known = EstimateRecord { estimate: 0.1, low: None, high: Some(1e-300) };
+        csv.row([Value::from("=1+1"), Value::from(7), known.into()]);
+        csv.row([Value::Flag(true), Value::from(f64::NAN), Value::Estimate(None)]);
+        assert_eq!(csv.text(), format!("\"a,b\",n,S,S_low,S_high\n'=1+1,7,0.1,,{}\ntrue,,,,\n", 1e-300));
+    }
+}

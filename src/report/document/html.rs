@@ -1,0 +1,329 @@
+//! A document as a page of HTML.
+
+use askama::Template;
+use thiserror::Error;
+
+use super::anchors::{check, href};
+use super::drawing::{Drawings, drawings};
+use super::symbols::{clean, escaped, symbols};
+use super::{Cell, Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
+use crate::report::artefacts::{CHARTS, ChartFormat};
+use crate::report::chart::ChartError;
+use crate::report::format::minus;
+
+/// Why a page could not be made.
+#[derive(Debug, Error)]
+pub enum DocumentError {
+    /// A template cannot be rendered.
+    #[error("cannot make the page: {0}")]
+    Template(#[from] askama::Error),
+    /// A chart cannot be drawn.
+    #[error("cannot draw figure {figure:?} of the page: {source}")]
+    Chart {
+        /// Anchor of the figure.
+        figure: String,
+        /// Why.
+        source: ChartError,
+    },
+    /// An anchor of which a browser could make nothing.
+    #[error("the anchor {id:?} of the page {problem}")]
+    Anchor {
+        /// The anchor.
+        id: String,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+}
+
+/// What the template takes as it is (`safe`) was escaped by [`symbols`], or comes from this program: style, script and
+/// charts, which escape their own texts.
+#[derive(Template)]
+#[template(path = "page/page.html")]
+struct PageView<'a> {
+    page_title: String,
+    kicker: String,
+    title: String,
+    lead: Vec<String>,
+    sections: Vec<SectionView<'a>>,
+    footer: String,
+    style: &'static str,
+    script: &'static str,
+    version: &'static str,
+}
+
+struct SectionView<'a> {
+    id: &'a str,
+    title: String,
+    body: String,
+}
+
+#[derive(Template)]
+#[template(path = "page/part.html")]
+enum PartView<'a> {
+    Text(String),
+    Heading(String),
+    List(Vec<String>),
+    Code(String),
+    Links(Vec<LinkView>),
+    Notice { mark: &'static str, symbol: &'static str, kind: String, texts: Vec<String> },
+    Frame { title: String, html: String },
+    Details { summary: String, body: String },
+    Figure { id: &'a str, words: FigureWords, drawings: Drawings, links: Vec<LinkView> },
+    Table(TableView),
+}
+
+struct FigureWords {
+    label: String,
+    title: String,
+    caption: String,
+    beside: String,
+}
+
+struct TableView {
+    caption: String,
+    label: String,
+    header: Vec<(String, bool)>,
+    rows: Vec<Vec<CellView>>,
+    stack: &'static str,
+}
+
+struct CellView {
+    heading: String,
+    html: String,
+    numeric: bool,
+    mark: &'static str,
+    symbol: &'static str,
+    href: Option<String>,
+    note: String,
+    links: Vec<LinkView>,
+}
+
+struct LinkView {
+    html: String,
+    href: String,
+}
+
+impl Document {
+    /// The page: one HTML document that loads nothing from anywhere and links to nothing outside. Style, script and charts
+    /// are inside. The same document gives the same bytes. Texts are escaped, so that none can break out of its place;
+    /// charts are drawn twice, for a page column and for a phone.
+    ///
+    /// # Errors
+    /// [`DocumentError`] if a chart cannot be drawn, or an anchor is malformed, there twice, or linked to and missing.
+    ///
+    /// # Example
+    /// ```
+    /// use apportion::report::document::{Document, Part, Section};
+    ///
+    /// let document = Document {
+    ///     title: "The critical force".into(),
+    ///     lead: vec!["The thickness matters most: its S_T is 0.68.".into()],
+    ///     sections: vec![Section::new("shares", "Shares", vec![Part::Text("F_cr grows with the thickness.".into())])],
+    ///     ..Document::default()
+    /// };
+    /// let html = document.html()?;
+    /// assert!(html.starts_with("<!DOCTYPE html>"));
+    /// assert!(html.contains("<var>F</var><sub>cr</sub> grows"));
+    /// # Ok::<(), apportion::report::document::DocumentError>(())
+    /// ```
+    pub fn html(&self) -> Result<String, DocumentError> {
+        self.page(&Surroundings { formats: &[], has_files: false })
+    }
+
+    /// The page as it stands in its folder: with links to the other files, the charts in these `formats`.
+    pub(crate) fn html_in_folder(&self, formats: &[ChartFormat]) -> Result<String, DocumentError> {
+        self.page(&Surroundings { formats, has_files: true })
+    }
+
+    fn page(&self, around: &Surroundings<'_>) -> Result<String, DocumentError> {
+        // Figures have links to their own files.
+        let data = if around.has_files { self.file_names().data } else { Vec::new() };
+        let links = data.into_iter().filter(|name| !name.contains('/')).map(|name| Link::new(name.clone(), name));
+        let links: Vec<Link> = links.collect();
+        let files = (!links.is_empty()).then(|| Section::new("files", "Files", vec![Part::Links(links)]));
+        let all: Vec<&Section> = self.sections.iter().chain(&files).collect();
+        check(&all)?;
+        let mut sections = Vec::with_capacity(all.len());
+        for section in &all {
+            let body = around.parts(&section.parts)?;
+            sections.push(SectionView { id: &section.id, title: symbols(&section.title), body });
+        }
+        let view = PageView {
+            page_title: clean(&self.title),
+            kicker: symbols(&self.kicker),
+            title: symbols(&self.title),
+            lead: self.lead.iter().map(|text| symbols(text)).collect(),
+            sections,
+            footer: symbols(&self.footer),
+            style: include_str!("../../../templates/page/page.css"),
+            script: include_str!("../../../templates/page/page.js"),
+            version: env!("CARGO_PKG_VERSION"),
+        };
+        Ok(view.render()?)
+    }
+}
+
+/// What lies around a page.
+struct Surroundings<'a> {
+    formats: &'a [ChartFormat],
+    has_files: bool,
+}
+
+impl Surroundings<'_> {
+    fn parts(&self, parts: &[Part]) -> Result<String, DocumentError> {
+        let mut html = String::new();
+        for part in parts {
+            match part {
+                Part::OnPage(parts) => html.push_str(&self.parts(parts)?),
+                part => {
+                    html.push_str(self.view(part)?.render()?.trim_start());
+                    html.push('\n');
+                }
+            }
+        }
+        Ok(html)
+    }
+
+    fn view<'a>(&self, part: &'a Part) -> Result<PartView<'a>, DocumentError> {
+        let all = |texts: &[String]| texts.iter().map(|text| symbols(text)).collect();
+        Ok(match part {
+            Part::Text(text) => PartView::Text(symbols(text)),
+            Part::Heading(text) => PartView::Heading(symbols(text)),
+            Part::List(items) => PartView::List(all(items)),
+            Part::Code(text) => PartView::Code(escaped(text)),
+            Part::Links(links) => PartView::Links(link_views(links)),
+            Part::Notice { mark, kind, texts } => {
+                PartView::Notice { mark: mark.class(), symbol: mark.symbol(), kind: symbols(kind), texts: all(texts) }
+            }
+            Part::Frame { title, html } => PartView::Frame { title: clean(title), html: clean(html) },
+            Part::Details { summary, parts } => {
+                PartView::Details { summary: symbols(summary), body: self.parts(parts)? }
+            }
+            Part::OnPage(parts) => PartView::Text(self.parts(parts)?),
+            Part::Figure(figure) => self.figure(figure)?,
+            Part::Table(table) => PartView::Table(table_view(table)),
+        })
+    }
+
+    fn figure<'a>(&self, figure: &'a Figure) -> Result<PartView<'a>, DocumentError> {
+        let drawings = drawings(&figure.id, &figure.chart)
+            .map_err(|source| DocumentError::Chart { figure: figure.id.clone(), source })?;
+        let words = FigureWords {
+            label: symbols(&figure.label),
+            title: symbols(figure.title.as_deref().unwrap_or(figure.chart.title())),
+            caption: symbols(figure.chart.caption()),
+            beside: symbols(&figure.beside),
+        };
+        let picture = |format: &ChartFormat| {
+            let ending = format.ending();
+            Link::new(ending.to_uppercase(), format!("{CHARTS}/{}.{ending}", figure.stem))
+        };
+        let mut links = Vec::new();
+        if !figure.stem.is_empty() {
+            links.extend(self.formats.iter().map(picture));
+        }
+        if self.has_files && !figure.data.is_empty() {
+            links.push(Link::new("CSV", &figure.data));
+        }
+        Ok(PartView::Figure { id: &figure.id, words, drawings, links: link_views(&links) })
+    }
+}
+
+fn link_views(links: &[Link]) -> Vec<LinkView> {
+    links.iter().map(|link| LinkView { html: symbols(&link.text), href: href(&link.to) }).collect()
+}
+
+fn table_view(table: &Table) -> TableView {
+    let columns = table.printed_columns();
+    let cell = |(cell, (_, heading, numeric)): (&&Cell, &(usize, &str, bool))| CellView {
+        heading: clean(heading),
+        ..cell_view(cell, *numeric)
+    };
+    let row = |row: Vec<&Cell>| row.iter().zip(&columns).map(cell).collect();
+    let has_headings = columns.iter().any(|(_, heading, _)| !heading.is_empty());
+    let header = columns.iter().filter(|_| has_headings).map(|(_, heading, numeric)| (symbols(heading), *numeric));
+    TableView {
+        caption: symbols(&table.caption),
+        label: clean(&table.caption),
+        header: header.collect(),
+        rows: table.printed_rows().into_iter().map(row).collect(),
+        stack: match table.on_phone {
+            OnPhone::Scroll => "",
+            OnPhone::Stack => " stack",
+            OnPhone::StackLabelled => " stack labelled",
+        },
+    }
+}
+
+fn cell_view(cell: &Cell, numeric: bool) -> CellView {
+    CellView {
+        heading: String::new(),
+        html: if numeric { number(&cell.text) } else { symbols(&cell.text) },
+        numeric,
+        mark: cell.mark.class(),
+        symbol: cell.mark.symbol(),
+        href: cell.to.as_deref().map(href),
+        note: symbols(&cell.note),
+        links: link_views(&cell.links),
+    }
+}
+
+/// A text of numbers with true minus signs and powers of ten.
+fn number(text: &str) -> String {
+    let mut html = String::with_capacity(text.len());
+    for (place, word) in text.split(' ').enumerate() {
+        if place > 0 {
+            html.push(' ');
+        }
+        let digits = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
+        let core = word.trim_start_matches(['[', '(', '-', '<']).trim_end_matches([']', ')', ',']);
+        match core.split_once('e').filter(|(mantissa, power)| {
+            mantissa.starts_with(|c: char| c.is_ascii_digit()) && digits(power.trim_start_matches('-'))
+        }) {
+            Some((mantissa, power)) => {
+                let (before, after) = word.split_once(core).unwrap_or_default();
+                html.push_str(&format!("{before}{mantissa}\u{a0}×\u{a0}10^{power}{after}"));
+            }
+            None => html.push_str(word),
+        }
+    }
+    let html = symbols(&minus(&html));
+    raised(&html)
+}
+
+/// Powers of ten as superscripts.
+fn raised(html: &str) -> String {
+    let mut parts = html.split("10^");
+    let mut raised = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let end = part.find(|c: char| !(c.is_ascii_digit() || c == '−')).unwrap_or(part.len());
+        raised.push_str(&format!("10<sup>{}</sup>{}", &part[..end], &part[end..]));
+    }
+    raised
+}
+
+impl Mark {
+    /// Name of the mark's style; empty without a mark.
+    fn class(self) -> &'static str {
+        match self {
+            Self::Plain => "",
+            Self::Strong => "strong",
+            Self::Good => "good",
+            Self::Mixed => "mixed",
+            Self::Bad => "bad",
+        }
+    }
+
+    /// The sign of a badge, for those who do not see its colour; empty where there is no badge.
+    fn symbol(self) -> &'static str {
+        match self {
+            Self::Plain | Self::Strong => "",
+            Self::Good => "✓",
+            Self::Mixed => "◐",
+            Self::Bad => "✗",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,186 @@
+use super::*;
+use crate::report::chart::{Axis, Chart, Drawing, Guide, Picture, Role, ScatterChart, ScatterPoint, ScatterSeries};
+use crate::report::document::Column;
+
+fn scatter(title: &str) -> Chart {
+    let point = ScatterPoint { x: 1.0, y: 2.0, label: "a point".to_owned(), x_interval: None, y_interval: None };
+    Chart::Scatter(ScatterChart {
+        title: title.to_owned(),
+        caption: "One point.".to_owned(),
+        x: Axis::default(),
+        y: Axis::default(),
+        series: vec![ScatterSeries { name: "s".to_owned(), role: Role::Coulomb, points: vec![point] }],
+        guides: vec![Guide { slope: 1.0, label: "equal".to_owned() }],
+    })
+}
+
+fn figure(id: &str, chart: Chart) -> Part {
+    Part::Figure(Box::new(Figure {
+        id: id.to_owned(),
+        label: "Figure 1".to_owned(),
+        title: None,
+        beside: String::new(),
+        chart,
+        stem: format!("{id}-chart"),
+        data: "data.csv".to_owned(),
+    }))
+}
+
+fn page(parts: Vec<Part>) -> Document {
+    Document {
+        name: "page".to_owned(),
+        kicker: "Test".to_owned(),
+        title: "A page".to_owned(),
+        lead: vec!["The lead.".to_owned()],
+        sections: vec![Section::new("one", "One", parts), Section::new("two", "Two", Vec::new())],
+        footer: "The end.".to_owned(),
+        charts: Vec::new(),
+        files: Vec::new(),
+    }
+}
+
+/// A part of every kind, with `text` wherever a text can stand.
+fn every_part(text: &str) -> Vec<Part> {
+    let t = || text.to_owned();
+    vec![
+        Part::Text(t()),
+        Part::Heading(t()),
+        Part::List(vec![t()]),
+        Part::Code(t()),
+        Part::Links(vec![Link { text: t(), to: t() }]),
+        Part::Notice { mark: Mark::Mixed, kind: t(), texts: vec![t()] },
+        Part::Frame { title: t(), html: t() },
+        Part::Details { summary: t(), parts: vec![figure("f1", scatter(text))] },
+        Part::Table(Table {
+            on_phone: OnPhone::StackLabelled,
+            ..Table::new(t(), [Column::text(t()), Column::number(t())]).with_rows([
+                vec![t().into(), t().into()],
+                vec![
+                    Cell::marked(t(), Mark::Good),
+                    Cell {
+                        text: t(),
+                        mark: Mark::Bad,
+                        to: Some(t()),
+                        note: t(),
+                        links: vec![Link { text: t(), to: t() }],
+                        ..Cell::default()
+                    },
+                ],
+                vec![Cell::marked(t(), Mark::Strong), Cell::default()],
+            ])
+        }),
+    ]
+}
+
+/// The start tags of a document, as they stand.
+fn tags(html: &str) -> Vec<&str> {
+    html.split('<').skip(1).filter_map(|rest| rest.split_once('>')).map(|(tag, _)| tag).collect()
+}
+
+#[test]
+fn the_page_needs_nothing_else() {
+    let html = page(every_part("words")).html().unwrap();
+    let own = html.replace("http://www.w3.org/2000/svg", "");
+    for outside in ["http:", "https:", " src=", "@import", "url(", "//cdn", "fetch("] {
+        assert!(!own.contains(outside), "{outside}");
+    }
+    assert_eq!(html.matches("<svg").count(), 2, "one chart, drawn twice");
+    assert!(html.contains("aria-labelledby=\"f1-wide-title\"") && html.contains("id=\"f1-narrow-desc\""));
+    assert!(html.contains("<a href=\"#two\">Two</a>"));
+    assert!(html.contains("<span class=\"badge good\"><span aria-hidden=\"true\">✓</span> words</span>"), "{html}");
+}
+
+#[test]
+fn texts_cannot_break_out() {
+    let evil = "</script></style></title><script>alert('&\"')</script><!--\" onload=\"x\u{0}";
+    let mut evil_page = page(every_part(evil));
+    (evil_page.kicker, evil_page.title, evil_page.footer) = (evil.to_owned(), evil.to_owned(), evil.to_owned());
+    evil_page.lead = vec![evil.to_owned()];
+    evil_page.sections[0].title = evil.to_owned();
+    let html = evil_page.html().unwrap();
+    let tame = page(every_part("tame")).html().unwrap();
+    let names = |html: &str| -> Vec<String> {
+        tags(html).iter().map(|tag| tag.split([' ', '\n']).next().unwrap_or_default().to_owned()).collect()
+    };
+    // The chart breaks its texts into lines as they are long: its elements are its own affair.
+    let drawn = ["text", "/text", "g", "/g", "line", "rect"];
+    let frame = |names: Vec<String>| names.into_iter().filter(|n| !drawn.contains(&n.as_str())).collect::<Vec<_>>();
+    assert_eq!(frame(names(&html)), frame(names(&tame)));
+    assert!(!html.contains(['\u{0}']) && !html.contains(" onload=\"x"));
+    assert_eq!(html.matches("</script>").count(), 1);
+}
+
+#[test]
+fn anchors_are_there_once() {
+    let twice = vec![figure("f1", scatter("a")), figure("f1", scatter("b"))];
+    let cases = [
+        (twice, "\"f1\" of the page is there twice"),
+        (vec![figure("f 1", scatter("a"))], "is not made of letters"),
+        (vec![figure("content", scatter("a"))], "is there twice"),
+        (vec![Part::Links(vec![Link { text: "x".to_owned(), to: "#nowhere".to_owned() }])], "linked to and not there"),
+    ];
+    for (parts, message) in cases {
+        let error = page(parts).html().unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
+    }
+    let fine = Part::Links(vec![Link { text: "x".to_owned(), to: "#two".to_owned() }]);
+    assert!(page(vec![fine]).html().unwrap().contains("href=\"#two\""));
+}
+
+#[test]
+fn a_chart_without_data_is_an_error_with_its_figure() {
+    let Chart::Scatter(mut chart) = scatter("a") else { panic!("a scatter chart") };
+    chart.series.clear();
+    let error = page(vec![figure("f1", Chart::Scatter(chart))]).html().unwrap_err();
+    assert!(error.to_string().contains("figure \"f1\""), "{error}");
+}
+
+#[test]
+fn pictures_have_their_own_narrow_drawing() {
+    let picture = |words: &str| {
+        let inline = format!("<svg role=\"img\"><title>T</title><text>{words}</text></svg>");
+        Drawing { document: String::new(), inline }
+    };
+    let words = ("Mode diagram".to_owned(), "Caption.".to_owned());
+    let chart = Chart::Picture(Picture {
+        title: words.0,
+        caption: words.1,
+        wide: picture("for a column"),
+        narrow: picture("for a phone"),
+    });
+    let html = page(vec![figure("f1", chart)]).html().unwrap();
+    let narrow = html.split_once("<div class=\"narrow\">").unwrap().1;
+    assert!(narrow.contains("for a phone") && !narrow.contains("for a column"));
+    assert!(html.contains("<b>Figure 1.</b> <strong>Mode diagram.</strong> Caption."));
+}
+
+#[test]
+fn numbers_have_true_signs_and_powers() {
+    let cases = [
+        ("-0.5 ± 0.1", "−0.5\u{a0}±\u{a0}0.1"),
+        ("1.5e-9", "1.5\u{a0}×\u{a0}10<sup>−9</sup>"),
+        ("[-1e3, 2e4]", "[−1\u{a0}×\u{a0}10<sup>3</sup>, 2\u{a0}×\u{a0}10<sup>4</sup>]"),
+        ("<0.001", "&lt;0.001"),
+        ("-", "-"),
+        ("x-1 12e", "x-1 12e"),
+    ];
+    for (text, html) in cases {
+        assert_eq!(number(text), html, "{text}");
+    }
+}
+
+#[test]
+fn the_same_page_gives_the_same_bytes() {
+    let bytes = || page(every_part("F_cr = 5 nN")).html().unwrap();
+    assert_eq!(bytes(), bytes());
+}
+
+#[test]
+fn a_page_links_to_the_files_that_lie_in_its_folder_alone() {
+    let document = page(vec![figure("f1", scatter("a"))]);
+    let alone = document.html().unwrap();
+    assert!(!alone.contains(".svg") && !alone.contains(".csv"));
+    let beside = document.html_in_folder(&[ChartFormat::Svg]).unwrap();
+    assert!(beside.contains("href=\"charts/f1-chart.svg\"") && beside.contains("href=\"data.csv\""), "{beside}");
+    assert!(!beside.contains(".png"));
+}

@@ -1,0 +1,258 @@
+//! Documents: what a command has to say, made once and then written as a page, a text for the terminal and tables of CSV.
+//!
+//! A [`Document`] is plain data. [`Document::html`] is its page, [`Document::text`] what a terminal shows, and its files
+//! for programs are listed by [`Document::file_names`]; [`Artefacts`](crate::report::Artefacts) writes all of them.
+
+mod anchors;
+mod drawing;
+mod html;
+mod symbols;
+mod table;
+mod text;
+
+pub use html::DocumentError;
+pub use symbols::symbols;
+pub use table::{Cell, Column, Mark, OnPhone, Table, Value};
+
+use crate::report::artefacts::FileNames;
+use crate::report::chart::Chart;
+
+/// A result to be read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Document {
+    /// What the names of its files begin with.
+    pub name: String,
+    /// A few words above the title: what kind of document it is.
+    pub kicker: String,
+    /// Headline.
+    pub title: String,
+    /// What decides, a paragraph each.
+    pub lead: Vec<String>,
+    /// The sections, in order; each is listed in the contents of the page.
+    pub sections: Vec<Section>,
+    /// The last line.
+    pub footer: String,
+    /// Charts that are files alone.
+    pub charts: Vec<Figure>,
+    /// Files for programs, beside those that its tables make.
+    pub files: Vec<DataFile>,
+}
+
+/// A file for programs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DataFile {
+    /// Its name in the folder of the document, or the path below it.
+    pub name: String,
+    /// What it holds.
+    pub text: String,
+}
+
+/// A section.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Anchor, unique in the document: letters, digits and hyphens.
+    pub id: String,
+    /// Heading, also in the contents.
+    pub title: String,
+    /// What it holds.
+    pub parts: Vec<Part>,
+}
+
+/// A part of a section.
+///
+/// Texts are plain; on a page, symbols such as `F_cr`, `F_Y*` or `S_T` in them are set as italic letters with subscripts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Part {
+    /// A paragraph.
+    Text(String),
+    /// A heading inside the section.
+    Heading(String),
+    /// A list.
+    List(Vec<String>),
+    /// A figure; terminals do not show it.
+    Figure(Box<Figure>),
+    /// A table.
+    Table(Table),
+    /// Links to files beside the page; terminals do not show them.
+    Links(Vec<Link>),
+    /// Sentences that must not be overlooked, set off by a mark.
+    Notice {
+        /// Good, mixed or bad news; a badge with its symbol.
+        mark: Mark,
+        /// What kind of news in a word or two, such as `warning`.
+        kind: String,
+        /// The sentences, a paragraph each.
+        texts: Vec<String>,
+    },
+    /// Lines to be read as they were typed, such as a study file; terminals do not show them.
+    Code(String),
+    /// Another page set into this one, such as an animation, in a frame as high as its content; not printed.
+    Frame {
+        /// What it shows, for screen readers.
+        title: String,
+        /// The whole HTML document.
+        html: String,
+    },
+    /// Parts that are folded on a page until asked for; printed unfolded.
+    Details {
+        /// What is folded.
+        summary: String,
+        /// The parts.
+        parts: Vec<Part>,
+    },
+    /// Parts that are for the page alone: what would only fill a terminal.
+    OnPage(Vec<Part>),
+}
+
+/// A figure with what belongs to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Anchor, unique in the document.
+    pub id: String,
+    /// What it is called, such as `CHK fig. 6`; may be empty.
+    pub label: String,
+    /// Its title on the page, where the chart's own one repeats that of the document.
+    pub title: Option<String>,
+    /// What to compare it with, such as what the paper's figure shows; may be empty.
+    pub beside: String,
+    /// The chart; its title and caption are set as text of the page, its description as the alternative text.
+    pub chart: Chart,
+    /// The name of its files, without ending.
+    pub stem: String,
+    /// The name of the file with its numbers; may be empty.
+    pub data: String,
+}
+
+/// A link to a file beside the page, or to an anchor on it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Link {
+    /// The words.
+    pub text: String,
+    /// Where it leads, such as `shares.csv` or `#claims`.
+    pub to: String,
+}
+
+impl Document {
+    /// Its charts: the figures in order, then the files alone.
+    pub(crate) fn figures(&self) -> Vec<&Figure> {
+        let mut figures = Vec::new();
+        self.visit(&mut |part| {
+            if let Part::Figure(figure) = part {
+                figures.push(&**figure);
+            }
+        });
+        figures.extend(&self.charts);
+        figures
+    }
+
+    /// The files for programs: those that are given, then one for all tables that name it, in the order of the document.
+    pub fn data_files(&self) -> Vec<DataFile> {
+        let mut tables: Vec<&Table> = Vec::new();
+        self.visit(&mut |part| {
+            if let Part::Table(table) = part
+                && !table.file.is_empty()
+            {
+                tables.push(table);
+            }
+        });
+        tables.sort_by_key(|table| table.at_end);
+        let mut files = self.files.clone();
+        for table in &tables {
+            if files.iter().all(|file| file.name != table.file) {
+                let of_file = tables.iter().filter(|other| other.file == table.file);
+                files.push(DataFile {
+                    name: table.file.clone(),
+                    text: table::csv(&of_file.copied().collect::<Vec<_>>()),
+                });
+            }
+        }
+        files
+    }
+
+    /// The names of its files, the page aside.
+    pub fn file_names(&self) -> FileNames {
+        let mut charts: Vec<String> = self.figures().into_iter().map(|figure| figure.stem.clone()).collect();
+        charts.retain(|stem| !stem.is_empty());
+        FileNames {
+            name: self.name.clone(),
+            data: self.data_files().into_iter().map(|file| file.name).collect(),
+            charts,
+        }
+    }
+
+    fn visit<'a>(&'a self, see: &mut dyn FnMut(&'a Part)) {
+        self.sections.iter().for_each(|section| visit(&section.parts, see));
+    }
+}
+
+/// Shows `see` every part, those inside of others too.
+fn visit<'a>(parts: &'a [Part], see: &mut dyn FnMut(&'a Part)) {
+    for part in parts {
+        see(part);
+        if let Part::Details { parts, .. } | Part::OnPage(parts) = part {
+            visit(parts, see);
+        }
+    }
+}
+
+impl Figure {
+    /// Figure `number` of a document: `chart`, whose files are called `stem` and whose numbers are in the file `data`.
+    pub fn new(number: usize, chart: Chart, stem: impl Into<String>, data: impl Into<String>) -> Self {
+        Self {
+            id: format!("figure-{number}"),
+            label: format!("Figure {number}"),
+            title: None,
+            beside: String::new(),
+            chart,
+            stem: stem.into(),
+            data: data.into(),
+        }
+    }
+}
+
+impl From<Figure> for Part {
+    fn from(figure: Figure) -> Self {
+        Self::Figure(Box::new(figure))
+    }
+}
+
+impl From<Table> for Part {
+    fn from(table: Table) -> Self {
+        Self::Table(table)
+    }
+}
+
+impl DataFile {
+    /// A file.
+    pub fn new(name: impl Into<String>, text: String) -> Self {
+        Self { name: name.into(), text }
+    }
+}
+
+impl Section {
+    /// A section.
+    pub fn new(id: &str, title: &str, parts: Vec<Part>) -> Self {
+        Self { id: id.to_owned(), title: title.to_owned(), parts }
+    }
+}
+
+impl Part {
+    /// Warnings, each a sentence that begins with a small letter and has no full stop.
+    pub(crate) fn warnings(warnings: &[String]) -> Option<Self> {
+        let texts = warnings.iter().map(|warning| format!("{}.", crate::report::capitalised(warning))).collect();
+        let kind = "Warning".to_owned();
+        (!warnings.is_empty()).then_some(Self::Notice { mark: Mark::Mixed, kind, texts })
+    }
+
+    /// A sentence that says why there are no indices.
+    pub(crate) fn no_indices(text: String) -> Self {
+        Self::Notice { mark: Mark::Bad, kind: "No indices".to_owned(), texts: vec![text] }
+    }
+}
+
+impl Link {
+    /// A link.
+    pub fn new(text: impl Into<String>, to: impl Into<String>) -> Self {
+        Self { text: text.into(), to: to.into() }
+    }
+}

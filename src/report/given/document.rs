@@ -1,0 +1,150 @@
+//! Indices from given data as a document.
+
+use super::{GivenFile, GivenIndexRecord, GivenOutputRecord, given_chart};
+use crate::report::artefacts::FileNames;
+use crate::report::csv::Field;
+use crate::report::distribution::OutputDistribution;
+use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
+use crate::report::file_stems;
+use crate::report::format::{estimate, first, fixed, significant};
+use crate::report::records::json;
+use crate::report::result::EstimateRecord;
+
+/// The document of a result from given data, whose files begin with `name`.
+pub fn given_document(result: &GivenFile, name: &str) -> Document {
+    let outputs: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
+    let stems = file_names(name, &outputs).charts;
+    let mut sections =
+        vec![Section::new("mind", "What to mind", Part::warnings(&result.warnings).into_iter().collect())];
+    sections.retain(|section| !section.parts.is_empty());
+    let mut lead = Vec::new();
+    for (place, (output, stem)) in result.outputs.iter().zip(stems).enumerate() {
+        let chart = given_chart(result, output);
+        lead.push(chart.caption().to_owned());
+        let figure = Figure::new(place + 1, chart, stem, data_name(name));
+        let mut parts = output_parts(output, index_table(result, output, name));
+        parts.push(figure.into());
+        sections.push(Section::new(&format!("output-{}", place + 1), &first(&output.name), parts));
+    }
+    let notes = result.notes.iter().map(|note| format!("{}.", crate::report::capitalised(note))).collect();
+    let note = Part::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts: notes };
+    sections.push(Section::new("limits", "What these indices cannot say", vec![note]));
+    sections.push(Section::new("table", "The table", table_parts(result)));
+    let mut files = vec![DataFile::new(format!("{name}.json"), json(result))];
+    // Without any index the table has a header still.
+    if let Some(output) = result.outputs.first().filter(|_| result.outputs.iter().all(|o| o.indices.is_none())) {
+        files.push(DataFile::new(data_name(name), index_table(result, output, name).csv()));
+    }
+    Document {
+        name: name.to_owned(),
+        kicker: "Indices from given data".to_owned(),
+        title: result.table.file.clone(),
+        lead,
+        sections,
+        footer: format!("Made by apportion {}.", result.provenance.apportion_version),
+        files,
+        ..Document::default()
+    }
+}
+
+/// The names of the files of a result from given data.
+pub fn file_names(name: &str, outputs: &[&str]) -> FileNames {
+    let data = vec![format!("{name}.json"), data_name(name)];
+    FileNames { name: name.to_owned(), data, charts: file_stems(name, outputs, &[""]) }
+}
+
+fn data_name(name: &str) -> String {
+    format!("{name}-indices.csv")
+}
+
+/// What is said of an output besides its chart.
+fn output_parts(output: &GivenOutputRecord, table: Table) -> Vec<Part> {
+    let mut parts: Vec<Part> = Part::warnings(&output.warnings).into_iter().collect();
+    parts.extend(output.distribution.as_ref().map(|distribution| Part::Text(moments(distribution))));
+    if let Some(reason) = &output.reason {
+        parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", output.name)));
+    }
+    parts.extend((!table.rows.is_empty()).then(|| table.into()));
+    parts
+}
+
+/// Mean and standard deviation of an output in words.
+pub(in crate::report) fn moments(distribution: &OutputDistribution) -> String {
+    match distribution.sd {
+        Some(sd) => format!("Mean {}, standard deviation {}.", significant(distribution.mean), significant(sd)),
+        None => format!("Mean {}.", significant(distribution.mean)),
+    }
+}
+
+fn index_table(result: &GivenFile, output: &GivenOutputRecord, name: &str) -> Table {
+    let all = || result.outputs.iter().flat_map(|output| output.indices.iter().flatten());
+    let (ranks, bins) = (all().any(|index| index.rank.is_some()), all().any(|index| index.binned.is_some()));
+    let method = |heading: &str, name: &str, used: bool| match used {
+        true => Column::number(heading).named(Field::estimate(name)),
+        false => Column::in_file(Field::estimate(name)),
+    };
+    let columns = [
+        Column::in_file(Field::new("output")),
+        Column::text("input").named(Field::new("input")),
+        method("S_1, by ranks", "rank", ranks),
+        method("S_1, by bins", "binned", bins),
+        Column::in_file(Field::new("bins")),
+    ];
+    let cell = |record: Option<EstimateRecord>| {
+        Cell::valued(record.map_or_else(String::new, |record| estimate(record, 3)), Value::Estimate(record))
+    };
+    let row = |index: &GivenIndexRecord| {
+        let bins = index.binned.map_or(Value::Empty, |binned| binned.bins.into());
+        vec![
+            Cell::from(&output.name),
+            Cell::from(&index.input),
+            cell(index.rank),
+            cell(index.binned.map(|binned| binned.estimate)),
+            Cell::valued("", bins),
+        ]
+    };
+    // The sum is that of the leading estimates, by ranks where there are any.
+    let sum: Cell = output.sum_first_order.map_or_else(String::new, |sum| fixed(sum, 3)).into();
+    let of_method = if ranks { [sum, Cell::default()] } else { [Cell::default(), sum] };
+    let names: [Cell; 2] = [Cell::default(), "sum".into()];
+    let rows = output.indices.iter().flatten().map(row);
+    let caption =
+        "First-order index of each input, the part of the variance that knowing it removes, with its 95 % interval.";
+    Table {
+        file: data_name(name),
+        sums: names.into_iter().chain(of_method).chain([Cell::default()]).collect(),
+        ..Table::new(caption, columns).with_rows(rows)
+    }
+}
+
+/// What was read, and how the numbers came about.
+fn table_parts(result: &GivenFile) -> Vec<Part> {
+    let (table, provenance) = (&result.table, &result.provenance);
+    let mut text = format!("{}: {} rows, {} inputs.", table.file, table.rows, result.inputs.len());
+    if let Some(dependence) = &result.dependence {
+        let (a, b) = &dependence.inputs;
+        text.push_str(&format!(
+            " Largest rank correlation between inputs: {} (`{a}`, `{b}`); chance reaches {}.",
+            fixed(dependence.spearman, 3),
+            fixed(dependence.noise, 3)
+        ));
+    }
+    let mut rows = vec![
+        ("program", format!("apportion {}", provenance.apportion_version)),
+        ("rows used", table.rows.to_string()),
+        ("rows left out", table.rows_dropped.to_string()),
+        ("points", table.points.clone()),
+        ("method", provenance.method.clone()),
+    ];
+    rows.extend(provenance.estimators.iter().map(|estimator| ("estimator", estimator.clone())));
+    rows.extend(provenance.interval.iter().map(|interval| ("intervals", interval.clone())));
+    rows.push(("seed", provenance.seed.to_string()));
+    rows.push(("table, SHA-256", format!("`{}`", table.sha256)));
+    let inputs = result.inputs.iter().map(|input| -> Vec<Cell> {
+        vec![Cell::from(&input.name), significant(input.min).into(), significant(input.max).into()]
+    });
+    let columns = Column::list(1, &["input", "smallest", "largest"]);
+    let inputs = Table::new("The inputs: the indices hold between these values.", columns).with_rows(inputs);
+    let settings = Table::pairs("How the numbers came about.", rows);
+    vec![Part::Text(text), Part::OnPage(vec![Part::Table(inputs), Part::Table(settings)])]
+}

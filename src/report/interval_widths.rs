@@ -1,0 +1,70 @@
+//! What doubling the runs would bring.
+
+use super::result::{ResultFile, StageRecord};
+
+/// Stages that the slope is read from, the last ones: earlier widths are poor guides to later ones.
+const STAGES: usize = 4;
+
+/// Powers of the number of runs with which an error can fall: that of independent points, and that of scrambled nets on
+/// smooth functions (Owen 1997, Ann. Statist. 25, 1541-1562). Beyond them the trend is noise of the widths.
+const POWERS: (f64, f64) = (-1.5, -0.5);
+
+/// The largest half width to be expected of twice the runs, from the slope of the last stages in double logarithmic
+/// scales; `None` with fewer than three stages that have intervals.
+pub fn width_after_doubling(stages: &[StageRecord]) -> Option<f64> {
+    let with_width = stages.iter().filter_map(|stage| {
+        let width = stage.largest_half_width.filter(|width| *width > 0.0)?;
+        Some(((stage.base_samples as f64).ln(), width.ln()))
+    });
+    let points: Vec<(f64, f64)> = with_width.collect();
+    let points = &points[points.len().saturating_sub(STAGES)..];
+    let [_, _, .., (_, last)] = points else { return None };
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+    let (x, y) = (mean(|point| point.0), mean(|point| point.1));
+    let sum = |of: &dyn Fn(f64, f64) -> f64| points.iter().map(|point| of(point.0 - x, point.1 - y)).sum::<f64>();
+    let slope = (sum(&|x, y| x * y) / sum(&|x, _| x * x)).clamp(POWERS.0, POWERS.1);
+    slope.is_finite().then(|| (last + slope * 2_f64.ln()).exp())
+}
+
+/// The largest half width of any first-order or total index of a result, at its end; `None` without intervals.
+pub fn widest_interval(result: &ResultFile) -> Option<f64> {
+    let widths = result.outputs.iter().filter_map(|output| output.convergence.last()?.largest_half_width);
+    widths.reduce(f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stages(widths: &[Option<f64>]) -> Vec<StageRecord> {
+        let stage = |(place, width): (usize, &Option<f64>)| StageRecord {
+            base_samples: 64 << place,
+            model_runs: 640 << place,
+            largest_half_width: *width,
+            indices: Vec::new(),
+        };
+        widths.iter().enumerate().map(stage).collect()
+    }
+
+    #[test]
+    fn the_trend_goes_on() {
+        let found = width_after_doubling(&stages(&[Some(0.8), Some(0.4), Some(0.2), Some(0.1)])).unwrap();
+        assert!((found - 0.05).abs() < 1e-12, "{found}");
+    }
+
+    #[test]
+    fn no_faster_and_no_slower_than_errors_fall() {
+        let flat = width_after_doubling(&stages(&[Some(0.1), Some(0.1), Some(0.1)])).unwrap();
+        assert!((flat - 0.1 * 0.5_f64.sqrt()).abs() < 1e-12, "{flat}");
+        let steep = width_after_doubling(&stages(&[Some(1.0), Some(1e-3), Some(1e-6)])).unwrap();
+        assert!((steep - 1e-6 * 2_f64.powf(-1.5)).abs() < 1e-18, "{steep}");
+    }
+
+    #[test]
+    fn two_stages_are_no_trend() {
+        assert_eq!(width_after_doubling(&stages(&[Some(0.2), Some(0.1)])), None);
+        assert_eq!(width_after_doubling(&stages(&[None, Some(0.2), None, Some(0.1)])), None);
+        assert_eq!(width_after_doubling(&stages(&[Some(0.0), Some(0.0), Some(0.0)])), None);
+        assert_eq!(width_after_doubling(&[]), None);
+    }
+}

@@ -1,0 +1,130 @@
+//! What the records of several commands share: the study, validity flags, estimates.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use super::chart::Chart;
+use super::result::{ConstantRecord, EstimateRecord, FactorRecord, ResultFile, StudyRecord, ValidityRecord};
+use crate::model::Model;
+use crate::study::Study;
+use crate::uncertainty::Estimate;
+
+/// The study as it was run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StudySetup {
+    /// Name of the study.
+    pub name: String,
+    /// Title, if the study has one.
+    pub title: Option<String>,
+    /// Name of the model.
+    pub model: String,
+    /// The model's choices in force, such as `friction`.
+    pub settings: Map<String, Value>,
+    /// The model's inputs that are fixed in the study, with their units.
+    pub constants: Vec<ConstantRecord>,
+    /// The factors in the order of the study.
+    pub factors: Vec<FactorSetup>,
+    /// Changes made on the command line, as given.
+    pub overrides: Vec<String>,
+    /// The study file, word for word.
+    pub source: String,
+    /// SHA-256 of the study file as it lies on disk, in hexadecimal.
+    pub sha256: String,
+}
+
+/// A factor of the study.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FactorSetup {
+    /// Its name.
+    pub name: String,
+    /// The unit of its values.
+    pub unit: String,
+    /// Its distribution by name, with the parameters in `unit`.
+    pub distribution: Value,
+    /// Its nominal value in `unit`.
+    pub nominal: f64,
+    /// Its group, which the files of screenings and sweeps do not tell.
+    #[serde(skip)]
+    pub group: Option<String>,
+}
+
+/// A chart that becomes files.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawing {
+    /// What is added to the study's name for the names of its files.
+    pub suffix: String,
+    /// The chart.
+    pub chart: Chart,
+}
+
+pub(super) fn study_setup(study: &Study) -> StudySetup {
+    let constants = study.constants().into_iter().map(|(name, value, unit)| ConstantRecord { name, value, unit });
+    let factor = |factor: &crate::space::Factor| FactorSetup {
+        name: factor.name.clone(),
+        unit: factor.unit().to_string(),
+        // Serialisation fails on maps without text keys only, of which there is none.
+        distribution: serde_json::to_value(factor.distribution()).unwrap_or(Value::Null),
+        nominal: factor.nominal,
+        group: factor.group.clone(),
+    };
+    StudySetup {
+        name: study.name.clone(),
+        title: study.title.clone(),
+        model: study.subject.name().to_owned(),
+        settings: study.settings().into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
+        constants: constants.collect(),
+        factors: study.space.factors().iter().map(factor).collect(),
+        overrides: study.overrides.clone(),
+        source: study.source.clone(),
+        sha256: study.sha256.clone(),
+    }
+}
+
+impl StudySetup {
+    /// The study of a result.
+    pub(super) fn from_result(result: &ResultFile) -> Self {
+        let factor = |factor: &FactorRecord| FactorSetup {
+            name: factor.name.clone(),
+            unit: factor.unit.clone(),
+            distribution: factor.distribution.clone(),
+            nominal: factor.nominal,
+            group: factor.group.clone(),
+        };
+        let StudyRecord { name, title, model, settings, constants, overrides, source, .. } = result.study.clone();
+        let sha256 = result.provenance.study_sha256.clone();
+        let factors = result.factors.iter().map(factor).collect();
+        Self { name, title, model, settings, constants, factors, overrides, source, sha256 }
+    }
+
+    /// The headline of its charts.
+    pub(super) fn headline(&self) -> &str {
+        self.title.as_deref().unwrap_or(&self.name)
+    }
+}
+
+/// The validity flags that `raised` runs of `runs` have raised.
+pub(super) fn validity(model: &dyn Model, raised: &[u64], runs: u64) -> Vec<ValidityRecord> {
+    let record = |(flag, runs_raised): (&crate::model::Flag, &u64)| ValidityRecord {
+        flag: flag.name.to_string(),
+        description: flag.description.to_string(),
+        runs: *runs_raised,
+        share: *runs_raised as f64 / runs.max(1) as f64,
+    };
+    let told = model.flags().iter().zip(raised).filter(|(flag, runs)| !flag.warns || **runs > 0);
+    told.map(record).collect()
+}
+
+/// A value of a factor, in its unit: a number, or the label of a category.
+pub(super) fn input_value(factor: &crate::space::Factor, value: f64) -> Value {
+    factor.distribution().label(value).map_or_else(|| Value::from(value), Value::from)
+}
+
+/// JSON text of plain data, ending in a newline; a number that is not finite is null.
+pub(super) fn json(file: &impl Serialize) -> String {
+    serde_json::to_string_pretty(file).expect("plain data") + "\n"
+}
+
+/// An estimate with the bounds of its interval.
+pub(super) fn estimate_record(Estimate { estimate, interval }: Estimate) -> EstimateRecord {
+    EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) }
+}

@@ -1,0 +1,113 @@
+//! The charts of a run as figures, numbered through.
+
+use crate::report::chart::Chart;
+use crate::report::document::{Figure, Part};
+use crate::report::format::the;
+use crate::report::result::{OutputRecord, ResultFile};
+use crate::report::{
+    capitalised, convergence_chart, distribution_chart, file_stems, indices_chart, interactions_chart, scatter_chart,
+    study_chart,
+};
+
+/// A chart of every output.
+struct Kind {
+    /// What the names of its files end in.
+    suffix: &'static str,
+    /// Its anchor.
+    name: &'static str,
+    draw: fn(&ResultFile, &OutputRecord) -> Chart,
+    /// What the file with its numbers ends in.
+    data: &'static str,
+}
+
+pub(super) const SHARES: usize = 0;
+pub(super) const INDICES: usize = 1;
+pub(super) const INTERACTIONS: usize = 2;
+pub(super) const SCATTER: usize = 3;
+pub(super) const DISTRIBUTION: usize = 4;
+pub(super) const CONVERGENCE: usize = 5;
+
+/// The charts in the order of their places above.
+const KINDS: [Kind; 6] = [
+    Kind { suffix: "", name: "shares", draw: study_chart, data: ".csv" },
+    Kind { suffix: "-indices", name: "indices", draw: indices_chart, data: ".csv" },
+    Kind { suffix: "-interactions", name: "interactions", draw: interactions_chart, data: ".csv" },
+    Kind { suffix: "-scatter", name: "scatter", draw: scatter_chart, data: "" },
+    Kind { suffix: "-distribution", name: "distribution", draw: distribution_chart, data: "" },
+    Kind { suffix: "-convergence", name: "convergence", draw: convergence_chart, data: "-convergence.csv" },
+];
+
+/// The names of the charts of each output.
+pub(super) fn chart_stems(study: &str, outputs: &[&str]) -> Vec<[String; KINDS.len()]> {
+    let suffixes = KINDS.map(|kind| kind.suffix);
+    let stems = file_stems(study, outputs, &suffixes);
+    stems.into_iter().map(|stem| suffixes.map(|suffix| format!("{stem}{suffix}"))).collect()
+}
+
+/// Draws the figures of one output after the other.
+pub(super) struct Figures<'a> {
+    pub result: &'a ResultFile,
+    stems: Vec<[String; KINDS.len()]>,
+    /// The figures so far, by output and kind.
+    drawn: Vec<(usize, usize)>,
+}
+
+/// An output, and its number from 1.
+#[derive(Clone, Copy)]
+pub(super) struct Numbered<'a> {
+    pub output: &'a OutputRecord,
+    pub number: usize,
+}
+
+impl Numbered<'_> {
+    /// Whether it is the first output: what holds for all is said there.
+    pub fn is_first(self) -> bool {
+        self.number == 1
+    }
+}
+
+impl<'a> Figures<'a> {
+    pub fn new(result: &'a ResultFile) -> Self {
+        let outputs: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
+        Self { result, stems: chart_stems(&result.study.name, &outputs), drawn: Vec::new() }
+    }
+
+    /// The figure of that kind with its number and the names of its files.
+    pub fn draw(&mut self, of: Numbered<'_>, kind: usize) -> Part {
+        self.drawn.push((of.number, kind));
+        Part::Figure(Box::new(self.figure(of, kind)))
+    }
+
+    /// The charts that have not been drawn, since there is nothing to be seen on them: files that say so all the same, so
+    /// that those of an earlier run do not stay.
+    pub fn others(&self) -> Vec<Figure> {
+        let outputs =
+            self.result.outputs.iter().enumerate().map(|(place, output)| Numbered { output, number: place + 1 });
+        let all = outputs.flat_map(|of| (0..KINDS.len()).map(move |kind| (of, kind)));
+        let others = all.filter(|(of, kind)| !self.drawn.contains(&(of.number, *kind)));
+        others.map(|(of, kind)| self.figure(of, kind)).collect()
+    }
+
+    fn figure(&self, of: Numbered<'_>, kind: usize) -> Figure {
+        let study = &self.result.study;
+        let stem = self.stems[of.number - 1][kind].clone();
+        let place = kind;
+        let kind = &KINDS[place];
+        let chart = (kind.draw)(self.result, of.output);
+        let headline = format!("{}: ", study.title.as_ref().unwrap_or(&study.name));
+        // The document has the study's title at its top.
+        let title = match place {
+            SHARES => Some(format!("Shares of {}", the(&of.output.name))),
+            _ => chart.title().strip_prefix(&headline).map(capitalised),
+        };
+        Figure {
+            id: format!("figure-{}-{}", of.number, kind.name),
+            label: format!("Figure {}", self.drawn.len()),
+            title,
+            beside: String::new(),
+            chart,
+            stem,
+            data: if kind.data.is_empty() { String::new() } else { format!("{}{}", study.name, kind.data) },
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! The document of one run: what came out, how sure that is, and how it was found.
+
+mod figures;
+mod lead;
+mod output;
+mod tables;
+
+use figures::{Figures, Numbered, chart_stems};
+use output::Topic;
+
+use super::artefacts::FileNames;
+use super::document::{DataFile, Document, Mark, Part, Section, Table};
+use super::format::{count, grouped, name, significant};
+use super::records::StudySetup;
+use super::result::{AggregateRecord, ResultFile};
+use super::study_sections::{study_section, validity_section};
+use super::{listed, result_json};
+
+/// The document of a result. Everything in it comes from the result, so that it can be made again from the JSON file.
+/// With one output every topic is a section; with several every output is.
+///
+/// # Example
+/// ```
+/// use std::path::Path;
+/// use apportion::{analyse, report::run_document, study::Study};
+///
+/// let study = Study::parse(include_str!("../../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
+/// let result = analyse(&study, 0, &|_| ())?;
+/// let document = run_document(&result);
+/// assert!(document.lead[0].starts_with("x1 matters most for y"));
+/// assert!(document.text().contains("S_T"));
+/// assert!(document.html()?.contains("<svg"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn run_document(result: &ResultFile) -> Document {
+    let mut figures = Figures::new(result);
+    let mut sections = Vec::new();
+    let single = result.outputs.len() == 1;
+    for (place, output) in result.outputs.iter().enumerate() {
+        let topics = output::topics(&mut figures, Numbered { output, number: place + 1 });
+        if single {
+            sections.extend(topics.into_iter().map(|Topic { id, title, parts }| Section::new(id, title, parts)));
+        } else {
+            let mut parts = Vec::new();
+            for Topic { title, parts: more, .. } in topics {
+                parts.push(Part::Heading(title.to_owned()));
+                parts.extend(more);
+            }
+            let heading = super::format::heading(&output.name, &output.unit);
+            sections.push(Section::new(&format!("output-{}", place + 1), &heading, parts));
+        }
+    }
+    let together = result
+        .aggregate
+        .as_ref()
+        .map(|record| Section::new("together", "All outputs together", together(result, record)));
+    sections.extend(together);
+    sections.extend(validity_section(&result.validity));
+    sections.push(Section::new("cost", "Cost", cost(result)));
+    sections.push(study_section(&StudySetup::from_result(result)));
+    sections.push(Section::new("provenance", "Provenance", vec![Part::OnPage(provenance(result))]));
+    let study = &result.study;
+    let mut document = Document {
+        name: study.name.clone(),
+        kicker: "Result of a study".to_owned(),
+        title: study.title.clone().unwrap_or_else(|| study.name.clone()),
+        lead: lead::lead(result),
+        sections,
+        footer: format!("Made by apportion {}.", result.provenance.apportion_version),
+        charts: figures.others(),
+        files: vec![DataFile::new(format!("{}.json", study.name), result_json(result))],
+    };
+    // Without any index the table has a header still.
+    let indices = format!("{}.csv", study.name);
+    if document.data_files().iter().all(|file| file.name != indices) {
+        document.files.push(DataFile::new(indices, tables::no_indices_csv(result)));
+    }
+    if result.outputs.iter().any(|output| !output.estimators.is_empty()) {
+        let text = tables::estimators_csv(result);
+        document.files.push(DataFile::new(format!("{}-estimators.csv", study.name), text));
+    }
+    let text = tables::convergence_csv(result);
+    document.files.push(DataFile::new(format!("{}-convergence.csv", study.name), text));
+    document
+}
+
+/// The names of the files of a run of the study called `name` with these `outputs`.
+pub fn run_file_names(name: &str, outputs: &[&str], second_order: bool, estimators: bool) -> FileNames {
+    let mut data = vec![format!("{name}.json"), format!("{name}.csv")];
+    data.extend(second_order.then(|| format!("{name}-second-order.csv")));
+    data.extend(estimators.then(|| format!("{name}-estimators.csv")));
+    data.push(format!("{name}-convergence.csv"));
+    let charts = chart_stems(name, outputs).into_iter().flatten().collect();
+    FileNames { name: name.to_owned(), data, charts }
+}
+
+/// The indices over all outputs together, or why there are none.
+fn together(result: &ResultFile, aggregate: &AggregateRecord) -> Vec<Part> {
+    let outputs: Vec<String> = aggregate.outputs.iter().map(|output| name(output)).collect();
+    let mut parts = vec![Part::Text(format!("Of {}: {}.", listed(&outputs), aggregate.weighting))];
+    match (&aggregate.indices, &aggregate.reason) {
+        (Some(indices), _) => parts.push(tables::aggregate(result, aggregate, indices)),
+        (None, Some(reason)) => parts.push(Part::no_indices(format!("There are no such indices: {reason}."))),
+        (None, None) => (),
+    }
+    parts
+}
+
+/// What the run took.
+fn cost(result: &ResultFile) -> Vec<Part> {
+    let provenance = &result.provenance;
+    let seconds = provenance.wall_seconds;
+    let mut rows = vec![
+        ("model runs", grouped(provenance.model_runs)),
+        ("base points", format!("{} in {} replicates", grouped(provenance.base_samples), provenance.replicates)),
+        ("time", format!("{} s", significant(format!("{seconds:.2e}").parse().unwrap_or(seconds)))),
+        ("threads", provenance.threads.to_string()),
+    ];
+    if seconds > 0.0 {
+        let rate = (provenance.model_runs as f64 / seconds).round() as u64;
+        rows.push(("runs per second", grouped(rate)));
+    }
+    let mut parts = vec![Part::OnPage(vec![Table::pairs("What the run took.", rows).into()])];
+    if let Some(effort) = &result.effort {
+        let rungs: Vec<String> = effort.rungs.iter().map(|r| format!("{} {}", r.rung, grouped(r.runs))).collect();
+        let rows = [
+            ("runs by fidelity", rungs.join(", ")),
+            ("evaluations", grouped(effort.evaluations)),
+            ("largest error estimate", format!("{:.1e} (relative)", effort.largest_error_estimate)),
+        ];
+        parts.push(Table::pairs("Which fidelities answered.", rows).into());
+    }
+    if let Some(stopping) = &result.stopping {
+        let (kind, mark) = match stopping.target_met {
+            Some(true) => ("Target met", Mark::Good),
+            Some(false) => ("Target not met", Mark::Mixed),
+            None => ("Why the run ended", Mark::Plain),
+        };
+        parts.push(Part::Notice { mark, kind: kind.to_owned(), texts: vec![format!("{}.", stopping.reason)] });
+    }
+    parts
+}
+
+/// How the answer came about.
+fn provenance(result: &ResultFile) -> Vec<Part> {
+    let provenance = &result.provenance;
+    let interval = provenance.interval.clone().unwrap_or_else(|| "none: a single replicate".to_owned());
+    let rows = [
+        ("program", format!("apportion {}", provenance.apportion_version)),
+        ("sampler", provenance.sampler.clone()),
+        ("seed", provenance.seed.to_string()),
+        ("base points", grouped(provenance.base_samples)),
+        ("replicates", provenance.replicates.to_string()),
+        ("first-order indices", provenance.first_order_estimator.clone()),
+        ("total indices", provenance.total_estimator.clone()),
+        ("intervals", interval),
+        ("study file, SHA-256", format!("`{}`", provenance.study_sha256)),
+    ];
+    let mixed = provenance.mixed_models.iter().map(|mixed| {
+        let runs = mixed.runs.map_or_else(|| "an unknown number of runs".to_owned(), |runs| count(runs, "run", "runs"));
+        ("another version of the model", format!("answered {runs} ({})", mixed.files))
+    });
+    let rows = rows.into_iter().chain(mixed);
+    let text = "The same study file, seed and version give the same numbers, on any number of threads.";
+    vec![Part::Text(text.to_owned()), Table::pairs("How the answer came about.", rows).into()]
+}
+
+#[cfg(test)]
+mod tests;

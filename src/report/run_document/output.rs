@@ -1,0 +1,219 @@
+//! What the document says about one output, topic by topic.
+
+use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, Numbered, SCATTER, SHARES};
+use super::lead::{by_total, widest};
+use super::tables;
+use crate::report::document::Part;
+use crate::report::format::{count, grouped, index, name, share_of_runs, the, two_digits as half_width, with_unit};
+use crate::report::interval_widths::width_after_doubling;
+use crate::report::listed;
+use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
+use crate::report::study_sections::{failures, inputs};
+
+/// Most factors whose shares are drawn unfolded; of more, the chart of the indices shows the largest.
+const DRAWN: usize = 30;
+
+/// A topic: a section of its own where there is one output, a part of the output's section where there are several.
+pub(super) struct Topic {
+    pub id: &'static str,
+    pub title: &'static str,
+    pub parts: Vec<Part>,
+}
+
+/// All topics of an output; those of which there is nothing to say are left out.
+pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> {
+    let topic = |id, title, parts| Topic { id, title, parts };
+    let mut topics = vec![topic("mind", "What to mind", warnings(of.output))];
+    if of.output.indices.is_some() {
+        topics.push(topic("shares", "Shares", shares(figures, of)));
+        topics.push(topic("indices", "Indices", indices(figures, of)));
+        topics.push(topic("interactions", "Interactions", interactions(figures, of)));
+        topics.push(topic("convergence", "How the indices settled", convergence(figures, of)));
+    }
+    topics.push(topic("distribution", "Distribution of the output", distribution(figures, of)));
+    if of.output.scatter.is_some() {
+        let scatter = vec![figures.draw(of, SCATTER)];
+        topics.push(topic("scatter", "The output against its factors", scatter));
+    }
+    topics.push(topic("estimators", "Other estimators", estimators(of.output)));
+    topics.retain(|topic| !topic.parts.is_empty());
+    topics
+}
+
+/// Why there are no indices, what the run warns of, and which runs failed.
+fn warnings(output: &OutputRecord) -> Vec<Part> {
+    let mut parts = Vec::new();
+    if let (None, Some(reason)) = (&output.indices, &output.reason) {
+        parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", the(&output.name))));
+    }
+    parts.extend(Part::warnings(&output.warnings));
+    if output.runs_failed > 0 {
+        let all = output.runs_ok + output.runs_failed;
+        let share = share_of_runs(output.runs_failed as f64 / all as f64);
+        let mut text =
+            format!("{} of {} ({share}) had no value", grouped(output.runs_failed), count(all, "run", "runs"));
+        if output.indices.is_some() {
+            let points = count(output.base_points_used, "base point", "base points");
+            text.push_str(&format!("; every estimate rests on {points} or more"));
+        }
+        parts.push(Part::Text(text + "."));
+    }
+    let failed = output.failures.iter();
+    parts.extend(failures(
+        failed.map(|f| (&*f.reason, format!("row {}: {}", f.first_row, inputs(&f.first_inputs)), f.runs)),
+    ));
+    parts
+}
+
+fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let text = "A factor's share is its index in percent of the sum of the indices of all factors: of the first-order \
+                indices S_1, which count what a factor does alone, or of the total indices S_T, which count what it does \
+                together with others too.";
+    let mut parts = Vec::new();
+    parts.extend(of.is_first().then(|| Part::OnPage(vec![Part::Text(text.to_owned())])));
+    let figure = figures.draw(of, SHARES);
+    parts.push(match figures.result.factors.len() {
+        0..=DRAWN => figure,
+        _ => Part::Details { summary: "The shares of all factors as a chart".to_owned(), parts: vec![figure] },
+    });
+    if let Some(table) = tables::shares(of.output) {
+        parts.push(Part::Details { summary: "The shares as numbers".to_owned(), parts: vec![table] });
+    }
+    parts
+}
+
+fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let result = figures.result;
+    let mut parts = Vec::new();
+    if of.is_first() {
+        parts.push(Part::OnPage(vec![Part::Text(definitions(result))]));
+        parts.push(Part::Text(match &result.provenance.interval {
+            Some(words) => format!("Intervals (±): {words}."),
+            None => "There are no intervals: a single replicate says nothing about its error.".to_owned(),
+        }));
+    }
+    parts.push(figures.draw(of, INDICES));
+    parts.extend(tables::indices(result, of.output));
+    parts.extend(below_zero(of.output).map(Part::Text));
+    parts.extend(tables::joint(result, of.output));
+    parts
+}
+
+/// What the columns of the tables of indices mean.
+fn definitions(result: &ResultFile) -> String {
+    let threshold = result.provenance.threshold;
+    format!(
+        "S_1 is the part of the variance of the output that goes if a factor becomes known; S_T is the part that stays as \
+         long as it is unknown. P(largest) is the probability that a factor's total index is the largest, \
+         P(S_T > {threshold}) that it exceeds {threshold}."
+    )
+}
+
+/// Estimates below 0, which no index is, in words.
+fn below_zero(output: &OutputRecord) -> Option<String> {
+    const NAMED: usize = 6;
+    let both = |index: &IndexRecord| {
+        let label = |what: &str| format!("{what} of {}", name(&index.factor));
+        [(label("S_1"), index.effect.first_order), (label("S_T"), index.effect.total)]
+    };
+    let negative: Vec<(String, EstimateRecord)> =
+        output.indices.iter().flatten().flat_map(both).filter(|(_, index)| index.estimate < 0.0).collect();
+    if negative.is_empty() {
+        return None;
+    }
+    let outside = negative.iter().filter(|(_, index)| index.high.is_some_and(|high| high < 0.0)).count();
+    let unknown = negative.iter().filter(|(_, index)| index.high.is_none()).count();
+    let mut names: Vec<String> = negative.iter().take(NAMED).map(|(name, _)| name.clone()).collect();
+    let (more, one) = (negative.len() - names.len(), negative.len() == 1);
+    if more > 0 {
+        names.push(format!("{more} more"));
+    }
+    let mut text = format!("{} {} below 0, which no index can be: ", listed(&names), if one { "is" } else { "are" });
+    text.push_str(match (outside, unknown) {
+        (0, 0) if one => "0 is within the interval, so the index is 0 to within its error.",
+        (0, 0) => "0 is within the intervals, so these indices are 0 to within their errors.",
+        (0, _) => "without intervals nothing tells whether 0 is within the error.",
+        _ => "not all intervals contain 0, by chance (once in 20 times) or for want of samples.",
+    });
+    Some(text)
+}
+
+fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let output = of.output;
+    let Some(order) = by_total(output).filter(|order| order.len() > 1) else { return Vec::new() };
+    let mut text = super::lead::interactions(output.sum_first_order);
+    let difference = |index: &IndexRecord| index.effect.interaction.map_or(f64::NEG_INFINITY, |i| i.estimate);
+    let most = order.iter().map(|(_, index)| *index).max_by(|a, b| difference(a).total_cmp(&difference(b)));
+    if let Some((most, gap)) = most.and_then(|most| Some((most, most.effect.interaction?)))
+        && gap.low.is_some_and(|low| low > 0.0)
+    {
+        let (factor, difference) = (name(&most.factor), index(gap));
+        text.push_str(&format!(" Most of all, {factor} acts together with others: S_T − S_1 is {difference}."));
+    }
+    let mut parts = vec![Part::Text(text), figures.draw(of, INTERACTIONS)];
+    parts.extend(tables::pairs(figures.result, output));
+    parts
+}
+
+fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let output = of.output;
+    let mut sentences = Vec::new();
+    if let Some(width) = widest(output) {
+        sentences.push(format!("In the end every index is known to ± {} or better.", half_width(width)));
+    }
+    match (width_after_doubling(&output.convergence), output.convergence.last()) {
+        (Some(width), Some(last)) => sentences.push(format!(
+            "If the trend of the last stages goes on, doubling the runs to {} would bring about ± {}.",
+            grouped(2 * last.model_runs),
+            half_width(width)
+        )),
+        _ => sentences
+            .push("There are too few stages with intervals to say what doubling the runs would bring.".to_owned()),
+    }
+    let mut parts = vec![Part::Text(sentences.join(" "))];
+    if !output.convergence.is_empty() {
+        parts.push(figures.draw(of, CONVERGENCE));
+    }
+    if let Some(table) = tables::stages(output) {
+        let details = Part::Details { summary: "The stages as numbers".to_owned(), parts: vec![table] };
+        parts.push(Part::OnPage(vec![details]));
+    }
+    parts
+}
+
+fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let Some(table) = tables::moments(of.output) else {
+        let text = format!("There are no values of {} to show.", the(&of.output.name));
+        return vec![Part::Text(text)];
+    };
+    vec![Part::Text(range(of.output)), figures.draw(of, DISTRIBUTION), Part::OnPage(vec![table])]
+}
+
+/// Mean, standard deviation, and the range of most values.
+fn range(output: &OutputRecord) -> String {
+    let value = |x: f64| with_unit(x, &output.unit);
+    let sample = output.distribution.as_ref().map(|distribution| &distribution.sample);
+    // By the divisor n - 1, as in the file.
+    let sd = sample.and_then(|sample| sample.sd).or(output.variance.map(f64::sqrt));
+    let mut text = match (output.mean, sd) {
+        (Some(mean), Some(sd)) => format!("Mean {}, standard deviation {}", value(mean), value(sd)),
+        (Some(mean), None) => format!("Mean {}", value(mean)),
+        _ => return format!("There is no mean of {}.", the(&output.name)),
+    };
+    let quantile = |percent| sample.and_then(|sample| sample.quantile(percent)).map(value);
+    if let (Some(low), Some(median), Some(high)) = (quantile(2.5), quantile(50.0), quantile(97.5)) {
+        text.push_str(&format!("; median {median}, 95 % of the values from {low} to {high}"));
+    }
+    crate::report::format::minus(&text) + "."
+}
+
+fn estimators(output: &OutputRecord) -> Vec<Part> {
+    let parts = tables::estimators(output);
+    if parts.is_empty() {
+        return parts;
+    }
+    let text =
+        "The same runs through the other formulas that the study lists; the default ones are named in the provenance.";
+    let details = Part::Details { summary: "Indices by estimator".to_owned(), parts };
+    vec![Part::OnPage(vec![Part::Text(text.to_owned())]), details]
+}

@@ -1,0 +1,309 @@
+//! The tables of one output, and the files of CSV that hold more than they show.
+
+use super::lead::by_total;
+use crate::report::csv::{Csv, Field, fields};
+use crate::report::document::{Cell, Column, Part, Table, Value};
+use crate::report::format::{chance, grouped, name, share, significant, two_digits, value};
+use crate::report::result::{
+    AggregateIndexRecord, AggregateRecord, EffectRecord, EstimateRecord, EstimatorRecord, IndexRecord, IntervalRecord,
+    OtherIndexRecord, OutputRecord, PairRecord, ResultFile, StageRecord,
+};
+
+/// Most factors in a table; the files have all of them.
+const FACTORS: usize = 50;
+/// Most pairs of factors.
+const PAIRS: usize = 20;
+/// Quantiles in the table, in percent; the JSON file has more.
+const QUANTILES: [f64; 7] = [2.5, 5.0, 25.0, 50.0, 75.0, 95.0, 97.5];
+/// Most estimators side by side.
+const ESTIMATORS: usize = 6;
+/// Most factors in a table of estimators.
+const FACTORS_OF_ESTIMATORS: usize = 20;
+
+/// The places of the columns that a table of indices over all outputs leaves out.
+const OF_ONE_OUTPUT: std::ops::Range<usize> = 7..10;
+
+/// `which` of how many are shown, if not all.
+fn largest(shown: usize, all: usize, what: &str) -> String {
+    if shown < all { format!(" The {shown} largest of {all} {what}.") } else { String::new() }
+}
+
+/// The places of the largest, in order.
+fn places<T>(order: &[(usize, T)], most: usize) -> Option<Vec<usize>> {
+    Some(order.iter().take(most).map(|(place, _)| *place).collect())
+}
+
+/// First-order and total indices of the factors, the largest total index first.
+pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part> {
+    let order = by_total(output)?;
+    let indices = output.indices.iter().flatten();
+    let rows =
+        indices.map(|index| effect_row((&output.name, "factor"), (name(&index.factor), &index.factor), &index.effect));
+    let sum = |sum: Option<EstimateRecord>| sum.map_or_else(Cell::default, Cell::from);
+    let mut sums: Vec<Cell> = vec![Cell::default(), Cell::default(), "sum of all factors".into()];
+    sums.extend([sum(output.sum_first_order), sum(output.sum_total)]);
+    sums.resize(10, Cell::default());
+    let caption = format!(
+        "First-order index S_1, total index S_T and their difference, each with the half width of its 95 % interval, in \
+         the order of the total index.{}",
+        largest(order.len().min(FACTORS), order.len(), "factors, all in the CSV file")
+    );
+    let printed = places(&order, FACTORS);
+    Some(Part::Table(Table { printed, sums, ..effect_table(result, caption, "factor").with_rows(rows) }))
+}
+
+fn effect_table(result: &ResultFile, caption: String, what: &str) -> Table {
+    let above = format!("P(S_T > {})", result.provenance.threshold);
+    let in_file = |name: &str| Column::in_file(Field::new(name));
+    let estimate = |heading: &str, name: &str| Column::number(heading).named(Field::estimate(name));
+    let columns = [
+        in_file("output"),
+        in_file("kind"),
+        Column::text(what).named(Field::new("name")),
+        estimate("S_1", "first_order"),
+        estimate("S_T", "total"),
+        Column::in_file(Field::estimate("share_first_order")),
+        Column::in_file(Field::estimate("share_total")),
+        estimate("S_T − S_1", "interaction"),
+        Column::number("P(largest)").named(Field::new("probability_first")),
+        Column::number(above).named(Field::new("probability_above_threshold")),
+    ];
+    Table { file: format!("{}.csv", result.study.name), ..Table::new(caption, columns) }
+}
+
+fn effect_row((output, kind): (&str, &str), (label, name): (String, &str), effect: &EffectRecord) -> Vec<Cell> {
+    let chance = |probability| Cell::valued(chance(probability).replace('-', "–"), probability.into());
+    let share = |share: Option<f64>, interval: Option<IntervalRecord>| {
+        let bounds =
+            |estimate| EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) };
+        Cell::valued("", Value::Estimate(share.map(bounds)))
+    };
+    vec![
+        output.into(),
+        kind.into(),
+        Cell::valued(label, name.into()),
+        effect.first_order.into(),
+        effect.total.into(),
+        share(effect.share_first_order, effect.share_first_order_interval),
+        share(effect.share_total, effect.share_total_interval),
+        effect.interaction.into(),
+        chance(effect.probability_first),
+        chance(effect.probability_above_threshold),
+    ]
+}
+
+/// The file of indices where there are none.
+pub(super) fn no_indices_csv(result: &ResultFile) -> String {
+    effect_table(result, String::new(), "").csv()
+}
+
+/// Shares in percent, the largest share of the total indices first.
+pub(super) fn shares(output: &OutputRecord) -> Option<Part> {
+    let order = by_total(output)?;
+    let shown = &order[..order.len().min(FACTORS)];
+    let row = |(_, IndexRecord { factor, effect }): &(usize, &IndexRecord)| -> Vec<Cell> {
+        vec![
+            name(factor).into(),
+            share(effect.share_first_order, effect.share_first_order_interval).into(),
+            share(effect.share_total, effect.share_total_interval).into(),
+        ]
+    };
+    let caption = format!(
+        "Shares in percent, with their 95 % intervals.{}",
+        largest(shown.len(), order.len(), "factors, all in the CSV file")
+    );
+    let columns = Column::list(1, &["factor", "of the sum of S_1", "of the sum of S_T"]);
+    Some(Part::Table(Table::new(caption, columns).with_rows(shown.iter().map(row))))
+}
+
+/// Groups, then subsets and the dummy factor.
+pub(super) fn joint(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
+    let names = |factors: &[String]| factors.iter().map(|factor| name(factor)).collect::<Vec<_>>().join(" + ");
+    let groups = output.groups.iter().flatten().map(|group| {
+        let label = format!("{}: {}", name(&group.group), names(&group.factors));
+        effect_row((&output.name, "group"), (label, &group.group), &group.effect)
+    });
+    let subsets = output.subsets.iter().flatten().map(|subset| {
+        let in_file = subset.factors.join(" + ");
+        effect_row((&output.name, "subset"), (names(&subset.factors), &in_file), &subset.effect)
+    });
+    let dummy = "dummy, which does nothing";
+    let dummy = output.dummy.iter().map(|e| effect_row((&output.name, "dummy"), (dummy.to_owned(), "dummy"), e));
+    let of_subsets = match output.subsets.iter().flatten().count() {
+        0 => "Indices of a factor that does nothing, run along: what is not 0 is noise.",
+        _ => "Joint indices of subsets of the factors: S_1 includes the interactions inside them.",
+    };
+    let table = |caption: &str, rows: Vec<Vec<Cell>>| {
+        let printed = Some((0..rows.len().min(FACTORS)).collect());
+        Table { printed, rows, ..effect_table(result, caption.to_owned(), "factors") }
+    };
+    let of_groups = "Joint indices of groups of the factors: S_1 includes the interactions inside them.";
+    let groups = table(of_groups, groups.collect());
+    let others = Table { at_end: true, ..table(of_subsets, subsets.chain(dummy).collect()) };
+    [groups, others].into_iter().filter(|table| !table.rows.is_empty()).map(Part::Table).collect()
+}
+
+/// The largest second-order indices.
+pub(super) fn pairs(result: &ResultFile, output: &OutputRecord) -> Option<Part> {
+    let pairs = output.second_order.as_ref().filter(|pairs| !pairs.is_empty())?;
+    let mut order: Vec<(usize, &PairRecord)> = pairs.iter().enumerate().collect();
+    order.sort_by(|a, b| b.1.index.estimate.total_cmp(&a.1.index.estimate));
+    let row = |pair: &PairRecord| {
+        let seen = match (pair.index.low, pair.index.high) {
+            (Some(low), _) if low > 0.0 => "yes",
+            (Some(_), Some(high)) if high < 0.0 => "no: below 0 by chance, or too few samples",
+            (Some(_), Some(_)) => "no: 0 is within the interval",
+            _ => "unknown",
+        };
+        let [a, b] = &pair.factors;
+        let label = format!("{} × {}", name(a), name(b));
+        vec![label.into(), seen.into(), Cell::from(&output.name), a.into(), b.into(), pair.index.into()]
+    };
+    let caption = format!(
+        "Second-order indices: what two factors do together beyond what each does alone.{}",
+        largest(order.len().min(PAIRS), order.len(), "pairs, all in the CSV file")
+    );
+    let columns = [
+        Column::text("pair"),
+        Column::text("interaction seen"),
+        Column::in_file(Field::new("output")),
+        Column::in_file(Field::new("factor_1")),
+        Column::in_file(Field::new("factor_2")),
+        Column::number("S_2").named(Field::estimate("second_order")),
+    ];
+    let file = format!("{}-second-order.csv", result.study.name);
+    let table = Table::new(caption, columns).with_rows(pairs.iter().map(row));
+    Some(Part::Table(Table { printed: places(&order, PAIRS), file, ..table }))
+}
+
+/// The width of the intervals at every stage of the run.
+pub(super) fn stages(output: &OutputRecord) -> Option<Part> {
+    let row = |stage: &StageRecord| -> Vec<Cell> {
+        let width = stage.largest_half_width.map_or_else(|| "–".to_owned(), two_digits);
+        vec![grouped(stage.base_samples).into(), grouped(stage.model_runs).into(), width.into()]
+    };
+    let caption = "Largest half width of all first-order and total indices as the run grew.";
+    let table = Table::new(caption, Column::list(0, &["base points", "model runs", "largest half width"]));
+    (!output.convergence.is_empty()).then(|| Part::Table(table.with_rows(output.convergence.iter().map(row))))
+}
+
+/// Moments and quantiles of an output's values.
+pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
+    let record = output.distribution.as_ref()?;
+    let number = |x: f64| value(x, &output.unit);
+    let mut rows: Vec<(String, String)> = Vec::new();
+    let mut add = |label: &str, text: Option<String>| rows.extend(text.map(|text| (label.to_owned(), text)));
+    let mean = output.mean.map(|mean| match output.mean_interval {
+        Some(i) => format!("{} ({} to {})", number(mean), value(i.low, ""), value(i.high, "")),
+        None => number(mean),
+    });
+    let sample = &record.sample;
+    add("values", Some(grouped(record.values)));
+    add("mean", mean);
+    add("standard deviation", sample.sd.map(number));
+    add(
+        "coefficient of variation",
+        sample.sd.filter(|_| sample.mean != 0.0).map(|sd| value(100.0 * sd / sample.mean.abs(), "%")),
+    );
+    add("skewness", sample.skewness.map(|x| value(x, "")));
+    add("excess kurtosis", sample.excess_kurtosis.map(|x| value(x, "")));
+    add("smallest", Some(number(sample.min)));
+    if sample.histogram.is_some() {
+        for quantile in sample.quantiles.iter().filter(|quantile| QUANTILES.contains(&quantile.percent)) {
+            add(&format!("{} % quantile", significant(quantile.percent)), Some(number(quantile.value)));
+        }
+    }
+    add("largest", Some(number(sample.max)));
+    let caption = "Moments and range are those of all values, the mean with its 95 % interval; quantiles are those of the \
+                   values that were kept.";
+    let rows = rows.into_iter().map(|(label, text)| vec![label.into(), text.into()]);
+    Some(Part::Table(Table::new(caption, [Column::text(""), Column::number("")]).with_rows(rows)))
+}
+
+/// First-order, then total indices by the other estimators, beside the default ones.
+pub(super) fn estimators(output: &OutputRecord) -> Vec<Part> {
+    let (Some(order), false) = (by_total(output), output.estimators.is_empty()) else { return Vec::new() };
+    type Of = fn(&OtherIndexRecord) -> Option<EstimateRecord>;
+    type Default = fn(&EffectRecord) -> EstimateRecord;
+    let kinds: [(&str, Of, Default); 2] = [
+        ("First-order indices S_1", |other| other.first_order, |effect| effect.first_order),
+        ("Total indices S_T", |other| other.total, |effect| effect.total),
+    ];
+    let shown = &order[..order.len().min(FACTORS_OF_ESTIMATORS)];
+    let mut parts = Vec::new();
+    for (what, of, default) in kinds {
+        let has = |index: &OtherIndexRecord| of(index).is_some();
+        let records: Vec<_> = output.estimators.iter().filter(|record| record.indices.iter().any(has)).collect();
+        for few in records.chunks(ESTIMATORS) {
+            let mut headings = vec!["factor", "default"];
+            headings.extend(few.iter().map(|record| record.estimator.as_str()));
+            let row = |&(number, index): &(usize, &IndexRecord)| -> Vec<Cell> {
+                let others = few.iter().map(|record| record.indices.get(number).and_then(of));
+                let all = [Some(default(&index.effect))].into_iter().chain(others);
+                [name(&index.factor).into()].into_iter().chain(all.map(Cell::from)).collect()
+            };
+            let caption =
+                format!("{what} by estimator.{}", largest(shown.len(), order.len(), "factors, all in the CSV file"));
+            let table = Table::new(caption, Column::list(1, &headings)).with_rows(shown.iter().map(row));
+            parts.push(Part::Table(table));
+        }
+    }
+    let source = |record: &EstimatorRecord| {
+        let first = record.first_order_source.iter().map(|source| format!("S_1: {source}"));
+        let total = record.total_source.iter().map(|source| format!("S_T: {source}"));
+        format!("`{}`: {}", record.estimator, first.chain(total).collect::<Vec<_>>().join("; "))
+    };
+    parts.push(Part::OnPage(vec![Part::List(output.estimators.iter().map(source).collect())]));
+    parts
+}
+
+/// Indices over all outputs together.
+pub(super) fn aggregate(result: &ResultFile, record: &AggregateRecord, indices: &[AggregateIndexRecord]) -> Part {
+    let mut order: Vec<(usize, &AggregateIndexRecord)> = indices.iter().enumerate().collect();
+    order.sort_by(|a, b| b.1.total.estimate.total_cmp(&a.1.total.estimate));
+    let outputs = record.outputs.join(" + ");
+    let row = |index: &AggregateIndexRecord| {
+        let nothing = || Cell::valued("", Value::Empty);
+        let none = || Cell::valued("", Value::Estimate(None));
+        let label = Cell::valued(name(&index.factor), (&index.factor).into());
+        let estimates = [index.first_order.into(), index.total.into(), none(), none(), none(), nothing(), nothing()];
+        [outputs.as_str().into(), "aggregate".into(), label].into_iter().chain(estimates).collect()
+    };
+    let caption = format!(
+        "Aggregated indices of all outputs.{}",
+        largest(order.len().min(FACTORS), order.len(), "factors, all in the CSV file")
+    );
+    let mut table = effect_table(result, caption, "factor").with_rows(indices.iter().map(row));
+    table.columns[OF_ONE_OUTPUT].iter_mut().for_each(Column::hide);
+    Part::Table(Table { printed: places(&order, FACTORS), at_end: true, ..table })
+}
+
+/// The indices by the other estimators: a line per output, estimator and factor, group, subset or dummy.
+pub(super) fn estimators_csv(result: &ResultFile) -> String {
+    let mut csv = Csv::new(fields(&["output", "estimator", "name"], &["first_order", "total"]));
+    for output in &result.outputs {
+        for record in &output.estimators {
+            for index in &record.indices {
+                let texts = [&output.name, &record.estimator, &index.name].map(Value::from);
+                csv.row(texts.into_iter().chain([index.first_order.into(), index.total.into()]));
+            }
+        }
+    }
+    csv.text()
+}
+
+/// The indices at every stage of the run: a line per output, number of base samples and factor.
+pub(super) fn convergence_csv(result: &ResultFile) -> String {
+    let names = ["output", "base_samples", "model_runs", "factor"];
+    let mut csv = Csv::new(fields(&names, &["first_order", "total"]));
+    for output in &result.outputs {
+        for stage in &output.convergence {
+            for index in &stage.indices {
+                let about: [Value; 4] =
+                    [(&output.name).into(), stage.base_samples.into(), stage.model_runs.into(), (&index.factor).into()];
+                csv.row(about.into_iter().chain([index.first_order.into(), index.total.into()]));
+            }
+        }
+    }
+    csv.text()
+}

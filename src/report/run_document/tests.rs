@@ -1,0 +1,94 @@
+use std::path::Path;
+
+use super::*;
+use crate::report::result_json;
+use crate::study::Study;
+
+fn result(text: &str) -> ResultFile {
+    let study = Study::parse(text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
+    ResultFile::new(&study, &study.runner().threads(1).run().unwrap())
+}
+
+fn page(result: &ResultFile) -> Document {
+    run_document(result)
+}
+
+fn titles(page: &Document) -> Vec<&str> {
+    page.sections.iter().map(|section| section.title.as_str()).collect()
+}
+
+const SMALL: &str = "\n[design]\nbase_samples = 256\n";
+
+#[test]
+fn the_leading_factor_stands_at_the_top() {
+    let result = result(&format!("model = \"linear\"\n[function]\nc = [1.0, 4.0, 2.0]{SMALL}"));
+    let page = page(&result);
+    assert!(page.lead[0].starts_with("x2 matters most for y"), "{}", page.lead[0]);
+    assert!(page.lead[0].contains("No interactions are seen"), "{}", page.lead[0]);
+    assert!(page.lead[1].starts_with("After 1280 model runs"), "{}", page.lead[1]);
+    let expected = [
+        "Shares",
+        "Indices",
+        "Interactions",
+        "How the indices settled",
+        "Distribution of the output",
+        "The output against its factors",
+        "Cost",
+    ];
+    assert_eq!(titles(&page)[..7], expected);
+    assert_eq!(page.file_names(), run_file_names("small", &["y"], false, false));
+}
+
+#[test]
+fn a_page_can_be_drawn_again_from_the_file() {
+    let result = result(&format!("model = \"ishigami\"{SMALL}"));
+    let read: ResultFile = serde_json::from_str(&result_json(&result)).unwrap();
+    assert_eq!(page(&read).html().unwrap(), page(&result).html().unwrap());
+}
+
+#[test]
+fn degenerate_results_have_pages() {
+    let constant = result(&format!("model = \"constant\"{SMALL}"));
+    let html = page(&constant).html().unwrap();
+    assert!(html.contains("There are no indices of y") && html.contains("zero variance"), "{html}");
+    let single = result(&format!("model = \"linear\"\n[[factor]]\nname = \"x1\"{SMALL}"));
+    assert!(page(&single).lead[0].contains("x1 is the only factor of y"), "{:?}", page(&single).lead);
+    let mut failed = constant;
+    let output = &mut failed.outputs[0];
+    (output.mean, output.variance, output.distribution) = (None, None, None);
+    (output.runs_failed, output.runs_ok, output.base_points_used) = (512, 0, 0);
+    output.reason = Some("no run succeeded".to_owned());
+    let html = page(&failed).html().unwrap();
+    assert!(
+        html.contains("no run succeeded") && html.contains("512 of 512 runs (100.0\u{a0}%) had no value"),
+        "{html}"
+    );
+    assert!(html.contains("There are no values of y"));
+    failed.outputs.clear();
+    page(&failed).html().unwrap();
+}
+
+#[test]
+fn many_factors_are_cut_to_the_largest() {
+    let result = result("model = \"sobol-g\"\n[function]\ndimension = 120\n[design]\nbase_samples = 64\n");
+    let page = page(&result);
+    let indices = page.sections.iter().find(|section| section.id == "indices").unwrap();
+    let tables: Vec<_> =
+        indices.parts.iter().filter_map(|p| if let Part::Table(t) = p { Some(t) } else { None }).collect();
+    assert_eq!(tables[0].printed.as_ref().map(Vec::len), Some(50));
+    let csv = page.data_files().into_iter().find(|file| file.name == "small.csv").unwrap();
+    assert_eq!(csv.text.lines().count(), 121);
+    assert!(tables[0].caption.contains("The 50 largest of 120 factors"));
+}
+
+#[test]
+fn names_and_titles_cannot_break_out() {
+    let evil = "</script><script>alert(1)</script>";
+    let mut result = result(&format!("model = \"ishigami\"{SMALL}"));
+    result.study.title = Some(evil.to_owned());
+    result.study.source = evil.to_owned();
+    result.outputs[0].warnings.push(evil.to_owned());
+    let html = page(&result).html().unwrap();
+    assert!(!html.contains("<script>alert"));
+    assert_eq!(html.matches("</script>").count(), 1);
+}

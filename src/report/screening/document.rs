@@ -1,0 +1,160 @@
+//! A screening as a document.
+
+use super::charts::screening_suffixes;
+use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile, screening_charts, screening_json};
+use crate::report::artefacts::FileNames;
+use crate::report::csv::Field;
+use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
+use crate::report::format::{grouped, heading, name, short, the, words};
+use crate::report::result::EstimateRecord;
+use crate::report::study_sections::{failures, inputs, study_section, validity_section};
+use crate::report::{capitalised, listed};
+use crate::screening::FIXABLE;
+
+/// The document of a screening.
+pub fn screening_document(file: &ScreeningFile) -> Document {
+    let study = &file.study.name;
+    let (mut sections, mut lead) = (Vec::new(), Vec::new());
+    // Two charts for each output: mu* against sigma, and mu* with its intervals.
+    let mut charts = screening_charts(file).into_iter().enumerate().map(|(place, drawing)| {
+        Figure::new(place + 1, drawing.chart, format!("{study}{}", drawing.suffix), format!("{study}-screen.csv"))
+    });
+    for (place, output) in file.outputs.iter().enumerate() {
+        let figures: Vec<Figure> = charts.by_ref().take(2).collect();
+        lead.extend(figures.get(1).map(|bars| bars.chart.caption().to_owned()));
+        lead.push(fixable(output));
+        let mut parts: Vec<Part> = Part::warnings(&output.warnings).into_iter().collect();
+        let failed = output.failures.iter();
+        parts.extend(failures(failed.map(|f| (&*f.reason, inputs(&f.first_inputs), f.runs))));
+        parts.push(Part::Table(effects(file, output)));
+        parts.extend(figures.into_iter().map(|figure| figure.into()));
+        sections.push(Section::new(&format!("output-{}", place + 1), &heading(&output.name, &output.unit), parts));
+    }
+    if !file.notes.is_empty() {
+        let texts = file.notes.iter().map(|note| format!("{}.", capitalised(note))).collect();
+        let note = Part::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts };
+        sections.push(Section::new("notes", "Notes", vec![note]));
+    }
+    sections.extend(validity_section(&file.validity));
+    sections.push(study_section(&file.study));
+    sections.push(Section::new("provenance", "Provenance", vec![Part::OnPage(vec![provenance(file)])]));
+    Document {
+        name: format!("{study}-screen"),
+        kicker: "Screening of a study".to_owned(),
+        title: file.study.headline().to_owned(),
+        lead,
+        sections,
+        footer: format!("Made by apportion {}.", file.provenance.apportion_version),
+        files: vec![DataFile::new(format!("{study}-screen.json"), screening_json(file))],
+        ..Document::default()
+    }
+}
+
+/// The names of the files of a screening of the study called `name` with these `outputs`.
+pub fn file_names(name: &str, outputs: &[&str]) -> FileNames {
+    let charts = screening_suffixes(outputs).into_iter().flatten().map(|suffix| format!("{name}{suffix}"));
+    FileNames {
+        name: format!("{name}-screen"),
+        data: vec![format!("{name}-screen.json"), format!("{name}-screen.csv")],
+        charts: charts.collect(),
+    }
+}
+
+/// The factors of an output by rank.
+fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
+    let estimate = |heading: &str, name: &str| Column::number(heading).named(Field::estimate(name));
+    let in_file = |name: &str| Column::in_file(Field::new(name));
+    let columns = [
+        in_file("output"),
+        in_file("unit"),
+        Column::text("factor").named(Field::new("factor")),
+        in_file("rank"),
+        estimate("mu*", "mu_star"),
+        estimate("mu", "mu"),
+        estimate("sigma", "sigma"),
+        estimate("sigma/mu*", "ratio"),
+        Column::text("reading").named(Field::new("reading")),
+        Column::text("could be fixed").named(Field::new("could_be_fixed")),
+        in_file("effects"),
+        in_file("dropped"),
+    ];
+    let plain = |estimate: Option<EstimateRecord>| {
+        Cell::valued(estimate.map_or_else(|| "–".to_owned(), |e| short(e.estimate)), Value::Estimate(estimate))
+    };
+    let row = |factor: &FactorScreeningRecord| {
+        let reading = factor.reading.map(|reading| reading.words());
+        let fixed = factor.could_be_fixed.map_or("–", |fixed| if fixed { "yes" } else { "no" });
+        let mu_star = factor.mu_star.map_or_else(|| "–".to_owned(), with_interval);
+        vec![
+            Cell::from(&output.name),
+            Cell::from(&output.unit),
+            Cell::valued(name(&factor.factor), (&factor.factor).into()),
+            Cell::valued("", (factor.rank as u64).into()),
+            Cell::valued(mu_star, Value::Estimate(factor.mu_star)),
+            plain(factor.mu),
+            plain(factor.sigma),
+            plain(factor.ratio),
+            Cell::valued(reading.unwrap_or("–"), reading.map_or(Value::Empty, Value::from)),
+            Cell::valued(fixed, factor.could_be_fixed.into()),
+            Cell::valued("", factor.effects.into()),
+            Cell::valued("", factor.dropped.into()),
+        ]
+    };
+    let mut ranked: Vec<usize> = (0..output.factors.len()).collect();
+    ranked.sort_by_key(|&place| output.factors[place].rank);
+    let caption = format!(
+        "Elementary effects on {} per full range of each factor: mean size mu* with its 95 % interval, mean mu, standard \
+         deviation sigma.",
+        the(&output.name)
+    );
+    Table {
+        printed: Some(ranked),
+        file: format!("{}-screen.csv", file.study.name),
+        ..Table::new(caption, columns).with_rows(output.factors.iter().map(row))
+    }
+}
+
+/// `40.12 [38.9, 41.3]`, or the estimate alone where there is no interval.
+fn with_interval(record: EstimateRecord) -> String {
+    match (record.low, record.high) {
+        (Some(low), Some(high)) => format!("{} [{}, {}]", short(record.estimate), short(low), short(high)),
+        _ => short(record.estimate),
+    }
+}
+
+/// Which factors could be fixed, and by which rule.
+fn fixable(output: &OutputScreeningRecord) -> String {
+    let fixable = output.factors.iter().filter(|f| f.could_be_fixed == Some(true)).map(|f| words(&f.factor));
+    let fixable: Vec<String> = fixable.collect();
+    let rule = format!(
+        "the upper bound of mu* below {} % of the largest mu*, by at least half of the effects",
+        100.0 * FIXABLE
+    );
+    if output.factors.iter().all(|factor| factor.could_be_fixed.is_none()) {
+        return format!("No factor has any effect on {} here: nothing to rank.", the(&output.name));
+    }
+    match &fixable[..] {
+        [] => format!("No factor could be fixed for {} ({rule}).", the(&output.name)),
+        names => format!("Could be fixed for {}: {} ({rule}).", the(&output.name), listed(names)),
+    }
+}
+
+/// How the answer came about.
+fn provenance(file: &ScreeningFile) -> Part {
+    let provenance = &file.provenance;
+    let mut rows =
+        vec![("program", format!("apportion {}", provenance.apportion_version)), ("design", provenance.design.clone())];
+    rows.extend(provenance.sampler.iter().map(|sampler| ("sampler", sampler.clone())));
+    rows.extend(provenance.levels.iter().map(|levels| ("levels", levels.to_string())));
+    rows.extend([
+        ("trajectories", grouped(provenance.trajectories)),
+        ("seed", provenance.seed.to_string()),
+        ("model runs", grouped(provenance.model_runs)),
+        ("runs that failed", grouped(provenance.failed_runs)),
+        ("threads", provenance.threads.to_string()),
+        ("time", format!("{} s", short(provenance.wall_seconds))),
+        ("intervals", provenance.interval.clone()),
+        ("study file, SHA-256", format!("`{}`", file.study.sha256)),
+    ]);
+    Table::pairs("How the answer came about.", rows).into()
+}

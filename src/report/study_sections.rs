@@ -1,0 +1,137 @@
+//! The sections that the documents of runs, screenings and sweeps share: where the model holds, and the study.
+
+use serde_json::{Map, Value};
+
+use super::document::{Cell, Column, Mark, Part, Section, Table};
+use super::format::{grouped, name, share_of_runs, value};
+use super::records::{FactorSetup, StudySetup};
+use super::result::{ConstantRecord, ValidityRecord};
+
+/// Most factors in the table of the study.
+const FACTORS: usize = 50;
+/// Most values of a list in a table.
+const VALUES: usize = 8;
+
+/// Where the model's assumptions do not hold; on a terminal only where one was raised.
+pub(super) fn validity_section(validity: &[ValidityRecord]) -> Option<Section> {
+    let row = |flag: &ValidityRecord| {
+        let share = if flag.runs == 0 { "no run".to_owned() } else { share_of_runs(flag.share) };
+        let mark = match flag.runs {
+            0 => Mark::Good,
+            _ if flag.share < 0.5 => Mark::Mixed,
+            _ => Mark::Bad,
+        };
+        vec![flag.flag.replace('-', " ").into(), Cell::marked(share, mark), Cell::from(&flag.description)]
+    };
+    let text = "Runs on which an assumption of the model does not hold count all the same; their share says how much of the \
+                result rests on them.";
+    let caption = "Flags that the model raises, with the share of the runs on which it does.";
+    let columns = Column::list(3, &["flag", "raised on", "what it means"]);
+    let is_raised = |place: &usize| validity[*place].runs > 0;
+    let raised: Vec<usize> = (0..validity.len()).filter(is_raised).collect();
+    let table = Table::new(caption, columns).with_rows(validity.iter().map(row));
+    let parts = vec![Part::Text(text.to_owned()), Part::Table(table)];
+    let parts = if raised.is_empty() { vec![Part::OnPage(parts)] } else { parts };
+    (!validity.is_empty()).then(|| Section::new("validity", "Where the model holds", parts))
+}
+
+/// Why runs failed: for each reason the inputs of the first run and how many there are.
+pub(super) fn failures<'a>(failures: impl IntoIterator<Item = (&'a str, String, u64)>) -> Option<Part> {
+    const MOST: usize = 50;
+    let row = |(reason, first, runs): (&str, String, u64)| vec![reason.into(), first.into(), grouped(runs).into()];
+    let caption = "Runs without a value, by reason, with the inputs of the first of each.";
+    let table = Table::new(caption, Column::list(2, &["reason", "first", "runs"]));
+    let table = table.with_rows(failures.into_iter().take(MOST).map(row));
+    (!table.rows.is_empty()).then(|| table.into())
+}
+
+/// The inputs of a run in words, the first dozen of many.
+pub(super) fn inputs(inputs: &Map<String, Value>) -> String {
+    const MOST: usize = 12;
+    let more = if inputs.len() > MOST { ", …" } else { "" };
+    inputs.iter().take(MOST).map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ") + more
+}
+
+/// What was asked: the factors, the choices, the file.
+pub(super) fn study_section(study: &StudySetup) -> Section {
+    let mut parts = Vec::new();
+    let shown = &study.factors[..study.factors.len().min(FACTORS)];
+    let has_groups = shown.iter().any(|factor| factor.group.is_some());
+    let row = |factor: &FactorSetup| {
+        let mut row: Vec<Cell> =
+            vec![name(&factor.name).into(), distribution(&factor.distribution, &factor.unit).into()];
+        row.extend(has_groups.then(|| factor.group.as_deref().unwrap_or("–").into()));
+        row.push(value(factor.nominal, &factor.unit).into());
+        row
+    };
+    let mut caption = "The factors with their distributions.".to_owned();
+    if shown.len() < study.factors.len() {
+        caption.push_str(&format!(" The first {} of {}, all in the JSON file.", shown.len(), study.factors.len()));
+    }
+    let headings: &[&str] = match has_groups {
+        true => &["factor", "distribution", "group", "nominal value"],
+        false => &["factor", "distribution", "nominal value"],
+    };
+    let columns = Column::list(headings.len() - 1, headings);
+    parts.push(Part::Table(Table::new(caption, columns).with_rows(shown.iter().map(row))));
+    let mut choices = vec![("model".to_owned(), format!("`{}`", study.model))];
+    choices.extend(study.settings.iter().map(|(key, json)| (name(key), plain(json))));
+    choices.extend(study.overrides.iter().map(|text| ("changed on the command line".to_owned(), format!("`{text}`"))));
+    parts.push(Table::pairs("The choices in force.", choices).into());
+    if !study.constants.is_empty() {
+        let constant = |constant: &ConstantRecord| (name(&constant.name), value(constant.value, &constant.unit));
+        let table = Table::pairs("Inputs that are fixed in the study.", study.constants.iter().map(constant));
+        parts.push(Part::Details { summary: "Fixed inputs".to_owned(), parts: vec![table.into()] });
+    }
+    let source = vec![Part::Code(study.source.clone())];
+    parts.push(Part::Details { summary: "The study file".to_owned(), parts: source });
+    Section::new("study", "The study", vec![Part::OnPage(parts)])
+}
+
+/// A distribution in words: its name, then its parameters with the unit.
+fn distribution(distribution: &Value, unit: &str) -> String {
+    let Value::Object(keys) = distribution else { return "unknown".to_owned() };
+    let family = keys.get("name").and_then(Value::as_str).unwrap_or("unknown");
+    let parameters = keys.iter().filter(|(key, _)| *key != "name");
+    let parameters: Vec<String> =
+        parameters.map(|(key, json)| format!("{} {}", key.replace('_', " "), plain(json))).collect();
+    let unit = match unit {
+        "" | "1" => String::new(),
+        unit => format!(" ({unit})"),
+    };
+    if parameters.is_empty() { family.to_owned() } else { format!("{family}, {}{unit}", parameters.join(", ")) }
+}
+
+/// A value of JSON as people write it.
+fn plain(json: &Value) -> String {
+    match json {
+        Value::Null => "none".to_owned(),
+        Value::Bool(true) => "yes".to_owned(),
+        Value::Bool(false) => "no".to_owned(),
+        Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), |number| value(number, "")),
+        Value::String(text) => text.clone(),
+        Value::Array(values) => {
+            let more = if values.len() > VALUES { format!("; … ({} in all)", values.len()) } else { String::new() };
+            values.iter().take(VALUES).map(plain).collect::<Vec<_>>().join("; ") + &more
+        }
+        Value::Object(keys) => {
+            let pairs = keys.iter().take(VALUES).map(|(key, json)| format!("{key} {}", plain(json)));
+            pairs.collect::<Vec<_>>().join("; ")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distributions_are_said_with_their_units() {
+        let uniform = serde_json::json!({"name": "uniform", "min": 0.25, "max": 2.5});
+        assert_eq!(distribution(&uniform, "um"), "uniform, min 0.25, max 2.5 (um)");
+        assert_eq!(distribution(&uniform, "1"), "uniform, min 0.25, max 2.5");
+        let many = serde_json::json!({"name": "discrete", "values": [1, 2, 3, 4, 5, 6, 7, 8, 9]});
+        assert_eq!(distribution(&many, "1"), "discrete, values 1; 2; 3; 4; 5; 6; 7; 8; … (9 in all)");
+        assert_eq!(distribution(&Value::Null, "1"), "unknown");
+    }
+}

@@ -1,0 +1,138 @@
+//! Sweeps as a document.
+
+use super::charts::{sweep_charts, sweep_suffixes};
+use super::{AgainstRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines, sweep_json};
+use crate::report::artefacts::FileNames;
+use crate::report::csv::{Csv, fields};
+use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
+use crate::report::format::{grouped, heading, name, short, short_with_unit, the};
+use crate::report::study_sections::{study_section, validity_section};
+
+/// The document of sweeps.
+pub fn sweep_document(file: &SweepFile) -> Document {
+    let study = &file.study.name;
+    // Those of the factors, then those of the outputs.
+    let mut charts = sweep_charts(file).into_iter().enumerate().map(|(place, drawing)| {
+        Figure::new(place + 1, drawing.chart, format!("{study}{}", drawing.suffix), format!("{study}-sweep.csv"))
+    });
+    let curves: Vec<Figure> = charts.by_ref().take(file.sweeps.len()).collect();
+    let (mut sections, mut lead) = (Vec::new(), Vec::new());
+    for (place, (nominal, ranges)) in file.nominal.iter().zip(charts).enumerate() {
+        lead.push(ranges.chart.caption().to_owned());
+        let parts = vec![
+            Part::Text(at_nominal(nominal)),
+            Part::Table(effects(file, nominal, place)),
+            Part::Figure(Box::new(ranges)),
+        ];
+        sections.push(Section::new(&format!("output-{}", place + 1), &heading(&nominal.output, &nominal.unit), parts));
+    }
+    let mut parts: Vec<Part> = curves.into_iter().map(|figure| figure.into()).collect();
+    let failed: Vec<String> = file.sweeps.iter().flat_map(gap_lines).map(|line| format!("{line}.")).collect();
+    if !failed.is_empty() {
+        parts.insert(0, Part::Notice { mark: Mark::Mixed, kind: "Failed".to_owned(), texts: failed });
+    }
+    sections.push(Section::new("curves", "The outputs over each factor", parts));
+    sections.extend(validity_section(&file.validity));
+    sections.push(study_section(&file.study));
+    let rows = [
+        ("program", format!("apportion {}", file.provenance.apportion_version)),
+        ("model runs", grouped(file.provenance.model_runs)),
+        ("study file, SHA-256", format!("`{}`", file.study.sha256)),
+    ];
+    let table = Table::pairs("How the answer came about.", rows);
+    sections.push(Section::new("provenance", "Provenance", vec![Part::OnPage(vec![table.into()])]));
+    Document {
+        name: format!("{study}-sweep"),
+        kicker: "One factor at a time".to_owned(),
+        title: file.study.headline().to_owned(),
+        lead,
+        sections,
+        footer: format!("Made by apportion {}.", file.provenance.apportion_version),
+        files: vec![
+            DataFile::new(format!("{study}-sweep.json"), sweep_json(file)),
+            DataFile::new(format!("{study}-sweep.csv"), sweep_csv(file)),
+        ],
+        ..Document::default()
+    }
+}
+
+/// The names of the files of sweeps of these `factors` in the study called `name`.
+pub fn file_names(name: &str, factors: &[&str], outputs: &[&str]) -> FileNames {
+    let charts = sweep_suffixes(factors, outputs).into_iter().map(|suffix| format!("{name}{suffix}"));
+    FileNames {
+        name: format!("{name}-sweep"),
+        data: vec![format!("{name}-sweep.json"), format!("{name}-sweep.csv")],
+        charts: charts.collect(),
+    }
+}
+
+fn at_nominal(nominal: &NominalRecord) -> String {
+    match (nominal.value, &nominal.reason) {
+        (Some(value), _) => {
+            format!("{} = {} where every factor is nominal.", nominal.output, short_with_unit(value, &nominal.unit))
+        }
+        (None, reason) => format!(
+            "{} has no value where every factor is nominal: {}.",
+            nominal.output,
+            reason.as_deref().unwrap_or("the run failed")
+        ),
+    }
+}
+
+/// How far each factor moves an output, the widest first.
+fn effects(file: &SweepFile, nominal: &NominalRecord, number: usize) -> Table {
+    let mut sweeps: Vec<(&FactorSweepRecord, &SweepEffectRecord)> =
+        file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
+    sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
+    let value = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
+    let row = |(sweep, effect): (&FactorSweepRecord, &SweepEffectRecord)| {
+        let last = sweep.values.len().saturating_sub(1);
+        let texts = [name(&sweep.factor), sweep.value_in_words(0), sweep.value_in_words(last)];
+        let numbers =
+            [effect.first, effect.last, effect.low, effect.high, effect.percent, effect.elasticity].map(value);
+        texts.into_iter().chain(numbers).map(Cell::from).collect()
+    };
+    let headings = ["factor", "from", "to", "output from", "to", "least", "largest", "moves by %", "elasticity"];
+    let caption = format!(
+        "How far each factor alone moves {}, all others nominal, the widest range first; the elasticity is its slope there \
+         in percent per percent.",
+        the(&nominal.output)
+    );
+    Table::new(caption, Column::list(1, &headings)).with_rows(sweeps.into_iter().map(row))
+}
+
+/// The sweeps as CSV: one line per factor, curve, output and value; an empty cell where there is no number, with the
+/// reason in the last column.
+fn sweep_csv(file: &SweepFile) -> String {
+    let names = ["factor", "unit", "value", "against", "against_unit", "against_value"];
+    let of_output = ["output", "output_unit", "output_value", "failure"];
+    let mut csv = Csv::new(fields(&[&names[..], &of_output[..]].concat(), &[]));
+    for sweep in &file.sweeps {
+        for curve in &sweep.curves {
+            let against = curve.against.as_ref();
+            let text = |read: fn(&AgainstRecord) -> &String| against.map_or(Value::Empty, |a| read(a).into());
+            let against_value = against.map_or(Value::Empty, |a| match &a.label {
+                Some(label) => label.into(),
+                None => a.value.into(),
+            });
+            for output in &curve.outputs {
+                for (place, (x, y)) in sweep.values.iter().zip(&output.values).enumerate() {
+                    let gap = output.gaps.iter().find(|gap| gap.place == place);
+                    csv.row::<Value>([
+                        (&sweep.factor).into(),
+                        (&sweep.unit).into(),
+                        sweep.labels.as_ref().map_or((*x).into(), |labels| (&labels[place]).into()),
+                        text(|a| &a.factor),
+                        text(|a| &a.unit),
+                        against_value.clone(),
+                        (&output.name).into(),
+                        (&output.unit).into(),
+                        (*y).into(),
+                        gap.map_or(Value::Empty, |gap| (&gap.reason).into()),
+                    ]);
+                }
+            }
+        }
+    }
+    csv.text()
+}

@@ -1,0 +1,170 @@
+//! The document of the reproduction: verdicts, figures, readings, tables and provenance.
+
+mod answers;
+mod provenance;
+mod readings;
+mod typeset;
+mod verdicts;
+
+use super::claims::{claims_csv, claims_json};
+use super::figures::{ANIMATION_STEM, PaperFigure};
+use super::readings::{readings_csv, readings_json, small_samples_csv};
+use super::{ReproduceError, Reproduction, shares_csv};
+use apportion::report::document::{Column, DataFile, Document, Figure, Link, Part, Section, Table};
+use apportion::report::result_json;
+
+/// The document about `reproduction`; what was not asked for is left out. But for the times in the results, its files are
+/// the same for every run of the same version.
+///
+/// # Errors
+/// [`ReproduceError`] if the claims cannot be written.
+pub fn document(reproduction: &Reproduction) -> Result<Document, ReproduceError> {
+    let sections = [
+        answers_section(reproduction),
+        claims_section(reproduction),
+        figures_section(reproduction, ("All", "overview", "Shares under every friction model")),
+        figures_section(reproduction, ("CHK", "chk", "Figures of CHK: Coulomb and Hurtado-Kim friction")),
+        figures_section(reproduction, ("LG", "lg", "Figures of LG: LuGre friction")),
+        figures_section(reproduction, ("TS04", "ts04", "Figures of TS04: a push in time")),
+        readings::section(reproduction),
+        shares_section(reproduction),
+        Some(provenance_section(reproduction)),
+    ];
+    Ok(Document {
+        name: "index".to_owned(),
+        kicker: "Reproduction of three papers".to_owned(),
+        title: "Which factor decides the force that pushes a nanoparticle?".to_owned(),
+        lead: lead(reproduction),
+        sections: sections.into_iter().flatten().collect(),
+        footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
+        files: files(reproduction)?,
+        ..Document::default()
+    })
+}
+
+/// The files for programs: results, shares, claims and readings, and the numbers of every figure.
+fn files(reproduction: &Reproduction) -> Result<Vec<DataFile>, ReproduceError> {
+    let mut files = Vec::new();
+    let mut add = |name: String, text: String| files.push(DataFile { name, text });
+    for study in &reproduction.studies {
+        add(format!("{}-{}.json", study.friction.key, study.group.key), result_json(&study.result));
+    }
+    if !reproduction.studies.is_empty() {
+        add("shares.csv".to_owned(), shares_csv(&reproduction.studies));
+    }
+    if !reproduction.claims.is_empty() {
+        add("claims.csv".to_owned(), claims_csv(&reproduction.claims));
+        add("claims.json".to_owned(), claims_json(&reproduction.claims)?);
+    }
+    if let Some(readings) = &reproduction.readings {
+        add("readings.csv".to_owned(), readings_csv(readings));
+        add("readings.json".to_owned(), readings_json(readings));
+        add("small-samples.csv".to_owned(), small_samples_csv(readings));
+    }
+    if let Some(animation) = &reproduction.animation {
+        for (ending, text) in [("html", &animation.html), ("csv", &animation.csv), ("json", &animation.json)] {
+            add(beside_charts(ANIMATION_STEM, ending), text.clone());
+        }
+    }
+    for figure in &reproduction.figures {
+        add(beside_charts(figure.stem, "csv"), figure.csv.clone());
+    }
+    Ok(files)
+}
+
+/// A file beside those of the chart called `stem`.
+fn beside_charts(stem: &str, ending: &str) -> String {
+    format!("charts/{stem}.{ending}")
+}
+
+fn lead(reproduction: &Reproduction) -> Vec<String> {
+    let mut lead: Vec<String> = answers::paragraph(&reproduction.studies).into_iter().collect();
+    if !reproduction.claims.is_empty() {
+        lead.push(verdicts::sentence(&reproduction.claims));
+    }
+    lead.extend(readings::paragraph(reproduction));
+    lead
+}
+
+fn answers_section(reproduction: &Reproduction) -> Option<Section> {
+    if reproduction.studies.is_empty() {
+        return None;
+    }
+    let table = Part::Table(answers::table(&reproduction.studies));
+    Some(Section::new("answers", "Which factor matters most", vec![table]))
+}
+
+fn claims_section(reproduction: &Reproduction) -> Option<Section> {
+    if reproduction.claims.is_empty() {
+        return None;
+    }
+    let parts = vec![
+        verdicts::table(&reproduction.claims),
+        verdicts::details(&reproduction.claims, &reproduction.figures),
+        Part::Links(vec![Link::new("verdicts as CSV", "claims.csv"), Link::new("as JSON", "claims.json")]),
+    ];
+    Some(Section::new("claims", "Are the papers right?", parts))
+}
+
+/// The figures whose labels begin with `prefix`.
+fn figures_section(reproduction: &Reproduction, (prefix, id, title): (&str, &str, &str)) -> Option<Section> {
+    let figures: Vec<&PaperFigure> =
+        reproduction.figures.iter().filter(|figure| figure.label.starts_with(prefix)).collect();
+    let mut parts: Vec<Part> = Vec::new();
+    for figure in &figures {
+        parts.push(Part::Figure(Box::new(page_figure(figure))));
+        if let Some(animation) = reproduction.animation.as_ref().filter(|_| figure.stem == "ts04-14") {
+            let html = animation.html.clone();
+            parts.push(Part::Frame { title: "TS04 fig. 14 as an animation".to_owned(), html });
+            let file = |ending: &str| beside_charts(ANIMATION_STEM, ending);
+            parts.push(Part::Links(vec![
+                Link::new("the animation as a page of its own", file("html")),
+                Link::new("every state as CSV", file("csv")),
+                Link::new("as JSON", file("json")),
+            ]));
+        }
+    }
+    (!figures.is_empty()).then(|| Section::new(id, title, parts))
+}
+
+fn page_figure(figure: &PaperFigure) -> Figure {
+    Figure {
+        id: figure.stem.to_owned(),
+        label: figure.label.to_owned(),
+        title: None,
+        beside: match figure.label.split_once(" fig") {
+            Some((paper, _)) => format!("{paper} shows: {}", figure.theirs),
+            None => figure.theirs.to_owned(),
+        },
+        chart: figure.chart.clone(),
+        stem: figure.stem.to_owned(),
+        data: beside_charts(figure.stem, "csv"),
+    }
+}
+
+fn shares_section(reproduction: &Reproduction) -> Option<Section> {
+    let studies = &reproduction.studies;
+    if studies.is_empty() {
+        return None;
+    }
+    let caption = "First-order and total indices of every study with their 95 % intervals, their shares, and the \
+                   percentages that LG prints.";
+    let headings = ["study", "friction", "factor", "S_1", "S_T", "share of S_1", "share of S_T", "published"];
+    let table = Table::new(caption, Column::list(3, &headings)).with_rows(answers::all_shares(studies));
+    let mut parts = vec![Part::Table(table)];
+    let results = studies.iter().map(|study| {
+        let name = format!("{}-{}", study.friction.key, study.group.key);
+        Link::new(name.clone(), format!("{name}.json"))
+    });
+    parts.push(Part::Links([Link::new("all shares as CSV", "shares.csv")].into_iter().chain(results).collect()));
+    parts.extend(answers::validity(studies));
+    let cautions = answers::cautions(studies);
+    if !cautions.is_empty() {
+        parts.push(Part::List(cautions));
+    }
+    Some(Section::new("shares", "All indices and shares", parts))
+}
+
+fn provenance_section(reproduction: &Reproduction) -> Section {
+    Section::new("provenance", "How this page was made", vec![provenance::table(reproduction)])
+}
