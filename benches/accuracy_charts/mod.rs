@@ -2,7 +2,7 @@
 
 use apportion::design::Sampler;
 use apportion::estimate::{FirstOrder, Total};
-use apportion::report::chart::{Axis, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke, png};
+use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke, png};
 
 use super::{Curve, Formula, SEEDS};
 
@@ -19,83 +19,70 @@ pub fn is_default(formula: Formula) -> bool {
 }
 
 fn axis(label: &str) -> Axis {
-    Axis { label: label.into(), unit: String::new(), spacing: Spacing::Logarithmic }
+    Axis::new(label, "").spaced(Spacing::Logarithmic)
 }
 
-fn panels(all: &[Curve], series: impl Fn(&Curve) -> Option<LineSeries>) -> Vec<LinePanel> {
+fn panels(all: &[Curve], x: &str, line: impl Fn(&Curve) -> Option<Mark>) -> Vec<Panel> {
     let panel = |function: &&str| {
         let of_function: Vec<&Curve> = all.iter().filter(|curve| curve.function == *function).collect();
-        LinePanel {
-            title: format!("{function} ({})", of_function[0].kind),
-            y: axis("RMSE"),
-            series: of_function.into_iter().filter_map(&series).collect(),
-            markers: Vec::new(),
-        }
+        Panel::new(axis(x), axis("RMSE"))
+            .titled(format!("{function} ({})", of_function[0].kind))
+            .with(of_function.into_iter().filter_map(&line))
     };
     SHOWN.iter().map(panel).collect()
 }
 
 /// The default estimators without companion rows, by sampler.
-fn samplers(all: &[Curve]) -> LineChart {
-    let series = |curve: &Curve| {
+fn samplers(all: &[Curve]) -> Chart {
+    let line = |curve: &Curve| {
         let stroke = match curve.formula {
             Formula::First(FirstOrder::Saltelli2010) => Stroke::SolidWithPoints,
             Formula::Total(Total::Jansen1999) => Stroke::Dashed,
             _ => return None,
         };
-        let role = match curve.sampler {
-            Sampler::Sobol => Role::Coulomb,
-            Sampler::Random => Role::Other(0),
-            Sampler::LatinHypercube => Role::Other(3),
+        let colour = match curve.sampler {
+            Sampler::Sobol => Colour::Series(0),
+            Sampler::Random => Colour::Series(1),
+            Sampler::LatinHypercube => Colour::Series(6),
         };
         let name = format!("{}, {}", curve.sampler.name(), curve.formula.index());
-        Some(LineSeries { name, role, stroke, points: curve.points.clone(), band: Vec::new() })
+        Some(Series::new(name, colour).stroke(stroke).line(curve.points.clone()))
     };
-    LineChart {
-        names: Vec::new(),
-        title: "Error of the indices by sampler".into(),
-        caption: format!(
-            "Root mean square error over the factors and {SEEDS} seeds against the number of base points. First order by \
-             Saltelli 2010, total by Jansen 1999."
-        ),
-        x: axis("Base points"),
-        panels: panels(all, series),
-    }
+    let caption = format!(
+        "Root mean square error over the factors and {SEEDS} seeds against the number of base points. First order by \
+         Saltelli 2010, total by Jansen 1999."
+    );
+    Chart::new("Error of the indices by sampler", caption).panels(panels(all, "Base points", line))
 }
 
-/// Colour and stroke of an estimator: the stroke tells the family of its formula.
-fn look(name: &str) -> (Role, Stroke) {
+/// The series of an estimator: the stroke tells the family of its formula.
+fn series(name: &str) -> Series {
     let families = [
         (Stroke::Dotted, ["sobol-1993", "homma-saltelli-1996", "saltelli-2002", "sobol-2007"]),
         (Stroke::Dashed, ["martinez-2011", "glen-isaacs-2012", "janon-monod-2014", ""]),
         (Stroke::SolidWithPoints, ["saltelli-2010", "jansen-1999", "owen-2013", "azzini-2021"]),
     ];
-    let colours = [Role::Coulomb, Role::Other(0), Role::LuGre, Role::Other(1)];
+    let colours = [0, 1, 2, 4].map(Colour::Series);
     let place =
         |(stroke, names): &(Stroke, [&str; 4])| Some((colours[names.iter().position(|n| *n == name)?], *stroke));
-    families.iter().find_map(place).unwrap_or((Role::Reference, Stroke::Solid))
+    let (colour, stroke) = families.iter().find_map(place).unwrap_or((Colour::Reference, Stroke::Solid));
+    Series::new(name, colour).stroke(stroke)
 }
 
 /// All estimators of one kind of index on Sobol' points, against what they cost.
-fn estimators(all: &[Curve], index: &str) -> LineChart {
-    let series = |curve: &Curve| {
+fn estimators(all: &[Curve], index: &str) -> Chart {
+    let line = |curve: &Curve| {
         let shown = curve.sampler == Sampler::Sobol && curve.formula.index() == index;
-        let name = curve.formula.name();
-        let (role, stroke) = look(name);
         let points = curve.points.iter().map(|(n, error)| (n * curve.runs_per_point as f64, *error)).collect();
-        shown.then(|| LineSeries { name: name.into(), role, stroke, points, band: Vec::new() })
+        shown.then(|| series(curve.formula.name()).line(points))
     };
-    LineChart {
-        names: Vec::new(),
-        title: format!("Error of {index} indices on Sobol' points by estimator"),
-        caption: format!(
-            "Root mean square error over the factors and {SEEDS} seeds against the model runs of a study that asks for \
-             this estimator alone, 2^6 to 2^14 base points. Dotted: products of outputs as published; dashed: \
-             correlations; full: products of differences."
-        ),
-        x: axis("Model runs"),
-        panels: panels(all, series),
-    }
+    let caption = format!(
+        "Root mean square error over the factors and {SEEDS} seeds against the model runs of a study that asks for \
+         this estimator alone, 2^6 to 2^14 base points. Dotted: products of outputs as published; dashed: \
+         correlations; full: products of differences."
+    );
+    let title = format!("Error of {index} indices on Sobol' points by estimator");
+    Chart::new(title, caption).panels(panels(all, "Model runs", line))
 }
 
 /// Draws and writes all charts.

@@ -23,6 +23,7 @@ pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
 pub use terminal::in_words;
 
 use apportion::report::ResultFile;
+use apportion::report::chart::Colour;
 use apportion::run::RunError;
 use apportion::study::{Study, StudyError};
 
@@ -43,13 +44,20 @@ pub struct Friction {
     pub key: &'static str,
     /// Its name for people.
     pub name: &'static str,
+    /// Its colour in charts.
+    pub colour: Colour,
 }
+
+/// The colours of the friction models, the same in all charts.
+const COULOMB: Colour = Colour::Series(0);
+const HURTADO_KIM: Colour = Colour::Series(3);
+const LUGRE: Colour = Colour::Series(2);
 
 /// The friction models, in the order of the papers' charts.
 pub const FRICTIONS: [Friction; 3] = [
-    Friction { key: "coulomb", name: "Coulomb" },
-    Friction { key: "hk", name: "Hurtado-Kim" },
-    Friction { key: "lugre", name: "LuGre" },
+    Friction { key: "coulomb", name: "Coulomb", colour: COULOMB },
+    Friction { key: "hk", name: "Hurtado-Kim", colour: HURTADO_KIM },
+    Friction { key: "lugre", name: "LuGre", colour: LUGRE },
 ];
 
 /// A group of studies: the same factors under each friction model.

@@ -1,7 +1,8 @@
 //! The charts of a scene in time, after the figures of Tafazzoli & Sitti 2004.
 
 use super::{SceneSample, SceneStory};
-use apportion::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use apportion::afm::FrictionLaw;
+use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Stroke};
 use apportion::report::format::{change, force, length, three_digits as short, time};
 
 /// A chart of a scene.
@@ -14,12 +15,12 @@ pub struct SceneChart {
 }
 
 /// The colours of the quantities, the same in the animation: the pushing force has that of the friction law.
-pub(super) const LATERAL: Role = Role::Other(1);
-pub(super) const NORMAL: Role = Role::Other(3);
-pub(super) const SUBSTRATE: Role = Role::Other(3);
-const PARTICLE: Role = Role::Other(0);
-const RELATIVE: Role = Role::Other(1);
-const TIP: Role = Role::Other(2);
+pub(super) const LATERAL: Colour = Colour::Series(4);
+pub(super) const NORMAL: Colour = Colour::Series(6);
+pub(super) const SUBSTRATE: Colour = Colour::Series(6);
+const PARTICLE: Colour = Colour::Series(1);
+const RELATIVE: Colour = Colour::Series(4);
+const TIP: Colour = Colour::Series(5);
 
 /// From SI to nN and nm, to degrees, to mrad, to percent.
 const NANO: f64 = 1e9;
@@ -36,44 +37,56 @@ pub fn scene_charts(story: &SceneStory) -> Vec<SceneChart> {
         ("scene-contacts", contacts(story)),
         ("scene-angles", angles(story)),
     ];
-    charts.into_iter().map(|(stem, chart)| SceneChart { stem, chart: Chart::Lines(chart) }).collect()
+    charts.into_iter().map(|(stem, chart)| SceneChart { stem, chart }).collect()
 }
 
 /// A quantity in a chart: its name, colour, and how to read it in the chart's unit.
 struct Curve<'a> {
     name: &'a str,
-    look: (Role, Stroke),
+    look: (Colour, Stroke),
     read: &'a dyn Fn(&SceneSample) -> f64,
 }
 
-fn axis(label: &str, unit: &str) -> Axis {
-    Axis { label: label.to_owned(), unit: unit.to_owned(), ..Axis::default() }
+fn panel(story: &SceneStory, y: Axis, curves: &[Curve<'_>]) -> Panel {
+    let line = |curve: &Curve<'_>| {
+        let points = story.samples.iter().map(|sample| (sample.time, (curve.read)(sample)));
+        Series::new(curve.name, curve.look.0).stroke(curve.look.1).line(points.collect())
+    };
+    let rule = story.slip().map(|t| Mark::rule(t, format!("slip at {}", time(t))));
+    Panel::new(Axis::new("Time", "s"), y).with(curves.iter().map(line)).with(rule)
 }
 
-fn panel(story: &SceneStory, y: Axis, curves: &[Curve<'_>]) -> LinePanel {
-    let series = curves.iter().map(|curve| LineSeries {
-        name: curve.name.to_owned(),
-        role: curve.look.0,
-        stroke: curve.look.1,
-        points: story.samples.iter().map(|sample| (sample.time, (curve.read)(sample))).collect(),
-        band: Vec::new(),
-    });
-    let marker = story.slip().map(|t| Marker { x: t, label: format!("slip at {}", time(t)) });
-    LinePanel { title: String::new(), y, series: series.collect(), markers: marker.into_iter().collect() }
+/// One label of the slip is enough for a chart.
+fn clear_rule_labels(panels: &mut [Panel]) {
+    for mark in panels.iter_mut().flat_map(|panel| &mut panel.marks) {
+        if let Shape::Rule(_, label) = &mut mark.shape {
+            label.clear();
+        }
+    }
 }
 
-fn chart(title: &str, caption: String, panels: Vec<LinePanel>) -> LineChart {
-    LineChart { names: Vec::new(), title: title.to_owned(), caption, x: axis("Time", "s"), panels }
+fn chart(title: &str, caption: String, panels: Vec<Panel>) -> Chart {
+    Chart::new(title, caption).panels(panels)
+}
+
+/// The colour of a friction law, the same in all charts of scenes.
+pub fn law_colour(law: FrictionLaw) -> Colour {
+    match law {
+        FrictionLaw::Coulomb => Colour::Series(0),
+        FrictionLaw::HurtadoKim => Colour::Series(3),
+        FrictionLaw::LuGre => Colour::Series(2),
+        _ => Colour::Series(1),
+    }
 }
 
 /// TS04 figure 8, CHK figure 5.
-pub(crate) fn forces(story: &SceneStory) -> LineChart {
+pub(crate) fn forces(story: &SceneStory) -> Chart {
     let curves = [
-        Curve { name: "tip force F_T", look: (story.friction_role, Stroke::Solid), read: &|s| NANO * s.tip_force },
+        Curve { name: "tip force F_T", look: (story.colour, Stroke::Solid), read: &|s| NANO * s.tip_force },
         Curve { name: "lateral force F_Y", look: (LATERAL, Stroke::Dashed), read: &|s| NANO * s.lateral_force },
         Curve { name: "normal force F_Z", look: (NORMAL, Stroke::Dotted), read: &|s| NANO * s.normal_force },
     ];
-    chart("Forces on the tip", forces_caption(story), vec![panel(story, axis("Force", "nN"), &curves)])
+    chart("Forces on the tip", forces_caption(story), vec![panel(story, Axis::new("Force", "nN"), &curves)])
 }
 
 fn forces_caption(story: &SceneStory) -> String {
@@ -105,11 +118,11 @@ fn forces_caption(story: &SceneStory) -> String {
 }
 
 /// TS04 figure 9.
-pub(crate) fn pushing(story: &SceneStory) -> LineChart {
+pub(crate) fn pushing(story: &SceneStory) -> Chart {
     let critical = NANO * story.critical.critical_force;
     let curves = [
-        Curve { name: "pushing force F_T", look: (story.friction_role, Stroke::Solid), read: &|s| NANO * s.tip_force },
-        Curve { name: "critical force F_cr", look: (Role::Reference, Stroke::Dashed), read: &|_| critical },
+        Curve { name: "pushing force F_T", look: (story.colour, Stroke::Solid), read: &|s| NANO * s.tip_force },
+        Curve { name: "critical force F_cr", look: (Colour::Reference, Stroke::Dashed), read: &|_| critical },
     ];
     let largest = story.samples.iter().map(|s| s.tip_force).fold(f64::NAN, f64::max);
     let caption = match story.slip() {
@@ -124,11 +137,11 @@ pub(crate) fn pushing(story: &SceneStory) -> LineChart {
             force(story.critical.critical_force)
         ),
     };
-    chart("Pushing force against critical force", caption, vec![panel(story, axis("Force", "nN"), &curves)])
+    chart("Pushing force against critical force", caption, vec![panel(story, Axis::new("Force", "nN"), &curves)])
 }
 
 /// TS04 figure 10.
-pub(crate) fn positions(story: &SceneStory) -> LineChart {
+pub(crate) fn positions(story: &SceneStory) -> Chart {
     let curves = [
         Curve { name: "substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| NANO * s.substrate_position },
         Curve { name: "particle", look: (PARTICLE, Stroke::Solid), read: &|s| NANO * s.particle_position },
@@ -139,7 +152,7 @@ pub(crate) fn positions(story: &SceneStory) -> LineChart {
         },
         Curve { name: "tip base y_P", look: (TIP, Stroke::Dotted), read: &|s| NANO * s.base_lateral },
     ];
-    chart("Positions", positions_caption(story), vec![panel(story, axis("Position", "nm"), &curves)])
+    chart("Positions", positions_caption(story), vec![panel(story, Axis::new("Position", "nm"), &curves)])
 }
 
 fn positions_caption(story: &SceneStory) -> String {
@@ -163,15 +176,15 @@ fn positions_caption(story: &SceneStory) -> String {
 }
 
 /// TS04 figure 13.
-pub(crate) fn contacts(story: &SceneStory) -> LineChart {
-    let tip = (story.friction_role, Stroke::Solid);
+pub(crate) fn contacts(story: &SceneStory) -> Chart {
+    let tip = (story.colour, Stroke::Solid);
     let substrate = (SUBSTRATE, Stroke::Dashed);
     let absolute = |label: &str, tip_of: Read, substrate_of: Read| {
         let curves = [
             Curve { name: "at the tip", look: tip, read: &|s| NANO * tip_of(s) },
             Curve { name: "at the substrate", look: substrate, read: &|s| NANO * substrate_of(s) },
         ];
-        panel(story, axis(label, "nm"), &curves)
+        panel(story, Axis::new(label, "nm"), &curves)
     };
     let relative = |label: &str, tip_of: Read, substrate_of: Read| {
         let part = |read: Read| move |s: &SceneSample| 100.0 * change_since_start(story, s, read);
@@ -179,7 +192,7 @@ pub(crate) fn contacts(story: &SceneStory) -> LineChart {
             Curve { name: "at the tip", look: tip, read: &part(tip_of) },
             Curve { name: "at the substrate", look: substrate, read: &part(substrate_of) },
         ];
-        panel(story, axis(label, "%"), &curves)
+        panel(story, Axis::new(label, "%"), &curves)
     };
     let radii: (Read, Read) = (|s| s.tip_contact_radius, |s| s.substrate_contact_radius);
     let depths: (Read, Read) = (|s| s.tip_indentation, |s| s.substrate_indentation);
@@ -189,8 +202,7 @@ pub(crate) fn contacts(story: &SceneStory) -> LineChart {
         relative("Change of radius", radii.0, radii.1),
         relative("Change of indentation", depths.0, depths.1),
     ];
-    // One flag for the whole figure.
-    panels.iter_mut().skip(1).flat_map(|panel| &mut panel.markers).for_each(|marker| marker.label.clear());
+    clear_rule_labels(&mut panels[1..]);
     chart("Contacts at tip and substrate", contacts_caption(story), panels)
 }
 
@@ -216,15 +228,16 @@ fn contacts_caption(story: &SceneStory) -> String {
     )
 }
 
-fn angles(story: &SceneStory) -> LineChart {
+fn angles(story: &SceneStory) -> Chart {
     let psi = [Curve {
         name: "angle of the tip force from the vertical, ψ",
-        look: (story.friction_role, Stroke::Solid),
+        look: (story.colour, Stroke::Solid),
         read: &|s| DEGREES * s.force_angle,
     }];
     let theta = [Curve { name: "twist of the cantilever, θ", look: (TIP, Stroke::Solid), read: &|s| MILLI * s.twist }];
-    let mut panels = vec![panel(story, axis("Force angle", "°"), &psi), panel(story, axis("Twist", "mrad"), &theta)];
-    panels.iter_mut().skip(1).flat_map(|panel| &mut panel.markers).for_each(|marker| marker.label.clear());
+    let mut panels =
+        vec![panel(story, Axis::new("Force angle", "°"), &psi), panel(story, Axis::new("Twist", "mrad"), &theta)];
+    clear_rule_labels(&mut panels[1..]);
     let caption = match (story.samples.first(), story.samples.last()) {
         (Some(first), Some(last)) => format!(
             "The tip force turns from {}° to {}° from the vertical, while the cantilever twists by {} mrad.",
@@ -270,21 +283,21 @@ mod tests {
     fn captions_are_computed() {
         let story = fixture::story();
         assert_eq!(
-            forces(&story).caption,
+            forces(&story).caption(),
             "The tip force goes from 489 nN to 631 nN, at which the particle slips after 0.131 s, and then differs from \
              it by less than 0.01 %; the normal force changes by less than 0.01 %."
         );
         assert_eq!(
-            positions(&story).caption,
+            positions(&story).caption(),
             "Substrate and particle travel together for 13.1 nm; at 0.400 s the particle stands \u{2212}26.9 nm from \
              where it was on the substrate."
         );
-        assert!(contacts(&story).caption.contains("at the tip and 0 % at the substrate"));
+        assert!(contacts(&story).caption().contains("at the tip and 0 % at the substrate"));
         let mut early = story;
         early.samples.retain(|sample| sample.time < 0.1);
-        assert!(forces(&early).caption.contains("without a slip in the time shown"));
-        assert!(pushing(&early).caption.contains("the critical force is 631 nN"));
-        assert!(positions(&early).caption.starts_with("At 0.098"));
+        assert!(forces(&early).caption().contains("without a slip in the time shown"));
+        assert!(pushing(&early).caption().contains("the critical force is 631 nN"));
+        assert!(positions(&early).caption().starts_with("At 0.098"));
     }
 
     #[test]

@@ -5,14 +5,14 @@ use std::f64::consts::PI;
 use super::charts::SUBSTRATE;
 use super::view::View;
 use super::{SceneGeometry, SceneSample, SceneStory};
-use apportion::report::chart::{Look, Picture, Role, Sheet, Sketch};
+use apportion::report::chart::{Chart, Colour, FilmStrip, Look, Sketch};
 use apportion::report::format::{force, length, time};
 
 /// A film strip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     /// The drawn frames.
-    pub picture: Picture,
+    pub chart: Chart,
     /// What each shows: the state of the scene at its instant.
     pub frames: Vec<SceneSample>,
 }
@@ -41,7 +41,7 @@ pub fn film_strip(story: &SceneStory) -> Film {
         let moved = if moved == 0.0 { String::new() } else { format!(", moved {}", length(moved)) };
         (format!("{}: {what}", time(frame.time)), format!("F_T = {}{moved}", force(frame.tip_force)))
     });
-    let sheet = Sheet {
+    let strip = FilmStrip {
         title: "The scene in motion".to_owned(),
         caption: caption(story, view),
         description: "Frames with the end of the cantilever seen from the front, its tip, and below them the particle \
@@ -52,8 +52,8 @@ pub fn film_strip(story: &SceneStory) -> Film {
         aspect: PROBE_PART + PARTICLE_PART,
     };
     let strongest = story.samples.iter().map(|s| s.tip_force).filter(|f| f.is_finite()).fold(0.0, f64::max);
-    let stage = Stage { geometry: &story.geometry, view, push: story.friction_role.colour(), strongest };
-    let picture = sheet.picture(|number, sketch| {
+    let stage = Stage { geometry: &story.geometry, view, push: story.colour.hex(), strongest };
+    let chart = strip.chart(|number, sketch| {
         let (width, height) = (sketch.width, sketch.height);
         let split = (height * PROBE_PART / (PROBE_PART + PARTICLE_PART)).round();
         sketch.window((0.0, 0.0), (width, split - 4.0), |sketch| stage.probe(&frames[number], number == 0, sketch));
@@ -61,7 +61,7 @@ pub fn film_strip(story: &SceneStory) -> Film {
             stage.particle(&frames[number], number == 0, sketch)
         });
     });
-    Film { picture, frames }
+    Film { chart, frames }
 }
 
 /// When the frames are taken, and what each shows.
@@ -183,7 +183,7 @@ impl Stage<'_> {
         let apex = (base.0 + tall * angle.sin(), ground - 2.5);
         sketch.circle((apex.0 - 2.5, apex.1), 2.5, GOLD);
         if named {
-            sketch.words("cantilever, from the front", (0.5 * width, 11.0), true);
+            sketch.text("cantilever, from the front", (0.5 * width, 11.0), true);
         }
     }
 
@@ -208,7 +208,7 @@ impl Stage<'_> {
         sketch.path(&[(0.0, ground), (width, ground)], false, SURFACE);
         sketch.circle(centre, radius, GOLD);
 
-        let grip = if frame.slipping { Role::Other(0).colour() } else { INK };
+        let grip = if frame.slipping { Colour::Series(1).hex() } else { INK };
         let half = (scale * frame.substrate_contact_radius).min(radius);
         sketch.path(&[(x - half, ground), (x + half, ground)], false, Look::line(grip, 4.0));
         let contact = (centre.0 + radius * sin, centre.1 - radius * cos);
@@ -217,13 +217,13 @@ impl Stage<'_> {
         sketch.arrow(contact, push, self.push);
         let start = [(substrate, ground + 1.0), (substrate - 4.0, ground + 9.0), (substrate + 4.0, ground + 9.0)];
         sketch.path(&start, true, Look::area(INK));
-        sketch.arrow((substrate, ground + 17.0), (x - substrate, 0.0), Role::Other(0).colour());
+        sketch.arrow((substrate, ground + 17.0), (x - substrate, 0.0), Colour::Series(1).hex());
         if named {
-            sketch.words("F_T", (contact.0 + push.0 - 26.0, contact.1 + 0.62 * push.1), false);
-            sketch.words("tip", (contact.0 + 0.18 * width, contact.1 - 4.0), false);
-            sketch.words("particle", (x, ground - 0.24 * radius), true);
-            sketch.words("substrate", (0.66 * width, ground + 24.0), false);
-            sketch.arrow((0.66 * width, ground + 10.0), (40.0, 0.0), SUBSTRATE.colour());
+            sketch.text("F_T", (contact.0 + push.0 - 26.0, contact.1 + 0.62 * push.1), false);
+            sketch.text("tip", (contact.0 + 0.18 * width, contact.1 - 4.0), false);
+            sketch.text("particle", (x, ground - 0.24 * radius), true);
+            sketch.text("substrate", (0.66 * width, ground + 24.0), false);
+            sketch.arrow((0.66 * width, ground + 10.0), (40.0, 0.0), SUBSTRATE.hex());
         }
     }
 
@@ -265,7 +265,7 @@ mod tests {
 
     use super::super::fixture;
     use super::*;
-    use apportion::report::chart::png;
+    use apportion::report::chart::{ChartWidth, png};
 
     #[test]
     fn frames_are_states_of_the_story() {
@@ -283,13 +283,13 @@ mod tests {
     #[test]
     fn both_widths_are_drawn_and_the_exaggeration_is_stated() {
         let film = film_strip(&fixture::story());
-        for svg in [&film.picture.wide.document, &film.picture.narrow.document] {
+        for svg in [ChartWidth::Wide, ChartWidth::Narrow].map(|width| film.chart.svg_at(width).unwrap()) {
             assert!(!svg.contains("NaN") && !svg.contains("inf"));
-            Document::parse(svg).unwrap();
-            assert!(png(svg).unwrap().missing.is_empty());
+            Document::parse(&svg).unwrap();
+            assert!(png(&svg).unwrap().missing.is_empty());
             assert!(svg.contains("0.131 s: the slip"));
         }
-        let caption = &film.picture.caption;
+        let caption = film.chart.caption();
         assert!(caption.contains("for 13.1 nm until the slip") && caption.contains("by 26.9 nm"), "{caption}");
         assert!(caption.contains("exaggerated 200 times"), "{caption}");
     }
@@ -303,8 +303,8 @@ mod tests {
             story.critical.time = None;
             story.geometry.particle_radius = f64::NAN;
             let film = film_strip(&story);
-            assert!(!film.picture.wide.document.contains("NaN"), "{count}");
-            Document::parse(&film.picture.narrow.inline).unwrap();
+            assert!(!film.chart.svg().unwrap().contains("NaN"), "{count}");
+            Document::parse(&film.chart.inline(ChartWidth::Narrow).unwrap()).unwrap();
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{CriticalInstant, SceneGeometry, SceneSample, SceneStory};
-use apportion::report::chart::Role;
+use apportion::report::chart::Colour;
 
 const NORMAL_FORCE: f64 = 489.4e-9;
 const VELOCITY: f64 = 100e-9;
@@ -43,7 +43,7 @@ pub(super) fn story() -> SceneStory {
             lateral_force: slip.lateral_force,
             normal_force: slip.normal_force,
         },
-        friction_role: Role::Coulomb,
+        colour: Colour::Series(0),
         samples,
     }
 }

@@ -15,14 +15,14 @@ mod player;
 pub mod simulation;
 mod view;
 
-pub use charts::scene_charts;
+pub use charts::{law_colour, scene_charts};
 pub use columns::{scene_csv, scene_json};
 pub use document::{file_names, mode_document, mode_file_names, scene_document};
 pub use film::film_strip;
 pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
 pub use player::player_page;
 
-use apportion::report::chart::Role;
+use apportion::report::chart::Colour;
 use apportion::report::format;
 
 /// One scene, from the start of the push through sticking and slipping.
@@ -36,8 +36,8 @@ pub struct SceneStory {
     pub geometry: SceneGeometry,
     /// When and at which forces the particle slips.
     pub critical: CriticalInstant,
-    /// The colour of the friction law, see [`friction_role`](apportion::report::friction_role).
-    pub friction_role: Role,
+    /// The colour of the pushing force: that of the friction law, see [`law_colour`].
+    pub colour: Colour,
     /// The states in the order of time; unevenly spaced, and as few as one or none.
     pub samples: Vec<SceneSample>,
 }

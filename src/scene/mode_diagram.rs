@@ -1,6 +1,6 @@
 //! The mode diagram: which force moves the particle in which way, against the angle of the force.
 
-use apportion::report::chart::{Axis, Chart, ChartError, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
+use apportion::report::chart::{Axis, Chart, ChartError, Colour, Mark, Panel, Series, Spacing, Stroke};
 use apportion::report::format::{force, three_digits as short};
 
 /// The forces at which the modes set in, against the angle of the tip force (TS04 figure 12).
@@ -21,7 +21,7 @@ pub struct ModeLine {
     /// Name of the mode, such as "sliding".
     pub mode: String,
     /// Its colour.
-    pub role: Role,
+    pub colour: Colour,
     /// One force (N) for each angle; `None` where no force sets it in.
     pub force: Vec<Option<f64>>,
 }
@@ -35,20 +35,15 @@ const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 ///
 /// # Example
 /// ```
-/// use apportion::report::chart::Role;
+/// use apportion::report::chart::Colour;
 /// use apportion::report::scene::{ModeDiagram, ModeLine, mode_diagram_chart};
 ///
-/// let sliding = ModeLine { mode: "sliding".into(), role: Role::Coulomb, force: vec![None, Some(80e-9), Some(9e-9)] };
+/// let sliding = ModeLine { mode: "sliding".into(), colour: Colour::Series(0), force: vec![None, Some(80e-9), Some(9e-9)] };
 /// let diagram = ModeDiagram { angle: vec![0.5, 1.0, 1.5], forces: vec![sliding], current: Some((1.0, 50e-9)) };
 /// assert!(mode_diagram_chart(&diagram)?.caption().contains("80.0 nN"));
 /// # Ok::<(), apportion::report::chart::ChartError>(())
 /// ```
 pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Result<Chart, ChartError> {
-    Ok(Chart::Lines(mode_lines(diagram)?))
-}
-
-/// The same, for whoever adds lines to it.
-pub(crate) fn mode_lines(diagram: &ModeDiagram) -> Result<LineChart, ChartError> {
     const TITLE: &str = "Modes of motion";
     for line in &diagram.forces {
         if line.force.len() != diagram.angle.len() {
@@ -61,38 +56,17 @@ pub(crate) fn mode_lines(diagram: &ModeDiagram) -> Result<LineChart, ChartError>
             });
         }
     }
-    let mut series: Vec<LineSeries> = diagram.forces.iter().map(|line| mode_series(diagram, line)).collect();
-    series.extend(diagram.current.map(|(angle, force)| LineSeries {
-        name: "this scene at its slip".to_owned(),
-        role: Role::Reference,
-        stroke: Stroke::Points,
-        points: vec![(DEGREES * angle, 1e9 * force)],
-        band: Vec::new(),
-    }));
-    let axis = |label: &str, unit: &str, spacing| Axis { label: label.to_owned(), unit: unit.to_owned(), spacing };
-    Ok(LineChart {
-        names: Vec::new(),
-        title: TITLE.to_owned(),
-        caption: caption(diagram),
-        x: axis("Angle of the tip force from the vertical, ψ", "°", Spacing::Linear),
-        panels: vec![LinePanel {
-            title: String::new(),
-            y: axis("Force at which the mode sets in", "nN", Spacing::Logarithmic),
-            series,
-            markers: Vec::new(),
-        }],
-    })
+    let scene = Series::new("this scene at its slip", Colour::Reference).stroke(Stroke::Points);
+    let scene = diagram.current.map(|(angle, force)| scene.line(vec![(DEGREES * angle, 1e9 * force)]));
+    let x = Axis::new("Angle of the tip force from the vertical, ψ", "°");
+    let y = Axis::new("Force at which the mode sets in", "nN").spaced(Spacing::Logarithmic);
+    let lines = diagram.forces.iter().map(|line| mode_line(diagram, line));
+    Ok(Chart::new(TITLE, caption(diagram)).panels([Panel::new(x, y).with(lines).with(scene)]))
 }
 
-fn mode_series(diagram: &ModeDiagram, line: &ModeLine) -> LineSeries {
+fn mode_line(diagram: &ModeDiagram, line: &ModeLine) -> Mark {
     let forces = line.force.iter().map(|force| 1e9 * force.unwrap_or(f64::NAN));
-    LineSeries {
-        name: line.mode.clone(),
-        role: line.role,
-        stroke: Stroke::Solid,
-        points: diagram.angle.iter().map(|angle| DEGREES * angle).zip(forces).collect(),
-        band: Vec::new(),
-    }
+    Series::new(&line.mode, line.colour).line(diagram.angle.iter().map(|angle| DEGREES * angle).zip(forces).collect())
 }
 
 /// Which mode needs the least force, at the scene's own angle or over the diagram.
@@ -156,8 +130,8 @@ mod tests {
         let rolling = angle.iter().map(|psi| Some(9e-16 / (50e-9 * (psi - 0.5).sin().abs()))).collect();
         ModeDiagram {
             forces: vec![
-                ModeLine { mode: "sliding".to_owned(), role: Role::Coulomb, force: sliding },
-                ModeLine { mode: "rolling".to_owned(), role: Role::Other(0), force: rolling },
+                ModeLine { mode: "sliding".to_owned(), colour: Colour::Series(0), force: sliding },
+                ModeLine { mode: "rolling".to_owned(), colour: Colour::Series(1), force: rolling },
             ],
             angle,
             current: Some((39.2_f64.to_radians(), 631e-9)),

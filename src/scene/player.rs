@@ -7,7 +7,7 @@ use super::SceneStory;
 use super::charts::{LATERAL, NORMAL, SUBSTRATE};
 use super::columns::scene_value;
 use super::view::View;
-use apportion::report::chart::Role;
+use apportion::report::chart::Colour;
 use apportion::report::document::DocumentError;
 
 /// The parts of the page's script, each using those before it.
@@ -47,11 +47,11 @@ pub fn player_page(story: &SceneStory) -> Result<String, DocumentError> {
         outcome: unbroken(&story.outcome()),
         exaggeration: view.sentence(),
         colours: [
-            ("push", story.friction_role.colour()),
-            ("lateral", LATERAL.colour()),
-            ("normal", NORMAL.colour()),
-            ("substrate", SUBSTRATE.colour()),
-            ("slip", Role::Other(0).colour()),
+            ("push", story.colour.hex()),
+            ("lateral", LATERAL.hex()),
+            ("normal", NORMAL.hex()),
+            ("substrate", SUBSTRATE.hex()),
+            ("slip", Colour::Series(1).hex()),
         ],
         style: include_str!("../../templates/scene/player.css"),
         script: SCRIPT,

@@ -2,13 +2,12 @@
 
 use thiserror::Error;
 
-use crate::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneGeometry, SceneSample, SceneStory};
+use crate::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneGeometry, SceneSample, SceneStory, law_colour};
 use apportion::afm::history::{Sample, history};
 use apportion::afm::modes::{Mode, Pushing, TipForce};
 use apportion::afm::{Failure, Fidelity, Options, Parameter, Scene, critical_force};
 use apportion::model::edge_unit;
-use apportion::report::chart::Role;
-use apportion::report::friction_role;
+use apportion::report::chart::Colour;
 use apportion::report::with_unit;
 use apportion::study::{AfmSubject, Study};
 
@@ -91,7 +90,7 @@ pub fn scene_story(title: String, scene: &Scene, options: &Options, duration: f6
             lateral_force: told.critical.lateral_force,
             normal_force: told.critical.normal_force,
         },
-        friction_role: friction_role(options.friction.name()),
+        colour: law_colour(options.friction),
         samples,
     })
 }
@@ -176,12 +175,12 @@ pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Fail
     let grid = (1..ANGLES).map(|i| std::f64::consts::FRAC_PI_2 * i as f64 / ANGLES as f64);
     let mut angle: Vec<f64> = grid.chain([critical.force_angle]).collect();
     angle.sort_by(f64::total_cmp);
-    let roles = [friction_role(options.friction.name()), Role::Other(0), Role::Other(1), Role::Other(2)];
+    let colours = [law_colour(options.friction), Colour::Series(1), Colour::Series(4), Colour::Series(5)];
     let mut lines = Vec::new();
-    for (&mode, role) in Mode::ALL.iter().zip(roles) {
+    for (&mode, colour) in Mode::ALL.iter().zip(colours) {
         let sets_in = |&psi: &f64| pushing.critical_tip_force(mode, psi);
         let force = angle.iter().map(sets_in).collect::<Result<Vec<_>, Failure>>()?;
-        lines.push(ModeLine { mode: mode.name().to_owned(), role, force });
+        lines.push(ModeLine { mode: mode.name().to_owned(), colour, force });
     }
     Ok(ModeDiagram { angle, forces: lines, current: Some((critical.force_angle, critical.critical_force)) })
 }

@@ -11,16 +11,16 @@ pub enum ChartError {
         /// Title of the chart.
         chart: String,
     },
-    /// A series that does not match its panel's categories.
-    #[error("series {series:?} of panel {panel:?} has {found} {what}, but the panel has {expected} categories")]
+    /// A series of the wrong length.
+    #[error("series {series:?} of panel {panel:?} has {found} {what}, but needs {expected}")]
     Length {
         /// Title of the panel.
         panel: String,
         /// Name of the series.
         series: String,
-        /// Which of the series' lists.
+        /// What the series holds.
         what: &'static str,
-        /// Number of categories.
+        /// The length that it needs.
         expected: usize,
         /// Length of the list.
         found: usize,

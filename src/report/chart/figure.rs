@@ -3,8 +3,8 @@
 use std::fmt::Display;
 
 use super::font::FAMILIES;
-use super::marks::DIAMOND;
-use super::style::{BODY, INK, MARGIN, MUTED, Medium, PAPER, Role, TITLE};
+use super::palette::Colour;
+use super::style::{BODY, INK, MARGIN, MUTED, Medium, PAPER, TITLE};
 use super::svg::{Canvas, Px, Text};
 use super::text::{wrap, wrap_within};
 
@@ -18,11 +18,10 @@ const ROW: f64 = 17.0;
 /// The mark that stands before a name in the legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Key {
-    Swatch(Role),
-    Line { role: Role, dash: &'static str, line: bool, points: bool },
+    Swatch(Colour),
+    Line { colour: Colour, dash: &'static str, line: bool, points: bool },
     Diamond,
     Whisker,
-    Cross,
 }
 
 impl Key {
@@ -30,8 +29,8 @@ impl Key {
         match self {
             Key::Swatch(_) => 12.0,
             Key::Line { line: true, .. } => 24.0,
-            Key::Whisker => 8.0,
-            Key::Line { .. } | Key::Diamond | Key::Cross => 9.0,
+            Key::Whisker => 16.0,
+            Key::Line { .. } | Key::Diamond => 9.0,
         }
     }
 }
@@ -61,15 +60,10 @@ pub(super) struct Figure<'a> {
 }
 
 impl<'a> Figure<'a> {
-    /// Draws title and legend of a figure as wide as its medium.
+    /// Draws title and legend.
     pub fn begin(medium: Medium, words: Words<'a>, legend: &[Entry]) -> Self {
-        Self::begin_grown((medium, medium.width.px()), words, legend)
-    }
-
-    /// Draws title and legend of a figure that has grown to `width` px.
-    pub fn begin_grown((medium, width): (Medium, f64), words: Words<'a>, legend: &[Entry]) -> Self {
         let top = if medium.inline { 0.0 } else { MARGIN };
-        let mut figure = Self { canvas: Canvas::default(), top, width, medium, words };
+        let mut figure = Self { canvas: Canvas::default(), top, width: medium.width.px(), medium, words };
         if !medium.inline {
             figure.title();
         }
@@ -93,7 +87,7 @@ impl<'a> Figure<'a> {
     /// readers after the caption.
     pub fn finish(mut self, bottom: f64, description: &str) -> String {
         let bottom = if self.medium.inline { bottom } else { self.caption(bottom) + MARGIN };
-        let (width, height) = (self.width.ceil(), bottom.ceil());
+        let (width, height) = (self.width, bottom.ceil());
         let view = format!("0 0 {width} {height}");
         let mut page = Canvas::default();
         let size: &[(&str, &dyn Display)] = &[("width", &width), ("height", &height)];
@@ -156,24 +150,23 @@ impl<'a> Figure<'a> {
         let middle = ((x + right) / 2.0, y);
         let canvas = &mut self.canvas;
         match key {
-            Key::Swatch(role) => {
-                let (left, top, fill) = (Px(x), Px(y - 5.0), role.colour());
+            Key::Swatch(colour) => {
+                let (left, top, fill) = (Px(x), Px(y - 5.0), colour.hex());
                 canvas.leaf("rect", &[("x", &left), ("y", &top), ("width", &"12"), ("height", &"10"), ("fill", &fill)]);
             }
-            Key::Line { role, dash, line, points } => {
+            Key::Line { colour, dash, line, points } => {
                 if line {
-                    let stroke = role.colour();
+                    let stroke = colour.hex();
                     canvas.open("g", &[("stroke", &stroke), ("stroke-width", &"1.8"), ("stroke-dasharray", &dash)]);
                     canvas.line((x, y), (right, y));
                     canvas.close("g");
                 }
                 if points {
-                    canvas.point(middle, role);
+                    canvas.point(middle, colour);
                 }
             }
-            Key::Diamond => canvas.diamond(middle, DIAMOND),
-            Key::Whisker => canvas.whisker(middle.0, (y - 5.0, y + 5.0), 7.0),
-            Key::Cross => canvas.cross(middle),
+            Key::Diamond => canvas.diamond(middle),
+            Key::Whisker => canvas.whisker((x, right), y, 7.0),
         }
     }
 }

@@ -32,10 +32,10 @@ pub struct Png {
 pub enum PngError {
     /// Not well-formed XML.
     #[error("the chart is not well-formed XML: {0}")]
-    Xml(#[from] roxmltree::Error),
+    Xml(String),
     /// Well-formed, but no SVG picture.
     #[error("the chart is not a drawable SVG: {0}")]
-    Svg(#[from] resvg::usvg::Error),
+    Svg(String),
     /// More pixels than are allowed.
     #[error("a picture of {width:.0} x {height:.0} pixels is too large, at most 64 million pixels can be drawn")]
     TooLarge {
@@ -45,8 +45,8 @@ pub enum PngError {
         height: f64,
     },
     /// The encoder failed.
-    #[error("the picture could not be encoded as PNG")]
-    Encode(#[source] Box<dyn std::error::Error + Send + Sync>),
+    #[error("the picture could not be encoded as PNG: {0}")]
+    Encode(String),
 }
 
 static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
@@ -75,10 +75,10 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
 /// # Ok::<(), apportion::report::chart::PngError>(())
 /// ```
 pub fn png(svg: &str) -> Result<Png, PngError> {
-    let document = roxmltree::Document::parse(svg)?;
+    let document = roxmltree::Document::parse(svg).map_err(|error| PngError::Xml(error.to_string()))?;
     let missing = missing(&document);
     let options = Options { font_family: FAMILY.to_owned(), fontdb: FONTS.clone(), ..Options::default() };
-    let tree = Tree::from_xmltree(&document, &options)?;
+    let tree = Tree::from_xmltree(&document, &options).map_err(|error| PngError::Svg(error.to_string()))?;
     let scale = f64::from(PNG_SCALE);
     let width = (f64::from(tree.size().width()) * scale).ceil();
     let height = (f64::from(tree.size().height()) * scale).ceil();
@@ -89,7 +89,7 @@ pub fn png(svg: &str) -> Result<Png, PngError> {
     let mut pixels = Pixmap::new(width as u32, height as u32).ok_or_else(too_large)?;
     pixels.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(PNG_SCALE as f32, PNG_SCALE as f32), &mut pixels.as_mut());
-    let bytes = pixels.encode_png().map_err(|error| PngError::Encode(Box::new(error)))?;
+    let bytes = pixels.encode_png().map_err(|error| PngError::Encode(error.to_string()))?;
     Ok(Png { bytes, width: pixels.width(), height: pixels.height(), missing })
 }
 
@@ -145,11 +145,11 @@ mod tests {
         ];
         let mut counts = Vec::new();
         for family in families {
-            let text = format!(r#"<text x="5" y="25" font-size="20" font-family="{family}">Hurtado</text>"#);
+            let text = format!(r#"<text x="5" y="25" font-size="20" font-family="{family}">Standard</text>"#);
             counts.push(dark(&picture(&text)));
         }
         assert!(counts[0] > 300 && counts.iter().all(|count| *count == counts[0]), "{counts:?}");
-        let bold = dark(&picture(r#"<text x="5" y="25" font-size="20" font-weight="bold">Hurtado</text>"#));
+        let bold = dark(&picture(r#"<text x="5" y="25" font-size="20" font-weight="bold">Standard</text>"#));
         assert!(bold > counts[0] * 6 / 5, "{bold} of {}", counts[0]);
     }
 

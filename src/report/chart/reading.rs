@@ -44,6 +44,18 @@ pub(super) fn y_axis(axis: &Node) -> (f64, f64) {
     (zero.expect("a grid line") + first.0 * scale, scale)
 }
 
+/// The same of a horizontal axis: place of zero and px per unit.
+pub(super) fn x_axis(axis: &Node) -> (f64, f64) {
+    let ticks: Vec<(f64, f64)> = axis
+        .descendants()
+        .filter(|node| node.has_tag_name("text"))
+        .filter_map(|node| Some((node.text()?.replace('\u{2212}', "-").parse().ok()?, number(&node, "x"))))
+        .collect();
+    let (first, last) = (ticks[0], ticks[ticks.len() - 1]);
+    let scale = (last.1 - first.1) / (last.0 - first.0);
+    (first.1 - first.0 * scale, scale)
+}
+
 /// Dark pixels of the PNG in a band of heights given in px of the SVG.
 pub(super) fn dark_pixels(svg: &str, from: f64, to: f64) -> usize {
     let picture = png(svg).expect("a picture");

@@ -16,9 +16,9 @@ pub enum Spacing {
     Logarithmic,
 }
 
-/// What a scale is made for.
+/// How a scale is made.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wish {
+pub(super) struct ScaleOptions {
     pub spacing: Spacing,
     /// Part of the range added at each end of a linear axis that is not zero; a logarithmic axis has its own.
     pub air: f64,
@@ -48,19 +48,19 @@ pub(super) struct Tick {
 
 impl Scale {
     /// A scale that shows all of `values` that can be shown; 0 to 1 (1 to 10 if logarithmic) if none can.
-    pub fn over(values: impl IntoIterator<Item = f64>, wish: Wish) -> Self {
-        let shown = values.into_iter().filter(|&v| showable(wish.spacing, v));
+    pub fn over(values: impl IntoIterator<Item = f64>, options: ScaleOptions) -> Self {
+        let shown = values.into_iter().filter(|&v| options.spacing.shows(v));
         let (low, high) = shown.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-        match wish.spacing {
-            Spacing::Linear if low > high => Self::linear((0.0, 1.0), wish),
-            Spacing::Linear => Self::linear((low, high), wish),
+        match options.spacing {
+            Spacing::Linear if low > high => Self::linear((0.0, 1.0), options),
+            Spacing::Linear => Self::linear((low, high), options),
             Spacing::Logarithmic if low > high => Self::logarithmic((1.0, 10.0)),
             Spacing::Logarithmic => Self::logarithmic((low, high)),
         }
     }
 
     /// A scale of the places 0, 1, 2 and so on, with their names and half a place of air at the ends.
-    pub fn named(names: &[String]) -> Self {
+    pub fn from_names(names: &[String]) -> Self {
         let ticks = names.iter().enumerate().map(|(place, name)| Tick { value: place as f64, label: name.clone() });
         let (low, high) = (-0.5, names.len().max(1) as f64 - 0.5);
         Self { spacing: Spacing::Linear, low, high, ticks: ticks.collect(), minor: Vec::new(), exponent: 0 }
@@ -75,7 +75,7 @@ impl Scale {
 
     /// The place of a value: 0 at the low end, 1 at the high end; `None` if it cannot be shown.
     pub fn place(&self, value: f64) -> Option<f64> {
-        if !showable(self.spacing, value) {
+        if !self.spacing.shows(value) {
             return None;
         }
         Some(match self.spacing {
@@ -90,8 +90,8 @@ impl Scale {
     /// The scale of an axis `length` px long whose labels stand clear of each other: those that would not keep their grid
     /// lines alone. Labels of powers of ten, and of zero, stay longest.
     pub fn with_room(mut self, length: f64) -> Self {
-        let clear = |kept: &Vec<Tick>| {
-            kept.windows(2).all(|pair| {
+        let clear = |labelled: &Vec<Tick>| {
+            labelled.windows(2).all(|pair| {
                 let [from, to] = [0, 1].map(|end| self.place(pair[end].value).map_or(f64::NAN, |place| place * length));
                 let widths = (TICK.width(&pair[0].label) + TICK.width(&pair[1].label)) / 2.0;
                 to - from >= widths + LABEL_GAP
@@ -121,13 +121,13 @@ impl Scale {
         self
     }
 
-    fn linear(range: (f64, f64), wish: Wish) -> Self {
+    fn linear(range: (f64, f64), options: ScaleOptions) -> Self {
         let (low, high) = widened(range);
         let aired = |end: f64, air: f64| {
             if end == 0.0 { end } else { end + air * (high - low) }
         };
-        let (low, high) = (aired(low, -wish.air), aired(high, wish.air));
-        let step = Step::near((high - low) / wish.steps.max(1) as f64);
+        let (low, high) = (aired(low, -options.air), aired(high, options.air));
+        let step = Step::near((high - low) / options.steps.max(1) as f64);
         let first = (low / step.size() - 1e-9).ceil() as i64;
         let last = (high / step.size() + 1e-9).floor() as i64;
         let exponent = common_exponent(low.abs().max(high.abs()));
@@ -150,8 +150,8 @@ impl Scale {
         let (from, to) = (low.log10(), high.log10());
         if to - from < 0.8 {
             // Too short for powers of ten: the round steps of a linear axis, spaced by ratio.
-            let wish = Wish { spacing: Spacing::Linear, air: 0.0, steps: 4 };
-            let linear = Self::linear((low, high), wish);
+            let options = ScaleOptions { spacing: Spacing::Linear, air: 0.0, steps: 4 };
+            let linear = Self::linear((low, high), options);
             return Self { spacing: Spacing::Logarithmic, ..linear };
         }
         let decades = from.floor() as i32..=to.floor() as i32;
@@ -212,9 +212,12 @@ impl Step {
     }
 }
 
-fn showable(spacing: Spacing, value: f64) -> bool {
-    // The lower bound keeps the axis, which begins a little lower, among the normal numbers.
-    drawable(value).is_some() && (spacing == Spacing::Linear || value >= 1e-290)
+impl Spacing {
+    /// Whether a value has a place on an axis.
+    pub(super) fn shows(self, value: f64) -> bool {
+        // The lower bound keeps the axis, which begins a little lower, among the normal numbers.
+        drawable(value).is_some() && (self == Self::Linear || value >= 1e-290)
+    }
 }
 
 /// A range wide enough to divide in f64, at least 1e-9 of its values' magnitude.
@@ -252,7 +255,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn scale(values: &[f64], spacing: Spacing, air: f64) -> Scale {
-        Scale::over(values.iter().copied(), Wish { spacing, air, steps: 5 })
+        Scale::over(values.iter().copied(), ScaleOptions { spacing, air, steps: 5 })
     }
 
     fn labels(scale: &Scale) -> Vec<&str> {
@@ -311,7 +314,7 @@ mod tests {
     #[test]
     fn names_stand_at_their_places_and_keep_clear() {
         let names = ["steel", "a very long name of a material"].map(str::to_owned);
-        let scale = Scale::named(&names).with_names_within(200.0);
+        let scale = Scale::from_names(&names).with_names_within(200.0);
         assert_eq!(
             scale.ticks.iter().map(|tick| scale.place(tick.value)).collect::<Vec<_>>(),
             [Some(0.25), Some(0.75)]

@@ -52,51 +52,6 @@ pub(super) struct Medium {
     pub inline: bool,
 }
 
-impl From<ChartWidth> for Medium {
-    /// A document of its own.
-    fn from(width: ChartWidth) -> Self {
-        Self { width, inline: false }
-    }
-}
-
-/// What a colour stands for. The colours are those of Okabe and Ito (2008), which people with the usual
-/// colour vision deficiencies tell apart; their lightness differs too, for print in grey.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Role {
-    /// Coulomb friction: blue, here and in every other chart.
-    Coulomb,
-    /// Hurtado-Kim friction: orange.
-    HurtadoKim,
-    /// LuGre friction: bluish green.
-    LuGre,
-    /// The n-th series that is no friction model: vermilion, purple, sky blue, grey; then their like, darker
-    /// or lighter; then again from the first.
-    Other(usize),
-    /// References and exact values: nearly black.
-    Reference,
-}
-
-impl Role {
-    /// The colour as `#rrggbb`.
-    ///
-    /// ```
-    /// use apportion::report::chart::Role;
-    /// assert_eq!(Role::Coulomb.colour(), "#0072b2");
-    /// assert_ne!(Role::Other(0).colour(), Role::Other(1).colour());
-    /// ```
-    pub fn colour(self) -> &'static str {
-        const OTHERS: [&str; 8] =
-            ["#d55e00", "#cc79a7", "#56b4e9", "#7f7f7f", "#6f3000", "#6b2c53", "#f0e442", "#c4c4c4"];
-        match self {
-            Role::Coulomb => "#0072b2",
-            Role::HurtadoKim => "#e69f00",
-            Role::LuGre => "#009e73",
-            Role::Other(n) => OTHERS[n % OTHERS.len()],
-            Role::Reference => INK,
-        }
-    }
-}
-
 /// The number if it can be drawn: finite and not beyond [`LARGEST`].
 pub(super) fn drawable(value: f64) -> Option<f64> {
     (value.abs() <= LARGEST).then_some(value)
@@ -105,17 +60,6 @@ pub(super) fn drawable(value: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn roles_have_distinct_colours() {
-        let mut roles = vec![Role::Coulomb, Role::HurtadoKim, Role::LuGre, Role::Reference];
-        roles.extend((0..8).map(Role::Other));
-        let mut colours: Vec<_> = roles.iter().map(|role| role.colour()).collect();
-        colours.sort_unstable();
-        colours.dedup();
-        assert_eq!(colours.len(), roles.len());
-        assert_eq!(Role::Other(usize::MAX).colour(), Role::Other(7).colour());
-    }
 
     #[test]
     fn only_numbers_that_can_be_placed_are_drawable() {

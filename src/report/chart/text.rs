@@ -30,11 +30,6 @@ pub(super) fn wrap(text: &str, width: f64, face: Face) -> Vec<String> {
     lines
 }
 
-/// Width of the widest word, px: what `wrap` needs to break at white space only.
-pub(super) fn widest_word(text: &str, face: Face) -> f64 {
-    text.split_whitespace().map(|word| face.width(word)).fold(0.0, f64::max)
-}
-
 /// One line no wider than `width` px; what does not fit is replaced by an ellipsis.
 pub(super) fn shorten(text: &str, width: f64, face: Face) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -4,18 +4,9 @@ use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparisonFile};
 use crate::names::file_stems;
 use crate::report::Drawing;
-use crate::report::chart::{Bar, Chart, GroupedBars, Panel, Role, Series};
+use crate::report::chart::{Chart, Colour, Panel, Series};
+use crate::report::factor_bars::{INDEX, IndexSeries, both_orders, index_panel, label, left_out};
 use crate::report::format::{sentence, the};
-use crate::report::result::EstimateRecord;
-use crate::report::shares_chart::label;
-
-/// Most factors in a chart; the caption counts the rest.
-const MOST: usize = 30;
-/// Colours of A and B, and of first-order and total indices as in the other charts.
-const A: Role = Role::Other(0);
-const B: Role = Role::Coulomb;
-const FIRST_ORDER: Role = Role::Other(2);
-const TOTAL: Role = Role::Other(0);
 
 /// For every output its indices side by side, then the differences. Of more than 30 factors, those with the largest total
 /// indices in either result.
@@ -31,66 +22,39 @@ pub fn comparison_charts(file: &ComparisonFile) -> Vec<Drawing> {
 }
 
 fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
-    let drawn = drawn(output);
-    let categories: Vec<String> = drawn.iter().map(|factor| label(&factor.name)).collect();
-    let panel = |title: &str, of: fn(&ComparedFactor) -> &ComparedIndex| Panel {
-        title: title.to_owned(),
-        categories: categories.clone(),
-        series: vec![
-            series((&file.a.label, A), drawn.iter().map(|factor| of(factor).a)),
-            series((&file.b.label, B), drawn.iter().map(|factor| of(factor).b)),
-        ],
+    let factors = single_factors(output);
+    let panel = |title: &str, of: fn(&ComparedFactor) -> &ComparedIndex| {
+        let a = factors.iter().map(|factor| of(factor).a).collect();
+        let b = factors.iter().map(|factor| of(factor).b).collect();
+        let series =
+            [(Series::new(&file.a.label, Colour::Series(1)), a), (Series::new(&file.b.label, Colour::Series(0)), b)];
+        ranked(&factors, INDEX, series).titled(title)
     };
-    Chart::Bars(GroupedBars {
-        title: format!("Indices of {}: {} and {}", the(&output.name), file.a.label, file.b.label),
-        caption: caption(output, drawn.len()),
-        y_label: "Sobol' index (% of the variance)".to_owned(),
-        interval_label: "95 % interval".to_owned(),
-        published_label: String::new(),
-        panels: vec![
-            panel("First-order indices", |factor| &factor.first_order),
-            panel("Total indices", |factor| &factor.total),
-        ],
-    })
+    let title = format!("Indices of {}: {} and {}", the(&output.name), file.a.label, file.b.label);
+    let panels =
+        [panel("First-order indices", |factor| &factor.first_order), panel("Total indices", |factor| &factor.total)];
+    Chart::new(title, caption(output)).side_by_side().panels(panels)
 }
 
 fn differences(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
-    let drawn = drawn(output);
+    let factors = single_factors(output);
     let shared = if file.shared_points { " Both use the same points: the intervals are rather too wide." } else { "" };
-    Chart::Bars(GroupedBars {
-        title: format!("Indices of {}: {} minus {}", the(&output.name), file.b.label, file.a.label),
-        caption: caption(output, drawn.len()) + shared,
-        y_label: "difference (percentage points of the variance)".to_owned(),
-        interval_label: "95 % interval".to_owned(),
-        published_label: String::new(),
-        panels: vec![Panel {
-            title: String::new(),
-            categories: drawn.iter().map(|factor| label(&factor.name)).collect(),
-            series: vec![
-                series(("first order: alone", FIRST_ORDER), drawn.iter().map(|f| f.first_order.difference)),
-                series(("total: with all interactions", TOTAL), drawn.iter().map(|f| f.total.difference)),
-            ],
-        }],
-    })
-}
-
-fn series((name, role): (&str, Role), values: impl Iterator<Item = Option<EstimateRecord>>) -> Series {
-    Series { name: name.to_owned(), role, values: values.map(|v| v.map(bar)).collect(), published: Vec::new() }
-}
-
-fn bar(index: EstimateRecord) -> Bar {
-    let interval = index.low.zip(index.high).map(|(low, high)| (100.0 * low, 100.0 * high));
-    Bar { value: 100.0 * index.estimate, interval }
+    let first_order = factors.iter().map(|factor| factor.first_order.difference).collect();
+    let total = factors.iter().map(|factor| factor.total.difference).collect();
+    let label = "difference (percentage points of the variance)";
+    let title = format!("Indices of {}: {} minus {}", the(&output.name), file.b.label, file.a.label);
+    Chart::new(title, caption(output) + shared).panels([ranked(&factors, label, both_orders(first_order, total))])
 }
 
 /// The factors that are drawn; groups are not.
-fn drawn(output: &ComparedOutput) -> Vec<&ComparedFactor> {
-    let mut factors: Vec<&ComparedFactor> = output.factors.iter().filter(|factor| !factor.group).collect();
-    if factors.len() > MOST {
-        factors.sort_by(|a, b| larger_total(b).total_cmp(&larger_total(a)));
-        factors.truncate(MOST);
-    }
-    factors
+fn single_factors(output: &ComparedOutput) -> Vec<&ComparedFactor> {
+    output.factors.iter().filter(|factor| !factor.group).collect()
+}
+
+/// A panel in the order of the larger total indices, the same in both charts.
+fn ranked(factors: &[&ComparedFactor], label_of_axis: &str, series: [IndexSeries; 2]) -> Panel {
+    let keys: Vec<f64> = factors.iter().map(|factor| larger_total(factor)).collect();
+    index_panel(label_of_axis, factors.iter().map(|factor| label(&factor.name)).collect(), series, &keys)
 }
 
 fn larger_total(factor: &ComparedFactor) -> f64 {
@@ -98,9 +62,9 @@ fn larger_total(factor: &ComparedFactor) -> f64 {
 }
 
 /// The largest change and whether it is more than the errors, then what is left out.
-fn caption(output: &ComparedOutput, drawn: usize) -> String {
-    let singles = || output.factors.iter().filter(|factor| !factor.group);
-    let known = singles().filter_map(|factor| Some((factor, factor.total.difference?)));
+fn caption(output: &ComparedOutput) -> String {
+    let singles = single_factors(output);
+    let known = singles.iter().filter_map(|factor| Some((factor, factor.total.difference?)));
     let largest = known.max_by(|a, b| a.1.estimate.abs().total_cmp(&b.1.estimate.abs()));
     let mut caption = match largest {
         None => {
@@ -123,9 +87,5 @@ fn caption(output: &ComparedOutput, drawn: usize) -> String {
         }
     };
     caption.push('.');
-    let all = singles().count();
-    if all > drawn {
-        caption.push_str(&format!(" Of {all} factors, the {drawn} with the largest total indices are drawn."));
-    }
-    sentence(&caption)
+    sentence(&(caption + &left_out(singles.len())))
 }

@@ -1,24 +1,13 @@
 //! Histogram and density of an output in one picture.
 
 use super::OutputDistribution;
-use crate::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use crate::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
 use crate::report::format::the;
 use crate::report::significant;
 
-/// The words and colour of a density chart.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct DensityWords<'a> {
-    /// Headline.
-    pub title: &'a str,
-    /// The output, as words: title of the horizontal axis.
-    pub output: &'a str,
-    /// Colour of density and histogram.
-    pub role: Role,
-}
-
 /// The distribution of an output: the histogram as a light area of steps, the kernel density as a line, and marks at the
 /// mean and at the 2.5, 50 and 97.5 % quantiles. A constant output has its mark alone.
-pub fn density_chart(distribution: &OutputDistribution, words: &DensityWords<'_>) -> Chart {
+pub fn density_chart(distribution: &OutputDistribution, title: &str, output: &str) -> Chart {
     let symbol = match distribution.unit.symbol() {
         "1" => "",
         symbol => symbol,
@@ -28,33 +17,18 @@ pub fn density_chart(distribution: &OutputDistribution, words: &DensityWords<'_>
         simple if simple.chars().all(char::is_alphabetic) => format!("1/{simple}"),
         product => format!("1/({product})"),
     };
-    let axis = |label: &str, unit: &str| Axis { label: label.to_owned(), unit: unit.to_owned(), ..Axis::default() };
-    Chart::Lines(LineChart {
-        names: Vec::new(),
-        title: words.title.to_owned(),
-        caption: caption(distribution, words.output, symbol),
-        x: axis(words.output, symbol),
-        panels: vec![LinePanel {
-            title: String::new(),
-            y: axis("probability density", &per_unit),
-            series: vec![series(distribution, words.role)],
-            markers: markers(distribution),
-        }],
-    })
+    let panel = Panel::new(Axis::new(output, symbol), Axis::new("probability density", per_unit));
+    let panel = panel.with(curves(distribution)).with(rules(distribution));
+    Chart::new(title, caption(distribution, output, symbol)).panels([panel])
 }
 
-fn series(distribution: &OutputDistribution, role: Role) -> LineSeries {
+fn curves(distribution: &OutputDistribution) -> Vec<Mark> {
     if distribution.histogram.is_none() {
-        let (name, points) = ("all values".to_owned(), vec![(distribution.mean, 0.0)]);
-        return LineSeries { name, role, stroke: Stroke::Points, points, band: Vec::new() };
+        let series = Series::new("all values", Colour::Series(0)).stroke(Stroke::Points);
+        return vec![series.line(vec![(distribution.mean, 0.0)])];
     }
-    LineSeries {
-        name: "density (histogram: area, kernel estimate: line)".to_owned(),
-        role,
-        stroke: Stroke::Solid,
-        points: density_points(distribution),
-        band: histogram_steps(distribution),
-    }
+    let series = Series::new("density (histogram: area, kernel estimate: line)", Colour::Series(0));
+    vec![series.band(histogram_steps(distribution)), series.line(density_points(distribution))]
 }
 
 fn density_points(distribution: &OutputDistribution) -> Vec<(f64, f64)> {
@@ -73,21 +47,22 @@ fn histogram_steps(distribution: &OutputDistribution) -> Vec<(f64, f64, f64)> {
     .collect()
 }
 
-fn markers(distribution: &OutputDistribution) -> Vec<Marker> {
+fn rules(distribution: &OutputDistribution) -> Vec<Mark> {
     if distribution.histogram.is_none() {
-        return vec![Marker { x: distribution.mean, label: format!("all values {}", significant(distribution.mean)) }];
+        return vec![Mark::rule(distribution.mean, format!("all values {}", significant(distribution.mean)))];
     }
-    let mark = |x: Option<f64>, name: &str| x.map(|x| Marker { x, label: format!("{name} {}", short(x)) });
-    [
-        mark(distribution.quantile(2.5), "2.5 %"),
-        mark(distribution.quantile(50.0), "median"),
-        mark(Some(distribution.mean), "mean"),
-        mark(distribution.quantile(97.5), "97.5 %"),
-    ]
-    .into_iter()
-    .flatten()
-    .filter(|marker| distribution.histogram.as_ref().is_some_and(|h| inside(marker.x, &h.edges)))
-    .collect()
+    let edges = distribution.histogram.as_ref().map_or(&[][..], |histogram| &histogram.edges);
+    let places = [
+        (distribution.quantile(2.5), "2.5 %"),
+        (distribution.quantile(50.0), "median"),
+        (Some(distribution.mean), "mean"),
+        (distribution.quantile(97.5), "97.5 %"),
+    ];
+    let rule = |(x, name): (Option<f64>, &str)| {
+        let x = x.filter(|x| inside(*x, edges))?;
+        Some(Mark::rule(x, format!("{name} {}", short(x))))
+    };
+    places.into_iter().filter_map(rule).collect()
 }
 
 /// Marks beyond the reach of the histogram would squeeze it.

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use chart::{DensityWords, density_chart};
+pub use chart::density_chart;
 pub use quantile::{PERCENTS, quantile};
 
 use crate::quantity::Unit;

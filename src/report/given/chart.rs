@@ -1,45 +1,28 @@
 //! The chart of first-order indices from given data.
 
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord};
-use crate::report::chart::{Bar, Chart, GroupedBars, Panel, Role, Series};
+use crate::report::chart::{Chart, Colour, Series};
+use crate::report::factor_bars::{MOST, index_panel};
 use crate::report::leading::{Contender, may_lead, names, percent};
-use crate::report::result::EstimateRecord;
 
-/// The indices of one output in percent of its variance, one bar per input and method, with their intervals.
+/// The indices of one output in percent of its variance, one bar per input and method, with their intervals; the input of
+/// the largest index on top.
 pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
-    let rank = |index: &GivenIndexRecord| index.rank;
-    let binned = |index: &GivenIndexRecord| index.binned.map(|binned| binned.estimate);
     let indices = output.indices.as_deref().unwrap_or_default();
+    let ranks: Vec<_> = indices.iter().map(|index| index.rank).collect();
+    let bins: Vec<_> = indices.iter().map(|index| index.binned.map(|binned| binned.estimate)).collect();
+    let keys: Vec<f64> =
+        ranks.iter().zip(&bins).map(|(rank, bin)| rank.or(*bin).map_or(f64::NAN, |index| index.estimate)).collect();
     let series =
-        [series("by ranks", Role::Other(0), indices, rank), series("by bins", Role::Other(2), indices, binned)];
-    Chart::Bars(GroupedBars {
-        title: format!("First-order indices of {}", output.name),
-        caption: caption(result, output),
-        y_label: "first-order index (% of the variance)".to_owned(),
-        interval_label: "95 % interval".to_owned(),
-        published_label: String::new(),
-        panels: vec![Panel {
-            title: String::new(),
-            categories: indices.iter().map(|index| index.input.clone()).collect(),
-            series: series.into_iter().flatten().collect(),
-        }],
-    })
-}
-
-/// The bars of one method; `None` if it was not used.
-fn series(
-    name: &str,
-    role: Role,
-    indices: &[GivenIndexRecord],
-    of: impl Fn(&GivenIndexRecord) -> Option<EstimateRecord>,
-) -> Option<Series> {
-    let bar = |record: EstimateRecord| Bar {
-        value: 100.0 * record.estimate,
-        interval: record.low.zip(record.high).map(|(low, high)| (100.0 * low, 100.0 * high)),
+        [(Series::new("by ranks", Colour::Series(1)), ranks), (Series::new("by bins", Colour::Series(5)), bins)];
+    let used = series.into_iter().filter(|(_, values)| values.iter().any(Option::is_some));
+    let inputs: Vec<String> = indices.iter().map(|index| index.input.clone()).collect();
+    let beyond = match inputs.len().saturating_sub(MOST) {
+        0 => String::new(),
+        more => format!(" {more} inputs of smaller index are not shown."),
     };
-    let values: Vec<Option<Bar>> = indices.iter().map(|index| of(index).map(bar)).collect();
-    let used = values.iter().any(Option::is_some);
-    used.then(|| Series { name: name.to_owned(), role, values, published: Vec::new() })
+    let panel = index_panel("first-order index (% of the variance)", inputs, used, &keys);
+    Chart::new(format!("First-order indices of {}", output.name), caption(result, output) + &beyond).panels([panel])
 }
 
 /// What is seen, in one sentence.

@@ -2,9 +2,9 @@
 
 use serde_json::Value;
 
-use super::super::chart::{LineSeries, Stroke};
+use super::super::chart::{Series, Stroke};
 use super::super::result::FactorRecord;
-use super::scatter::SLICES;
+use super::scatter::{Means, SLICES};
 
 /// More categories than this are drawn by their numbers: their labels would be no longer than a letter.
 const MOST: usize = 12;
@@ -22,7 +22,7 @@ pub(super) struct Categories {
 
 impl Categories {
     /// The categories of a factor that has a few.
-    pub fn of(factor: &FactorRecord) -> Option<Self> {
+    pub fn new(factor: &FactorRecord) -> Option<Self> {
         let parameter = |key: &str| factor.distribution.get(key);
         let list = |key: &str| parameter(key).and_then(Value::as_array);
         let (labels, values): (Vec<String>, Vec<f64>) = match parameter("name").and_then(Value::as_str)? {
@@ -48,18 +48,16 @@ impl Categories {
     }
 
     /// A line over the numbers as one level line for each category: there is nothing between two of them.
-    pub fn levels(&self, line: LineSeries) -> LineSeries {
+    pub fn levels(&self, means: Means) -> Means {
         let gap = f64::NAN;
-        let points = line.points.iter().filter_map(|&(x, y)| Some((self.place(x)?, y)));
-        let band = line.band.iter().filter_map(|&(x, low, high)| Some((self.place(x)?, low, high)));
-        LineSeries {
-            name: SLICES.to_owned(),
-            stroke: Stroke::Solid,
+        let points = means.points.iter().filter_map(|&(x, y)| Some((self.place(x)?, y)));
+        let band = means.band.iter().filter_map(|&(x, low, high)| Some((self.place(x)?, low, high)));
+        Means {
             points: points.flat_map(|(x, y)| [(x - HALF, y), (x + HALF, y), (x + HALF, gap)]).collect(),
             band: band
                 .flat_map(|(x, low, high)| [(x - HALF, low, high), (x + HALF, low, high), (x + HALF, gap, gap)])
                 .collect(),
-            ..line
+            series: Series { name: SLICES.to_owned(), stroke: Stroke::Solid, ..means.series },
         }
     }
 }
@@ -79,18 +77,12 @@ mod tests {
     #[test]
     fn values_stand_at_the_places_of_their_labels() {
         let law = json!({"name": "categorical", "labels": ["<110>", "<100>"], "values": [169.0, 130.0]});
-        let categories = Categories::of(&factor(law)).expect("categories");
+        let categories = Categories::new(&factor(law)).expect("categories");
         assert_eq!(categories.labels, ["<110>", "<100>"]);
         let strips = categories.strips([(130.0, 1.0), (169.0, 2.0), (1.0, 3.0)].into_iter());
         assert_eq!(strips.iter().map(|(x, y)| (x.round(), *y)).collect::<Vec<_>>(), [(1.0, 1.0), (0.0, 2.0)]);
-        let line = LineSeries {
-            name: String::new(),
-            role: super::super::super::chart::Role::Reference,
-            stroke: Stroke::Solid,
-            points: vec![(130.0, 5.0)],
-            band: vec![(130.0, 4.0, 6.0)],
-        };
-        let levels = categories.levels(line);
+        let means = Means { series: Series::default(), points: vec![(130.0, 5.0)], band: vec![(130.0, 4.0, 6.0)] };
+        let levels = categories.levels(means);
         assert_eq!(levels.points[..2], [(1.0 - HALF, 5.0), (1.0 + HALF, 5.0)]);
         assert!(levels.points[2].1.is_nan() && levels.band[2].1.is_nan());
     }
@@ -105,12 +97,12 @@ mod tests {
             json!({"labels": ["a"], "values": [0.0]}),
         ];
         for law in none {
-            assert!(Categories::of(&factor(law.clone())).is_none(), "{law}");
+            assert!(Categories::new(&factor(law.clone())).is_none(), "{law}");
         }
         let many: Vec<String> = (0..=MOST).map(|place| place.to_string()).collect();
         let values: Vec<usize> = (0..=MOST).collect();
         let law = json!({"name": "categorical", "labels": many, "values": values});
-        assert!(Categories::of(&factor(law)).is_none());
-        assert_eq!(Categories::of(&factor(json!({"name": "boolean"}))).expect("two").labels, ["false", "true"]);
+        assert!(Categories::new(&factor(law)).is_none());
+        assert_eq!(Categories::new(&factor(json!({"name": "boolean"}))).expect("two").labels, ["false", "true"]);
     }
 }

@@ -1,13 +1,13 @@
 //! How the indices settled.
 
-use super::super::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Role, Spacing, Stroke};
+use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
+use super::super::factor_bars::label;
 use super::super::format::the;
 use super::super::result::{EstimateRecord, OutputRecord, ResultFile, StageIndexRecord, StageRecord};
-use super::super::shares_chart::label;
 use super::super::significant;
 use super::headline;
 
-/// Factors with a line of their own: as many as there are colours.
+/// Factors with a line of their own.
 const LINES: usize = 8;
 
 /// How the total indices and the half widths of their intervals changed with the number of model runs, for the factors with
@@ -15,33 +15,18 @@ const LINES: usize = 8;
 pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let factors = largest(output);
     let stages = &output.convergence;
-    let axis = |label: &str, spacing| Axis { label: label.to_owned(), unit: String::new(), spacing };
-    let totals = factors.iter().enumerate().map(|(place, &factor)| total_series(stages, (place, factor)));
-    let widths = factors.iter().enumerate().map(|(place, &factor)| width_series(stages, (place, factor)));
+    let axis = |label: &str, spacing| Axis::new(label, "").spaced(spacing);
+    let totals = factors.iter().enumerate().flat_map(|(place, &factor)| total_lines(stages, place, factor));
+    let widths = factors.iter().enumerate().map(|(place, &factor)| width_line(stages, place, factor));
     let target = result.stopping.as_ref().and_then(|stopping| stopping.target_half_width);
-    let mut widths: Vec<LineSeries> = widths.collect();
-    widths.push(largest_width(stages));
-    widths.extend(target.map(|target| target_line(stages, target)));
-    let panel = |title: &str, y: Axis, series: Vec<LineSeries>| LinePanel {
-        title: title.to_owned(),
-        y,
-        series,
-        markers: Vec::new(),
-    };
-    Chart::Lines(LineChart {
-        names: Vec::new(),
-        title: format!("{}: how the indices of {} settled", headline(result), the(&output.name)),
-        caption: caption(result, output, factors.len()),
-        x: axis("model runs", Spacing::Logarithmic),
-        panels: vec![
-            panel("Total indices with their 95 % intervals", axis("total index", Spacing::Linear), totals.collect()),
-            panel(
-                "Half widths of the intervals of the total indices",
-                axis("half width", Spacing::Logarithmic),
-                widths,
-            ),
-        ],
-    })
+    let references = [Some(largest_width(stages)), target.map(|target| target_line(stages, target))];
+    let panel = |title: &str, y| Panel::new(axis("model runs", Spacing::Logarithmic), y).titled(title);
+    let totals = panel("Total indices with their 95 % intervals", axis("total index", Spacing::Linear)).with(totals);
+    let widths = panel("Half widths of the intervals of the total indices", axis("half width", Spacing::Logarithmic))
+        .with(widths);
+    let title = format!("{}: how the indices of {} settled", headline(result), the(&output.name));
+    Chart::new(title, caption(result, output, factors.len()))
+        .panels([totals, widths.with(references.into_iter().flatten())])
 }
 
 /// Numbers of the factors with the largest total indices, in the order of the study.
@@ -54,26 +39,11 @@ fn largest(output: &OutputRecord) -> Vec<usize> {
     order
 }
 
-/// The first colours are those that are told apart best.
-fn role(place: usize) -> Role {
-    match place {
-        0 => Role::Coulomb,
-        1 => Role::Other(0),
-        2 => Role::LuGre,
-        3 => Role::HurtadoKim,
-        n => Role::Other(n - 3),
-    }
-}
-
-fn series(stages: &[StageRecord], (place, factor): (usize, usize)) -> LineSeries {
-    let name = stages.first().and_then(|stage| stage.indices.get(factor)).map(|index| label(&index.factor));
-    LineSeries {
-        name: name.unwrap_or_default(),
-        role: role(place),
-        stroke: Stroke::SolidWithPoints,
-        points: Vec::new(),
-        band: Vec::new(),
-    }
+/// The series of the factor that stands at `place` among the drawn ones.
+fn series(stages: &[StageRecord], place: usize, factor: usize) -> Series {
+    let index = stages.first().and_then(|stage| stage.indices.get(factor));
+    let name = index.map_or_else(String::new, |index| label(&index.factor));
+    Series::new(name, Colour::Series(place)).stroke(Stroke::SolidWithPoints)
 }
 
 /// Runs and index of `factor` at every stage.
@@ -81,37 +51,31 @@ fn steps(stages: &[StageRecord], factor: usize) -> impl Iterator<Item = (f64, &S
     stages.iter().filter_map(move |stage| Some((stage.model_runs as f64, stage.indices.get(factor)?)))
 }
 
-fn total_series(stages: &[StageRecord], factor: (usize, usize)) -> LineSeries {
-    let steps = || steps(stages, factor.1);
+fn total_lines(stages: &[StageRecord], place: usize, factor: usize) -> [Mark; 2] {
+    let series = series(stages, place, factor);
     let bounds = |(runs, index): (f64, &StageIndexRecord)| Some((runs, index.total.low?, index.total.high?));
-    LineSeries {
-        points: steps().map(|(runs, index)| (runs, index.total.estimate)).collect(),
-        band: steps().filter_map(bounds).collect(),
-        ..series(stages, factor)
-    }
+    let band = steps(stages, factor).filter_map(bounds).collect();
+    [series.band(band), series.line(steps(stages, factor).map(|(runs, index)| (runs, index.total.estimate)).collect())]
 }
 
-fn width_series(stages: &[StageRecord], factor: (usize, usize)) -> LineSeries {
+fn width_line(stages: &[StageRecord], place: usize, factor: usize) -> Mark {
     let width = |(runs, index): (f64, &StageIndexRecord)| Some((runs, half_width(index.total)?));
-    LineSeries { points: steps(stages, factor.1).filter_map(width).collect(), ..series(stages, factor) }
+    series(stages, place, factor).line(steps(stages, factor).filter_map(width).collect())
 }
 
 fn half_width(index: EstimateRecord) -> Option<f64> {
     Some((index.high? - index.low?) / 2.0)
 }
 
-fn reference(name: &str, stroke: Stroke, points: Vec<(f64, f64)>) -> LineSeries {
-    LineSeries { name: name.to_owned(), role: Role::Reference, stroke, points, band: Vec::new() }
-}
-
-fn largest_width(stages: &[StageRecord]) -> LineSeries {
+fn largest_width(stages: &[StageRecord]) -> Mark {
     let points = stages.iter().filter_map(|stage| Some((stage.model_runs as f64, stage.largest_half_width?)));
-    reference("largest half width of all indices", Stroke::Dashed, points.collect())
+    let series = Series::new("largest half width of all indices", Colour::Reference).stroke(Stroke::Dashed);
+    series.line(points.collect())
 }
 
-fn target_line(stages: &[StageRecord], target: f64) -> LineSeries {
+fn target_line(stages: &[StageRecord], target: f64) -> Mark {
     let points = stages.iter().map(|stage| (stage.model_runs as f64, target));
-    reference("target", Stroke::Solid, points.collect())
+    Series::new("target", Colour::Reference).line(points.collect())
 }
 
 /// What is seen, in a sentence or two.

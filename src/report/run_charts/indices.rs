@@ -1,53 +1,32 @@
 //! The indices themselves: first order beside total, and total against first order.
 
-use super::super::chart::{
-    Axis, Bar, Chart, GroupedBars, Guide, Panel, Role, ScatterChart, ScatterPoint, ScatterSeries, Series,
-};
+use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Point, Series, Shape};
+use super::super::factor_bars::{INDEX, MOST, both_orders, index_panel, label, left_out};
 use super::super::format::{sentence, the};
 use super::super::leading::{Contender, decides_most, percent};
-use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
-use super::super::shares_chart::label;
+use super::super::result::{IndexRecord, OutputRecord, ResultFile};
 use super::{headline, no_indices};
 use crate::words::listed;
 
-/// Most factors in a chart; the caption counts the rest.
-const MOST: usize = 30;
 /// Most names in a caption.
 const MOST_NAMES: usize = 6;
-/// Colours of first-order and total indices.
-const FIRST_ORDER: Role = Role::Other(2);
-const TOTAL: Role = Role::Other(0);
 /// A factor acts almost alone from this part of its total index on, mostly with others below the other part.
 const ALONE: f64 = 0.9;
 const TOGETHER: f64 = 0.5;
 /// Points with a total index below this part of the largest are not told apart from the origin.
 const VISIBLE: f64 = 0.02;
 
-/// First-order and total index of every factor side by side, in percent of the output's variance, with their intervals.
-/// Of more than 30 factors, those with the largest total indices, in falling order; otherwise in the order of the study.
+/// First-order and total index of every factor, in percent of the output's variance, with their intervals; the largest
+/// total index on top. Of more than 30 factors, the first 30.
 pub fn indices_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
-    let drawn = drawn(output);
-    let series = |name: &str, role: Role, read: fn(&IndexRecord) -> EstimateRecord| Series {
-        name: name.to_owned(),
-        role,
-        values: drawn.iter().map(|index| Some(bar(read(index)))).collect(),
-        published: Vec::new(),
-    };
-    Chart::Bars(GroupedBars {
-        title: format!("{}: indices of {}", headline(result), the(&output.name)),
-        caption: indices_caption(output, drawn.len()),
-        y_label: "Sobol' index (% of the variance)".to_owned(),
-        interval_label: "95 % interval".to_owned(),
-        published_label: String::new(),
-        panels: vec![Panel {
-            title: String::new(),
-            categories: drawn.iter().map(|index| label(&index.factor)).collect(),
-            series: vec![
-                series("first order: alone", FIRST_ORDER, |index| index.effect.first_order),
-                series("total: with all interactions", TOTAL, |index| index.effect.total),
-            ],
-        }],
-    })
+    let indices: Vec<&IndexRecord> = output.indices.iter().flatten().collect();
+    let factors = indices.iter().map(|index| label(&index.factor)).collect();
+    let first_order = indices.iter().map(|index| Some(index.effect.first_order)).collect();
+    let total = indices.iter().map(|index| Some(index.effect.total)).collect();
+    let keys: Vec<f64> = indices.iter().map(|index| index.effect.total.estimate).collect();
+    let panel = index_panel(INDEX, factors, both_orders(first_order, total), &keys);
+    let title = format!("{}: indices of {}", headline(result), the(&output.name));
+    Chart::new(title, indices_caption(output)).panels([panel])
 }
 
 /// Every factor (at most 30, those with the largest total indices) by its first-order and its total index: on the dashed
@@ -55,30 +34,23 @@ pub fn indices_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
 pub fn interactions_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let drawn = drawn(output);
     let largest = drawn.iter().map(|index| index.effect.total.estimate).fold(0.0, f64::max);
+    let series = Series::new("factor, with the 95 % intervals of both indices", Colour::Series(0));
     let point = |index: &&IndexRecord| {
         let (x, y) = (index.effect.first_order, index.effect.total);
-        ScatterPoint {
+        series.mark(Shape::Point(Point {
             x: x.estimate,
             y: y.estimate,
             // At the origin points lie on one another: a label would stand for any of them. The caption names them.
             label: if y.estimate > VISIBLE * largest { label(&index.factor) } else { String::new() },
             x_interval: x.low.zip(x.high),
             y_interval: y.low.zip(y.high),
-        }
+        }))
     };
-    let axis = |label: &str| Axis { label: label.to_owned(), ..Axis::default() };
-    Chart::Scatter(ScatterChart {
-        title: format!("{}: what acts on {} alone, what together", headline(result), the(&output.name)),
-        caption: interactions_caption(result, output, drawn.len()),
-        x: axis("first-order index S1: what the factor does alone"),
-        y: axis("total index ST: with all its interactions"),
-        series: vec![ScatterSeries {
-            name: "factor, with the 95 % intervals of both indices".to_owned(),
-            role: Role::Coulomb,
-            points: drawn.iter().map(point).collect(),
-        }],
-        guides: vec![Guide { slope: 1.0, label: "ST = S1".to_owned() }],
-    })
+    let x = Axis::new("first-order index S1: what the factor does alone", "");
+    let y = Axis::new("total index ST: with all its interactions", "");
+    let panel = Panel::new(x, y).with(drawn.iter().map(point)).with([Mark::slope(1.0, "ST = S1")]);
+    let title = format!("{}: what acts on {} alone, what together", headline(result), the(&output.name));
+    Chart::new(title, interactions_caption(result, output)).panels([panel])
 }
 
 /// The factors that are drawn.
@@ -91,13 +63,8 @@ fn drawn(output: &OutputRecord) -> Vec<&IndexRecord> {
     indices
 }
 
-fn bar(index: EstimateRecord) -> Bar {
-    let interval = index.low.zip(index.high).map(|(low, high)| (100.0 * low, 100.0 * high));
-    Bar { value: 100.0 * index.estimate, interval }
-}
-
 /// What is seen, and which factors are left out.
-fn indices_caption(output: &OutputRecord, drawn: usize) -> String {
+fn indices_caption(output: &OutputRecord) -> String {
     let indices = || output.indices.iter().flatten();
     let contender = |index: &IndexRecord| Contender {
         label: the(&index.factor),
@@ -113,11 +80,11 @@ fn indices_caption(output: &OutputRecord, drawn: usize) -> String {
     if let Some(sum) = sum {
         caption.push_str(&format!("; all factors alone explain {}", percent(sum.estimate)));
     }
-    caption + "." + &left_out(indices().count(), drawn)
+    caption + "." + &left_out(indices().count())
 }
 
 /// Which factors act alone, which together with others, in one sentence.
-fn interactions_caption(result: &ResultFile, output: &OutputRecord, drawn: usize) -> String {
+fn interactions_caption(result: &ResultFile, output: &OutputRecord) -> String {
     let Some(indices) = &output.indices else { return no_indices(output) };
     let threshold = result.provenance.threshold;
     let mut kinds: [Vec<&str>; 4] = Default::default();
@@ -156,7 +123,7 @@ fn interactions_caption(result: &ResultFile, output: &OutputRecord, drawn: usize
     // A symbol at the beginning keeps its letter.
     let symbol = kinds.iter().flatten().next().is_some_and(|name| text.starts_with(name) && sentence(name) == **name);
     let text = if symbol { text } else { sentence(&text) };
-    text + "." + &left_out(indices.len(), drawn)
+    text + "." + &left_out(indices.len())
 }
 
 /// Factors as words; their number, if they are many.
@@ -166,11 +133,4 @@ fn named(names: &[&str]) -> String {
         [only] => the(&label(only)),
         _ => listed(&names.iter().map(|name| label(name)).collect::<Vec<_>>()),
     }
-}
-
-fn left_out(all: usize, drawn: usize) -> String {
-    if all == drawn {
-        return String::new();
-    }
-    format!(" Of {all} factors, the {drawn} with the largest total indices are drawn.")
 }

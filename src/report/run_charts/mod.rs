@@ -12,19 +12,11 @@ pub use distribution::distribution_chart;
 pub use indices::{indices_chart, interactions_chart};
 pub use scatter::scatter_chart;
 
-use super::chart::Role;
 use super::format::the;
-use super::friction_role;
 use super::result::{OutputRecord, ResultFile};
 
 fn headline(result: &ResultFile) -> &str {
     result.study.title.as_deref().unwrap_or(&result.study.name)
-}
-
-/// The colour of the friction law, where there is one.
-fn friction(result: &ResultFile) -> Role {
-    let friction = result.study.settings.get("friction").and_then(serde_json::Value::as_str);
-    friction.map_or(Role::Other(0), friction_role)
 }
 
 /// The caption of a chart that has nothing to show.

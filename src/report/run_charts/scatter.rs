@@ -1,11 +1,11 @@
 //! The output over its most influential factors.
 
-use super::super::chart::{Axis, Chart, CloudChart, CloudPanel, LineSeries, Role, Spacing, Stroke};
+use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
 use super::super::format::{axis_unit, printed, the, words};
 use super::super::result::{FactorRecord, OutputRecord, ResultFile};
 use super::super::scatter::{ConditionalMeansRecord, ScatterRecord};
 use super::categories::Categories;
-use super::{friction, headline, no_indices};
+use super::{headline, no_indices};
 
 /// What the line is called.
 pub(super) const SLICES: &str = "mean over a slice of the factor";
@@ -18,21 +18,14 @@ const PRESSED: f64 = 0.02;
 /// and the mean of the output over slices of the factor, with its standard error, as a line with a band.
 pub fn scatter_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let scatter = output.scatter.as_ref();
-    let panels = scatter.map_or_else(Vec::new, |scatter| panels(result, output, scatter));
-    let empty =
-        CloudPanel { title: String::new(), x: Axis::default(), names: Vec::new(), dots: Vec::new(), lines: Vec::new() };
-    Chart::Cloud(CloudChart {
-        title: format!("{}: {} over its factors", headline(result), the(&output.name)),
-        caption: scatter.map_or_else(|| nothing(output), |scatter| caption(result, output, scatter)),
-        y: Axis {
-            label: words(&output.name),
-            unit: axis_unit(&output.unit),
-            spacing: scatter.map_or(Spacing::Linear, spacing),
-        },
-        dots: "model run".to_owned(),
-        role: friction(result),
-        panels: if panels.is_empty() { vec![empty] } else { panels },
-    })
+    let y = Axis::new(words(&output.name), axis_unit(&output.unit)).spaced(scatter.map_or(Spacing::Linear, spacing));
+    let mut panels = scatter.map_or_else(Vec::new, |scatter| panels(result, output, scatter, &y));
+    if panels.is_empty() {
+        panels.push(Panel::new(Axis::default(), y));
+    }
+    let title = format!("{}: {} over its factors", headline(result), the(&output.name));
+    let caption = scatter.map_or_else(|| nothing(output), |scatter| caption(result, output, scatter));
+    Chart::new(title, caption).side_by_side().panels(panels)
 }
 
 /// Why there is nothing to draw: no indices, or a result of an earlier version.
@@ -43,34 +36,32 @@ fn nothing(output: &OutputRecord) -> String {
     }
 }
 
-fn panels(result: &ResultFile, output: &OutputRecord, scatter: &ScatterRecord) -> Vec<CloudPanel> {
+fn panels(result: &ResultFile, output: &OutputRecord, scatter: &ScatterRecord, y: &Axis) -> Vec<Panel> {
+    let runs = Series::new("model run", Colour::Series(0));
     let panel = |(place, name): (usize, &String)| {
         let record = result.factors.iter().find(|factor| factor.name == *name);
         let index = output.indices.iter().flatten().find(|index| index.factor == *name);
-        let categories = record.and_then(Categories::of);
+        let title = index.map_or_else(String::new, |index| {
+            let [first_order, total] = [index.effect.first_order, index.effect.total].map(|i| two(i.estimate));
+            format!("S1 {first_order}, ST {total}")
+        });
         let dots = scatter.points.iter().filter_map(|point| Some((*point.get(place)?, *point.last()?)));
         let means = scatter.conditional_means.iter().find(|means| means.factor == *name);
-        let (dots, line) = match &categories {
-            Some(categories) => (categories.strips(dots), means.map(|means| categories.levels(line(means)))),
-            None => (dots.collect(), means.map(line)),
+        let means = means.map(Means::new);
+        let (x, dots, means) = match record.and_then(Categories::new) {
+            // Names have no unit.
+            Some(categories) => {
+                let (dots, means) = (categories.strips(dots), means.map(|means| categories.levels(means)));
+                (Axis::from_names(words(name), categories.labels), dots, means)
+            }
+            None => {
+                let unit = record.map_or_else(String::new, |factor| axis_unit(&factor.unit));
+                let spacing = record.map_or(Spacing::Linear, factor_spacing);
+                (Axis::new(words(name), unit).spaced(spacing), dots.collect(), means)
+            }
         };
-        CloudPanel {
-            title: index.map_or_else(String::new, |index| {
-                let [first_order, total] = [index.effect.first_order, index.effect.total].map(|i| two(i.estimate));
-                format!("S1 {first_order}, ST {total}")
-            }),
-            x: Axis {
-                label: words(name),
-                // Names have no unit.
-                unit: record
-                    .filter(|_| categories.is_none())
-                    .map_or_else(String::new, |factor| axis_unit(&factor.unit)),
-                spacing: record.map_or(Spacing::Linear, factor_spacing),
-            },
-            names: categories.map_or_else(Vec::new, |categories| categories.labels),
-            dots,
-            lines: line.into_iter().collect(),
-        }
+        let lines = means.into_iter().flat_map(Means::marks);
+        Panel::new(x, y.clone()).titled(title).with([runs.mark(Shape::Dots(dots))]).with(lines)
     };
     scatter.factors.iter().enumerate().map(panel).collect()
 }
@@ -99,16 +90,31 @@ fn spacing(scatter: &ScatterRecord) -> Spacing {
     if pressed { Spacing::Logarithmic } else { Spacing::Linear }
 }
 
-fn line(means: &ConditionalMeansRecord) -> LineSeries {
-    let number = |value: Option<&Option<f64>>| value.copied().flatten().unwrap_or(f64::NAN);
-    let at = |place: usize| (means.x[place], number(means.low.get(place)), number(means.high.get(place)));
-    let few = means.x.len() <= FEW_SLICES;
-    LineSeries {
-        name: if few { "mean at a value of the factor" } else { SLICES }.to_owned(),
-        role: Role::Reference,
-        stroke: if few { Stroke::SolidWithPoints } else { Stroke::Solid },
-        points: means.x.iter().enumerate().map(|(place, x)| (*x, number(means.mean.get(place)))).collect(),
-        band: (0..means.x.len()).map(at).collect(),
+/// The means of the output over slices of a factor.
+pub(super) struct Means {
+    pub series: Series,
+    pub points: Vec<(f64, f64)>,
+    /// As (x, low, high).
+    pub band: Vec<(f64, f64, f64)>,
+}
+
+impl Means {
+    fn new(means: &ConditionalMeansRecord) -> Self {
+        let number = |value: Option<&Option<f64>>| value.copied().flatten().unwrap_or(f64::NAN);
+        let at = |(place, x): (usize, &f64)| (*x, number(means.low.get(place)), number(means.high.get(place)));
+        let (name, stroke) = match means.x.len() {
+            ..=FEW_SLICES => ("mean at a value of the factor", Stroke::SolidWithPoints),
+            _ => (SLICES, Stroke::Solid),
+        };
+        Self {
+            series: Series::new(name, Colour::Reference).stroke(stroke),
+            points: means.x.iter().enumerate().map(|(place, x)| (*x, number(means.mean.get(place)))).collect(),
+            band: means.x.iter().enumerate().map(at).collect(),
+        }
+    }
+
+    fn marks(self) -> [Mark; 2] {
+        [self.series.band(self.band), self.series.line(self.points)]
     }
 }
 

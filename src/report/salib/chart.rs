@@ -1,38 +1,22 @@
 //! The chart of indices at the points of SALib.
 
 use super::record::{SalibFile, SalibIndexRecord, SalibOutputRecord};
-use crate::report::chart::{Bar, Chart, GroupedBars, Panel, Role, Series};
+use crate::report::chart::Chart;
+use crate::report::factor_bars::{INDEX, both_orders, index_panel, left_out};
 use crate::report::leading::{Contender, decides_most};
 use crate::report::result::EstimateRecord;
 
-/// First-order and total index of every input side by side, in percent of the output's variance, with their intervals.
+/// First-order and total index of every input, in percent of the output's variance, with their intervals; the largest total
+/// index on top.
 pub fn salib_chart(result: &SalibFile, output: &SalibOutputRecord) -> Chart {
     let indices = output.indices.as_deref().unwrap_or_default();
-    let bar = |record: EstimateRecord| Bar {
-        value: 100.0 * record.estimate,
-        interval: record.low.zip(record.high).map(|(low, high)| (100.0 * low, 100.0 * high)),
-    };
-    let series = |name: &str, role: Role, read: fn(&SalibIndexRecord) -> EstimateRecord| Series {
-        name: name.to_owned(),
-        role,
-        values: indices.iter().map(|index| Some(bar(read(index)))).collect(),
-        published: Vec::new(),
-    };
-    Chart::Bars(GroupedBars {
-        title: format!("Sobol' indices of {}", output.name),
-        caption: caption(result, output),
-        y_label: "Sobol' index (% of the variance)".to_owned(),
-        interval_label: "95 % interval, by bootstrap".to_owned(),
-        published_label: String::new(),
-        panels: vec![Panel {
-            title: String::new(),
-            categories: indices.iter().map(|index| index.input.clone()).collect(),
-            series: vec![
-                series("first order: alone", Role::Other(2), |index| index.first_order),
-                series("total: with all interactions", Role::Other(0), |index| index.total),
-            ],
-        }],
-    })
+    let inputs = indices.iter().map(|index| index.input.clone()).collect();
+    let read = |of: fn(&SalibIndexRecord) -> EstimateRecord| indices.iter().map(|index| Some(of(index))).collect();
+    let keys: Vec<f64> = indices.iter().map(|index| index.total.estimate).collect();
+    let series = both_orders(read(|index| index.first_order), read(|index| index.total));
+    let title = format!("Sobol' indices of {}", output.name);
+    let caption = caption(result, output) + &left_out(indices.len());
+    Chart::new(title, caption).panels([index_panel(INDEX, inputs, series, &keys)])
 }
 
 /// What is seen, in one sentence.

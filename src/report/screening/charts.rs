@@ -1,9 +1,7 @@
 //! The charts of a screening: mu* against sigma, and mu* with its intervals.
 
 use super::super::Drawing;
-use super::super::chart::{
-    Axis, Chart, Guide, Range, RangeBars, RangeRow, Role, ScatterChart, ScatterPoint, ScatterSeries,
-};
+use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Point, Series, Shape};
 use super::super::format::{axis_unit, sentence, short_with_unit, the, words};
 use super::super::leading::{Contender, may_lead, names};
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile};
@@ -18,10 +16,7 @@ const MOST_BARS: usize = 40;
 pub fn screening_charts(file: &ScreeningFile) -> Vec<Drawing> {
     let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
     let drawn = file.outputs.iter().zip(screening_suffixes(&names)).flat_map(|(output, [suffix, of_bars])| {
-        [
-            Drawing { chart: Chart::Scatter(scatter(file, output)), suffix },
-            Drawing { chart: Chart::Ranges(bars(file, output)), suffix: of_bars },
-        ]
+        [Drawing { chart: scatter(file, output), suffix }, Drawing { chart: bars(file, output), suffix: of_bars }]
     });
     drawn.collect()
 }
@@ -32,15 +27,16 @@ pub fn screening_suffixes(outputs: &[&str]) -> Vec<[String; 2]> {
     stems.into_iter().map(|stem| [stem.clone(), format!("{stem}-bars")]).collect()
 }
 
-/// A reading's colour and shape: the calmest for the plainest.
-fn role(reading: Option<Reading>) -> Role {
-    match reading {
-        Some(Reading::NonLinearOrInteracting) => Role::Other(0),
-        Some(Reading::AlmostMonotone) => Role::Other(1),
-        Some(Reading::Monotone) => Role::Other(2),
-        Some(Reading::Linear) => Role::Other(3),
-        None => Role::Reference,
-    }
+/// The series of a reading: the calmest for the plainest.
+fn series(reading: Option<Reading>) -> Series {
+    let colour = match reading {
+        Some(Reading::NonLinearOrInteracting) => Colour::Series(1),
+        Some(Reading::AlmostMonotone) => Colour::Series(4),
+        Some(Reading::Monotone) => Colour::Series(5),
+        Some(Reading::Linear) => Colour::Series(6),
+        None => Colour::Reference,
+    };
+    Series::new(reading.map_or("no effect", Reading::words), colour)
 }
 
 fn title(file: &ScreeningFile, output: &OutputScreeningRecord) -> String {
@@ -48,80 +44,78 @@ fn title(file: &ScreeningFile, output: &OutputScreeningRecord) -> String {
 }
 
 fn axis(symbol: &str, output: &OutputScreeningRecord) -> Axis {
-    Axis { label: symbol.to_owned(), unit: axis_unit(&output.unit), ..Axis::default() }
+    Axis::new(symbol, axis_unit(&output.unit))
 }
 
-fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> ScatterChart {
-    let readings = Reading::ALL.iter().rev().map(|&reading| Some(reading));
-    let series = readings.chain([None]).map(|reading| {
-        let own = output.factors.iter().filter(|factor| factor.reading == reading && factor.mu_star.is_some());
-        let name = reading.map_or("no effect", Reading::words).to_owned();
-        let point = |factor: &FactorScreeningRecord| ScatterPoint {
-            x: factor.mu_star.map_or(f64::NAN, |estimate| estimate.estimate),
-            y: factor.sigma.map_or(f64::NAN, |estimate| estimate.estimate),
-            // Those without effect all lie at the origin; the caption names them.
-            label: reading.map_or_else(String::new, |_| words(&factor.factor)),
-            ..ScatterPoint::default()
-        };
-        ScatterSeries { name, role: role(reading), points: own.map(point).collect() }
+fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
+    let readings = Reading::ALL.iter().rev().map(|&reading| Some(reading)).chain([None]);
+    let points = readings.flat_map(|reading| {
+        let own = output.factors.iter().filter(move |factor| factor.reading == reading && factor.mu_star.is_some());
+        own.map(move |factor| {
+            series(reading).mark(Shape::Point(Point {
+                x: factor.mu_star.map_or(f64::NAN, |estimate| estimate.estimate),
+                y: factor.sigma.map_or(f64::NAN, |estimate| estimate.estimate),
+                // Those without effect all lie at the origin; the caption names them.
+                label: reading.map_or_else(String::new, |_| words(&factor.factor)),
+                ..Point::default()
+            }))
+        })
     });
-    let guide = |slope: f64, label: &str| Guide { slope, label: label.to_owned() };
-    ScatterChart {
-        title: title(file, output),
-        caption: format!(
-            "Mean size μ* of the elementary effects per full range of each factor, and their standard deviation σ, from \
-             {} trajectories. {}{}",
-            file.provenance.trajectories,
-            leader(output),
-            idle(output)
-        ),
-        x: axis("μ*, mean size of the effects", output),
-        y: axis("σ, standard deviation of the effects", output),
-        series: series.collect(),
-        guides: vec![guide(1.0, "σ = μ*"), guide(0.5, "σ = 0.5 μ*"), guide(0.1, "σ = 0.1 μ*")],
-    }
+    let caption = format!(
+        "Mean size μ* of the elementary effects per full range of each factor, and their standard deviation σ, from \
+         {} trajectories. {}{}",
+        file.provenance.trajectories,
+        leader(output),
+        idle(output)
+    );
+    let slopes = [(1.0, "σ = μ*"), (0.5, "σ = 0.5 μ*"), (0.1, "σ = 0.1 μ*")];
+    let x = axis("μ*, mean size of the effects", output);
+    let y = axis("σ, standard deviation of the effects", output);
+    let slopes = slopes.map(|(slope, label)| Mark::slope(slope, label));
+    Chart::new(title(file, output), caption).panels([Panel::new(x, y).with(points).with(slopes)])
 }
 
-fn bars(file: &ScreeningFile, output: &OutputScreeningRecord) -> RangeBars {
+fn bars(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
     let mut ranked: Vec<&FactorScreeningRecord> = output.factors.iter().collect();
     ranked.sort_by_key(|factor| factor.rank);
     let beyond = match ranked.len().saturating_sub(MOST_BARS) {
         0 => String::new(),
         more => format!(" {more} factors of less effect are not shown."),
     };
-    let row = |factor: &&FactorScreeningRecord| {
-        let mu_star = factor.mu_star;
-        // A bar of no length would still be a colour in the legend.
-        let bar = mu_star.filter(|_| factor.reading.is_some()).map(|e| Range {
-            role: role(factor.reading),
-            from: 0.0,
-            to: e.estimate,
-        });
-        RangeRow {
-            name: words(&factor.factor),
-            bars: bar.into_iter().collect(),
-            interval: mu_star.and_then(|e| e.low.zip(e.high)),
-            note: match (mu_star, factor.could_be_fixed) {
-                (Some(e), Some(true)) => format!("{}, could be fixed", short_with_unit(e.estimate, &output.unit)),
-                (Some(e), _) => short_with_unit(e.estimate, &output.unit),
-                (None, _) => String::new(),
-            },
-        }
-    };
-    RangeBars {
-        title: title(file, output),
-        caption: format!(
-            "Mean size μ* of the elementary effects. A factor could be fixed where the upper bound of μ* lies below {} % \
-             of the largest μ*. {}{beyond}",
-            100.0 * FIXABLE,
-            leader(output)
-        ),
-        x: axis("μ*, mean size of the effects per full range of the factor", output),
-        reference: None,
-        series: Reading::ALL.iter().rev().map(|&reading| (reading.words().to_owned(), role(Some(reading)))).collect(),
-        interval_label: "95 % interval".to_owned(),
-        rows: ranked.iter().take(MOST_BARS).map(row).collect(),
-    }
+    ranked.truncate(MOST_BARS);
+    let readings = Reading::ALL.iter().rev().map(|&reading| Some(reading)).chain([None]);
+    let ranked = &ranked;
+    let bars = readings.flat_map(|reading| {
+        let own = ranked.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
+        own.filter_map(move |(row, factor)| {
+            let mu_star = factor.mu_star?;
+            let interval = mu_star.low.zip(mu_star.high);
+            match (reading, interval) {
+                // A bar of no length would still be a colour in the legend.
+                (None, interval) => interval.map(|(low, high)| series(None).mark(Shape::Interval(row, low, high))),
+                _ => Some(series(reading).mark(Shape::Bar(Bar {
+                    row,
+                    to: mu_star.estimate,
+                    interval,
+                    ..Bar::default()
+                }))),
+            }
+        })
+    });
+    let notes = ranked.iter().enumerate().filter_map(|(row, factor)| {
+        let mu_star = short_with_unit(factor.mu_star?.estimate, &output.unit);
+        let fixed = if factor.could_be_fixed == Some(true) { ", could be fixed" } else { "" };
+        Some(Mark::note(row, mu_star + fixed))
+    });
+    let caption = format!(
+        "Mean size μ* of the elementary effects. A factor could be fixed where the upper bound of μ* lies below {} % \
+         of the largest μ*. {}{beyond}",
+        100.0 * FIXABLE,
+        leader(output)
+    );
+    let x = axis("μ*, mean size of the effects per full range of the factor", output);
+    let rows = Axis::from_names("", ranked.iter().map(|factor| words(&factor.factor)).collect());
+    Chart::new(title(file, output), caption).panels([Panel::new(x, rows).with(bars).with(notes)])
 }
 
 /// Which factors have no effect, if some have one.

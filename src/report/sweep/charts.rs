@@ -1,11 +1,8 @@
 //! The charts of sweeps: every output against each factor, and how far each factor moves each output.
 
 use super::super::Drawing;
-use super::super::chart::{
-    Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Range, RangeBars, RangeRow, Reference, Role, Spacing, Stroke,
-};
+use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
 use super::super::format::{axis_unit, printed, sentence, short_with_unit, the, words};
-use super::super::friction_role;
 use crate::names::file_stems;
 
 use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines};
@@ -16,17 +13,18 @@ const FEW_VALUES: usize = 12;
 const WIDE: f64 = 50.0;
 /// Most bars in a chart; the rest are counted in its caption.
 const MOST_BARS: usize = 40;
-/// Colours at the low and the high end of a factor.
-const LOW_END: Role = Role::Other(2);
-const HIGH_END: Role = Role::Other(0);
+/// Colours at the low and the high end of a factor, and of whole ranges.
+const LOW_END: Colour = Colour::Series(5);
+const HIGH_END: Colour = Colour::Series(1);
+const WHOLE_RANGE: Colour = Colour::Series(6);
 
 /// One line chart per factor, `-sweep-FACTOR`, with a panel per output; then per output the ranges of all factors,
 /// `-sweep-ranges`, with the output's name at the end where there are several.
 pub fn sweep_charts(file: &SweepFile) -> Vec<Drawing> {
     let factors: Vec<&str> = file.sweeps.iter().map(|sweep| sweep.factor.as_str()).collect();
     let outputs: Vec<&str> = file.nominal.iter().map(|nominal| nominal.output.as_str()).collect();
-    let charts = file.sweeps.iter().map(|sweep| Chart::Lines(lines(file, sweep)));
-    let of_outputs = file.nominal.iter().enumerate().map(|nominal| Chart::Ranges(ranges(file, nominal)));
+    let charts = file.sweeps.iter().map(|sweep| lines(file, sweep));
+    let of_outputs = file.nominal.iter().enumerate().map(|nominal| ranges(file, nominal));
     let suffixes = sweep_suffixes(&factors, &outputs);
     charts.chain(of_outputs).zip(suffixes).map(|(chart, suffix)| Drawing { suffix, chart }).collect()
 }
@@ -41,35 +39,28 @@ pub fn sweep_suffixes(factors: &[&str], outputs: &[&str]) -> Vec<String> {
     file_stems("-sweep", &names.iter().map(String::as_str).collect::<Vec<_>>(), &[""])
 }
 
-fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> LineChart {
+fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> Chart {
     let logarithmic = sweep.spacing == "logarithmic" && sweep.values.iter().all(|value| *value > 0.0);
     // With a family, the curve at nominal values would only be in its way.
     let drawn = if sweep.curves.len() > 1 { &sweep.curves[1..] } else { &sweep.curves[..] };
-    let panels = file.nominal.iter().enumerate().map(|(number, nominal)| LinePanel {
-        title: String::new(),
-        y: Axis {
-            label: words(&nominal.output),
-            unit: axis_unit(&nominal.unit),
-            spacing: if is_wide(drawn, number) { Spacing::Logarithmic } else { Spacing::Linear },
-        },
-        series: drawn.iter().enumerate().map(|(place, curve)| series(file, (sweep, curve), (place, number))).collect(),
-        markers: match (number, place_of(sweep, sweep.nominal)) {
-            (0, Some(x)) => vec![Marker { x, label: "nominal".to_owned() }],
-            _ => Vec::new(),
-        },
-    });
-    LineChart {
-        title: format!("{}: {}", file.study.headline(), words(&sweep.factor)),
-        caption: caption(sweep),
-        x: Axis {
-            label: words(&sweep.factor),
-            // Names have no unit.
-            unit: if sweep.labels.is_some() { String::new() } else { axis_unit(&sweep.unit) },
-            spacing: if logarithmic { Spacing::Logarithmic } else { Spacing::Linear },
-        },
-        names: sweep.labels.clone().unwrap_or_default(),
-        panels: panels.collect(),
-    }
+    let x = match &sweep.labels {
+        // Names have no unit.
+        Some(labels) => Axis::from_names(words(&sweep.factor), labels.clone()),
+        None => Axis::new(words(&sweep.factor), axis_unit(&sweep.unit)).spaced(if logarithmic {
+            Spacing::Logarithmic
+        } else {
+            Spacing::Linear
+        }),
+    };
+    let panel = |(number, nominal): (usize, &NominalRecord)| {
+        let spacing = if is_wide(drawn, number) { Spacing::Logarithmic } else { Spacing::Linear };
+        let y = Axis::new(words(&nominal.output), axis_unit(&nominal.unit)).spaced(spacing);
+        let curves = drawn.iter().enumerate().map(|(place, curve)| line(sweep, curve, (place, number)));
+        let rule = place_of(sweep, sweep.nominal).filter(|_| number == 0).map(|x| Mark::rule(x, "nominal"));
+        Panel::new(x.clone(), y).with(curves).with(rule)
+    };
+    Chart::new(format!("{}: {}", file.study.headline(), words(&sweep.factor)), caption(sweep))
+        .panels(file.nominal.iter().enumerate().map(panel))
 }
 
 /// Where a value stands on the horizontal axis: categories side by side, numbers where they are.
@@ -87,34 +78,24 @@ fn is_wide(curves: &[CurveRecord], number: usize) -> bool {
     low > 0.0 && high / low > WIDE
 }
 
-fn series(
-    file: &SweepFile,
-    (sweep, curve): (&FactorSweepRecord, &CurveRecord),
-    (place, number): (usize, usize),
-) -> LineSeries {
-    let friction = file.study.settings.get("friction").and_then(serde_json::Value::as_str);
-    let few = sweep.values.len() <= FEW_VALUES;
+/// The curve at `place` of an output by its number.
+fn line(sweep: &FactorSweepRecord, curve: &CurveRecord, (place, number): (usize, usize)) -> Mark {
     let points = sweep.values.iter().zip(&curve.outputs[number].values);
-    let (name, role, stroke) = match &curve.against {
-        None => (String::new(), friction.map_or(Role::Other(0), friction_role), Stroke::Solid),
+    let points = points.filter_map(|(x, y)| Some((place_of(sweep, *x)?, y.unwrap_or(f64::NAN))));
+    let (name, stroke) = match &curve.against {
+        None => (String::new(), Stroke::Solid),
         Some(against) => (
             format!("{} = {}", words(&against.factor), against.value_in_words()),
-            Role::Other(place),
             [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][place % 3],
         ),
     };
-    LineSeries {
-        name,
-        role,
-        stroke: match (&sweep.labels, few) {
-            // There is nothing between two categories.
-            (Some(_), _) => Stroke::Points,
-            (None, true) => Stroke::SolidWithPoints,
-            (None, false) => stroke,
-        },
-        points: points.filter_map(|(x, y)| Some((place_of(sweep, *x)?, y.unwrap_or(f64::NAN)))).collect(),
-        band: Vec::new(),
-    }
+    let stroke = match &sweep.labels {
+        // There is nothing between two categories.
+        Some(_) => Stroke::Points,
+        None if sweep.values.len() <= FEW_VALUES => Stroke::SolidWithPoints,
+        None => stroke,
+    };
+    Series::new(name, Colour::Series(place)).stroke(stroke).line(points.collect())
 }
 
 /// The values that are seen, for the caption.
@@ -175,7 +156,7 @@ fn signed(value: f64) -> String {
     if value > 0.0 { format!("+{}", printed(value)) } else { printed(value) }
 }
 
-fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> RangeBars {
+fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> Chart {
     let mut sweeps: Vec<(&FactorSweepRecord, &SweepEffectRecord)> =
         file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
     sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
@@ -196,29 +177,20 @@ fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> Range
         }
         false => "",
     };
-    RangeBars {
-        title: format!("{}: how far each factor moves {output}", file.study.headline()),
-        caption: format!(
-            "{} with one factor at either end of its range and every other at its nominal value; the percentages \
-             are of the nominal value.{categories}{gaps}{beyond}",
-            sentence(&output)
-        ),
-        x: Axis { label: words(&nominal.output), unit: axis_unit(&nominal.unit), ..Axis::default() },
-        reference: nominal
-            .value
-            .map(|value| Reference { value, label: format!("nominal: {}", short_with_unit(value, &nominal.unit)) }),
-        series: vec![
-            ("factor at its low end".to_owned(), LOW_END),
-            ("factor at its high end".to_owned(), HIGH_END),
-            ("whole range".to_owned(), Role::Other(3)),
-        ],
-        interval_label: "whole range, where the ends are not the extremes".to_owned(),
-        rows: sweeps
-            .iter()
-            .take(MOST_BARS)
-            .map(|(sweep, effect)| row((sweep, effect), number, nominal.value))
-            .collect(),
-    }
+    sweeps.truncate(MOST_BARS);
+    let caption = format!(
+        "{} with one factor at either end of its range and every other at its nominal value; the percentages \
+         are of the nominal value.{categories}{gaps}{beyond}",
+        sentence(&output)
+    );
+    let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
+    let rows = Axis::from_names("", sweeps.iter().map(|(sweep, _)| words(&sweep.factor)).collect());
+    let label = |value| format!("nominal: {}", short_with_unit(value, &nominal.unit));
+    let marks = sweeps.iter().enumerate().flat_map(|(row, of_row)| row_marks(row, *of_row, (number, nominal.value)));
+    let panel = Panel::new(x, rows).with(nominal.value.map(|value| Mark::rule(value, label(value)))).with(marks);
+    Chart::new(format!("{}: how far each factor moves {output}", file.study.headline()), caption)
+        .interval_name("whole range, where the ends are not the extremes")
+        .panels([panel])
 }
 
 /// The labels at which output `number` is least and largest.
@@ -230,27 +202,35 @@ fn extreme_labels(sweep: &FactorSweepRecord, number: usize) -> Option<(&str, &st
     Some((least.0, largest.0))
 }
 
-fn row((sweep, effect): (&FactorSweepRecord, &SweepEffectRecord), number: usize, nominal: Option<f64>) -> RangeRow {
-    let bars = match (nominal, effect.low.zip(effect.high)) {
-        (Some(from), Some(_)) if sweep.labels.is_none() => {
-            let bar = |role, to: Option<f64>| Range { role, from, to: to.unwrap_or(f64::NAN) };
-            vec![bar(LOW_END, effect.first), bar(HIGH_END, effect.last)]
-        }
-        (_, Some((from, to))) => vec![Range { role: Role::Other(3), from, to }],
+/// The bars of a factor, its whole range if the ends are not the extremes, and how far it moves the output.
+fn row_marks(
+    row: usize,
+    (sweep, effect): (&FactorSweepRecord, &SweepEffectRecord),
+    (number, nominal): (usize, Option<f64>),
+) -> Vec<Mark> {
+    let bar = |name: &str, colour, from, to| {
+        Series::new(name, colour).mark(Shape::Bar(Bar { row, from, to, ..Bar::default() }))
+    };
+    let range = effect.low.zip(effect.high);
+    let mut marks = match (nominal.filter(|_| sweep.labels.is_none()), range) {
+        (Some(from), Some(_)) => vec![
+            bar("factor at its low end", LOW_END, from, effect.first.unwrap_or(f64::NAN)),
+            bar("factor at its high end", HIGH_END, from, effect.last.unwrap_or(f64::NAN)),
+        ],
+        (None, Some((from, to))) => vec![bar("whole range", WHOLE_RANGE, from, to)],
         (_, None) => Vec::new(),
     };
     let ends = || [effect.first, effect.last, nominal].into_iter().flatten();
     let beyond = |(low, high): &(f64, f64)| ends().all(|end| end > *low) || ends().all(|end| end < *high);
+    if let Some((low, high)) = range.filter(|_| nominal.is_some() && sweep.labels.is_none()).filter(beyond) {
+        marks.push(Series::default().mark(Shape::Interval(row, low, high)));
+    }
     let over = match extreme_labels(sweep, number) {
         Some((least, largest)) if least == largest => least.to_owned(),
         Some((least, largest)) => format!("{least} to {largest}"),
         None => from_to(sweep),
     };
-    let note = effect.percent.map_or_else(String::new, |percent| format!("{} %: ", printed(percent))) + &over;
-    RangeRow {
-        name: words(&sweep.factor),
-        bars,
-        interval: effect.low.zip(effect.high).filter(|_| nominal.is_some() && sweep.labels.is_none()).filter(beyond),
-        note,
-    }
+    let percent = effect.percent.map_or_else(String::new, |percent| format!("{} %: ", printed(percent)));
+    marks.push(Mark::note(row, percent + &over));
+    marks
 }

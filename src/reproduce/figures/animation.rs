@@ -4,7 +4,6 @@ use super::history::story;
 use super::{FiguresError, PaperFigure};
 use crate::scene::{SceneStory, film_strip, player_page, scene_csv, scene_json};
 use apportion::afm::FrictionLaw;
-use apportion::report::chart::Chart;
 
 /// Name of the animation's files without extension.
 pub const ANIMATION_STEM: &str = "ts04-14-animation";
@@ -45,7 +44,7 @@ pub(super) fn film() -> Result<PaperFigure, FiguresError> {
         stem: "ts04-14",
         label: "TS04 fig. 14",
         theirs: "An animation of the tip pushing the particle over the substrate.",
-        chart: Chart::Picture(film.picture),
+        chart: film.chart,
         csv: scene_csv(&SceneStory { samples: film.frames, ..story }),
     })
 }

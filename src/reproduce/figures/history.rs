@@ -6,7 +6,7 @@ use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
 use crate::scene::{SceneSample, SceneStory};
 use apportion::afm::{Failure, FrictionLaw, Options, Scene};
-use apportion::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Stroke};
+use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
 use apportion::report::format::{force, length, time};
 use apportion::report::listed;
 
@@ -37,14 +37,14 @@ pub(super) fn histories() -> Result<Vec<PaperFigure>, FiguresError> {
             label: "TS04 fig. 8",
             theirs: "The lateral force grows, the normal force stays nearly constant, and the tip force rises to the \
                      critical force and stays there.",
-            chart: Chart::Lines(forces(&coulomb)),
+            chart: forces(&coulomb),
             csv: table(&coulomb, &[TIP_FORCE, LATERAL_FORCE, NORMAL_FORCE]).csv(),
         },
         PaperFigure {
             stem: "ts04-9",
             label: "TS04 fig. 9",
             theirs: "The pushing force rises to the critical force and stays there.",
-            chart: Chart::Lines(pushing(&coulomb)),
+            chart: pushing(&coulomb),
             csv: table(&coulomb, &[TIP_FORCE])
                 .with("critical_force_nN", coulomb.samples.iter().map(|_| NANO * coulomb.critical.critical_force))
                 .csv(),
@@ -53,7 +53,7 @@ pub(super) fn histories() -> Result<Vec<PaperFigure>, FiguresError> {
             stem: "ts04-10",
             label: "TS04 fig. 10",
             theirs: "The particle rides on the substrate, slips near 0.2 s, and stands 21 nm behind it after 0.4 s.",
-            chart: Chart::Lines(with_printed(&coulomb, &printed)),
+            chart: with_printed(&coulomb, &printed),
             csv: positions_csv(&coulomb, &printed),
         },
         coefficients()?,
@@ -62,7 +62,7 @@ pub(super) fn histories() -> Result<Vec<PaperFigure>, FiguresError> {
             label: "TS04 fig. 13",
             theirs: "While the particle is pushed, contact area and indentation grow at the tip and shrink at the \
                      substrate.",
-            chart: Chart::Lines(contacts(&coulomb)),
+            chart: contacts(&coulomb),
             csv: table(&coulomb, &[TIP_RADIUS, SUBSTRATE_RADIUS, TIP_INDENTATION, SUBSTRATE_INDENTATION]).csv(),
         },
     ])
@@ -96,12 +96,8 @@ fn stacked(first: &str, stories: &[(String, &SceneStory)], columns: &[Column]) -
     columns.iter().fold(start, |table, (name, read)| table.with(name, samples().map(read))).csv()
 }
 
-fn axis(label: &str, unit: &str) -> Axis {
-    Axis { label: label.to_owned(), unit: unit.to_owned(), ..Axis::default() }
-}
-
-fn series(name: String, look: (Role, Stroke), points: Vec<(f64, f64)>) -> LineSeries {
-    LineSeries { name, role: look.0, stroke: look.1, points, band: Vec::new() }
+fn line(name: String, look: (Colour, Stroke), points: Vec<(f64, f64)>) -> Mark {
+    Series::new(name, look.0).stroke(look.1).line(points)
 }
 
 fn curve(story: &SceneStory, read: impl Fn(&SceneSample) -> f64) -> Vec<(f64, f64)> {
@@ -120,65 +116,61 @@ fn two_laws(coulomb: &SceneStory) -> Result<PaperFigure, FiguresError> {
     let printed = [softer(FrictionLaw::HurtadoKim)?, softer(FrictionLaw::Coulomb)?];
     let laws = [(coulomb, "Coulomb", Stroke::Solid), (&hk, "Hurtado-Kim", Stroke::Dashed)];
     let tip_force = |&(story, name, stroke): &(&SceneStory, &str, Stroke)| {
-        series(format!("{name}, tip force"), (story.friction_role, stroke), curve(story, TIP_FORCE.1))
+        line(format!("{name}, tip force"), (story.colour, stroke), curve(story, TIP_FORCE.1))
     };
     let level = |&(story, name, _): &(&SceneStory, &str, Stroke)| {
         let critical = NANO * story.critical.critical_force;
-        series(format!("{name}, critical force"), (story.friction_role, Stroke::Dotted), curve(story, |_| critical))
+        line(format!("{name}, critical force"), (story.colour, Stroke::Dotted), curve(story, |_| critical))
     };
-    let lines = laws.iter().map(tip_force).chain(laws.iter().map(level)).collect();
-    let marker = |(story, name, _): &(&SceneStory, &str, Stroke)| {
-        story.critical.time.map(|x| Marker { x, label: format!("slip, {name}") })
+    let lines = laws.iter().map(tip_force).chain(laws.iter().map(level));
+    let rule = |(story, name, _): &(&SceneStory, &str, Stroke)| {
+        story.critical.time.map(|x| Mark::rule(x, format!("slip, {name}")))
     };
-    let markers = laws.iter().filter_map(marker).collect();
+    let rules = laws.iter().filter_map(rule);
+    let panel = Panel::new(Axis::new("Time", "s"), Axis::new("Tip force F_T", "nN")).with(lines).with(rules);
     let reached = |story: &SceneStory, law: &str| {
         format!("{} {} under {law} friction", force(story.critical.critical_force), slip(story))
     };
-    let chart = LineChart {
-        names: Vec::new(),
-        title: "Tip force against time".to_owned(),
-        caption: format!(
-            "The tip force rises from {} until the particle slips, at {} and at {}; with the shear modulus of {} GPa that \
-             the papers print it slips {} and {}.",
-            coulomb.samples.first().map_or_else(String::new, |start| force(start.tip_force)),
-            reached(&hk, "Hurtado-Kim"),
-            reached(coulomb, "Coulomb"),
-            PRINTED_SHEAR_MODULUS / 1e9,
-            slip(&printed[0]),
-            slip(&printed[1]),
-        ),
-        x: axis("Time", "s"),
-        panels: vec![LinePanel { title: String::new(), y: axis("Tip force F_T", "nN"), series: lines, markers }],
-    };
+    let caption = format!(
+        "The tip force rises from {} until the particle slips, at {} and at {}; with the shear modulus of {} GPa that \
+         the papers print it slips {} and {}.",
+        coulomb.samples.first().map_or_else(String::new, |start| force(start.tip_force)),
+        reached(&hk, "Hurtado-Kim"),
+        reached(coulomb, "Coulomb"),
+        PRINTED_SHEAR_MODULUS / 1e9,
+        slip(&printed[0]),
+        slip(&printed[1]),
+    );
     let both = [("coulomb".to_owned(), coulomb), ("hk".to_owned(), &hk)];
     Ok(PaperFigure {
         stem: "chk-5",
         label: "CHK fig. 5",
         theirs: "The tip force rises to the critical force and then stays; the critical force is lower under Hurtado-Kim \
                  than under Coulomb friction.",
-        chart: Chart::Lines(chart),
+        chart: Chart::new("Tip force against time", caption).panels([panel]),
         csv: stacked("friction", &both, &[TIP_FORCE, LATERAL_FORCE, NORMAL_FORCE]),
     })
 }
 
 /// TS04 figure 10, with the relative position at the printed shear modulus beside ours.
-fn with_printed(story: &SceneStory, printed: &SceneStory) -> LineChart {
-    let mut chart = positions(story);
+fn with_printed(story: &SceneStory, printed: &SceneStory) -> Chart {
+    let ours = positions(story);
     let modulus = PRINTED_SHEAR_MODULUS / 1e9;
-    let look = (Role::Other(1), Stroke::Dashed);
-    let line = series(format!("the same with G = {modulus} GPa as printed"), look, curve(printed, RELATIVE.1));
-    if let Some(panel) = chart.panels.first_mut() {
-        // Beside its own: the third of the chart.
-        panel.series.insert(panel.series.len().min(3), line);
-    }
+    let look = (Colour::Series(4), Stroke::Dashed);
+    let other = line(format!("the same with G = {modulus} GPa as printed"), look, curve(printed, RELATIVE.1));
     let end = printed.samples.last().map_or(f64::NAN, |end| end.relative_position);
-    chart.caption = format!(
+    let caption = format!(
         "{}, and {} if the shear modulus is the {modulus} GPa that the papers print, with which it slips {}.",
-        chart.caption.trim_end_matches('.'),
+        ours.caption().trim_end_matches('.'),
         length(end),
         slip(printed)
     );
-    chart
+    let mut panels = ours.all_panels().to_vec();
+    if let Some(panel) = panels.first_mut() {
+        // After its own line, the third of the chart.
+        panel.marks.insert(panel.marks.len().min(3), other);
+    }
+    Chart::new(ours.title(), caption).panels(panels)
 }
 
 fn positions_csv(story: &SceneStory, printed: &SceneStory) -> String {
@@ -192,16 +184,16 @@ fn coefficients() -> Result<PaperFigure, FiguresError> {
     let told = COEFFICIENTS.map(|coefficient| story(FrictionLaw::Coulomb, |scene| scene.static_friction = coefficient));
     let told = told.into_iter().collect::<Result<Vec<_>, _>>()?;
     let nominal = Scene::default().static_friction;
-    let others = [Role::Other(0), Role::Other(1), Role::Other(2), Role::Other(3)];
-    let lines = |read: fn(&SceneSample) -> f64| -> Vec<LineSeries> {
+    let others = [1, 4, 5, 6].map(Colour::Series);
+    let panel = |label: &str, unit: &str, read: fn(&SceneSample) -> f64| {
         let each = told.iter().zip(COEFFICIENTS).zip(others);
-        each.map(|((story, coefficient), other)| {
-            let role = if coefficient == nominal { story.friction_role } else { other };
-            series(format!("μ_s = {coefficient}"), (role, Stroke::Solid), curve(story, read))
-        })
-        .collect()
+        let lines = each.map(|((story, coefficient), other)| {
+            let colour = if coefficient == nominal { story.colour } else { other };
+            line(format!("μ_s = {coefficient}"), (colour, Stroke::Solid), curve(story, read))
+        });
+        Panel::new(Axis::new("Time", "s"), Axis::new(label, unit)).with(lines)
     };
-    let panel = |y, read| LinePanel { title: String::new(), y, series: lines(read), markers: Vec::new() };
+    let panels = [panel("Tip force F_T", "nN", TIP_FORCE.1), panel("Position on the substrate", "nm", RELATIVE.1)];
     let mut times: Vec<(f64, f64)> =
         COEFFICIENTS.into_iter().zip(&told).map(|(mu, story)| (mu, story.critical.time.unwrap_or(f64::NAN))).collect();
     times.reverse();
@@ -217,16 +209,8 @@ fn coefficients() -> Result<PaperFigure, FiguresError> {
         stem: "ts04-11",
         label: "TS04 fig. 11",
         theirs: "A higher coefficient of friction delays the slip.",
-        chart: Chart::Lines(LineChart {
-            names: Vec::new(),
-            title: "Effect of the coefficient of friction".to_owned(),
-            caption: format!("{seen}: after {}.", listed(&slips)),
-            x: axis("Time", "s"),
-            panels: vec![
-                panel(axis("Tip force F_T", "nN"), TIP_FORCE.1),
-                panel(axis("Position on the substrate", "nm"), RELATIVE.1),
-            ],
-        }),
+        chart: Chart::new("Effect of the coefficient of friction", format!("{seen}: after {}.", listed(&slips)))
+            .panels(panels),
         csv: stacked("static_friction", &stories, &[TIP_FORCE, RELATIVE]),
     })
 }

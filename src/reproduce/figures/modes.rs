@@ -2,13 +2,12 @@
 
 use super::table::Table;
 use super::{FiguresError, PaperFigure};
-use crate::reproduce::Effort;
-use crate::scene::ModeDiagram;
-use crate::scene::mode_diagram::mode_lines;
+use crate::reproduce::{COULOMB, Effort};
 use crate::scene::simulation::{pushing, scene_modes};
+use crate::scene::{ModeDiagram, mode_diagram_chart};
 use apportion::afm::modes::Mode;
 use apportion::afm::{Failure, Options, Scene, critical_force};
-use apportion::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Role, Spacing, Stroke};
+use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
 use apportion::report::format::{force, three_digits as short};
 
 const NANO: f64 = 1e9;
@@ -23,22 +22,16 @@ pub(super) fn modes(effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
 
 fn against_force_angle() -> Result<PaperFigure, FiguresError> {
     let diagram = scene_modes(&Scene::default(), &Options::default())?;
-    let mut chart = mode_lines(&diagram)?;
+    let mut chart = mode_diagram_chart(&diagram)?;
     if let Some(said) = sliding(&diagram) {
-        chart.caption = format!("{}; {said}.", chart.caption.trim_end_matches('.'));
+        chart.set_caption(format!("{}; {said}.", chart.caption().trim_end_matches('.')));
     }
     let mut table = Table::default().with("force_angle_deg", diagram.angle.iter().map(|angle| angle.to_degrees()));
     for line in &diagram.forces {
         let column = format!("{}_nN", line.mode.replace('-', "_"));
         table = table.with(&column, line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN)));
     }
-    Ok(PaperFigure {
-        stem: "ts04-12",
-        label: "TS04 fig. 12",
-        theirs: THEIRS,
-        chart: Chart::Lines(chart),
-        csv: table.csv(),
-    })
+    Ok(PaperFigure { stem: "ts04-12", label: "TS04 fig. 12", theirs: THEIRS, chart, csv: table.csv() })
 }
 
 /// How the force of sliding goes with the angle.
@@ -66,7 +59,7 @@ fn sliding(diagram: &ModeDiagram) -> Option<String> {
 struct Against {
     key: String,
     name: String,
-    look: (Role, Stroke),
+    look: (Colour, Stroke),
     force: Vec<Option<f64>>,
 }
 
@@ -84,11 +77,11 @@ fn against_contact_angle(effort: Effort) -> Result<PaperFigure, FiguresError> {
     let options = Options::default();
     let psi = critical_force(&Scene::default(), &options)?.force_angle;
     let at = |scene: Scene, mode, angle| pushing(scene, &options).critical_tip_force(mode, angle);
-    let own = |mode: Mode, role| -> Result<Against, Failure> {
+    let own = |mode: Mode, colour| -> Result<Against, Failure> {
         Ok(Against {
             key: format!("{}_nN", mode.name().replace('-', "_")),
             name: format!("{}, force at ψ = {}°", mode.name(), short(psi.to_degrees())),
-            look: (role, Stroke::Solid),
+            look: (colour, Stroke::Solid),
             force: over(&|scene| at(scene, mode, psi))?,
         })
     };
@@ -96,18 +89,18 @@ fn against_contact_angle(effort: Effort) -> Result<PaperFigure, FiguresError> {
         Against {
             key: "critical_force_nN".to_owned(),
             name: "critical force F_cr of the scene".to_owned(),
-            look: (Role::Coulomb, Stroke::Solid),
+            look: (COULOMB, Stroke::Solid),
             force: over(&|scene| Ok(Some(critical_force(&scene, &options)?.critical_force)))?,
         },
         Against {
             key: "slide_along_contact_nN".to_owned(),
             name: "slide, force along the contact (ψ = φ)".to_owned(),
-            look: (Role::Coulomb, Stroke::Dashed),
+            look: (COULOMB, Stroke::Dashed),
             force: over(&|scene| at(scene, Mode::Slide, scene.contact_angle))?,
         },
-        own(Mode::TipSlip, Role::Other(0))?,
-        own(Mode::Roll, Role::Other(1))?,
-        own(Mode::Spin, Role::Other(2))?,
+        own(Mode::TipSlip, Colour::Series(1))?,
+        own(Mode::Roll, Colour::Series(4))?,
+        own(Mode::Spin, Colour::Series(5))?,
     ];
     let mut table = Table::default().with("contact_angle_deg", degrees.iter().copied());
     for line in &lines {
@@ -117,33 +110,21 @@ fn against_contact_angle(effort: Effort) -> Result<PaperFigure, FiguresError> {
         stem: "ts04-12-contact-angle",
         label: "TS04 fig. 12, contact angle",
         theirs: THEIRS,
-        chart: Chart::Lines(chart(&degrees, &lines)),
+        chart: chart(&degrees, &lines),
         csv: table.csv(),
     })
 }
 
-fn chart(degrees: &[f64], lines: &[Against]) -> LineChart {
-    let series = lines.iter().filter(|line| line.force.iter().any(Option::is_some)).map(|line| LineSeries {
-        name: line.name.clone(),
-        role: line.look.0,
-        stroke: line.look.1,
-        points: degrees.iter().copied().zip(line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN))).collect(),
-        band: Vec::new(),
+fn chart(degrees: &[f64], lines: &[Against]) -> Chart {
+    let shown = lines.iter().filter(|line| line.force.iter().any(Option::is_some)).map(|line| {
+        let forces = line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN));
+        Series::new(&line.name, line.look.0).stroke(line.look.1).line(degrees.iter().copied().zip(forces).collect())
     });
-    let axis = |label: &str, unit: &str, spacing| Axis { label: label.to_owned(), unit: unit.to_owned(), spacing };
     let nominal = Scene::default().contact_angle.to_degrees();
-    LineChart {
-        names: Vec::new(),
-        title: "Modes of motion against the contact angle".to_owned(),
-        caption: caption(lines),
-        x: axis("Angle of the contact between tip and particle from the vertical, φ", "°", Spacing::Linear),
-        panels: vec![LinePanel {
-            title: String::new(),
-            y: axis("Force at which the mode sets in", "nN", Spacing::Logarithmic),
-            series: series.collect(),
-            markers: vec![Marker { x: nominal, label: format!("nominal: {nominal:.0}°") }],
-        }],
-    }
+    let x = Axis::new("Angle of the contact between tip and particle from the vertical, φ", "°");
+    let y = Axis::new("Force at which the mode sets in", "nN").spaced(Spacing::Logarithmic);
+    let panel = Panel::new(x, y).with(shown).with([Mark::rule(nominal, format!("nominal: {nominal:.0}°"))]);
+    Chart::new("Modes of motion against the contact angle", caption(lines)).panels([panel])
 }
 
 /// What the first two lines do, and which modes never set in.

@@ -2,9 +2,8 @@
 
 use super::PaperFigure;
 use crate::reproduce::{GROUPS, Reproduced, StudyGroup, published, shares_csv};
-use apportion::report::capitalised;
-use apportion::report::chart::Chart;
-use apportion::report::{SharesSeries, SharesWords, friction_role, shares_chart};
+use apportion::report::chart::{Chart, Series};
+use apportion::report::{SharesSeries, capitalised, shares_chart};
 
 /// For each group, in the order of [`GROUPS`]: the figure of CHK and that of LG.
 const PAPERS: [[Paper; 2]; 3] = [
@@ -94,18 +93,13 @@ pub(in crate::reproduce) fn group_chart(group: StudyGroup, members: &[&Reproduce
     let series: Vec<SharesSeries<'_>> = members
         .iter()
         .map(|member| SharesSeries {
-            name: member.friction.name.to_owned(),
-            role: friction_role(member.friction.key),
+            series: Series::new(member.friction.name, member.friction.colour),
             output: &member.result.outputs[0],
             published: published(group.key, member.friction.key).shares.to_vec(),
         })
         .collect();
-    let words = SharesWords {
-        title: format!("Which factor decides the critical force: {} study", group.key),
-        caption: caption(group, members),
-        published: "published (LuGre)",
-    };
-    shares_chart(words, &factors, &series)
+    let title = format!("Which factor decides the critical force: {} study", group.key);
+    shares_chart(&title, &caption(group, members), &factors, &series).published_name("published (LuGre)")
 }
 
 /// The factor with the largest total index, with its shares of the first-order and of the total indices (%).

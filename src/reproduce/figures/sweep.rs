@@ -8,7 +8,7 @@ use super::table::Table;
 use super::{FiguresError, PaperFigure, edge};
 use crate::reproduce::{Effort, STUDIES};
 use apportion::afm::{Fidelity, Options, Parameter, critical_force};
-use apportion::report::chart::{Axis, Chart, LineChart, LinePanel, LineSeries, Marker, Stroke};
+use apportion::report::chart::{Axis, Chart, Mark, Panel, Series, Stroke};
 use apportion::report::format::three_digits as short;
 use apportion::report::{capitalised, listed};
 use apportion::space::{Factor, Space};
@@ -47,7 +47,7 @@ fn one(figure: &SweepFigure, space: &Space, points: usize) -> Result<PaperFigure
         stem: figure.stem,
         label: figure.label,
         theirs: figure.theirs,
-        chart: Chart::Lines(swept.chart(&lines)),
+        chart: swept.chart(&lines),
         csv: swept.csv(&lines),
     })
 }
@@ -102,47 +102,28 @@ impl Swept<'_> {
         table.csv()
     }
 
-    fn chart(&self, lines: &[Drawn]) -> LineChart {
+    fn chart(&self, lines: &[Drawn]) -> Chart {
         let unit = edge::printed(self.factor.unit().symbol());
-        let series = |name: String, look, force: &[f64]| LineSeries {
-            name,
-            role: look,
-            stroke: Stroke::Solid,
-            points: self.values.iter().copied().zip(force.iter().copied()).collect(),
-            band: Vec::new(),
-        };
+        let points = |force: &[f64]| self.values.iter().copied().zip(force.iter().copied()).collect();
         let range = range(lines);
         let mut all = Vec::new();
         // What is marched scatters over the rest, so it lies below them.
         let (marched, rest): (Vec<_>, Vec<_>) =
             lines.iter().partition(|drawn| drawn.line.variant == Variant::NaiveMarch);
         for drawn in marched.into_iter().chain(rest) {
-            let (role, stroke) = drawn.line.look;
-            all.push(LineSeries { stroke, ..series(drawn.line.name.to_owned(), role, &drawn.force) });
+            let (colour, stroke) = drawn.line.look;
+            all.push(Series::new(drawn.line.name, colour).stroke(stroke).line(points(&drawn.force)));
             if let Some(force) = drawn.quasi_static.as_ref().filter(|_| drawn.difference() > VISIBLE * range) {
                 let name = format!("{}, quasi-static", drawn.line.name);
-                all.push(LineSeries { stroke: Stroke::Dashed, ..series(name, role, force) });
+                all.push(Series::new(name, colour).stroke(Stroke::Dashed).line(points(force)));
             }
         }
-        LineChart {
-            names: Vec::new(),
-            title: format!("Critical force against {}", self.parameter.description),
-            caption: self.caption(lines, range),
-            x: Axis {
-                label: format!("{}, {}", capitalised(self.parameter.description), edge::symbol(self.parameter)),
-                unit: unit.to_owned(),
-                ..Axis::default()
-            },
-            panels: vec![LinePanel {
-                title: String::new(),
-                y: Axis { label: "Critical force F_cr".to_owned(), unit: "nN".to_owned(), ..Axis::default() },
-                series: all,
-                markers: vec![Marker {
-                    x: self.factor.nominal,
-                    label: format!("nominal: {} {unit}", self.factor.nominal),
-                }],
-            }],
-        }
+        let label = format!("{}, {}", capitalised(self.parameter.description), edge::symbol(self.parameter));
+        let nominal = Mark::rule(self.factor.nominal, format!("nominal: {} {unit}", self.factor.nominal));
+        let panel =
+            Panel::new(Axis::new(label, unit), Axis::new("Critical force F_cr", "nN")).with(all).with([nominal]);
+        let title = format!("Critical force against {}", self.parameter.description);
+        Chart::new(title, self.caption(lines, range)).panels([panel])
     }
 
     fn caption(&self, lines: &[Drawn], range: f64) -> String {

@@ -1,7 +1,8 @@
 //! Which sweeps the papers draw, and what they say of them.
 
+use crate::reproduce::{COULOMB as COULOMB_COLOUR, HURTADO_KIM, LUGRE as LUGRE_COLOUR};
 use apportion::afm::{Fidelity, FrictionLaw, Options, Scene};
-use apportion::report::chart::{Role, Stroke};
+use apportion::report::chart::{Colour, Stroke};
 
 /// A figure of the critical force against one factor.
 pub(super) struct SweepFigure {
@@ -28,7 +29,7 @@ pub(super) struct Line {
     /// How a sentence calls it.
     pub said: &'static str,
     /// Its look.
-    pub look: (Role, Stroke),
+    pub look: (Colour, Stroke),
     /// The law of friction.
     pub law: FrictionLaw,
     /// What differs from the papers' defaults.
@@ -66,7 +67,7 @@ const COULOMB: Line = Line {
     key: "coulomb",
     name: "Coulomb",
     said: " under Coulomb friction",
-    look: (Role::Coulomb, Stroke::Solid),
+    look: (COULOMB_COLOUR, Stroke::Solid),
     law: FrictionLaw::Coulomb,
     variant: Variant::None,
 };
@@ -74,7 +75,7 @@ const HK: Line = Line {
     key: "hk",
     name: "Hurtado-Kim",
     said: " under Hurtado-Kim friction",
-    look: (Role::HurtadoKim, Stroke::Solid),
+    look: (HURTADO_KIM, Stroke::Solid),
     law: FrictionLaw::HurtadoKim,
     variant: Variant::None,
 };
@@ -82,7 +83,7 @@ const LUGRE: Line = Line {
     key: "lugre",
     name: "LuGre",
     said: " under LuGre friction",
-    look: (Role::LuGre, Stroke::Solid),
+    look: (LUGRE_COLOUR, Stroke::Solid),
     law: FrictionLaw::LuGre,
     variant: Variant::None,
 };
@@ -90,7 +91,7 @@ const LUGRE_VISCOUS: Line = Line {
     key: "lugre_viscous",
     name: "LuGre with viscous friction σ₂ = 0.3 N s/m",
     said: " with viscous friction of 0.3 N s/m",
-    look: (Role::LuGre, Stroke::Dotted),
+    look: (LUGRE_COLOUR, Stroke::Dotted),
     law: FrictionLaw::LuGre,
     variant: Variant::Viscous,
 };
@@ -98,7 +99,7 @@ const LUGRE_NAIVE: Line = Line {
     key: "lugre_fixed_step_14ms",
     name: "LuGre marched in steps of 14 ms, no event location",
     said: " when marched in steps of 14 ms without event location",
-    look: (Role::Other(3), Stroke::Solid),
+    look: (Colour::Series(6), Stroke::Solid),
     law: FrictionLaw::LuGre,
     variant: Variant::NaiveMarch,
 };
@@ -106,7 +107,7 @@ const LUGRE_ADHESIVE: Line = Line {
     key: "lugre_adhesion_in_load",
     name: "LuGre with the adhesion in the load (q = 1)",
     said: " with the adhesion in the load",
-    look: (Role::LuGre, Stroke::Dotted),
+    look: (LUGRE_COLOUR, Stroke::Dotted),
     law: FrictionLaw::LuGre,
     variant: Variant::AdhesionInLoad,
 };
@@ -114,7 +115,7 @@ const COULOMB_ADHESIVE: Line = Line {
     key: "coulomb_adhesion_in_load",
     name: "Coulomb with the adhesion in the load (q = 1)",
     said: " under Coulomb friction with the adhesion in the load",
-    look: (Role::Coulomb, Stroke::Dotted),
+    look: (COULOMB_COLOUR, Stroke::Dotted),
     law: FrictionLaw::Coulomb,
     variant: Variant::AdhesionInLoad,
 };

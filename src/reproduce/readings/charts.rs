@@ -5,13 +5,13 @@ use super::nearest::{ALIKE, Joint, distinct, joint};
 use super::{Effect, Estimators, Readings, SmallSample};
 use crate::reproduce::{GROUPS, published};
 use apportion::model::AfmOutput;
-use apportion::report::chart::{
-    Axis, Chart, LineChart, LinePanel, LineSeries, Range, RangeBars, RangeRow, Role, Spacing, Stroke,
-};
+use apportion::report::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
 use apportion::report::fixed;
 
 /// Most readings that are drawn, the nearest ones.
 const MOST: usize = 32;
+/// Colours of the groups, and of the kinds of percentages.
+const GROUP_COLOURS: [Colour; 3] = [Colour::Series(1), Colour::Series(4), Colour::Series(5)];
 
 /// How far every reading is from the printed percentages: a row for each, the nearest on the mean of the groups first, a
 /// bar for each group. Readings that are alike share a row.
@@ -19,22 +19,19 @@ pub fn distance_chart(readings: &Readings) -> Chart {
     let all = joint(readings).len();
     let distinct = distinct(readings);
     let drawn = &distinct[..distinct.len().min(MOST)];
-    let bar = |(group, distance): (usize, f64)| Range { role: Role::Other(group), from: 0.0, to: distance };
-    let row = |joint: &Joint<'_>| RangeRow {
-        name: joint.name(),
-        bars: joint.of_groups.iter().map(|reading| reading.distance).enumerate().map(bar).collect(),
-        interval: None,
-        note: note(joint),
-    };
-    Chart::Ranges(RangeBars {
-        title: "How far each reading is from the printed percentages".to_owned(),
-        caption: caption(all, &distinct, drawn),
-        x: Axis { label: "distance to the printed percentages".into(), unit: "points".into(), ..Axis::default() },
-        reference: None,
-        series: GROUPS.iter().enumerate().map(|(number, group)| (printed(group.key), Role::Other(number))).collect(),
-        interval_label: String::new(),
-        rows: drawn.iter().map(row).collect(),
-    })
+    let rows = Axis::from_names("", drawn.iter().map(Joint::name).collect());
+    let bars = GROUPS.iter().enumerate().flat_map(|(number, group)| {
+        let series = Series::new(printed(group.key), GROUP_COLOURS[number]);
+        let bar = move |(row, joint): (usize, &Joint<'_>)| {
+            let to = joint.of_groups.get(number).map_or(f64::NAN, |reading| reading.distance);
+            series.mark(Shape::Bar(Bar { row, to, ..Bar::default() }))
+        };
+        drawn.iter().enumerate().map(bar)
+    });
+    let notes = drawn.iter().enumerate().map(|(row, joint)| Mark::note(row, note(joint)));
+    let x = Axis::new("distance to the printed percentages", "points");
+    let panels = (!drawn.is_empty()).then(|| Panel::new(x, rows).with(bars).with(notes));
+    Chart::new("How far each reading is from the printed percentages", caption(all, &distinct, drawn)).panels(panels)
 }
 
 /// The mean distance, and for how many others the row stands.
@@ -88,30 +85,26 @@ pub fn small_sample_chart(readings: &Readings) -> Chart {
         let of_group: Vec<&SmallSample> = samples.iter().copied().filter(|sample| sample.group == group.key).collect();
         panel(group.key, &of_group)
     });
-    Chart::Lines(LineChart {
-        names: Vec::new(),
-        title: "What chance makes of the percentages of small samples".to_owned(),
-        caption: format!(
-            "Medians and the middle 95 % of {repetitions} repetitions with N random base points under LuGre friction, \
-             estimators of Saltelli (2010) and Jansen (1999): where the dashed line runs through a band, chance could have \
-             made that one percentage; above each panel stands how often, at the size and index where it is most frequent, it \
-             makes all of the group."
-        ),
-        x: Axis { label: "base samples N".into(), unit: String::new(), spacing: Spacing::Logarithmic },
-        panels: panels.collect(),
-    })
+    let caption = format!(
+        "Medians and the middle 95 % of {repetitions} repetitions with N random base points under LuGre friction, \
+         estimators of Saltelli (2010) and Jansen (1999): where the dashed line runs through a band, chance could have \
+         made that one percentage; above each panel stands how often, at the size and index where it is most frequent, it \
+         makes all of the group."
+    );
+    Chart::new("What chance makes of the percentages of small samples", caption).panels(panels)
 }
 
-fn panel(group: &str, samples: &[&SmallSample]) -> LinePanel {
+fn panel(group: &str, samples: &[&SmallSample]) -> Panel {
+    let x = Axis::new("base samples N", "").spaced(Spacing::Logarithmic);
     let Some((factor, value)) = published(group, "lugre").shares.first().copied() else {
-        return LinePanel { title: group.to_owned(), y: Axis::default(), series: Vec::new(), markers: Vec::new() };
+        return Panel::new(x, Axis::default()).titled(group);
     };
     let kinds = [
         (Effect::FirstOrder, AfmOutput::CriticalForce),
         (Effect::Total, AfmOutput::CriticalForce),
         (Effect::FirstOrder, AfmOutput::LogCriticalForce),
     ];
-    let line = |(number, (effect, output)): (usize, (Effect, AfmOutput))| {
+    let marks = |((effect, output), colour): ((Effect, AfmOutput), Colour)| {
         let of_kind = samples.iter().filter(|sample| (sample.effect, sample.output) == (effect, output));
         let quantiles: Vec<(f64, [f64; 5])> = of_kind
             .filter_map(|sample| {
@@ -119,28 +112,19 @@ fn panel(group: &str, samples: &[&SmallSample]) -> LinePanel {
                 Some((sample.base_samples as f64, factor.quantiles?))
             })
             .collect();
-        LineSeries {
-            name: format!("{} of {}", effect.symbol(), symbol(output)),
-            role: Role::Other(number),
-            stroke: Stroke::SolidWithPoints,
-            points: quantiles.iter().map(|&(n, [_, _, median, _, _])| (n, median)).collect(),
-            band: quantiles.iter().map(|&(n, [low, _, _, _, high])| (n, low, high)).collect(),
-        }
+        let name = format!("{} of {}", effect.symbol(), symbol(output));
+        let series = Series::new(name, colour).stroke(Stroke::SolidWithPoints);
+        [
+            series.band(quantiles.iter().map(|&(n, [low, _, _, _, high])| (n, low, high)).collect()),
+            series.line(quantiles.iter().map(|&(n, [_, _, median, _, _])| (n, median)).collect()),
+        ]
     };
-    let mut series: Vec<LineSeries> = kinds.into_iter().enumerate().map(line).collect();
-    series.push(LineSeries {
-        name: "printed".to_owned(),
-        role: Role::Reference,
-        stroke: Stroke::Dashed,
-        points: SMALL_SAMPLES.map(|n| (n as f64, value)).to_vec(),
-        band: Vec::new(),
-    });
-    LinePanel {
-        title: format!("{group}: {} {value} % printed{}", letter(factor), all_met(samples)),
-        y: Axis { label: format!("share of {}", letter(factor)), unit: "%".into(), ..Axis::default() },
-        series,
-        markers: Vec::new(),
-    }
+    let printed = Series::new("printed", Colour::Reference).stroke(Stroke::Dashed);
+    let printed = printed.line(SMALL_SAMPLES.map(|n| (n as f64, value)).to_vec());
+    Panel::new(x, Axis::new(format!("share of {}", letter(factor)), "%"))
+        .titled(format!("{group}: {} {value} % printed{}", letter(factor), all_met(samples)))
+        .with(kinds.into_iter().zip(GROUP_COLOURS).flat_map(marks))
+        .with([printed])
 }
 
 /// How often all printed percentages of the group are met to 3 points, at most, for each output.

@@ -1,17 +1,11 @@
 use super::*;
-use crate::report::chart::{Axis, Chart, Drawing, Guide, Picture, Role, ScatterChart, ScatterPoint, ScatterSeries};
+use crate::report::chart::{Axis, Chart, Colour, Drawing, Mark as ChartMark, Panel, Picture, Point, Series, Shape};
 use crate::report::document::Column;
 
 fn scatter(title: &str) -> Chart {
-    let point = ScatterPoint { x: 1.0, y: 2.0, label: "a point".to_owned(), x_interval: None, y_interval: None };
-    Chart::Scatter(ScatterChart {
-        title: title.to_owned(),
-        caption: "One point.".to_owned(),
-        x: Axis::default(),
-        y: Axis::default(),
-        series: vec![ScatterSeries { name: "s".to_owned(), role: Role::Coulomb, points: vec![point] }],
-        guides: vec![Guide { slope: 1.0, label: "equal".to_owned() }],
-    })
+    let point = Point { x: 1.0, y: 2.0, label: "a point".to_owned(), ..Point::default() };
+    let marks = [Series::new("s", Colour::Series(0)).mark(Shape::Point(point)), ChartMark::slope(1.0, "equal")];
+    Chart::new(title, "One point.").panels([Panel::new(Axis::default(), Axis::default()).with(marks)])
 }
 
 fn figure(id: &str, chart: Chart) -> Part {
@@ -129,9 +123,8 @@ fn anchors_are_there_once() {
 
 #[test]
 fn a_chart_without_data_is_an_error_with_its_figure() {
-    let Chart::Scatter(mut chart) = scatter("a") else { panic!("a scatter chart") };
-    chart.series.clear();
-    let error = page(vec![figure("f1", Chart::Scatter(chart))]).html().unwrap_err();
+    let chart = Chart::new("a", "No panels.");
+    let error = page(vec![figure("f1", chart)]).html().unwrap_err();
     assert!(error.to_string().contains("figure \"f1\""), "{error}");
 }
 
@@ -141,13 +134,8 @@ fn pictures_have_their_own_narrow_drawing() {
         let inline = format!("<svg role=\"img\"><title>T</title><text>{words}</text></svg>");
         Drawing { document: String::new(), inline }
     };
-    let words = ("Mode diagram".to_owned(), "Caption.".to_owned());
-    let chart = Chart::Picture(Picture {
-        title: words.0,
-        caption: words.1,
-        wide: picture("for a column"),
-        narrow: picture("for a phone"),
-    });
+    let picture = Picture { wide: picture("for a column"), narrow: picture("for a phone") };
+    let chart = Chart::from_picture("Mode diagram", "Caption.", picture);
     let html = page(vec![figure("f1", chart)]).html().unwrap();
     let narrow = html.split_once("<div class=\"narrow\">").unwrap().1;
     assert!(narrow.contains("for a phone") && !narrow.contains("for a column"));

@@ -1,9 +1,10 @@
-//! A sheet of frames in rows, each with two lines of text above it, as a film strip.
+//! Frames in rows, each with two lines of text above it.
 
-use super::any::{Drawing, Picture};
 use super::figure::{Figure, Words};
+use super::model::{Chart, Drawing, Picture};
+use super::path::open;
 use super::style::{BODY, ChartWidth, MARGIN, MUTED, Medium, PANEL_TITLE, TICK};
-use super::svg::{Anchor, Canvas, Px, Text};
+use super::svg::{Anchor, Attributes, Canvas, Px, Text};
 use super::text::shorten;
 
 /// Between frames, px.
@@ -11,9 +12,9 @@ const GAP: f64 = 14.0;
 /// Room for the two lines above a frame, px.
 const HEAD: f64 = 34.0;
 
-/// A sheet: what it says, and what stands above each frame.
+/// A film strip: what it says, and what stands above each frame.
 #[derive(Clone, Debug)]
-pub struct Sheet {
+pub struct FilmStrip {
     /// Headline.
     pub title: String,
     /// One sentence under the frames.
@@ -22,25 +23,21 @@ pub struct Sheet {
     pub description: String,
     /// For each frame its name, and what is said of it in smaller letters.
     pub frames: Vec<(String, String)>,
-    /// Columns of the wide and of the narrow sheet.
+    /// Columns of the wide and of the narrow strip.
     pub columns: (usize, usize),
     /// Height of a frame for a width of 1.
     pub aspect: f64,
 }
 
-impl Sheet {
-    /// The sheet at both widths; `draw` draws the frame of a number.
-    pub fn picture(&self, draw: impl Fn(usize, &mut Sketch)) -> Picture {
+impl FilmStrip {
+    /// The strip at both widths; `draw` draws the frame of a number.
+    pub fn chart(&self, draw: impl Fn(usize, &mut Sketch)) -> Chart {
         let at = |width| {
             let [document, inline] = [false, true].map(|inline| self.drawn(Medium { width, inline }, &draw));
             Drawing { document, inline }
         };
-        Picture {
-            title: self.title.clone(),
-            caption: self.caption.clone(),
-            wide: at(ChartWidth::Wide),
-            narrow: at(ChartWidth::Narrow),
-        }
+        let picture = Picture { wide: at(ChartWidth::Wide), narrow: at(ChartWidth::Narrow) };
+        Chart::from_picture(&self.title, &self.caption, picture)
     }
 
     fn drawn(&self, medium: Medium, draw: &impl Fn(usize, &mut Sketch)) -> String {
@@ -120,45 +117,26 @@ impl Sketch<'_> {
         if points.len() < 2 || points.iter().any(|(x, y)| !x.is_finite() || !y.is_finite()) {
             return;
         }
-        let mut d = String::new();
-        for (number, (x, y)) in points.iter().enumerate() {
-            d.push_str(&format!("{}{} {}", if number == 0 { "M" } else { "L" }, Px(*x), Px(*y)));
-        }
-        if closed {
-            d.push('Z');
-        }
-        let width = Px(look.width);
-        self.canvas.leaf(
-            "path",
-            &[
-                ("d", &d),
-                ("fill", &look.fill),
-                ("stroke", &look.stroke),
-                ("stroke-width", &width),
-                ("stroke-dasharray", &look.dash),
-                ("stroke-linejoin", &"round"),
-            ],
-        );
+        let d = open(points) + if closed { "Z" } else { "" };
+        self.shape("path", &[("d", &d), ("stroke-linejoin", &"round")], look);
     }
 
     /// A circle.
     pub fn circle(&mut self, (x, y): (f64, f64), radius: f64, look: Look) {
-        if !(x.is_finite() && y.is_finite() && radius.is_finite()) {
-            return;
+        if x.is_finite() && y.is_finite() && radius.is_finite() {
+            self.shape("circle", &[("cx", &Px(x)), ("cy", &Px(y)), ("r", &Px(radius))], look);
         }
-        let (cx, cy, r, width) = (Px(x), Px(y), Px(radius), Px(look.width));
-        self.canvas.leaf(
-            "circle",
-            &[
-                ("cx", &cx),
-                ("cy", &cy),
-                ("r", &r),
-                ("fill", &look.fill),
-                ("stroke", &look.stroke),
-                ("stroke-width", &width),
-                ("stroke-dasharray", &look.dash),
-            ],
-        );
+    }
+
+    fn shape(&mut self, name: &str, geometry: Attributes, look: Look) {
+        let width = Px(look.width);
+        let look: Attributes = &[
+            ("fill", &look.fill),
+            ("stroke", &look.stroke),
+            ("stroke-width", &width),
+            ("stroke-dasharray", &look.dash),
+        ];
+        self.canvas.leaf(name, &[geometry, look].concat());
     }
 
     /// An arrow from `at` by `by` with a head 8 px long; one too short for its head is not drawn.
@@ -181,11 +159,11 @@ impl Sketch<'_> {
         self.path(&barbs, true, Look::area(colour));
     }
 
-    /// Words with a white rim that begin at a point; or, `centred`, have their middle there.
-    pub fn words(&mut self, words: &str, at: (f64, f64), centred: bool) {
+    /// Text with a white rim that begins at a point; or, `centred`, has its middle there.
+    pub fn text(&mut self, text: &str, at: (f64, f64), centred: bool) {
         let anchor = if centred { Anchor::Middle } else { Anchor::Start };
         if at.0.is_finite() && at.1.is_finite() {
-            self.canvas.text(&Text::new(words, at, BODY).anchor(anchor).halo());
+            self.canvas.text(&Text::new(text, at, BODY).anchor(anchor).halo());
         }
     }
 }
@@ -198,8 +176,8 @@ mod tests {
     use super::super::reading::{groups, number, only_finite};
     use super::*;
 
-    fn sheet(frames: usize) -> Sheet {
-        Sheet {
+    fn strip(frames: usize) -> FilmStrip {
+        FilmStrip {
             title: "Frames".to_owned(),
             caption: "What is seen.".to_owned(),
             description: String::new(),
@@ -210,15 +188,16 @@ mod tests {
     }
 
     #[test]
-    fn frames_stand_in_rows_inside_the_sheet() {
-        let picture = sheet(5).picture(|number, sketch| {
+    fn frames_stand_in_rows_inside_the_strip() {
+        let chart = strip(5).chart(|number, sketch| {
             sketch.circle((10.0, 10.0), 5.0, Look::area("#000000"));
             sketch.path(&[(0.0, f64::NAN), (1.0, 1.0)], false, Look::line("#000000", 1.0));
             sketch.arrow((0.0, 0.0), (f64::INFINITY, 0.0), "#000000");
-            sketch.words(&number.to_string(), (20.0, 20.0), false);
+            sketch.text(&number.to_string(), (20.0, 20.0), false);
         });
-        for (svg, width, rows) in [(&picture.wide.document, 720.0, 2), (&picture.narrow.document, 360.0, 3)] {
-            let document = Document::parse(svg).unwrap();
+        for (page, width, rows) in [(ChartWidth::Wide, 720.0, 2), (ChartWidth::Narrow, 360.0, 3)] {
+            let svg = chart.svg_at(page).unwrap();
+            let document = Document::parse(&svg).unwrap();
             assert!(only_finite(&document));
             assert_eq!(number(&document.root_element(), "width"), width);
             assert_eq!(groups(&document, "frame").len(), 5);
@@ -231,18 +210,18 @@ mod tests {
                 assert!(number(&window, "x") + number(&window, "width") <= width - MARGIN + 0.01);
                 assert!(number(&window, "y") + number(&window, "height") < height);
             }
-            png(svg).unwrap();
+            png(&svg).unwrap();
         }
-        for inline in [&picture.wide.inline, &picture.narrow.inline] {
-            let document = Document::parse(inline).unwrap();
+        for inline in [ChartWidth::Wide, ChartWidth::Narrow].map(|page| chart.inline(page).unwrap()) {
+            let document = Document::parse(&inline).unwrap();
             assert!(document.root_element().attribute("width").is_none());
             assert!(groups(&document, "title").is_empty() && groups(&document, "caption").is_empty());
         }
     }
 
     #[test]
-    fn a_sheet_without_frames_is_a_picture_too() {
-        let picture = sheet(0).picture(|_, _| ());
-        assert!(Document::parse(&picture.narrow.inline).is_ok());
+    fn a_strip_without_frames_is_a_picture_too() {
+        let svg = strip(0).chart(|_, _| ()).svg().unwrap();
+        assert!(Document::parse(&svg).is_ok());
     }
 }

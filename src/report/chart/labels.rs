@@ -1,7 +1,5 @@
 //! Places for the labels of points: beside them, else a little off, never over another label or point.
 
-use super::super::bars::labels::Area;
-
 /// Distances from a point to its label, px, in the order they are tried.
 const DISTANCES: [f64; 7] = [6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0];
 /// From this distance on a thin line joins point and label.
@@ -30,9 +28,30 @@ const DIRECTIONS: [(f64, f64); 16] = [
     (-0.4, 0.9),
 ];
 
+/// A rectangle in px; `top < bottom`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Area {
+    pub left: f64,
+    pub right: f64,
+    pub top: f64,
+    pub bottom: f64,
+}
+
+impl Area {
+    /// From one x to another and from one y to another, in any order.
+    pub fn between(x: (f64, f64), y: (f64, f64)) -> Self {
+        Self { left: x.0.min(x.1), right: x.0.max(x.1), top: y.0.min(y.1), bottom: y.0.max(y.1) }
+    }
+
+    /// Whether the two have a point in common inside both.
+    pub fn overlaps(&self, other: &Area) -> bool {
+        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+    }
+}
+
 /// A point that wants a label of this size.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Wanted {
+pub(super) struct Label {
     pub at: (f64, f64),
     pub width: f64,
     pub height: f64,
@@ -46,9 +65,9 @@ pub(super) struct Place {
 }
 
 /// A place inside `bounds` for each label in turn, clear of `marks` where it can be; `None` where there is no room.
-pub(super) fn place(wanted: &[Wanted], marks: &[Area], bounds: Area) -> Vec<Option<Place>> {
-    let points: Vec<Area> =
-        wanted.iter().map(|w| Area::about(w.at.0, POINT, (w.at.1 - POINT, w.at.1 + POINT))).collect();
+pub(super) fn place(wanted: &[Label], marks: &[Area], bounds: Area) -> Vec<Option<Place>> {
+    let about = |at: f64| (at - POINT, at + POINT);
+    let points: Vec<Area> = wanted.iter().map(|label| Area::between(about(label.at.0), about(label.at.1))).collect();
     let mut places: Vec<Option<Place>> = Vec::with_capacity(wanted.len());
     for (own, label) in wanted.iter().enumerate() {
         let taken: Vec<Place> = places.iter().copied().flatten().collect();
@@ -78,7 +97,7 @@ pub(super) fn place(wanted: &[Wanted], marks: &[Area], bounds: Area) -> Vec<Opti
 }
 
 /// The label at some distance in a direction: it touches the end of the way with its near edge or corner.
-fn beside(label: &Wanted, distance: f64, (dx, dy): (f64, f64)) -> Place {
+fn beside(label: &Label, distance: f64, (dx, dy): (f64, f64)) -> Place {
     let (x, y) = (label.at.0 + dx * distance, label.at.1 + dy * distance);
     let shift = |part: f64, size: f64| match part {
         p if p > 0.0 => 0.0,
@@ -109,8 +128,8 @@ mod tests {
 
     const BOUNDS: Area = Area { left: 0.0, right: 300.0, top: 0.0, bottom: 200.0 };
 
-    fn wanted(x: f64, y: f64) -> Wanted {
-        Wanted { at: (x, y), width: 40.0, height: 8.0 }
+    fn wanted(x: f64, y: f64) -> Label {
+        Label { at: (x, y), width: 40.0, height: 8.0 }
     }
 
     #[test]

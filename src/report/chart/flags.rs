@@ -1,11 +1,10 @@
-//! Labels of vertical markers above a plot: each stands at its line like a flag at its pole.
+//! Labels of vertical rules above a plot: each stands at its line like a flag at its pole.
 
-use super::super::plot::Plot;
-use super::super::scale::Scale;
-use super::super::style::{ChartWidth, MUTED, TICK};
-use super::super::svg::{Canvas, Text};
-use super::super::text::shorten;
-use super::Marker;
+use super::plot::Plot;
+use super::scale::Scale;
+use super::style::{ChartWidth, MUTED, TICK};
+use super::svg::{Canvas, Text};
+use super::text::shorten;
 
 /// Distance of rows, px.
 const ROW: f64 = 13.0;
@@ -38,13 +37,16 @@ impl Flag<'_> {
     }
 }
 
-/// Places the flags of a panel, each in the lowest row in which it collides with none. Flags point right
-/// unless they would leave the plot or cross the pole of a flag that points left. Markers without a place
+/// Places the flags of the rules (place, label) of a panel, each in the lowest row in which it collides with none. Flags point right
+/// unless they would leave the plot or cross the pole of a flag that points left. Rules without a place
 /// on the axis have no flag.
-pub(super) fn place<'a>(markers: &'a [Marker], x: &Scale, (plot, page): (&Plot, ChartWidth)) -> Vec<Flag<'a>> {
+pub(super) fn place<'a>(
+    rules: impl Iterator<Item = (f64, &'a str)>,
+    x: &Scale,
+    (plot, page): (&Plot, ChartWidth),
+) -> Vec<Flag<'a>> {
     let longest = LONGEST.min(plot.width / page.choose(3.0, 2.0));
-    let mut shown: Vec<_> =
-        markers.iter().filter_map(|marker| Some((plot.x(x, marker.x)?, marker.label.as_str()))).collect();
+    let mut shown: Vec<_> = rules.filter_map(|(at, label)| Some((plot.x(x, at)?, label))).collect();
     shown.sort_by(|a, b| b.0.total_cmp(&a.0));
     // From the right: where the next flag must end.
     let mut end = plot.right();
@@ -83,7 +85,7 @@ pub(super) fn draw(canvas: &mut Canvas, plot: &Plot, flags: &[Flag]) {
     if flags.is_empty() {
         return;
     }
-    canvas.open("g", &[("class", &"markers")]);
+    canvas.open("g", &[("class", &"rules")]);
     canvas.open("g", &[("stroke", &MUTED), ("stroke-width", &"1"), ("stroke-dasharray", &"4 3")]);
     for flag in flags {
         canvas.line((flag.pole, plot.bottom()), (flag.pole, plot.top - room(std::slice::from_ref(flag)) + 3.0));
@@ -98,27 +100,24 @@ pub(super) fn draw(canvas: &mut Canvas, plot: &Plot, flags: &[Flag]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::scale::{Spacing, Wish};
+    use super::super::scale::{ScaleOptions, Spacing};
     use super::*;
     use proptest::prelude::*;
 
-    fn flags(markers: &[Marker]) -> Vec<Flag<'_>> {
-        let x = Scale::over([0.0, 100.0], Wish { spacing: Spacing::Linear, air: 0.0, steps: 5 });
-        place(markers, &x, (&Plot { left: 0.0, top: 100.0, width: 600.0, height: 50.0 }, ChartWidth::Wide))
-    }
-
-    fn marker(x: f64, label: &str) -> Marker {
-        Marker { x, label: label.to_owned() }
+    fn flags<'a>(rules: &[(f64, &'a str)]) -> Vec<Flag<'a>> {
+        let x = Scale::over([0.0, 100.0], ScaleOptions { spacing: Spacing::Linear, air: 0.0, steps: 5 });
+        let plot = Plot { left: 0.0, top: 100.0, width: 600.0, height: 50.0 };
+        place(rules.iter().copied(), &x, (&plot, ChartWidth::Wide))
     }
 
     #[test]
     fn neighbours_take_rows_and_the_last_turns_left() {
-        let markers = [marker(10.0, "critical time"), marker(12.0, "critical time"), marker(99.0, "end of push")];
+        let markers = [(10.0, "some event"), (12.0, "some event"), (99.0, "end of time")];
         let placed = flags(&markers);
         let rows: Vec<_> = placed.iter().map(|flag| (flag.pole, flag.row)).collect();
         assert_eq!(rows, [(72.0, 0), (60.0, 1), (594.0, 0)]);
         assert!(placed[0].from > placed[0].pole && placed[2].to < placed[2].pole);
-        assert!(flags(&[marker(f64::NAN, "never")]).is_empty());
+        assert!(flags(&[(f64::NAN, "never")]).is_empty());
     }
 
     proptest! {
@@ -127,8 +126,8 @@ mod tests {
             let mut at = -1.0;
             let markers: Vec<_> = steps
                 .iter()
-                .map(|step| { at += step; marker(at, "critical time") })
-                .filter(|marker| (0.0..=100.0).contains(&marker.x))
+                .map(|step| { at += step; (at, "some event") })
+                .filter(|(x, _)| (0.0..=100.0).contains(x))
                 .collect();
             let placed = flags(&markers);
             for (i, flag) in placed.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Point sequences as SVG paths: broken at gaps, thinned where points crowd.
 
-use super::super::svg::Px;
+use super::svg::Px;
 
 /// A point in px.
 pub(super) type Point = (f64, f64);

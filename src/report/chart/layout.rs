@@ -1,0 +1,312 @@
+//! Where the panels of a chart stand, and which scales they have.
+
+use super::model::{Arrangement, Bar, Chart, Mark, Panel, Shape, drawable_pair};
+use super::plot::{TICK_GAP, tick_room, title_room};
+use super::scale::{Scale, ScaleOptions};
+use super::style::{ChartWidth, MARGIN, TICK, VALUE, drawable};
+use super::text::shorten;
+
+/// Heights of the plot of a lone panel and of each among several, px.
+const HEIGHTS: (f64, f64) = (320.0, 170.0);
+/// The same on a phone.
+const NARROW_HEIGHTS: (f64, f64) = (230.0, 140.0);
+/// Heights of a plot with labelled points, px, and the same on a phone.
+const LABELLED_HEIGHTS: (f64, f64) = (400.0, 290.0);
+/// Least gap between neighbours, px.
+const GAP: f64 = 16.0;
+/// Gap between a plot and the text beside it, px.
+pub(super) const TEXT_GAP: f64 = 6.0;
+/// Positive values whose ratio is below this are shown from zero on.
+const NEAR_ZERO: f64 = 0.4;
+/// Longest name of a row, note and label of a slope, px; longer ones are shortened.
+const LONGEST_NAME: f64 = 220.0;
+const LONGEST_NOTE: f64 = 150.0;
+const LONGEST_SLOPE: (f64, f64) = (120.0, 64.0);
+/// Height of a bar among several in a row, of one with a label, of one with a published value too, and least height of the
+/// bars of a row, px.
+const LANE: f64 = 6.0;
+const LABELLED_LANE: f64 = 10.0;
+const SHARED_LANE: f64 = 15.0;
+const LEAST_BARS: f64 = 16.0;
+/// Between the bars of two rows, px.
+pub(super) const ROW_GAP: f64 = 8.0;
+/// Height of the line of text above a row on a phone, px.
+const HEADING: f64 = 15.0;
+/// Room for the label after a bar beside its width, px.
+const LABEL_ROOM: f64 = 10.0;
+
+/// A panel with its scales.
+pub(super) struct Cell<'a> {
+    pub panel: &'a Panel,
+    pub x: Scale,
+    pub y: Scale,
+    pub height: f64,
+}
+
+/// All panels of a chart, and the lengths that they have in common, px.
+pub(super) struct Layout<'a> {
+    pub page: ChartWidth,
+    pub columns: usize,
+    pub cells: Vec<Cell<'a>>,
+    pub left: f64,
+    pub width: f64,
+    pub gap: f64,
+    /// Where the titles of the vertical axes have their baseline.
+    pub y_title: f64,
+    pub rows: Rows,
+}
+
+/// Heights of the rows of bars, px.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rows {
+    /// From one row to the next.
+    pub pitch: f64,
+    /// Of the bars of a row.
+    pub bars: f64,
+}
+
+impl<'a> Layout<'a> {
+    pub fn new(chart: &'a Chart, page: ChartWidth) -> Self {
+        let panels = chart.all_panels();
+        let columns = columns(chart, page);
+        let rows = Rows::new(panels, page);
+        let heights: Vec<f64> = panels.iter().map(|panel| height(panel, panels.len() == 1, (rows, page))).collect();
+        let y = y_scales(chart, &heights);
+        let with_numbers = || panels.iter().zip(&y).zip(&heights).filter(|((panel, _), _)| !panel.has_rows());
+        let titles = with_numbers().map(|((panel, y), height)| title_room(&panel.y.title(y.exponent), *height));
+        let ticks = with_numbers().map(|((_, y), _)| tick_room(y)).fold(0.0, f64::max);
+        let names = panels.iter().flat_map(|panel| &panel.y.names).map(|name| TICK.width(&row_name(name)) + TEXT_GAP);
+        let names = page.choose(names.fold(0.0, f64::max), 0.0);
+        let left = MARGIN + (titles.fold(0.0, f64::max) + ticks).max(names);
+        let right = MARGIN + widest_at_right(panels, page);
+        let width = |(left, right, gap): (f64, f64, f64)| {
+            ((page.px() - left - right - (columns - 1) as f64 * gap) / columns as f64).max(10.0)
+        };
+        // Half of the outer tick labels may reach beyond the plot.
+        let x = x_scales(chart, width((left, right, GAP)));
+        let labels = || panels.iter().zip(&x).filter(|(panel, _)| panel.x.names.is_empty()).map(|(_, x)| &x.ticks);
+        let half = |label: &str| TICK.width(label) / 2.0;
+        let first = labels().filter_map(|ticks| Some(half(&ticks.first()?.label) + 2.0)).fold(0.0, f64::max);
+        let last = labels().filter_map(|ticks| Some(half(&ticks.last()?.label) + 4.0)).fold(0.0, f64::max);
+        let widest = labels().flatten().map(|tick| TICK.width(&tick.label)).fold(0.0, f64::max);
+        let (left, right, gap) = (left.max(first), right.max(last), GAP.max(widest + 8.0));
+        let width = width((left, right, gap));
+        let cells = panels.iter().zip(x_scales(chart, width)).zip(y).zip(heights);
+        let cells = cells.map(|(((panel, x), y), height)| Cell { panel, x, y, height }).collect();
+        Self { page, columns, cells, left, width, gap, y_title: left - ticks - TICK_GAP, rows }
+    }
+}
+
+impl Rows {
+    fn new(panels: &[Panel], page: ChartWidth) -> Self {
+        let bars = || panels.iter().flat_map(Panel::bars);
+        let lane = match () {
+            () if bars().any(|(_, bar)| bar.diamond().is_some()) => SHARED_LANE,
+            () if bars().any(|(_, bar)| !bar.label.is_empty()) => LABELLED_LANE,
+            () => LANE,
+        };
+        let in_row = |panel: &Panel, row| panel.bars().filter(|(_, bar)| bar.row == row).count();
+        let most = panels.iter().flat_map(|panel| (0..panel.y.names.len()).map(move |row| in_row(panel, row))).max();
+        let bars = (most.unwrap_or(0) as f64 * lane).max(LEAST_BARS);
+        Self { pitch: bars + ROW_GAP + page.choose(0.0, HEADING), bars }
+    }
+}
+
+impl Panel {
+    /// Whether the vertical axis has names.
+    pub(super) fn has_rows(&self) -> bool {
+        !self.y.names.is_empty()
+    }
+
+    /// The bars with their marks.
+    pub(super) fn bars(&self) -> impl Iterator<Item = (&Mark, &Bar)> {
+        self.marks.iter().filter_map(|mark| match &mark.shape {
+            Shape::Bar(bar) => Some((mark, bar)),
+            _ => None,
+        })
+    }
+
+    /// The rules as (place, label).
+    pub(super) fn rules(&self) -> impl Iterator<Item = (f64, &str)> {
+        self.marks.iter().filter_map(|mark| match &mark.shape {
+            Shape::Rule(x, label) => Some((*x, label.as_str())),
+            _ => None,
+        })
+    }
+
+    /// The value that bars are about.
+    pub(super) fn base(&self) -> f64 {
+        self.rules().find_map(|(x, _)| drawable(x)).unwrap_or(0.0)
+    }
+
+    pub(super) fn has_slopes(&self) -> bool {
+        self.marks.iter().any(|mark| matches!(mark.shape, Shape::Slope(..)))
+    }
+
+    /// The coordinates of all marks; of those that have one only, the other is 0.
+    fn places(&self) -> Vec<(f64, f64)> {
+        let level = |x: f64| (x, 0.0);
+        let of_mark = |mark: &Mark| match &mark.shape {
+            Shape::Line(points) | Shape::Dots(points) => points.clone(),
+            Shape::Band(edges) => edges.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]).collect(),
+            Shape::Point(point) => {
+                let beside = point.x_interval.map(|(low, high)| [(low, point.y), (high, point.y)]);
+                let above = point.y_interval.map(|(low, high)| [(point.x, low), (point.x, high)]);
+                [Some([(point.x, point.y); 2]), beside, above].into_iter().flatten().flatten().collect()
+            }
+            Shape::Bar(bar) => match bar.drawn() {
+                Some(bar) => bar.ends().into_iter().map(level).collect(),
+                None => bar.diamond().into_iter().map(level).collect(),
+            },
+            Shape::Interval(_, low, high) => {
+                drawable_pair((*low, *high)).into_iter().flat_map(|(low, high)| [level(low), level(high)]).collect()
+            }
+            Shape::Slope(..) => vec![(0.0, 0.0)],
+            Shape::Note(..) | Shape::Rule(..) => Vec::new(),
+        };
+        self.marks.iter().flat_map(of_mark).collect()
+    }
+
+    fn x_values(&self) -> Vec<f64> {
+        let base = self.has_rows().then(|| self.base());
+        self.places().into_iter().map(|place| place.0).chain(self.rules().map(|rule| rule.0)).chain(base).collect()
+    }
+
+    /// The ordinates of what has a place on the horizontal axis.
+    fn y_values(&self) -> Vec<f64> {
+        self.places().into_iter().filter(|place| self.x.spacing.shows(place.0)).map(|place| place.1).collect()
+    }
+}
+
+impl Bar {
+    /// Every value that it marks.
+    fn ends(&self) -> Vec<f64> {
+        let (low, high) = self.interval.unzip();
+        [Some(self.from), Some(self.to), low, high, self.diamond()].into_iter().flatten().collect()
+    }
+
+    /// The right end of bar and interval, after which the label stands.
+    pub(super) fn right(&self) -> f64 {
+        self.from.max(self.to).max(self.interval.map_or(self.to, |(low, high)| low.max(high)))
+    }
+}
+
+/// How many panels stand side by side.
+fn columns(chart: &Chart, page: ChartWidth) -> usize {
+    let panels = chart.all_panels();
+    let count = panels.len().max(1);
+    if chart.arrangement == Arrangement::Stacked {
+        return 1;
+    }
+    if panels.iter().any(Panel::has_rows) {
+        // They share the names at the left.
+        let alike = panels.windows(2).all(|pair| pair[0].y.names == pair[1].y.names);
+        return if alike { count.min(page.choose(2, 1)) } else { 1 };
+    }
+    // Four panels make two even rows.
+    if count == 4 { 2 } else { count.min(page.choose(3, 2)) }
+}
+
+fn height(panel: &Panel, alone: bool, (rows, page): (Rows, ChartWidth)) -> f64 {
+    let (lone, several) = page.choose(HEIGHTS, NARROW_HEIGHTS);
+    match alone {
+        _ if panel.has_rows() => rows.pitch * panel.y.names.len() as f64,
+        true if panel.has_slopes() => page.choose(LABELLED_HEIGHTS.0, LABELLED_HEIGHTS.1),
+        true => lone,
+        false => several,
+    }
+}
+
+/// The scale of each panel's horizontal axis: one for all where they stand one above the other, or have equal axes.
+fn x_scales(chart: &Chart, width: f64) -> Vec<Scale> {
+    let panels = chart.all_panels();
+    let shared = chart.arrangement == Arrangement::Stacked || panels.windows(2).all(|pair| pair[0].x == pair[1].x);
+    match panels.first() {
+        Some(first) if shared => vec![x_scale(first, panels, width); panels.len()],
+        _ => panels.iter().map(|panel| x_scale(panel, std::slice::from_ref(panel), width)).collect(),
+    }
+}
+
+fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
+    if !first.x.names.is_empty() {
+        return Scale::from_names(&first.x.names).with_names_within(width);
+    }
+    let mut values: Vec<f64> = panels.iter().flat_map(Panel::x_values).collect();
+    values.extend(room_for_labels(panels, &values, width));
+    let marks = || panels.iter().flat_map(|panel| &panel.marks);
+    let air = match () {
+        () if panels.iter().any(Panel::has_rows) => 0.03,
+        () if panels.iter().any(Panel::has_slopes) => 0.06,
+        // Points need air at the ends; lines run from edge to edge.
+        () if marks().any(|mark| matches!(mark.shape, Shape::Dots(_) | Shape::Point(_))) => 0.02,
+        () if marks().any(|mark| mark.series.stroke.has_points()) => 0.02,
+        () => 0.0,
+    };
+    let options = ScaleOptions { spacing: first.x.spacing, air, steps: steps(width, (50.0, 7)) };
+    Scale::over(values, options).with_room(width)
+}
+
+/// The value up to which an axis must go for the labels after its bars.
+fn room_for_labels(panels: &[Panel], values: &[f64], width: f64) -> Option<f64> {
+    let low = values.iter().copied().filter_map(drawable).reduce(f64::min)?;
+    let needed = panels.iter().flat_map(Panel::bars).filter_map(|(_, bar)| {
+        let room = (VALUE.width(&bar.label) + LABEL_ROOM).min(0.5 * width);
+        let bar = bar.drawn().filter(|bar| !bar.label.is_empty())?;
+        drawable(low + (bar.right() - low) * width / (width - room))
+    });
+    needed.reduce(f64::max)
+}
+
+/// The scale of each panel's vertical axis: one for all where they stand side by side.
+fn y_scales(chart: &Chart, heights: &[f64]) -> Vec<Scale> {
+    let panels = chart.all_panels();
+    match (chart.arrangement, panels.first(), heights.first()) {
+        (Arrangement::SideBySide, Some(first), Some(height)) => {
+            vec![y_scale(first, panels, *height); panels.len()]
+        }
+        _ => panels.iter().zip(heights).map(|(panel, h)| y_scale(panel, std::slice::from_ref(panel), *h)).collect(),
+    }
+}
+
+fn y_scale(first: &Panel, panels: &[Panel], height: f64) -> Scale {
+    if first.has_rows() {
+        return Scale::from_names(&first.y.names);
+    }
+    let mut values: Vec<f64> = panels.iter().flat_map(Panel::y_values).collect();
+    let shown = values.iter().filter(|y| y.is_finite());
+    let (low, high) = shown.fold((f64::INFINITY, 0.0_f64), |(l, h), y| (l.min(*y), h.max(*y)));
+    // Zero belongs to the picture unless it would take much of it. A logarithmic scale passes over it.
+    values.extend((low > 0.0 && low < NEAR_ZERO * high).then_some(0.0));
+    let air = if first.has_slopes() { 0.06 } else { 0.05 };
+    Scale::over(values, ScaleOptions { spacing: first.y.spacing, air, steps: steps(height, (45.0, 6)) })
+}
+
+/// About how many steps between ticks an axis of a length has: one for so many px, but at most so many.
+fn steps(length: f64, (px, most): (f64, usize)) -> usize {
+    ((length / px).round() as usize).clamp(3, most)
+}
+
+/// Width of what stands right of the plots, px: notes, and labels of slopes.
+fn widest_at_right(panels: &[Panel], page: ChartWidth) -> f64 {
+    let width = |mark: &Mark| match &mark.shape {
+        Shape::Note(_, text) => page.choose(VALUE.width(&row_note(text)) + TEXT_GAP, 0.0),
+        Shape::Slope(_, label) => TICK.width(&slope_label(label, page)) + 4.0,
+        _ => 0.0,
+    };
+    panels.iter().flat_map(|panel| &panel.marks).map(width).fold(0.0, f64::max)
+}
+
+/// The name of a row as it stands beside the plot.
+pub(super) fn row_name(name: &str) -> String {
+    shorten(name, LONGEST_NAME, TICK)
+}
+
+/// A note as it stands beside the plot.
+pub(super) fn row_note(note: &str) -> String {
+    shorten(note, LONGEST_NOTE, VALUE)
+}
+
+/// The label of a slope, shortened if need be: it takes its room from the plot.
+pub(super) fn slope_label(label: &str, page: ChartWidth) -> String {
+    shorten(label, page.choose(LONGEST_SLOPE.0, LONGEST_SLOPE.1), TICK)
+}

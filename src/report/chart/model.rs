@@ -1,0 +1,406 @@
+//! What a chart is: panels of marks on axes.
+
+use super::palette::Colour;
+use super::scale::Spacing;
+use super::style::drawable;
+use super::text::percent;
+
+/// A chart: headline, caption, and panels of marks; or a picture that was drawn elsewhere.
+///
+/// The legend names every series once, in the order in which the marks come.
+///
+/// ```
+/// use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series};
+///
+/// let series = Series::new("model A", Colour::Series(0));
+/// let panel = Panel::new(Axis::new("Time", "ms"), Axis::new("Pressure", "bar"))
+///     .with([series.line(vec![(0.0, 0.0), (10.0, 41.0)]), Mark::rule(10.0, "event")]);
+/// let chart = Chart::new("A start", "The pressure grows until the valve opens.").panels([panel]);
+/// assert!(chart.svg()?.contains("Pressure (bar)"));
+/// # Ok::<(), apportion::report::chart::ChartError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    pub(super) title: String,
+    pub(super) caption: String,
+    pub(super) body: Body,
+    pub(super) arrangement: Arrangement,
+    pub(super) interval_name: String,
+    pub(super) published_name: String,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Body {
+    Panels(Vec<Panel>),
+    Picture(Box<Picture>),
+}
+
+/// A picture that was drawn elsewhere.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Picture {
+    /// For a page column.
+    pub wide: Drawing,
+    /// For a phone.
+    pub narrow: Drawing,
+}
+
+/// A picture for one width.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Drawing {
+    /// As an SVG document.
+    pub document: String,
+    /// As an SVG element for a page that sets title and caption as text, see [`Chart::inline`].
+    pub inline: String,
+}
+
+/// How the panels of a chart stand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arrangement {
+    /// One above the other; they share the horizontal axis.
+    #[default]
+    Stacked,
+    /// Side by side in rows as far as there is room; they share the vertical axis.
+    SideBySide,
+}
+
+/// One plot of a chart.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panel {
+    /// Headline of the panel; may be empty.
+    pub title: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// What is drawn.
+    pub marks: Vec<Mark>,
+}
+
+/// An axis: of numbers, or of names if there are any.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Axis {
+    /// The quantity, such as "Pressure".
+    pub label: String,
+    /// Its unit, such as "bar"; empty for none.
+    pub unit: String,
+    /// Linear or logarithmic.
+    pub spacing: Spacing,
+    /// Names of the places 0, 1, 2 and so on; on a vertical axis the rows from top to bottom.
+    pub names: Vec<String>,
+}
+
+/// What the marks of one name look like.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Series {
+    /// Name in the legend; empty for none.
+    pub name: String,
+    /// Colour, and symbol of points.
+    pub colour: Colour,
+    /// How its lines are drawn.
+    pub stroke: Stroke,
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Stroke {
+    /// A full line.
+    #[default]
+    Solid,
+    /// A dashed line.
+    Dashed,
+    /// A dotted line.
+    Dotted,
+    /// A full line with a symbol at every point.
+    SolidWithPoints,
+    /// Symbols alone.
+    Points,
+}
+
+/// A mark of a series. Numbers that cannot be drawn (not finite, beyond 1e300, not positive on a logarithmic axis) leave
+/// gaps in lines and bands; other marks are left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// Its series.
+    pub series: Series,
+    /// What it is.
+    pub shape: Shape,
+}
+
+/// The kinds of marks.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A line through points, or the points, see [`Stroke`].
+    Line(Vec<(f64, f64)>),
+    /// A shaded band as (x, low, high).
+    Band(Vec<(f64, f64, f64)>),
+    /// A cloud of small dots.
+    Dots(Vec<(f64, f64)>),
+    /// A point with its label and intervals.
+    Point(Point),
+    /// A level bar in a row of a vertical axis of names; the bars of a row share it in the order they come.
+    Bar(Bar),
+    /// An interval over a whole row: row, low, high.
+    Interval(usize, f64, f64),
+    /// Text beside a row.
+    Note(usize, String),
+    /// A vertical line at x with a label above; bars stand about the first of them, else about 0.
+    Rule(f64, String),
+    /// A dashed line y = slope x with a label at its end; it brings the origin into the plot.
+    Slope(f64, String),
+}
+
+/// A point with its label and intervals.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Point {
+    /// On the horizontal axis.
+    pub x: f64,
+    /// On the vertical axis.
+    pub y: f64,
+    /// Written beside it where there is room; may be empty.
+    pub label: String,
+    /// Bounds of `x`, drawn as a thin line.
+    pub x_interval: Option<(f64, f64)>,
+    /// Bounds of `y`, likewise.
+    pub y_interval: Option<(f64, f64)>,
+}
+
+/// A level bar. One with an end that cannot be drawn keeps its place, which says so.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bar {
+    /// Its row.
+    pub row: usize,
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends: its value.
+    pub to: f64,
+    /// Lower and upper bound of the value.
+    pub interval: Option<(f64, f64)>,
+    /// The value from elsewhere, drawn as a hollow diamond.
+    pub published: Option<f64>,
+    /// Written after it.
+    pub label: String,
+}
+
+impl Chart {
+    /// A chart without panels.
+    pub fn new(title: impl Into<String>, caption: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            caption: caption.into(),
+            body: Body::Panels(Vec::new()),
+            arrangement: Arrangement::Stacked,
+            interval_name: "95 % interval".to_owned(),
+            published_name: "published".to_owned(),
+        }
+    }
+
+    /// The chart with more panels.
+    pub fn panels(mut self, panels: impl IntoIterator<Item = Panel>) -> Self {
+        if let Body::Panels(all) = &mut self.body {
+            all.extend(panels);
+        }
+        self
+    }
+
+    /// The chart with its panels side by side.
+    pub fn side_by_side(self) -> Self {
+        Self { arrangement: Arrangement::SideBySide, ..self }
+    }
+
+    /// The chart with a name for intervals in the legend.
+    pub fn interval_name(self, name: impl Into<String>) -> Self {
+        Self { interval_name: name.into(), ..self }
+    }
+
+    /// The chart with a name for published values in the legend.
+    pub fn published_name(self, name: impl Into<String>) -> Self {
+        Self { published_name: name.into(), ..self }
+    }
+
+    /// A chart that is a picture.
+    pub fn from_picture(title: impl Into<String>, caption: impl Into<String>, picture: Picture) -> Self {
+        Self { body: Body::Picture(Box::new(picture)), ..Self::new(title, caption) }
+    }
+
+    /// Headline of the chart.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// The sentence under the chart.
+    pub fn caption(&self) -> &str {
+        &self.caption
+    }
+
+    /// Replaces the headline.
+    pub fn set_title(&mut self, title: impl Into<String>) {
+        self.title = title.into();
+    }
+
+    /// Replaces the caption.
+    pub fn set_caption(&mut self, caption: impl Into<String>) {
+        self.caption = caption.into();
+    }
+
+    /// The panels; none if it is a picture.
+    pub fn all_panels(&self) -> &[Panel] {
+        match &self.body {
+            Body::Panels(panels) => panels,
+            Body::Picture(_) => &[],
+        }
+    }
+
+    /// All marks of all panels.
+    pub(super) fn marks(&self) -> impl Iterator<Item = &Mark> {
+        self.all_panels().iter().flat_map(|panel| &panel.marks)
+    }
+}
+
+impl Panel {
+    /// A panel without marks.
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self { title: String::new(), x, y, marks: Vec::new() }
+    }
+
+    /// The panel with a headline.
+    pub fn titled(self, title: impl Into<String>) -> Self {
+        Self { title: title.into(), ..self }
+    }
+
+    /// The panel with its rows in falling order of their keys, and with the first `most` of them only.
+    pub fn ranked(mut self, keys: &[f64], most: usize) -> Self {
+        let key = |row: usize| keys.get(row).copied().filter(|key| !key.is_nan()).unwrap_or(f64::NEG_INFINITY);
+        let mut order: Vec<usize> = (0..self.y.names.len()).collect();
+        order.sort_by(|&a, &b| key(b).total_cmp(&key(a)));
+        order.truncate(most);
+        let place = |row: &mut usize| match order.iter().position(|other| other == row) {
+            Some(place) => {
+                *row = place;
+                true
+            }
+            None => false,
+        };
+        self.marks.retain_mut(|mark| match &mut mark.shape {
+            Shape::Bar(bar) => place(&mut bar.row),
+            Shape::Interval(row, ..) | Shape::Note(row, _) => place(row),
+            _ => true,
+        });
+        self.y.names = order.iter().map(|&row| self.y.names[row].clone()).collect();
+        self
+    }
+
+    /// The panel with more marks.
+    pub fn with(mut self, marks: impl IntoIterator<Item = Mark>) -> Self {
+        self.marks.extend(marks);
+        self
+    }
+}
+
+impl Axis {
+    /// A linear axis.
+    pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self { label: label.into(), unit: unit.into(), ..Self::default() }
+    }
+
+    /// An axis of names.
+    pub fn from_names(label: impl Into<String>, names: Vec<String>) -> Self {
+        Self { label: label.into(), names, ..Self::default() }
+    }
+
+    /// The axis with a spacing.
+    pub fn spaced(self, spacing: Spacing) -> Self {
+        Self { spacing, ..self }
+    }
+
+    /// Label and unit, with the power of ten that the ticks are in.
+    pub(super) fn title(&self, exponent: i32) -> String {
+        super::plot::axis_title(&self.label, &self.unit, exponent)
+    }
+}
+
+impl Series {
+    /// A series whose lines are solid.
+    pub fn new(name: impl Into<String>, colour: Colour) -> Self {
+        Self { name: name.into(), colour, stroke: Stroke::Solid }
+    }
+
+    /// The series with another stroke.
+    pub fn stroke(self, stroke: Stroke) -> Self {
+        Self { stroke, ..self }
+    }
+
+    /// A mark of the series.
+    pub fn mark(&self, shape: Shape) -> Mark {
+        Mark { series: self.clone(), shape }
+    }
+
+    /// A line of the series.
+    pub fn line(&self, points: Vec<(f64, f64)>) -> Mark {
+        self.mark(Shape::Line(points))
+    }
+
+    /// A band of the series.
+    pub fn band(&self, edges: Vec<(f64, f64, f64)>) -> Mark {
+        self.mark(Shape::Band(edges))
+    }
+}
+
+impl Stroke {
+    pub(super) fn has_line(self) -> bool {
+        self != Self::Points
+    }
+
+    pub(super) fn has_points(self) -> bool {
+        matches!(self, Self::SolidWithPoints | Self::Points)
+    }
+
+    pub(super) fn dash(self) -> &'static str {
+        match self {
+            Self::Dashed => "7 4",
+            Self::Dotted => "2 3",
+            _ => "none",
+        }
+    }
+}
+
+impl Mark {
+    /// A vertical line with a label.
+    pub fn rule(x: f64, label: impl Into<String>) -> Self {
+        Series::default().mark(Shape::Rule(x, label.into()))
+    }
+
+    /// A line through the origin with a label.
+    pub fn slope(slope: f64, label: impl Into<String>) -> Self {
+        Series::default().mark(Shape::Slope(slope, label.into()))
+    }
+
+    /// Text beside a row.
+    pub fn note(row: usize, text: impl Into<String>) -> Self {
+        Series::default().mark(Shape::Note(row, text.into()))
+    }
+}
+
+impl Bar {
+    /// A bar from 0 to a value in percent, with the value written after it; `None` keeps its place.
+    pub fn percent(row: usize, value: Option<f64>, interval: Option<(f64, f64)>) -> Self {
+        let label = value.map_or_else(String::new, percent);
+        Self { row, to: value.unwrap_or(f64::NAN), interval, label, ..Self::default() }
+    }
+
+    /// The bar as it is drawn; `None` if it cannot be.
+    pub(super) fn drawn(&self) -> Option<Self> {
+        drawable(self.from).and(drawable(self.to))?;
+        let interval = self.interval.and_then(drawable_pair);
+        Some(Self { interval, ..self.clone() })
+    }
+
+    /// The diamond, if it can be drawn.
+    pub(super) fn diamond(&self) -> Option<f64> {
+        self.published.and_then(drawable)
+    }
+}
+
+/// Both bounds if both can be drawn.
+pub(super) fn drawable_pair((low, high): (f64, f64)) -> Option<(f64, f64)> {
+    drawable(low).zip(drawable(high))
+}

@@ -1,0 +1,182 @@
+//! Draws level bars in rows, with their names, intervals and notes.
+
+use super::draw::Sheet;
+use super::layout::{ROW_GAP, TEXT_GAP, row_name, row_note};
+use super::model::{Bar, Mark, Panel, Series, Shape, drawable_pair};
+use super::style::{ChartWidth, INK, MARGIN, MUTED, TICK, VALUE};
+use super::svg::{Anchor, Canvas, Px, Text};
+use super::text::shorten;
+
+/// A bar with its place, px.
+struct Lane<'a> {
+    series: &'a Series,
+    bar: &'a Bar,
+    top: f64,
+    height: f64,
+}
+
+impl Lane<'_> {
+    fn at(&self, part: f64) -> f64 {
+        self.top + part * self.height
+    }
+
+    /// The height of interval and label: a published value stands below them.
+    fn upper(&self) -> f64 {
+        self.at(if self.bar.diamond().is_some() { 0.27 } else { 0.5 })
+    }
+}
+
+impl<'a> Sheet<'a> {
+    /// All rows. On a page names stand left of the bars and notes right of them, on a phone both above them.
+    pub(super) fn rows(&self, canvas: &mut Canvas) {
+        let panel = self.cell.panel;
+        let rows = 0..panel.y.names.len();
+        let lanes: Vec<Lane<'_>> = rows.clone().flat_map(|row| self.lanes(row)).collect();
+        self.bars(canvas, &lanes);
+        if let Some(x) = self.x(panel.base()) {
+            canvas.open("g", &[("class", &"baseline"), ("stroke", &INK), ("stroke-width", &"1")]);
+            canvas.line((x, self.plot.top), (x, self.plot.bottom()));
+            canvas.close("g");
+        }
+        self.intervals(canvas, &lanes);
+        self.published(canvas, &lanes);
+        self.values(canvas, &lanes);
+        canvas.open("g", &[("class", &"rows")]);
+        for row in rows {
+            self.texts(canvas, row);
+        }
+        canvas.close("g");
+    }
+
+    fn x(&self, value: f64) -> Option<f64> {
+        self.plot.x(&self.cell.x, value)
+    }
+
+    /// The middle of the bars of a row.
+    fn middle(&self, row: usize) -> f64 {
+        let rows = self.layout.rows;
+        self.plot.top + (row + 1) as f64 * rows.pitch - (rows.bars + ROW_GAP) / 2.0
+    }
+
+    fn lanes(&self, row: usize) -> Vec<Lane<'a>> {
+        let panel: &'a Panel = self.cell.panel;
+        let in_row: Vec<(&'a Mark, &'a Bar)> = panel.bars().filter(|(_, bar)| bar.row == row).collect();
+        let height = self.layout.rows.bars / in_row.len().max(1) as f64;
+        let top = self.middle(row) - self.layout.rows.bars / 2.0;
+        let lane = |(number, (mark, bar)): (usize, &(&'a Mark, &'a Bar))| Lane {
+            series: &mark.series,
+            bar,
+            top: top + number as f64 * height,
+            height,
+        };
+        in_row.iter().enumerate().map(lane).collect()
+    }
+
+    fn bars(&self, canvas: &mut Canvas, lanes: &[Lane<'_>]) {
+        canvas.open("g", &[("class", &"bars")]);
+        for lane in lanes {
+            let Some(bar) = lane.bar.drawn() else { continue };
+            let Some((from, to)) = self.x(bar.from).zip(self.x(bar.to)) else { continue };
+            canvas.tipped(
+                "rect",
+                &[
+                    ("x", &Px(from.min(to))),
+                    ("y", &Px(lane.top)),
+                    ("width", &Px((to - from).abs())),
+                    ("height", &Px(lane.height)),
+                    ("fill", &lane.series.colour.hex()),
+                ],
+                &self.chart.bar_in_words(self.cell.panel, &lane.series.name, &bar),
+            );
+        }
+        canvas.close("g");
+    }
+
+    fn intervals(&self, canvas: &mut Canvas, lanes: &[Lane<'_>]) {
+        canvas.open("g", &[("class", &"whiskers")]);
+        for lane in lanes {
+            if let Some((low, high)) = lane.bar.drawn().and_then(|bar| bar.interval)
+                && let Some(ends) = self.x(low).zip(self.x(high))
+            {
+                canvas.whisker(ends, lane.upper(), (lane.height - 2.0).min(7.0));
+            }
+        }
+        for mark in &self.cell.panel.marks {
+            if let Shape::Interval(row, low, high) = mark.shape
+                && row < self.cell.panel.y.names.len()
+                && let Some((low, high)) = drawable_pair((low, high))
+                && let Some(ends) = self.x(low).zip(self.x(high))
+            {
+                canvas.whisker(ends, self.middle(row), 7.0);
+            }
+        }
+        canvas.close("g");
+    }
+
+    fn published(&self, canvas: &mut Canvas, lanes: &[Lane<'_>]) {
+        canvas.open("g", &[("class", &"published")]);
+        for lane in lanes {
+            if let Some(x) = lane.bar.diamond().and_then(|value| self.x(value)) {
+                canvas.diamond((x, lane.at(0.73)));
+            }
+        }
+        canvas.close("g");
+    }
+
+    /// The label after each bar and what marks it, or that it has no value.
+    fn values(&self, canvas: &mut Canvas, lanes: &[Lane<'_>]) {
+        canvas.open("g", &[("class", &"values")]);
+        for lane in lanes {
+            let baseline = lane.upper() + VALUE.cap_height() / 2.0;
+            let (end, label, fill) = match lane.bar.drawn() {
+                Some(bar) => (bar.right(), lane.bar.label.as_str(), INK),
+                None => (self.cell.panel.base(), "no value", MUTED),
+            };
+            if let Some(x) = self.x(end).filter(|_| !label.is_empty()) {
+                canvas.text(&Text::new(label, (x + TEXT_GAP, baseline), VALUE).fill(fill).halo());
+            }
+        }
+        canvas.close("g");
+    }
+
+    /// Name and notes of a row, and that there is no value where nothing else is.
+    fn texts(&self, canvas: &mut Canvas, row: usize) {
+        let panel = self.cell.panel;
+        let name = panel.y.names[row].as_str();
+        let note = panel.marks.iter().find_map(|mark| match &mark.shape {
+            Shape::Note(of, text) if *of == row => Some(text.as_str()),
+            _ => None,
+        });
+        let note = note.unwrap_or_default();
+        let middle = self.middle(row);
+        let baseline = middle + TICK.cap_height() / 2.0;
+        let is_empty = !panel.marks.iter().any(|mark| match &mark.shape {
+            Shape::Bar(bar) => bar.row == row,
+            Shape::Interval(of, low, high) => *of == row && drawable_pair((*low, *high)).is_some(),
+            _ => false,
+        });
+        if is_empty {
+            canvas.text(&Text::new("no value", (self.plot.left + TEXT_GAP, baseline), VALUE).fill(MUTED));
+        }
+        if self.layout.page == ChartWidth::Narrow {
+            // Each as long as the other leaves room; with a white rim, since a rule may run through them.
+            let page = ChartWidth::Narrow.px();
+            let room = page - 2.0 * MARGIN - 2.0 * TEXT_GAP;
+            let name_line = shorten(name, room - VALUE.width(note).min(room / 2.0), TICK);
+            let note_line = shorten(note, room - TICK.width(&name_line), VALUE);
+            let baseline = middle - self.layout.rows.bars / 2.0 - 4.0;
+            canvas.text(&Text::new(&name_line, (MARGIN, baseline), TICK).halo().whole(name));
+            let at = (page - MARGIN, baseline);
+            canvas.text(&Text::new(&note_line, at, VALUE).anchor(Anchor::End).halo().whole(note));
+            return;
+        }
+        if self.is_first_column {
+            let at = (self.plot.left - TEXT_GAP, baseline);
+            canvas.text(&Text::new(&row_name(name), at, TICK).anchor(Anchor::End).whole(name));
+        }
+        if !note.is_empty() {
+            let at = (self.plot.right() + TEXT_GAP, baseline);
+            canvas.text(&Text::new(&row_note(note), at, VALUE).whole(note));
+        }
+    }
+}

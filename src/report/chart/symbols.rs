@@ -1,0 +1,70 @@
+//! The small symbols of data, the same in a plot and in its legend.
+
+use super::palette::Colour;
+use super::style::{INK, PAPER};
+use super::svg::{Canvas, Px};
+
+/// The ends of an interval, px.
+pub(super) type Ends = Option<(f64, f64)>;
+
+/// Half the diagonal of a diamond, px.
+const DIAMOND: f64 = 4.2;
+
+impl Canvas {
+    /// A hollow diamond: a value from elsewhere.
+    pub fn diamond(&mut self, (x, y): (f64, f64)) {
+        let (left, right, top, bottom) = (Px(x - DIAMOND), Px(x + DIAMOND), Px(y - DIAMOND), Px(y + DIAMOND));
+        let d = format!("M{left} {y}L{x} {top}L{right} {y}L{x} {bottom}Z", x = Px(x), y = Px(y));
+        self.leaf("path", &[("d", &d), ("fill", &PAPER), ("stroke", &INK), ("stroke-width", &"1.2")]);
+    }
+
+    /// An interval along a horizontal axis, with caps `cap` px high.
+    pub fn whisker(&mut self, (from, to): (f64, f64), y: f64, cap: f64) {
+        let (top, bottom) = (Px(y - cap / 2.0), Px(y + cap / 2.0));
+        let (from, to, y) = (Px(from), Px(to), Px(y));
+        let d = format!("M{from} {top}V{bottom}M{from} {y}H{to}M{to} {top}V{bottom}");
+        self.leaf("path", &[("d", &d), ("fill", &"none"), ("stroke", &INK), ("stroke-width", &"1.2")]);
+    }
+
+    /// A cloud of small dots as one path: each is a line of no length with round ends. Coordinates have one decimal.
+    pub fn dots(&mut self, dots: &[(f64, f64)], colour: Colour) {
+        let mut d = String::with_capacity(14 * dots.len());
+        for (x, y) in dots {
+            let tenth = |v: &f64| Px((10.0 * v).round() / 10.0);
+            d.push_str(&format!("M{} {}h0", tenth(x), tenth(y)));
+        }
+        self.leaf(
+            "path",
+            &[
+                ("class", &"dots"),
+                ("d", &d),
+                ("fill", &"none"),
+                ("stroke", &colour.hex()),
+                ("stroke-width", &"2.8"),
+                ("stroke-linecap", &"round"),
+                ("stroke-opacity", &"0.4"),
+            ],
+        );
+    }
+
+    /// Thin lines without caps from a point's interval ends, level and upright.
+    pub fn thin_whiskers(&mut self, (x, y): (f64, f64), (level, upright): (Ends, Ends), colour: Colour) {
+        let mut d = String::new();
+        if let Some((from, to)) = level {
+            d.push_str(&format!("M{} {}H{}", Px(from), Px(y), Px(to)));
+        }
+        if let Some((from, to)) = upright {
+            d.push_str(&format!("M{} {}V{}", Px(x), Px(from), Px(to)));
+        }
+        if !d.is_empty() {
+            let (stroke, class) = (colour.hex(), "whisker");
+            self.leaf("path", &[("class", &class), ("d", &d), ("fill", &"none"), ("stroke", &stroke)]);
+        }
+    }
+
+    /// A filled point with colour and, for print in grey, symbol of its series.
+    pub fn point(&mut self, (x, y): (f64, f64), colour: Colour) {
+        let d = format!("M{} {}{}", Px(x), Px(y), colour.symbol());
+        self.leaf("path", &[("class", &"point"), ("d", &d), ("fill", &colour.hex())]);
+    }
+}

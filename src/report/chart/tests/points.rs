@@ -1,0 +1,139 @@
+//! Clouds of dots, labelled points and slopes.
+
+use resvg::usvg::roxmltree::Document;
+
+use super::super::reading::{groups, number, path_numbers, texts, y_axis};
+use super::*;
+
+fn panel(dots: Vec<(f64, f64)>) -> Panel {
+    let mean = Series::new("mean", Colour::Reference);
+    let marks = [
+        Series::new("model run", Colour::Series(0)).mark(Shape::Dots(dots)),
+        mean.band(vec![(0.0, 9.0, 11.0), (10.0, 18.0, 22.0)]),
+        mean.line(vec![(0.0, 10.0), (10.0, 20.0)]),
+    ];
+    Panel::new(Axis::new("first", "um"), Axis::new("output", "m")).titled("S1 0.34, ST 0.69").with(marks)
+}
+
+#[test]
+fn dots_are_one_path_at_their_values() {
+    let svg = svg(vec![panel(vec![(0.0, 10.0), (5.0, 40.0), (f64::NAN, 1.0), (10.0, 20.0)])]);
+    let document = Document::parse(&svg).expect("well-formed");
+    let (zero, scale) = y_axis(&groups(&document, "y-axis")[0]);
+    let clouds = groups(&document, "dots");
+    assert_eq!(clouds.len(), 1);
+    // M x y h 0 for each dot.
+    let drawn = path_numbers(&clouds[0]);
+    assert_eq!(drawn.len(), 3 * 3);
+    for (dot, value) in drawn.chunks(3).zip([10.0, 40.0, 20.0]) {
+        // One decimal, and tick labels give the scale to 1e-3.
+        assert!((zero - dot[1] - value * scale).abs() < 0.06 + 1e-3 * value * scale);
+        assert_eq!(dot[2], 0.0);
+    }
+    assert!((drawn[3] - drawn[0] - (drawn[6] - drawn[3])).abs() < 0.21, "equal steps");
+    assert_eq!(texts(groups(&document, "legend")[0]), ["model run", "mean"]);
+}
+
+#[test]
+fn dots_are_seen_in_the_picture() {
+    let dots = Series::new("", Colour::Reference).mark(Shape::Dots(vec![(0.0, 0.0), (5.0, 5.0), (10.0, 10.0)]));
+    let panel = Panel::new(Axis::new("x", ""), Axis::new("y", "")).with([dots]);
+    let with = Chart::new("", "Dots.").panels([panel]).svg().expect("a chart");
+    // Without dots the axes would be others: here they are there, but no path.
+    let without = with.replace("h0", "");
+    let height = number(&Document::parse(&with).expect("well-formed").root_element(), "height");
+    // Dark pixels once the dots are as dark as ink.
+    let visible = |svg: &str| dark_pixels(&svg.replace("stroke-opacity=\"0.4\"", ""), 0.0, height);
+    assert!(visible(&with) > visible(&without), "round ends of lines of no length are drawn");
+}
+
+#[test]
+fn panels_stand_in_even_rows_and_share_their_vertical_axis() {
+    for (count, wide, narrow) in [(1, 1, 1), (2, 2, 2), (3, 3, 2), (4, 2, 2), (5, 3, 2), (6, 3, 2)] {
+        let chart = chart(vec![panel(vec![(1.0, 2.0)]); count]).side_by_side();
+        for (width, columns) in [(ChartWidth::Wide, wide), (ChartWidth::Narrow, narrow)] {
+            let svg = chart.svg_at(width).expect("a chart");
+            let document = Document::parse(&svg).expect("well-formed");
+            assert_eq!(groups(&document, "panel").len(), count);
+            // One labelled axis in each row.
+            assert_eq!(groups(&document, "y-axis").len(), usize::div_ceil(count, columns), "{count} at {width:?}");
+        }
+    }
+}
+
+#[test]
+fn thousands_of_dots_make_a_small_file() {
+    let dots = (0..2000).map(|i| (f64::from(i).sin(), f64::from(i).cos())).collect();
+    let svg = svg(vec![panel(dots)]);
+    // At most "M123.4 123.4h0" for each, and the rest of the figure.
+    assert!(svg.len() < 2000 * 14 + 6000, "{}", svg.len());
+}
+
+fn labelled(points: Vec<Point>, slopes: &[f64]) -> Panel {
+    let monotone = Series::new("monotone", Colour::Series(0));
+    let points = points.into_iter().map(|point| monotone.mark(Shape::Point(point)));
+    let slopes = slopes.iter().map(|slope| Mark::slope(*slope, format!("σ = {slope} μ*")));
+    Panel::new(Axis::new("μ*", "nN"), Axis::new("σ", "nN")).with(points).with(slopes)
+}
+
+fn point(x: f64, y: f64, label: &str) -> Point {
+    Point { x, y, label: label.to_owned(), ..Point::default() }
+}
+
+#[test]
+fn points_stand_at_their_values_and_slopes_run_through_them() {
+    let points = vec![point(40.0, 20.0, "first"), point(10.0, 20.0, "second"), point(f64::NAN, 1.0, "none")];
+    let svg = svg(vec![labelled(points, &[0.5, 2.0])]);
+    let document = Document::parse(&svg).expect("well-formed");
+    let (zero, scale) = y_axis(&groups(&document, "y-axis")[0]);
+    let series = groups(&document, "series")[0];
+    let drawn: Vec<Vec<f64>> = series.children().filter(|n| n.has_tag_name("path")).map(|n| path_numbers(&n)).collect();
+    assert_eq!(drawn.len(), 2);
+    // Tick labels give the scale to 1e-3.
+    assert!((zero - drawn[0][1] - 20.0 * scale).abs() < 0.02 + 1e-3 * 20.0 * scale);
+    // Each line passes through one of the points: on it, the same share of both sides.
+    let lines = groups(&document, "slopes")[0].descendants().filter(|n| n.has_tag_name("line")).collect::<Vec<_>>();
+    for (line, point) in lines.iter().zip(&drawn) {
+        let (x1, y1) = (number(line, "x1"), number(line, "y1"));
+        let part = (point[0] - x1) / (number(line, "x2") - x1);
+        assert!((y1 + part * (number(line, "y2") - y1) - point[1]).abs() < 0.1);
+    }
+    assert_eq!(texts(groups(&document, "labels")[0]), ["first", "second"]);
+    assert_eq!(texts(groups(&document, "slopes")[0]), ["σ = 0.5 μ*", "σ = 2 μ*"]);
+}
+
+#[test]
+fn intervals_are_thin_lines_through_their_points() {
+    let (x_interval, y_interval) = (Some((30.0, 60.0)), Some((5.0, 25.0)));
+    let interval = Point { x_interval, y_interval, ..point(40.0, 20.0, "first") };
+    let none = Point { x_interval: Some((f64::NAN, 1.0)), ..point(10.0, 10.0, "second") };
+    let svg = svg(vec![labelled(vec![interval, none], &[1.0])]);
+    let document = Document::parse(&svg).expect("well-formed");
+    let (zero, scale) = y_axis(&groups(&document, "y-axis")[0]);
+    let (whiskers, points) = (groups(&document, "whisker"), groups(&document, "point"));
+    assert_eq!(whiskers.len(), 1);
+    // M from y H to M x from V to; the first point is the legend's.
+    let (drawn, point) = (path_numbers(&whiskers[0]), path_numbers(&points[1]));
+    assert_eq!((drawn[1], drawn[3]), (point[1], point[0]));
+    assert!((drawn[2] - drawn[0] - 3.0 * (point[0] - drawn[0])).abs() < 0.05, "30 to 60 about 40");
+    for (end, value) in [(drawn[4], 5.0), (drawn[5], 25.0)] {
+        assert!((zero - end - value * scale).abs() < 0.02 + 1e-3 * value * scale);
+    }
+}
+
+#[test]
+fn labels_of_any_length_stay_inside_on_a_phone() {
+    let long = "the name of a factor that leaves no room for anything else";
+    let points = vec![point(40_000.0, 20.0, long), point(10.0, 20_000.0, "second"), point(40_000.0, 20_000.0, "width")];
+    for slopes in [&[][..], &[0.1, 0.5, 1.0, 1e3]] {
+        assert_narrow(&chart(vec![labelled(points.clone(), slopes)]));
+    }
+}
+
+#[test]
+fn a_slope_of_any_size_stays_inside() {
+    for slope in [-1.85e306, f64::MAX, f64::MIN_POSITIVE, 0.0, f64::NAN, f64::INFINITY] {
+        let svg = svg(vec![labelled(vec![point(1.0, 1.0, "a")], &[slope])]);
+        assert!(only_finite(&Document::parse(&svg).expect("well-formed")), "{slope}");
+    }
+}
