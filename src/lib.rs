@@ -78,6 +78,8 @@
 pub mod afm;
 mod analysis;
 mod binary;
+#[cfg(feature = "study")]
+mod csv_text;
 pub mod design;
 pub mod estimate;
 #[cfg(feature = "study")]
@@ -87,7 +89,7 @@ pub mod given;
 pub mod model;
 mod names;
 pub mod quantity;
-#[cfg(feature = "report")]
+#[cfg(feature = "charts")]
 pub mod report;
 pub mod run;
 mod runner;

@@ -5,7 +5,7 @@ mod result;
 mod warnings;
 
 pub(crate) use estimate::{FinishedRun, analysis, interval_options};
-#[cfg(feature = "report")]
+#[cfg(feature = "charts")]
 pub(crate) use estimate::{names_of_swaps, row_inputs};
 pub use result::{
     Aggregate, Analysis, FailureCount, LookupError, MixedModels, NoIndices, OutputAnalysis, StopReason, Stopped,

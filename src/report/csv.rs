@@ -1,6 +1,7 @@
 //! CSV: numbers with as many digits as it takes to read the same bits back, an empty cell where there is none.
 
 use super::document::Value;
+use crate::csv_text::inert;
 use super::result::EstimateRecord;
 
 /// The name of a column, or of the three columns of an estimate.
@@ -145,46 +146,9 @@ impl From<Option<bool>> for Value {
     }
 }
 
-/// A text as a CSV field, quoted where it must be (RFC 4180).
-pub(crate) fn csv_field(text: &str) -> String {
-    let text = inert(text.to_owned());
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
-}
-
-/// What a text begins with that a spreadsheet takes for a formula.
-const FORMULA: [char; 4] = ['=', '+', '-', '@'];
-
-/// A cell that no spreadsheet runs: a text that it would take for a formula begins with an apostrophe. Numbers stay.
-fn inert(text: String) -> String {
-    if text.starts_with(FORMULA) && text.parse::<f64>().is_err() { format!("'{text}") } else { text }
-}
-
-/// A text without the apostrophe of [`inert`].
-pub(crate) fn plain_field(text: &str) -> &str {
-    text.strip_prefix('\'').filter(|text| text.starts_with(FORMULA)).unwrap_or(text)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn cells_are_no_formulas() {
-        for (text, field) in [
-            ("=HYPERLINK(\"http://x\",\"y\")", "\"'=HYPERLINK(\"\"http://x\"\",\"\"y\"\")\""),
-            ("+x", "'+x"),
-            ("-a", "'-a"),
-            ("@SUM(1)", "'@SUM(1)"),
-            ("-1.5e-3", "-1.5e-3"),
-            ("+4", "+4"),
-            ("a-b", "a-b"),
-        ] {
-            assert_eq!(csv_field(text), field);
-            let inert = inert(text.to_owned());
-            assert_eq!(plain_field(&inert), text);
-        }
-        assert_eq!(plain_field("'quoted'"), "'quoted'");
-    }
 
     #[test]
     fn values_keep_their_bits_and_gaps_are_empty() {

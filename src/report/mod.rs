@@ -35,7 +35,6 @@ pub use atomic_write::{
 };
 pub use build::{RunFacts, result_json};
 pub use build_output::inputs_in_words;
-pub(crate) use csv::{csv_field, plain_field};
 pub use factor_bars::{SharesSeries, shares_chart, study_chart};
 pub use format::{estimate, fixed, share, share_of_runs, significant, two_digits, with_unit};
 pub use interval_widths::{widest_interval, width_after_doubling};

@@ -22,7 +22,7 @@ mod special;
 mod unseen;
 
 pub use aggregate::{AggregateIndices, aggregate_indices};
-#[cfg(feature = "report")]
+#[cfg(feature = "study")]
 pub(crate) use by_points::quantile;
 pub use convergence::{Stage, stages};
 pub use estimates::Layout;

@@ -19,6 +19,7 @@ mod model;
 mod palette;
 mod path;
 mod plot;
+#[cfg(feature = "png")]
 mod png;
 mod rows;
 mod scale;
@@ -37,6 +38,7 @@ pub use error::ChartError;
 pub use film_strip::{FilmStrip, Look, Sketch};
 pub use model::{Arrangement, Axis, Bar, Chart, Drawing, Mark, Panel, Picture, Point, Series, Shape, Stroke};
 pub use palette::Colour;
+#[cfg(feature = "png")]
 pub use png::{PNG_SCALE, Png, PngError, png};
 pub use scale::Spacing;
 pub use style::ChartWidth;

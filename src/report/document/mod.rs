@@ -5,11 +5,13 @@
 
 mod anchors;
 mod drawing;
+#[cfg(feature = "page")]
 mod html;
 mod symbols;
 mod table;
 mod text;
 
+#[cfg(feature = "page")]
 pub use html::DocumentError;
 pub use symbols::symbols;
 pub use table::{Cell, Column, Mark, OnPhone, Table, Value};
