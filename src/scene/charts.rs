@@ -65,10 +65,6 @@ fn clear_rule_labels(panels: &mut [Panel]) {
     }
 }
 
-fn chart(title: &str, caption: String, panels: Vec<Panel>) -> Chart {
-    Chart::new(title, caption).panels(panels)
-}
-
 /// The colour of a friction law, the same in all charts of scenes.
 pub fn law_colour(law: FrictionLaw) -> Colour {
     match law {
@@ -86,7 +82,7 @@ pub(crate) fn forces(story: &SceneStory) -> Chart {
         Curve { name: "lateral force F_Y", look: (LATERAL, Stroke::Dashed), read: &|s| NANO * s.lateral_force },
         Curve { name: "normal force F_Z", look: (NORMAL, Stroke::Dotted), read: &|s| NANO * s.normal_force },
     ];
-    chart("Forces on the tip", forces_caption(story), vec![panel(story, Axis::new("Force", "nN"), &curves)])
+    Chart::new("Forces on the tip", forces_caption(story)).panels([panel(story, Axis::new("Force", "nN"), &curves)])
 }
 
 fn forces_caption(story: &SceneStory) -> String {
@@ -137,7 +133,11 @@ pub(crate) fn pushing(story: &SceneStory) -> Chart {
             force(story.critical.critical_force)
         ),
     };
-    chart("Pushing force against critical force", caption, vec![panel(story, Axis::new("Force", "nN"), &curves)])
+    Chart::new("Pushing force against critical force", caption).panels([panel(
+        story,
+        Axis::new("Force", "nN"),
+        &curves,
+    )])
 }
 
 /// TS04 figure 10.
@@ -152,7 +152,7 @@ pub(crate) fn positions(story: &SceneStory) -> Chart {
         },
         Curve { name: "tip base y_P", look: (TIP, Stroke::Dotted), read: &|s| NANO * s.base_lateral },
     ];
-    chart("Positions", positions_caption(story), vec![panel(story, Axis::new("Position", "nm"), &curves)])
+    Chart::new("Positions", positions_caption(story)).panels([panel(story, Axis::new("Position", "nm"), &curves)])
 }
 
 fn positions_caption(story: &SceneStory) -> String {
@@ -203,7 +203,7 @@ pub(crate) fn contacts(story: &SceneStory) -> Chart {
         relative("Change of indentation", depths.0, depths.1),
     ];
     clear_rule_labels(&mut panels[1..]);
-    chart("Contacts at tip and substrate", contacts_caption(story), panels)
+    Chart::new("Contacts at tip and substrate", contacts_caption(story)).panels(panels)
 }
 
 type Read = fn(&SceneSample) -> f64;
@@ -247,7 +247,7 @@ fn angles(story: &SceneStory) -> Chart {
         ),
         _ => NO_SAMPLES.to_owned(),
     };
-    chart("Force angle and twist", caption, panels)
+    Chart::new("Force angle and twist", caption).panels(panels)
 }
 
 const NO_SAMPLES: &str = "The story holds no sample.";

@@ -26,7 +26,7 @@ const LONGEST_SLOPE: (f64, f64) = (120.0, 64.0);
 /// bars of a row, px.
 const LANE: f64 = 6.0;
 const LABELLED_LANE: f64 = 10.0;
-const SHARED_LANE: f64 = 15.0;
+const SHARED_LANE: f64 = 17.0;
 const LEAST_BARS: f64 = 16.0;
 /// Between the bars of two rows, px.
 pub(super) const ROW_GAP: f64 = 8.0;

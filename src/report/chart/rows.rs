@@ -22,7 +22,7 @@ impl Lane<'_> {
 
     /// The height of interval and label: a published value stands below them.
     fn upper(&self) -> f64 {
-        self.at(if self.bar.diamond().is_some() { 0.27 } else { 0.5 })
+        self.at(if self.bar.diamond().is_some() { 0.25 } else { 0.5 })
     }
 }
 
@@ -117,7 +117,7 @@ impl<'a> Sheet<'a> {
         canvas.open("g", &[("class", &"published")]);
         for lane in lanes {
             if let Some(x) = lane.bar.diamond().and_then(|value| self.x(value)) {
-                canvas.diamond((x, lane.at(0.73)));
+                canvas.diamond((x, lane.at(0.75)));
             }
         }
         canvas.close("g");
