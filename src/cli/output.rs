@@ -74,6 +74,7 @@ pub fn deliver_with(artefacts: &Artefacts, document: &Document, text: &str) -> R
     let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
     match (&json[..], others.len()) {
         ([], 0) => (),
+        ([], tables) => say(&format!("wrote {} beside it", count(tables, "table"))),
         ([json], 0) => say(&format!("wrote {}", json.display())),
         ([json], tables) => say(&format!("wrote {} and {} beside it", json.display(), count(tables, "table"))),
         (several, tables) => say(&format!("wrote {} beside it", count(several.len() + tables, "file"))),

@@ -7,8 +7,8 @@ use thiserror::Error;
 
 use super::points::{PointsError, PointsReader};
 use super::rows::RowReader;
-use crate::model::{Batch, Output, RowFailure, RunContext};
 use crate::csv_text::csv_field;
+use crate::model::{Batch, Output, RowFailure, RunContext};
 use crate::run::{Executor, Halt};
 use crate::study::Study;
 

@@ -202,14 +202,18 @@ impl Artefacts {
     /// # Errors
     /// As for [`write`](Self::write), and [`ArtefactError::Stopped`].
     pub fn write_until(&self, document: &Document, stop: &AtomicBool) -> Result<Written, ArtefactError> {
-        self.check(&document.file_names())?;
+        if stop.load(Ordering::SeqCst) {
+            return Err(ArtefactError::Stopped);
+        }
+        let names = document.file_names();
+        self.check(&names)?;
+        if names.paths(&self.formats).iter().any(|path| self.place(path).0 != self.folder) {
+            prepare_folder(&self.folder.join(CHARTS))?;
+        }
         let data = document.data_files();
         let data = data.into_iter().map(|file| self.put(&file.name, stop, || Ok(file.text.into_bytes())));
         let data = data.collect::<Result<_, _>>()?;
         let figures = document.figures();
-        if !self.formats.is_empty() && !figures.is_empty() {
-            prepare_folder(&self.folder.join(CHARTS))?;
-        }
         let drawn: Vec<_> = figures.into_iter().filter(|figure| !figure.stem.is_empty()).collect();
         drawn.par_iter().try_for_each(|figure| {
             if self.formats.is_empty() || stop.load(Ordering::SeqCst) {
@@ -300,14 +304,15 @@ mod tests {
     #[test]
     fn nothing_is_written_once_it_shall_stop() {
         let folder = tempfile::tempdir().unwrap();
-        let file = DataFile { name: "s.json".to_owned(), text: "{}".to_owned() };
-        let document = Document { name: "s".to_owned(), files: vec![file], ..Document::default() };
+        let files = ["s.json", "charts/s.csv"].map(|name| DataFile::new(name, "{}".to_owned()));
+        let document = Document { name: "s".to_owned(), files: files.to_vec(), ..Document::default() };
         let artefacts = Artefacts::new(folder.path());
         let stopped = artefacts.write_until(&document, &AtomicBool::new(true)).unwrap_err();
         assert!(matches!(stopped, ArtefactError::Stopped));
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
         let written = artefacts.write(&document).unwrap();
-        assert_eq!((written.data, written.charts), (vec![folder.path().join("s.json")], None));
+        assert_eq!(written.data, ["s.json", "charts/s.csv"].map(|name| folder.path().join(name)));
+        assert!(written.charts.is_none() && written.data.iter().all(|path| path.is_file()));
         assert!(std::fs::read_to_string(written.page).unwrap().contains("href=\"s.json\""));
     }
 }

@@ -1,8 +1,8 @@
 //! CSV: numbers with as many digits as it takes to read the same bits back, an empty cell where there is none.
 
 use super::document::Value;
-use crate::csv_text::inert;
 use super::result::EstimateRecord;
+use crate::csv_text::inert;
 
 /// The name of a column, or of the three columns of an estimate.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::common::{apportion, stderr, study_path};
+use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
 
 /// The page that `apportion run` writes for a study file, and the folder it stands in.
 fn page_of(study: &Path, settings: &[&str]) -> (String, tempfile::TempDir) {
@@ -81,4 +81,81 @@ fn results_without_indices_have_pages() {
     std::fs::write(&study, "model = \"constant\"\n").unwrap();
     let (page, _) = page_of(&study, &[]);
     assert!(page.contains("There are no indices of y") && page.contains("zero variance"));
+}
+
+/// Checks that the page of a folder stands by itself and leads only to files that are there; gives it.
+#[track_caller]
+fn whole(folder: &Path, name: &str) -> String {
+    let page = std::fs::read_to_string(folder.join(format!("{name}.html"))).unwrap();
+    for link in links(&page).into_iter().filter(|link| !link.starts_with('#')) {
+        assert!(folder.join(link).is_file(), "{name}: {link}");
+    }
+    assert!(page.contains("<p class=\"lead\">") && page.contains("<svg"), "{name}");
+    page
+}
+
+#[test]
+fn every_command_that_draws_writes_a_page() {
+    let folder = Folder::new();
+    let (study, out) = (study_path("soft-cantilever"), folder.path("out"));
+    let to = ["--out", text(&out)];
+    let run = ["run", text(&study), "--base-samples", "64", "--no-journal"];
+    succeed(&[&run[..], &to].concat());
+    whole(&out, "soft-cantilever");
+    succeed(&[&["screen", text(&study), "--trajectories", "8"], &to[..]].concat());
+    assert!(whole(&out, "soft-cantilever-screen").contains("Critical time (s)</h2>"));
+    succeed(&[&["sweep", text(&study), "--points", "5"], &to[..]].concat());
+    assert!(whole(&out, "soft-cantilever-sweep").contains("thickness moves the critical force most"));
+    succeed(&[&["simulate", text(&study)], &to[..]].concat());
+    assert!(whole(&out, "soft-cantilever-scene").contains("<iframe"));
+    succeed(&[&["simulate", text(&study), "--mode-diagram"], &to[..]].concat());
+    whole(&out, "soft-cantilever-modes");
+    let json = out.join("soft-cantilever.json");
+    let both = ["compare", text(&json), text(&json), "--label-a", "one", "--label-b", "two"];
+    succeed(&[&both[..], &to].concat());
+    assert!(whole(&out, "A-vs-B").contains("All indices are the same"));
+    let rows: String = (0..60).map(|k| format!("{},{}\n", k * 37 % 60, (k * 37 % 60) * (k * 23 % 60))).collect();
+    let table = folder.with("table.csv", format!("x,y\n{rows}"));
+    succeed(&[&["given-data", text(&table), "--outputs", "y"], &to[..]].concat());
+    whole(&out, "table");
+    let outputs =
+        folder.with("s.csv", format!("y\n{}", (0..64).map(|k| format!("{}\n", k * 37 % 61)).collect::<String>()));
+    let salib = ["analyze", text(&outputs), "--layout", "salib", "--names", "a,b", "--first-order-only"];
+    succeed(&[&salib[..], &to].concat());
+    whole(&out, "s");
+}
+
+#[test]
+fn charts_have_the_formats_that_are_asked_for() {
+    let folder = Folder::new();
+    let study = study_path("ishigami");
+    let run = |charts: &str| {
+        let out = folder.path(charts);
+        let output = apportion(&[
+            "run",
+            text(&study),
+            "--base-samples",
+            "64",
+            "--no-journal",
+            "--charts",
+            charts,
+            "--out",
+            text(&out),
+        ]);
+        (output, out)
+    };
+    let (output, out) = run("png");
+    let told: Vec<String> = stderr(&output).lines().rev().take(3).map(str::to_owned).collect();
+    assert!(told.iter().all(|line| line.starts_with("wrote ")) && told[0].contains("6 charts"), "{told:?}");
+    let charts = |out: &Path, ending: &str| all_files(out).iter().filter(|name| name.ends_with(ending)).count();
+    assert_eq!((charts(&out, ".png"), charts(&out, ".svg")), (6, 0));
+    assert!(!whole(&out, "ishigami").contains(".svg\""));
+    let (_, out) = run("none");
+    assert!(!out.join("charts").exists());
+    assert!(!whole(&out, "ishigami").contains("charts/"));
+    for (refused, expected) in [("pdf", "rsvg-convert -f pdf"), ("gif", "or none")] {
+        let (output, out) = run(refused);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(expected) && !out.exists(), "{}", stderr(&output));
+    }
 }

@@ -6,6 +6,8 @@ use super::{comparison_charts, comparison_json};
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table, Value};
 use crate::report::format::{give_or_take, heading, name, significant, the};
+use crate::report::leading::{Contender, may_lead};
+use crate::report::listed;
 use crate::report::result::EstimateRecord;
 
 /// The document of a comparison, whose files begin with `name`. A star marks the differences whose intervals leave out 0.
@@ -91,20 +93,25 @@ fn cells(index: &ComparedIndex) -> [String; 3] {
     [said(index.a), said(index.b), said(index.difference) + star]
 }
 
-/// Which factor has the largest total index in each.
+/// Which factor has the largest total index in each, as far as the intervals tell.
 fn leaders(output: &ComparedOutput) -> String {
-    let leader = |of: fn(&ComparedFactor) -> Option<EstimateRecord>| {
-        let singles = output.factors.iter().filter(|factor| !factor.group);
-        let known = singles.filter_map(|factor| Some((factor, of(factor)?.estimate)));
-        known.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(factor, _)| factor.name.as_str())
-    };
-    let output = the(&output.name);
-    match (leader(|f| f.total.a), leader(|f| f.total.b)) {
-        (Some(a), Some(b)) if a == b => format!("For {output}, {} has the largest total index in both.", the(a)),
-        (Some(a), Some(b)) => {
-            format!("For {output}, the largest total index is that of {} in A, that of {} in B.", the(a), the(b))
+    let leaders = |of: fn(&ComparedFactor) -> Option<EstimateRecord>| -> Option<String> {
+        let contender = |factor: &ComparedFactor| {
+            Some(Contender { label: name(&factor.name), first_order: None, total: of(factor)?, probability: None })
+        };
+        let known: Vec<Contender> = output.factors.iter().filter(|f| !f.group).filter_map(contender).collect();
+        let names: Vec<&str> = may_lead(&known).into_iter().map(|place| known[place].label.as_str()).collect();
+        match &names[..] {
+            [] => None,
+            [one] => Some(format!("{} has the largest total index", the(one))),
+            several => Some(format!("{} cannot be told apart by their total indices", listed(several))),
         }
-        _ => format!("One of the results has no indices of {output}."),
+    };
+    let output_name = the(&output.name);
+    match (leaders(|f| f.total.a), leaders(|f| f.total.b)) {
+        (Some(a), Some(b)) if a == b => format!("For {output_name}, {a} in both."),
+        (Some(a), Some(b)) => format!("For {output_name}, {a} in A; {b} in B."),
+        _ => format!("One of the results has no indices of {output_name}."),
     }
 }
 

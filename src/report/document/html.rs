@@ -171,22 +171,13 @@ struct Surroundings<'a> {
 
 impl Surroundings<'_> {
     fn parts(&self, parts: &[Part]) -> Result<String, DocumentError> {
-        let mut html = String::new();
-        for part in parts {
-            match part {
-                Part::OnPage(parts) => html.push_str(&self.parts(parts)?),
-                part => {
-                    html.push_str(self.view(part)?.render()?.trim_start());
-                    html.push('\n');
-                }
-            }
-        }
-        Ok(html)
+        parts.iter().map(|part| self.part(part)).collect()
     }
 
-    fn view<'a>(&self, part: &'a Part) -> Result<PartView<'a>, DocumentError> {
+    fn part(&self, part: &Part) -> Result<String, DocumentError> {
         let all = |texts: &[String]| texts.iter().map(|text| symbols(text)).collect();
-        Ok(match part {
+        let view = match part {
+            Part::OnPage(parts) => return self.parts(parts),
             Part::Text(text) => PartView::Text(symbols(text)),
             Part::Heading(text) => PartView::Heading(symbols(text)),
             Part::List(items) => PartView::List(all(items)),
@@ -199,10 +190,10 @@ impl Surroundings<'_> {
             Part::Details { summary, parts } => {
                 PartView::Details { summary: symbols(summary), body: self.parts(parts)? }
             }
-            Part::OnPage(parts) => PartView::Text(self.parts(parts)?),
             Part::Figure(figure) => self.figure(figure)?,
             Part::Table(table) => PartView::Table(table_view(table)),
-        })
+        };
+        Ok(view.render()?.trim_start().to_owned() + "\n")
     }
 
     fn figure<'a>(&self, figure: &'a Figure) -> Result<PartView<'a>, DocumentError> {

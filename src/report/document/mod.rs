@@ -210,6 +210,12 @@ impl Figure {
             data: data.into(),
         }
     }
+
+    /// The same without the title of the document before that of the chart.
+    pub(crate) fn below(self, title: &str) -> Self {
+        let own = self.chart.title().strip_prefix(title).and_then(|rest| rest.strip_prefix(": "));
+        Self { title: own.map(crate::report::capitalised), ..self }
+    }
 }
 
 impl From<Figure> for Part {

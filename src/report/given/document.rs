@@ -1,5 +1,7 @@
 //! Indices from given data as a document.
 
+use std::path::Path;
+
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord, given_chart};
 use crate::report::artefacts::FileNames;
 use crate::report::csv::Field;
@@ -38,7 +40,7 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
     Document {
         name: name.to_owned(),
         kicker: "Indices from given data".to_owned(),
-        title: result.table.file.clone(),
+        title: file_name(&result.table.file),
         lead,
         sections,
         footer: format!("Made by apportion {}.", result.provenance.apportion_version),
@@ -66,6 +68,11 @@ fn output_parts(output: &GivenOutputRecord, table: Table) -> Vec<Part> {
     }
     parts.extend((!table.rows.is_empty()).then(|| table.into()));
     parts
+}
+
+/// The name of a file without its folder.
+pub(in crate::report) fn file_name(file: &str) -> String {
+    Path::new(file).file_name().map_or_else(|| file.to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
 /// Mean and standard deviation of an output in words.

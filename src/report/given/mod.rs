@@ -6,7 +6,7 @@ mod record;
 mod sentences;
 
 pub use chart::given_chart;
-pub(super) use document::moments;
+pub(super) use document::{file_name, moments};
 pub use document::{file_names, given_document};
 pub use record::{
     BinnedRecord, DependenceRecord, GivenFacts, GivenFile, GivenIndexRecord, GivenInputRecord, GivenOutputRecord,

@@ -3,10 +3,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::*;
-use crate::report::{
-    convergence_chart, distribution_chart, indices_chart, interactions_chart, result_json, run_document, scatter_chart,
-    study_chart,
-};
+use crate::report::{result_json, run_document};
 use crate::study::Study;
 
 const STUDY: &str = "
@@ -118,15 +115,11 @@ fn leaves(value: &Value, at: String, pointers: &mut Vec<String>) {
 }
 
 fn draw(result: &ResultFile) {
-    for output in &result.outputs {
-        for draw in
-            [study_chart, indices_chart, interactions_chart, scatter_chart, distribution_chart, convergence_chart]
-        {
-            let _ = draw(result, output).svg();
-        }
-    }
     let document = run_document(result);
     let _ = document.html();
+    for figure in &document.charts {
+        let _ = figure.chart.svg();
+    }
     document.text();
     document.data_files();
 }

@@ -5,8 +5,7 @@ use crate::report::document::{Figure, Part};
 use crate::report::format::the;
 use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::{
-    capitalised, convergence_chart, distribution_chart, file_stems, indices_chart, interactions_chart, scatter_chart,
-    study_chart,
+    convergence_chart, distribution_chart, file_stems, indices_chart, interactions_chart, scatter_chart, study_chart,
 };
 
 /// A chart of every output.
@@ -75,7 +74,7 @@ impl<'a> Figures<'a> {
     /// The figure of that kind with its number and the names of its files.
     pub fn draw(&mut self, of: Numbered<'_>, kind: usize) -> Part {
         self.drawn.push((of.number, kind));
-        Part::Figure(Box::new(self.figure(of, kind)))
+        self.figure(of, kind).into()
     }
 
     /// The charts that have not been drawn, since there is nothing to be seen on them: files that say so all the same, so
@@ -90,24 +89,14 @@ impl<'a> Figures<'a> {
 
     fn figure(&self, of: Numbered<'_>, kind: usize) -> Figure {
         let study = &self.result.study;
-        let stem = self.stems[of.number - 1][kind].clone();
-        let place = kind;
-        let kind = &KINDS[place];
-        let chart = (kind.draw)(self.result, of.output);
-        let headline = format!("{}: ", study.title.as_ref().unwrap_or(&study.name));
-        // The document has the study's title at its top.
-        let title = match place {
-            SHARES => Some(format!("Shares of {}", the(&of.output.name))),
-            _ => chart.title().strip_prefix(&headline).map(capitalised),
-        };
-        Figure {
-            id: format!("figure-{}-{}", of.number, kind.name),
-            label: format!("Figure {}", self.drawn.len()),
-            title,
-            beside: String::new(),
-            chart,
-            stem,
-            data: if kind.data.is_empty() { String::new() } else { format!("{}{}", study.name, kind.data) },
+        let stem = &self.stems[of.number - 1][kind];
+        let Kind { name, draw, data, .. } = &KINDS[kind];
+        let data = if data.is_empty() { String::new() } else { format!("{}{data}", study.name) };
+        let figure = Figure::new(self.drawn.len(), draw(self.result, of.output), stem, data);
+        let figure = Figure { id: format!("figure-{}-{name}", of.number), ..figure };
+        match kind {
+            SHARES => Figure { title: Some(format!("Shares of {}", the(&of.output.name))), ..figure },
+            _ => figure.below(study.title.as_ref().unwrap_or(&study.name)),
         }
     }
 }

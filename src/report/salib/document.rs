@@ -7,7 +7,7 @@ use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::file_stems;
 use crate::report::format::{estimate, first};
-use crate::report::given::moments;
+use crate::report::given::{file_name, moments};
 use crate::report::records::json;
 use crate::report::result::EstimateRecord;
 
@@ -27,7 +27,7 @@ pub fn salib_document(result: &SalibFile, name: &str) -> Document {
     Document {
         name: name.to_owned(),
         kicker: "Indices at the points of SALib".to_owned(),
-        title: result.table.file.clone(),
+        title: file_name(&result.table.file),
         lead,
         sections,
         footer: format!("Made by apportion {}.", result.provenance.apportion_version),

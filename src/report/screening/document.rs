@@ -18,6 +18,7 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
     // Two charts for each output: mu* against sigma, and mu* with its intervals.
     let mut charts = screening_charts(file).into_iter().enumerate().map(|(place, drawing)| {
         Figure::new(place + 1, drawing.chart, format!("{study}{}", drawing.suffix), format!("{study}-screen.csv"))
+            .below(file.study.headline())
     });
     for (place, output) in file.outputs.iter().enumerate() {
         let figures: Vec<Figure> = charts.by_ref().take(2).collect();

@@ -5,20 +5,23 @@ use super::{AgainstRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, 
 use crate::report::artefacts::FileNames;
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
-use crate::report::format::{grouped, heading, name, short, short_with_unit, the};
+use crate::report::format::{grouped, heading, name, short, short_with_unit, the, value};
 use crate::report::study_sections::{study_section, validity_section};
 
 /// The document of sweeps.
 pub fn sweep_document(file: &SweepFile) -> Document {
     let study = &file.study.name;
-    // Those of the factors, then those of the outputs.
+    // Those of the factors come before those of the outputs, which come first in the document.
+    let (factors, outputs) = (file.sweeps.len(), file.nominal.len());
     let mut charts = sweep_charts(file).into_iter().enumerate().map(|(place, drawing)| {
-        Figure::new(place + 1, drawing.chart, format!("{study}{}", drawing.suffix), format!("{study}-sweep.csv"))
+        let number = if place < factors { outputs + place } else { place - factors };
+        let (stem, data) = (format!("{study}{}", drawing.suffix), format!("{study}-sweep.csv"));
+        Figure::new(number + 1, drawing.chart, stem, data).below(file.study.headline())
     });
-    let curves: Vec<Figure> = charts.by_ref().take(file.sweeps.len()).collect();
+    let curves: Vec<Figure> = charts.by_ref().take(factors).collect();
     let (mut sections, mut lead) = (Vec::new(), Vec::new());
     for (place, (nominal, ranges)) in file.nominal.iter().zip(charts).enumerate() {
-        lead.push(ranges.chart.caption().to_owned());
+        lead.push(widest(file, nominal, place));
         let parts = vec![
             Part::Text(at_nominal(nominal)),
             Part::Table(effects(file, nominal, place)),
@@ -66,6 +69,29 @@ pub fn file_names(name: &str, factors: &[&str], outputs: &[&str]) -> FileNames {
     }
 }
 
+/// Which factor moves an output most.
+fn widest(file: &SweepFile, nominal: &NominalRecord, number: usize) -> String {
+    let output = the(&nominal.output);
+    match by_width(file, number).first() {
+        Some((sweep, SweepEffectRecord { low: Some(low), high: Some(high), .. })) if high > low => format!(
+            "Over its range, with all others nominal, {} moves {output} most: from {} to {}.",
+            the(&sweep.factor),
+            value(*low, ""),
+            value(*high, &nominal.unit)
+        ),
+        Some(_) => format!("No factor alone moves {output}, as far as it has values."),
+        None => format!("No factor was swept for {output}."),
+    }
+}
+
+/// The sweeps with what they do to an output, the widest first.
+fn by_width(file: &SweepFile, number: usize) -> Vec<(&FactorSweepRecord, &SweepEffectRecord)> {
+    let mut sweeps: Vec<(&FactorSweepRecord, &SweepEffectRecord)> =
+        file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
+    sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
+    sweeps
+}
+
 fn at_nominal(nominal: &NominalRecord) -> String {
     match (nominal.value, &nominal.reason) {
         (Some(value), _) => {
@@ -81,15 +107,11 @@ fn at_nominal(nominal: &NominalRecord) -> String {
 
 /// How far each factor moves an output, the widest first.
 fn effects(file: &SweepFile, nominal: &NominalRecord, number: usize) -> Table {
-    let mut sweeps: Vec<(&FactorSweepRecord, &SweepEffectRecord)> =
-        file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
-    sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
-    let value = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
+    let said = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
     let row = |(sweep, effect): (&FactorSweepRecord, &SweepEffectRecord)| {
         let last = sweep.values.len().saturating_sub(1);
         let texts = [name(&sweep.factor), sweep.value_in_words(0), sweep.value_in_words(last)];
-        let numbers =
-            [effect.first, effect.last, effect.low, effect.high, effect.percent, effect.elasticity].map(value);
+        let numbers = [effect.first, effect.last, effect.low, effect.high, effect.percent, effect.elasticity].map(said);
         texts.into_iter().chain(numbers).map(Cell::from).collect()
     };
     let headings = ["factor", "from", "to", "output from", "to", "least", "largest", "moves by %", "elasticity"];
@@ -98,7 +120,7 @@ fn effects(file: &SweepFile, nominal: &NominalRecord, number: usize) -> Table {
          in percent per percent.",
         the(&nominal.output)
     );
-    Table::new(caption, Column::list(1, &headings)).with_rows(sweeps.into_iter().map(row))
+    Table::new(caption, Column::list(1, &headings)).with_rows(by_width(file, number).into_iter().map(row))
 }
 
 /// The sweeps as CSV: one line per factor, curve, output and value; an empty cell where there is no number, with the
