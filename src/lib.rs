@@ -71,7 +71,7 @@
 //! |---|---|
 //! | `function_model` | a Rust function as a model |
 //! | `units_and_failures` | units, several outputs, runs without an answer, second-order indices |
-//! | `interrupted` | a [`journal`](run::journal): interrupted, gone on with, made longer, and no run made twice |
+//! | `interrupted` | a [`journal`](run::journal): interrupted, gone on with to the same bits, and made longer |
 //! | `own_program` | a program in any language as a model, asked from Rust ([`CommandModel`](model::CommandModel)) |
 //! | `three_steps` | points to a file, outputs from anywhere, analysed ([`exchange`]) |
 
