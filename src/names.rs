@@ -3,8 +3,6 @@
 //! A name stands in tables, charts, pages, on terminals, and in the names of files. It is checked when it is read; the
 //! names of files are safe and unique all the same, whatever the names they are made of.
 
-use std::collections::HashSet;
-
 /// Most characters of the name of a factor, output, group or label: far more than any table or chart has room for.
 pub const LONGEST_NAME: usize = 200;
 
@@ -15,6 +13,7 @@ pub const LONGEST_TITLE: usize = 500;
 pub const LONGEST_STUDY_NAME: usize = 120;
 
 /// Most bytes of an output's name in the name of a file.
+#[cfg(feature = "study")]
 const LONGEST_PART: usize = 80;
 
 /// Whether `c` is a character that cannot be seen, but changes the text around it: one of control, a mark that turns the
@@ -83,38 +82,12 @@ pub fn shown(text: &str) -> String {
 /// ```
 /// assert_eq!(apportion::report::file_part("../x: y"), ".._x_ y");
 /// ```
+#[cfg(feature = "study")]
 pub fn file_part(name: &str) -> String {
     let safe = |c: char| if is_hidden(c) || "/\\:*?\"<>|".contains(c) { '_' } else { c };
     let mut part: String = name.chars().map(safe).collect();
     part.truncate((0..=LONGEST_PART.min(part.len())).rev().find(|&end| part.is_char_boundary(end)).unwrap_or(0));
     part
-}
-
-/// What the files of each of `names` begin with, so that with `suffixes` behind it no two files have one name, not even
-/// where capitals are not told from small letters: the name, with a number where it would stand for another's file.
-///
-/// ```
-/// let stems = apportion::report::file_stems("s", &["y", "y-indices", "Y"], &["", "-indices"]);
-/// assert_eq!(stems, ["s-y", "s-y-indices-2", "s-Y-3"]);
-/// assert_eq!(apportion::report::file_stems("s", &["y"], &[""]), ["s"]);
-/// ```
-pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String> {
-    if names.len() == 1 {
-        return vec![study.to_owned()];
-    }
-    let parts: Vec<String> = names.iter().map(|name| file_part(name)).collect();
-    let mut taken: HashSet<String> = HashSet::new();
-    let mut free = |number: usize, part: &str| {
-        let numbered = (number + 1..).map(|n| format!("{study}-{part}-{n}"));
-        let mut candidates = std::iter::once(format!("{study}-{part}")).chain(numbered);
-        let files =
-            |stem: &str| suffixes.iter().map(|suffix| format!("{stem}{suffix}").to_lowercase()).collect::<Vec<_>>();
-        let stem = candidates.find(|stem| files(stem).iter().all(|file| !taken.contains(file)));
-        let stem = stem.unwrap_or_default();
-        taken.extend(files(&stem));
-        stem
-    };
-    parts.iter().enumerate().map(|(number, part)| free(number, part)).collect()
 }
 
 /// What the name of a study may be.
@@ -163,21 +136,6 @@ mod tests {
         }
         assert!(refused_title("two\nlines").is_none() && refused_title(&"t".repeat(LONGEST_TITLE + 1)).is_some());
         assert!(shown(&long).len() < 100);
-    }
-
-    #[test]
-    fn stems_of_files_are_unique_whatever_the_names() {
-        let suffixes = ["", "-indices", "-scatter"];
-        let long = "n".repeat(300);
-        let names =
-            ["y", "Y", "y-indices", "y-2", "a/b", "a\\b", "y-scatter-2", "../../x", &long, &long[1..], "É", "é"];
-        let stems = file_stems("s", &names, &suffixes);
-        let files = stems.iter().flat_map(|stem| suffixes.map(|suffix| format!("{stem}{suffix}").to_lowercase()));
-        let unique: HashSet<String> = files.clone().collect();
-        assert_eq!(unique.len(), files.count());
-        assert!(stems.iter().all(|stem| !stem.contains(['/', '\\']) && stem.len() < 120), "{stems:?}");
-        // Names that are no trouble keep theirs.
-        assert_eq!(file_stems("s", &["y", "z"], &suffixes), ["s-y", "s-z"]);
     }
 
     #[test]

@@ -78,6 +78,7 @@ impl Messages {
     }
 
     /// Sends a line that a program has printed, unless there have been enough.
+    #[cfg(feature = "study")]
     pub(crate) fn send_printed(&self, line: &str) {
         if self.lines.fetch_add(1, Ordering::Relaxed) < MOST_LINES {
             self.send(line);

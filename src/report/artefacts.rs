@@ -8,61 +8,11 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::atomic_write::{WriteError, prepare_folder, prepare_in, write_in};
-use super::chart::{ChartError, PngError, png};
+use super::chart::ChartError;
+#[cfg(feature = "png")]
+use super::chart::{PngError, png};
 use super::document::{Document, DocumentError};
-
-/// The folder of the charts, below that of the page.
-pub(super) const CHARTS: &str = "charts";
-
-/// A format of charts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ChartFormat {
-    /// Vector graphics.
-    Svg,
-    /// Pixels.
-    Png,
-}
-
-impl ChartFormat {
-    /// All formats.
-    pub const ALL: [Self; 2] = [Self::Svg, Self::Png];
-
-    /// The ending of its files.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::Svg => "svg",
-            Self::Png => "png",
-        }
-    }
-}
-
-/// The names of the files of a document, which are known before the document is.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct FileNames {
-    /// The name of the page without its ending.
-    pub name: String,
-    /// The files for programs.
-    pub data: Vec<String>,
-    /// The charts, without the folder and without endings.
-    pub charts: Vec<String>,
-}
-
-impl FileNames {
-    /// The paths of all files but the page, below the folder of the page.
-    pub fn paths(&self, formats: &[ChartFormat]) -> Vec<String> {
-        let pictures = self.charts.iter().flat_map(|stem| formats.iter().map(move |format| chart_path(stem, *format)));
-        self.data.iter().cloned().chain(pictures).collect()
-    }
-
-    /// The page.
-    pub fn page(&self) -> String {
-        format!("{}.html", self.name)
-    }
-}
-
-fn chart_path(stem: &str, format: ChartFormat) -> String {
-    format!("{CHARTS}/{stem}.{}", format.ending())
-}
+use super::file_names::{CHARTS, ChartFormat, FileNames, chart_path};
 
 /// Why the files of a document were not written.
 #[derive(Debug, Error)]
@@ -82,6 +32,7 @@ pub enum ArtefactError {
         source: ChartError,
     },
     /// A chart cannot be turned into pixels.
+    #[cfg(feature = "png")]
     #[error("cannot draw {file}: {source}")]
     Png {
         /// The chart.
@@ -89,6 +40,9 @@ pub enum ArtefactError {
         /// Why.
         source: PngError,
     },
+    /// PNG is asked for, and the library was built without the feature that draws it.
+    #[error("charts in PNG need the feature `png`, which this build does not have")]
+    WithoutPng,
     /// Two files would have one name.
     #[error("two files would be called {name}")]
     Twice {
@@ -111,11 +65,11 @@ pub enum ArtefactError {
 /// # Example
 /// ```
 /// use std::path::Path;
-/// use apportion::report::{Artefacts, run_document};
-/// use apportion::{analyse, study::Study};
+/// use apportion::report::{Artefacts, ResultFile, run_document};
+/// use apportion::study::Study;
 ///
 /// let study = Study::parse(include_str!("../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
-/// let result = analyse(&study, 0, &|_| ())?;
+/// let result = ResultFile::new(&study, &study.run()?);
 /// let folder = tempfile::tempdir()?;
 /// let written = Artefacts::new(folder.path()).write(&run_document(&result))?;
 /// assert_eq!(written.page, folder.path().join("ishigami.html"));
@@ -224,6 +178,9 @@ impl Artefacts {
             self.formats.iter().try_for_each(|format| {
                 let bytes = || match format {
                     ChartFormat::Svg => Ok(svg.clone().into_bytes()),
+                    #[cfg(not(feature = "png"))]
+                    ChartFormat::Png => Err(ArtefactError::WithoutPng),
+                    #[cfg(feature = "png")]
                     ChartFormat::Png => png(&svg)
                         .map(|picture| picture.bytes)
                         .map_err(|source| ArtefactError::Png { file: figure.stem.clone(), source }),

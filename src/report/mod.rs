@@ -1,5 +1,6 @@
 //! Results as documents: [`run_document`] and its relatives make them, [`Artefacts`] writes their files.
 
+#[cfg(feature = "page")]
 mod artefacts;
 mod atomic_write;
 mod build;
@@ -10,6 +11,7 @@ pub mod csv;
 pub mod distribution;
 pub mod document;
 mod factor_bars;
+mod file_names;
 pub mod format;
 pub mod given;
 mod interval_widths;
@@ -27,15 +29,17 @@ mod study_sections;
 pub mod sweep;
 mod text_table;
 
-pub use crate::names::{file_part, file_stems, refused_name};
+pub use crate::names::{file_part, refused_name};
 pub use crate::words::{capitalised, listed};
-pub use artefacts::{ArtefactError, Artefacts, ChartFormat, FileNames, Written};
+#[cfg(feature = "page")]
+pub use artefacts::{ArtefactError, Artefacts, Written};
 pub use atomic_write::{
     WriteError, prepare_file, prepare_folder, remove_unfinished, stream_atomically, write_atomically,
 };
 pub use build::{RunFacts, result_json};
 pub use build_output::inputs_in_words;
 pub use factor_bars::{SharesSeries, shares_chart, study_chart};
+pub use file_names::{ChartFormat, FileNames, file_stems};
 pub use format::{estimate, fixed, share, share_of_runs, significant, two_digits, with_unit};
 pub use interval_widths::{widest_interval, width_after_doubling};
 pub use read::{ReadError, ReadProblem, parse_result, read_result};

@@ -10,6 +10,7 @@ use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};
 
 /// Family name of the embedded faces.
+#[cfg(feature = "png")]
 pub(super) const FAMILY: &str = "Apportion Sans";
 /// Families named in the SVG, all but the generic one of equal metrics.
 pub(super) const FAMILIES: &str = "Arial, 'Liberation Sans', Helvetica, sans-serif";
@@ -68,6 +69,7 @@ impl Face {
 }
 
 /// Whether both embedded faces have a glyph for the character.
+#[cfg(feature = "png")]
 pub(super) fn covers(c: char) -> bool {
     REGULAR_ADVANCES.contains_key(&c) && BOLD_ADVANCES.contains_key(&c)
 }

@@ -2,10 +2,10 @@
 
 use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparisonFile};
-use crate::names::file_stems;
 use crate::report::Drawing;
 use crate::report::chart::{Chart, Colour, Panel, Series};
 use crate::report::factor_bars::{INDEX, IndexSeries, both_orders, index_panel, label, left_out};
+use crate::report::file_stems;
 use crate::report::format::{sentence, the};
 
 /// For every output its indices side by side, then the differences. Of more than 30 factors, those with the largest total

@@ -7,8 +7,8 @@ use super::anchors::{check, href};
 use super::drawing::{Drawings, drawings};
 use super::symbols::{clean, escaped, symbols};
 use super::{Cell, Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
-use crate::report::artefacts::{CHARTS, ChartFormat};
 use crate::report::chart::ChartError;
+use crate::report::file_names::{CHARTS, ChartFormat};
 use crate::report::format::minus;
 
 /// Why a page could not be made.

@@ -3,7 +3,9 @@
 //! A [`Document`] is plain data. [`Document::html`] is its page, [`Document::text`] what a terminal shows, and its files
 //! for programs are listed by [`Document::file_names`]; [`Artefacts`](crate::report::Artefacts) writes all of them.
 
+#[cfg(feature = "page")]
 mod anchors;
+#[cfg(feature = "page")]
 mod drawing;
 #[cfg(feature = "page")]
 mod html;
@@ -16,8 +18,8 @@ pub use html::DocumentError;
 pub use symbols::symbols;
 pub use table::{Cell, Column, Mark, OnPhone, Table, Value};
 
-use crate::report::artefacts::FileNames;
 use crate::report::chart::Chart;
+use crate::report::file_names::FileNames;
 
 /// A result to be read.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -8,8 +8,8 @@ mod tables;
 use figures::{Figures, Numbered, chart_stems};
 use output::Topic;
 
-use super::artefacts::FileNames;
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
+use super::file_names::FileNames;
 use super::format::{count, grouped, name, significant};
 use super::records::StudySetup;
 use super::result::{AggregateRecord, ResultFile};
@@ -22,10 +22,11 @@ use super::{listed, result_json};
 /// # Example
 /// ```
 /// use std::path::Path;
-/// use apportion::{analyse, report::run_document, study::Study};
+/// use apportion::report::{ResultFile, run_document};
+/// use apportion::study::Study;
 ///
 /// let study = Study::parse(include_str!("../../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
-/// let result = analyse(&study, 0, &|_| ())?;
+/// let result = ResultFile::new(&study, &study.run()?);
 /// let document = run_document(&result);
 /// assert!(document.lead[0].starts_with("x1 matters most for y"));
 /// assert!(document.text().contains("S_T"));

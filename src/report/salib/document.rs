@@ -2,9 +2,9 @@
 
 use super::chart::salib_chart;
 use super::record::{SalibFile, SalibOutputRecord};
-use crate::report::artefacts::FileNames;
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
+use crate::report::file_names::FileNames;
 use crate::report::file_stems;
 use crate::report::format::{estimate, first};
 use crate::report::given::{file_name, moments};

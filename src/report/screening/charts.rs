@@ -5,7 +5,7 @@ use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Point, Series, 
 use super::super::format::{axis_unit, sentence, short_with_unit, the, words};
 use super::super::leading::{Contender, may_lead, names};
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile};
-use crate::names::file_stems;
+use crate::report::file_stems;
 use crate::screening::{FIXABLE, Reading};
 
 /// Most bars in a chart; the rest are counted in its caption.

@@ -2,9 +2,9 @@
 
 use super::charts::screening_suffixes;
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile, screening_charts, screening_json};
-use crate::report::artefacts::FileNames;
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
+use crate::report::file_names::FileNames;
 use crate::report::format::{grouped, heading, name, short, the, words};
 use crate::report::result::EstimateRecord;
 use crate::report::study_sections::{failures, inputs, study_section, validity_section};

@@ -3,7 +3,7 @@
 use super::super::Drawing;
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
 use super::super::format::{axis_unit, printed, sentence, short_with_unit, the, words};
-use crate::names::file_stems;
+use crate::report::file_stems;
 
 use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines};
 

@@ -2,9 +2,9 @@
 
 use super::charts::{sweep_charts, sweep_suffixes};
 use super::{AgainstRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines, sweep_json};
-use crate::report::artefacts::FileNames;
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
+use crate::report::file_names::FileNames;
 use crate::report::format::{grouped, heading, name, short, short_with_unit, the, value};
 use crate::report::study_sections::{study_section, validity_section};
 
