@@ -60,6 +60,7 @@ pub fn stream_atomically(
 /// # Errors
 /// [`WriteError`] as for [`write_atomically`]; if `name` is that of a file elsewhere, or stands for something else than a
 /// file.
+#[cfg(feature = "page")]
 pub(super) fn write_in(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, WriteError> {
     let path = path_in(folder, name)?;
     write_atomically(&path, bytes)?;
@@ -70,12 +71,14 @@ pub(super) fn write_in(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBu
 ///
 /// # Errors
 /// [`WriteError`] with the reason.
+#[cfg(feature = "page")]
 pub(super) fn prepare_in(folder: &Path, name: &str) -> Result<(), WriteError> {
     prepare_file(&path_in(folder, name)?)
 }
 
 /// The path of the file called `name` in `folder`. Nothing is ever written outside of it, whatever the name; and nobody
 /// has asked for a pipe or a device there, so it is refused: writing to it may wait forever.
+#[cfg(feature = "page")]
 fn path_in(folder: &Path, name: &str) -> Result<PathBuf, WriteError> {
     let path = folder.join(name);
     let refused = |why: &str| {
