@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use apportion::exchange::{Missing, Selection, Table, read_table, table_of_bytes};
 use apportion::files::read_whole;
 use apportion::given::{Method, analyse};
-use apportion::report::given::{GivenFacts, build_given, file_names, given_document};
+use apportion::report::given::{GivenFacts, build_given, given_document};
 use sha2::{Digest, Sha256};
 
 use super::Failure;
@@ -64,11 +64,10 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let table = read_table(rows.as_mut(), &selection).map_err(|error| wrong(&error))?;
     say_of_table(&arguments.table, (&table.skipped, rows.is_unended()));
     let Table { inputs, outputs, dropped, .. } = table;
+    let indices = analyse(&inputs, &outputs, arguments.method, arguments.seed).map_err(|error| wrong(&error))?;
     let name = stem(&arguments.table);
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&name));
     let artefacts = arguments.charts.artefacts(folder).beside_input(&arguments.table);
-    artefacts.check(&file_names(&name, &outputs.iter().map(|column| column.name.as_str()).collect::<Vec<_>>()))?;
-    let indices = analyse(&inputs, &outputs, arguments.method, arguments.seed).map_err(|error| wrong(&error))?;
     let facts = GivenFacts {
         file: path.to_string(),
         sha256,

@@ -5,7 +5,7 @@ use apportion::report::FileNames;
 use apportion::report::chart::ChartError;
 use apportion::report::csv::{Csv, Field};
 use apportion::report::document::{DataFile, Document, DocumentError, Figure, Part, Section, Table, Value};
-use apportion::report::format::value;
+use apportion::report::format::{minus, with_unit};
 
 /// The document of a scene of the study called `study`.
 ///
@@ -56,6 +56,7 @@ pub fn file_names(study: &str) -> FileNames {
 /// Forces at the slip, and how far the particle has come in the end.
 fn numbers(story: &SceneStory) -> Option<String> {
     let critical = &story.critical;
+    let value = |x: f64, unit: &str| minus(&with_unit(x, unit));
     let force = |newtons: f64| value(newtons * 1e9, "nN");
     let mut text = format!(
         "The critical tip force is {} (lateral {}, normal {})",

@@ -48,7 +48,7 @@ fn a_screening_finds_what_the_indices_find() {
     }
     assert_eq!(by("thickness").could_be_fixed, Some(false));
     assert!(by("length").mu.unwrap().estimate < 0.0);
-    assert!(table.contains("Could be fixed for the critical force: height and velocity"));
+    assert!(table.contains("Could be fixed for the critical force: height, velocity"));
     let charts = ["-bars.png", "-bars.svg", ".png", ".svg"].map(|end| format!("charts/coulomb-general-screen{end}"));
     let others = ["csv", "html", "json"].map(|ending| format!("coulomb-general-screen.{ending}"));
     assert_eq!(all_files(folder.path()), charts.into_iter().chain(others).collect::<BTreeSet<_>>());

@@ -15,7 +15,7 @@ use crate::report::result::EstimateRecord;
 /// The document of a result from given data, whose files begin with `name`.
 pub fn given_document(result: &GivenFile, name: &str) -> Document {
     let outputs: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
-    let stems = file_names(name, &outputs).charts;
+    let stems = file_stems(name, &outputs, &[""]);
     let mut sections =
         vec![Section::new("mind", "What to mind", Part::warnings(&result.warnings).into_iter().collect())];
     sections.retain(|section| !section.parts.is_empty());
@@ -47,12 +47,6 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
         files,
         ..Document::default()
     }
-}
-
-/// The names of the files of a result from given data.
-pub fn file_names(name: &str, outputs: &[&str]) -> FileNames {
-    let data = vec![format!("{name}.json"), data_name(name)];
-    FileNames { name: name.to_owned(), data, charts: file_stems(name, outputs, &[""]) }
 }
 
 fn data_name(name: &str) -> String {

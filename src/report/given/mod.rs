@@ -6,8 +6,8 @@ mod record;
 mod sentences;
 
 pub use chart::given_chart;
+pub use document::given_document;
 pub(super) use document::{file_name, moments};
-pub use document::{file_names, given_document};
 pub use record::{
     BinnedRecord, DependenceRecord, GivenFacts, GivenFile, GivenIndexRecord, GivenInputRecord, GivenOutputRecord,
     GivenProvenance, TableRecord, build_given,
