@@ -184,7 +184,8 @@ impl Worker for AfmWorker<'_> {
         self.spent = Spent::default();
         for row in 0..batch.rows() {
             if row % ROWS_BETWEEN_LOOKS == 0 && self.context.is_stopped() {
-                return batch.give_up(RowFailure::interrupted());
+                batch.give_up(RowFailure::interrupted());
+                break;
             }
             for (parameter, column) in self.model.factors.iter().zip(inputs) {
                 (parameter.set)(&mut self.scene, column[row]);

@@ -55,10 +55,12 @@ impl<'a> RunContext<'a> {
 /// Lines that a program prints on standard error and that are passed on; the others are counted.
 const MOST_LINES: u64 = 20;
 
+type Receiver = Arc<dyn Fn(&str) + Send + Sync>;
+
 /// Messages of the workers of one run, in the order in which they come. Clones go to the same place.
 #[derive(Clone, Default)]
 pub struct Messages {
-    receiver: Option<Arc<dyn Fn(&str) + Send + Sync>>,
+    receiver: Option<Receiver>,
     /// Lines of programs so far.
     lines: Arc<AtomicU64>,
 }
