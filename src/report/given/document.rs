@@ -6,7 +6,6 @@ use super::{GivenFile, GivenIndexRecord, GivenOutputRecord, given_chart};
 use crate::report::csv::Field;
 use crate::report::distribution::OutputDistribution;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
-use crate::report::file_names::FileNames;
 use crate::report::file_stems;
 use crate::report::format::{estimate, first, fixed, significant};
 use crate::report::records::json;
