@@ -203,7 +203,7 @@ fn sample(
         ];
         let study = Study::parse(&case.text, "coverage.toml".as_ref(), &overrides).expect("a study");
         let model = study.model();
-        let job = Job { design: &study.design, space: &study.space, model: model.as_ref() };
+        let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
         let totals = run(job, 0, &|_| ()).expect("threads");
         let parts: Vec<MomentParts> = totals.iter().map(|t| t.outputs[0].moments.clone()).collect();
         let options = IntervalOptions { method, threshold: 0.05, seed, resamples: 0, points: None };

@@ -42,16 +42,16 @@ fn whole_study(study: &Study, threads: usize) -> f64 {
 fn overhead() {
     let study = study(1 << 18);
     let model = study.model();
-    let settings = DesignSettings { base_samples: 256, replicates: 1, ..study.design.settings().clone() };
-    let design = Design::new(settings, study.design.factors(), Rows::default()).expect("a plain design");
-    let mut unit = vec![vec![0.0; 256]; study.design.factors() * 2];
+    let settings = DesignSettings { base_samples: 256, replicates: 1, ..study.design().settings().clone() };
+    let design = Design::new(settings, study.design().factors(), Rows::default()).expect("a plain design");
+    let mut unit = vec![vec![0.0; 256]; study.design().factors() * 2];
     design.replicate(0).fill(0, &mut unit);
-    let mut columns = vec![vec![0.0; 256]; study.design.factors()];
-    for ((factor, u), si) in study.space.factors().iter().zip(&unit).zip(&mut columns) {
+    let mut columns = vec![vec![0.0; 256]; study.design().factors()];
+    for ((factor, u), si) in study.space().factors().iter().zip(&unit).zip(&mut columns) {
         factor.fill_si(u, si);
     }
     let best = |f: &dyn Fn() -> f64| (0..3).map(|_| f()).fold(f64::INFINITY, f64::min);
-    let rows = study.design.rows();
+    let rows = study.design().rows();
     let bare = best(&|| bare_loop(model.as_ref(), rows, &columns));
     let whole = best(&|| whole_study(&study, 1));
     println!("engine overhead, {rows} runs on one thread:");
@@ -74,7 +74,7 @@ fn memory() {
         let study = study(1 << exponent);
         let seconds = whole_study(&study, 0);
         let peak = peak_megabytes().map_or_else(|| "unknown".to_owned(), |mb| format!("{mb:.1} MB"));
-        println!("  2^{exponent} base samples: {} runs in {seconds:.2} s, peak {peak}", study.design.rows());
+        println!("  2^{exponent} base samples: {} runs in {seconds:.2} s, peak {peak}", study.design().rows());
     }
 }
 

@@ -13,11 +13,11 @@ const ROWS: usize = 4096;
 /// SI columns of the general study's box.
 fn columns(study: &Study) -> Vec<Vec<f64>> {
     let settings = DesignSettings { base_samples: ROWS as u64, replicates: 1, ..DesignSettings::default() };
-    let design = Design::new(settings, study.design.factors(), Rows::default()).expect("a plain design");
-    let mut unit = vec![vec![0.0; ROWS]; study.design.factors() * 2];
+    let design = Design::new(settings, study.design().factors(), Rows::default()).expect("a plain design");
+    let mut unit = vec![vec![0.0; ROWS]; study.design().factors() * 2];
     design.replicate(0).fill(0, &mut unit);
-    let mut values = vec![vec![0.0; ROWS]; study.design.factors()];
-    for ((factor, u), si) in study.space.factors().iter().zip(&unit).zip(&mut values) {
+    let mut values = vec![vec![0.0; ROWS]; study.design().factors()];
+    for ((factor, u), si) in study.space().factors().iter().zip(&unit).zip(&mut values) {
         factor.fill_si(u, si);
     }
     values

@@ -61,7 +61,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let result = go_on(&short, &path, &never, |_| ())?;
     let after = made();
     println!("gone on with: {after} runs more");
-    assert!(after < short.design.rows() && before + after >= short.design.rows());
+    assert!(after < short.design().rows() && before + after >= short.design().rows());
 
     // The same bits as without the interruption.
     assert_eq!(result.outputs[0].indices, short.run()?.outputs[0].indices);
@@ -72,7 +72,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let longer = go_on(&long, &path, &never, |_| ())?;
     let more = made();
     println!("made twice as long: {more} runs more");
-    assert_eq!(more, long.design.rows() - short.design.rows());
-    assert_eq!(longer.outputs[0].runs_ok, long.design.rows());
+    assert_eq!(more, long.design().rows() - short.design().rows());
+    assert_eq!(longer.outputs[0].runs_ok, long.design().rows());
     Ok(())
 }

@@ -34,8 +34,8 @@ pub struct Arguments {
 pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
     say_notes(&study);
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
-    let pilot = if study.subject.is_external() { None } else { Some(pilot(&study)?) };
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
+    let pilot = if study.subject().is_external() { None } else { Some(pilot(&study)?) };
     let mut text = subject(&study);
     text.push_str(&factors(&study));
     text.push_str(&design(&study, pilot.as_ref()));
@@ -55,7 +55,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
 fn pilot(study: &Study) -> Result<Pilot, Failure> {
     let model = study.model();
     let context = RunContext::new(Some(on_signal()), say);
-    Ok(Pilot::new(Job { design: &study.design, space: &study.space, model: model.as_ref() }, &context)?)
+    Ok(Pilot::new(Job { design: study.design(), space: study.space(), model: model.as_ref() }, &context)?)
 }
 
 /// The files of a run with what they hold.
@@ -70,7 +70,7 @@ fn files(study: &Study) -> String {
     let names = file_names(study);
     let mut text = format!("  {}  the result as a page, to read\n", names.page());
     for file in &names.data {
-        let ending = file.strip_prefix(&study.name).unwrap_or(file);
+        let ending = file.strip_prefix(study.name()).unwrap_or(file);
         let content = CONTENTS.iter().find(|(known, _)| *known == ending).map_or("", |(_, content)| *content);
         text.push_str(&format!("  {file}  {content}\n"));
     }
@@ -79,13 +79,13 @@ fn files(study: &Study) -> String {
 }
 
 fn subject(study: &Study) -> String {
-    let mut text = format!("study {}", study.name);
-    if let Some(title) = &study.title {
+    let mut text = format!("study {}", study.name());
+    if let Some(title) = &study.title() {
         text.push_str(&format!(": {title}"));
     }
-    let about =
-        ModelKind::from_name(study.subject.name()).map_or_else(String::new, |kind| format!(": {}", kind.description()));
-    text.push_str(&format!("\nmodel {}{about}\n", study.subject.name()));
+    let about = ModelKind::from_name(study.subject().name())
+        .map_or_else(String::new, |kind| format!(": {}", kind.description()));
+    text.push_str(&format!("\nmodel {}{about}\n", study.subject().name()));
     for (name, value) in study.settings() {
         match value.as_object() {
             Some(table) => table.iter().for_each(|(key, value)| text.push_str(&format!("  {name}.{key} = {value}\n"))),
@@ -125,7 +125,7 @@ fn factors(study: &Study) -> String {
         &[0, 1, 8, 9],
     );
     let mut below = String::new();
-    for factor in study.space.factors() {
+    for factor in study.space().factors() {
         let law = factor.distribution();
         let quantile = |u| factor.in_words(law.quantile(u), significant);
         // The places of categories in their list have no mean.
@@ -168,10 +168,10 @@ fn parameters(factor: &Factor) -> String {
 }
 
 fn design(study: &Study, pilot: Option<&Pilot>) -> String {
-    let design = &study.design;
+    let design = study.design();
     let settings = design.settings();
     let stopping = stopping(study);
-    let size = if study.stopping.grows() { "begins with " } else { "" };
+    let size = if study.stopping().grows() { "begins with " } else { "" };
     let mut failures = String::new();
     let time = match pilot {
         None => "outside of this program".to_owned(),
@@ -231,11 +231,11 @@ fn start(pilot: &Pilot) -> String {
 
 /// What is estimated, and what the intervals are.
 fn asked(study: &Study) -> String {
-    let analysis = &study.analysis;
+    let analysis = study.analysis();
     let counted =
         |n: usize, what: &str| (n > 0).then(|| if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") });
     let mut parts = vec!["first-order and total indices of the factors".to_owned()];
-    parts.extend(counted(study.space.groups().len(), "group"));
+    parts.extend(counted(study.space().groups().len(), "group"));
     parts.extend(counted(analysis.subsets.len(), "subset"));
     parts.extend(analysis.dummy.then(|| "a dummy factor".to_owned()));
     parts.extend(analysis.second_order.then(|| format!("second order of {} pairs", study.layout().pair_list().len())));
@@ -246,13 +246,13 @@ fn asked(study: &Study) -> String {
         let names: Vec<&str> = analysis.estimators.iter().map(|estimator| estimator.name()).collect();
         parts.push(format!("other estimators {}", names.join(", ")));
     }
-    let companions = study.design.companions();
+    let companions = study.design().companions();
     let (first, total) = (FirstOrder::of_rows(companions), Total::of_rows(companions));
     let none = "none: a single replicate says nothing about its error".to_owned();
     let intervals = if alone(study) {
         none
     } else {
-        analysis.intervals.words(study.design.settings().replicates, analysis.resamples)
+        analysis.intervals.words(study.design().settings().replicates, analysis.resamples)
     };
     format!(
         "asked: {}\nestimators: first order {}, total {}\nintervals: {intervals}\n\
@@ -272,7 +272,7 @@ fn asked(study: &Study) -> String {
 
 /// Which rows every base sample has, and why.
 fn rows(study: &Study) -> String {
-    let (design, analysis) = (&study.design, &study.analysis);
+    let (design, analysis) = (study.design(), study.analysis());
     let swaps = design.swaps().len();
     let Companions { ba, bc, cb } = design.companions();
     let mut words =
@@ -306,7 +306,7 @@ fn runs(number: u64) -> String {
 
 /// How a growing run goes on and when it ends.
 fn stopping(study: &Study) -> String {
-    let Stopping { half_width, budget, max_runs } = study.stopping;
+    let Stopping { half_width, budget, max_runs } = study.stopping();
     let ends = [
         half_width.map(|width| format!("every first-order and total index is known to {width} (half its interval)")),
         budget.map(|seconds| format!("twice the runs would take longer than {}", duration(seconds))),
@@ -324,12 +324,12 @@ fn memory(study: &Study) -> String {
     let mut text = format!(
         "memory: about {kilobytes:.0} kB a thread for the columns of a block, whatever the number of samples\n"
     );
-    if study.analysis.intervals.keeps_outputs() {
-        let bytes = study.design.rows() as f64 * study.model().outputs().len() as f64 * 8.0;
+    if study.analysis().intervals.keeps_outputs() {
+        let bytes = study.design().rows() as f64 * study.model().outputs().len() as f64 * 8.0;
         text.push_str(&format!(
             "        and {:.1} MB for the outputs of all runs, which intervals = \"{}\" need\n",
             bytes / 1e6,
-            study.analysis.intervals.name()
+            study.analysis().intervals.name()
         ));
     }
     text
@@ -337,11 +337,11 @@ fn memory(study: &Study) -> String {
 
 /// A single replicate, and intervals that need several.
 fn alone(study: &Study) -> bool {
-    study.design.settings().replicates == 1 && study.analysis.intervals == IntervalMethod::Replicates
+    study.design().settings().replicates == 1 && study.analysis().intervals == IntervalMethod::Replicates
 }
 
 fn warnings(study: &Study) -> Vec<String> {
-    let design = &study.design;
+    let design = study.design();
     let mut warnings = Vec::new();
     if !design.balanced() {
         warnings.push(
@@ -350,7 +350,7 @@ fn warnings(study: &Study) -> Vec<String> {
     }
     if alone(study) {
         warnings.push("a single replicate says nothing about its error: there will be no intervals".to_owned());
-    } else if design.settings().replicates == 1 && study.analysis.intervals == IntervalMethod::Nets {
+    } else if design.settings().replicates == 1 && study.analysis().intervals == IntervalMethod::Nets {
         warnings.push(
             "a single net cannot tell whether it is a lucky one: intervals will rest on how its parts differ; 4 replicates are safer"
                 .to_owned(),
@@ -379,7 +379,7 @@ fn correlated_pairs(design: &Design) -> Option<String> {
 /// Columns of the factors (unit cube and SI, A and B) and of every output of every row kind.
 fn kilobytes_per_thread(study: &Study) -> f64 {
     let outputs = study.model().outputs().len() as u64;
-    let columns = 2 * study.design.columns() as u64 + study.design.rows_per_point() * (outputs + 1);
+    let columns = 2 * study.design().columns() as u64 + study.design().rows_per_point() * (outputs + 1);
     (columns * BLOCK * 8) as f64 / 1e3
 }
 

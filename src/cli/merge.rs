@@ -30,13 +30,13 @@ pub struct Arguments {
 
 pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load_with(&arguments.design.overrides())?;
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let journals =
-        if arguments.journals.is_empty() { in_folder(&folder, &study.name)? } else { arguments.journals.clone() };
+        if arguments.journals.is_empty() { in_folder(&folder, study.name())? } else { arguments.journals.clone() };
     prepare_folder(&folder)?;
     let artefacts = arguments.charts.artefacts(&folder);
     artefacts.check(&file_names(&study))?;
-    let path = journal_path(&folder, &study.name, None);
+    let path = journal_path(&folder, study.name(), None);
     let runner = study.runner().threads(arguments.threads.number()).on_message(say).journal(&path);
     let result = runner.merge(&journals).map_err(|error| match error {
         RunError::Incomplete { .. } => Failure::Run(anyhow!(
@@ -49,8 +49,8 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     say(&format!(
         "{}: {} runs of {} are merged in {}",
-        study.name,
-        study.design.rows(),
+        study.name(),
+        study.design().rows(),
         if journals.len() == 1 { "1 journal".to_owned() } else { format!("{} journals", journals.len()) },
         path.display()
     ));

@@ -128,7 +128,7 @@ impl StudyArguments {
     /// The study with the changes of `--set`, then `more`; its model can be run.
     fn load_with(&self, more: &[String]) -> Result<Study, Failure> {
         let study = self.load_any(more)?;
-        if study.subject.is_external() {
+        if study.subject().is_external() {
             return Err(Failure::Input(anyhow::anyhow!(
                 "{}: its model runs outside of this program: write the points by `apportion sample`, and read its outputs \
                  by `apportion analyze`",
@@ -146,7 +146,7 @@ impl StudyArguments {
 }
 
 fn say_notes(study: &Study) {
-    for note in &study.notes {
+    for note in study.notes() {
         say(&format!("note: {note}"));
     }
 }

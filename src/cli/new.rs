@@ -52,7 +52,7 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Input(anyhow!("{} exists already: give another name, or add --force", path.display())));
     }
     write_atomically(path, text.as_bytes())?;
-    let (factors, runs) = (study.space.factors().len(), study.design.rows());
+    let (factors, runs) = (study.space().factors().len(), study.design().rows());
     let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
     say(&format!("wrote {}: {factors}, {runs} runs", path.display()));
     if let Some(program) = new_program(&request).map_err(|problem| wrong(&problem, model))? {

@@ -10,9 +10,9 @@ use super::run::journal_path;
 
 /// The lines of `check` about the folder of the results.
 pub fn past_runs(study: &Study, folder: &Path) -> Result<String, Failure> {
-    let path = journal_path(folder, &study.name, None);
+    let path = journal_path(folder, study.name(), None);
     let runner = study.runner().journal(&path);
-    let megabytes = study.design.rows() as f64 * study.model().outputs().len() as f64 * 8e-6;
+    let megabytes = study.design().rows() as f64 * study.model().outputs().len() as f64 * 8e-6;
     let mut text = if runner.records_outputs() {
         let megabytes = two_digits(megabytes.max(0.01));
         format!("disk: about {megabytes} MB for the journal {}, and as much memory for its outputs\n", path.display())
@@ -22,13 +22,13 @@ pub fn past_runs(study: &Study, folder: &Path) -> Result<String, Failure> {
     if path.exists() {
         text.push_str(&match runner.recorded_runs() {
             Ok(rows) => {
-                let total = study.design.rows();
+                let total = study.design().rows();
                 format!("on record: {} of {total} runs, which a run does not repeat\n", rows.min(total))
             }
             Err(error) => format!("on record: nothing of use: {error}\n"),
         });
     }
-    if let Ok(result) = read_result(&folder.join(format!("{}.json", study.name))) {
+    if let Ok(result) = read_result(&folder.join(format!("{}.json", study.name()))) {
         text.push_str(&last_result(&result));
     }
     Ok(text)

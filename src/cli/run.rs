@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     prepare_folder(&folder)?;
     if asked.shard.is_none() {
         artefacts.check(&file_names(&study))?;
-    } else if study.stopping.grows() {
+    } else if study.stopping().grows() {
         let why = "a study with a target, a budget or max_runs has no size that could be shared out beforehand";
         return Err(Failure::Input(anyhow!("--shard: {why}")));
     }
@@ -97,9 +97,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             Some((path.as_path(), format))
         }
     };
-    let journal = (!asked.no_journal).then(|| journal_path(&folder, &study.name, asked.shard));
-    let store = saved.as_ref().map(|_| Store::new(&study.design, study.model().as_ref()));
-    let meter = Meter::new(&study.name, study.design.rows());
+    let journal = (!asked.no_journal).then(|| journal_path(&folder, study.name(), asked.shard));
+    let store = saved.as_ref().map(|_| Store::new(study.design(), study.model().as_ref()));
+    let meter = Meter::new(study.name(), study.design().rows());
     let runner = study.runner().threads(arguments.threads.number()).on_progress(|progress| meter.update(progress));
     let mut runner = runner.on_message(say).stop(stop).resume(asked.resume()).mix_models(asked.mix_models);
     if let Some(journal) = &journal {
@@ -113,7 +113,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         let begun = Instant::now();
         let rows = runner.run_shard(shard).map_err(failed)?;
         meter.finish(rows, begun.elapsed().as_secs_f64());
-        say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name, journal.display()));
+        say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name(), journal.display()));
         return Ok(());
     }
     let result = ResultFile::new(&study, &runner.run().map_err(failed)?);
@@ -134,9 +134,9 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
 
 /// Writes points and outputs of all runs, which may be more than the study began with.
 fn save(study: &Study, result: &ResultFile, store: &Store, (path, format): (&Path, Format)) -> Result<(), Failure> {
-    let settings = study.design.settings();
+    let settings = study.design().settings();
     let points = result.provenance.base_samples / settings.replicates;
-    let design = study.design.with_points(points).map_err(|error| Failure::Run(error.into()))?;
+    let design = study.design().with_points(points).map_err(|error| Failure::Run(error.into()))?;
     stream_atomically(path, |out| Ok(save_outputs(study, (&design, store), format, &mut Stoppable::new(out))?))?;
     say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
     Ok(())
@@ -150,21 +150,21 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
     if !double && !retry_failed || arguments.design.base_samples.is_some() {
         return Ok(study);
     }
-    let json = folder_of(arguments, &study).join(format!("{}.json", study.name));
+    let json = folder_of(arguments, &study).join(format!("{}.json", study.name()));
     let base_samples = match read_result(&json) {
         Ok(result) => result.provenance.base_samples,
         Err(_) if retry_failed && !double => return Ok(study),
         Err(error) => return Err(Failure::Input(anyhow!("--double: there is no result to double: {error}"))),
     };
     let wanted = if double { base_samples.saturating_mul(2) } else { base_samples };
-    if wanted == study.design.settings().base_samples {
+    if wanted == study.design().settings().base_samples {
         return Ok(study);
     }
     let study = arguments.study.load_with(&[changes, vec![format!("design.base_samples={wanted}")]].concat())?;
-    let settings = study.design.settings();
+    let settings = study.design().settings();
     if double && settings.base_samples < wanted {
-        let runs = u128::from(wanted) * u128::from(study.design.rows_per_point());
-        let most = study.stopping.max_runs.unwrap_or_default();
+        let runs = u128::from(wanted) * u128::from(study.design().rows_per_point());
+        let most = study.stopping().max_runs.unwrap_or_default();
         return Err(Failure::Input(anyhow!(
             "--double: twice the {base_samples} base samples of the result take {runs} runs, and the study allows max_runs = \
              {most}: add --set design.max_runs={runs}"
@@ -174,14 +174,14 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
 }
 
 fn folder_of(arguments: &Arguments, study: &Study) -> PathBuf {
-    arguments.out.clone().unwrap_or_else(|| default_folder(&study.name))
+    arguments.out.clone().unwrap_or_else(|| default_folder(study.name()))
 }
 
 /// The names of the files of a run of `study`.
 pub fn file_names(study: &Study) -> FileNames {
     let model = study.model();
     let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
-    run_file_names(&study.name, &outputs, study.analysis.second_order, !study.analysis.estimators.is_empty())
+    run_file_names(study.name(), &outputs, study.analysis().second_order, !study.analysis().estimators.is_empty())
 }
 
 /// Writes the files of a result, and says what came out.
@@ -219,7 +219,7 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failu
 /// Whether an output has no indices because runs failed, and not because it does not vary.
 fn lost(study: &Study, output: &OutputRecord) -> bool {
     let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
-    let too_many = share > study.analysis.max_failed || output.base_points_used < 2;
+    let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
     output.indices.is_none() && output.runs_failed > 0 && too_many
 }
 

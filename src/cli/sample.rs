@@ -27,13 +27,13 @@ pub struct Arguments {
 pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
     say_notes(&study);
-    let default = || PathBuf::from(format!("{}-design.csv", study.name));
+    let default = || PathBuf::from(format!("{}-design.csv", study.name()));
     let path = arguments.output.clone().unwrap_or_else(default);
     let format = Format::of(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
     let beside = Manifest::path_beside(&path);
     prepare_file(&path)?;
     prepare_file(&beside)?;
-    if study.stopping.grows() {
+    if study.stopping().grows() {
         say("note: the study grows until it knows enough, but a file does not: these are the points it begins with");
     }
     // A manifest of other points must not outlive them.
@@ -51,7 +51,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(manifest) = &manifest {
         write_atomically(&beside, manifest.json().as_bytes())?;
     }
-    let (rows, factors) = (study.design.rows(), study.space.factors().len());
+    let (rows, factors) = (study.design().rows(), study.space().factors().len());
     let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
     say(&format!("wrote {rows} points of {factors} to {}", path.display()));
     say(&format!("wrote {}", beside.display()));

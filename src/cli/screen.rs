@@ -59,7 +59,7 @@ impl From<ScreeningError> for Failure {
 
 impl Arguments {
     fn settings(&self, study: &Study) -> Result<ScreeningSettings, Failure> {
-        let in_study = study.design.settings();
+        let in_study = study.design().settings();
         let design = match (self.design, self.levels) {
             (Layout::Radial, None) => ScreeningDesign::Radial { sampler: in_study.sampler },
             (Layout::Radial, Some(levels)) => {
@@ -76,20 +76,20 @@ impl Arguments {
 pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
     let settings = arguments.settings(&study)?;
-    let (in_force, _) = settings.in_force(study.space.factors().len())?;
+    let (in_force, _) = settings.in_force(study.space().factors().len())?;
     if in_force.trajectories != settings.trajectories {
         let (asked, used) = (settings.trajectories, in_force.trajectories);
         say(&format!("note: {asked} trajectories do not make equal parts for the intervals: {used} are used"));
     }
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let model = study.model();
     let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     let artefacts = arguments.charts.artefacts(folder);
-    artefacts.check(&file_names(&study.name, &outputs))?;
-    let runs = in_force.trajectories * (study.space.factors().len() as u64 + 1);
-    let meter = Meter::new(&study.name, runs);
+    artefacts.check(&file_names(study.name(), &outputs))?;
+    let runs = in_force.trajectories * (study.space().factors().len() as u64 + 1);
+    let meter = Meter::new(study.name(), runs);
     let start = Instant::now();
-    let job = ScreeningJob { space: &study.space, model: model.as_ref(), settings };
+    let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
     let context = RunContext::new(Some(on_signal()), say);
     let screening = screen_in(job, arguments.threads.number(), &|progress| meter.update(progress), &context)?;
     let threads = threads_in_force(arguments.threads.number());

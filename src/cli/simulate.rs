@@ -46,18 +46,18 @@ impl From<SimulationError> for Failure {
 /// Simulates the scene in which every factor stands at its nominal value.
 pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let artefacts = arguments.charts.artefacts(folder);
     let failed = |error: anyhow::Error| Failure::Run(error);
     let document = if arguments.mode_diagram {
         let diagram = mode_diagram(&study)?;
-        artefacts.check(&mode_file_names(&study.name))?;
-        let title = study.title.as_deref().unwrap_or(&study.name);
-        mode_document(&diagram, &study.name, title).map_err(|error| failed(error.into()))?
+        artefacts.check(&mode_file_names(study.name()))?;
+        let title = study.title().unwrap_or(study.name());
+        mode_document(&diagram, study.name(), title).map_err(|error| failed(error.into()))?
     } else {
-        artefacts.check(&file_names(&study.name))?;
+        artefacts.check(&file_names(study.name()))?;
         let story = simulate_scene(&study, arguments.duration)?;
-        scene_document(&story, &study.name).map_err(|error| failed(error.into()))?
+        scene_document(&story, study.name()).map_err(|error| failed(error.into()))?
     };
     deliver(&artefacts, &document)
 }

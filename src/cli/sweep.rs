@@ -51,7 +51,7 @@ impl From<SweepError> for Failure {
 
 impl Arguments {
     fn request(&self, study: &Study) -> Result<SweepRequest, Failure> {
-        let space = &study.space;
+        let space = study.space();
         let factors = if self.factors.is_empty() {
             let all = 0..space.factors().len();
             all.map(|factor| FactorValues::over_range(space, factor, self.points)).collect::<Result<_, _>>()?
@@ -85,15 +85,15 @@ fn asked(
 pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
     let request = arguments.request(&study)?;
-    request.check(&study.space)?;
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    request.check(study.space())?;
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let model = study.model();
     let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     let factors: Vec<&str> =
-        request.factors.iter().map(|asked| study.space.factors()[asked.factor].name.as_str()).collect();
+        request.factors.iter().map(|asked| study.space().factors()[asked.factor].name.as_str()).collect();
     let artefacts = arguments.charts.artefacts(folder);
-    artefacts.check(&file_names(&study.name, &factors, &outputs))?;
+    artefacts.check(&file_names(study.name(), &factors, &outputs))?;
     let context = RunContext::new(Some(on_signal()), say);
-    let sweeps = sweep_in(&study.space, model.as_ref(), &request, &context)?;
+    let sweeps = sweep_in(study.space(), model.as_ref(), &request, &context)?;
     deliver(&artefacts, &sweep_document(&build_sweep(&study, model.as_ref(), &sweeps)))
 }

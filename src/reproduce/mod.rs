@@ -148,17 +148,17 @@ mod tests {
         let studies = studies(&[]).unwrap();
         assert_eq!(studies.len(), 9);
         for (group, friction, study) in &studies {
-            assert_eq!(study.name, format!("{}-{}", friction.key, group.key));
-            assert_eq!(study.design.settings().base_samples, 1 << 16);
-            let factors = study.space.factors().len();
+            assert_eq!(study.name(), format!("{}-{}", friction.key, group.key));
+            assert_eq!(study.design().settings().base_samples, 1 << 16);
+            let factors = study.space().factors().len();
             assert_eq!(factors, if group.key == "general" { 8 } else { 4 });
-            assert_eq!(study.space.groups().len(), if group.key == "general" { 2 } else { 0 });
+            assert_eq!(study.space().groups().len(), if group.key == "general" { 2 } else { 0 });
         }
     }
 
     #[test]
     fn overrides_reach_every_study() {
         let studies = studies(&["design.base_samples=64".to_owned()]).unwrap();
-        assert!(studies.iter().all(|(_, _, study)| study.design.settings().base_samples == 64));
+        assert!(studies.iter().all(|(_, _, study)| study.design().settings().base_samples == 64));
     }
 }

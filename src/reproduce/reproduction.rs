@@ -130,7 +130,7 @@ fn run_studies(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Resu
     let mut reproduced = Vec::with_capacity(count);
     for (place, (group, friction, study)) in studies.iter().enumerate() {
         let number = (place + 1, count);
-        on_event(Event::StudyBegins { number, name: &study.name, runs: study.design.rows() });
+        on_event(Event::StudyBegins { number, name: study.name(), runs: study.design().rows() });
         let analysis = study
             .runner()
             .threads(request.threads)

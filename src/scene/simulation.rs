@@ -27,11 +27,11 @@ pub enum SimulationError {
 /// # Errors
 /// [`SimulationError::NoScene`] if the study is not about the nanoparticle model.
 fn scene_of(study: &Study) -> Result<(Scene, Options), SimulationError> {
-    let Some(afm) = study.subject.downcast_ref::<AfmSubject>() else {
-        return Err(SimulationError::NoScene(study.subject.name()));
+    let Some(afm) = study.subject().downcast_ref::<AfmSubject>() else {
+        return Err(SimulationError::NoScene(study.subject().name()));
     };
     let mut scene = afm.scene;
-    for factor in study.space.factors() {
+    for factor in study.space().factors() {
         if let Some(parameter) = Parameter::from_name(&factor.name) {
             (parameter.set)(&mut scene, factor.unit().to_si(factor.nominal));
         }
@@ -49,7 +49,7 @@ pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, Simu
         Some(duration) => duration,
         None => 2.0 * critical_force(&scene, &Options { fidelity: Fidelity::QuasiStatic, ..options })?.critical_time?,
     };
-    let title = study.title.clone().unwrap_or_else(|| study.name.clone());
+    let title = study.title().unwrap_or(study.name()).to_owned();
     Ok(scene_story(title, &scene, &options, duration)?)
 }
 

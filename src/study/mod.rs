@@ -33,28 +33,28 @@ use crate::uncertainty::Layout;
 #[derive(Debug, Clone)]
 pub struct Study {
     /// Name, by default the file's name without its ending. Result files are named after it.
-    pub name: String,
+    pub(crate) name: String,
     /// Title for people.
-    pub title: Option<String>,
+    pub(crate) title: Option<String>,
     /// What is studied.
-    pub subject: Arc<dyn Subject>,
+    pub(crate) subject: Arc<dyn Subject>,
     /// The factors.
-    pub space: Space,
+    pub(crate) space: Space,
     /// The points at which the model runs, or starts to; its swaps are the factors, the groups, the subsets of
     /// [`Study::analysis`], and the dummy factor if there is one.
-    pub design: Design,
+    pub(crate) design: Design,
     /// What is asked of the runs.
-    pub analysis: AnalysisOptions,
+    pub(crate) analysis: AnalysisOptions,
     /// When a run that grows ends.
-    pub stopping: Stopping,
+    pub(crate) stopping: Stopping,
     /// Changes made to the file on the command line, as given.
-    pub overrides: Vec<String>,
+    pub(crate) overrides: Vec<String>,
     /// The file, word for word.
-    pub source: String,
+    pub(crate) source: String,
     /// SHA-256 of the file in hexadecimal.
-    pub sha256: String,
+    pub(crate) sha256: String,
     /// What was read otherwise than it was written, in sentences.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
 }
 
 impl Study {
@@ -80,6 +80,62 @@ impl Study {
     /// ```
     pub fn builder(name: &str, model: impl Model + 'static) -> StudyBuilder {
         StudyBuilder::new(name, Arc::new(model))
+    }
+
+    /// Its name, by default that of the file without its ending. Result files are named after it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its title for people.
+    pub fn title(&self) -> Option<&str> {
+        self.title.as_deref()
+    }
+
+    /// What is studied.
+    pub fn subject(&self) -> &dyn Subject {
+        &*self.subject
+    }
+
+    /// The factors.
+    pub fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// The points at which the model runs, or starts to; its swaps are the factors, the groups, the subsets of
+    /// [`analysis`](Self::analysis), and the dummy factor if there is one.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// What is asked of the runs.
+    pub fn analysis(&self) -> &AnalysisOptions {
+        &self.analysis
+    }
+
+    /// When a run that grows ends.
+    pub fn stopping(&self) -> Stopping {
+        self.stopping
+    }
+
+    /// Changes made to the file on the command line, as given.
+    pub fn overrides(&self) -> &[String] {
+        &self.overrides
+    }
+
+    /// The file, word for word.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// SHA-256 of the file in hexadecimal.
+    pub fn sha256(&self) -> &str {
+        &self.sha256
+    }
+
+    /// What was read otherwise than it was written, in sentences.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// The model, ready to run on this study's factors.

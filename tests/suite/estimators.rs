@@ -12,7 +12,7 @@ const SEEDS: u64 = 16;
 
 /// Estimates of every estimator and factor, one list per seed, and what they should be.
 fn estimates(study: &Study, sampler: Sampler, base_samples: u64) -> Vec<Vec<f64>> {
-    let (factors, model) = (study.space.factors().len(), study.model());
+    let (factors, model) = (study.space().factors().len(), study.model());
     let of_seed = |seed| {
         let rows = Rows {
             swaps: (0..factors).map(|j| vec![j]).collect(),
@@ -21,7 +21,7 @@ fn estimates(study: &Study, sampler: Sampler, base_samples: u64) -> Vec<Vec<f64>
         };
         let settings = DesignSettings { sampler, base_samples, replicates: 1, seed };
         let design = Design::new(settings, factors, rows).unwrap();
-        let job = Job { design: &design, space: &study.space, model: model.as_ref() };
+        let job = Job { design: &design, space: study.space(), model: model.as_ref() };
         let moments: Moments = run(job, 0, &|_| ()).unwrap()[0].outputs[0].moments.whole();
         let of = |estimate: &dyn Fn(usize) -> f64| (0..factors).map(estimate).collect::<Vec<_>>();
         let first = FirstOrder::ALL.into_iter().map(|estimator| of(&|j| estimator.estimate(&moments, j)));
@@ -50,7 +50,7 @@ fn every_estimator_is_within_its_error_of_every_closed_form_on_every_sampler() {
                 for (place, exact) in expected.iter().enumerate() {
                     let n = SEEDS as f64;
                     // As published, Saltelli 2002 divides one of its sums by N - 1 and the other by N.
-                    let estimator = FirstOrder::ALL.get(place / study.space.factors().len());
+                    let estimator = FirstOrder::ALL.get(place / study.space().factors().len());
                     let published = if estimator == Some(&FirstOrder::Saltelli2002) { uneven } else { 0.0 };
                     let room = published / (base_samples - 1) as f64 + 1e-9;
                     let mean = all.iter().map(|list| list[place]).sum::<f64>() / n;

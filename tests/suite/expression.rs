@@ -116,7 +116,7 @@ fn faults_are_named_with_line_and_column() {
 #[test]
 fn what_stands_in_no_formula_is_said() {
     let study = Study::parse(&ISHIGAMI.replace("b*x3^4*sin(x1)", "1"), Path::new("s.toml"), &[]).unwrap();
-    assert_eq!(study.notes, ["factor `x3` stands in no formula", "constant `b` stands in no formula"]);
+    assert_eq!(study.notes(), ["factor `x3` stands in no formula", "constant `b` stands in no formula"]);
 }
 
 #[test]

@@ -116,9 +116,9 @@ fn factors_take_their_own_distributions_and_others_stand_still() {
     let mixed = "model = \"sobol-g\"\n[function]\na = [0, 1, 2]\n[[factor]]\nname = \"x3\"\nmin = 0.25\nmax = 0.5\n[[factor]]\nname = \"x1\"";
     let study = Study::parse(mixed, Path::new("mixed.toml"), &[]).unwrap();
     assert_eq!(study.constants(), [("x2".to_owned(), 0.75, "1".to_owned())]);
-    assert_eq!(study.space.factors()[0].distribution().support(), (0.25, 0.5));
+    assert_eq!(study.space().factors()[0].distribution().support(), (0.25, 0.5));
     let overridden = Study::parse("model = \"linear\"", Path::new("l.toml"), &["function.c=[1, 2, 3]".to_owned()]);
-    assert_eq!(overridden.unwrap().space.factors().len(), 3);
+    assert_eq!(overridden.unwrap().space().factors().len(), 3);
 }
 
 #[test]

@@ -40,11 +40,11 @@ fn factors_are_the_same_study_in_every_form_in_the_order_of_the_file() {
         "[[factors]]\nname = \"b\"\nmin = 0\nmax = 1\n[[factors]]\nname = \"a\"\nmin = -1\nmax = 2\nunit = \"mm\"\n",
     ] {
         let study = parsed(&format!("{head}{form}"));
-        assert_eq!(study.space, listed.space, "{form}");
+        assert_eq!(study.space(), listed.space(), "{form}");
         assert_eq!(study.identity(), listed.identity(), "{form}");
     }
     let single = parsed("model = \"expression\"\noutputs.y = \"a\"\n[factor]\nname = \"a\"\nmin = 0\nmax = 1\n");
-    assert_eq!(single.space.factors().len(), 1);
+    assert_eq!(single.space().factors().len(), 1);
     // The same numbers, through the binary, and a change of a factor by its name.
     let folder = Folder::new();
     let table = folder.with(

@@ -123,7 +123,7 @@ fn spans_have_no_zero_and_ratios_are_refused_in_degrees() {
         let study = study(keys).unwrap_or_else(|error| panic!("{error}"));
         let mut si = vec![0.0; 4096];
         let u: Vec<f64> = (0..4096).map(|k| (f64::from(k) + 0.5) / 4096.0).collect();
-        study.space.factors()[0].fill_si(&u, &mut si);
+        study.space().factors()[0].fill_si(&u, &mut si);
         let mean = si.iter().sum::<f64>() / 4096.0;
         let sd = (si.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 4096.0).sqrt();
         // All of them have mean 20 degC and, to what is typed, sd 2 degC.

@@ -82,7 +82,7 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
         0 => say("note: the file holds no points: its rows are taken in the order of the design"),
         _ => say("the points in the file are those of the design, in its order"),
     }
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&study.name));
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let artefacts = arguments.charts.artefacts(folder);
     artefacts.check(&file_names(study))?;
     let runner = study.runner().threads(arguments.threads.number()).store(&answers.store);

@@ -103,7 +103,7 @@ fn problem(arguments: &SalibArguments) -> Result<Option<SalibProblem>, Failure> 
     };
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         let study = Study::load(path, &[])?;
-        let names = study.space.factors().iter().map(|factor| factor.name.clone()).collect();
+        let names = study.space().factors().iter().map(|factor| factor.name.clone()).collect();
         return SalibProblem::of_inputs(names).map(Some).map_err(|error| wrong(path, &error));
     }
     let text = read_text(path).map_err(|error| wrong(path, &format!("cannot read the problem: {error}")))?;

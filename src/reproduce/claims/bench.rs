@@ -106,10 +106,10 @@ impl<'a> Bench<'a> {
     pub fn new(physics: Physics<'a>, effort: Effort) -> Result<Self, ClaimsError> {
         let (_, _, study) =
             studies(&[])?.into_iter().find(|(group, ..)| group.key == "general").ok_or(ClaimsError::NoRanges)?;
-        let parameters = study.space.factors().iter().map(|factor| Parameter::from_name(&factor.name)).collect();
+        let parameters = study.space().factors().iter().map(|factor| Parameter::from_name(&factor.name)).collect();
         let parameters: Option<Vec<_>> = parameters;
         let parameters = parameters.ok_or(ClaimsError::NoRanges)?;
-        Ok(Self { physics, sizes: Sizes::of(effort), space: study.space, parameters })
+        Ok(Self { physics, sizes: Sizes::of(effort), space: study.space().clone(), parameters })
     }
 
     /// F_cr (N).

@@ -31,7 +31,7 @@ pub(super) fn sweeps(effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
         Effort::Full => 201,
         Effort::Quick => 41,
     };
-    SWEEPS.par_iter().map(|figure| one(figure, &study.space, points)).collect()
+    SWEEPS.par_iter().map(|figure| one(figure, study.space(), points)).collect()
 }
 
 fn one(figure: &SweepFigure, space: &Space, points: usize) -> Result<PaperFigure, FiguresError> {

@@ -259,7 +259,7 @@ fn study(variant: &Variant, group: &str, changes: &[String]) -> Result<Study, Re
 fn settings(variant: &Variant, study: &Study) -> Vec<&'static str> {
     let is_factor = |setting: &str| {
         let name = setting.split_once('=').and_then(|(key, _)| key.trim().strip_prefix("afm."));
-        study.space.factors().iter().any(|factor| Some(factor.name.as_str()) == name)
+        study.space().factors().iter().any(|factor| Some(factor.name.as_str()) == name)
     };
     variant.settings.iter().copied().filter(|setting| !is_factor(setting)).collect()
 }

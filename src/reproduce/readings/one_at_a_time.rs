@@ -22,7 +22,7 @@ pub(super) fn shares(
     effect: Effect,
 ) -> Result<(Option<Vec<Share>>, u64), ReadingsError> {
     let model = study.model();
-    let factors = study.space.factors();
+    let factors = study.space().factors();
     let mut sizes = Vec::with_capacity(factors.len());
     for (number, factor) in factors.iter().enumerate() {
         let values = curve(study, model.as_ref(), number).map_err(|reason| ReadingsError::NoValue {
@@ -60,7 +60,7 @@ pub(super) fn shares(
 fn curve(study: &Study, model: &dyn Model, number: usize) -> Result<Vec<Vec<f64>>, apportion::model::RowFailure> {
     let u: Vec<f64> = (0..VALUES).map(|i| (i as f64 + 0.5) / VALUES as f64).chain(ENDS).collect();
     let columns: Vec<Vec<f64>> = study
-        .space
+        .space()
         .factors()
         .iter()
         .enumerate()

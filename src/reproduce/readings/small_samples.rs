@@ -140,7 +140,7 @@ pub(super) fn of_study(
         Effort::Full => 1000,
         Effort::Quick => 100,
     };
-    let factors = study.space.factors().len();
+    let factors = study.space().factors().len();
     let longest = SMALL_SAMPLES.into_iter().max().unwrap_or(0);
     let (sampler, seed) = (Sampler::Random, 0);
     let settings = DesignSettings { sampler, base_samples: longest * repetitions, replicates: repetitions, seed };
@@ -166,7 +166,7 @@ fn repetition(
     (model, worker): (&dyn Model, &mut dyn Worker),
     points: &BasePoints,
 ) -> [SampleMoments; SMALL_SAMPLES.len()] {
-    let factors = study.space.factors();
+    let factors = study.space().factors();
     let (mut batch, mut work) = (Batch::new(model), Workspace::default());
     let mut so_far = [(); BOTH.len()].map(|()| Moments::empty(factors.len()));
     let mut first = 0;
@@ -231,7 +231,7 @@ impl Sample<'_> {
         repetitions: u64,
     ) -> SmallSample {
         let Self { study, variant, group, base_samples } = self;
-        let names: Vec<&str> = study.space.factors().iter().map(|factor| factor.name.as_str()).collect();
+        let names: Vec<&str> = study.space().factors().iter().map(|factor| factor.name.as_str()).collect();
         let met = |within: f64| {
             let near = |share: &[f64]| {
                 names.iter().zip(share).all(|(name, share)| {

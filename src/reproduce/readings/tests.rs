@@ -136,11 +136,11 @@ fn viscous_friction_and_steps_of_14_ms_make_velocity_act() {
 #[test]
 fn held_friction_is_that_of_lugre() {
     let study = study(variant("step-14").unwrap(), "general", &[]).unwrap();
-    let afm = study.subject.downcast_ref::<AfmSubject>().expect("the nanoparticle model");
+    let afm = study.subject().downcast_ref::<AfmSubject>().expect("the nanoparticle model");
     for place in 0..8 {
         let u: Vec<f64> = (0..8).map(|factor| (0.5 + (place * 8 + factor) as f64 * 0.618_034).fract()).collect();
         let mut scene = afm.scene;
-        for (factor, value) in study.space.factors().iter().zip(study.space.values_at(&u)) {
+        for (factor, value) in study.space().factors().iter().zip(study.space().values_at(&u)) {
             (Parameter::from_name(&factor.name).unwrap().set)(&mut scene, factor.unit().to_si(value));
         }
         let quasi_static = Options { fidelity: apportion::afm::Fidelity::QuasiStatic, ..afm.options };

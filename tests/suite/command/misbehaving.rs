@@ -206,7 +206,7 @@ impl Trial {
 fn on_record(case: &Case) -> (usize, usize, usize) {
     let study = Study::load(&case.path("study.toml"), &[]).unwrap();
     let model = study.model();
-    let job = Job { design: &study.design, space: &study.space, model: model.as_ref() };
+    let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
     let journal = case.path("out/study.journal");
     let contents = read_journal(&journal, &std::fs::read(&journal).unwrap()).unwrap();
     let (mut all, mut right, mut wrong) = (0, 0, 0);

@@ -142,7 +142,7 @@ pub const FORMULA: &str = "x1 + 2*x2 + x1*x3";
 pub fn rows_where(condition: impl Fn(f64) -> bool) -> u64 {
     let case = Case::new("", "");
     let study = apportion::study::Study::load(&case.path("study.toml"), &[]).unwrap();
-    let (design, factors) = (&study.design, study.space.factors().len());
+    let (design, factors) = (study.design(), study.space().factors().len());
     let (mut count, points) = (0, design.points_per_replicate() as usize);
     for replicate in 0..design.settings().replicates {
         let mut unit = vec![vec![0.0; points]; design.columns()];

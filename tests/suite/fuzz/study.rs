@@ -1,7 +1,6 @@
 //! Study files, with changes from the command line.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use apportion::model::{Batch, RunContext};
 use apportion::report::ResultFile;
@@ -34,18 +33,19 @@ pub fn run(bytes: &[u8]) {
         Ok(study) => study,
         Err(error) => return refused(&error),
     };
-    if let Some(afm) = study.subject.downcast_ref::<AfmSubject>() {
-        let mut afm = afm.clone();
-        afm.options.step_budget = afm.options.step_budget.min(STEPS);
-        study.subject = Arc::new(afm);
+    if let Some(afm) = study.subject().downcast_ref::<AfmSubject>() {
+        let budget = format!("afm.step_budget={}", afm.options.step_budget.min(STEPS));
+        let changes = [changes, vec![budget]].concat();
+        let Ok(patient) = Study::parse(text, Path::new("fuzz/study.toml"), &changes) else { return };
+        study = patient;
     }
     begun(&study);
     // A fuzzer must never start what it has made up.
-    if matches!(study.subject.name(), "command" | "external") {
+    if matches!(study.subject().name(), "command" | "external") {
         return;
     }
     answered(&study);
-    if study.design.rows() <= RUNS && !study.stopping.grows() && study.analysis.resamples <= 1000 {
+    if study.design().rows() <= RUNS && !study.stopping().grows() && study.analysis().resamples <= 1000 {
         ran(&study, text.len().is_multiple_of(DRAWN));
     }
 }
@@ -62,12 +62,12 @@ fn refused(error: &StudyError) {
 /// The first and the last rows of the design through the model.
 fn answered(study: &Study) {
     let model = study.model();
-    let factors = study.space.factors();
-    let rows = [0, 1, study.design.rows() / 2, study.design.rows() - 1];
+    let factors = study.space().factors();
+    let rows = [0, 1, study.design().rows() / 2, study.design().rows() - 1];
     let mut columns = vec![vec![0.0; rows.len()]; factors.len()];
     let mut u = vec![0.0; factors.len()];
     for (place, row) in rows.into_iter().enumerate() {
-        study.design.point(row, &mut u);
+        study.design().point(row, &mut u);
         for ((column, factor), u) in columns.iter_mut().zip(factors).zip(&u) {
             assert!(*u > 0.0 && *u < 1.0, "{u}");
             factor.fill_si(&[*u], &mut column[place..=place]);
@@ -89,10 +89,11 @@ fn answered(study: &Study) {
 
 /// A study to begin with, of the same model, factors and outputs.
 fn begun(study: &Study) {
-    let Some(model) = apportion::model::ModelKind::from_name(study.subject.name()) else { return };
-    let names = study.space.factors().iter().map(|factor| factor.name.clone());
+    let Some(model) = apportion::model::ModelKind::from_name(study.subject().name()) else { return };
+    let names = study.space().factors().iter().map(|factor| factor.name.clone());
     let outputs = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
-    let request = TemplateRequest { model, title: study.title.clone(), factors: names.take(8).collect(), outputs };
+    let request =
+        TemplateRequest { model, title: study.title().map(str::to_owned), factors: names.take(8).collect(), outputs };
     // Inputs that a function has only by its parameters are not inputs of the function as it comes.
     let Ok(text) = template(&request) else { return };
     let begun = Study::parse(&text, Path::new("new.toml"), &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
