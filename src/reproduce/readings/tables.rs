@@ -59,8 +59,8 @@ pub fn small_samples_csv(readings: &Readings) -> String {
                 sample.estimators.name().into(),
                 sample.effect.name().into(),
                 sample.output.name().into(),
-                (sample.repetitions as u64).into(),
-                (sample.with_shares as u64).into(),
+                sample.repetitions.into(),
+                sample.with_shares.into(),
                 (&factor.factor).into(),
             ];
             let quantile = |place: usize| Value::from(factor.quantiles.map(|quantiles| quantiles[place]));
