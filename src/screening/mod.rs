@@ -111,7 +111,7 @@ pub struct ScreeningFailure {
 /// let study = Study::parse(include_str!("../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
 /// let model = study.model();
 /// let settings = ScreeningSettings::default();
-/// let job = ScreeningJob { space: &study.space, model: model.as_ref(), settings };
+/// let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
 /// let screening = screen(job, 0, &|_| ())?;
 /// assert_eq!(screening.runs, 32 * 4);
 /// assert!(screening.outputs[0].factors.iter().all(|x| x.reading == Some(Reading::NonLinearOrInteracting)));

@@ -91,10 +91,10 @@ pub struct Extent {
 /// use apportion::{study::Study, sweep::{FactorValues, SweepRequest, sweep}};
 ///
 /// let study = Study::parse(include_str!("../../studies/soft-cantilever.toml"), Path::new("s.toml"), &[])?;
-/// let thickness = FactorValues::over_range(&study.space, 0, 11)?;
-/// let sizes = FactorValues::parse("particle_radius=20,40,60 nm", &study.space)?;
+/// let thickness = FactorValues::over_range(study.space(), 0, 11)?;
+/// let sizes = FactorValues::parse("particle_radius=20,40,60 nm", study.space())?;
 /// let request = SweepRequest { factors: vec![thickness], against: Some(sizes) };
-/// let sweeps = sweep(&study.space, study.model().as_ref(), &request)?;
+/// let sweeps = sweep(study.space(), study.model().as_ref(), &request)?;
 /// assert_eq!(sweeps.sweeps[0].family.len(), 3);
 /// // The stiffness goes with the third power of the thickness, and at these dimensions the force with it.
 /// let elasticity = sweeps.sweeps[0].local[0].as_ref().map(|local| local.elasticity);

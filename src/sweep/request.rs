@@ -198,7 +198,7 @@ impl FactorValues {
     /// use apportion::{study::Study, sweep::FactorValues};
     ///
     /// let study = Study::parse(include_str!("../../studies/soft-cantilever.toml"), Path::new("s.toml"), &[])?;
-    /// let three = FactorValues::parse("thickness=1.5, 2 um, 2500 nm", &study.space)?;
+    /// let three = FactorValues::parse("thickness=1.5, 2 um, 2500 nm", study.space())?;
     /// assert_eq!((three.factor, three.values), (0, vec![1.5, 2.0, 2.5]));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -64,9 +64,9 @@ impl Study {
     ///     max = 3.14
     /// "#;
     /// let study = Study::parse(text, Path::new("small.toml"), &["design.base_samples=256".to_owned()])?;
-    /// assert_eq!(study.name, "small");
+    /// assert_eq!(study.name(), "small");
     /// // A and B: with one factor, A with its column from B is B, and is not run again.
-    /// assert_eq!(study.design.rows(), 2 * 256);
+    /// assert_eq!(study.design().rows(), 2 * 256);
     /// # Ok::<(), apportion::study::StudyError>(())
     /// ```
     ///

@@ -47,7 +47,7 @@ const LAWS: &str = "# uniform; or normal, log-normal, triangular, beta, categori
 /// let factors = vec!["thickness".to_owned(), "velocity".to_owned()];
 /// let request = TemplateRequest { model: ModelKind::Afm, title: None, factors, outputs: Vec::new() };
 /// let study = Study::parse(&template(&request)?, Path::new("mine.toml"), &[])?;
-/// assert_eq!(study.space.factors()[1].name, "velocity");
+/// assert_eq!(study.space().factors()[1].name, "velocity");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
