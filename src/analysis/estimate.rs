@@ -1,29 +1,16 @@
 //! From the totals of a run to its result.
 
+use super::finished_run::{FinishedRun, row_inputs};
 use super::result::{Aggregate, Analysis, FailureCount, NoIndices, OutputAnalysis, Stopped};
 use super::warnings;
-use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs, Scaling, merged};
 use crate::model::{Model, Output, RowFailure};
-use crate::run::{Place, Tally, Totals};
+use crate::run::{Tally, Totals};
 use crate::study::Study;
 use crate::uncertainty::{
     Estimate, Interval, IntervalOptions, KeptPoints, OutputMoments, aggregate_indices, output_indices, output_moments,
     stages,
 };
-
-/// A run of a study that is over.
-#[derive(Clone, Copy)]
-pub(crate) struct FinishedRun<'a> {
-    pub study: &'a Study,
-    pub model: &'a dyn Model,
-    /// The design as it was in the end.
-    pub design: &'a Design,
-    /// Totals of each replicate.
-    pub replicates: &'a [Totals],
-    pub threads: usize,
-    pub wall_seconds: f64,
-}
 
 /// The result of a run; `stopped` tells why a growing one ended.
 pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analysis {
@@ -49,18 +36,6 @@ pub(crate) fn interval_options(study: &Study) -> IntervalOptions<'static> {
     let (analysis, seed) = (&study.analysis, study.design.settings().seed);
     let (method, threshold, resamples) = (analysis.intervals, analysis.threshold, analysis.resamples);
     IntervalOptions { method, threshold, seed, resamples, points: None }
-}
-
-/// Names of everything that has indices, in the order of the swaps: factors, groups, subsets, dummy.
-pub fn names_of_swaps(study: &Study) -> Vec<String> {
-    let factors = study.space.factors();
-    let subset = |numbers: &Vec<usize>| {
-        numbers.iter().map(|&number| factors[number].name.as_str()).collect::<Vec<_>>().join(" + ")
-    };
-    let names = factors.iter().map(|factor| factor.name.clone());
-    let names = names.chain(study.space.groups().into_iter().map(|group| group.name));
-    let names = names.chain(study.analysis.subsets.iter().map(subset));
-    names.chain(study.analysis.dummy.then(|| "dummy".to_owned())).collect()
 }
 
 /// The result for output number `number`; `whole` holds the counts over all replicates.
@@ -135,13 +110,6 @@ fn failure_count(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> F
         first_row: tally.first.row(run.design),
         first_inputs: row_inputs(run.study, run.design, tally.first),
     }
-}
-
-/// The values of the factors at `place` of `design`, in their units.
-pub fn row_inputs(study: &Study, design: &Design, place: Place) -> Vec<f64> {
-    let mut u = vec![0.0; design.factors()];
-    design.point(place.row(design), &mut u);
-    study.space.values_at(&u)
 }
 
 fn aggregate(study: &Study, model: &dyn Model, replicates: &[Totals]) -> Option<Aggregate> {

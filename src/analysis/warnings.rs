@@ -1,6 +1,6 @@
 //! What a careful reader of a result should know, in sentences.
 
-use super::estimate::{FinishedRun, names_of_swaps};
+use super::finished_run::{FinishedRun, names_of_swaps};
 use crate::estimate::CentralMoments;
 use crate::model::Model;
 use crate::run::Totals;

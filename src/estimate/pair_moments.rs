@@ -1,6 +1,6 @@
 //! The means from which second-order indices are read.
 
-use super::workspace::Workspace;
+use super::workspace::{Difference, PairedColumns, Workspace};
 use crate::binary::binary_fields;
 use crate::sum::{centred_product, mean};
 
@@ -22,20 +22,6 @@ struct PairMean {
 
 binary_fields!(PairMoments { swaps, means });
 binary_fields!(PairMean { n, mean });
-
-/// D and E of one swap, with 0 at the base points that failed and, if any did, 0 there and 1 elsewhere.
-#[derive(Debug, Default)]
-pub(super) struct PairedColumns {
-    d: Difference,
-    e: Difference,
-}
-
-#[derive(Debug, Default)]
-struct Difference {
-    values: Vec<f64>,
-    /// Empty if no base point failed.
-    succeeded: Vec<f64>,
-}
 
 impl Difference {
     fn set(&mut self, y: &[f64], origin: &[f64]) {

@@ -8,7 +8,21 @@ pub struct Workspace {
     /// Columns of A, B and the rows of a swap without the base points that failed.
     pub(super) kept: [Vec<f64>; 6],
     /// Differences of all paired swaps.
-    pub(super) paired: Vec<super::pair_moments::PairedColumns>,
+    pub(super) paired: Vec<PairedColumns>,
+}
+
+/// D and E of one swap, with 0 at the base points that failed and, if any did, 0 there and 1 elsewhere.
+#[derive(Debug, Default)]
+pub(super) struct PairedColumns {
+    pub d: Difference,
+    pub e: Difference,
+}
+
+#[derive(Debug, Default)]
+pub(super) struct Difference {
+    pub values: Vec<f64>,
+    /// Empty if no base point failed.
+    pub succeeded: Vec<f64>,
 }
 
 impl Workspace {

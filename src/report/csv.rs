@@ -1,8 +1,27 @@
 //! CSV: numbers with as many digits as it takes to read the same bits back, an empty cell where there is none.
 
-use super::document::Value;
 use super::result::EstimateRecord;
 use crate::csv_text::inert;
+
+/// A value of a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Value {
+    /// What is printed.
+    #[default]
+    Printed,
+    /// Nothing.
+    Empty,
+    /// A text.
+    Text(String),
+    /// A number, written so that the same bits are read back; one that is not finite is left empty.
+    Number(f64),
+    /// A whole number.
+    Count(u64),
+    /// Yes or no.
+    Flag(bool),
+    /// An estimate and the bounds of its interval, in three columns.
+    Estimate(Option<EstimateRecord>),
+}
 
 /// The name of a column, or of the three columns of an estimate.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,13 +4,14 @@
 //! only add keys. Numbers are in the unit that stands beside them; a number that does not exist is `null`.
 
 mod indices;
+mod scatter;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::distribution::OutputDistribution;
-use super::scatter::ScatterRecord;
 pub use indices::*;
+pub use scatter::*;
 
 /// The result of a run of apportion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,9 +1,6 @@
 //! The output over its most influential factors: a few points to look at, and the means over slices of each factor.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::result::IndexRecord;
+use super::result::{ConditionalMeansRecord, IndexRecord, ScatterRecord};
 use crate::analysis::OutputAnalysis;
 use crate::design::Design;
 use crate::quantity::Unit;
@@ -27,35 +24,6 @@ const FEWEST: u64 = 1 << 10;
 const NUMBERS: u64 = 1 << 18;
 /// Half width of a 95 % interval of a mean of many values, in standard errors.
 const QUANTILE: f64 = 1.96;
-
-/// How an output goes with the factors of the largest total indices.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ScatterRecord {
-    /// At most six factors, the largest total index first.
-    pub factors: Vec<String>,
-    /// At most 400 rows A, the first of every replicate: the values of `factors` in their units, then the output's in its
-    /// own. Runs without a value are left out.
-    pub points: Vec<Vec<f64>>,
-    /// One entry for each of `factors`.
-    pub conditional_means: Vec<ConditionalMeansRecord>,
-}
-
-/// Means of the output over slices of a factor: an estimate of E[Y | X_i], whose variance is the numerator of the
-/// first-order index. They describe the scatter of the kept rows A and B; no index is computed from them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ConditionalMeansRecord {
-    /// The factor.
-    pub factor: String,
-    /// The median of each slice in the factor's unit, rising: 20 slices of equal probability, or each of the values of a
-    /// discrete factor (of at most 50).
-    pub x: Vec<f64>,
-    /// Mean of the output over the slice in its unit; `null` without values there.
-    pub mean: Vec<Option<f64>>,
-    /// Mean minus 1.96 standard errors; `null` for fewer than two values.
-    pub low: Vec<Option<f64>>,
-    /// Mean plus 1.96 standard errors.
-    pub high: Vec<Option<f64>>,
-}
 
 /// The points of the unit cube of the first rows A and B of every replicate: computed again from the design, which is a
 /// function of the row number.

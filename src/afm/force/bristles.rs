@@ -1,7 +1,6 @@
 //! The tip pushing a particle with mass on LuGre bristles.
 
-use super::dynamic::local_tolerance;
-use super::motion::Motion;
+use super::motion::{Motion, local_tolerance};
 use super::slip::Slip;
 use super::substrate::Substrate;
 use crate::afm::Failure;

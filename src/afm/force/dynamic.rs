@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 use super::bristles::Bristles;
 use super::carried::Eve;
-use super::motion::{Motion, Tip};
+use super::motion::{FINEST, Motion, Tip, local_tolerance};
 use super::quasi_static::Statics;
 use super::slip::{Error, Slip};
 use super::substrate::Substrate;
@@ -22,9 +22,6 @@ use crate::afm::friction::LuGreForm;
 use crate::afm::ode::{Control, DormandPrince, End, March, Outcome, Rodas};
 use crate::afm::probe::Probe;
 use crate::afm::{Failure, Fidelity, FrictionLaw, Scene};
-
-/// Least local tolerance: below, rounding shows.
-const FINEST: f64 = 1e-12;
 
 /// The critical force. At rest, and where nothing holds the particle, there is no motion: the quasi-static limit.
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
@@ -52,11 +49,6 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })
 }
 
-/// Tolerance of a step.
-pub(super) fn local_tolerance(options: &Options) -> f64 {
-    (0.1 * options.tolerance).max(FINEST)
-}
-
 /// Whether friction holds the tip without a look at the law: its force is below that of the quasi-static slip, and F_Z,
 /// which falls with the twist, still above. 1e-3 leaves room for what the swing does to F_Z.
 pub(super) fn surely_holds(tip: &Tip, limit: &Slip) -> bool {
@@ -65,7 +57,7 @@ pub(super) fn surely_holds(tip: &Tip, limit: &Slip) -> bool {
 
 /// Marches the stuck tip until F_Y passes F_Y*(F_Z).
 fn stuck(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, u64), Failure> {
-    let lateral = motion.swing().lateral + motion.swing().normal(limit.twist) * substrate.slope_at(limit);
+    let lateral = motion.swing().lateral + motion.swing().normal(limit.twist) * limit.slope(substrate);
     let swing = lateral / motion.force;
     let (end, spent) = if swing <= SMALL * substrate.options.tolerance {
         damped(motion, substrate, limit)?
@@ -133,7 +125,7 @@ fn swinging(motion: &Motion, substrate: &Substrate, (limit, swing): (&Slip, f64)
         step_budget: budget,
     };
     let mut march = March::<DormandPrince, _, 2>::new(motion, (start.t, start.y), control);
-    let slope = substrate.slope_at(limit);
+    let slope = limit.slope(substrate);
     let mut spent = 0;
     let outcome = march.until(10.0, |t, y| {
         let tip = motion.tip(t, y);

@@ -11,8 +11,8 @@
 use super::quasi_static::Statics;
 use super::slip::Slip;
 use super::swing::{Swing, inertia_about_apex};
-use crate::afm::Scene;
 use crate::afm::ode::Problem;
+use crate::afm::{Options, Scene};
 
 /// The tip pushed by a stuck particle. Unknowns: K_y y_P and theta'.
 pub(super) struct Motion<'a> {
@@ -142,4 +142,12 @@ impl Problem<2> for Motion<'_> {
     fn time_rate(&self, t: f64, y: &[f64; 2]) -> [f64; 2] {
         self.slopes(t, y).map(|[_, _, by_s]| by_s)
     }
+}
+
+/// Least local tolerance: below, rounding shows.
+pub(super) const FINEST: f64 = 1e-12;
+
+/// Tolerance of a step.
+pub(super) fn local_tolerance(options: &Options) -> f64 {
+    (0.1 * options.tolerance).max(FINEST)
 }

@@ -58,6 +58,11 @@ impl Slip {
         if self.lateral_force < 0.0 || self.twist < 0.0 { Err(Failure::StepTooSmall) } else { Ok(self) }
     }
 
+    /// A bound of |dF_Y*/dF_Z| here, see [`Substrate::slope`].
+    pub fn slope(&self, substrate: &Substrate) -> f64 {
+        substrate.slope(self.lateral_force, self.normal_force).abs()
+    }
+
     /// The result of a rung, with error and cost left to fill in.
     #[inline]
     pub fn critical(&self, substrate: &Substrate, rung: Fidelity) -> Critical {

@@ -1,6 +1,5 @@
 //! What holds the particle down: contact and friction on the substrate under a normal force.
 
-use super::slip::Slip;
 use crate::afm::contact::{Contact, Pair};
 use crate::afm::friction::{Drive, LuGreForm, Pressed, particle_mass};
 use crate::afm::probe::Probe;
@@ -87,11 +86,6 @@ impl<'a> Substrate<'a> {
         let ageing = if law == FrictionLaw::Armstrong { 1.05 } else { 1.0 };
         let of_area = (capacity - viscous - of_load * (normal_force + self.adhesive_load)).max(0.0);
         of_load + if of_area > 0.0 { ageing * of_area / (normal_force + support) } else { 0.0 }
-    }
-
-    /// The same at a slip.
-    pub fn slope_at(&self, slip: &Slip) -> f64 {
-        self.slope(slip.lateral_force, slip.normal_force).abs()
     }
 
     /// The least normal force (N) under which there is a contact that friction can hold: minus the pull-off force, or

@@ -64,6 +64,6 @@ impl Swing {
     pub fn left_out(&self, slip: &Slip, substrate: &Substrate) -> Error {
         let normal = self.normal(slip.twist);
         let spring = if substrate.options.friction == FrictionLaw::LuGre { self.spring } else { 0.0 };
-        Error { normal, lateral: spring + normal * substrate.slope_at(slip) }
+        Error { normal, lateral: spring + normal * slip.slope(substrate) }
     }
 }

@@ -13,10 +13,11 @@ mod symbols;
 mod table;
 mod text;
 
+pub use super::csv::Value;
 #[cfg(feature = "page")]
 pub use html::DocumentError;
 pub use symbols::symbols;
-pub use table::{Cell, Column, Mark, OnPhone, Table, Value};
+pub use table::{Cell, Column, Mark, OnPhone, Table};
 
 use crate::report::chart::Chart;
 use crate::report::file_names::FileNames;

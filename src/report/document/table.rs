@@ -1,6 +1,6 @@
 //! Tables: cells as they are printed, with the exact values behind them for CSV.
 
-use crate::report::csv::{Csv, Field};
+use crate::report::csv::{Csv, Field, Value};
 use crate::report::format::give_or_take;
 use crate::report::result::EstimateRecord;
 
@@ -65,26 +65,6 @@ pub struct Cell {
     pub note: String,
     /// Further links, below the note.
     pub links: Vec<Link>,
-}
-
-/// A value of a file.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum Value {
-    /// What is printed.
-    #[default]
-    Printed,
-    /// Nothing.
-    Empty,
-    /// A text.
-    Text(String),
-    /// A number, written so that the same bits are read back; one that is not finite is left empty.
-    Number(f64),
-    /// A whole number.
-    Count(u64),
-    /// Yes or no.
-    Flag(bool),
-    /// An estimate and the bounds of its interval, in three columns.
-    Estimate(Option<EstimateRecord>),
 }
 
 /// How a cell is set off; never by colour alone.

@@ -4,8 +4,8 @@ use serde_json::Value;
 
 use crate::names::{LONGEST_NAME, LONGEST_STUDY_NAME, LONGEST_TITLE};
 use crate::report::distribution::OutputDistribution;
+use crate::report::result::ScatterRecord;
 use crate::report::result::{OutputRecord, ResultFile};
-use crate::report::scatter::ScatterRecord;
 
 /// A key, and what is wrong there.
 type Fault = (String, String);

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::super::chart::{Series, Stroke};
 use super::super::result::FactorRecord;
-use super::scatter::{Means, SLICES};
+use super::slice_means::{Means, SLICES};
 
 /// More categories than this are drawn by their numbers: their labels would be no longer than a letter.
 const MOST: usize = 12;

@@ -6,6 +6,7 @@ mod convergence;
 mod distribution;
 mod indices;
 mod scatter;
+mod slice_means;
 
 pub use convergence::convergence_chart;
 pub use distribution::distribution_chart;

@@ -1,16 +1,13 @@
 //! The output over its most influential factors.
 
-use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
+use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Spacing};
 use super::super::format::{axis_unit, printed, the, words};
-use super::super::result::{FactorRecord, OutputRecord, ResultFile};
-use super::super::scatter::{ConditionalMeansRecord, ScatterRecord};
+use super::super::result::{FactorRecord, OutputRecord, ResultFile, ScatterRecord};
+
 use super::categories::Categories;
+use super::slice_means::Means;
 use super::{headline, no_indices};
 
-/// What the line is called.
-pub(super) const SLICES: &str = "mean over a slice of the factor";
-/// Up to so many slices, each mean is marked by a point.
-const FEW_SLICES: usize = 12;
 /// Where the median lies below this part of the largest value, a linear axis would press most points into its foot.
 const PRESSED: f64 = 0.02;
 
@@ -88,34 +85,6 @@ fn spacing(scatter: &ScatterRecord) -> Spacing {
         _ => false,
     };
     if pressed { Spacing::Logarithmic } else { Spacing::Linear }
-}
-
-/// The means of the output over slices of a factor.
-pub(super) struct Means {
-    pub series: Series,
-    pub points: Vec<(f64, f64)>,
-    /// As (x, low, high).
-    pub band: Vec<(f64, f64, f64)>,
-}
-
-impl Means {
-    fn new(means: &ConditionalMeansRecord) -> Self {
-        let number = |value: Option<&Option<f64>>| value.copied().flatten().unwrap_or(f64::NAN);
-        let at = |(place, x): (usize, &f64)| (*x, number(means.low.get(place)), number(means.high.get(place)));
-        let (name, stroke) = match means.x.len() {
-            ..=FEW_SLICES => ("mean at a value of the factor", Stroke::SolidWithPoints),
-            _ => (SLICES, Stroke::Solid),
-        };
-        Self {
-            series: Series::new(name, Colour::Reference).stroke(stroke),
-            points: means.x.iter().enumerate().map(|(place, x)| (*x, number(means.mean.get(place)))).collect(),
-            band: means.x.iter().enumerate().map(at).collect(),
-        }
-    }
-
-    fn marks(self) -> [Mark; 2] {
-        [self.series.band(self.band), self.series.line(self.points)]
-    }
 }
 
 /// What is seen, what the marks are, and which factors are left out.

@@ -1,6 +1,7 @@
 //! A value with its place in the file.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -41,3 +42,6 @@ impl<T: JsonSchema> JsonSchema for At<T> {
         T::json_schema(generator)
     }
 }
+
+/// A table of choices by name.
+pub(super) type Choices = BTreeMap<At<String>, At<toml::Value>>;

@@ -6,24 +6,13 @@ use toml::Value;
 
 use super::context::{Context, Fault};
 use super::error::Problem;
+use super::key_schemas::CHOICES;
 use super::sections::At;
 use super::units::{in_words_of_units, with_unit};
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion};
 use crate::model::edge_unit;
 use crate::names::nearest;
 use crate::quantity::{Dimension, Quantity, Unit};
-
-pub(super) const CHOICES: [&str; 9] = [
-    "friction",
-    "contact",
-    "fidelity",
-    "torsion",
-    "adhesion_in_load",
-    "lugre_parameters",
-    "tolerance",
-    "step",
-    "step_budget",
-];
 
 /// Reads the table into a scene and options, starting from the defaults. `is_factor` tells the names that must not be
 /// fixed.

@@ -3,71 +3,12 @@
 use std::ops::Range;
 
 use super::context::{Context, Fault};
+use super::distribution_forms::{FORMS, Form, Takes};
 use super::error::{Problem, meant};
 use super::measured;
 use super::sections::{At, FactorSection};
 use crate::space::distribution::{Law, Statistic};
 use crate::space::{Distribution, DistributionError};
-
-/// How each distribution is written, the default first.
-pub(super) const FORMS: [Form; 16] = [
-    Form { name: "uniform", own: &["min", "max"], takes: Takes::Law(Law::Uniform) },
-    Form { name: "log-uniform", own: &["min", "max"], takes: Takes::Law(Law::LogUniform) },
-    Form { name: "normal", own: &["mean", "sd"], takes: Takes::Law(Law::Normal) },
-    Form { name: "truncated-normal", own: &["mean", "sd", "min", "max"], takes: Takes::Law(Law::TruncatedNormal) },
-    Form { name: "log-normal", own: &["mean", "sd"], takes: Takes::Law(Law::LogNormal) },
-    Form { name: "triangular", own: &["min", "mode", "max"], takes: Takes::Law(Law::Triangular) },
-    Form { name: "beta", own: &["alpha", "beta", "min", "max"], takes: Takes::Law(Law::Beta) },
-    Form { name: "weibull", own: &["shape", "scale", "location"], takes: Takes::Law(Law::Weibull) },
-    Form { name: "gumbel", own: &["location", "scale"], takes: Takes::Law(Law::Gumbel) },
-    Form {
-        name: "truncated-gumbel",
-        own: &["location", "scale", "min", "max"],
-        takes: Takes::Law(Law::TruncatedGumbel),
-    },
-    Form { name: "discrete", own: &[], takes: Takes::Keys("values, and weights (default equal)") },
-    Form { name: "integer", own: &[], takes: Takes::Keys("min and max, whole numbers, both included") },
-    Form { name: "boolean", own: &[], takes: Takes::Keys("probability of true (default 0.5)") },
-    Form {
-        name: "categorical",
-        own: &[],
-        takes: Takes::Keys(
-            "labels, weights (default equal) and values (what the model gets; default 0, 1, 2 and so on)",
-        ),
-    },
-    Form {
-        name: "empirical",
-        own: &[],
-        takes: Takes::Keys("values, or file, a table in CSV, and its column (where it has several)"),
-    },
-    Form { name: "constant", own: &[], takes: Takes::Keys("value") },
-];
-
-/// One distribution in a study file.
-#[derive(Clone, Copy)]
-pub(super) struct Form {
-    pub name: &'static str,
-    /// The parameters by which it is computed; any other determination is solved for them.
-    own: &'static [&'static str],
-    takes: Takes,
-}
-
-#[derive(Clone, Copy)]
-enum Takes {
-    /// What determines the family.
-    Law(Law),
-    /// Keys in words.
-    Keys(&'static str),
-}
-
-impl Takes {
-    fn words(self) -> &'static str {
-        match self {
-            Self::Law(law) => law.needs(),
-            Self::Keys(words) => words,
-        }
-    }
-}
 
 /// Whether a factor's table says nothing of its distribution.
 pub(super) fn is_unsaid(fields: &FactorSection) -> bool {

@@ -1,17 +1,12 @@
 //! What was typed: the study file as TOML sees it, every value with its place in the text, once [`forms`](super::forms) has
 //! brought what can be written in several ways to one. The comments on its fields are what editors show, by the schema.
 
-use std::collections::BTreeMap;
-
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-pub(super) use super::at::At;
-use super::command::CommandKey;
-use super::schema;
-
-/// A table of choices by name.
-pub(super) type Choices = BTreeMap<At<String>, At<toml::Value>>;
+pub(super) use super::at::{At, Choices};
+use super::command::file::CommandKey;
+use super::key_schemas;
 
 /// A study of apportion: a model, the factors whose influence is asked for, and how many runs answer it.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -23,20 +18,20 @@ pub(super) struct StudyFile {
     /// Title for people.
     pub title: Option<At<String>>,
     /// What is studied; `apportion models` lists what there is.
-    #[schemars(extend("enum" = schema::models(), "default" = "afm"))]
+    #[schemars(extend("enum" = key_schemas::models(), "default" = "afm"))]
     pub model: Option<At<String>>,
     /// Outputs that are asked for; the model's first by default. Of formulas, programs and models outside it can also be
     /// the table that stands in theirs: outputs.y = "x1 + x2", or outputs.y = "nN".
     #[serde(default)]
-    #[schemars(schema_with = "schema::outputs")]
+    #[schemars(schema_with = "key_schemas::outputs")]
     pub outputs: Option<At<Vec<At<String>>>>,
     /// The physics of the nanoparticle model: choices by name, and inputs that are fixed, with their units.
     #[serde(default)]
-    #[schemars(schema_with = "schema::afm")]
+    #[schemars(schema_with = "key_schemas::afm")]
     pub afm: Option<At<Choices>>,
     /// Parameters of a function with known indices.
     #[serde(default)]
-    #[schemars(schema_with = "schema::function")]
+    #[schemars(schema_with = "key_schemas::function")]
     pub function: Option<At<Choices>>,
     /// Formulas in the factors.
     #[serde(default)]
@@ -56,7 +51,7 @@ pub(super) struct StudyFile {
     /// The inputs whose influence is asked for: tables [[factor]] or [factor.NAME], whose order in the file assigns the
     /// dimensions of the sequence.
     #[serde(default)]
-    #[schemars(schema_with = "schema::factors")]
+    #[schemars(schema_with = "factors")]
     pub factor: Vec<At<FactorSection>>,
 }
 
@@ -66,11 +61,11 @@ pub(super) struct StudyFile {
 pub(super) struct ExpressionSection {
     /// A formula for each output, or a table of `formula` and `unit`.
     #[serde(default)]
-    #[schemars(schema_with = "schema::formulas")]
+    #[schemars(schema_with = "key_schemas::formulas")]
     pub outputs: Choices,
     /// Numbers, or quantities with their units, that formulas may name.
     #[serde(default)]
-    #[schemars(schema_with = "schema::expression_constants")]
+    #[schemars(schema_with = "key_schemas::expression_constants")]
     pub constants: Choices,
 }
 
@@ -80,7 +75,7 @@ pub(super) struct ExpressionSection {
 pub(super) struct ExternalSection {
     /// The unit of each output, as in "nN"; "1" for none.
     #[serde(default)]
-    #[schemars(schema_with = "schema::external_outputs")]
+    #[schemars(schema_with = "key_schemas::external_outputs")]
     pub outputs: Choices,
 }
 
@@ -89,7 +84,7 @@ pub(super) struct ExternalSection {
 #[serde(deny_unknown_fields)]
 pub(super) struct DesignSection {
     /// How points are chosen.
-    #[schemars(extend("enum" = schema::samplers(), "default" = "sobol"))]
+    #[schemars(extend("enum" = key_schemas::samplers(), "default" = "sobol"))]
     pub sampler: Option<At<String>>,
     /// Base samples in all, best a power of two for each replicate; a run costs base_samples x (2 + factors).
     pub base_samples: Option<At<u64>>,
@@ -122,7 +117,7 @@ pub(super) type NameList = At<Vec<At<String>>>;
 #[serde(deny_unknown_fields)]
 pub(super) struct AnalysisSection {
     /// Estimators whose indices stand beside those of the default ones.
-    #[schemars(extend("items" = schema::estimators()))]
+    #[schemars(extend("items" = key_schemas::estimators()))]
     pub estimators: Option<At<Vec<At<String>>>>,
     /// Second-order indices of all pairs; nearly twice the runs.
     pub second_order: Option<At<bool>>,
@@ -133,7 +128,7 @@ pub(super) struct AnalysisSection {
     /// A factor that does nothing is run along: its indices are the noise of the model.
     pub dummy: Option<At<bool>>,
     /// How intervals are found; by default as the sampler allows.
-    #[schemars(extend("enum" = schema::intervals()))]
+    #[schemars(extend("enum" = key_schemas::intervals()))]
     pub intervals: Option<At<String>>,
     /// Resamples of a bootstrap.
     #[schemars(range(min = 100, max = 1_000_000))]
@@ -142,7 +137,7 @@ pub(super) struct AnalysisSection {
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub threshold: Option<At<f64>>,
     /// What happens when a run fails.
-    #[schemars(extend("enum" = schema::failure_policies()))]
+    #[schemars(extend("enum" = key_schemas::failure_policies()))]
     pub failures: Option<At<String>>,
     /// Largest share of the runs that may fail before there are no indices.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
@@ -156,7 +151,7 @@ pub(super) struct FactorSection {
     /// The input of the model.
     pub name: At<String>,
     /// How it varies.
-    #[schemars(extend("enum" = schema::distributions(), "default" = "uniform"))]
+    #[schemars(extend("enum" = key_schemas::distributions(), "default" = "uniform"))]
     pub distribution: Option<At<String>>,
     /// Unit of all numbers of this factor, as in "um".
     pub unit: Option<At<String>>,
@@ -229,4 +224,17 @@ pub(super) enum Nominal {
     Truth(bool),
     Number(f64),
     Label(String),
+}
+
+/// `factor`: tables in a list, tables by the names of the factors, or the only one.
+fn factors(generator: &mut SchemaGenerator) -> Schema {
+    let with_name = generator.subschema_for::<FactorSection>();
+    let mut named = FactorSection::json_schema(generator);
+    named.remove("required");
+    named.remove("description");
+    schemars::json_schema!({ "anyOf": [
+        { "type": "array", "items": with_name },
+        { "type": "object", "additionalProperties": named },
+        with_name
+    ] })
 }

@@ -9,9 +9,8 @@ use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 
-use crate::study::file::at::At;
-use crate::study::file::schema;
-use crate::study::file::sections::Choices;
+use crate::study::file::at::{At, Choices};
+use crate::study::file::key_schemas;
 
 /// The program alone, or a table.
 #[derive(Debug)]
@@ -30,10 +29,10 @@ pub struct CommandSection {
     /// What the program gives, in its order: the unit of each output, or a table of `unit` and where the number stands
     /// after a run (`regex`, `column` or `pointer`, in `file` or else its standard output).
     #[serde(default)]
-    #[schemars(schema_with = "schema::program_outputs")]
+    #[schemars(schema_with = "key_schemas::program_outputs")]
     pub outputs: Choices,
     /// How rows are handed over to a program that is kept alive.
-    #[schemars(extend("enum" = schema::protocols(), "default" = "csv"))]
+    #[schemars(extend("enum" = key_schemas::protocols(), "default" = "csv"))]
     pub protocol: Option<At<String>>,
     /// Whether every row has a number (`id`: the first column of CSV, a key of a JSON object), which the program writes
     /// back with its answer, so that no answer is ever taken for that of another row.

@@ -1,6 +1,6 @@
 //! `model = "command"`: the user's own program, its outputs, and how it is asked.
 
-mod file;
+pub(super) mod file;
 mod outputs;
 mod runs;
 

@@ -1,0 +1,42 @@
+//! A run that is over, the names of what is estimated from it, and the inputs of its rows.
+
+use crate::design::Design;
+use crate::model::Model;
+use crate::run::{Place, Totals};
+use crate::study::Study;
+
+/// A run of a study that is over.
+#[derive(Clone, Copy)]
+pub(crate) struct FinishedRun<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// Its model.
+    pub model: &'a dyn Model,
+    /// The design as it was in the end.
+    pub design: &'a Design,
+    /// Totals of each replicate.
+    pub replicates: &'a [Totals],
+    /// Threads that ran the model.
+    pub threads: usize,
+    /// Seconds from the first run to the last.
+    pub wall_seconds: f64,
+}
+
+/// Names of everything that has indices, in the order of the swaps: factors, groups, subsets, dummy.
+pub fn names_of_swaps(study: &Study) -> Vec<String> {
+    let factors = study.space.factors();
+    let subset = |numbers: &Vec<usize>| {
+        numbers.iter().map(|&number| factors[number].name.as_str()).collect::<Vec<_>>().join(" + ")
+    };
+    let names = factors.iter().map(|factor| factor.name.clone());
+    let names = names.chain(study.space.groups().into_iter().map(|group| group.name));
+    let names = names.chain(study.analysis.subsets.iter().map(subset));
+    names.chain(study.analysis.dummy.then(|| "dummy".to_owned())).collect()
+}
+
+/// The values of the factors at `place` of `design`, in their units.
+pub fn row_inputs(study: &Study, design: &Design, place: Place) -> Vec<f64> {
+    let mut u = vec![0.0; design.factors()];
+    design.point(place.row(design), &mut u);
+    study.space.values_at(&u)
+}

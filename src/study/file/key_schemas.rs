@@ -1,0 +1,148 @@
+//! The schemas of single keys of study files, which their types alone do not tell.
+
+use schemars::{Schema, SchemaGenerator};
+use serde_json::{Map, Value, json};
+
+use super::distribution_forms::FORMS;
+use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
+use crate::design::Sampler;
+use crate::estimate::Estimator;
+use crate::model::{KnownAnswer, Match, ModelKind, Protocol, edge_unit};
+use crate::run::FailurePolicy;
+use crate::uncertainty::IntervalMethod;
+
+pub(super) const CHOICES: [&str; 9] = [
+    "friction",
+    "contact",
+    "fidelity",
+    "torsion",
+    "adhesion_in_load",
+    "lugre_parameters",
+    "tolerance",
+    "step",
+    "step_budget",
+];
+
+pub(super) fn models() -> Vec<&'static str> {
+    ModelKind::all().into_iter().map(ModelKind::name).collect()
+}
+
+pub(super) fn samplers() -> Vec<&'static str> {
+    names(&Sampler::ALL, Sampler::name)
+}
+
+/// The schema of an estimator's name.
+pub(super) fn estimators() -> Value {
+    json!({ "enum": names(&Estimator::ALL, Estimator::name) })
+}
+
+pub(super) fn intervals() -> Vec<&'static str> {
+    names(&IntervalMethod::ALL, IntervalMethod::name)
+}
+
+pub(super) fn failure_policies() -> Vec<&'static str> {
+    names(&FailurePolicy::ALL, FailurePolicy::name)
+}
+
+pub(super) fn protocols() -> Vec<&'static str> {
+    names(&Protocol::ALL, Protocol::name)
+}
+
+pub(super) fn distributions() -> Vec<&'static str> {
+    FORMS.iter().map(|form| form.name).collect()
+}
+
+fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
+    all.iter().map(|&choice| name(choice)).collect()
+}
+
+/// `[afm]`: the choices, and every parameter as a quantity.
+pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
+    let choice = |key: &str| match key {
+        "friction" => json!({ "enum": names(FrictionLaw::ALL, FrictionLaw::name) }),
+        "contact" => json!({ "enum": names(ContactTheory::ALL, ContactTheory::name) }),
+        "fidelity" => json!({ "enum": names(Fidelity::ALL, Fidelity::name) }),
+        "torsion" => json!({ "enum": names(Torsion::ALL, Torsion::name) }),
+        "lugre_parameters" => json!({ "enum": names(LuGreParameters::ALL, LuGreParameters::name) }),
+        "adhesion_in_load" => json!({ "type": "boolean" }),
+        "step" => json!({ "type": "string", "description": "A time, as in \"10 ms\"." }),
+        "step_budget" => json!({ "type": "integer", "minimum": 1 }),
+        _ => json!({ "type": "number", "exclusiveMinimum": 0 }),
+    };
+    let mut properties: Map<String, Value> = CHOICES.iter().map(|key| ((*key).to_owned(), choice(key))).collect();
+    for parameter in Parameter::ALL {
+        let unit = edge_unit(parameter);
+        let (kinds, example) = match unit.symbol() {
+            "1" => (json!(["number", "string"]), String::new()),
+            symbol => (json!("string"), format!("; with its unit, as in \"1 {symbol}\"")),
+        };
+        let description = format!("{} ({}){example}", parameter.description, parameter.symbol);
+        properties.insert(parameter.name.to_owned(), json!({ "type": kinds, "description": description }));
+    }
+    object(properties)
+}
+
+/// `[function]`: the parameters of all functions.
+pub(super) fn function(_: &mut SchemaGenerator) -> Schema {
+    let number_or_list = || json!([{ "type": "number" }, { "type": "array", "items": { "type": "number" } }]);
+    let mut properties = Map::new();
+    for parameter in KnownAnswer::all().flat_map(KnownAnswer::parameters) {
+        properties
+            .entry(parameter.name)
+            .or_insert_with(|| json!({ "anyOf": number_or_list(), "description": parameter.description }));
+    }
+    object(properties)
+}
+
+/// `outputs`: names, or the table that stands in that of the model.
+pub(super) fn outputs(_: &mut SchemaGenerator) -> Schema {
+    let names = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
+    schemars::json_schema!({ "anyOf": [names, { "type": "object" }] })
+}
+
+/// `[expression] outputs`: formulas by the names of their outputs.
+pub(super) fn formulas(_: &mut SchemaGenerator) -> Schema {
+    let table = json!({
+        "type": "object",
+        "properties": { "formula": { "type": "string" }, "unit": { "type": "string" } },
+        "required": ["formula"],
+        "additionalProperties": false
+    });
+    schemars::json_schema!({ "type": "object", "additionalProperties": { "anyOf": [{ "type": "string" }, table] } })
+}
+
+/// `[expression] constants`: numbers, or quantities with their units.
+pub(super) fn expression_constants(_: &mut SchemaGenerator) -> Schema {
+    schemars::json_schema!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } })
+}
+
+/// `[external] outputs`: units by the names of the outputs.
+pub(super) fn external_outputs(_: &mut SchemaGenerator) -> Schema {
+    schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "string" } })
+}
+
+/// `[command] outputs`: units, or tables that say where a number stands.
+pub(super) fn program_outputs(_: &mut SchemaGenerator) -> Schema {
+    let text = |description: &str| json!({ "type": "string", "description": description });
+    let table = json!({
+        "type": "object",
+        "properties": {
+            "unit": text("Unit of the program's numbers."),
+            "file": text("File that a run leaves in its directory; its standard output if not said."),
+            "regex": text("Regular expression, whose first group is the number."),
+            "column": text("Column of a CSV table with a header."),
+            "pointer": text("JSON pointer (RFC 6901), as in \"/result/force\"."),
+            "match": {
+                "enum": names(&Match::ALL, Match::name),
+                "default": "last",
+                "description": "Which match of the regex, or row of the table, is taken."
+            }
+        },
+        "additionalProperties": false
+    });
+    schemars::json_schema!({ "type": "object", "additionalProperties": { "anyOf": [{ "type": "string" }, table] } })
+}
+
+fn object(properties: Map<String, Value>) -> Schema {
+    schemars::json_schema!({ "type": "object", "properties": properties, "additionalProperties": false })
+}
