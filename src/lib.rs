@@ -29,6 +29,13 @@
 //! | [`exchange`] | tables of points and outputs, for other programs |
 //! | [`salib`] | indices of outputs at the points of SALib, by its own formulas |
 //!
+//! # Features
+//!
+//! Without default features the crate is the engine, the physics of the nanoparticle and the known functions. `study` adds
+//! study files, programs as models and [`exchange`]; `parquet` its tables in Parquet; `charts` adds [`report`]: results as
+//! JSON, text, CSV and SVG; `png` its charts as pictures; `page` its pages and folders of files. `cli`, the default, is the
+//! program with all of them.
+//!
 //! # An example
 //!
 //! The force on cantilevers of uncertain thickness and length:
