@@ -16,7 +16,7 @@ fn finished(base_samples: u64) -> (Design, Vec<Totals>) {
     let text = format!("model = \"sobol-g\"\n[design]\nsampler = \"random\"\nbase_samples = {base_samples}");
     let study = Study::parse(&text, "bootstrap.toml".as_ref(), &[]).expect("a study");
     let model = study.model();
-    let job = Job { design: &study.design(), space: &study.space(), model: model.as_ref() };
+    let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
     let context = RunContext::default();
     let mut run = GrowingRun::new(job, &context, 0).expect("threads").with_outputs_kept(true);
     run.grow_to(base_samples, &|_| ()).expect("no failures");

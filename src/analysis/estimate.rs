@@ -73,7 +73,7 @@ fn output_analysis(run: &FinishedRun<'_>, output: &Output, number: usize, whole:
         failures: totals.failures.iter().map(failure).collect(),
         convergence: if indices.is_ok() { stages(&parts, &layout, &options) } else { Vec::new() },
         indices,
-        values: totals.values.clone(),
+        values: totals.values,
         samples: run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect(),
         warnings,
         names: [factors, study.space.groups().into_iter().map(|group| group.name).collect()],
