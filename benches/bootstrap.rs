@@ -29,7 +29,7 @@ fn bootstrap(criterion: &mut Criterion) {
     group.sample_size(10);
     for exponent in [12, 16] {
         let (design, totals) = finished(1 << exponent);
-        let kept: Vec<&PointOutputs> = totals.iter().map(|totals| &totals.outputs[0].kept).collect();
+        let kept: Vec<&PointOutputs> = totals.iter().map(|totals| &totals.outputs[0].point_outputs).collect();
         let parts: Vec<MomentParts> = totals.iter().map(|totals| totals.outputs[0].moments.clone()).collect();
         let points = KeptPoints::all(&design, &kept);
         for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {

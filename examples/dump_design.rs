@@ -9,9 +9,11 @@ mod outputs;
 
 use std::path::Path;
 
-use apportion::design::{DesignSettings, Sampler, SobolSequence};
-use apportion::estimate::{FirstOrder, Moments, SecondOrder, Total, Workspace};
+use apportion::estimate::SecondOrder;
+use apportion::estimate::{Moments, Workspace};
 use apportion::report::{prepare_folder, write_atomically};
+use apportion::{DesignSettings, Sampler, SobolSequence};
+use apportion::{FirstOrder, Total};
 use outputs::{Outputs, design, function, inputs};
 use serde_json::{Map, Value, json};
 

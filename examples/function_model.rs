@@ -5,9 +5,9 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use apportion::model::function_model;
-use apportion::space::Distribution;
-use apportion::study::Study;
+use apportion::Distribution;
+use apportion::Study;
+use apportion::function_model;
 
 pub fn main() -> Result<(), Box<dyn Error>> {
     // The function of Ishigami and Homma (1990), whose indices are known.

@@ -9,10 +9,10 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
 use apportion::Analysis;
-use apportion::model::function_model;
-use apportion::run::{Progress, RunError};
-use apportion::space::Distribution;
-use apportion::study::Study;
+use apportion::Distribution;
+use apportion::Study;
+use apportion::function_model;
+use apportion::{Progress, RunError};
 
 /// A study of a function that takes its time and counts its calls.
 fn study(base_samples: u64, calls: &Arc<AtomicU64>) -> Result<Study, Box<dyn Error>> {

@@ -4,12 +4,11 @@
 
 use std::error::Error;
 
-use apportion::model::{
-    CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, Program, Protocol, function_model,
-};
-use apportion::quantity::Unit;
-use apportion::space::{Distribution, Factor};
-use apportion::study::Study;
+use apportion::Study;
+use apportion::Unit;
+use apportion::{CommandModel, CommandOutput, CommandSettings, function_model};
+use apportion::{Distribution, Factor};
+use apportion::{Form, KeptAlive, Program, Protocol};
 
 /// Reads a header, then a line of a row number, length (mm), thickness (mm) and load (N) for each run; prints the number and
 /// the outputs for each.

@@ -6,9 +6,9 @@ use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
 
+use apportion::Study;
 use apportion::exchange::{AnswersRequest, Format, Manifest, MissingOutputs, open_rows, read_answers, sample};
 use apportion::report::{ResultFile, run_document, stream_atomically, write_atomically};
-use apportion::study::Study;
 
 const STUDY: &str = r#"
 title = "The force of a spring"

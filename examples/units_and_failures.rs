@@ -5,11 +5,11 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use apportion::model::{FunctionModel, Output, RowFailure};
-use apportion::quantity::Unit;
+use apportion::Distribution;
+use apportion::Unit;
 use apportion::report::{ResultFile, run_document};
-use apportion::space::Distribution;
-use apportion::study::{AnalysisOptions, Study};
+use apportion::{AnalysisOptions, Study};
+use apportion::{FunctionModel, Output, RowFailure};
 
 pub fn main() -> Result<(), Box<dyn Error>> {
     let force = Output::new("critical_force", Unit::parse("kN")?, "Euler's force of buckling");
@@ -25,7 +25,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         y[1] = slenderness;
         Ok(())
     });
-    let sampler = apportion::design::Sampler::Sobol;
+    let sampler = apportion::Sampler::Sobol;
     let study = Study::builder("column", column)
         .title("A column that buckles")
         .factor_in("modulus", Unit::parse("GPa")?, Distribution::normal(210.0, 10.0)?)

@@ -4,30 +4,13 @@
 //! factor decides the force that the tip of an atomic force microscope needs to push a nanoparticle, under each
 //! friction model? The engine knows nothing of that model and serves any other.
 //!
-//! # The map
+//! A [`Study`] says what is asked: a [`Model`], the [`Factor`]s that vary, the points, the [`Target`].
+//! [`Study::run`] answers it with an [`Analysis`]; [`Runner`] is the same with threads, progress and a journal. The steps
+//! in between, for those who take them one by one: a [`Design`] gives its points by row number, a [`Worker`] of the model
+//! evaluates them, an [`Estimator`] turns sums into indices, and an [`IntervalMethod`] says how well they are known.
 //!
-//! The modules in the order of the data's way; each uses only those above it. [`Study::run`](study::Study::run) is the
-//! whole way in one call, and [`Runner`] the same with threads, progress and a journal.
-//!
-//! | module | what it is for |
-//! |---|---|
-//! | [`files`] | files read whole, but never without end |
-//! | [`sum`] | sums of fixed shape: the same bits on any number of threads |
-//! | [`quantity`] | units, known at the edges only; inside everything is SI |
-//! | [`space`] | factors: names, distributions, units, nominal values, groups |
-//! | [`design`] | the Saltelli design as a pure function of the row number; Sobol', random and Latin hypercube points |
-//! | [`afm`] | the physics of pushing a nanoparticle: plain functions, no knowledge of the engine |
-//! | [`model`] | what can be studied: a shared description that lends out workers, one per thread |
-//! | [`estimate`] | centred sums of constant size, and the indices read from them |
-//! | [`run`] | the executor: rows from a source, through workers, to a sink; sums merged in a fixed tree; the journal |
-//! | [`uncertainty`] | intervals from few nets, replicates or batches; ranks and convergence |
-//! | [`given`] | first-order indices from a table that exists already |
-//! | [`screening`] | elementary effects: which of many factors matter, for a few runs each |
-//! | [`study`] | studies: the file as typed, and what it means |
-//! | [`sweep`] | one factor at a time over its range, and the slopes at the nominal point |
-//! | [`report`] | results as JSON, CSV, text and charts; files written whole or not at all |
-//! | [`exchange`] | tables of points and outputs, for other programs |
-//! | [`salib`] | indices of outputs at the points of SALib, by its own formulas |
+//! Beside Sobol' indices of a model there are [`given`] data, [`screening`], [`sweep`]s, and the points and formulas of
+//! [`salib`]; [`mod@afm`] is the physics of the flagship model, plain functions that know nothing of the engine.
 //!
 //! # Features
 //!
@@ -41,7 +24,7 @@
 //! The force on cantilevers of uncertain thickness and length:
 //!
 //! ```
-//! use apportion::study::Study;
+//! use apportion::Study;
 //!
 //! let text = r#"
 //!     outputs = ["critical_force"]
@@ -78,40 +61,64 @@
 //! |---|---|
 //! | `function_model` | a Rust function as a model |
 //! | `units_and_failures` | units, several outputs, runs without an answer, second-order indices |
-//! | `interrupted` | a [`journal`](run::journal): interrupted, gone on with to the same bits, and made longer |
-//! | `own_program` | a program in any language as a model, asked from Rust ([`CommandModel`](model::CommandModel)) |
+//! | `interrupted` | a journal: interrupted, gone on with to the same bits, and made longer |
+//! | `own_program` | a program in any language as a model, asked from Rust ([`CommandModel`]) |
 //! | `three_steps` | points to a file, outputs from anywhere, analysed ([`exchange`]) |
 
 pub mod afm;
 mod analysis;
 mod binary;
-#[cfg(feature = "study")]
-mod csv_text;
+#[doc(hidden)]
 pub mod design;
+#[doc(hidden)]
 pub mod estimate;
 #[cfg(feature = "study")]
 pub mod exchange;
+#[doc(hidden)]
 pub mod files;
 pub mod given;
+#[doc(hidden)]
 pub mod model;
 mod names;
+#[doc(hidden)]
 pub mod quantity;
 #[cfg(feature = "charts")]
 pub mod report;
+#[doc(hidden)]
 pub mod run;
 mod runner;
 #[cfg(feature = "study")]
 pub mod salib;
 pub mod screening;
+#[doc(hidden)]
 pub mod space;
+#[doc(hidden)]
 pub mod study;
+#[doc(hidden)]
 pub mod sum;
 pub mod sweep;
-pub mod uncertainty;
 #[cfg(feature = "study")]
-mod words;
+mod text;
+#[doc(hidden)]
+pub mod uncertainty;
 
-pub use analysis::{
-    Aggregate, Analysis, FailureCount, LookupError, MixedModels, NoIndices, OutputAnalysis, StopReason, Stopped,
+// The modules that are hidden are open to the program, which is a crate of its own, and promise nothing.
+#[doc(hidden)]
+pub use analysis::MixedModels;
+pub use analysis::{Aggregate, Analysis, FailureCount, LookupError, NoIndices, OutputAnalysis, StopReason, Stopped};
+pub use design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
+pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, Total, Undefined};
+pub use model::{
+    AfmModel, AfmOutput, Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag,
+    FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, RowFailure, RunContext, Worker, function_model,
 };
+#[cfg(feature = "study")]
+pub use model::{CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, PerRun, Program, Protocol};
+pub use quantity::{Domain, Quantity, Unit, UnitError};
+pub use run::{FailurePolicy, Progress, RunError, Shard, ShardError};
 pub use runner::{Resume, Runner};
+pub use space::{Distribution, DistributionError, Factor, Space};
+pub use study::{AnalysisOptions, BuildError, Study, StudyBuilder, Target};
+#[cfg(feature = "study")]
+pub use study::{Diagnostic, StudyError};
+pub use uncertainty::{AggregateIndices, EffectEstimates, Estimate, Interval, IntervalMethod, OutputIndices, Stage};

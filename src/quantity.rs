@@ -17,12 +17,12 @@ pub use unit::Unit;
 /// A value with its unit, as typed.
 ///
 /// ```
-/// use apportion::quantity::Quantity;
+/// use apportion::Quantity;
 ///
 /// let tilt = Quantity::parse("0.7 deg")?;
 /// assert_eq!(tilt.to_si(), 0.7_f64.to_radians());
 /// assert_eq!(tilt.to_string(), "0.7 deg");
-/// # Ok::<(), apportion::quantity::UnitError>(())
+/// # Ok::<(), apportion::UnitError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {

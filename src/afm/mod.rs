@@ -29,16 +29,27 @@
 mod named;
 mod root;
 
+#[doc(hidden)]
 pub mod contact;
+#[doc(hidden)]
 pub mod failure;
+#[doc(hidden)]
 pub mod flags;
+#[doc(hidden)]
 pub mod force;
+#[doc(hidden)]
 pub mod friction;
+#[doc(hidden)]
 pub mod history;
+#[doc(hidden)]
 pub mod modes;
+#[doc(hidden)]
 pub mod ode;
+#[doc(hidden)]
 pub mod parameter;
+#[doc(hidden)]
 pub mod probe;
+#[doc(hidden)]
 pub mod scene;
 
 pub use contact::ContactTheory;

@@ -43,7 +43,7 @@ fn output_analysis(run: &FinishedRun<'_>, output: &Output, number: usize, whole:
     let study = run.study;
     let totals = &whole.outputs[number];
     let parts: Vec<MomentParts> = run.replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
-    let kept: Vec<&PointOutputs> = run.replicates.iter().map(|t| &t.outputs[number].kept).collect();
+    let kept: Vec<&PointOutputs> = run.replicates.iter().map(|t| &t.outputs[number].point_outputs).collect();
     let options = IntervalOptions { points: KeptPoints::all(run.design, &kept), ..interval_options(study) };
     let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>());
     let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &options), used.count());

@@ -13,9 +13,9 @@ use crate::uncertainty::{AggregateIndices, EffectEstimates, Estimate, OutputIndi
 /// The result of a run of a [`Study`](crate::study::Study).
 ///
 /// ```
-/// use apportion::model::function_model;
-/// use apportion::space::Distribution;
-/// use apportion::study::Study;
+/// use apportion::function_model;
+/// use apportion::Distribution;
+/// use apportion::Study;
 ///
 /// let study = Study::builder("product", function_model("y", |x| x[0] * x[1]))
 ///     .factor("a", Distribution::uniform(1.0, 2.0)?)

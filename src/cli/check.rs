@@ -11,7 +11,7 @@ use apportion::report::{significant, table, with_unit};
 use apportion::run::{BLOCK, FailurePolicy, Job, Pilot};
 use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, Factor};
-use apportion::study::{Stopping, Study};
+use apportion::study::{Study, Target};
 use apportion::uncertainty::IntervalMethod;
 
 use super::output::default_folder;
@@ -83,8 +83,8 @@ fn subject(study: &Study) -> String {
     if let Some(title) = &study.title() {
         text.push_str(&format!(": {title}"));
     }
-    let about = ModelKind::from_name(study.subject().name())
-        .map_or_else(String::new, |kind| format!(": {}", kind.description()));
+    let about =
+        ModelKind::from_name(study.subject().name()).map_or_else(String::new, |kind| format!(": {}", kind.description));
     text.push_str(&format!("\nmodel {}{about}\n", study.subject().name()));
     for (name, value) in study.settings() {
         match value.as_object() {
@@ -171,7 +171,7 @@ fn design(study: &Study, pilot: Option<&Pilot>) -> String {
     let design = study.design();
     let settings = design.settings();
     let stopping = stopping(study);
-    let size = if study.stopping().grows() { "begins with " } else { "" };
+    let size = if study.target().grows() { "begins with " } else { "" };
     let mut failures = String::new();
     let time = match pilot {
         None => "outside of this program".to_owned(),
@@ -306,7 +306,7 @@ fn runs(number: u64) -> String {
 
 /// How a growing run goes on and when it ends.
 fn stopping(study: &Study) -> String {
-    let Stopping { half_width, budget, max_runs } = study.stopping();
+    let Target { half_width, budget, max_runs } = study.target();
     let ends = [
         half_width.map(|width| format!("every first-order and total index is known to {width} (half its interval)")),
         budget.map(|seconds| format!("twice the runs would take longer than {}", duration(seconds))),

@@ -2,11 +2,9 @@
 
 use apportion::design::Companions;
 use apportion::estimate::{Estimator, FirstOrder, Total};
-use apportion::model::{
-    Basis, Exact, ExactIndices, Expression, Input, KnownAnswer, KnownFunction, ModelKind, known_inputs,
-};
+use apportion::model::{Basis, Exact, ExactIndices, Input, KnownAnswer, KnownFunction, ModelKind, known_inputs};
 use apportion::report::{significant, table};
-use apportion::study::{Problem, nearest};
+use apportion::study::{Problem, model_guide, nearest};
 
 use super::{Failure, print};
 
@@ -24,12 +22,11 @@ pub fn models(arguments: &Arguments) -> Result<(), Failure> {
         return print(&estimators());
     }
     let Some(name) = &arguments.name else { return print(&list()) };
-    print(&match find_model(name)? {
-        ModelKind::Afm => flagship(),
-        ModelKind::Expression => expression(),
-        ModelKind::External => external(),
-        ModelKind::Command => command(),
-        ModelKind::Known(answer) => function(answer),
+    let kind = find_model(name)?;
+    print(&match (model_guide(kind), kind.known) {
+        (Some(guide), _) => guide,
+        (None, Some(answer)) => function(answer),
+        (None, None) => inputs_and_outputs(kind),
     })
 }
 
@@ -81,7 +78,7 @@ pub fn find_model(name: &str) -> Result<ModelKind, Failure> {
 }
 
 fn unknown(name: &str) -> Failure {
-    let names = ModelKind::all().into_iter().map(ModelKind::name);
+    let names = ModelKind::all().into_iter().map(|kind| kind.name);
     let problem = Problem::UnknownName {
         what: "model",
         name: name.to_owned(),
@@ -95,78 +92,14 @@ fn unknown(name: &str) -> Failure {
 fn list() -> String {
     let mut models = table(&["model", "inputs", "what it is"], &[0, 2]);
     for kind in ModelKind::all() {
-        let inputs = match kind {
-            ModelKind::Expression | ModelKind::External | ModelKind::Command => "any".to_owned(),
-            _ => kind.inputs().len().to_string(),
-        };
-        models.add_row([kind.name(), &inputs, kind.description()]);
+        let inputs = if kind.is_users_own() { "any".to_owned() } else { kind.inputs().len().to_string() };
+        models.add_row([kind.name, &inputs, kind.description]);
     }
     format!("{models}\n\n`apportion models NAME` shows one of them in full.\n")
 }
 
-fn expression() -> String {
-    let kind = ModelKind::Expression;
-    format!(
-        "{}: {}\n\n  model = \"expression\"\n\n  [expression]\n  outputs.y = \"sin(x1) + a*sin(x2)^2 + b*x3^4*sin(x1)\"\n  \
-         outputs.k = {{ formula = \"x1/x2\", unit = \"N/m\" }}\n  constants.a = 7\n  constants.b = \"0.1 um\"\n\n\
-         Factors are those of the study. Formulas have all values in SI units, and give theirs in SI units.\n\
-         Operators: + - * / ^, and < <= > >= == != (1 if it holds, else 0); -x^2 is -(x^2), 2^3^2 is 2^9.\n\
-         Names of NumPy and of Python's math are understood: np.sin(x), math.pi, np.where(condition, x, y).\n\
-         Functions and numbers: {}\n",
-        kind.name(),
-        kind.description(),
-        Expression::vocabulary().join(", ")
-    )
-}
-
-fn external() -> String {
-    let kind = ModelKind::External;
-    format!(
-        "{}: {}\n\n  model = \"external\"\n\n  [external]\n  outputs.force = \"nN\"\n  outputs.ratio = \"1\"\n\n\
-         Factors are those of the study, with names and units of its own. The three steps:\n\n  \
-         apportion sample STUDY.toml -o design.csv\n  (the model computes its outputs, row by row, into outputs.csv)\n  \
-         apportion analyze outputs.csv --design design.csv\n\nFiles are CSV, Parquet or NPY, by their ending.\n",
-        kind.name(),
-        kind.description()
-    )
-}
-
-fn command() -> String {
-    let kind = ModelKind::Command;
-    format!(
-        "{}: {}\n\n  model = \"command\"\n  outputs = [\"y\"]\n  [command]\n  \
-         program = [\"python3\", \"my_model.py\"]    # relative to the study; no shell reads it\n  \
-         row_numbers = true\n\nThe program is kept alive. It reads the names of the columns and then a line for each row, its number \
-         and the values in the\nunits of the study, and prints a line for each, the number and the outputs, at once:\n\n  \
-         import csv, sys\n  for row in csv.DictReader(sys.stdin):\n      number = row.pop(\"id\")\n      \
-         x = {{name: float(value) for name, value in row.items()}}\n      \
-         print(number, x[\"x1\"] * x[\"x2\"], sep=\",\", flush=True)\n\nor \"error: \" and a reason behind the number where there is no \
-         answer. Without row_numbers there is no column `id`;\nanswers then count only once the program has ended with one for each \
-         row. With units and choices:\n\n  \
-         [command]\n  program = [\"python3\", \"my_model.py\"]\n  row_numbers = true\n  outputs.force = \"nN\"\n  outputs.time = \"s\"\n  \
-         protocol = \"json-lines\"      # an object for each row in, and one out [csv]\n  \
-         workers = 4                  # processes at once [one for each core]\n  \
-         timeout = \"60 s\"             # for a row [none]\n  \
-         retries = 1                  # of a row on which the program died, hung or printed rubbish\n  \
-         directory = \"model\"          # where it runs [the folder of the study]\n  \
-         env.OMP_NUM_THREADS = \"1\"\n\nA program that reads an input file runs once for each row, in a directory of its own:\n\n  \
-         [command]\n  program = [\"simulator\", \"beam.in\"]\n  \
-         template = \"beam.in\"         # text in which {{{{name}}}} stands for a factor\n  \
-         input = \"beam.in\"            # its name in the directory of a run\n  \
-         files = [\"mesh.dat\"]         # copied there\n  \
-         keep = \"runs\"                # where these directories stay [they are removed]\n  \
-         outputs.force = {{ file = \"beam.out\", regex = 'force = (\\S+)', unit = \"nN\" }}\n  \
-         outputs.time = {{ file = \"history.csv\", column = \"t\", match = \"last\" }}\n  \
-         outputs.mass = {{ file = \"result.json\", pointer = \"/beam/mass\" }}\n\n\
-         docs/worker-protocol.md has it in full, with what happens when a program dies, hangs, or prints rubbish.\n",
-        kind.name(),
-        kind.description()
-    )
-}
-
-fn flagship() -> String {
-    let kind = ModelKind::Afm;
-    let mut text = format!("{}: {}\n\n", kind.name(), kind.description());
+fn inputs_and_outputs(kind: ModelKind) -> String {
+    let mut text = format!("{}: {}\n\n", kind.name, kind.description);
     for (key, names) in kind.choices() {
         text.push_str(&format!("  {key}: {}\n", names.join(", ")));
     }

@@ -58,7 +58,7 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(program) = new_program(&request).map_err(|problem| wrong(&problem, model))? {
         write_program(&path.with_file_name(NEW_PROGRAM), &program)?;
     }
-    let step = if model == ModelKind::External { "sample" } else { "run" };
+    let step = if model == ModelKind::EXTERNAL { "sample" } else { "run" };
     say(&format!("next: edit it, then `apportion check {0}` and `apportion {step} {0}`", quoted(path)));
     Ok(())
 }
@@ -87,5 +87,5 @@ fn wrong(problem: &Problem, model: ModelKind) -> Failure {
         _ => "--factors",
     };
     let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
-    Failure::Input(anyhow!("{option}: {problem} (model {}){help}", model.name()))
+    Failure::Input(anyhow!("{option}: {problem} (model {}){help}", model.name))
 }

@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     prepare_folder(&folder)?;
     if asked.shard.is_none() {
         artefacts.check(&file_names(&study))?;
-    } else if study.stopping().grows() {
+    } else if study.target().grows() {
         let why = "a study with a target, a budget or max_runs has no size that could be shared out beforehand";
         return Err(Failure::Input(anyhow!("--shard: {why}")));
     }
@@ -164,7 +164,7 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
     let settings = study.design().settings();
     if double && settings.base_samples < wanted {
         let runs = u128::from(wanted) * u128::from(study.design().rows_per_point());
-        let most = study.stopping().max_runs.unwrap_or_default();
+        let most = study.target().max_runs.unwrap_or_default();
         return Err(Failure::Input(anyhow!(
             "--double: twice the {base_samples} base samples of the result take {runs} runs, and the study allows max_runs = \
              {most}: add --set design.max_runs={runs}"

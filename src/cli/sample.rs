@@ -33,7 +33,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     let beside = Manifest::path_beside(&path);
     prepare_file(&path)?;
     prepare_file(&beside)?;
-    if study.stopping().grows() {
+    if study.target().grows() {
         say("note: the study grows until it knows enough, but a file does not: these are the points it begins with");
     }
     // A manifest of other points must not outlive them.

@@ -89,7 +89,7 @@ impl Default for DesignSettings {
 /// A checked Saltelli design.
 ///
 /// ```
-/// use apportion::design::{Design, DesignSettings, Rows};
+/// use apportion::{Design, DesignSettings, Rows};
 ///
 /// let settings = DesignSettings { base_samples: 1024, ..DesignSettings::default() };
 /// let design = Design::new(settings, 3, Rows::plain(vec![vec![0], vec![1], vec![2]]))?;
@@ -97,7 +97,7 @@ impl Default for DesignSettings {
 /// let mut u = [0.0; 3];
 /// design.point(4711, &mut u);
 /// assert!(u.iter().all(|&x| x > 0.0 && x < 1.0));
-/// # Ok::<(), apportion::design::DesignError>(())
+/// # Ok::<(), apportion::DesignError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {

@@ -9,7 +9,7 @@ use crate::sum::mean;
 /// arbitrary-order statistical moments", Sandia report SAND2008-6212.
 ///
 /// ```
-/// use apportion::estimate::CentralMoments;
+/// use apportion::CentralMoments;
 ///
 /// let mut moments = CentralMoments::of(&[0.0, 0.0, f64::NAN, 0.0]);
 /// moments.merge(&CentralMoments::of(&[4.0]));

@@ -14,7 +14,8 @@ const BA: Companions = Companions { ba: true, bc: false, cb: false };
 /// against its spread makes their error grow in proportion (Saltelli2002: also its square over n), and takes digits.
 ///
 /// ```
-/// use apportion::estimate::{BlockOutputs, FirstOrder, Moments, Workspace};
+/// use apportion::estimate::{BlockOutputs, Moments, Workspace};
+/// use apportion::FirstOrder;
 ///
 /// // y = x, sampled at every pair of 0, 1 and 0, 1: AB, which takes x from B, has the outputs of B.
 /// let (a, b) = ([0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 0.0, 1.0]);
@@ -367,8 +368,8 @@ impl Estimator {
     /// Its estimators, with the default ones for rows `companions` where it has none of its own.
     ///
     /// ```
-    /// use apportion::design::Companions;
-    /// use apportion::estimate::{Estimator, FirstOrder, Total};
+    /// use apportion::Companions;
+    /// use apportion::{Estimator, FirstOrder, Total};
     ///
     /// let plain = Estimator::Sobol1993.with_rows(Companions::NONE);
     /// assert_eq!(plain, (FirstOrder::Sobol1993, Total::Jansen1999));

@@ -57,7 +57,7 @@ impl Moments {
     /// let block = BlockOutputs { a: &a, b: &b, ab: &[&b], ..BlockOutputs::default() };
     /// let moments = Moments::of_block(block, &mut Workspace::default());
     /// assert_eq!(Indices::of(&moments)?.total, [1.0]);
-    /// # Ok::<(), apportion::estimate::Undefined>(())
+    /// # Ok::<(), apportion::Undefined>(())
     /// ```
     pub fn of_block(outputs: BlockOutputs<'_>, work: &mut Workspace) -> Self {
         let BlockOutputs { a, b, ab, ba, bc, cb, paired } = outputs;

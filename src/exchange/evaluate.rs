@@ -7,10 +7,10 @@ use thiserror::Error;
 
 use super::points::{PointsError, PointsReader};
 use super::rows::RowReader;
-use crate::csv_text::csv_field;
 use crate::model::{Batch, Output, RowFailure, RunContext};
 use crate::run::{Executor, Halt};
 use crate::study::Study;
+use crate::text::csv_field;
 
 /// Why points could not be evaluated.
 #[derive(Debug, Error)]

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::design_rows::{DesignRows, RowsDigest};
 use crate::design::{Design, Matrix, Run};
 use crate::space::Space;
-use crate::study::{Stopping, Study, StudyError};
+use crate::study::{Study, StudyError, Target};
 
 /// The manifest of a design file, as described in `docs/exchange-formats.md`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -248,7 +248,7 @@ impl Manifest {
         if let Some((what, stated, meant)) = parts.into_iter().find(|(_, stated, meant)| stated != meant) {
             return Err(ManifestError::OtherDesign { what, stated, meant });
         }
-        study.stopping = Stopping::default();
+        study.target = Target::default();
         Ok(study)
     }
 

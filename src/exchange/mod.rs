@@ -14,17 +14,22 @@ mod sample;
 mod save;
 mod table;
 
-pub use answers::{Answers, AnswersError, AnswersRequest, MissingOutputs, read_answers};
-pub use design_rows::{DesignRows, RowBlock};
-pub use evaluate::{EvaluateError, Evaluated, evaluate, evaluate_in};
-pub use manifest::{
-    Manifest, ManifestDesign, ManifestError, ManifestFactor, ManifestRun, ManifestStudy, design_sha256,
-};
-pub use points::{PointsError, PointsReader};
-pub use rows::{
-    ColumnKind, Format, RowReader, RowWriter, RowsError, open_rows, open_table, row_writer, rows_of_bytes,
-    table_of_bytes,
-};
+pub use answers::{AnswersError, AnswersRequest, MissingOutputs, read_answers};
+pub use evaluate::{EvaluateError, Evaluated, evaluate};
+pub use manifest::{Manifest, ManifestError};
+pub use rows::{Format, RowReader, RowsError, open_rows};
 pub use sample::sample;
 pub use save::{SaveError, save_outputs};
-pub use table::{DroppedRows, Missing, Selection, Table, TableError, read_table};
+pub use table::{Missing, Selection, Table, TableError, read_table};
+
+// What the program and the tests use beside it.
+#[doc(hidden)]
+pub use {
+    answers::Answers,
+    design_rows::{DesignRows, RowBlock},
+    evaluate::evaluate_in,
+    manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy, design_sha256},
+    points::{PointsError, PointsReader},
+    rows::{ColumnKind, RowWriter, open_table, row_writer, rows_of_bytes, table_of_bytes},
+    table::DroppedRows,
+};

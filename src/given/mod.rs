@@ -16,11 +16,16 @@ mod repeats;
 
 use thiserror::Error;
 
+#[doc(hidden)]
 pub use binned::{Binned, binned_first_order, bins_for};
 pub use column::{Column, NoVariance};
+#[doc(hidden)]
 pub use dependence::{Dependence, PairDependence};
-pub use evenness::{Evidence, PointSet};
+#[doc(hidden)]
+pub use evenness::Evidence;
+pub use evenness::PointSet;
 pub use outcome::{InputIndices, OutputIndices};
+#[doc(hidden)]
 pub use rank::rank_first_order;
 
 pub(crate) use column::centred;

@@ -1,7 +1,10 @@
 //! The critical pushing force of a nanoparticle as a model: the adapter between factors and [`crate::afm`].
 
-use super::{Batch, Counter, CounterKind, Flag, Model, Output, RowFailure, RunContext, Worker};
-use crate::afm::{self, Critical, Failure, Fidelity, Options, Parameter, Scene, critical_force};
+use super::{Batch, Choice, Counter, CounterKind, Flag, Input, Model, Output, RowFailure, RunContext, Worker};
+use crate::afm::{
+    self, ContactTheory, Critical, Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion,
+    critical_force,
+};
 use crate::quantity::Unit;
 
 /// An output of the critical-force computation.
@@ -98,6 +101,47 @@ pub fn edge_unit(parameter: &Parameter) -> Unit {
         _ if parameter.unit == "Pa" => "GPa",
         _ => parameter.unit,
     })
+}
+
+/// The parameters of the scene as inputs of the model.
+pub(super) fn afm_inputs() -> Vec<Input> {
+    Parameter::ALL.iter().map(afm_input).collect()
+}
+
+fn afm_input(parameter: &Parameter) -> Input {
+    let unit = edge_unit(parameter);
+    Input {
+        name: parameter.name.to_owned(),
+        symbol: parameter.symbol.to_owned(),
+        nominal: unit.from_si((parameter.get)(&Scene::default())),
+        unit,
+        domain: Some(parameter.domain),
+        distribution: None,
+        description: parameter.description.to_owned(),
+    }
+}
+
+/// Every output.
+pub(super) fn afm_outputs() -> Vec<Output> {
+    AfmOutput::ALL.iter().map(|output| output.info()).collect()
+}
+
+/// The choices of `[afm]`.
+pub(super) fn afm_choices() -> Vec<Choice> {
+    fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
+        all.iter().map(|&choice| name(choice)).collect()
+    }
+    vec![
+        ("friction", names(FrictionLaw::ALL, FrictionLaw::name)),
+        ("contact", names(ContactTheory::ALL, ContactTheory::name)),
+        ("fidelity", names(Fidelity::ALL, Fidelity::name)),
+        ("torsion", names(Torsion::ALL, Torsion::name)),
+        ("adhesion_in_load", vec!["false", "true"]),
+        ("lugre_parameters (lugre at quasi-static and above)", names(LuGreParameters::ALL, LuGreParameters::name)),
+        ("tolerance (quasi-static and above)", vec!["a number, 1e-6"]),
+        ("step (fixed-step)", vec!["a time, \"10 ms\""]),
+        ("step_budget (marched rungs)", vec!["a whole number, 1000000"]),
+    ]
 }
 
 /// A unit written in this file, all of which are known: a test goes through them.

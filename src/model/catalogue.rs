@@ -1,126 +1,129 @@
-//! What can be studied: every model with its inputs and outputs, for study files and for people.
+//! What can be studied: every model with its inputs and outputs, for study files and for people. One entry for each kind;
+//! how a study file's tables become a model is in the registry of the study files.
 
-use super::Output;
-use super::afm::{AfmOutput, edge_unit};
+use std::fmt;
+
+use super::afm::{afm_choices, afm_inputs, afm_outputs};
 use super::known::{KnownAnswer, KnownFunction, KnownModel};
-use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Scene, Torsion};
-use crate::quantity::Domain;
+use super::{Choice, Input, Output};
 use crate::quantity::Unit;
-use crate::space::Distribution;
 
-/// A model that a study can name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ModelKind {
-    /// The critical pushing force of a nanoparticle: the default.
-    Afm,
-    /// Formulas of the study's own factors.
-    Expression,
-    /// A model that runs outside of this program.
-    External,
-    /// A program of the user's own.
-    Command,
-    /// A function with known indices.
-    Known(KnownAnswer),
-}
-
-/// An input of a model, which a study can make a factor.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Input {
+/// A model that a study can name, and what is known of it before there is a study.
+#[derive(Clone, Copy)]
+pub struct ModelKind {
     /// The name in study files.
-    pub name: String,
-    /// The symbol in the papers.
-    pub symbol: String,
-    /// The unit in which people give it.
-    pub unit: Unit,
-    /// The value it has where nothing else is said, in `unit`.
-    pub nominal: f64,
-    /// Where it is physical (of its SI value); `None` for any finite number.
-    pub domain: Option<Domain>,
-    /// How it varies where a study says nothing else, in `unit`; `None` if a study has to say.
-    pub distribution: Option<Distribution>,
-    /// A few words for people.
-    pub description: String,
+    pub name: &'static str,
+    /// One line for people.
+    pub description: &'static str,
+    /// The table of a study file that belongs to it.
+    pub table: &'static str,
+    /// The inputs that become factors in a new study; all of them if there are none here.
+    pub main_inputs: &'static [&'static str],
+    /// The function, of a function with known indices.
+    pub known: Option<KnownAnswer>,
+    inputs: fn(Option<KnownAnswer>) -> Vec<Input>,
+    outputs: fn() -> Vec<Output>,
+    choices: fn() -> Vec<Choice>,
 }
 
 impl ModelKind {
-    /// Every model, the default first.
-    pub fn all() -> Vec<Self> {
-        [Self::Afm, Self::Expression, Self::Command, Self::External]
-            .into_iter()
-            .chain(KnownAnswer::all().map(Self::Known))
-            .collect()
+    /// The critical pushing force of a nanoparticle.
+    pub const AFM: Self = Self {
+        name: "afm",
+        description: "critical force with which an AFM tip pushes a nanoparticle over a substrate",
+        table: "afm",
+        main_inputs: &["length", "width", "thickness"],
+        known: None,
+        inputs: |_| afm_inputs(),
+        outputs: afm_outputs,
+        choices: afm_choices,
+    };
+    /// Formulas of the study's own factors.
+    pub const EXPRESSION: Self = Self::users_own("expression", "formulas in the study file, of factors of its own");
+    /// A program of the user's own.
+    pub const COMMAND: Self = Self::users_own("command", "a program of your own, in any language");
+    /// A model that runs outside of this program.
+    pub const EXTERNAL: Self = Self::users_own(
+        "external",
+        "any model outside of this program: `sample` writes the points, `analyze` reads its outputs",
+    );
+    /// The model of a study that names none.
+    pub const DEFAULT: Self = Self::AFM;
+
+    const fn users_own(name: &'static str, description: &'static str) -> Self {
+        Self {
+            name,
+            description,
+            table: name,
+            main_inputs: &[],
+            known: None,
+            inputs: |_| Vec::new(),
+            outputs: Vec::new,
+            choices: Vec::new,
+        }
     }
 
-    /// The name in study files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Afm => "afm",
-            Self::Expression => "expression",
-            Self::External => "external",
-            Self::Command => "command",
-            Self::Known(function) => function.name(),
+    /// A function with known indices.
+    pub fn from_known(answer: KnownAnswer) -> Self {
+        Self {
+            name: answer.name(),
+            description: answer.description(),
+            table: "function",
+            main_inputs: &[],
+            known: Some(answer),
+            inputs: |answer| answer.map_or_else(Vec::new, |answer| known_inputs(&answer.default_function())),
+            outputs: || vec![KnownModel::output()],
+            choices: Vec::new,
         }
+    }
+
+    /// Every model, the default first.
+    pub fn all() -> Vec<Self> {
+        [Self::AFM, Self::EXPRESSION, Self::COMMAND, Self::EXTERNAL]
+            .into_iter()
+            .chain(KnownAnswer::all().map(Self::from_known))
+            .collect()
     }
 
     /// The model of that name.
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::all().into_iter().find(|kind| kind.name() == name)
+        Self::all().into_iter().find(|kind| kind.name == name)
     }
 
-    /// One line for people.
-    pub fn description(self) -> &'static str {
-        match self {
-            Self::Afm => "critical force with which an AFM tip pushes a nanoparticle over a substrate",
-            Self::Expression => "formulas in the study file, of factors of its own",
-            Self::External => {
-                "any model outside of this program: `sample` writes the points, `analyze` reads its outputs"
-            }
-            Self::Command => "a program of your own, in any language",
-            Self::Known(function) => function.description(),
-        }
+    /// Whether inputs and outputs are those that a study names.
+    pub fn is_users_own(self) -> bool {
+        self.outputs().is_empty()
     }
 
-    /// The inputs, the main ones first; of a function, those it has with its default parameters; none of formulas, of
-    /// programs and of models outside, whose inputs are the factors of a study.
+    /// The inputs, the main ones first; of a function, those it has with its default parameters; none of a model whose
+    /// inputs are the factors of a study.
     pub fn inputs(self) -> Vec<Input> {
-        match self {
-            Self::Afm => Parameter::ALL.iter().map(afm_input).collect(),
-            Self::Expression | Self::Command | Self::External => Vec::new(),
-            Self::Known(answer) => known_inputs(&answer.default_function()),
-        }
+        (self.inputs)(self.known)
     }
 
-    /// The choices of `[afm]`: the key, where it acts if not everywhere, and the names or the kind of value.
-    pub fn choices(self) -> Vec<(&'static str, Vec<&'static str>)> {
-        fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
-            all.iter().map(|&choice| name(choice)).collect()
-        }
-        match self {
-            Self::Afm => vec![
-                ("friction", names(FrictionLaw::ALL, FrictionLaw::name)),
-                ("contact", names(ContactTheory::ALL, ContactTheory::name)),
-                ("fidelity", names(Fidelity::ALL, Fidelity::name)),
-                ("torsion", names(Torsion::ALL, Torsion::name)),
-                ("adhesion_in_load", vec!["false", "true"]),
-                (
-                    "lugre_parameters (lugre at quasi-static and above)",
-                    names(LuGreParameters::ALL, LuGreParameters::name),
-                ),
-                ("tolerance (quasi-static and above)", vec!["a number, 1e-6"]),
-                ("step (fixed-step)", vec!["a time, \"10 ms\""]),
-                ("step_budget (marched rungs)", vec!["a whole number, 1000000"]),
-            ],
-            Self::Expression | Self::Command | Self::External | Self::Known(_) => Vec::new(),
-        }
-    }
-
-    /// The outputs, the default one first; none of formulas, of programs and of models outside, which a study names.
+    /// The outputs, the default one first; none of a model whose outputs a study names.
     pub fn outputs(self) -> Vec<Output> {
-        match self {
-            Self::Afm => AfmOutput::ALL.iter().map(|output| output.info()).collect(),
-            Self::Expression | Self::Command | Self::External => Vec::new(),
-            Self::Known(_) => vec![KnownModel::output()],
-        }
+        (self.outputs)()
+    }
+
+    /// The choices of its table.
+    pub fn choices(self) -> Vec<Choice> {
+        (self.choices)()
+    }
+}
+
+/// Models are known by their names.
+impl PartialEq for ModelKind {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for ModelKind {}
+
+impl fmt::Debug for ModelKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("ModelKind").field(&self.name).finish()
     }
 }
 
@@ -137,17 +140,4 @@ pub fn known_inputs(function: &KnownFunction) -> Vec<Input> {
         distribution: Some(input.distribution),
     };
     function.inputs().into_iter().map(input).collect()
-}
-
-fn afm_input(parameter: &Parameter) -> Input {
-    let unit = edge_unit(parameter);
-    Input {
-        name: parameter.name.to_owned(),
-        symbol: parameter.symbol.to_owned(),
-        nominal: unit.from_si((parameter.get)(&Scene::default())),
-        unit,
-        domain: Some(parameter.domain),
-        distribution: None,
-        description: parameter.description.to_owned(),
-    }
 }

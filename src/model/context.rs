@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 ///
 /// ```
 /// use std::sync::atomic::{AtomicBool, Ordering};
-/// use apportion::model::RunContext;
+/// use apportion::RunContext;
 ///
 /// let stop = AtomicBool::new(false);
 /// let context = RunContext::new(Some(&stop), |line| eprintln!("{line}"));

@@ -21,8 +21,8 @@ where
     /// value that is not finite is a failure of that output alone.
     ///
     /// ```
-    /// use apportion::model::{FunctionModel, Output, RowFailure};
-    /// use apportion::quantity::Unit;
+    /// use apportion::{FunctionModel, Output, RowFailure};
+    /// use apportion::Unit;
     ///
     /// let force = Output::new("force", Unit::parse("nN")?, "force on the spring");
     /// let energy = Output::new("energy", Unit::parse("nJ")?, "energy of the spring");
@@ -35,7 +35,7 @@ where
     ///     y[1] = stiffness * way * way / 2.0;
     ///     Ok(())
     /// });
-    /// # Ok::<(), apportion::quantity::UnitError>(())
+    /// # Ok::<(), apportion::UnitError>(())
     /// ```
     pub fn new(outputs: Vec<Output>, function: F) -> Self {
         Self { outputs, function }
@@ -46,7 +46,7 @@ where
 /// row.
 ///
 /// ```
-/// use apportion::model::{Model, function_model};
+/// use apportion::{Model, function_model};
 ///
 /// let product = function_model("y", |x| x[0] * x[1]);
 /// assert_eq!(product.outputs()[0].name, "y");

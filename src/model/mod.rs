@@ -18,7 +18,7 @@ mod known;
 
 pub use afm::{AfmModel, AfmOutput, EVALUATIONS, LARGEST_ERROR, RUNGS, edge_unit};
 pub use batch::{Batch, RowFailure};
-pub use catalogue::{Input, ModelKind, known_inputs};
+pub use catalogue::{ModelKind, known_inputs};
 #[cfg(feature = "study")]
 pub use command::{
     Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, KeptAlive, Match, PerRun, Pick,
@@ -37,7 +37,8 @@ pub use known::{
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::quantity::Unit;
+use crate::quantity::{Domain, Unit};
+use crate::space::Distribution;
 
 /// One output of a model.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,6 +56,28 @@ impl Output {
     pub fn new(name: impl Into<Cow<'static, str>>, unit: Unit, description: impl Into<Cow<'static, str>>) -> Self {
         Self { name: name.into(), unit, description: description.into() }
     }
+}
+
+/// A choice of a model: its key, where it acts if not everywhere, and the names or the kind of value.
+pub type Choice = (&'static str, Vec<&'static str>);
+
+/// An input of a model, which a study can make a factor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Input {
+    /// The name in study files.
+    pub name: String,
+    /// The symbol in the papers.
+    pub symbol: String,
+    /// The unit in which people give it.
+    pub unit: Unit,
+    /// The value it has where nothing else is said, in `unit`.
+    pub nominal: f64,
+    /// Where it is physical (of its SI value); `None` for any finite number.
+    pub domain: Option<Domain>,
+    /// How it varies where a study says nothing else, in `unit`; `None` if a study has to say.
+    pub distribution: Option<Distribution>,
+    /// A few words for people.
+    pub description: String,
 }
 
 /// What a model may raise on a row: that its result stands, but outside the theory's range; or a warning.

@@ -20,7 +20,8 @@ use super::{Dimension, UnitError};
 /// As JSON it is its symbol; read from there, a text that is no unit is a [`label`](Self::label).
 ///
 /// ```
-/// use apportion::quantity::{Dimension, Unit};
+/// use apportion::quantity::Dimension;
+/// use apportion::Unit;
 ///
 /// let micrometre = Unit::parse("um")?;
 /// assert_eq!(micrometre.to_si(225.0), 225e-6);
@@ -30,7 +31,7 @@ use super::{Dimension, UnitError};
 /// assert!(Unit::parse("furlong").is_err());
 /// let celsius = Unit::parse("degC")?;
 /// assert_eq!((celsius.to_si(20.0), celsius.span_to_si(20.0)), (293.15, 20.0));
-/// # Ok::<(), apportion::quantity::UnitError>(())
+/// # Ok::<(), apportion::UnitError>(())
 /// ```
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(from = "String", into = "String")]
@@ -149,7 +150,7 @@ impl Unit {
     /// programs have such units, as `USD` or `points`.
     ///
     /// ```
-    /// use apportion::quantity::Unit;
+    /// use apportion::Unit;
     ///
     /// let price = Unit::label("EUR/kWh");
     /// assert_eq!((price.symbol(), price.to_si(0.3)), ("EUR/kWh", 0.3));

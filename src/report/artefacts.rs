@@ -66,7 +66,7 @@ pub enum ArtefactError {
 /// ```
 /// use std::path::Path;
 /// use apportion::report::{Artefacts, ResultFile, run_document};
-/// use apportion::study::Study;
+/// use apportion::Study;
 ///
 /// let study = Study::parse(include_str!("../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
 /// let result = ResultFile::new(&study, &study.run()?);

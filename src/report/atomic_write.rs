@@ -1,7 +1,7 @@
 //! Files that are either the old one or the new one, never half of one.
 
 use std::io::Write;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Duration;
 
@@ -86,7 +86,7 @@ fn path_in(folder: &Path, name: &str) -> Result<PathBuf, WriteError> {
         Err(WriteError { path: path.clone(), source })
     };
     let mut parts = Path::new(name).components();
-    if !matches!((parts.next(), parts.next()), (Some(Component::Normal(part)), None) if part == name) {
+    if !matches!((parts.next(), parts.next()), (Some(std::path::Component::Normal(part)), None) if part == name) {
         return refused("the name leads out of the folder");
     }
     match std::fs::metadata(&path) {

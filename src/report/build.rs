@@ -51,13 +51,13 @@ impl ResultFile {
 }
 
 fn stopping_record(study: &Study, analysis: &Analysis) -> Option<StoppingRecord> {
-    let stopping = study.stopping;
+    let target = study.target;
     analysis.stopped.as_ref().map(|stopped| StoppingRecord {
         reason: stopped.reason.to_string(),
         target_met: stopped.target_met,
-        target_half_width: stopping.half_width,
-        budget_seconds: stopping.budget,
-        max_runs: stopping.max_runs,
+        target_half_width: target.half_width,
+        budget_seconds: target.budget,
+        max_runs: target.max_runs,
     })
 }
 

@@ -1,7 +1,7 @@
 //! CSV: numbers with as many digits as it takes to read the same bits back, an empty cell where there is none.
 
 use super::result::EstimateRecord;
-use crate::csv_text::inert;
+use crate::text::inert;
 
 /// A value of a file.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,14 +5,21 @@ mod artefacts;
 mod atomic_write;
 mod build;
 mod build_output;
+#[doc(hidden)]
 pub mod chart;
+#[doc(hidden)]
 pub mod comparison;
+#[doc(hidden)]
 pub mod csv;
+#[doc(hidden)]
 pub mod distribution;
+#[doc(hidden)]
 pub mod document;
 mod factor_bars;
 mod file_names;
+#[doc(hidden)]
 pub mod format;
+#[doc(hidden)]
 pub mod given;
 mod interval_widths;
 mod leading;
@@ -21,31 +28,52 @@ mod records;
 mod result;
 mod run_charts;
 mod run_document;
+#[doc(hidden)]
 pub mod salib;
+#[doc(hidden)]
 pub mod scatter;
 mod schema;
+#[doc(hidden)]
 pub mod screening;
 mod study_sections;
+#[doc(hidden)]
 pub mod sweep;
 mod text_table;
 
-pub use crate::names::{file_part, refused_name};
-pub use crate::words::{capitalised, listed};
 #[cfg(feature = "page")]
-pub use artefacts::{ArtefactError, Artefacts, Written};
-pub use atomic_write::{
-    WriteError, prepare_file, prepare_folder, remove_unfinished, stream_atomically, write_atomically,
-};
-pub use build::{RunFacts, result_json};
-pub use build_output::inputs_in_words;
-pub use factor_bars::{SharesSeries, shares_chart, study_chart};
-pub use file_names::{ChartFormat, FileNames, file_stems};
-pub use format::{estimate, fixed, share, share_of_runs, significant, two_digits, with_unit};
-pub use interval_widths::{widest_interval, width_after_doubling};
-pub use read::{ReadError, ReadProblem, parse_result, read_result};
-pub use records::{Drawing, FactorSetup, StudySetup};
-pub use result::*;
+pub use artefacts::{ArtefactError, Artefacts};
+pub use atomic_write::{WriteError, write_atomically};
+pub use build::result_json;
+pub use chart::{Chart, ChartError};
+pub use document::Document;
+#[cfg(feature = "page")]
+pub use document::DocumentError;
+pub use factor_bars::{shares_chart, study_chart};
+pub use file_names::ChartFormat;
+pub use read::{ReadError, parse_result, read_result};
+pub use result::ResultFile;
 pub use run_charts::{convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart};
-pub use run_document::{run_document, run_file_names};
+pub use run_document::run_document;
 pub use schema::result_schema;
-pub use text_table::{TextTable, table, wrapped};
+
+// Open to the program, which is a crate of its own.
+#[cfg(feature = "page")]
+#[doc(hidden)]
+pub use artefacts::Written;
+#[doc(hidden)]
+pub use {
+    crate::names::{file_part, refused_name},
+    crate::text::{capitalised, listed},
+    atomic_write::{prepare_file, prepare_folder, remove_unfinished, stream_atomically},
+    build::RunFacts,
+    build_output::inputs_in_words,
+    factor_bars::SharesSeries,
+    file_names::{FileNames, file_stems},
+    format::{estimate, fixed, share, share_of_runs, significant, two_digits, with_unit},
+    interval_widths::{widest_interval, width_after_doubling},
+    read::ReadProblem,
+    records::{Drawing, FactorSetup, StudySetup},
+    result::*,
+    run_document::run_file_names,
+    text_table::{TextTable, table, wrapped},
+};

@@ -46,6 +46,7 @@ pub struct ResultFile {
 
 /// What was asked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct StudyRecord {
     /// Name of the study.
     pub name: String,
@@ -65,6 +66,7 @@ pub struct StudyRecord {
 
 /// An input fixed in the study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct ConstantRecord {
     /// The input.
     pub name: String,
@@ -76,6 +78,7 @@ pub struct ConstantRecord {
 
 /// How the answer came about.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct Provenance {
     /// Version of the program.
     pub apportion_version: String,
@@ -114,6 +117,7 @@ pub struct Provenance {
 
 /// Runs that another version of the model answered.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct MixedModels {
     /// The files of the model that differ.
     pub files: String,
@@ -123,6 +127,7 @@ pub struct MixedModels {
 
 /// A factor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct FactorRecord {
     /// Its name.
     pub name: String,
@@ -138,6 +143,7 @@ pub struct FactorRecord {
 
 /// Everything about one output.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct OutputRecord {
     /// Its name.
     pub name: String,
@@ -196,6 +202,7 @@ pub struct OutputRecord {
 
 /// How the values of an output are distributed, as far as the rows A and B tell.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct DistributionRecord {
     /// Values that mean, standard deviation, skewness, kurtosis and range rest on: those of all rows A and B.
     pub values: u64,
@@ -206,6 +213,7 @@ pub struct DistributionRecord {
 
 /// The indices as they were when the run had so many base points.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct StageRecord {
     /// Base points in all.
     pub base_samples: u64,
@@ -219,6 +227,7 @@ pub struct StageRecord {
 
 /// The indices of one factor at a stage.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct StageIndexRecord {
     /// The factor.
     pub factor: String,
@@ -230,6 +239,7 @@ pub struct StageIndexRecord {
 
 /// Indices over several outputs together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct AggregateRecord {
     /// The outputs.
     pub outputs: Vec<String>,
@@ -243,6 +253,7 @@ pub struct AggregateRecord {
 
 /// The aggregated indices of one factor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct AggregateIndexRecord {
     /// The factor.
     pub factor: String,
@@ -254,6 +265,7 @@ pub struct AggregateIndexRecord {
 
 /// Why a growing run ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct StoppingRecord {
     /// In words.
     pub reason: String,
@@ -269,6 +281,7 @@ pub struct StoppingRecord {
 
 /// A reason for which runs failed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct FailureRecord {
     /// The reason.
     pub reason: String,
@@ -282,6 +295,7 @@ pub struct FailureRecord {
 
 /// A validity flag.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct ValidityRecord {
     /// Its name.
     pub flag: String,
@@ -295,6 +309,7 @@ pub struct ValidityRecord {
 
 /// What a model with a ladder of fidelities spent.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct EffortRecord {
     /// The rungs that answered, and how many runs each.
     pub rungs: Vec<RungRecord>,
@@ -306,6 +321,7 @@ pub struct EffortRecord {
 
 /// How many runs a rung answered.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct RungRecord {
     /// The rung.
     pub rung: String,

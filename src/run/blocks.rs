@@ -345,7 +345,7 @@ impl Scratch {
         }
         if place.keeps_outputs {
             let runs: Vec<&[f64]> = self.batches.iter().map(|batch| batch.column(output)).collect();
-            totals.kept = PointOutputs::of_block(&runs);
+            totals.point_outputs = PointOutputs::of_block(&runs);
         }
         totals.moments = MomentParts::new(place.part_length, a.len() as u64, parts);
         totals.values = CentralMoments::of(a);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::journal::JournalError;
-use super::{MOST_KEPT, Place};
+use super::{MAX_STORED_BYTES, Place};
 use crate::model::RowFailure;
 
 /// Why a run could not take place, or was given up.
@@ -30,7 +30,7 @@ pub enum RunError {
     /// The outputs of all runs were to be kept, and are too many.
     #[error(
         "the outputs of {runs} runs, which are to be kept all at once, take {bytes} bytes of memory, more than the \
-         {MOST_KEPT} that they may: take fewer base samples or fewer outputs, intervals = \"batches\", or begin anew without \
+         {MAX_STORED_BYTES} that they may: take fewer base samples or fewer outputs, intervals = \"batches\", or begin anew without \
          saved outputs (--restart)"
     )]
     TooManyOutputs {

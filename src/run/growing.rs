@@ -8,7 +8,9 @@ use super::executor::Executor;
 use super::fold::{Fold, Sums};
 use super::journal::Checkpoint;
 use super::rows::{Known, MissingRows};
-use super::{BLOCK, FailurePolicy, Job, MOST_KEPT, PieceSink, Progress, RunError, Store, Totals, threads_in_force};
+use super::{
+    BLOCK, FailurePolicy, Job, MAX_STORED_BYTES, PieceSink, Progress, RunError, Store, Totals, threads_in_force,
+};
 use crate::design::Design;
 use crate::model::RunContext;
 
@@ -97,13 +99,13 @@ impl<'a> GrowingRun<'a> {
     /// Whether the outputs of `points` base points of every replicate can be kept, where they are to be.
     ///
     /// # Errors
-    /// [`RunError::TooManyOutputs`] if they take more than [`MOST_KEPT`].
+    /// [`RunError::TooManyOutputs`] if they take more than [`MAX_STORED_BYTES`].
     pub fn room_for(&self, points: u64) -> Result<(), RunError> {
         let design = self.job.design;
         let runs = points.saturating_mul(design.settings().replicates).saturating_mul(design.rows_per_point());
         let numbers = runs.saturating_mul(self.job.model.outputs().len() as u64);
         let bytes = numbers.saturating_mul(size_of::<f64>() as u64);
-        if (self.keeps_outputs || self.store.is_some()) && bytes > MOST_KEPT {
+        if (self.keeps_outputs || self.store.is_some()) && bytes > MAX_STORED_BYTES {
             return Err(RunError::TooManyOutputs { runs, bytes });
         }
         Ok(())

@@ -72,7 +72,7 @@ pub struct Progress {
 }
 
 /// Memory that kept outputs may take, in bytes: 8 GiB.
-pub const MOST_KEPT: u64 = 8 << 30;
+pub const MAX_STORED_BYTES: u64 = 8 << 30;
 
 /// Runs the whole job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
 ///

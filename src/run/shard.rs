@@ -14,11 +14,11 @@ const MOST: u64 = 1_000_000;
 /// One of several parts of a design, as equal as can be: consecutive base points with all of their rows.
 ///
 /// ```
-/// use apportion::run::Shard;
+/// use apportion::Shard;
 ///
 /// let shard: Shard = "3/8".parse()?;
 /// assert_eq!((shard.number(), shard.of()), (3, 8));
-/// # Ok::<(), apportion::run::ShardError>(())
+/// # Ok::<(), apportion::ShardError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {

@@ -292,13 +292,14 @@ fn outputs_are_kept_in_order_when_asked_for_and_refused_when_too_many() {
     let one = kept(1);
     assert!(kept(3) == one);
     for output in &one {
-        let rows = |run: usize| output.kept.blocks(500).flat_map(|runs| runs[run].to_vec()).collect::<Vec<f64>>();
+        let rows =
+            |run: usize| output.point_outputs.blocks(500).flat_map(|runs| runs[run].to_vec()).collect::<Vec<f64>>();
         let interleaved: Vec<u64> =
             rows(0).iter().zip(&rows(1)).flat_map(|(a, b)| [a.to_bits(), b.to_bits()]).collect();
         assert_eq!(interleaved.len(), 1000);
         assert_eq!(interleaved, output.sample.iter().map(|y| y.to_bits()).collect::<Vec<_>>());
     }
-    assert_eq!(totals(&design(Sampler::Random, 1000, 2), &model, 1)[0].outputs[0].kept.points(), 0);
+    assert_eq!(totals(&design(Sampler::Random, 1000, 2), &model, 1)[0].outputs[0].point_outputs.points(), 0);
 
     // 4 runs of 8 bytes per base point: 2^28 of them take 8 GiB.
     let long = design(Sampler::Random, 1 << 29, 1);

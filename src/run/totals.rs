@@ -48,7 +48,7 @@ pub struct OutputTotals {
     /// the order of the points: A, B, A, B, ...; NaN where a run failed.
     pub sample: Vec<f64>,
     /// The outputs of every run, if they are kept.
-    pub kept: PointOutputs,
+    pub point_outputs: PointOutputs,
     /// Rows without a value.
     pub runs_failed: u64,
     /// Why, and how often each.
@@ -58,12 +58,12 @@ pub struct OutputTotals {
 /// Equal in every bit; the NaNs of failed runs in the sample are equal to each other.
 impl PartialEq for OutputTotals {
     fn eq(&self, other: &Self) -> bool {
-        let Self { moments, values, sample, kept, runs_failed, failures } = other;
+        let Self { moments, values, sample, point_outputs, runs_failed, failures } = other;
         let bits = |sample: &[f64]| sample.iter().map(|y| y.to_bits()).collect::<Vec<_>>();
         self.moments == *moments
             && self.values == *values
             && bits(&self.sample) == bits(sample)
-            && self.kept == *kept
+            && self.point_outputs == *point_outputs
             && self.runs_failed == *runs_failed
             && self.failures == *failures
     }
@@ -91,7 +91,7 @@ binary_fields!(Place { replicate, point, run });
 /// Outputs that are kept are no part of the bytes: sums are written where none are.
 impl Binary for OutputTotals {
     fn write(&self, out: &mut Vec<u8>) {
-        let Self { moments, values, sample, kept: _, runs_failed, failures } = self;
+        let Self { moments, values, sample, point_outputs: _, runs_failed, failures } = self;
         moments.write(out);
         values.write(out);
         sample.write(out);
@@ -104,7 +104,7 @@ impl Binary for OutputTotals {
             moments: MomentParts::read(from)?,
             values: CentralMoments::read(from)?,
             sample: Vec::read(from)?,
-            kept: PointOutputs::default(),
+            point_outputs: PointOutputs::default(),
             runs_failed: u64::read(from)?,
             failures: BTreeMap::read(from)?,
         })
@@ -146,7 +146,7 @@ impl Totals {
         for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
             mine.moments.append(&theirs.moments);
             mine.sample.extend_from_slice(&theirs.sample);
-            mine.kept.append(&theirs.kept);
+            mine.point_outputs.append(&theirs.point_outputs);
         }
     }
 

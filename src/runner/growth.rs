@@ -4,7 +4,7 @@ use crate::analysis::{StopReason, Stopped, interval_options};
 use crate::design::{Design, MAX_POINTS};
 use crate::estimate::{MomentParts, PointOutputs};
 use crate::run::GrowingRun;
-use crate::study::{Stopping, Study};
+use crate::study::{Study, Target};
 use crate::uncertainty::{IntervalOptions, KeptPoints, output_indices};
 
 /// The longest design that a run of `design` can grow into.
@@ -21,7 +21,7 @@ pub(super) fn longest(design: &Design) -> Design {
 
 /// Why the run should not be doubled once more; `None` if it should.
 pub(super) fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design) -> Option<Stopped> {
-    let Stopping { half_width, budget, max_runs } = study.stopping;
+    let Target { half_width, budget, max_runs } = study.target;
     let widest = widest(study, run);
     let met = half_width.map(|target| widest.is_some_and(|widest| widest <= target));
     let next = run.points_per_replicate() * 2;
@@ -50,7 +50,7 @@ fn widest(study: &Study, run: &GrowingRun<'_>) -> Option<f64> {
     let mut widest = None;
     for number in 0..outputs {
         let parts: Vec<MomentParts> = run.totals().iter().map(|t| t.outputs[number].moments.clone()).collect();
-        let kept: Vec<&PointOutputs> = run.totals().iter().map(|t| &t.outputs[number].kept).collect();
+        let kept: Vec<&PointOutputs> = run.totals().iter().map(|t| &t.outputs[number].point_outputs).collect();
         let options = IntervalOptions { points: KeptPoints::all(design, &kept), ..options };
         match output_indices(&parts, &layout, &options) {
             Ok(indices) => widest = Some(indices.largest_half_width()?.max(widest.unwrap_or(0.0))),

@@ -233,7 +233,7 @@ fn open_sums(
 ) -> Result<OpenJournal, RunError> {
     let JournalRequest { resume, needs_outputs, .. } = request;
     let (model, settings) = (study.model(), study.design.settings());
-    let (points, grows) = (study.design.points_per_replicate(), study.stopping.grows());
+    let (points, grows) = (study.design.points_per_replicate(), study.target.grows());
     let is_empty = sums.rows() == 0;
     let fits = || {
         let coherent = sums.is_coherent(settings.replicates);

@@ -23,7 +23,7 @@ impl Study {
     ///
     /// ```
     /// use std::path::Path;
-    /// use apportion::study::Study;
+    /// use apportion::Study;
     ///
     /// let text = include_str!("../../studies/ishigami.toml");
     /// let study = Study::parse(text, Path::new("ishigami.toml"), &[])?;
@@ -72,7 +72,7 @@ pub enum Resume {
 ///
 /// ```
 /// use std::path::Path;
-/// use apportion::study::Study;
+/// use apportion::Study;
 ///
 /// let text = include_str!("../../studies/ishigami.toml");
 /// let study = Study::parse(text, Path::new("ishigami.toml"), &["design.base_samples=1024".to_owned()])?;
@@ -236,7 +236,7 @@ impl<'a> Runner<'a> {
     fn analyse(&self, context: &RunContext<'_>, mut record: OpenJournal) -> Result<Analysis, RunError> {
         let (study, model) = (self.study, self.study.model());
         let files = ModelFiles::new(study);
-        let longest = if study.stopping.grows() { longest(&study.design) } else { study.design.clone() };
+        let longest = if study.target.grows() { longest(&study.design) } else { study.design.clone() };
         let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
         let (foreign, sums) = (record.foreign.take(), record.take_sums());
         let own = Store::new(&longest, model.as_ref());
@@ -253,11 +253,11 @@ impl<'a> Runner<'a> {
         }
         let mut points = study.design.points_per_replicate();
         if let Some((checkpoint, sums)) = record.checkpoint().zip(sums) {
-            points = sums.first_stage(points, study.stopping.grows());
+            points = sums.first_stage(points, study.target.grows());
             run = run.with_checkpoint(checkpoint, sums);
         }
         let grown = run.grow_to(points, &*self.on_progress).and_then(|()| {
-            if !study.stopping.grows() {
+            if !study.target.grows() {
                 return Ok(None);
             }
             loop {

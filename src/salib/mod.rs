@@ -10,6 +10,10 @@ mod problem;
 #[cfg(test)]
 mod tests;
 
-pub use estimate::{PairIndex, SalibIndex, SalibIndices, salib_indices};
-pub use layout::{LayoutError, SalibLayout, WrongRow, check_points, recognise};
+#[doc(hidden)]
+pub use estimate::PairIndex;
+pub use estimate::{SalibIndex, SalibIndices, salib_indices};
+pub use layout::{LayoutError, SalibLayout};
+#[doc(hidden)]
+pub use layout::{WrongRow, check_points, recognise};
 pub use problem::{ProblemError, SalibProblem};

@@ -21,11 +21,14 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-pub use measures::{FIXABLE, Measures, Reading};
+#[doc(hidden)]
+pub use measures::FIXABLE;
+pub use measures::{Measures, Reading};
+#[doc(hidden)]
 pub use points::TAIL;
-pub use settings::{
-    MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningSettings,
-};
+#[doc(hidden)]
+pub use settings::{MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES};
+pub use settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
 
 use crate::model::{Model, Output, RowFailure, RunContext};
 use crate::run::Progress;
@@ -106,7 +109,8 @@ pub struct ScreeningFailure {
 ///
 /// ```
 /// use std::path::Path;
-/// use apportion::{screening::{Reading, ScreeningJob, ScreeningSettings, screen}, study::Study};
+/// use apportion::screening::{Reading, ScreeningJob, ScreeningSettings, screen};
+/// use apportion::Study;
 ///
 /// let study = Study::parse(include_str!("../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
 /// let model = study.model();

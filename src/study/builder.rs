@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use super::options::rows;
 use super::subject::CustomSubject;
-use super::{AnalysisOptions, Stopping, Study};
+use super::{AnalysisOptions, Study, Target};
 use crate::design::{Design, DesignError, DesignSettings, Sampler};
 use crate::estimate::Estimator;
 use crate::model::Model;
@@ -71,6 +71,25 @@ pub enum BuildError {
         /// The number of factors.
         factors: usize,
     },
+    /// A target that no run can reach.
+    #[error("{what} = {value}: expected a finite number above 0")]
+    NotPositive {
+        /// What of the target.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A target for points that cannot be added to.
+    #[error(
+        "a run goes on until a target by adding points, and a Latin hypercube has none to add: take another sampler"
+    )]
+    CannotGrow,
+    /// Fewer runs than the smallest design takes.
+    #[error("max_runs of the target: expected {least} or more, which 2 base points in each replicate take")]
+    MaxRuns {
+        /// Runs of the smallest design.
+        least: u64,
+    },
     /// A share or threshold that is none.
     #[error("{what} = {value}: expected a number from 0 to 1")]
     NotAShare {
@@ -88,17 +107,28 @@ pub struct StudyBuilder {
     model: Arc<dyn Model>,
     factors: Vec<Result<Factor, BuildError>>,
     sampler: Sampler,
-    base_samples: u64,
+    base_samples: Option<u64>,
     replicates: Option<u64>,
     seed: u64,
     analysis: Option<AnalysisOptions>,
+    target: Target,
 }
 
 impl StudyBuilder {
     pub(super) fn new(name: &str, model: Arc<dyn Model>) -> Self {
-        let DesignSettings { sampler, base_samples, seed, .. } = DesignSettings::default();
-        let (title, factors, replicates, analysis) = Default::default();
-        Self { name: name.to_owned(), title, model, factors, sampler, base_samples, replicates, seed, analysis }
+        let DesignSettings { sampler, seed, .. } = DesignSettings::default();
+        Self {
+            name: name.to_owned(),
+            title: None,
+            model,
+            factors: Vec::new(),
+            sampler,
+            base_samples: None,
+            replicates: None,
+            seed,
+            analysis: None,
+            target: Target::default(),
+        }
     }
 
     /// A title for people.
@@ -136,11 +166,11 @@ impl StudyBuilder {
         self
     }
 
-    /// Base samples in all, best a power of two for each replicate; 2^14 by default. The cost is base samples x (2 +
-    /// factors) runs.
+    /// Base samples in all, best a power of two for each replicate; 2^14 by default, less at the start of a run that goes on
+    /// [until](Self::until) a target. The cost is base samples x (2 + factors) runs.
     #[must_use]
     pub fn base_samples(mut self, base_samples: u64) -> Self {
-        self.base_samples = base_samples;
+        self.base_samples = Some(base_samples);
         self
     }
 
@@ -162,6 +192,13 @@ impl StudyBuilder {
     #[must_use]
     pub fn analysis(mut self, analysis: AnalysisOptions) -> Self {
         self.analysis = Some(analysis);
+        self
+    }
+
+    /// How well the indices must be known: the run goes on by doubling until they are.
+    #[must_use]
+    pub fn until(mut self, target: Target) -> Self {
+        self.target = target;
         self
     }
 
@@ -195,13 +232,16 @@ impl StudyBuilder {
         refuse_repeated("factor", space.factors().iter().map(|factor| factor.name.as_str()))?;
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(self.sampler));
         let analysis = checked(analysis, self.sampler, space.factors().len())?;
-        let settings = DesignSettings {
+        let target = checked_target(self.target, self.sampler)?;
+        let replicates = self.replicates.unwrap_or(analysis.intervals.default_replicates());
+        let settings = target.first_stage(DesignSettings {
             sampler: self.sampler,
-            base_samples: self.base_samples,
-            replicates: self.replicates.unwrap_or(analysis.intervals.default_replicates()),
+            base_samples: self.base_samples.unwrap_or_else(|| target.base_samples(replicates)),
+            replicates,
             seed: self.seed,
-        };
+        });
         let design = Design::new(settings, space.factors().len(), rows(&analysis, &space))?;
+        let design = target.within_max_runs(design).map_err(|least| BuildError::MaxRuns { least })?;
         let source = in_words(&self.name, &design, &space);
         Ok(Study {
             sha256: Sha256::digest(source.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect(),
@@ -211,7 +251,7 @@ impl StudyBuilder {
             space,
             design,
             analysis,
-            stopping: Stopping::default(),
+            target,
             overrides: Vec::new(),
             source,
             notes: Vec::new(),
@@ -246,6 +286,19 @@ fn checked(mut options: AnalysisOptions, sampler: Sampler, factors: usize) -> Re
     // The default ones are in every result.
     options.estimators.retain(|estimator| *estimator != Estimator::Default);
     Ok(options)
+}
+
+/// The target as a study file could have said it.
+fn checked_target(target: Target, sampler: Sampler) -> Result<Target, BuildError> {
+    if target.grows() && sampler == Sampler::LatinHypercube {
+        return Err(BuildError::CannotGrow);
+    }
+    for (what, value) in [("half width of the target", target.half_width), ("budget", target.budget)] {
+        if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
+            return Err(BuildError::NotPositive { what, value });
+        }
+    }
+    Ok(target)
 }
 
 /// What stands in the result in the place of a study file.

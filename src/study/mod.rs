@@ -16,10 +16,10 @@ pub use builder::{BuildError, StudyBuilder};
 #[cfg(feature = "study")]
 pub use file::{
     AfmSubject, CommandSubject, Diagnostic, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula,
-    KnownSubject, NEW_PROGRAM, OverrideProblem, Problem, StudyError, TemplateRequest, new_program, study_schema,
-    template,
+    KnownSubject, NEW_PROGRAM, OverrideProblem, Problem, StudyError, TemplateRequest, model_guide, new_program,
+    study_schema, template,
 };
-pub use options::{AnalysisOptions, Stopping};
+pub use options::{AnalysisOptions, Target};
 pub use subject::Subject;
 
 pub use crate::names::nearest;
@@ -46,7 +46,7 @@ pub struct Study {
     /// What is asked of the runs.
     pub(crate) analysis: AnalysisOptions,
     /// When a run that grows ends.
-    pub(crate) stopping: Stopping,
+    pub(crate) target: Target,
     /// Changes made to the file on the command line, as given.
     pub(crate) overrides: Vec<String>,
     /// The file, word for word.
@@ -63,9 +63,9 @@ impl Study {
     /// [`Model`]. Result files are named after `name`.
     ///
     /// ```
-    /// use apportion::model::function_model;
-    /// use apportion::space::Distribution;
-    /// use apportion::study::Study;
+    /// use apportion::function_model;
+    /// use apportion::Distribution;
+    /// use apportion::Study;
     ///
     /// let study = Study::builder("product", function_model("y", |x| x[0] * x[1]))
     ///     .factor("a", Distribution::uniform(1.0, 2.0)?)
@@ -114,8 +114,8 @@ impl Study {
     }
 
     /// When a run that grows ends.
-    pub fn stopping(&self) -> Stopping {
-        self.stopping
+    pub fn target(&self) -> Target {
+        self.target
     }
 
     /// Changes made to the file on the command line, as given.

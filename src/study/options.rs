@@ -1,6 +1,6 @@
 //! What is asked of the runs of a study, and when they end.
 
-use crate::design::{Companions, Rows, Sampler};
+use crate::design::{Companions, Design, DesignSettings, Rows, Sampler};
 use crate::estimate::Estimator;
 use crate::run::FailurePolicy;
 use crate::space::Space;
@@ -49,9 +49,17 @@ impl AnalysisOptions {
     }
 }
 
-/// When a run that grows by doubling ends; one that asks for none of these has the size that the design says.
+/// How well the indices must be known, and what that may cost: a run goes on by doubling until one of these is reached. A
+/// run without any has the size that its design says.
+///
+/// ```
+/// use apportion::Target;
+///
+/// let target = Target::half_width(0.01).budget(60.0);
+/// assert_eq!(target, Target { half_width: Some(0.01), budget: Some(60.0), max_runs: None });
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Stopping {
+pub struct Target {
     /// Half width that the interval of every first-order and total index must reach.
     pub half_width: Option<f64>,
     /// Seconds that the run may take.
@@ -60,12 +68,68 @@ pub struct Stopping {
     pub max_runs: Option<u64>,
 }
 
-impl Stopping {
+impl Target {
+    /// Every first-order and total index to this half width of its interval.
+    pub const fn half_width(half_width: f64) -> Self {
+        Self { half_width: Some(half_width), budget: None, max_runs: None }
+    }
+
+    /// But no doubling that would take longer than so many seconds.
+    #[must_use]
+    pub const fn budget(self, seconds: f64) -> Self {
+        Self { budget: Some(seconds), ..self }
+    }
+
+    /// But no doubling that would take more model runs.
+    #[must_use]
+    pub const fn max_runs(self, runs: u64) -> Self {
+        Self { max_runs: Some(runs), ..self }
+    }
+
     /// Whether the run grows.
     pub fn grows(&self) -> bool {
         *self != Self::default()
     }
+
+    /// Base samples of the design from which a run with `replicates` starts where nothing else is said.
+    pub(super) fn base_samples(&self, replicates: u64) -> u64 {
+        match self {
+            // A model so slow that its user thinks in time may not have time for more.
+            Self { budget: Some(_), .. } => FIRST_POINTS.saturating_mul(replicates),
+            target if target.grows() => FIRST_STAGE,
+            _ => DesignSettings::default().base_samples,
+        }
+    }
+
+    /// The settings of its first stage: a growing run goes from one power of two in each replicate to the next.
+    pub(super) fn first_stage(&self, settings: DesignSettings) -> DesignSettings {
+        let DesignSettings { base_samples, replicates, .. } = settings;
+        if !self.grows() || base_samples < 2 * replicates {
+            return settings;
+        }
+        let points = base_samples.div_ceil(replicates.max(1)).checked_next_power_of_two();
+        let rounded = points.and_then(|points| points.checked_mul(replicates));
+        DesignSettings { base_samples: rounded.unwrap_or(base_samples), ..settings }
+    }
+
+    /// `design` halved until it takes no more than the runs that it may; an error with the runs of the smallest one if
+    /// that takes more.
+    pub(super) fn within_max_runs(&self, mut design: Design) -> Result<Design, u64> {
+        while self.max_runs.is_some_and(|most| design.rows() > most) {
+            match design.with_points(design.points_per_replicate() / 2) {
+                Ok(shorter) => design = shorter,
+                Err(_) => return Err(design.rows()),
+            }
+        }
+        Ok(design)
+    }
 }
+
+/// Base samples with which a growing run starts.
+const FIRST_STAGE: u64 = 1 << 10;
+
+/// Base points of each replicate with which one starts that has a budget of time.
+const FIRST_POINTS: u64 = 64;
 
 pub(super) const DEFAULT_RESAMPLES: usize = 1000;
 pub(super) const DEFAULT_THRESHOLD: f64 = 0.05;

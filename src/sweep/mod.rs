@@ -11,7 +11,9 @@ mod rows;
 mod tests;
 
 pub use local::{LocalSensitivity, NoDerivative};
-pub use request::{FactorValues, MAX_POINTS, SweepError, SweepRequest, TAIL, find, is_logarithmic};
+pub use request::{FactorValues, SweepError, SweepRequest};
+#[doc(hidden)]
+pub use request::{MAX_POINTS, TAIL, find, is_logarithmic};
 
 use crate::model::{Model, RowFailure, RunContext};
 use crate::run::Halt;
@@ -88,7 +90,8 @@ pub struct Extent {
 ///
 /// ```
 /// use std::path::Path;
-/// use apportion::{study::Study, sweep::{FactorValues, SweepRequest, sweep}};
+/// use apportion::sweep::{FactorValues, SweepRequest, sweep};
+/// use apportion::Study;
 ///
 /// let study = Study::parse(include_str!("../../studies/soft-cantilever.toml"), Path::new("s.toml"), &[])?;
 /// let thickness = FactorValues::over_range(study.space(), 0, 11)?;

@@ -195,7 +195,8 @@ impl FactorValues {
     ///
     /// ```
     /// use std::path::Path;
-    /// use apportion::{study::Study, sweep::FactorValues};
+    /// use apportion::sweep::FactorValues;
+    /// use apportion::Study;
     ///
     /// let study = Study::parse(include_str!("../../studies/soft-cantilever.toml"), Path::new("s.toml"), &[])?;
     /// let three = FactorValues::parse("thickness=1.5, 2 um, 2500 nm", study.space())?;

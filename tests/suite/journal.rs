@@ -417,7 +417,8 @@ fn a_full_disk_ends_a_run_without_loss() {
 #[test]
 fn two_runs_do_not_write_one_journal() {
     let folder = tempfile::tempdir().unwrap();
-    let mut first = spawn(&slow(folder.path(), &[]));
+    // Long enough to be at work still when the second one begins, on any machine.
+    let mut first = spawn(&slow(folder.path(), &["--set", "design.base_samples=262144"]));
     wait_for_bytes(&folder.path().join("lugre-environmental.journal"), 3000);
     let second = apportion(&words(&slow(folder.path(), &[])));
     refused(&second, 1, "lugre-environmental.journal: another run is writing this journal");

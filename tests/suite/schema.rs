@@ -45,11 +45,11 @@ fn every_study_of_the_repository_fits_the_schema() {
 fn new_studies_of_all_models_fit_the_schema() {
     let (validator, folder) = (validator("study"), tempfile::tempdir().unwrap());
     for model in apportion::model::ModelKind::all() {
-        let path = folder.path().join(format!("{}.toml", model.name()));
-        let output = apportion(&["new", path.to_str().unwrap(), "--model", model.name()]);
+        let path = folder.path().join(format!("{}.toml", model.name));
+        let output = apportion(&["new", path.to_str().unwrap(), "--model", model.name]);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let value = study(&std::fs::read_to_string(&path).unwrap());
-        assert_eq!(complaints(&validator, &value), Vec::<String>::new(), "{}", model.name());
+        assert_eq!(complaints(&validator, &value), Vec::<String>::new(), "{}", model.name);
     }
 }
 

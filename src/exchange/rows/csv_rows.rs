@@ -5,7 +5,7 @@ use std::io::{BufWriter, Cursor, Read, Write};
 
 use super::plain_lines::PlainLines;
 use super::{ColumnKind, RowReader, RowWriter, RowsError, check_names};
-use crate::csv_text::{csv_field, plain_field};
+use crate::text::{csv_field, plain_field};
 
 /// Rows that are looked at to tell columns of text from those of numbers.
 const AHEAD: usize = 100;

@@ -4,16 +4,16 @@
 //! No shell is involved. A program is the leader of a process group, which is ended with it; whatever it does wrong has a
 //! reason in the result, and never costs a row that it answered.
 
-mod kept;
+mod kept_alive;
 mod per_run;
 mod pick;
 mod process;
 mod program;
 mod protocol;
 mod row;
+mod shorten;
 mod standard_error;
 mod template;
-mod words;
 
 use std::process::ExitStatus;
 use std::sync::Mutex;
@@ -29,7 +29,7 @@ pub use template::{InputTemplate, TemplateError, TemplateProblem};
 use super::{Flag, Messages, Model, Output, RowFailure, RunContext, Worker};
 use crate::quantity::Unit;
 use crate::space::Factor;
-use kept::KeptWorker;
+use kept_alive::KeptAliveWorker;
 use per_run::PerRunWorker;
 
 /// How a program is asked.
@@ -84,9 +84,10 @@ pub struct CommandSettings {
 /// A program as a model.
 ///
 /// ```
-/// use apportion::model::{CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, Model, Program, Protocol};
-/// use apportion::quantity::Unit;
-/// use apportion::space::{Distribution, Factor};
+/// use apportion::{Form, KeptAlive, Program, Protocol};
+/// use apportion::{CommandModel, CommandOutput, CommandSettings, Model};
+/// use apportion::Unit;
+/// use apportion::{Distribution, Factor};
 ///
 /// let program = Program {
 ///     arguments: ["python3", "my_model.py"].map(str::to_owned).to_vec(),
@@ -225,7 +226,7 @@ impl Model for CommandModel {
 
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         match &self.settings.form {
-            Form::KeptAlive(form) => Box::new(KeptWorker::new(self, context, *form)),
+            Form::KeptAlive(form) => Box::new(KeptAliveWorker::new(self, context, *form)),
             Form::PerRun(form) => Box::new(PerRunWorker::new(self, context, form)),
         }
     }

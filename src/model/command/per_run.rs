@@ -13,9 +13,9 @@ use tempfile::TempDir;
 use super::pick::{MOST_BYTES, PickError, Source};
 use super::program::{Running, status_in_words};
 use super::row::{RowWriter, ValueWriter};
+use super::shorten::{masked, seconds};
 use super::standard_error::listen;
 use super::template::InputTemplate;
-use super::words::{masked, seconds};
 use super::{CommandModel, Protocol, not_a_value};
 use crate::model::{Batch, RowFailure, RunContext, Worker};
 

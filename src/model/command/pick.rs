@@ -6,7 +6,7 @@ use regex::Regex;
 use serde_json::Value;
 use thiserror::Error;
 
-use super::words::masked;
+use super::shorten::masked;
 use crate::files::read_whole;
 
 /// Where the number stands, and how it is found.

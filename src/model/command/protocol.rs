@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use super::words::{masked, shortened};
+use super::shorten::{masked, shortened};
 
 /// How rows and answers are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +40,8 @@ pub enum Answer {
 /// row failed: the number, NaN for an empty cell, `nan` or null, or an infinity. An empty line is no answer.
 ///
 /// ```
-/// use apportion::model::{Answer, Protocol, parse_answer};
+/// use apportion::model::{Answer, parse_answer};
+/// use apportion::Protocol;
 ///
 /// let (outputs, mut values) = (["force".to_owned(), "time".to_owned()], Vec::new());
 /// assert_eq!(parse_answer(Protocol::Csv, &outputs, b"1.5,2e-3\r", &mut values), Ok(Answer::Values));
@@ -79,7 +80,8 @@ pub fn parse_answer(
 /// Reads an answer that begins with the number of its row: a first cell in CSV, the key `id` of a JSON object.
 ///
 /// ```
-/// use apportion::model::{Answer, Protocol, parse_numbered_answer};
+/// use apportion::model::{Answer, parse_numbered_answer};
+/// use apportion::Protocol;
 ///
 /// let (outputs, mut values) = (["force".to_owned()], Vec::new());
 /// let csv = parse_numbered_answer(Protocol::Csv, &outputs, b"711953,1.5", &mut values);

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::sync::{Mutex, PoisonError};
 
-use super::words::cut;
+use super::shorten::cut;
 use crate::model::Messages;
 
 /// Characters of a line that are passed on.

@@ -27,7 +27,8 @@ pub enum Symbol {
 /// A checked formula of some inputs.
 ///
 /// ```
-/// use apportion::model::{Expression, Symbol};
+/// use apportion::model::Symbol;
+/// use apportion::Expression;
 ///
 /// let symbol = |name: &str| match name {
 ///     "x" => Some(Symbol::Input(0)),
@@ -38,7 +39,7 @@ pub enum Symbol {
 /// assert_eq!(formula.value(&[0.5]), 7.0 * 0.5f64.sin().powi(2) - 1.0);
 /// let error = Expression::parse("a*sin(y)", &symbol).unwrap_err();
 /// assert_eq!((error.to_string(), error.place), ("there is no `y`".to_owned(), 6..7));
-/// # Ok::<(), apportion::model::ExpressionError>(())
+/// # Ok::<(), apportion::ExpressionError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Expression {

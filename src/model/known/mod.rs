@@ -117,7 +117,8 @@ impl KnownAnswer {
     /// The function with these parameters, and its defaults for the others.
     ///
     /// ```
-    /// use apportion::model::{KnownAnswer, ParameterValue};
+    /// use apportion::model::ParameterValue;
+    /// use apportion::KnownAnswer;
     ///
     /// let g = KnownAnswer::from_name("sobol-g").ok_or("no such function")?;
     /// let g = g.with(&[("a".to_owned(), ParameterValue::List(vec![0.0, 1.0]))])?;

@@ -41,7 +41,8 @@ impl ComparedIndex {
 /// the root of the sum of squares of the half widths.
 ///
 /// ```
-/// use apportion::report::{EstimateRecord, comparison::difference};
+/// use apportion::report::EstimateRecord;
+/// use apportion::report::comparison::difference;
 ///
 /// let a = EstimateRecord { estimate: 0.5, low: Some(0.47), high: Some(0.53) };
 /// let b = EstimateRecord { estimate: 0.7, low: Some(0.66), high: Some(0.74) };

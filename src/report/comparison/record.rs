@@ -90,7 +90,8 @@ pub struct ComparedFactor {
 /// ```
 /// use std::path::Path;
 /// use apportion::report::comparison::{ComparedSide, compare_results};
-/// use apportion::{report::ResultFile, study::Study};
+/// use apportion::report::ResultFile;
+/// use apportion::Study;
 ///
 /// let result = |choice: &str| -> Result<_, Box<dyn std::error::Error>> {
 ///     let text = format!("model = \"ishigami\"\n[function]\n{choice}\n[design]\nbase_samples = 4096");

@@ -35,7 +35,7 @@ pub struct OutputDistribution {
     pub min: f64,
     /// Largest value.
     pub max: f64,
-    /// Quantiles at [`PERCENTS`], of type 8 (see [`quantile`]).
+    /// Quantiles at [`PERCENTS`], of type 8 of Hyndman and Fan (1996).
     pub quantiles: Vec<QuantileRecord>,
     /// Histogram; `null` without variance.
     pub histogram: Option<Histogram>,
@@ -121,7 +121,7 @@ impl OutputDistribution {
     ///
     /// # Example
     /// ```
-    /// use apportion::quantity::Unit;
+    /// use apportion::Unit;
     /// use apportion::report::distribution::OutputDistribution;
     ///
     /// let forces: Vec<f64> = (0..=100).map(|k| f64::from(k) / 1e9).collect();

@@ -82,7 +82,7 @@ pub fn read_result(path: &Path) -> Result<ResultFile, ReadError> {
 /// ```
 /// use std::path::Path;
 /// use apportion::report::{ResultFile, parse_result, result_json};
-/// use apportion::study::Study;
+/// use apportion::Study;
 ///
 /// let study = Study::parse("model = \"ishigami\"", Path::new("a.toml"), &["design.base_samples=256".to_owned()])?;
 /// let result = ResultFile::new(&study, &study.run()?);

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// An interval by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct IntervalRecord {
     /// Lower bound.
     pub low: f64,
@@ -14,6 +15,7 @@ pub struct IntervalRecord {
 
 /// An estimate with its interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct EstimateRecord {
     /// The estimate.
     pub estimate: f64,
@@ -25,6 +27,7 @@ pub struct EstimateRecord {
 
 /// The indices of one factor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct IndexRecord {
     /// The factor.
     pub factor: String,
@@ -35,6 +38,7 @@ pub struct IndexRecord {
 
 /// The indices of one group of factors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct GroupRecord {
     /// The group.
     pub group: String,
@@ -47,6 +51,7 @@ pub struct GroupRecord {
 
 /// First-order and total index, and what they are of the sum over all factors (or groups) in percent.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct EffectRecord {
     /// First-order index.
     pub first_order: EstimateRecord,
@@ -73,6 +78,7 @@ pub struct EffectRecord {
 
 /// The joint indices of a subset of the factors that the study lists.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct SubsetRecord {
     /// Its factors.
     pub factors: Vec<String>,
@@ -83,6 +89,7 @@ pub struct SubsetRecord {
 
 /// The second-order index of two factors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct PairRecord {
     /// The two factors.
     pub factors: [String; 2],
@@ -92,6 +99,7 @@ pub struct PairRecord {
 
 /// Indices by one estimator besides the default ones.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct EstimatorRecord {
     /// Its name in study files.
     pub estimator: String,
@@ -105,6 +113,7 @@ pub struct EstimatorRecord {
 
 /// Indices of one factor, group or subset by an estimator besides the default ones.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct OtherIndexRecord {
     /// The factor, the group, or the factors of the subset joined by " + ".
     pub name: String,

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// How an output goes with the factors of the largest total indices.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct ScatterRecord {
     /// At most six factors, the largest total index first.
     pub factors: Vec<String>,
@@ -18,6 +19,7 @@ pub struct ScatterRecord {
 /// Means of the output over slices of a factor: an estimate of E[Y | X_i], whose variance is the numerator of the
 /// first-order index. They describe the scatter of the kept rows A and B; no index is computed from them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
 pub struct ConditionalMeansRecord {
     /// The factor.
     pub factor: String,

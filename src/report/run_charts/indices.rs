@@ -6,7 +6,7 @@ use super::super::format::{sentence, the};
 use super::super::leading::{Contender, decides_most, percent};
 use super::super::result::{IndexRecord, OutputRecord, ResultFile};
 use super::{headline, no_indices};
-use crate::words::listed;
+use crate::text::listed;
 
 /// Most names in a caption.
 const MOST_NAMES: usize = 6;

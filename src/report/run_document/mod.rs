@@ -23,7 +23,7 @@ use super::{listed, result_json};
 /// ```
 /// use std::path::Path;
 /// use apportion::report::{ResultFile, run_document};
-/// use apportion::study::Study;
+/// use apportion::Study;
 ///
 /// let study = Study::parse(include_str!("../../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
 /// let result = ResultFile::new(&study, &study.run()?);

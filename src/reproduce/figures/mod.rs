@@ -115,7 +115,8 @@ const ORDER: [&str; 34] = [
 ///
 /// # Example
 /// ```
-/// use apportion::reproduce::{Effort, figures::figures};
+/// use apportion::reproduce::Effort;
+/// use apportion::reproduce::figures::figures;
 ///
 /// let figures = figures(&[], Effort::Quick)?;
 /// let width = figures.iter().find(|figure| figure.label == "CHK fig. 7").unwrap();

@@ -138,7 +138,8 @@ pub enum ReadingsError {
 /// [`Effort::Quick`] takes a sixteenth of the base samples and 100 repetitions of the small samples instead of 1000.
 ///
 /// ```no_run
-/// use apportion::reproduce::{Effort, readings::{readings, summary}};
+/// use apportion::reproduce::Effort;
+/// use apportion::reproduce::readings::{readings, summary};
 ///
 /// let readings = readings(Effort::Quick, 0, &|what, part| eprintln!("{what}: {:.0} %", 100.0 * part))?;
 /// for sentence in summary(&readings) {

@@ -40,11 +40,11 @@ impl Distribution {
     /// If a shape lies outside [1e-3, 1e5], a bound is not finite, `min >= max`, or their difference overflows.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let beta = Distribution::beta(2.0, 2.0, 10.0, 20.0)?;
     /// assert!((beta.median() - 15.0).abs() < 1e-14);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn beta(alpha: f64, beta: f64, min: f64, max: f64) -> Result<Self, DistributionError> {
         within("alpha", alpha, SHAPES)?;

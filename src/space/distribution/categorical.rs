@@ -31,12 +31,12 @@ impl Distribution {
     /// As [`discrete`](Self::discrete); also if a label is empty or stands twice, or two labels have one number.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let probe = Distribution::categorical(&["silicon", "nitride"], None, Some(&[3.0, 1.0]))?;
     /// assert_eq!(probe.label(probe.quantile(0.7)), Some("silicon"));
     /// assert_eq!(probe.value_of("nitride"), Some(1.0));
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn categorical<S: AsRef<str>>(
         labels: &[S],
@@ -75,11 +75,11 @@ impl Distribution {
     /// If `probability` lies outside [0, 1].
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let wet = Distribution::boolean(0.25)?;
     /// assert_eq!((wet.mean(), wet.label(wet.quantile(0.8))), (0.25, Some("true")));
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn boolean(probability: f64) -> Result<Self, DistributionError> {
         within("probability", probability, (0.0, 1.0))?;

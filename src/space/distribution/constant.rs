@@ -19,10 +19,10 @@ impl Distribution {
     /// If `value` is not finite.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// assert_eq!(Distribution::constant(3.0)?.sd(), 0.0);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn constant(value: f64) -> Result<Self, DistributionError> {
         Ok(Self::Constant(Constant { value: finite("value", value)? }))

@@ -34,12 +34,12 @@ impl Distribution {
     /// negative, all weights are 0, or their sum or the moments overflow.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let grade = Distribution::discrete(&[2.0, 1.0, 5.0], Some(&[1.0, 2.0, 1.0]))?;
     /// assert_eq!(grade.quantile(0.4), 1.0);
     /// assert_eq!(grade.mean(), 2.25);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn discrete(values: &[f64], weights: Option<&[f64]>) -> Result<Self, DistributionError> {
         Self::Discrete(Discrete::new(values, weights)?).finite()
@@ -108,14 +108,14 @@ impl Discrete {
     /// its part of the unit interval.
     ///
     /// ```
-    /// use apportion::space::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let Distribution::Discrete(grade) = Distribution::discrete(&[2.0, 1.0, 2.0, 5.0], Some(&[1.0, 2.0, 1.0, 0.0]))?
     /// else {
     ///     unreachable!("made as one");
     /// };
     /// assert_eq!(grade.levels(), [(1.0, 0.25), (2.0, 0.75)]);
-    /// # Ok::<(), apportion::space::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn levels(&self) -> Vec<(f64, f64)> {
         let mut levels: Vec<(f64, f64)> = Vec::new();

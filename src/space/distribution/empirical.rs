@@ -40,11 +40,11 @@ impl Distribution {
     /// If there are no values, or one is not finite.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let radius = Distribution::empirical(&[52.0, 48.0, 49.0, 51.0], None)?;
     /// assert_eq!((radius.quantile(0.1), radius.quantile(0.6), radius.mean()), (48.0, 51.0, 50.0));
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn empirical(values: &[f64], source: Option<MeasuredFile>) -> Result<Self, DistributionError> {
         Self::Empirical(Empirical { law: Discrete::new(values, None)?, source }).finite()

@@ -32,11 +32,11 @@ impl Distribution {
     /// If `location` is not finite, `scale` is not finite and positive, or values overflow.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let gumbel = Distribution::gumbel(1.0, 2.0)?;
     /// assert!((gumbel.quantile((-1f64).exp()) - 1.0).abs() < 1e-15);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn gumbel(location: f64, scale: f64) -> Result<Self, DistributionError> {
         finite("location", location)?;

@@ -32,11 +32,11 @@ impl Distribution {
     /// If a bound is not a whole number from -2^53 to 2^53, or `min > max`.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let die = Distribution::integer(1.0, 6.0)?;
     /// assert_eq!((die.quantile(0.16), die.quantile(0.17), die.mean()), (1.0, 2.0, 3.5));
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn integer(min: f64, max: f64) -> Result<Self, DistributionError> {
         for (parameter, value) in [("min", min), ("max", max)] {

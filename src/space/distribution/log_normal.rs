@@ -29,11 +29,11 @@ impl Distribution {
     /// If a parameter is not finite and positive, or values overflow.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let log_normal = Distribution::log_normal(5.0, 1.0)?;
     /// assert_eq!((log_normal.mean(), log_normal.sd()), (5.0, 1.0));
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn log_normal(mean: f64, sd: f64) -> Result<Self, DistributionError> {
         positive("mean", mean)?;
@@ -63,11 +63,11 @@ impl Distribution {
     /// If `log_mean` is not finite, `log_sd` is not finite and positive, or values or moments overflow.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let log_normal = Distribution::log_normal_of_logs(0.0, 0.5)?;
     /// assert_eq!(log_normal.median(), 1.0);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn log_normal_of_logs(log_mean: f64, log_sd: f64) -> Result<Self, DistributionError> {
         finite("log_mean", log_mean)?;

@@ -31,10 +31,10 @@ impl Distribution {
     /// If a bound is not finite, `min <= 0`, or `min >= max`.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// assert_eq!(Distribution::log_uniform(1.0, 100.0)?.median(), 10.0);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn log_uniform(min: f64, max: f64) -> Result<Self, DistributionError> {
         positive("min", min)?;

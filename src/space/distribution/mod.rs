@@ -62,7 +62,7 @@ pub const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
 /// [`name`](Self::name)) and its [`parameters`](Self::parameters).
 ///
 /// ```
-/// use apportion::space::distribution::Distribution;
+/// use apportion::Distribution;
 ///
 /// let length = Distribution::uniform(1.0, 3.0)?;
 /// assert_eq!(length.quantile(0.25), 1.5);
@@ -71,7 +71,7 @@ pub const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
 ///     Distribution::uniform(3.0, 1.0).unwrap_err().to_string(),
 ///     "`min` is 3 and `max` is 1, but `min` must be below `max`"
 /// );
-/// # Ok::<(), apportion::space::distribution::DistributionError>(())
+/// # Ok::<(), apportion::DistributionError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
@@ -235,7 +235,7 @@ impl Distribution {
     /// As the constructor, if a parameter leaves the range of `f64`.
     ///
     /// ```
-    /// use apportion::{quantity::Unit, space::distribution::Distribution};
+    /// use apportion::{Distribution, Unit};
     ///
     /// let length = Distribution::constant(225.0)?.to_si(&Unit::parse("um")?)?;
     /// assert_eq!(length.quantile(0.5), 225e-6);

@@ -35,11 +35,11 @@ impl Distribution {
     /// If `mean` is not finite, `sd` is not finite and positive, or values some 9 sd from the mean overflow.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let normal = Distribution::normal(10.0, 2.0)?;
     /// assert!((normal.quantile(0.975) - 13.919927969080108).abs() < 1e-14);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn normal(mean: f64, sd: f64) -> Result<Self, DistributionError> {
         finite("mean", mean)?;

@@ -33,10 +33,10 @@ impl Distribution {
     /// If a parameter is not finite, `min >= max`, their difference overflows, or `mode` lies outside the bounds.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// assert_eq!(Distribution::triangular(0.0, 1.0, 4.0)?.quantile(0.25), 1.0);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn triangular(min: f64, mode: f64, max: f64) -> Result<Self, DistributionError> {
         let width = bounds(min, max, "triangular")?;

@@ -45,11 +45,11 @@ impl Distribution {
     /// both bounds some 6 scales below or 640 scales above the location.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let flow = Distribution::truncated_gumbel(1013.0, 558.0, 500.0, 3000.0)?;
     /// assert!((flow.median() - 1261.1).abs() < 0.1);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn truncated_gumbel(location: f64, scale: f64, min: f64, max: f64) -> Result<Self, DistributionError> {
         finite("location", location)?;

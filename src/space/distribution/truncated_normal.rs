@@ -58,11 +58,11 @@ impl Distribution {
     /// 1e-280: both bounds beyond some 35 sd from the mean on one side.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let tail = Distribution::truncated_normal(0.0, 1.0, 8.0, 9.0)?;
     /// assert!((tail.median() - 8.084888899018166).abs() < 1e-13);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn truncated_normal(mean: f64, sd: f64, min: f64, max: f64) -> Result<Self, DistributionError> {
         finite("mean", mean)?;

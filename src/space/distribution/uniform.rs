@@ -27,10 +27,10 @@ impl Distribution {
     /// If a bound is not finite, `min >= max`, or their difference overflows.
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// assert_eq!(Distribution::uniform(-1.0, 1.0)?.quantile(0.75), 0.5);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn uniform(min: f64, max: f64) -> Result<Self, DistributionError> {
         let width = bounds(min, max, "uniform")?;

@@ -30,11 +30,11 @@ impl Distribution {
     /// (the standard deviation does so for shapes below some 0.012).
     ///
     /// ```
-    /// use apportion::space::distribution::Distribution;
+    /// use apportion::Distribution;
     ///
     /// let exponential = Distribution::weibull(1.0, 2.0, 0.0)?;
     /// assert!((exponential.median() - 2.0 * 2f64.ln()).abs() < 1e-15);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn weibull(shape: f64, scale: f64, location: f64) -> Result<Self, DistributionError> {
         positive("shape", shape)?;

@@ -9,7 +9,7 @@ use crate::quantity::{Dimension, Quantity};
 use crate::run::FailurePolicy;
 use crate::space::Space;
 use crate::study::options::{DEFAULT_MAX_FAILED, DEFAULT_RESAMPLES, DEFAULT_THRESHOLD};
-use crate::study::{AnalysisOptions, Stopping};
+use crate::study::{AnalysisOptions, Target};
 use crate::uncertainty::IntervalMethod;
 
 /// Reads the `[analysis]` table.
@@ -120,7 +120,7 @@ fn resamples(context: &Context<'_>, section: &AnalysisSection, method: IntervalM
 }
 
 /// Reads the keys of `[design]` that say when a growing run ends.
-pub(super) fn stopping(context: &Context<'_>, section: &DesignSection, sampler: Sampler) -> Result<Stopping, Fault> {
+pub(super) fn target(context: &Context<'_>, section: &DesignSection, sampler: Sampler) -> Result<Target, Fault> {
     let half_width = match section.target.as_ref().map(At::get_ref) {
         None => None,
         Some(target) => {
@@ -142,7 +142,7 @@ pub(super) fn stopping(context: &Context<'_>, section: &DesignSection, sampler: 
         None => None,
         Some(text) => Some(seconds("budget", text.get_ref()).map_err(|problem| context.fault(text.span(), problem))?),
     };
-    Ok(Stopping { half_width, budget, max_runs: section.max_runs.as_ref().map(|runs| *runs.get_ref()) })
+    Ok(Target { half_width, budget, max_runs: section.max_runs.as_ref().map(|runs| *runs.get_ref()) })
 }
 
 /// A time above 0, in seconds.

@@ -24,7 +24,7 @@ pub(super) const CHOICES: [&str; 9] = [
 ];
 
 pub(super) fn models() -> Vec<&'static str> {
-    ModelKind::all().into_iter().map(ModelKind::name).collect()
+    ModelKind::all().into_iter().map(|kind| kind.name).collect()
 }
 
 pub(super) fn samplers() -> Vec<&'static str> {

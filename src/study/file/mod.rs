@@ -14,8 +14,10 @@ mod expression;
 mod external;
 mod forms;
 mod function;
+mod guides;
 mod key_schemas;
 mod measured;
+mod models;
 mod names;
 mod nominal;
 mod overrides;
@@ -32,11 +34,12 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 pub use error::{Diagnostic, OverrideProblem, Problem, StudyError};
+pub use models::{model_guide, template};
 pub use schema::study_schema;
 pub use subjects::{
     AfmSubject, CommandSubject, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula, KnownSubject,
 };
-pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
+pub use template::{NEW_PROGRAM, TemplateRequest, new_program};
 
 use super::Study;
 use crate::files::read_text;
@@ -56,7 +59,7 @@ impl Study {
     ///
     /// ```
     /// use std::path::Path;
-    /// use apportion::study::Study;
+    /// use apportion::Study;
     ///
     /// let text = r#"
     ///     model = "ishigami"
@@ -69,7 +72,7 @@ impl Study {
     /// assert_eq!(study.name(), "small");
     /// // A and B: with one factor, A with its column from B is B, and is not run again.
     /// assert_eq!(study.design().rows(), 2 * 256);
-    /// # Ok::<(), apportion::study::StudyError>(())
+    /// # Ok::<(), apportion::StudyError>(())
     /// ```
     ///
     /// # Errors

@@ -1,16 +1,14 @@
 //! From what was typed to what is meant: every check a study file needs, once.
 
-use std::sync::Arc;
-
-use super::context::{Context, Fault, chosen, unknown_name};
+use super::context::{Context, Fault, unknown_name};
 use super::design::{Plan, plan};
 use super::error::Problem;
-use super::sections::{At, Choices, FactorSection, StudyFile};
-use super::subjects::{AfmSubject, KnownSubject};
+use super::models::{ModelTable, Reading, TABLES, table_of};
+use super::sections::{At, FactorSection, StudyFile};
 use super::units::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_unit};
-use super::{command, constants, distribution, expression, external, function, names, nominal, read};
+use super::{distribution, names, nominal, read};
 use crate::design::{DesignError, MAX_FACTORS};
-use crate::model::{AfmOutput, Input, ModelKind, known_inputs};
+use crate::model::{Input, ModelKind};
 use crate::names::{NAME_RULE, file_part, names_files, shown};
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor, Space};
@@ -27,53 +25,18 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     names::refuse_names(context, &file)?;
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
-    let function = match kind {
-        ModelKind::Afm | ModelKind::Expression | ModelKind::Command | ModelKind::External => None,
-        ModelKind::Known(answer) => Some(function::known(context, answer, file.function.as_ref())?),
-    };
-    let inputs = match (&function, kind) {
-        (Some(function), _) => known_inputs(function),
-        (None, ModelKind::Expression) => expression::inputs(context, &file.factor)?,
-        (None, ModelKind::External) => external::inputs(context, &file.factor)?,
-        (None, ModelKind::Command) => command::inputs(context, &file.factor)?,
-        (None, _) => kind.inputs(),
-    };
-    let space = space(context, &inputs, &file.factor)?;
-    let (subject, unused): (Arc<dyn Subject>, Vec<String>) = match function {
-        Some(function) => {
-            outputs(context, kind, file.outputs.as_ref())?;
-            (Arc::new(KnownSubject { function }), Vec::new())
-        }
-        None if kind == ModelKind::Expression => {
-            let asked = file.outputs.as_ref();
-            let (formulas, notes) = expression::subject(context, file.expression.as_ref(), asked, &space)?;
-            (Arc::new(formulas), notes)
-        }
-        None if kind == ModelKind::External => {
-            let subject = external::subject(context, file.external.as_ref(), file.outputs.as_ref())?;
-            (Arc::new(subject), Vec::new())
-        }
-        None if kind == ModelKind::Command => {
-            let (program, notes) = command::subject(context, file.command.as_ref(), file.outputs.as_ref(), &space)?;
-            (Arc::new(program), notes)
-        }
-        None => {
-            let outputs = outputs(context, kind, file.outputs.as_ref())?;
-            let afm = afm(context, file.afm.as_ref(), outputs, &space)?;
-            let idle = |table: &At<Choices>| constants::idle(table.get_ref(), &afm.options);
-            let notes = file.afm.as_ref().map(idle).unwrap_or_default();
-            (Arc::new(afm), notes)
-        }
-    };
+    let (table, reading) = (table_of(kind), Reading { context, file: &file, kind });
+    let space = space(context, &(table.inputs)(&reading)?, &file.factor)?;
+    let (subject, unused) = (table.subject)(&reading, &space)?;
     names::refuse_output_names(context, &*subject, &space)?;
     refuse_outputs_of_factors(context, &*subject, (&space, &file.factor))?;
-    let Plan { design, analysis, stopping, mut notes } =
+    let Plan { design, analysis, target, mut notes } =
         plan(context, &file, &space, subject.model(&space).outputs().len())?;
     notes.extend(unused);
     let name = name(context, file.name.as_ref())?;
     let (overrides, source, sha256) = Default::default();
     let title = file.title.as_ref().map(|title| title.get_ref().clone());
-    Ok(Study { name, title, subject, space, design, analysis, stopping, overrides, source, sha256, notes })
+    Ok(Study { name, title, subject, space, design, analysis, target, overrides, source, sha256, notes })
 }
 
 /// Factors and outputs are columns of one table, and need names of their own.
@@ -93,12 +56,12 @@ fn refuse_outputs_of_factors(
 }
 
 fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<ModelKind, Fault> {
-    let Some(model) = model else { return Ok(ModelKind::Afm) };
+    let Some(model) = model else { return Ok(ModelKind::DEFAULT) };
     ModelKind::from_name(model.get_ref()).ok_or_else(|| {
         let (all, name) = (ModelKind::all(), model.get_ref());
         let problem = match name.contains(['.', '/', '\\']) {
             true => Problem::ModelFile(name.clone()),
-            false => unknown_name("model", name, all.iter().map(|kind| kind.name())),
+            false => unknown_name("model", name, all.iter().map(|kind| kind.name)),
         };
         context.fault(model.span(), problem)
     })
@@ -117,54 +80,16 @@ fn name(context: &Context<'_>, name: Option<&At<String>>) -> Result<String, Faul
 
 /// `[afm]`, `[function]`, `[expression]`, `[external]` and `command` belong to one kind of model each.
 fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyFile) -> Result<(), Fault> {
-    let own = match kind {
-        ModelKind::Afm => "afm",
-        ModelKind::Expression => "expression",
-        ModelKind::External => "external",
-        ModelKind::Command => "command",
-        ModelKind::Known(_) => "function",
-    };
-    let tables = [
-        ("afm", file.afm.as_ref().map(At::span)),
-        ("function", file.function.as_ref().map(At::span)),
-        ("expression", file.expression.as_ref().map(At::span)),
-        ("external", file.external.as_ref().map(At::span)),
-        ("command", file.command.as_ref().map(At::span)),
-    ];
-    let foreign = |name: &str| name != own && tables.iter().any(|(table, _)| *table == name);
-    let Some((name, span)) =
-        tables.iter().find_map(|(name, span)| Some((*name, span.clone().filter(|_| foreign(name))?)))
-    else {
-        return Ok(());
-    };
-    let owner = match name {
+    let foreign = |table: &&ModelTable| table.name != kind.table && (table.span)(file).is_some();
+    let Some(ModelTable { name, span, .. }) = TABLES.iter().find(foreign) else { return Ok(()) };
+    let owner = match *name {
         "function" => "a function that has parameters".to_owned(),
         name => format!("model = {name:?}"),
     };
     let default = if file.model.is_none() { " by default" } else { "" };
-    let right = format!("[{name}] belongs to {owner}, and the model of this study is {:?}{default}", kind.name());
-    Err(context.fault(span, Problem::Misplaced { name: name.to_owned(), right }))
-}
-
-fn afm(
-    context: &Context<'_>,
-    table: Option<&At<Choices>>,
-    outputs: Vec<usize>,
-    space: &Space,
-) -> Result<AfmSubject, Fault> {
-    let is_factor = |name: &str| space.factors().iter().any(|factor| factor.name == name);
-    let empty = Choices::new();
-    let (scene, options) = constants::afm(context, table.map_or(&empty, At::get_ref), &is_factor)?;
-    let outputs = outputs.into_iter().map(|number| AfmOutput::ALL[number]).collect();
-    Ok(AfmSubject { scene, options, outputs })
-}
-
-/// Numbers of the outputs in the catalogue, in the order asked for; the first one if nothing is asked.
-fn outputs(context: &Context<'_>, kind: ModelKind, asked: Option<&At<Vec<At<String>>>>) -> Result<Vec<usize>, Fault> {
-    let Some(asked) = asked else { return Ok(vec![0]) };
-    let known = kind.outputs();
-    let names: Vec<&str> = known.iter().map(|info| &*info.name).collect();
-    chosen(context, &names, asked)
+    let right = format!("[{name}] belongs to {owner}, and the model of this study is {:?}{default}", kind.name);
+    let span = span(file).unwrap_or_default();
+    Err(context.fault(span, Problem::Misplaced { name: (*name).to_owned(), right }))
 }
 
 fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]) -> Result<Space, Fault> {

@@ -82,7 +82,7 @@ fn is_factor(space: &Space, name: &str) -> bool {
 
 impl Subject for AfmSubject {
     fn name(&self) -> &'static str {
-        ModelKind::Afm.name()
+        ModelKind::AFM.name
     }
 
     fn model(&self, space: &Space) -> Box<dyn Model> {
@@ -119,7 +119,7 @@ impl Subject for AfmSubject {
 
 impl Subject for ExpressionSubject {
     fn name(&self) -> &'static str {
-        ModelKind::Expression.name()
+        ModelKind::EXPRESSION.name
     }
 
     fn model(&self, _space: &Space) -> Box<dyn Model> {
@@ -142,7 +142,7 @@ impl Subject for ExpressionSubject {
 
 impl Subject for ExternalSubject {
     fn name(&self) -> &'static str {
-        ModelKind::External.name()
+        ModelKind::EXTERNAL.name
     }
 
     fn model(&self, _space: &Space) -> Box<dyn Model> {
@@ -156,7 +156,7 @@ impl Subject for ExternalSubject {
 
 impl Subject for CommandSubject {
     fn name(&self) -> &'static str {
-        ModelKind::Command.name()
+        ModelKind::COMMAND.name
     }
 
     fn model(&self, space: &Space) -> Box<dyn Model> {

@@ -90,7 +90,7 @@ fn a_new_study_comes_with_its_program() {
     lines.for_each(|line| assert!(written.contains(&format!("#     {line}\n")), "{line}"));
     let out = folder.path().join("out");
     let shown = succeed(&["run", text(&study), "--base-samples", "64", "--out", text(&out)]);
-    contains(&shown, &["the \"b\"", "y [1]", "z [1]"]);
+    contains(&shown, &["the \"b\"", "\ny\n", "\nz\n"]);
     assert!(written.contains("\nrow_numbers = true") && program.contains("row.pop(\"id\")"), "{written}");
     assert!(!shown.contains("asked-alone"), "{shown}");
     std::fs::write(folder.path().join("my_model.py"), "mine").unwrap();

@@ -45,7 +45,7 @@ pub fn run(bytes: &[u8]) {
         return;
     }
     answered(&study);
-    if study.design().rows() <= RUNS && !study.stopping().grows() && study.analysis().resamples <= 1000 {
+    if study.design().rows() <= RUNS && !study.target().grows() && study.analysis().resamples <= 1000 {
         ran(&study, text.len().is_multiple_of(DRAWN));
     }
 }

@@ -259,13 +259,14 @@ impl Distribution {
     /// constructor of the family.
     ///
     /// ```
-    /// use apportion::space::distribution::{Distribution, Law, Statistic};
+    /// use apportion::space::distribution::{Law, Statistic};
+    /// use apportion::Distribution;
     ///
     /// let roughness = Distribution::stated(Law::LogNormal, &[(Statistic::P05, 1.0), (Statistic::P95, 4.0)])?;
     /// assert!((roughness.median() - 2.0).abs() < 1e-12);
     /// let length = Distribution::stated(Law::Triangular, &[(Statistic::Mode, 3.0), (Statistic::P05, 1.0), (Statistic::P95, 5.0)])?;
     /// assert!((length.mean() - 3.0).abs() < 1e-9);
-    /// # Ok::<(), apportion::space::distribution::DistributionError>(())
+    /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn stated(law: Law, stated: &[(Statistic, f64)]) -> Result<Self, DistributionError> {
         check(law, stated)?;

@@ -1,7 +1,7 @@
 //! What a study of a model in this program says of it: its choices, its inputs and outputs.
 
 use crate::afm::Options;
-use crate::model::{Input, KnownAnswer, ModelKind, Output};
+use crate::model::{Input, ModelKind, Output};
 use crate::study::file::units::with_unit;
 
 /// How far a factor reaches to both sides of its nominal value where the model does not say how it varies.
@@ -18,7 +18,7 @@ pub(super) fn outputs_line(outputs: &[&Output], known: &[Output]) -> String {
 }
 
 /// The choices in force, and how to fix a constant.
-pub(super) fn afm_table(inputs: &[Input], factors: &[&Input]) -> String {
+pub(in crate::study::file) fn afm_table(model: ModelKind, inputs: &[Input], factors: &[&Input]) -> String {
     let options = Options::default();
     let in_force = |key: &str| match key {
         "friction" => Some(options.friction.name()),
@@ -27,7 +27,7 @@ pub(super) fn afm_table(inputs: &[Input], factors: &[&Input]) -> String {
         _ => None,
     };
     let mut text = "\n# The physics. Each choice stands as it would be if it were left out.\n[afm]\n".to_owned();
-    for (key, names) in ModelKind::Afm.choices() {
+    for (key, names) in model.choices() {
         match in_force(key) {
             Some(name) => text.push_str(&format!("{key} = \"{name}\"    # {}\n", names.join(", "))),
             None => text.push_str(&format!("# {key}: {}\n", names.join(", "))),
@@ -44,7 +44,8 @@ pub(super) fn afm_table(inputs: &[Input], factors: &[&Input]) -> String {
 }
 
 /// The parameters of a function, as comments: they are those in force.
-pub(super) fn function_table(answer: KnownAnswer) -> String {
+pub(in crate::study::file) fn function_table(model: ModelKind, _: &[Input], _: &[&Input]) -> String {
+    let Some(answer) = model.known else { return String::new() };
     let function = answer.default_function();
     let about = |name: &str| answer.parameters().iter().find(|p| p.name == name).map_or("", |p| p.description);
     let lines: String = function

@@ -4,7 +4,7 @@ use super::{GROUPS, LAWS, TemplateRequest, design_table, heading, refuse_repeate
 use crate::study::file::error::Problem;
 
 /// A study of formulas to be replaced: each output is the sum of the factors.
-pub(super) fn formula_template(request: &TemplateRequest) -> Result<String, Problem> {
+pub(in crate::study::file) fn formula_template(request: &TemplateRequest) -> Result<String, Problem> {
     let (factors, outputs) = own_names(request)?;
     let mut text = heading(request);
     text.push_str(
@@ -23,7 +23,7 @@ pub(super) fn formula_template(request: &TemplateRequest) -> Result<String, Prob
 }
 
 /// A study of a model outside.
-pub(super) fn external_template(request: &TemplateRequest) -> Result<String, Problem> {
+pub(in crate::study::file) fn external_template(request: &TemplateRequest) -> Result<String, Problem> {
     let (factors, outputs) = own_names(request)?;
     let mut text = heading(request);
     text.push_str(

@@ -9,7 +9,7 @@ use crate::study::file::error::Problem;
 pub const NEW_PROGRAM: &str = "my_model.py";
 
 /// A study of a program, which stands in its comments.
-pub(super) fn program_template(request: &TemplateRequest) -> Result<String, Problem> {
+pub(in crate::study::file) fn program_template(request: &TemplateRequest) -> Result<String, Problem> {
     let (factors, outputs) = own_names(request)?;
     let mut text = heading(request);
     let names: Vec<String> = outputs.iter().map(|output| toml::Value::String(output.clone()).to_string()).collect();
@@ -47,7 +47,7 @@ pub(super) fn program_template(request: &TemplateRequest) -> Result<String, Prob
 /// # Errors
 /// [`Problem::Repeated`] for a name given twice.
 pub fn new_program(request: &TemplateRequest) -> Result<Option<String>, Problem> {
-    if request.model != ModelKind::Command {
+    if request.model != ModelKind::COMMAND {
         return Ok(None);
     }
     let (factors, outputs) = own_names(request)?;

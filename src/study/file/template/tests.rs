@@ -3,6 +3,7 @@ use std::path::Path;
 use super::*;
 use crate::model::KnownAnswer;
 use crate::study::Study;
+use crate::study::file::models::template;
 
 fn studied(request: &TemplateRequest) -> Study {
     let text = template(request).unwrap_or_else(|problem| panic!("{request:?}: {problem}"));
@@ -20,7 +21,7 @@ fn request(model: ModelKind) -> TemplateRequest {
 fn every_model_has_a_study_to_begin_with() {
     for model in ModelKind::all() {
         let study = studied(&request(model));
-        assert_eq!(study.subject.name(), model.name());
+        assert_eq!(study.subject.name(), model.name);
         assert!(!study.space.factors().is_empty());
     }
 }
@@ -48,15 +49,15 @@ fn every_input_can_be_a_factor_and_every_output_asked_for() {
 fn choices_and_parameters_are_those_in_force() {
     let plain =
         Study::parse("[[factor]]\nname = \"length\"\nmin = 1\nmax = 2\nunit = \"um\"", Path::new("plain.toml"), &[]);
-    assert_eq!(studied(&request(ModelKind::Afm)).settings(), plain.unwrap().settings());
-    for model in KnownAnswer::all().map(ModelKind::Known) {
+    assert_eq!(studied(&request(ModelKind::AFM)).settings(), plain.unwrap().settings());
+    for model in KnownAnswer::all().map(ModelKind::from_known) {
         let text = template(&request(model)).unwrap();
         let told = text.lines().skip_while(|line| *line != "[function]").take_while(|line| !line.is_empty());
         let said: String = told.map(|line| line.trim_start_matches("# ").to_owned() + "\n").collect();
         // A list says how many inputs there are; `dimension` beside it is refused.
         let lines = said.lines().filter(|line| !(line.starts_with("dimension") && said.contains(" = [")));
         let said: Vec<&str> = lines.collect();
-        let text = format!("model = \"{}\"\n{}", model.name(), said.join("\n"));
+        let text = format!("model = \"{}\"\n{}", model.name, said.join("\n"));
         let study = Study::parse(&text, Path::new("said.toml"), &[]);
         let study = study.unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(study.settings(), studied(&request(model)).settings());
@@ -68,7 +69,7 @@ fn choices_and_parameters_are_those_in_force() {
 fn unknown_and_repeated_names_are_refused() {
     let with = |factors: &[&str], outputs: &[&str]| {
         let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-        template(&TemplateRequest { factors: owned(factors), outputs: owned(outputs), ..request(ModelKind::Afm) })
+        template(&TemplateRequest { factors: owned(factors), outputs: owned(outputs), ..request(ModelKind::AFM) })
     };
     assert_eq!(with(&["lenght"], &[]).unwrap_err().to_string(), "unknown factor `lenght`: did you mean `length`?");
     assert!(matches!(with(&["length", "length"], &[]), Err(Problem::Repeated { what: "factor", .. })));
@@ -77,13 +78,13 @@ fn unknown_and_repeated_names_are_refused() {
 
 #[test]
 fn names_are_written_as_toml_has_them() {
-    for model in [ModelKind::Expression, ModelKind::Command, ModelKind::External] {
+    for model in [ModelKind::EXPRESSION, ModelKind::COMMAND, ModelKind::EXTERNAL] {
         let outputs = ["y 1", "\"y\"", "\u{3bc}"].map(str::to_owned).to_vec();
         let study = studied(&TemplateRequest { outputs: outputs.clone(), ..request(model) });
         let found: Vec<String> = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
         assert_eq!(found, outputs, "{model:?}");
         assert_eq!(study.title, None, "what the model is says nothing of the study");
     }
-    let titled = TemplateRequest { title: Some("A \"title\"".to_owned()), ..request(ModelKind::Command) };
+    let titled = TemplateRequest { title: Some("A \"title\"".to_owned()), ..request(ModelKind::COMMAND) };
     assert_eq!(studied(&titled).title.as_deref(), Some("A \"title\""));
 }

@@ -46,7 +46,7 @@ const TIMES: u32 = 5;
 /// The same for a program that has never answered: it may take long to start. Its input is ended once for nothing if it does.
 const FIRST_START: Duration = Duration::from_secs(60);
 
-pub(super) struct KeptWorker<'a> {
+pub(super) struct KeptAliveWorker<'a> {
     model: &'a CommandModel,
     context: &'a RunContext<'a>,
     form: KeptAlive,
@@ -74,7 +74,7 @@ struct Outcome {
     given_up: Option<RowFailure>,
 }
 
-impl<'a> KeptWorker<'a> {
+impl<'a> KeptAliveWorker<'a> {
     pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, form: KeptAlive) -> Self {
         let writer = RowWriter::new(form.protocol, &model.factors).with_numbers(form.row_numbers);
         Self { model, context, form, writer, talk: None, caution: Caution::default() }
@@ -346,7 +346,7 @@ fn is_due(talk: &Talk, state: &State) -> bool {
     is_early || work > AT_LEAST.max(STARTS * startup)
 }
 
-impl Worker for KeptWorker<'_> {
+impl Worker for KeptAliveWorker<'_> {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
         loop {
             let mut piece = self.new_piece(inputs, batch.rows());

@@ -5,17 +5,17 @@ use std::sync::atomic::Ordering;
 
 use super::super::process::Ending;
 use super::super::program::status_in_words;
-use super::super::words::{masked, seconds};
+use super::super::shorten::{masked, seconds};
 use super::piece::Piece;
 use super::talk::{Session, Talk};
-use super::{Fault, KeptWorker};
+use super::{Fault, KeptAliveWorker};
 use crate::model::{RowFailure, Standing};
 
 /// What helps against answers whose rows are unknown.
 const ADVICE: &str = "print one line for each row and everything else to standard error, and let answers name their rows \
                       (row_numbers = true; see docs/worker-protocol.md)";
 
-impl KeptWorker<'_> {
+impl KeptAliveWorker<'_> {
     /// Ends the process and decides what becomes of its rows: whether those of earlier batches still stand.
     ///
     /// # Errors

@@ -5,10 +5,10 @@ use super::super::{CommandModel, State};
 use super::numbers::count_of;
 use super::piece::Piece;
 use super::talk::{LONGEST, Session, Talk};
-use super::{Caution, Fault, KeptWorker};
+use super::{Caution, Fault, KeptAliveWorker};
 use crate::model::Messages;
 
-impl KeptWorker<'_> {
+impl KeptAliveWorker<'_> {
     /// Takes the answers in `bytes`.
     pub(super) fn hear(&mut self, bytes: &[u8], piece: &mut Piece<'_>) -> Result<(), Fault> {
         let Self { model, context, form, talk, caution, .. } = self;

@@ -1,0 +1,156 @@
+//! The registry of the models that a study file can name: for each table that belongs to a kind of model, how it is read,
+//! what a new study says of it, and what people are told.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::context::{Context, Fault, chosen};
+use super::error::Problem;
+use super::sections::{At, StudyFile};
+use super::subjects::{AfmSubject, KnownSubject};
+use super::template::{
+    TemplateRequest, afm_table, external_template, formula_template, function_table, model_template, program_template,
+};
+use super::{command, constants, expression, external, function, guides};
+use crate::model::{AfmOutput, Input, KnownFunction, ModelKind, known_inputs};
+use crate::space::Space;
+use crate::study::Subject;
+
+/// A study file whose model is known.
+pub(super) struct Reading<'a> {
+    pub context: &'a Context<'a>,
+    pub file: &'a StudyFile,
+    pub kind: ModelKind,
+}
+
+/// A subject, and notes on what has no effect.
+type Subjects = Result<(Arc<dyn Subject>, Vec<String>), Fault>;
+
+/// A table of study files that belongs to a kind of model.
+pub(super) struct ModelTable {
+    /// The key.
+    pub name: &'static str,
+    /// Where it stands, if it is there.
+    pub span: fn(&StudyFile) -> Option<Range<usize>>,
+    /// What the factors can be.
+    pub inputs: fn(&Reading<'_>) -> Result<Vec<Input>, Fault>,
+    /// The model with its choices made.
+    pub subject: fn(&Reading<'_>, &Space) -> Subjects,
+    template: fn(&TemplateRequest) -> Result<String, Problem>,
+    guide: Option<fn() -> String>,
+}
+
+/// Every table.
+pub(super) const TABLES: [ModelTable; 5] = [
+    ModelTable {
+        name: "afm",
+        span: |file| file.afm.as_ref().map(At::span),
+        inputs: |reading| Ok(reading.kind.inputs()),
+        subject: afm,
+        template: |request| model_template(request, afm_table),
+        guide: None,
+    },
+    ModelTable {
+        name: "function",
+        span: |file| file.function.as_ref().map(At::span),
+        inputs: |reading| Ok(known(reading)?.as_ref().map_or_else(Vec::new, known_inputs)),
+        subject: |reading, _| {
+            outputs(reading)?;
+            let function = known(reading)?.ok_or_else(|| reading.context.fault(0..0, Problem::NoOutputs))?;
+            Ok((Arc::new(KnownSubject { function }), Vec::new()))
+        },
+        template: |request| model_template(request, function_table),
+        guide: None,
+    },
+    ModelTable {
+        name: "expression",
+        span: |file| file.expression.as_ref().map(At::span),
+        inputs: |reading| expression::inputs(reading.context, &reading.file.factor),
+        subject: |Reading { context, file, .. }, space| {
+            let (subject, notes) =
+                expression::subject(context, file.expression.as_ref(), file.outputs.as_ref(), space)?;
+            Ok((Arc::new(subject), notes))
+        },
+        template: formula_template,
+        guide: Some(guides::expression),
+    },
+    ModelTable {
+        name: "external",
+        span: |file| file.external.as_ref().map(At::span),
+        inputs: |reading| external::inputs(reading.context, &reading.file.factor),
+        subject: |Reading { context, file, .. }, _| {
+            let subject = external::subject(context, file.external.as_ref(), file.outputs.as_ref())?;
+            Ok((Arc::new(subject), Vec::new()))
+        },
+        template: external_template,
+        guide: Some(guides::external),
+    },
+    ModelTable {
+        name: "command",
+        span: |file| file.command.as_ref().map(At::span),
+        inputs: |reading| command::inputs(reading.context, &reading.file.factor),
+        subject: |Reading { context, file, .. }, space| {
+            let (subject, notes) = command::subject(context, file.command.as_ref(), file.outputs.as_ref(), space)?;
+            Ok((Arc::new(subject), notes))
+        },
+        template: program_template,
+        guide: Some(guides::command),
+    },
+];
+
+/// The table of a kind of model.
+pub(super) fn table_of(kind: ModelKind) -> &'static ModelTable {
+    // A test goes through all kinds.
+    TABLES.iter().find(|table| table.name == kind.table).unwrap_or(&TABLES[0])
+}
+
+/// What stands in a study of this kind of model, for people; `None` of one whose inputs and outputs tell it.
+pub fn model_guide(kind: ModelKind) -> Option<String> {
+    let text = table_of(kind).guide?();
+    Some(format!("{}: {}\n\n{text}", kind.name, kind.description))
+}
+
+/// The text of a study file on `request`: it can be run as it is. A factor of a model that does not say how its inputs vary
+/// is uniform within 10 % of its nominal value (from 0 to 1 in its unit where that is 0).
+///
+/// ```
+/// use std::path::Path;
+/// use apportion::model::ModelKind;
+/// use apportion::study::{Study, TemplateRequest, template};
+///
+/// let factors = vec!["thickness".to_owned(), "velocity".to_owned()];
+/// let request = TemplateRequest { model: ModelKind::AFM, title: None, factors, outputs: Vec::new() };
+/// let study = Study::parse(&template(&request)?, Path::new("mine.toml"), &[])?;
+/// assert_eq!(study.space().factors()[1].name, "velocity");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`Problem::UnknownName`] for a factor or output that the model does not have, [`Problem::Repeated`] for one named twice.
+pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
+    (table_of(request.model).template)(request)
+}
+
+/// The function with the parameters of its table.
+fn known(reading: &Reading<'_>) -> Result<Option<KnownFunction>, Fault> {
+    let with_table = |answer| function::known(reading.context, answer, reading.file.function.as_ref());
+    reading.kind.known.map(with_table).transpose()
+}
+
+fn afm(reading: &Reading<'_>, space: &Space) -> Subjects {
+    let is_factor = |name: &str| space.factors().iter().any(|factor| factor.name == name);
+    let outputs = outputs(reading)?.into_iter().map(|number| AfmOutput::ALL[number]).collect();
+    let none = Default::default();
+    let table = reading.file.afm.as_ref().map_or(&none, At::get_ref);
+    let (scene, options) = constants::afm(reading.context, table, &is_factor)?;
+    let notes = constants::idle(table, &options);
+    Ok((Arc::new(AfmSubject { scene, options, outputs }), notes))
+}
+
+/// Numbers of the outputs in the catalogue, in the order asked for; the first one if nothing is asked.
+fn outputs(reading: &Reading<'_>) -> Result<Vec<usize>, Fault> {
+    let Some(asked) = &reading.file.outputs else { return Ok(vec![0]) };
+    let known = reading.kind.outputs();
+    let names: Vec<&str> = known.iter().map(|info| &*info.name).collect();
+    chosen(reading.context, &names, asked)
+}
