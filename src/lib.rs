@@ -96,6 +96,8 @@ pub mod space;
 pub mod study;
 #[doc(hidden)]
 pub mod sum;
+#[doc(hidden)]
+pub mod surrogate;
 pub mod sweep;
 #[cfg(feature = "study")]
 mod text;

@@ -32,6 +32,13 @@ pub fn mean(x: &[f64]) -> f64 {
     origin + sum_by(x.len(), |i| x[i] - origin) / x.len() as f64
 }
 
+/// Sum of x y over the common length of `x` and `y`.
+pub fn product(x: &[f64], y: &[f64]) -> f64 {
+    let n = x.len().min(y.len());
+    let (x, y) = (&x[..n], &y[..n]);
+    sum_by(n, |i| x[i] * y[i])
+}
+
 /// Sum of (x - mean_x)(y - mean_y) over the common length of `x` and `y`.
 pub fn centred_product((x, mean_x): (&[f64], f64), (y, mean_y): (&[f64], f64)) -> f64 {
     let n = x.len().min(y.len());

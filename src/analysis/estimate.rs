@@ -3,13 +3,15 @@
 use super::finished_run::{FinishedRun, row_inputs};
 use super::result::{Aggregate, Analysis, FailureCount, NoIndices, OutputAnalysis, Stopped};
 use super::warnings;
+use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs, Scaling, merged};
 use crate::model::{Model, Output, RowFailure};
 use crate::run::{Tally, Totals};
 use crate::study::Study;
+use crate::surrogate::{families, surrogate_estimates};
 use crate::uncertainty::{
-    Estimate, Interval, IntervalOptions, KeptPoints, OutputMoments, aggregate_indices, output_indices, output_moments,
-    stages,
+    Estimate, Interval, IntervalOptions, KeptPoints, OutputMoments, SurrogateEstimates, aggregate_indices,
+    output_indices, output_moments, stages,
 };
 
 /// The result of a run; `stopped` tells why a growing one ended.
@@ -35,7 +37,15 @@ pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
 pub(crate) fn interval_options(study: &Study) -> IntervalOptions<'static> {
     let (analysis, seed) = (&study.analysis, study.design.settings().seed);
     let (method, threshold, resamples) = (analysis.intervals, analysis.threshold, analysis.resamples);
-    IntervalOptions { method, threshold, seed, resamples, points: None }
+    IntervalOptions { method, threshold, seed, resamples, points: None, surrogate: None }
+}
+
+/// What a surrogate makes of the outputs of all runs, if the study asks for one and they have been kept.
+pub(crate) fn surrogate(study: &Study, design: &Design, kept: &[&PointOutputs]) -> Option<SurrogateEstimates> {
+    if !study.uses_surrogate(design) || kept.iter().all(|outputs| outputs.points() == 0) {
+        return None;
+    }
+    surrogate_estimates(design, &families(&study.space), &study.layout(), kept)
 }
 
 /// The result for output number `number`; `whole` holds the counts over all replicates.
@@ -44,7 +54,12 @@ fn output_analysis(run: &FinishedRun<'_>, output: &Output, number: usize, whole:
     let totals = &whole.outputs[number];
     let parts: Vec<MomentParts> = run.replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
     let kept: Vec<&PointOutputs> = run.replicates.iter().map(|t| &t.outputs[number].point_outputs).collect();
-    let options = IntervalOptions { points: KeptPoints::all(run.design, &kept), ..interval_options(study) };
+    let surrogate = surrogate(study, run.design, &kept);
+    let options = IntervalOptions {
+        points: KeptPoints::all(run.design, &kept),
+        surrogate: surrogate.as_ref(),
+        ..interval_options(study)
+    };
     let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>());
     let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &options), used.count());
     let failure = |(failure, tally): (&RowFailure, &Tally)| failure_count(run, failure, *tally);

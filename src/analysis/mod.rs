@@ -5,7 +5,7 @@ mod finished_run;
 mod result;
 mod warnings;
 
-pub(crate) use estimate::{analysis, interval_options};
+pub(crate) use estimate::{analysis, interval_options, surrogate};
 pub(crate) use finished_run::FinishedRun;
 #[cfg(feature = "charts")]
 pub(crate) use finished_run::{names_of_swaps, row_inputs};

@@ -86,6 +86,13 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
                 .to_owned(),
         );
     }
+    if indices.surrogate.as_ref().is_some_and(|used| used.is_heavy_tailed) {
+        warnings.push(
+            "a few runs carry what the surrogate leaves unexplained, and others like them may be missing: the intervals of the \
+             corrected indices hold those of the plain ones too"
+                .to_owned(),
+        );
+    }
     for (name, effect) in names_of_swaps(study).iter().zip(indices.effects()) {
         if effect.interaction.estimate < 0.0 && differs_clearly(effect.interaction) {
             warnings.push(format!(

@@ -324,7 +324,7 @@ fn memory(study: &Study) -> String {
     let mut text = format!(
         "memory: about {kilobytes:.0} kB a thread for the columns of a block, whatever the number of samples\n"
     );
-    if study.analysis().intervals.keeps_outputs() {
+    if study.needs_outputs() {
         let bytes = study.design().rows() as f64 * study.model().outputs().len() as f64 * 8.0;
         text.push_str(&format!(
             "        and {:.1} MB for the outputs of all runs, which intervals = \"{}\" need\n",

@@ -6,14 +6,17 @@ use super::distribution::OutputDistribution;
 use super::records::{estimate_record, input_value};
 use super::result::{
     DistributionRecord, EffectRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord, IntervalRecord,
-    OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
+    OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord, SurrogateRecord,
+    SurrogateTermRecord,
 };
 use super::scatter::{FirstRows, scatter_record};
 use crate::analysis::{Analysis, FailureCount, OutputAnalysis, names_of_swaps, row_inputs};
 use crate::estimate::{FirstOrder, Total};
 use crate::run::Place;
 use crate::study::Study;
-use crate::uncertainty::{EffectEstimates, Estimate, Interval, OtherEstimates, OutputIndices, Stage};
+use crate::uncertainty::{
+    EffectEstimates, Estimate, Interval, OtherEstimates, OutputIndices, Stage, SurrogateTerm, SurrogateUse,
+};
 
 /// What the records of all outputs are made from.
 pub(super) struct OutputRecords<'a> {
@@ -54,6 +57,7 @@ impl<'a> OutputRecords<'a> {
             dummy: None,
             second_order: None,
             estimators: Vec::new(),
+            surrogate: None,
             convergence: output.convergence.iter().map(stage).collect(),
             distribution: distribution_record(output),
             scatter: None,
@@ -101,6 +105,31 @@ fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices
         record.second_order = Some(pairs.into_iter().zip(&indices.second_order).map(of_pair).collect());
     }
     record.estimators = estimator_records(study, indices);
+    record.surrogate = indices.surrogate.as_ref().map(|used| surrogate_record(study, used));
+}
+
+fn surrogate_record(study: &Study, used: &SurrogateUse) -> SurrogateRecord {
+    let factors = study.space.factors();
+    let term = |term: &SurrogateTerm| SurrogateTermRecord {
+        degrees: term.factors.iter().map(|&(number, degree)| (factors[number].name.clone(), degree)).collect(),
+        share: 100.0 * term.share,
+    };
+    let plain = used.plain_first_order.iter().zip(&used.plain_total);
+    let of_swap = |(name, (first_order, total)): (String, (&Estimate, &Estimate))| OtherIndexRecord {
+        name,
+        first_order: Some(estimate_record(*first_order)),
+        total: Some(estimate_record(*total)),
+    };
+    SurrogateRecord {
+        explained: used.explained,
+        terms: used.term_count,
+        corrects_first_order: used.corrects_first_order,
+        corrects_total: used.corrects_total,
+        gain_first_order: used.gain_first_order,
+        gain_total: used.gain_total,
+        leading_terms: used.terms.iter().map(term).collect(),
+        plain: names_of_swaps(study).into_iter().zip(plain).map(of_swap).collect(),
+    }
 }
 
 fn estimator_records(study: &Study, indices: &OutputIndices) -> Vec<EstimatorRecord> {

@@ -5,6 +5,7 @@
 
 mod indices;
 mod scatter;
+mod surrogate;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::distribution::OutputDistribution;
 pub use indices::*;
 pub use scatter::*;
+pub use surrogate::*;
 
 /// The result of a run of apportion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -185,7 +187,10 @@ pub struct OutputRecord {
     /// Indices by the other estimators that the study lists.
     #[serde(default)]
     pub estimators: Vec<EstimatorRecord>,
-    /// How the indices and their intervals changed as the run grew.
+    /// What surrogates did to the indices; `null` without any.
+    #[serde(default)]
+    pub surrogate: Option<SurrogateRecord>,
+    /// How the indices and their intervals changed as the run grew, without surrogates.
     #[serde(default)]
     pub convergence: Vec<StageRecord>,
     /// How its values are distributed; `null` if no run succeeded, or if a number is beyond double precision.

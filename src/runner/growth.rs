@@ -1,6 +1,6 @@
 //! When a run that grows has enough.
 
-use crate::analysis::{StopReason, Stopped, interval_options};
+use crate::analysis::{StopReason, Stopped, interval_options, surrogate};
 use crate::design::{Design, MAX_POINTS};
 use crate::estimate::{MomentParts, PointOutputs};
 use crate::run::GrowingRun;
@@ -51,7 +51,9 @@ fn widest(study: &Study, run: &GrowingRun<'_>) -> Option<f64> {
     for number in 0..outputs {
         let parts: Vec<MomentParts> = run.totals().iter().map(|t| t.outputs[number].moments.clone()).collect();
         let kept: Vec<&PointOutputs> = run.totals().iter().map(|t| &t.outputs[number].point_outputs).collect();
-        let options = IntervalOptions { points: KeptPoints::all(design, &kept), ..options };
+        let surrogate = surrogate(study, design, &kept);
+        let points = KeptPoints::all(design, &kept);
+        let options = IntervalOptions { points, surrogate: surrogate.as_ref(), ..options };
         match output_indices(&parts, &layout, &options) {
             Ok(indices) => widest = Some(indices.largest_half_width()?.max(widest.unwrap_or(0.0))),
             Err(crate::estimate::Undefined::ZeroVariance) => (),

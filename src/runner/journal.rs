@@ -115,7 +115,7 @@ impl OpenJournal {
 
 /// Whether the outputs of every run of `study` are needed, besides their sums.
 pub(super) fn needs_outputs(study: &Study, saves_outputs: bool) -> bool {
-    saves_outputs || study.model().concurrency().is_some() || study.analysis.intervals.keeps_outputs()
+    saves_outputs || study.model().concurrency().is_some() || study.needs_outputs()
 }
 
 /// Opens the record of `study` at `path` for parts that were evaluated with `files`, however quick its runs are. What is

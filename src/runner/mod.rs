@@ -228,9 +228,8 @@ impl<'a> Runner<'a> {
     }
 
     fn set_up<'r>(&self, job: Job<'r>, context: &'r RunContext<'r>) -> Result<GrowingRun<'r>, RunError> {
-        let analysis = &self.study.analysis;
-        let run = GrowingRun::new(job, context, self.threads)?.with_failures(analysis.failures);
-        Ok(run.with_outputs_kept(analysis.intervals.keeps_outputs()))
+        let run = GrowingRun::new(job, context, self.threads)?.with_failures(self.study.analysis.failures);
+        Ok(run.with_outputs_kept(self.study.needs_outputs()))
     }
 
     fn analyse(&self, context: &RunContext<'_>, mut record: OpenJournal) -> Result<Analysis, RunError> {

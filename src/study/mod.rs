@@ -19,7 +19,7 @@ pub use file::{
     KnownSubject, NEW_PROGRAM, OverrideProblem, Problem, StudyError, TemplateRequest, model_guide, new_program,
     study_schema, template,
 };
-pub use options::{AnalysisOptions, Target};
+pub use options::{AnalysisOptions, SurrogateChoice, Target};
 pub use subject::Subject;
 
 pub use crate::names::nearest;
@@ -27,7 +27,9 @@ pub use crate::names::nearest;
 use crate::design::Design;
 use crate::model::Model;
 use crate::space::Space;
-use crate::uncertainty::Layout;
+use crate::surrogate::FEWEST_NETS;
+use crate::uncertainty::{IntervalMethod, Layout};
+use options::MOST_AUTOMATIC_ROWS;
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
 #[derive(Debug, Clone)]
@@ -153,6 +155,27 @@ impl Study {
             estimators: self.analysis.estimators.clone(),
             second_order: self.analysis.second_order,
         }
+    }
+
+    /// Whether the indices of a run of `design`, which may be longer than that of the study, are corrected by surrogates.
+    pub fn uses_surrogate(&self, design: &Design) -> bool {
+        let fits =
+            self.analysis.intervals == IntervalMethod::Nets && design.settings().replicates >= FEWEST_NETS as u64;
+        let model = || self.subject.model(&self.space);
+        fits && match self.analysis.surrogate {
+            SurrogateChoice::Off => false,
+            SurrogateChoice::On => true,
+            SurrogateChoice::Auto => {
+                let model = model();
+                let quick = design.rows().saturating_mul(model.outputs().len() as u64) <= MOST_AUTOMATIC_ROWS;
+                model.concurrency().is_some() || (quick && !self.target.grows())
+            }
+        }
+    }
+
+    /// Whether the estimates need the outputs of every run, and not their sums alone.
+    pub fn needs_outputs(&self) -> bool {
+        self.analysis.intervals.keeps_outputs() || self.uses_surrogate(&self.design)
     }
 
     /// The choices in force, such as the friction law, in the terms of the study file.

@@ -21,6 +21,8 @@ pub struct AnalysisOptions {
     pub dummy: bool,
     /// How intervals are found.
     pub intervals: IntervalMethod,
+    /// Whether indices are corrected by surrogates.
+    pub surrogate: SurrogateChoice,
     /// Resamples of a bootstrap.
     pub resamples: usize,
     /// Total index above which a factor counts as one that matters.
@@ -41,6 +43,7 @@ impl AnalysisOptions {
             aggregate: false,
             dummy: false,
             intervals: IntervalMethod::default_for(sampler),
+            surrogate: SurrogateChoice::default(),
             resamples: DEFAULT_RESAMPLES,
             threshold: DEFAULT_THRESHOLD,
             failures: FailurePolicy::DropBlock,
@@ -48,6 +51,36 @@ impl AnalysisOptions {
         }
     }
 }
+
+/// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are known exactly, so that the
+/// runs need only show the rest ([`crate::surrogate`]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SurrogateChoice {
+    /// No.
+    #[default]
+    Off,
+    /// Where the fit takes no more than a second or so: of up to 2^16 rows and outputs together, and of programs.
+    Auto,
+    /// Of every run whose points are Sobol' nets or random, and whose outputs fit into memory.
+    On,
+}
+
+impl SurrogateChoice {
+    /// All choices.
+    pub const ALL: [Self; 3] = [Self::Off, Self::Auto, Self::On];
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Auto => "auto",
+            Self::On => "on",
+        }
+    }
+}
+
+/// Rows times outputs up to which surrogates are fitted without being asked for.
+pub(super) const MOST_AUTOMATIC_ROWS: u64 = 1 << 16;
 
 /// How well the indices must be known, and what that may cost: a run goes on by doubling until one of these is reached. A
 /// run without any has the size that its design says.

@@ -9,12 +9,14 @@ mod bootstrap;
 mod by_points;
 mod concentration;
 mod convergence;
+mod corrected;
 mod delta;
 mod estimates;
 mod influence;
 mod jackknife;
 mod method;
 mod net_decay;
+mod noise;
 mod output;
 mod points;
 mod ranks;
@@ -25,11 +27,13 @@ pub use aggregate::{AggregateIndices, aggregate_indices};
 #[cfg(feature = "study")]
 pub(crate) use by_points::quantile;
 pub use convergence::{Stage, stages};
+pub use corrected::{Influenced, SurrogateEstimates, SurrogateTerm, SurrogateUse};
 pub use estimates::Layout;
 pub use influence::{Influences, Outputs};
 pub use jackknife::jackknife;
 pub use method::IntervalMethod;
 pub use net_decay::{PartInfluences, StandardError, net_errors};
+pub use noise::in_parts;
 pub use output::{
     EffectEstimates, IntervalOptions, OtherEstimates, OutputIndices, OutputMoments, differs_clearly, output_indices,
     output_moments,

@@ -2,6 +2,7 @@
 
 use super::by_points::{Bounds, ByPoints};
 use super::concentration::{Side, interval};
+use super::corrected::{Corrections, SurrogateEstimates, SurrogateUse};
 use super::estimates::{Layout, quantities};
 use super::influence::Influences;
 use super::method::IntervalMethod;
@@ -26,6 +27,8 @@ pub struct IntervalOptions<'a> {
     /// The outputs of every base point, for the methods that [keep](IntervalMethod::keeps_outputs) them. Without any they
     /// are approximated by batches.
     pub points: Option<KeptPoints<'a>>,
+    /// What a surrogate makes of the outputs, to take the place of the plain estimates where it is more accurate.
+    pub surrogate: Option<&'a SurrogateEstimates>,
 }
 
 /// Indices of one output.
@@ -45,6 +48,8 @@ pub struct OutputIndices {
     pub sum_total: Estimate,
     /// Second-order indices, in the order of [`Layout::pair_list`]; empty if not asked for.
     pub second_order: Vec<Estimate>,
+    /// What a surrogate did to them, if there was one.
+    pub surrogate: Option<SurrogateUse>,
 }
 
 impl OutputIndices {
@@ -128,14 +133,22 @@ pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>)
         let whole: Vec<Moments> = replicates.iter().map(MomentParts::whole).collect();
         by_points.bounds(merged(&whole).without_swaps(), &influences.whole, &of)
     });
-    let estimates = match bounds {
-        Some(bounds) => Judged::with(influences, bounds).estimates,
+    let judged = match bounds {
+        Some(bounds) => Judged::with(influences, bounds),
         // The mean may be missed on both sides, the variance above.
         None => {
             let sides = |place| if place == 0 { Side::Both } else { Side::Above };
-            Judged::of(influences, options.method, &[true, true], &sides).estimates
+            Judged::of(influences, options.method, &[true, true], &sides)
         }
     };
+    let mut estimates = [judged.estimates[0], judged.estimates[1]];
+    if let Some(surrogate) = options.surrogate.filter(|surrogate| !surrogate.is_heavy_tailed) {
+        for (place, (estimate, error, _)) in surrogate.moments().into_iter().enumerate() {
+            if error.error < judged.errors[place].error {
+                estimates[place] = estimate;
+            }
+        }
+    }
     Some(OutputMoments { mean: estimates[0], variance: estimates[1] })
 }
 
@@ -170,6 +183,7 @@ pub fn output_indices(
     };
     judged.allow_for_unseen(&unseen, &still);
     judged.allow_for_half_seen(layout, &half_seen);
+    let surrogate = options.surrogate.map(|surrogate| judged.correct(layout, surrogate));
     let first = judged.first(layout, options.seed);
     let mut effects: Vec<EffectEstimates> = (0..layout.swaps())
         .map(|swap| {
@@ -183,7 +197,7 @@ pub fn output_indices(
     let groups = effects.split_off(layout.factors);
     let [sum_first_order, sum_total, ..] = judged.estimates[..] else { return Err(Undefined::NoRuns) };
     let second_order = judged.estimates[layout.pairs()..].to_vec();
-    Ok(OutputIndices { factors: effects, groups, subsets, dummy, sum_first_order, sum_total, second_order })
+    Ok(OutputIndices { factors: effects, groups, subsets, dummy, sum_first_order, sum_total, second_order, surrogate })
 }
 
 /// A list of quantities with all that is known of their errors.
@@ -218,6 +232,19 @@ impl Judged {
             *interval = Some(Interval { low: *estimate - half_width, high: *estimate + half_width });
             *error = half_width / NORMAL_QUANTILE;
         }
+    }
+
+    /// Puts what the surrogate has corrected in the place of the plain estimates, where its errors are smaller.
+    fn correct(&mut self, layout: &Layout, surrogate: &SurrogateEstimates) -> SurrogateUse {
+        let Corrections { replacements, used } = surrogate.corrections(layout, &self.estimates, &self.errors);
+        for (place, (estimate, error, parts)) in replacements {
+            self.estimates[place] = estimate;
+            self.errors[place] = error;
+            if !parts.is_empty() {
+                self.parts[place] = parts;
+            }
+        }
+        used
     }
 
     /// With errors and intervals that are known from elsewhere.

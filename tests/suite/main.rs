@@ -37,6 +37,7 @@ mod schema;
 mod screening;
 mod stopped;
 mod study_forms;
+mod surrogate;
 mod tables;
 mod two_models;
 mod units;

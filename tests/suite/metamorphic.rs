@@ -56,8 +56,14 @@ fn indices(model: &Changed, base_samples: u64) -> OutputIndices {
     let design = Design::new(settings, 3, Rows::plain((0..3).map(|j| vec![j]).collect())).unwrap();
     let totals = run(Job { design: &design, space: &space, model }, 0, &|_| ()).unwrap();
     let moments: Vec<_> = totals.into_iter().map(|t| t.outputs[0].moments.clone()).collect();
-    let options =
-        IntervalOptions { method: IntervalMethod::Nets, threshold: 0.05, seed: 0, resamples: 0, points: None };
+    let options = IntervalOptions {
+        method: IntervalMethod::Nets,
+        threshold: 0.05,
+        seed: 0,
+        resamples: 0,
+        points: None,
+        surrogate: None,
+    };
     output_indices(&moments, &Layout::plain(3), &options).unwrap()
 }
 

@@ -4,7 +4,9 @@ use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, 
 use super::lead::{by_total, widest};
 use super::tables;
 use crate::report::document::Part;
-use crate::report::format::{count, grouped, index, name, share_of_runs, the, two_digits as half_width, with_unit};
+use crate::report::format::{
+    count, grouped, index, name, share_of_runs, significant, the, two_digits as half_width, with_unit,
+};
 use crate::report::interval_widths::width_after_doubling;
 use crate::report::listed;
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
@@ -35,6 +37,7 @@ pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> 
         let scatter = vec![figures.draw(of, SCATTER)];
         topics.push(topic("scatter", "The output against its factors", scatter));
     }
+    topics.push(topic("surrogate", "What the surrogate did", surrogate(of.output)));
     topics.push(topic("estimators", "Other estimators", estimators(of.output)));
     topics.retain(|topic| !topic.parts.is_empty());
     topics
@@ -63,6 +66,39 @@ fn warnings(output: &OutputRecord) -> Vec<Part> {
         failed.map(|f| (&*f.reason, format!("row {}: {}", f.first_row, inputs(&f.first_inputs)), f.runs)),
     ));
     parts
+}
+
+/// How well polynomials stand in for the model, what they gained, and what they consist of.
+fn surrogate(output: &OutputRecord) -> Vec<Part> {
+    let Some(record) = &output.surrogate else { return Vec::new() };
+    let explained = 100.0 * record.explained;
+    let gain = |what: &str, corrected: bool, gain: Option<f64>| match gain.filter(|_| corrected) {
+        Some(gain) => {
+            format!("the {what} indices are corrected by them, with the accuracy of {} times the runs", times(gain))
+        }
+        None => format!("the {what} indices are the plain ones, which are no less accurate"),
+    };
+    let text = format!(
+        "Polynomials with {:.0} terms were fitted to the runs of all replicates but one, in turn. They explain {} % of the \
+         variance of the runs that they were not fitted to. Their indices are known exactly, and the runs show the rest: {}; {}.",
+        record.terms,
+        significant((explained * 1e4).floor() / 1e4),
+        gain("first-order", record.corrects_first_order, record.gain_first_order),
+        gain("total", record.corrects_total, record.gain_total)
+    );
+    let mut parts = vec![Part::Text(text)];
+    parts.extend(tables::surrogate(output, record));
+    parts
+}
+
+/// How many times the runs, to two digits.
+fn times(gain: f64) -> String {
+    const MANY: f64 = 1e6;
+    match gain {
+        MANY.. => "more than a million".to_owned(),
+        100.0.. => grouped(format!("{gain:.1e}").parse::<f64>().unwrap_or(gain) as u64),
+        _ => significant(format!("{gain:.1e}").parse().unwrap_or(gain)),
+    }
 }
 
 fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {

@@ -6,7 +6,7 @@ use crate::report::document::{Cell, Column, Part, Table, Value};
 use crate::report::format::{chance, grouped, name, share, significant, two_digits, value};
 use crate::report::result::{
     AggregateIndexRecord, AggregateRecord, EffectRecord, EstimateRecord, EstimatorRecord, IndexRecord, IntervalRecord,
-    OtherIndexRecord, OutputRecord, PairRecord, ResultFile, StageRecord,
+    OtherIndexRecord, OutputRecord, PairRecord, ResultFile, StageRecord, SurrogateRecord, SurrogateTermRecord,
 };
 
 /// Most factors in a table; the files have all of them.
@@ -17,6 +17,8 @@ const PAIRS: usize = 20;
 const QUANTILES: [f64; 7] = [2.5, 5.0, 25.0, 50.0, 75.0, 95.0, 97.5];
 /// Most estimators side by side.
 const ESTIMATORS: usize = 6;
+/// Share of the variance, in percent, below which a term of a surrogate is not shown.
+const LEAST_TERM: f64 = 0.01;
 /// Most factors in a table of estimators.
 const FACTORS_OF_ESTIMATORS: usize = 20;
 
@@ -218,6 +220,47 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
                    values that were kept.";
     let rows = rows.into_iter().map(|(label, text)| vec![label.into(), text.into()]);
     Some(Part::Table(Table::new(caption, [Column::text(""), Column::number("")]).with_rows(rows)))
+}
+
+/// The leading terms of the surrogates, and the plain indices beside the corrected ones.
+pub(super) fn surrogate(output: &OutputRecord, record: &SurrogateRecord) -> Vec<Part> {
+    let label = |term: &SurrogateTermRecord| {
+        let factor = |(factor, degree): (&String, &usize)| match degree {
+            1 => name(factor),
+            degree => format!("{}^{degree}", name(factor)),
+        };
+        term.degrees.iter().map(factor).collect::<Vec<_>>().join(" × ")
+    };
+    let terms = record.leading_terms.iter().filter(|term| term.share >= LEAST_TERM);
+    let rows = terms.map(|term| vec![label(term).into(), format!("{} %", significant(rounded(term.share))).into()]);
+    let caption =
+        "The terms of the polynomials that carry most of the variance, by the degree of each factor's polynomial.";
+    let mut parts =
+        vec![Part::Table(Table::new(caption, Column::list(1, &["term", "of the variance"])).with_rows(rows))];
+    if let Some(order) = by_total(output) {
+        let shown = &order[..order.len().min(FACTORS_OF_ESTIMATORS)];
+        let row = |&(number, index): &(usize, &IndexRecord)| -> Vec<Cell> {
+            let plain = record.plain.get(number);
+            let effect = &index.effect;
+            vec![
+                name(&index.factor).into(),
+                Cell::from(Some(effect.first_order)),
+                Cell::from(plain.and_then(|plain| plain.first_order)),
+                Cell::from(Some(effect.total)),
+                Cell::from(plain.and_then(|plain| plain.total)),
+            ]
+        };
+        let headings = ["factor", "S_1", "S_1 plain", "S_T", "S_T plain"];
+        let caption =
+            format!("Indices with and without the surrogate.{}", largest(shown.len(), order.len(), "factors"));
+        parts.push(Part::Table(Table::new(caption, Column::list(1, &headings)).with_rows(shown.iter().map(row))));
+    }
+    parts
+}
+
+/// To three significant digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 /// First-order, then total indices by the other estimators, beside the default ones.

@@ -9,7 +9,7 @@ use crate::quantity::{Dimension, Quantity};
 use crate::run::FailurePolicy;
 use crate::space::Space;
 use crate::study::options::{DEFAULT_MAX_FAILED, DEFAULT_RESAMPLES, DEFAULT_THRESHOLD};
-use crate::study::{AnalysisOptions, Target};
+use crate::study::{AnalysisOptions, SurrogateChoice, Target};
 use crate::uncertainty::IntervalMethod;
 
 /// Reads the `[analysis]` table.
@@ -32,6 +32,7 @@ pub(super) fn analysis(
         aggregate: flag(&section.aggregate),
         dummy: flag(&section.dummy),
         intervals,
+        surrogate: surrogate(context, section, intervals)?,
         resamples: resamples(context, section, intervals)?,
         threshold: between(context, "threshold", section.threshold.as_ref(), DEFAULT_THRESHOLD)?,
         failures,
@@ -99,6 +100,21 @@ fn subsets(context: &Context<'_>, section: &AnalysisSection, space: &Space) -> R
         subsets.push(numbers);
     }
     Ok(subsets)
+}
+
+fn surrogate(
+    context: &Context<'_>,
+    section: &AnalysisSection,
+    intervals: IntervalMethod,
+) -> Result<SurrogateChoice, Fault> {
+    let Some(name) = &section.surrogate else { return Ok(SurrogateChoice::default()) };
+    let choice = choice(context, name, "choice of surrogate", &SurrogateChoice::ALL, SurrogateChoice::name)?;
+    if choice == SurrogateChoice::On && intervals != IntervalMethod::Nets {
+        let expected = "only beside intervals = \"nets\", whose points are scrambled Sobol' points";
+        let problem = wrong("surrogate", expected, format!("intervals = \"{}\"", intervals.name()));
+        return Err(context.fault(name.span(), problem));
+    }
+    Ok(choice)
 }
 
 fn resamples(context: &Context<'_>, section: &AnalysisSection, method: IntervalMethod) -> Result<usize, Fault> {

@@ -9,6 +9,7 @@ use crate::design::Sampler;
 use crate::estimate::Estimator;
 use crate::model::{KnownAnswer, Match, ModelKind, Protocol, edge_unit};
 use crate::run::FailurePolicy;
+use crate::study::SurrogateChoice;
 use crate::uncertainty::IntervalMethod;
 
 pub(super) const CHOICES: [&str; 9] = [
@@ -34,6 +35,10 @@ pub(super) fn samplers() -> Vec<&'static str> {
 /// The schema of an estimator's name.
 pub(super) fn estimators() -> Value {
     json!({ "enum": names(&Estimator::ALL, Estimator::name) })
+}
+
+pub(super) fn surrogates() -> Vec<&'static str> {
+    names(&SurrogateChoice::ALL, SurrogateChoice::name)
 }
 
 pub(super) fn intervals() -> Vec<&'static str> {

@@ -130,6 +130,10 @@ pub(super) struct AnalysisSection {
     /// How intervals are found; by default as the sampler allows.
     #[schemars(extend("enum" = key_schemas::intervals()))]
     pub intervals: Option<At<String>>,
+    /// Whether indices are corrected by surrogates: polynomials fitted to the runs. More accurate, by orders of magnitude for
+    /// smooth models; takes time, and memory for all outputs.
+    #[schemars(extend("enum" = key_schemas::surrogates(), "default" = "off"))]
+    pub surrogate: Option<At<String>>,
     /// Resamples of a bootstrap.
     #[schemars(range(min = 100, max = 1_000_000))]
     pub resamples: Option<At<u64>>,

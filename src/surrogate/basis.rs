@@ -1,0 +1,341 @@
+//! Orthonormal polynomials of the factors: the terms of a surrogate.
+
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use super::own::OwnPolynomials;
+use crate::space::Distribution;
+
+/// Most factors in a term of the first candidates.
+const MOST_FACTORS: usize = 3;
+
+/// Most factors in a term at all.
+const MOST_FACTORS_OF_NEIGHBOURS: usize = 5;
+
+/// The norm of hyperbolic truncation: of two terms with equal sums of degrees, that of fewer factors comes first.
+const NORM: f64 = 0.75;
+
+/// Factors that are tried as partners of every term.
+const LEADING: usize = 8;
+
+/// Share of the variance below which a factor is no partner.
+const LEADING_SHARE: f64 = 1e-7;
+
+/// The polynomials of one factor.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Family {
+    /// Legendre polynomials of the quantile, scaled to the unit interval: for every distribution.
+    Legendre,
+    /// Hermite polynomials of the normal quantile: for normal and log-normal factors.
+    Hermite,
+    /// Those of the factor's own distribution, in its values.
+    Own(Box<OwnPolynomials>),
+}
+
+impl Family {
+    /// That of a factor with this distribution.
+    pub fn new(distribution: &Distribution) -> Self {
+        match distribution {
+            // Smooth in the logarithm, which is uniform.
+            Distribution::Uniform(_) | Distribution::LogUniform(_) | Distribution::Empirical(_) => Self::Legendre,
+            Distribution::Normal(_)
+            | Distribution::LogNormal(_)
+            | Distribution::Weibull(_)
+            | Distribution::Gumbel(_) => Self::Hermite,
+            _ => OwnPolynomials::new(distribution, MOST_DEGREES).map_or(Self::Legendre, |own| Self::Own(Box::new(own))),
+        }
+    }
+
+    /// The largest degree that there is.
+    fn degree(&self) -> usize {
+        match self {
+            Self::Legendre | Self::Hermite => MOST_DEGREES,
+            Self::Own(own) => own.degree(),
+        }
+    }
+}
+
+/// Largest degree of any polynomial.
+const MOST_DEGREES: usize = 14;
+
+/// A product of polynomials of different factors: (factor, degree) by rising factor, degrees from 1; the empty one is the
+/// constant.
+pub type Term = Vec<(usize, usize)>;
+
+/// How many candidate terms there are, and of which degree at most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Caps<'a> {
+    /// Candidate terms.
+    pub terms: usize,
+    /// Largest sum of degrees.
+    pub degree: usize,
+    /// Largest sum of the degrees of Hermite polynomials.
+    pub hermite_degree: usize,
+    /// The polynomials of every factor.
+    pub families: &'a [Family],
+}
+
+impl<'a> Caps<'a> {
+    /// For factors with polynomials of these `families`.
+    pub fn new(families: &'a [Family], hermite_degree: usize) -> Self {
+        let (terms, degree) = match families.len() {
+            0..=4 => (400, MOST_DEGREES),
+            5..=10 => (300, 10),
+            _ => (260, 6),
+        };
+        Self { terms, degree, hermite_degree, families }
+    }
+
+    /// Whether `term` is of no higher degree than it may be.
+    fn allow(&self, term: &[(usize, usize)]) -> bool {
+        let degree = |counts: &dyn Fn(usize) -> bool| -> usize {
+            term.iter().filter(|(factor, _)| counts(*factor)).map(|(_, degree)| degree).sum()
+        };
+        let fits = |(factor, degree): &(usize, usize)| *degree <= self.families[*factor].degree();
+        term.iter().all(fits)
+            && degree(&|_| true) <= self.degree
+            && degree(&|factor| self.families[factor] == Family::Hermite) <= self.hermite_degree
+    }
+}
+
+/// The first `count` terms by the hyperbolic norm of their degrees, the constant first.
+pub fn first_terms(caps: Caps<'_>, count: usize) -> Vec<Term> {
+    let (factors, degree) = (caps.families.len(), caps.degree);
+    let mut patterns: Vec<(f64, Vec<usize>)> = Vec::new();
+    for members in 1..=MOST_FACTORS.min(factors) {
+        // Rising degrees, each to be dealt to factors in every way.
+        let most = match members {
+            1 => degree,
+            2 => degree.min(7),
+            _ => degree.min(5),
+        };
+        rising(members, most, &mut Vec::new(), &mut |degrees| {
+            let norm = degrees.iter().map(|&k| (k as f64).powf(NORM)).sum::<f64>().powf(1.0 / NORM);
+            patterns.push(((norm * 1e9).round(), degrees.to_vec()));
+        });
+    }
+    patterns.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.len().cmp(&b.1.len())).then(a.1.cmp(&b.1)));
+    let mut terms: Vec<Term> = vec![Vec::new()];
+    for (_, degrees) in patterns {
+        let deals = permutations(&degrees);
+        let mut members: Vec<usize> = (0..degrees.len()).collect();
+        loop {
+            for deal in &deals {
+                if terms.len() >= count {
+                    return terms;
+                }
+                let term: Term = members.iter().copied().zip(deal.iter().copied()).collect();
+                if caps.allow(&term) {
+                    terms.push(term);
+                }
+            }
+            if !next_members(&mut members, factors) {
+                break;
+            }
+        }
+    }
+    terms
+}
+
+/// Every list of `members` rising degrees whose sum is at most `most`.
+fn rising(members: usize, most: usize, so_far: &mut Vec<usize>, found: &mut dyn FnMut(&[usize])) {
+    if so_far.len() == members {
+        found(so_far);
+        return;
+    }
+    let least = so_far.last().copied().unwrap_or(1);
+    let left = members - so_far.len();
+    for degree in least..=most / left {
+        so_far.push(degree);
+        rising(members, most - degree, so_far, found);
+        so_far.pop();
+    }
+}
+
+/// The different orders of `degrees`.
+fn permutations(degrees: &[usize]) -> Vec<Vec<usize>> {
+    if degrees.len() <= 1 {
+        return vec![degrees.to_vec()];
+    }
+    let mut all = Vec::new();
+    for (place, &first) in degrees.iter().enumerate() {
+        let mut rest = degrees.to_vec();
+        rest.remove(place);
+        for order in permutations(&rest) {
+            let order: Vec<usize> = std::iter::once(first).chain(order).collect();
+            if !all.contains(&order) {
+                all.push(order);
+            }
+        }
+    }
+    all
+}
+
+/// The next choice of rising members below `factors`; `false` after the last one.
+fn next_members(members: &mut [usize], factors: usize) -> bool {
+    let count = members.len();
+    for place in (0..count).rev() {
+        if members[place] < factors - (count - place) {
+            members[place] += 1;
+            for later in place + 1..count {
+                members[later] = members[later - 1] + 1;
+            }
+            return true;
+        }
+    }
+    false
+}
+
+/// The terms `active` by falling square of their coefficients, and then, for each in this order, its neighbours: with one and
+/// two degrees more in one of its factors, and with one of the leading factors as a partner.
+pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<Term> {
+    let mut order: Vec<usize> = (0..active.len()).collect();
+    order.sort_by(|&i, &j| {
+        (coefficients[j] * coefficients[j]).total_cmp(&(coefficients[i] * coefficients[i])).then(i.cmp(&j))
+    });
+    let mut terms: Vec<Term> = Vec::new();
+    let mut seen = std::collections::HashSet::new();
+    let mut put = |term: Term| {
+        if caps.allow(&term) && terms.len() < caps.terms && seen.insert(term.clone()) {
+            terms.push(term);
+        }
+    };
+    put(Vec::new());
+    order.iter().for_each(|&place| put(active[place].clone()));
+    let leading = leading_factors(active, coefficients, &order);
+    for term in order.iter().map(|&place| &active[place]).filter(|term| !term.is_empty()) {
+        for member in 0..term.len() {
+            for more in 1..=2 {
+                let mut next = term.clone();
+                next[member].1 += more;
+                put(next);
+            }
+        }
+        for &factor in &leading {
+            if term.len() < MOST_FACTORS_OF_NEIGHBOURS
+                && let Err(place) = term.binary_search_by_key(&factor, |(factor, _)| *factor)
+            {
+                let mut next = term.clone();
+                next.insert(place, (factor, 1));
+                put(next);
+            }
+        }
+    }
+    terms
+}
+
+/// The factors whose terms carry most variance, the first ones first.
+fn leading_factors(active: &[Term], coefficients: &[f64], order: &[usize]) -> Vec<usize> {
+    let mut variances: Vec<(usize, f64)> = Vec::new();
+    for &place in order {
+        for (factor, _) in &active[place] {
+            let square = coefficients[place] * coefficients[place];
+            match variances.iter_mut().find(|(known, _)| known == factor) {
+                Some((_, variance)) => *variance += square,
+                None => variances.push((*factor, square)),
+            }
+        }
+    }
+    let all: f64 = variances.iter().map(|(_, variance)| variance).sum();
+    variances.retain(|(_, variance)| *variance > LEADING_SHARE * all);
+    variances.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    variances.truncate(LEADING);
+    variances.into_iter().map(|(factor, _)| factor).collect()
+}
+
+/// The orthonormal polynomials of degrees 1 to `degree` of one factor at `u`, a column for each degree.
+pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
+    let mut columns: Vec<Vec<f64>> = Vec::with_capacity(degree);
+    match family {
+        Family::Own(own) => columns = own.columns(u),
+        Family::Legendre => {
+            let x: Vec<f64> = u.iter().map(|u| 2.0 * u - 1.0).collect();
+            let (mut before, mut now) = (vec![1.0; u.len()], x.clone());
+            for k in 1..=degree {
+                let n = k as f64;
+                let scale = (2.0 * n + 1.0).sqrt();
+                columns.push(now.iter().map(|p| p * scale).collect());
+                let next = |((p, q), x): ((&f64, &f64), &f64)| ((2.0 * n + 1.0) * x * p - n * q) / (n + 1.0);
+                let following: Vec<f64> = now.iter().zip(&before).zip(&x).map(next).collect();
+                before = std::mem::replace(&mut now, following);
+            }
+        }
+        Family::Hermite => {
+            let normal = Normal::standard();
+            let x: Vec<f64> = u.iter().map(|&u| normal.inverse_cdf(u)).collect();
+            let (mut before, mut now) = (vec![1.0; u.len()], x.clone());
+            for k in 1..=degree {
+                let n = k as f64;
+                let next = |((p, q), x): ((&f64, &f64), &f64)| (x * p - n.sqrt() * q) / (n + 1.0).sqrt();
+                let following: Vec<f64> = now.iter().zip(&before).zip(&x).map(next).collect();
+                columns.push(std::mem::take(&mut now));
+                before = columns[k - 1].clone();
+                now = following;
+            }
+        }
+    }
+    columns
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sum::product;
+
+    fn legendre(factors: usize) -> Vec<Family> {
+        vec![Family::Legendre; factors]
+    }
+
+    #[test]
+    fn terms_come_by_their_norm() {
+        let terms = first_terms(Caps::new(&legendre(3), 0), 12);
+        let expected: [&[(usize, usize)]; 12] = [
+            &[],
+            &[(0, 1)],
+            &[(1, 1)],
+            &[(2, 1)],
+            &[(0, 2)],
+            &[(1, 2)],
+            &[(2, 2)],
+            &[(0, 1), (1, 1)],
+            &[(0, 1), (2, 1)],
+            &[(1, 1), (2, 1)],
+            &[(0, 3)],
+            &[(1, 3)],
+        ];
+        assert_eq!(terms, expected);
+        // All degrees up to 14 of one factor, and no term twice.
+        assert_eq!(first_terms(Caps::new(&[Family::Legendre], 0), 400).len(), 15);
+        let many = first_terms(Caps::new(&legendre(8), 0), 300);
+        assert_eq!(many.iter().collect::<std::collections::HashSet<_>>().len(), 300);
+        assert_eq!(first_terms(Caps::new(&legendre(2000), 0), 260).len(), 260);
+    }
+
+    #[test]
+    fn polynomials_are_orthonormal() {
+        // By the midpoint rule, which misses what Hermite polynomials have in the tails.
+        let n = 20_000;
+        let u: Vec<f64> = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n)).collect();
+        for (family, degree, tolerance) in [(Family::Legendre, 10, 1e-5), (Family::Hermite, 4, 1e-1)] {
+            let columns = polynomials(&family, &u, degree);
+            for (j, a) in columns.iter().enumerate() {
+                assert!((a.iter().sum::<f64>() / f64::from(n)).abs() < tolerance, "{family:?} {j}");
+                for (k, b) in columns.iter().enumerate() {
+                    let product = product(a, b) / f64::from(n);
+                    assert!((product - f64::from(u8::from(j == k))).abs() < tolerance, "{family:?} {j} {k} {product}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn neighbours_lead_on_from_what_matters() {
+        let active = vec![vec![], vec![(0, 1)], vec![(1, 2)]];
+        let caps = Caps { terms: 20, degree: 6, hermite_degree: 0, families: &legendre(2) };
+        let terms = neighbours(&active, &[3.0, 0.5, 2.0], caps);
+        assert_eq!(terms[..3], [vec![], vec![(1, 2)], vec![(0, 1)]]);
+        for expected in [vec![(1, 3)], vec![(1, 4)], vec![(0, 1), (1, 2)], vec![(0, 2)], vec![(0, 1), (1, 1)]] {
+            assert!(terms.contains(&expected), "{expected:?}");
+        }
+        assert!(terms.iter().all(|term| term.iter().map(|t| t.1).sum::<usize>() <= 6));
+    }
+}

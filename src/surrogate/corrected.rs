@@ -1,0 +1,162 @@
+//! Indices of the model as those of a surrogate, known exactly, plus what the runs say of the rest.
+//!
+//! Net k is corrected by a surrogate g of the other nets, which is independent of it. With orthonormal terms phi_a of
+//! coefficients b_a, e = f - g on net k, and r_a the mean of phi_a e over **all** of its rows,
+//!
+//! - V S_s = sum over a within s of (b_a^2 + 2 b_a r_a) + mean\[(e_B - mean e)(e_ABs - e_A)\],
+//! - V ST_s = sum over a that touch s of (b_a^2 + 2 b_a r_a) + mean\[(e_A - e_ABs)^2\]/2,
+//! - V = sum over a but the constant of (b_a^2 + 2 b_a r_a) + mean e^2 - (mean e)^2.
+//!
+//! For f = g + e, and what is linear in e has the exact value 2 sum b_a E\[phi_a e\], which all rows estimate together; only
+//! what is quadratic in e is left to pick-freeze rows. A second form of the total index, that of g plus Jansen's estimate of
+//! f less that of g, is better where g is poor; both are mixed by one weight. Every number is a mean over base points, so that
+//! what each point contributes tells the error.
+
+use super::fit::Expansion;
+use super::net::Net;
+use crate::design::Design;
+
+/// What every base point of a net contributes to the numbers of an output; each number is the mean over the points.
+pub struct Contributions {
+    /// V S of every swap.
+    pub first_order: Vec<Vec<f64>>,
+    /// V ST of every swap, and the same by the second form.
+    pub total: [Vec<Vec<f64>>; 2],
+    /// V S_jk of the pairs of factors, in the order of the layout.
+    pub pairs: Vec<Vec<f64>>,
+    /// V.
+    pub variance: Vec<f64>,
+    /// The mean of the output.
+    pub mean: Vec<f64>,
+    /// Mean square and mean fourth power of e, what the surrogate leaves unexplained.
+    pub residual: (f64, f64),
+    /// Rows.
+    pub rows: usize,
+}
+
+/// How the factors of a term stand to those of a swap.
+fn within(term: &[(usize, usize)], swap: &[usize]) -> bool {
+    !term.is_empty() && term.iter().all(|(factor, _)| swap.binary_search(factor).is_ok())
+}
+
+fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
+    term.iter().any(|(factor, _)| swap.binary_search(factor).is_ok())
+}
+
+fn mean_power(columns: &[Vec<f64>], power: i32) -> f64 {
+    let count: usize = columns.iter().map(Vec::len).sum();
+    columns.iter().flatten().map(|e| e.powi(power)).sum::<f64>() / count.max(1) as f64
+}
+
+impl Contributions {
+    /// Of `net` corrected by the surrogate `expansion` of other nets; `swaps` and `pairs` have their factors in rising order.
+    pub fn new(
+        design: &Design,
+        net: &Net,
+        expansion: &Expansion,
+        swaps: &[Vec<usize>],
+        pairs: &[(usize, usize)],
+    ) -> Self {
+        let (points, runs) = (net.points(), net.runs());
+        let mut values = Vec::new();
+        let mut surrogate = vec![vec![0.0; points]; runs];
+        for (run, sums) in surrogate.iter_mut().enumerate() {
+            for (term, b) in expansion.terms.iter().zip(&expansion.coefficients) {
+                net.fill(term, run, &mut values);
+                sums.iter_mut().zip(&values).for_each(|(sum, value)| *sum += b * value);
+            }
+        }
+        let less = |(f, g): (&Vec<f64>, &Vec<f64>)| f.iter().zip(g).map(|(f, g)| f - g).collect();
+        let e: Vec<Vec<f64>> = net.outputs.iter().zip(&surrogate).map(less).collect();
+        let mut all = Self {
+            first_order: vec![vec![0.0; points]; swaps.len()],
+            total: [vec![vec![0.0; points]; swaps.len()], vec![vec![0.0; points]; swaps.len()]],
+            pairs: vec![vec![0.0; points]; pairs.len()],
+            variance: vec![0.0; points],
+            mean: vec![0.0; points],
+            residual: (mean_power(&e, 2), mean_power(&e, 4)),
+            rows: points * runs,
+        };
+        all.add_surrogate(net, expansion, &e, (swaps, pairs));
+        all.add_residual(design, net, &surrogate, &e, (swaps.len(), pairs));
+        all
+    }
+
+    /// What is constant or linear in `e`.
+    fn add_surrogate(
+        &mut self,
+        net: &Net,
+        expansion: &Expansion,
+        e: &[Vec<f64>],
+        (swaps, pairs): (&[Vec<usize>], &[(usize, usize)]),
+    ) {
+        let runs = net.runs() as f64;
+        let mut values = Vec::new();
+        for (term, &b) in expansion.terms.iter().zip(&expansion.coefficients) {
+            let mut products = vec![0.0; net.points()];
+            for (run, e) in e.iter().enumerate() {
+                net.fill(term, run, &mut values);
+                products.iter_mut().zip(&values).zip(e).for_each(|((sum, value), e)| *sum += value * e);
+            }
+            if term.is_empty() {
+                self.mean.iter_mut().zip(&products).for_each(|(mean, e)| *mean += b + e / runs);
+                continue;
+            }
+            let contributions: Vec<f64> = products.iter().map(|sum| b * b + 2.0 * b * sum / runs).collect();
+            let add =
+                |column: &mut Vec<f64>| column.iter_mut().zip(&contributions).for_each(|(sum, more)| *sum += more);
+            add(&mut self.variance);
+            for (number, swap) in swaps.iter().enumerate() {
+                if within(term, swap) {
+                    add(&mut self.first_order[number]);
+                }
+                if touches(term, swap) {
+                    add(&mut self.total[0][number]);
+                    self.total[1][number].iter_mut().for_each(|sum| *sum += b * b);
+                }
+            }
+            for (column, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
+                if matches!(term[..], [(a, _), (b, _)] if a == j && b == k) {
+                    add(column);
+                }
+            }
+        }
+    }
+
+    /// What is quadratic in `e`, by pick-freeze.
+    fn add_residual(
+        &mut self,
+        design: &Design,
+        net: &Net,
+        surrogate: &[Vec<f64>],
+        e: &[Vec<f64>],
+        (swaps, pairs): (usize, &[(usize, usize)]),
+    ) {
+        let points = net.points();
+        let mean = |columns: &[&Vec<f64>]| {
+            let sum: f64 = columns.iter().flat_map(|column| column.iter()).sum();
+            sum / (points * columns.len()).max(1) as f64
+        };
+        let (of_all, of_a_b) = (mean(&e.iter().collect::<Vec<_>>()), mean(&[&e[0], &e[1]]));
+        for (p, variance) in self.variance.iter_mut().enumerate() {
+            *variance += e.iter().map(|run| (run[p] - of_all).powi(2)).sum::<f64>() / e.len() as f64;
+        }
+        let half_square = |column: &[Vec<f64>], run: usize, p: usize| (column[0][p] - column[run][p]).powi(2) / 2.0;
+        for swap in 0..swaps {
+            let ab = design.ab_runs()[swap];
+            for p in 0..points {
+                self.first_order[swap][p] += (e[1][p] - of_a_b) * (e[ab][p] - e[0][p]);
+                self.total[0][swap][p] += half_square(e, ab, p);
+                self.total[1][swap][p] += half_square(&net.outputs, ab, p) - half_square(surrogate, ab, p);
+            }
+        }
+        // The swaps of single factors come first, in the order of the factors.
+        for (column, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
+            let (ab, ba) = (design.ab_runs(), design.ba_runs());
+            let product = |j: usize, k: usize, p: usize| (e[ba[j]][p] - e[1][p]) * (e[ab[k]][p] - e[0][p]);
+            for (p, sum) in column.iter_mut().enumerate() {
+                *sum += (product(j, k, p) + product(k, j, p)) / 2.0;
+            }
+        }
+    }
+}

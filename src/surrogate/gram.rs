@@ -1,0 +1,325 @@
+//! Inner products of many columns, and greedy least squares on them. Sums have a fixed order, whatever the number of
+//! threads.
+
+/// Rows whose products are summed before they are added to the whole: their columns fit into a cache.
+const CHUNK: usize = 512;
+
+/// Partial sums of one product.
+const LANES: usize = 4;
+
+/// Share of its own square that a column must keep beyond those chosen before it.
+const INDEPENDENT: f64 = 1e-6;
+
+/// Gain in the sum of squares below which no further column is chosen, of outputs scaled to standard deviation 1.
+const LEAST_GAIN: f64 = 1e-26;
+
+/// A square matrix, row by row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Square {
+    size: usize,
+    values: Vec<f64>,
+}
+
+impl Square {
+    /// Of zeros.
+    pub fn zeros(size: usize) -> Self {
+        Self { size, values: vec![0.0; size * size] }
+    }
+
+    /// Number of rows.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// The value in row `i` and column `j`.
+    #[inline(always)]
+    pub fn at(&self, i: usize, j: usize) -> f64 {
+        self.values[i * self.size + j]
+    }
+
+    /// A row.
+    pub fn row(&self, i: usize) -> &[f64] {
+        &self.values[i * self.size..(i + 1) * self.size]
+    }
+
+    /// Adds another one of the same size.
+    pub fn add(&mut self, other: &Self) {
+        self.values.iter_mut().zip(&other.values).for_each(|(sum, more)| *sum += more);
+    }
+
+    /// Adds the inner products of `columns`, one for each row of the matrix.
+    pub fn add_products(&mut self, columns: &[&[f64]]) {
+        let rows = columns.first().map_or(0, |column| column.len());
+        for start in (0..rows).step_by(CHUNK) {
+            let part = start..rows.min(start + CHUNK);
+            let mut i = 0;
+            while i < self.size {
+                let mut j = 0;
+                while j <= i {
+                    let (a, b) = ([i, (i + 1).min(self.size - 1)], [j, (j + 1).min(self.size - 1)]);
+                    let tile = products(a.map(|k| &columns[k][part.clone()]), b.map(|k| &columns[k][part.clone()]));
+                    for (row, sums) in a.into_iter().zip(tile).take(self.size - i) {
+                        let sums = b.into_iter().zip(sums).take(self.size - j);
+                        for (column, sum) in sums.filter(|(column, _)| *column <= row) {
+                            self.values[row * self.size + column] += sum;
+                        }
+                    }
+                    j += 2;
+                }
+                i += 2;
+            }
+        }
+        for i in 0..self.size {
+            for j in 0..i {
+                self.values[j * self.size + i] = self.values[i * self.size + j];
+            }
+        }
+    }
+}
+
+/// The four products of two columns with two others.
+#[inline(always)]
+fn products([a, b]: [&[f64]; 2], [c, d]: [&[f64]; 2]) -> [[f64; 2]; 2] {
+    let n = a.len();
+    let (a, b, c, d) = (&a[..n], &b[..n], &c[..n], &d[..n]);
+    let mut lanes = [[0.0; LANES]; 4];
+    let whole = n - n % LANES;
+    let mut i = 0;
+    while i < whole {
+        for lane in 0..LANES {
+            let (a, b, c, d) = (a[i + lane], b[i + lane], c[i + lane], d[i + lane]);
+            lanes[0][lane] += a * c;
+            lanes[1][lane] += a * d;
+            lanes[2][lane] += b * c;
+            lanes[3][lane] += b * d;
+        }
+        i += LANES;
+    }
+    for (lane, i) in (whole..n).enumerate() {
+        lanes[0][lane] += a[i] * c[i];
+        lanes[1][lane] += a[i] * d[i];
+        lanes[2][lane] += b[i] * c[i];
+        lanes[3][lane] += b[i] * d[i];
+    }
+    let [ac, ad, bc, bd] = lanes.map(|l| (l[0] + l[1]) + (l[2] + l[3]));
+    [[ac, ad], [bc, bd]]
+}
+
+/// Columns chosen one by one, each the one that lowers the sum of squares most, made orthonormal in this order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Path {
+    /// The numbers of the columns, in the order in which they were chosen.
+    pub chosen: Vec<usize>,
+    /// The coefficient of each in the orthonormal system.
+    scores: Vec<f64>,
+    /// The orthonormal column number k in terms of the chosen ones: row k has k + 1 values.
+    inverse: Vec<Vec<f64>>,
+}
+
+impl Path {
+    /// Up to `most` columns of those with the inner products `gram`, whose products with the outputs are `right`. The first
+    /// column is always the first. Equal gains go to the column that comes first.
+    pub fn new(gram: &Square, right: &[f64], most: usize) -> Self {
+        let size = gram.size();
+        let own: Vec<f64> = (0..size).map(|j| gram.at(j, j)).collect();
+        let (mut left, mut rest) = (own.clone(), right.to_vec());
+        let mut open = vec![true; size];
+        let mut factors: Vec<Vec<f64>> = Vec::new();
+        let (mut chosen, mut scores): (Vec<usize>, Vec<f64>) = (Vec::new(), Vec::new());
+        while chosen.len() < most.min(size) {
+            let gain = |j: usize| {
+                let fits = open[j] && left[j] > INDEPENDENT * own[j];
+                if fits { rest[j] * rest[j] / left[j] } else { -1.0 }
+            };
+            let best = (1..size).fold((0, gain(0)), |best, j| if gain(j) > best.1 { (j, gain(j)) } else { best });
+            let (next, gained) = if chosen.is_empty() { (0, 0.0) } else { best };
+            if !chosen.is_empty() && gained <= LEAST_GAIN {
+                break;
+            }
+            let root = left[next].sqrt();
+            let mut factor: Vec<f64> = gram.row(next).to_vec();
+            for earlier in &factors {
+                let weight = earlier[next];
+                factor.iter_mut().zip(earlier).for_each(|(value, earlier)| *value -= weight * earlier);
+            }
+            factor.iter_mut().for_each(|value| *value /= root);
+            let score = rest[next] / root;
+            for j in 0..size {
+                left[j] -= factor[j] * factor[j];
+                rest[j] -= factor[j] * score;
+            }
+            open[next] = false;
+            chosen.push(next);
+            scores.push(score);
+            factors.push(factor);
+        }
+        let lower: Vec<Vec<f64>> = chosen
+            .iter()
+            .enumerate()
+            .map(|(i, &row)| factors[..=i].iter().map(|factor| factor[row]).collect())
+            .collect();
+        Self { chosen, scores, inverse: inverse(&lower) }
+    }
+
+    /// The coefficients of the first `size` chosen columns.
+    pub fn coefficients(&self, size: usize) -> Vec<f64> {
+        let mut all = vec![0.0; size];
+        for (score, row) in self.scores.iter().zip(&self.inverse).take(size) {
+            all.iter_mut().zip(row).for_each(|(sum, weight)| *sum += score * weight);
+        }
+        all
+    }
+
+    /// The sum of squares that 1, 2, ... chosen columns leave of other outputs, with the inner products `gram` and `right`
+    /// and the sum of squares `square`.
+    pub fn held_out(&self, gram: &Square, right: &[f64], square: f64) -> Vec<f64> {
+        let mut errors = Vec::with_capacity(self.chosen.len());
+        // The fit so far in terms of the chosen columns, and its products with all of them.
+        let mut products = vec![0.0; self.chosen.len()];
+        let mut error = square;
+        for (k, (score, row)) in self.scores.iter().zip(&self.inverse).enumerate() {
+            let with_chosen = |i: usize| -> f64 {
+                let row_i = gram.row(self.chosen[i]);
+                row.iter().zip(&self.chosen).map(|(weight, &column)| weight * row_i[column]).sum()
+            };
+            let mine: Vec<f64> = (0..self.chosen.len()).map(with_chosen).collect();
+            let own: f64 = row.iter().zip(&mine).map(|(weight, product)| weight * product).sum();
+            let with_fit: f64 = row.iter().zip(&products[..=k]).map(|(weight, product)| weight * product).sum();
+            let with_outputs: f64 = row.iter().zip(&self.chosen).map(|(weight, &column)| weight * right[column]).sum();
+            error += score * score * own + 2.0 * score * (with_fit - with_outputs);
+            errors.push(error);
+            products.iter_mut().zip(&mine).for_each(|(sum, product)| *sum += score * product);
+        }
+        errors
+    }
+}
+
+/// The inverse of a lower triangular matrix.
+fn inverse(lower: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut rows: Vec<Vec<f64>> = Vec::with_capacity(lower.len());
+    for (i, row) in lower.iter().enumerate() {
+        let mut new = vec![0.0; i + 1];
+        for (weight, earlier) in row.iter().zip(&rows) {
+            new.iter_mut().zip(earlier).for_each(|(sum, value)| *sum -= weight * value);
+        }
+        new[i] = 1.0;
+        new.iter_mut().for_each(|value| *value /= row[i]);
+        rows.push(new);
+    }
+    rows
+}
+
+/// The least-squares solution of `gram` x = `right`, with a ridge at the size of rounding.
+pub fn solve(gram: &Square, right: &[f64]) -> Vec<f64> {
+    let size = gram.size();
+    let trace: f64 = (0..size).map(|i| gram.at(i, i)).sum();
+    let ridge = 1e-12 * trace / size.max(1) as f64;
+    let mut lower: Vec<Vec<f64>> = Vec::with_capacity(size);
+    for i in 0..size {
+        let mut row: Vec<f64> = gram.row(i)[..=i].to_vec();
+        row[i] += ridge;
+        for j in 0..=i {
+            let known: f64 = if j < i {
+                row[..j].iter().zip(&lower[j]).map(|(a, b)| a * b).sum()
+            } else {
+                row[..i].iter().map(|a| a * a).sum()
+            };
+            row[j] -= known;
+            if j < i {
+                row[j] /= lower[j][j];
+            }
+        }
+        row[i] = row[i].max(f64::MIN_POSITIVE).sqrt();
+        lower.push(row);
+    }
+    let mut x = right.to_vec();
+    for i in 0..size {
+        let known: f64 = lower[i][..i].iter().zip(&x).map(|(a, b)| a * b).sum();
+        x[i] = (x[i] - known) / lower[i][i];
+    }
+    for i in (0..size).rev() {
+        let known: f64 = (i + 1..size).map(|j| lower[j][i] * x[j]).sum();
+        x[i] = (x[i] - known) / lower[i][i];
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sum::product;
+
+    /// Numbers without structure between -1/2 and 1/2.
+    fn columns(count: usize, rows: usize) -> Vec<Vec<f64>> {
+        let mut x = 88_172_645_463_325_252_u64;
+        let mut next = || {
+            x ^= x << 13;
+            x ^= x >> 7;
+            x ^= x << 17;
+            (x >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        (0..count).map(|_| (0..rows).map(|_| next()).collect()).collect()
+    }
+
+    fn gram(columns: &[Vec<f64>]) -> Square {
+        let mut gram = Square::zeros(columns.len());
+        gram.add_products(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>());
+        gram
+    }
+
+    #[test]
+    fn products_are_those_of_every_pair() {
+        for (count, rows) in [(1, 1), (2, 5), (5, 1030), (6, 513)] {
+            let columns = columns(count, rows);
+            let gram = gram(&columns);
+            for i in 0..count {
+                for j in 0..count {
+                    let exact = product(&columns[i], &columns[j]);
+                    assert!((gram.at(i, j) - exact).abs() < 1e-12 * rows as f64, "{count} {rows} {i} {j}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_path_finds_the_columns_that_make_the_outputs() {
+        let columns = columns(12, 300);
+        let y: Vec<f64> = (0..300).map(|r| 3.0 * columns[7][r] - 0.5 * columns[2][r] + 0.01 * columns[4][r]).collect();
+        let gram = gram(&columns);
+        let right: Vec<f64> = columns.iter().map(|column| product(column, &y)).collect();
+        let path = Path::new(&gram, &right, 4);
+        assert_eq!(path.chosen, [0, 7, 2, 4]);
+        let coefficients = path.coefficients(4);
+        for (found, exact) in coefficients.iter().zip([0.0, 3.0, -0.5, 0.01]) {
+            assert!((found - exact).abs() < 1e-12, "{coefficients:?}");
+        }
+        let errors = path.held_out(&gram, &right, product(&y, &y));
+        assert!(errors.windows(2).all(|pair| pair[1] < pair[0]) && errors[3].abs() < 1e-10, "{errors:?}");
+        // The error of three columns, term by term.
+        let b = path.coefficients(3);
+        let left: f64 = (0..300)
+            .map(|r| (y[r] - path.chosen.iter().zip(&b).map(|(&c, b)| b * columns[c][r]).sum::<f64>()).powi(2))
+            .sum();
+        assert!((errors[2] - left).abs() < 1e-10, "{} {left}", errors[2]);
+    }
+
+    #[test]
+    fn a_column_twice_is_chosen_once() {
+        let mut columns = columns(3, 50);
+        columns.push(columns[1].clone());
+        let y = columns[1].clone();
+        let right: Vec<f64> = columns.iter().map(|column| product(column, &y)).collect();
+        assert_eq!(Path::new(&gram(&columns), &right, 4).chosen, [0, 1]);
+    }
+
+    #[test]
+    fn least_squares_are_solved() {
+        let columns = columns(5, 40);
+        let exact = [1.0, -2.0, 0.0, 4.0, 0.5];
+        let y: Vec<f64> = (0..40).map(|r| (0..5).map(|c| exact[c] * columns[c][r]).sum()).collect();
+        let right: Vec<f64> = columns.iter().map(|column| product(column, &y)).collect();
+        for (found, exact) in solve(&gram(&columns), &right).iter().zip(exact) {
+            assert!((found - exact).abs() < 1e-9);
+        }
+    }
+}

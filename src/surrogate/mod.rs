@@ -1,0 +1,264 @@
+//! Indices corrected by surrogates.
+//!
+//! A sparse polynomial chaos expansion is fitted to the runs of all nets but one, and corrects the indices of that one
+//! ([`corrected`]): exact for the part of the output that the expansion explains, pick-freeze for the rest. No net is
+//! corrected by an expansion that has seen it, so that a poor surrogate costs accuracy and no honesty.
+
+pub mod basis;
+pub mod corrected;
+pub mod fit;
+pub mod gram;
+pub mod net;
+mod own;
+
+use rayon::prelude::*;
+
+use crate::design::{Design, Sampler};
+use crate::estimate::PointOutputs;
+use crate::space::Space;
+use crate::uncertainty::{Influenced, Layout, PartInfluences, SurrogateEstimates, SurrogateTerm, in_parts};
+use basis::{Caps, Family, Term};
+use corrected::Contributions;
+use fit::{Expansion, NetSums, first_candidates, fit, selection_rows};
+use net::Net;
+
+/// Fewest nets: a surrogate of the others has its number of terms by leaving out one of them.
+pub const FEWEST_NETS: usize = 3;
+
+/// Fewest base points of a net.
+const FEWEST_POINTS: usize = 4;
+
+/// Largest sum of degrees of Hermite polynomials in a term. Those of high degree are large where hardly any row is: few rows
+/// decide their coefficients, and no row shows what they do beyond.
+const FEW_HERMITE_DEGREES: usize = 4;
+
+/// The same where this leaves clearly less of the runs that the surrogates were not fitted to: of powers and exponentials.
+const MANY_HERMITE_DEGREES: usize = 10;
+
+/// What is clearly less.
+const CLEARLY_LESS: f64 = 0.25;
+
+/// Share of the variance that the surrogates leave, and rows that carry it, three over their kurtosis times their number, from
+/// and below which corrected intervals must hold the plain ones too: what is missing from the runs is missing from a fit to them.
+const RESIDUAL: f64 = 1e-4;
+const FEW_ROWS: f64 = 50.0;
+
+/// Terms that are told of.
+const TOLD_TERMS: usize = 12;
+
+/// The polynomials of every factor of `space`.
+pub fn families(space: &Space) -> Vec<Family> {
+    space.factors().iter().map(|factor| Family::new(factor.distribution())).collect()
+}
+
+/// The indices of `layout` from the outputs of every run of `design`, corrected by surrogates; `None` where there are too
+/// few nets or points, points that are no Sobol' nets, or an output without variance.
+pub fn surrogate_estimates(
+    design: &Design,
+    families: &[Family],
+    layout: &Layout,
+    replicates: &[&PointOutputs],
+) -> Option<SurrogateEstimates> {
+    if design.settings().sampler == Sampler::LatinHypercube || replicates.len() < FEWEST_NETS {
+        return None;
+    }
+    let raw: Vec<Vec<Vec<f64>>> = replicates.iter().map(|kept| columns(kept, design.runs().len())).collect();
+    let finite = raw.iter().flatten().flatten().copied().filter(|y| y.is_finite());
+    let (mean, sd) = mean_and_sd(&finite.collect::<Vec<f64>>())?;
+    let scale = |runs: &Vec<Vec<f64>>| -> Vec<Vec<f64>> {
+        runs.iter().map(|run| run.iter().map(|y| (y - mean) / sd).collect()).collect()
+    };
+    let outputs: Vec<Vec<Vec<f64>>> = raw.iter().map(scale).collect();
+    let pairs = if layout.second_order { layout.pair_list() } else { Vec::new() };
+    let job = Job { design, outputs: &outputs, pairs: &pairs };
+    let mut corrected = job.corrected(families, FEW_HERMITE_DEGREES)?;
+    if families.contains(&Family::Hermite) {
+        let of_quantiles = |family: &Family| if *family == Family::Hermite { Family::Legendre } else { family.clone() };
+        let bounded: Vec<Family> = families.iter().map(of_quantiles).collect();
+        for (families, degree, ratio) in [(&bounded[..], 0, 1.0), (families, MANY_HERMITE_DEGREES, CLEARLY_LESS)] {
+            let other = job.corrected(families, degree)?;
+            if other.residual() < ratio * corrected.residual() {
+                corrected = other;
+            }
+        }
+    }
+    Some(estimates(&corrected, (design.swaps().len(), pairs.len()), (mean, sd)))
+}
+
+/// What surrogates are fitted to: the outputs of every replicate and run, scaled.
+struct Job<'a> {
+    design: &'a Design,
+    outputs: &'a [Vec<Vec<f64>>],
+    pairs: &'a [(usize, usize)],
+}
+
+/// Every net, corrected by a surrogate of the others.
+struct Corrected {
+    nets: Vec<Contributions>,
+    expansions: Vec<Expansion>,
+}
+
+impl Corrected {
+    /// Mean square of what the surrogates leave.
+    fn residual(&self) -> f64 {
+        self.residual_powers().0
+    }
+
+    /// Mean square and mean fourth power of it.
+    fn residual_powers(&self) -> (f64, f64) {
+        let (two, four) =
+            self.nets.iter().fold((0.0, 0.0), |sum, net| (sum.0 + net.residual.0, sum.1 + net.residual.1));
+        (two / self.nets.len() as f64, four / self.nets.len() as f64)
+    }
+
+    /// Whether a few rows carry what the surrogates leave, and it matters.
+    fn is_heavy_tailed(&self) -> bool {
+        let (two, four) = self.residual_powers();
+        let rows: usize = self.nets.iter().map(|net| net.rows).sum();
+        // Outputs have variance 1.
+        two > RESIDUAL && 3.0 * rows as f64 * two * two < FEW_ROWS * four
+    }
+}
+
+impl Job<'_> {
+    fn corrected(&self, families: &[Family], hermite_degree: usize) -> Option<Corrected> {
+        let (design, caps) = (self.design, Caps::new(families, hermite_degree));
+        let net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
+            Net::new(design, number as u64, families, caps.degree, outputs)
+        };
+        let nets: Vec<Net> = self.outputs.par_iter().enumerate().map(net).collect();
+        if nets.iter().any(|net| net.points() < FEWEST_POINTS) {
+            return None;
+        }
+        let training = nets.len() - 1;
+        let rows = selection_rows(training);
+        let all_rows =
+            nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
+        let candidates = first_candidates(caps, all_rows);
+        let sums: Vec<NetSums> = nets.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
+        let swaps: Vec<Vec<usize>> = design.swaps().iter().map(|swap| sorted(swap)).collect();
+        let of_net = |k: usize| {
+            let expansion = fit(&without(&nets, k), (&candidates, &without(&sums, k)), caps);
+            (Contributions::new(design, &nets[k], &expansion, &swaps, self.pairs), expansion)
+        };
+        let all: Vec<(Contributions, Expansion)> = (0..nets.len()).into_par_iter().map(of_net).collect();
+        let (nets, expansions) = all.into_iter().unzip();
+        Some(Corrected { nets, expansions })
+    }
+}
+
+fn sorted(swap: &[usize]) -> Vec<usize> {
+    let mut swap = swap.to_vec();
+    swap.sort_unstable();
+    swap
+}
+
+fn without<T>(list: &[T], left_out: usize) -> Vec<&T> {
+    list.iter().enumerate().filter(|(place, _)| *place != left_out).map(|(_, item)| item).collect()
+}
+
+/// The outputs of every run, a column for each.
+fn columns(kept: &PointOutputs, runs: usize) -> Vec<Vec<f64>> {
+    let mut columns = vec![Vec::with_capacity(kept.points() as usize); runs];
+    for block in kept.blocks(u64::MAX) {
+        columns.iter_mut().zip(block).for_each(|(column, more)| column.extend_from_slice(more));
+    }
+    columns
+}
+
+/// `None` if the values are all alike, or none.
+fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
+    let mean = crate::sum::mean(values);
+    let size = values.iter().fold(0.0, |largest: f64, y| largest.max((y - mean).abs()));
+    // In units of the largest deviation, so that nothing under- or overflows when squared.
+    let square = |y: &f64| ((y - mean) / size).powi(2);
+    let sd = size * (values.iter().map(square).sum::<f64>() / values.len() as f64).sqrt();
+    (size > 0.0 && sd.is_finite() && mean.is_finite()).then_some((mean, sd))
+}
+
+/// The means over all points, and what each part does to them.
+fn estimates(corrected: &Corrected, (swaps, pairs): (usize, usize), (mean, sd): (f64, f64)) -> SurrogateEstimates {
+    let Corrected { nets, expansions } = corrected;
+    let gathered = |column: &dyn Fn(&Contributions) -> &Vec<f64>| -> Influenced {
+        let columns: Vec<Vec<f64>> = nets.iter().map(|net| column(net).clone()).collect();
+        let count: usize = columns.iter().map(Vec::len).sum();
+        let estimate = columns.iter().flatten().sum::<f64>() / count as f64;
+        let parts = in_parts(&columns).into_iter().map(|net| net.into_iter().map(|x| x - estimate).collect()).collect();
+        Influenced { estimate, parts }
+    };
+    let variance = gathered(&|net| &net.variance);
+    let index = |numerator: &Influenced| {
+        let estimate = numerator.estimate / variance.estimate;
+        Influenced { estimate, parts: linear(&[(1.0, numerator), (-estimate, &variance)], 1.0 / variance.estimate) }
+    };
+    let first_order: Vec<Influenced> = (0..swaps).map(|swap| index(&gathered(&|net| &net.first_order[swap]))).collect();
+    let second_order: Vec<Influenced> = (0..pairs).map(|pair| index(&gathered(&|net| &net.pairs[pair]))).collect();
+    let forms: [Vec<Influenced>; 2] =
+        [0, 1].map(|form| (0..swaps).map(|swap| index(&gathered(&|net| &net.total[form][swap]))).collect());
+    let weight = weight_of_second(&forms);
+    let mixed = |(a, b): (&Influenced, &Influenced)| Influenced {
+        estimate: (1.0 - weight) * a.estimate + weight * b.estimate,
+        parts: linear(&[(1.0 - weight, a), (weight, b)], 1.0),
+    };
+    let total = forms[0].iter().zip(&forms[1]).map(mixed).collect();
+    let scaled = |of: Influenced, offset: f64, scale: f64| Influenced {
+        estimate: offset + scale * of.estimate,
+        parts: linear(&[(scale, &of)], 1.0),
+    };
+    SurrogateEstimates {
+        first_order,
+        total,
+        second_order,
+        mean: scaled(gathered(&|net| &net.mean), mean, sd),
+        explained: 1.0 - corrected.residual() / variance.estimate,
+        is_heavy_tailed: corrected.is_heavy_tailed(),
+        terms: told_terms(expansions, variance.estimate),
+        term_count: expansions.iter().map(|e| e.terms.len() as f64).sum::<f64>() / expansions.len() as f64,
+        variance: scaled(variance, 0.0, sd * sd),
+    }
+}
+
+fn linear(list: &[(f64, &Influenced)], scale: f64) -> PartInfluences {
+    let mut parts: PartInfluences = list[0].1.parts.iter().map(|net| vec![0.0; net.len()]).collect();
+    for (weight, of) in list {
+        for (sums, more) in parts.iter_mut().zip(&of.parts) {
+            sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += scale * weight * more);
+        }
+    }
+    parts
+}
+
+/// The weight of the second form of the total indices with which the spread within the nets is least, over all swaps.
+fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
+    let (mut covariance, mut variance) = (0.0, 0.0);
+    for (a, b) in first.iter().zip(second) {
+        for (a, b) in a.parts.iter().zip(&b.parts) {
+            let n = a.len() as f64;
+            let mean = |list: &[f64]| list.iter().sum::<f64>() / n;
+            let (mean_a, mean_b) = (mean(a), mean(b));
+            for (a, b) in a.iter().zip(b) {
+                let difference = (b - mean_b) - (a - mean_a);
+                covariance += difference * (a - mean_a);
+                variance += difference * difference;
+            }
+        }
+    }
+    if variance > 0.0 { (-covariance / variance).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// The terms of all surrogates by their mean share of the variance.
+fn told_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm> {
+    let mut terms: Vec<(&Term, f64)> = Vec::new();
+    for expansion in expansions {
+        for (term, b) in expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty()) {
+            let share = b * b / variance / expansions.len() as f64;
+            match terms.iter_mut().find(|(known, _)| *known == term) {
+                Some((_, sum)) => *sum += share,
+                None => terms.push((term, share)),
+            }
+        }
+    }
+    terms.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(b.0)));
+    terms.truncate(TOLD_TERMS);
+    terms.into_iter().map(|(term, share)| SurrogateTerm { factors: term.clone(), share }).collect()
+}

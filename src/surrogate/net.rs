@@ -1,0 +1,90 @@
+//! The runs of one replicate as the fit sees them: polynomials of the base points, and the outputs of every run.
+
+use super::basis::{Family, Term, polynomials};
+use crate::design::{Design, Run};
+
+/// One scrambled net: its base points by their polynomials, and an output at each of their runs. Base points at which a
+/// run failed are left out.
+pub struct Net {
+    /// For each matrix and factor a column for each degree from 1.
+    columns: Vec<Vec<Vec<f64>>>,
+    factors: usize,
+    /// For each run its outputs, less the mean of all and over their standard deviation.
+    pub outputs: Vec<Vec<f64>>,
+    /// For each run and factor the matrix of its column.
+    matrices: Vec<Vec<usize>>,
+    points: usize,
+}
+
+impl Net {
+    /// The base points `points` of `replicate` whose `outputs`, a column for each run, are all finite.
+    pub fn new(design: &Design, replicate: u64, families: &[Family], degree: usize, outputs: &[Vec<f64>]) -> Self {
+        let count = outputs.first().map_or(0, Vec::len);
+        let good: Vec<usize> = (0..count).filter(|&p| outputs.iter().all(|run| run[p].is_finite())).collect();
+        let mut base = vec![vec![0.0; count]; design.columns()];
+        design.replicate(replicate).fill(0, &mut base);
+        let factors = design.factors();
+        let of_column = |(number, u): (usize, &Vec<f64>)| {
+            let u: Vec<f64> = good.iter().map(|&p| u[p]).collect();
+            polynomials(&families[number % factors], &u, degree)
+        };
+        let matrix = |run: &Run, factor: usize| {
+            if run.columns.binary_search(&factor).is_ok() { run.from as usize } else { run.base as usize }
+        };
+        Self {
+            columns: base.iter().enumerate().map(of_column).collect(),
+            factors,
+            outputs: outputs.iter().map(|run| good.iter().map(|&p| run[p]).collect()).collect(),
+            matrices: design.runs().iter().map(|run| (0..factors).map(|f| matrix(run, f)).collect()).collect(),
+            points: good.len(),
+        }
+    }
+
+    /// Base points.
+    pub fn points(&self) -> usize {
+        self.points
+    }
+
+    /// Runs of each of them.
+    pub fn runs(&self) -> usize {
+        self.outputs.len()
+    }
+
+    /// The polynomial of `degree` of `factor` at the base points of `run`.
+    fn column(&self, run: usize, factor: usize, degree: usize) -> &[f64] {
+        &self.columns[self.matrices[run][factor] * self.factors + factor][degree - 1]
+    }
+
+    /// The values of `term` at every base point of `run`, into `values`.
+    pub fn fill(&self, term: &Term, run: usize, values: &mut Vec<f64>) {
+        values.clear();
+        let Some(((factor, degree), others)) = term.split_first() else {
+            values.resize(self.points, 1.0);
+            return;
+        };
+        values.extend_from_slice(self.column(run, *factor, *degree));
+        for (factor, degree) in others {
+            let column = self.column(run, *factor, *degree);
+            values.iter_mut().zip(column).for_each(|(value, p)| *value *= p);
+        }
+    }
+
+    /// Rows (run, base point) at equal distances in the order of the runs, at most `most` of them.
+    pub fn spaced_rows(&self, most: usize) -> Vec<(usize, usize)> {
+        let all = self.points * self.runs();
+        let count = all.min(most);
+        let row = |k: usize| if count > 1 { k * (all - 1) / (count - 1) } else { 0 };
+        (0..count).map(row).map(|row| (row / self.points, row % self.points)).collect()
+    }
+
+    /// The values of `term` at some rows.
+    pub fn at(&self, term: &Term, rows: &[(usize, usize)]) -> Vec<f64> {
+        let mut values = vec![1.0; rows.len()];
+        for (factor, degree) in term {
+            for (value, (run, point)) in values.iter_mut().zip(rows) {
+                *value *= self.column(*run, *factor, *degree)[*point];
+            }
+        }
+        values
+    }
+}

@@ -1,0 +1,130 @@
+//! Errors of corrected indices.
+//!
+//! What base points contribute to a corrected index behaves almost like independent noise, and is skewed: squares of what
+//! the surrogate leaves are rarely large. The spread within the nets has many degrees of freedom, that between the nets
+//! sees what is not independent; their mean weighted by both is the variance. Each side of an interval has the degrees of
+//! freedom that its largest contributions leave.
+
+use super::net_decay::{PartInfluences, StandardError};
+use super::{Estimate, Interval, t_quantile};
+
+/// Parts of a net whose mean influences stand for its points, at most.
+const PARTS: usize = 64;
+
+/// Degrees of freedom that the spread within the nets is worth as a prior.
+const PRIOR_FREEDOM: f64 = 5.0;
+
+/// The same for its common factor, over the indices of a kind.
+const COMMON_FREEDOM: f64 = 8.0;
+
+/// Indices of an output are no independent witnesses: so many of them count as one.
+const DEPENDENCE: f64 = 4.0;
+
+/// Half width of an interval about an index that rounding alone calls for: the terms of a surrogate are not exactly orthonormal
+/// in their sums.
+const ROUNDING: f64 = 1e-12;
+
+/// Degrees of freedom of a side over the share of its largest contributions, sum x^4/(sum x^2)^2.
+const FREEDOM_OF_SIDE: f64 = 0.4;
+
+/// What the indices of one kind, first-order or total ones, say of their errors together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Noise {
+    /// The spread between nets over that expected from within.
+    common: f64,
+    /// Concentration of the influences below and above their mean.
+    concentration: [f64; 2],
+    /// Whether the truth is further above than below: true of sums of squares.
+    skewed: bool,
+}
+
+/// Variance of the mean over all nets by the spread within them, and by that between them.
+fn variances(parts: &PartInfluences) -> (f64, f64) {
+    let nets = parts.len() as f64;
+    let means: Vec<f64> = parts.iter().map(|net| net.iter().sum::<f64>() / net.len().max(1) as f64).collect();
+    let within: f64 = parts
+        .iter()
+        .zip(&means)
+        .map(|(net, mean)| {
+            let n = net.len() as f64;
+            net.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / ((n - 1.0).max(1.0) * n)
+        })
+        .sum();
+    let centre = means.iter().sum::<f64>() / nets;
+    let between = means.iter().map(|mean| (mean - centre).powi(2)).sum::<f64>() / ((nets - 1.0).max(1.0) * nets);
+    (within / (nets * nets), between)
+}
+
+/// sum x^4/(sum x^2)^2 over the negative and the positive influences.
+fn concentration(parts: &PartInfluences) -> [f64; 2] {
+    let size = parts.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    if size == 0.0 {
+        return [0.0; 2];
+    }
+    let squares: f64 = parts.iter().flatten().map(|x| (x / size).powi(2)).sum();
+    [-1.0, 1.0].map(|sign| {
+        let fourth = |x: &f64| if x * sign > 0.0 { (x / size).powi(4) } else { 0.0 };
+        parts.iter().flatten().map(fourth).sum::<f64>() / (squares * squares)
+    })
+}
+
+impl Noise {
+    /// Of indices of one kind; `skewed` of total indices.
+    pub fn new(quantities: &[&PartInfluences], skewed: bool) -> Self {
+        let moving: Vec<&PartInfluences> =
+            quantities.iter().copied().filter(|parts| variances(parts).0 > 0.0).collect();
+        let count = moving.len() as f64;
+        if moving.is_empty() {
+            return Self { common: 1.0, concentration: [0.0; 2], skewed };
+        }
+        let ratio =
+            moving.iter().map(|parts| variances(parts)).map(|(within, between)| between / within).sum::<f64>() / count;
+        let direct = (moving[0].len() as f64 - 1.0) * (count / DEPENDENCE).max(1.0);
+        let common = (direct * ratio + COMMON_FREEDOM) / (direct + COMMON_FREEDOM);
+        let sums = moving.iter().map(|parts| concentration(parts)).fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+        Self { common, concentration: sums.map(|sum| sum / count), skewed }
+    }
+
+    /// The same without the skewness: for differences.
+    pub fn even(self) -> Self {
+        let [low, high] = self.concentration;
+        Self { concentration: [low.max(high); 2], skewed: false, ..self }
+    }
+
+    /// The standard error of the mean of the influences.
+    pub fn error(&self, parts: &PartInfluences) -> StandardError {
+        let (within, between) = variances(parts);
+        let direct = parts.len() as f64 - 1.0;
+        let freedom = PRIOR_FREEDOM + direct;
+        let variance = (PRIOR_FREEDOM * self.common * within + direct * between) / freedom;
+        StandardError { error: variance.sqrt(), freedom }
+    }
+
+    /// The estimate with its interval.
+    pub fn estimate(&self, estimate: f64, parts: &PartInfluences) -> Estimate {
+        let error = self.error(parts);
+        let half = |concentration: f64| {
+            let freedom = (FREEDOM_OF_SIDE / concentration).min(error.freedom).max(1.0);
+            t_quantile(freedom).map(|quantile| quantile * error.error + ROUNDING * estimate.abs().max(1.0))
+        };
+        // The influences of rows that are missing are like those that are there: large positive ones that few rows have are
+        // missing from an estimate that is too small.
+        let [low, high] = self.concentration.map(half);
+        let interval = low.zip(high).map(|(low, high)| {
+            let q = if self.skewed && estimate > 0.0 { (high / estimate).min(1.0) } else { 0.0 };
+            let stretch = if q > 1e-9 { q.exp_m1() / q } else { 1.0 };
+            Interval { low: estimate - low, high: estimate + high * stretch }
+        });
+        Estimate { estimate, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) }
+    }
+}
+
+/// The contributions of the points of every net as influences of up to 64 parts of each.
+pub fn in_parts(nets: &[Vec<f64>]) -> PartInfluences {
+    let of_net = |points: &Vec<f64>| {
+        let (count, parts) = (points.len(), points.len().min(PARTS));
+        let part = |k: usize| &points[k * count / parts..(k + 1) * count / parts];
+        (0..parts).map(part).map(|part| part.iter().sum::<f64>() / part.len() as f64).collect()
+    };
+    nets.iter().map(of_net).collect()
+}

@@ -1,0 +1,151 @@
+//! Indices corrected by surrogates: exact where the model is a polynomial, more accurate elsewhere, the same bits on any
+//! number of threads and from a journal, and told of in the result.
+
+use std::path::Path;
+
+use apportion::model::KnownAnswer;
+use apportion::report::ResultFile;
+use apportion::{Resume, Study};
+
+use crate::common::{apportion, stderr, succeed, text};
+
+fn refused(output: &std::process::Output, words: &str) {
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
+    assert!(stderr(output).contains(words), "{}", stderr(output));
+}
+
+fn study(text: &str, more: &[&str]) -> Study {
+    let overrides: Vec<String> = more.iter().map(|text| (*text).to_owned()).collect();
+    Study::parse(text, Path::new("surrogate.toml"), &overrides).unwrap()
+}
+
+const ON: &str = "analysis.surrogate=\"on\"";
+
+#[test]
+fn a_polynomial_has_its_indices_to_rounding() {
+    // Var(x1) = 1/12, Var(2 x2) = 4/12, x1 x2 centred 3: 9/144.
+    let text = "model = \"expression\"\n[expression]\noutputs.y = \"x1 + 2*x2 + 3*(x1-0.5)*(x2-0.5)\"\n\
+                [[factor]]\nname = \"x1\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"x2\"\nmin = 0\nmax = 1\n\
+                [[factor]]\nname = \"x3\"\nmin = 0\nmax = 1\n[analysis]\nsecond_order = true\nsubsets = [[\"x1\", \"x2\"]]\n";
+    let result = study(text, &[ON, "design.base_samples=64"]).run().unwrap();
+    let output = result.output("y").unwrap();
+    let indices = output.indices.as_ref().unwrap();
+    let (one, two, both) = (1.0 / 12.0, 4.0 / 12.0, 9.0 / 144.0);
+    let variance = one + two + both;
+    let close = |found: f64, exact: f64| assert!((found - exact).abs() < 1e-9, "{found} {exact}");
+    for (effect, first, total) in
+        [(0, one, one + both), (1, two, two + both), (2, 0.0, 0.0)].map(|(k, s, t)| (&indices.factors[k], s, t))
+    {
+        close(effect.first_order.estimate, first / variance);
+        close(effect.total.estimate, total / variance);
+        close(effect.interaction.estimate, (total - first) / variance);
+        let interval = effect.total.interval.unwrap();
+        assert!(
+            interval.low <= total / variance
+                && total / variance <= interval.high
+                && interval.high - interval.low < 1e-8
+        );
+    }
+    close(indices.subsets[0].first_order.estimate, 1.0);
+    close(indices.second_order[0].estimate, both / variance);
+    close(indices.sum_first_order.estimate, (one + two) / variance);
+    close(indices.factors[1].share_first_order.unwrap().estimate, 80.0);
+    close(output.variance.unwrap().estimate, variance);
+    close(output.mean.unwrap().estimate, 1.5);
+    let used = indices.surrogate.as_ref().unwrap();
+    assert!(used.corrects_first_order && used.corrects_total && used.explained > 1.0 - 1e-9);
+    assert_eq!(used.terms[0].factors, [(1, 1)]);
+    close(used.terms[0].share, two / variance);
+}
+
+#[test]
+fn smooth_functions_are_known_a_hundred_times_better_and_rough_ones_no_worse() {
+    for (name, factor) in [("ishigami", 1000.0), ("wing-weight", 100.0), ("sobol-g", 3.0), ("steps", 0.9)] {
+        let exact = KnownAnswer::from_name(name).unwrap().default_function().exact().indices.unwrap();
+        let error = |more: &[&str]| -> f64 {
+            let seeds = (0..4).map(|seed| {
+                let seed = format!("design.seed={seed}");
+                let model = format!("model = \"{name}\"");
+                let result = study(&model, &[more, &["design.base_samples=128", &seed]].concat()).run().unwrap();
+                let indices = result.outputs[0].indices.as_ref().unwrap().factors.clone();
+                let squares =
+                    indices.iter().zip(exact.first_order.iter().zip(&exact.total)).map(|(effect, (first, total))| {
+                        (effect.first_order.estimate - first).powi(2) + (effect.total.estimate - total).powi(2)
+                    });
+                squares.sum::<f64>()
+            });
+            seeds.sum::<f64>().sqrt()
+        };
+        let (plain, corrected) = (error(&[]), error(&[ON]));
+        assert!(corrected * factor < plain, "{name}: {corrected:e} against {plain:e}");
+    }
+}
+
+#[test]
+fn few_levels_and_normal_factors_are_fitted_in_their_own_polynomials() {
+    let text = "model = \"expression\"\n[expression]\noutputs.y = \"z^2 + k*z + t\"\n\
+                [[factor]]\nname = \"z\"\ndistribution = \"normal\"\nmean = 0\nsd = 1\n\
+                [[factor]]\nname = \"k\"\ndistribution = \"discrete\"\nvalues = [1, 2, 5]\nweights = [0.5, 0.3, 0.2]\n\
+                [[factor]]\nname = \"t\"\ndistribution = \"triangular\"\nmin = 0\nmode = 1\nmax = 3\n";
+    let result = study(text, &[ON, "design.base_samples=64"]).run().unwrap();
+    let indices = result.outputs[0].indices.as_ref().unwrap();
+    // Var z^2 = 2; E k = 2.1, E k^2 = 6.7; Var t = (9 + 1 - 3)/18.
+    let (alone, interaction, triangle) = (2.0 + 2.1 * 2.1, 6.7 - 2.1 * 2.1, 7.0 / 18.0);
+    let variance = alone + interaction + triangle;
+    for (effect, exact) in
+        indices.factors.iter().zip([(alone, alone + interaction), (0.0, interaction), (triangle, triangle)])
+    {
+        assert!((effect.first_order.estimate - exact.0 / variance).abs() < 1e-9, "{effect:?}");
+        assert!((effect.total.estimate - exact.1 / variance).abs() < 1e-9, "{effect:?}");
+    }
+}
+
+#[test]
+fn the_bits_are_the_same_on_any_number_of_threads_and_from_a_journal() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study("model = \"borehole\"\n[analysis]\ndummy = true\n", &[ON, "design.base_samples=64"]);
+    let run = |threads: usize, resume: Resume| {
+        let journal = folder.path().join("borehole.journal");
+        let result = study.runner().threads(threads).journal(journal).resume(resume).run().unwrap();
+        let mut file = ResultFile::new(&study, &result);
+        (file.provenance.wall_seconds, file.provenance.threads) = (0.0, 0);
+        file
+    };
+    let first = run(1, Resume::Never);
+    assert_eq!(first, run(2, Resume::Never));
+    assert_eq!(first, run(2, Resume::Require));
+    assert!(first.outputs[0].surrogate.as_ref().unwrap().gain_total.unwrap() > 100.0);
+}
+
+#[test]
+fn where_there_is_nothing_to_fit_the_plain_indices_stand() {
+    let with = |text: &str, more: &[&str]| {
+        let result = study(text, &[more, &[ON]].concat()).run().unwrap();
+        result.outputs[0].indices.as_ref().map(|indices| indices.surrogate.is_some()).unwrap_or(false)
+    };
+    assert!(with("model = \"ishigami\"", &["design.base_samples=64"]));
+    assert!(!with("model = \"ishigami\"", &["design.base_samples=64", "design.replicates=2"]), "too few nets");
+    assert!(!with("model = \"ishigami\"", &["design.base_samples=8"]), "too few points");
+    assert!(!with("model = \"constant\"", &["design.base_samples=64"]), "no variance");
+}
+
+#[test]
+fn the_program_tells_what_the_surrogate_did() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.toml");
+    std::fs::write(&file, "model = \"ishigami\"\n[design]\nbase_samples = 256\n[analysis]\nsurrogate = \"auto\"\n")
+        .unwrap();
+    let shown = succeed(&["run", text(&file), "--out", text(folder.path())]);
+    assert!(shown.contains("What the surrogate did") && shown.contains("S_1 plain"), "{shown}");
+    let json = std::fs::read_to_string(folder.path().join("mine.json")).unwrap();
+    let value: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let record = &value["outputs"][0]["surrogate"];
+    assert!(record["explained"].as_f64().unwrap() > 0.999_999 && record["plain"].as_array().unwrap().len() == 3);
+    assert!(record["leading_terms"][0]["degrees"].is_object());
+    // From the file alone, the same.
+    succeed(&["report", text(&folder.path().join("mine.json")), "--out", text(&folder.path().join("again"))]);
+    let refusal = apportion(&["run", text(&file), "--set", "analysis.intervals=replicates", "--set", ON]);
+    refused(&refusal, "only beside intervals = \"nets\"");
+    let unknown = apportion(&["check", text(&file), "--set", "analysis.surrogate=yes"]);
+    refused(&unknown, "auto");
+}
