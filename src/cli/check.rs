@@ -246,6 +246,9 @@ fn asked(study: &Study) -> String {
         let names: Vec<&str> = analysis.estimators.iter().map(|estimator| estimator.name()).collect();
         parts.push(format!("other estimators {}", names.join(", ")));
     }
+    if study.uses_surrogate(study.design()) {
+        parts.push("correction by surrogates".to_owned());
+    }
     let companions = study.design().companions();
     let (first, total) = (FirstOrder::of_rows(companions), Total::of_rows(companions));
     let none = "none: a single replicate says nothing about its error".to_owned();
@@ -326,11 +329,12 @@ fn memory(study: &Study) -> String {
     );
     if study.needs_outputs() {
         let bytes = study.design().rows() as f64 * study.model().outputs().len() as f64 * 8.0;
-        text.push_str(&format!(
-            "        and {:.1} MB for the outputs of all runs, which intervals = \"{}\" need\n",
-            bytes / 1e6,
-            study.analysis().intervals.name()
-        ));
+        let (intervals, surrogate) = (study.analysis().intervals, study.analysis().surrogate);
+        let needed = match intervals.keeps_outputs() {
+            true => format!("intervals = \"{}\" need", intervals.name()),
+            false => format!("surrogate = \"{}\" needs", surrogate.name()),
+        };
+        text.push_str(&format!("        and {:.1} MB for the outputs of all runs, which {needed}\n", bytes / 1e6));
     }
     text
 }

@@ -7,6 +7,7 @@ use crate::model::{Batch, FunctionModel, Model, Output, RunContext, Worker};
 use crate::quantity::Unit;
 use crate::run::{BLOCK, GrowingRun, Progress, Shard, Totals, run};
 use crate::space::{Distribution, Factor, Space};
+#[cfg(feature = "study")]
 use crate::study::Study;
 
 fn space() -> Space {
@@ -56,6 +57,7 @@ fn totals_from_a_store_are_those_of_a_plain_run() {
 }
 
 #[test]
+#[cfg(feature = "study")]
 fn the_physics_gives_the_same_bits_row_by_row() {
     for fidelity in ["closed-form", "quasi-static"] {
         let text = include_str!("../../../studies/lugre-general.toml");
