@@ -11,7 +11,7 @@ use apportion::model::KnownAnswer;
 use apportion::{Estimate, Study};
 use rayon::prelude::*;
 
-const SEEDS: u64 = 100;
+const SEEDS: u64 = 40;
 const SIZES: [u64; 3] = [16, 64, 256];
 
 /// Smooth functions: errors fall by orders of magnitude.
@@ -214,7 +214,7 @@ fn main() {
     }
     let mut text = "# Indices corrected by surrogates\n\nRoot mean square errors of all first-order and total indices at equal \
                     runs: how many times smaller with `surrogate = \"on\"` than without, and than with a single Saltelli net of \
-                    the same size. 100 seeds, N base samples in all; every function with its errors and the coverage of its \
+                    the same size. 40 seeds, N base samples in all; every function with its errors and the coverage of its \
                     95 % intervals is in `surrogate.csv`. Written by `cargo bench --bench surrogate`.\n\n| functions | N | gain over four plain nets: geometric mean, least | over one net |\n\
                     |---|---|---|---|\n"
         .to_owned();

@@ -89,3 +89,19 @@ fn wrong(problem: &Problem, model: ModelKind) -> Failure {
     let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
     Failure::Input(anyhow!("{option}: {problem} (model {}){help}", model.name))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_typed_as_a_shell_reads_them() {
+        for (path, typed) in [
+            ("studies/my-study.toml", "studies/my-study.toml"),
+            ("my study.toml", "'my study.toml'"),
+            ("it's $HOME.toml", r"'it'\''s $HOME.toml'"),
+        ] {
+            assert_eq!(quoted(Path::new(path)), typed);
+        }
+    }
+}

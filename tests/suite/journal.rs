@@ -418,9 +418,11 @@ fn a_full_disk_ends_a_run_without_loss() {
 fn two_runs_do_not_write_one_journal() {
     let folder = tempfile::tempdir().unwrap();
     // Long enough to be at work still when the second one begins, on any machine.
-    let mut first = spawn(&slow(folder.path(), &["--set", "design.base_samples=262144"]));
+    let longer = |argument: String| if argument == SLOW[3] { "262144".to_owned() } else { argument };
+    let long: Vec<String> = slow(folder.path(), &[]).into_iter().map(longer).collect();
+    let mut first = spawn(&long);
     wait_for_bytes(&folder.path().join("lugre-environmental.journal"), 3000);
-    let second = apportion(&words(&slow(folder.path(), &[])));
+    let second = apportion(&words(&long));
     refused(&second, 1, "lugre-environmental.journal: another run is writing this journal");
     first.kill().unwrap();
     first.wait().unwrap();
