@@ -40,7 +40,7 @@ const CLEARLY_LESS: f64 = 0.25;
 
 /// Share of the variance that the surrogates leave, and rows that carry it, three over their kurtosis times their number, from
 /// and below which corrected intervals must hold the plain ones too: what is missing from the runs is missing from a fit to them.
-const RESIDUAL: f64 = 1e-4;
+const RESIDUAL: f64 = 1e-3;
 const FEW_ROWS: f64 = 50.0;
 
 /// Terms that are told of.
