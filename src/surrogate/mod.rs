@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use crate::design::{Design, Sampler};
 use crate::estimate::PointOutputs;
 use crate::space::Space;
-use crate::uncertainty::{Influenced, Layout, PartInfluences, SurrogateEstimates, SurrogateTerm, in_parts};
+use crate::uncertainty::{Influenced, Layout, SurrogateEstimates, SurrogateTerm, in_parts};
 use basis::{Caps, Family, Term};
 use corrected::Contributions;
 use fit::{Expansion, NetSums, first_candidates, fit, selection_rows};
@@ -189,21 +189,19 @@ fn estimates(corrected: &Corrected, (swaps, pairs): (usize, usize), (mean, sd): 
     let variance = gathered(&|net| &net.variance);
     let index = |numerator: &Influenced| {
         let estimate = numerator.estimate / variance.estimate;
-        Influenced { estimate, parts: linear(&[(1.0, numerator), (-estimate, &variance)], 1.0 / variance.estimate) }
+        let scale = 1.0 / variance.estimate;
+        Influenced { estimate, ..Influenced::combined(&[(scale, numerator), (-estimate * scale, &variance)]) }
     };
     let first_order: Vec<Influenced> = (0..swaps).map(|swap| index(&gathered(&|net| &net.first_order[swap]))).collect();
     let second_order: Vec<Influenced> = (0..pairs).map(|pair| index(&gathered(&|net| &net.pairs[pair]))).collect();
     let forms: [Vec<Influenced>; 2] =
         [0, 1].map(|form| (0..swaps).map(|swap| index(&gathered(&|net| &net.total[form][swap]))).collect());
     let weight = weight_of_second(&forms);
-    let mixed = |(a, b): (&Influenced, &Influenced)| Influenced {
-        estimate: (1.0 - weight) * a.estimate + weight * b.estimate,
-        parts: linear(&[(1.0 - weight, a), (weight, b)], 1.0),
-    };
+    let mixed = |(a, b): (&Influenced, &Influenced)| Influenced::combined(&[(1.0 - weight, a), (weight, b)]);
     let total = forms[0].iter().zip(&forms[1]).map(mixed).collect();
     let scaled = |of: Influenced, offset: f64, scale: f64| Influenced {
         estimate: offset + scale * of.estimate,
-        parts: linear(&[(scale, &of)], 1.0),
+        ..Influenced::combined(&[(scale, &of)])
     };
     SurrogateEstimates {
         first_order,
@@ -216,16 +214,6 @@ fn estimates(corrected: &Corrected, (swaps, pairs): (usize, usize), (mean, sd): 
         term_count: expansions.iter().map(|e| e.terms.len() as f64).sum::<f64>() / expansions.len() as f64,
         variance: scaled(variance, 0.0, sd * sd),
     }
-}
-
-fn linear(list: &[(f64, &Influenced)], scale: f64) -> PartInfluences {
-    let mut parts: PartInfluences = list[0].1.parts.iter().map(|net| vec![0.0; net.len()]).collect();
-    for (weight, of) in list {
-        for (sums, more) in parts.iter_mut().zip(&of.parts) {
-            sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += scale * weight * more);
-        }
-    }
-    parts
 }
 
 /// The weight of the second form of the total indices with which the spread within the nets is least, over all swaps.

@@ -14,6 +14,21 @@ pub struct Influenced {
     pub parts: PartInfluences,
 }
 
+impl Influenced {
+    /// A sum of numbers with weights.
+    pub fn combined(list: &[(f64, &Self)]) -> Self {
+        let estimate = list.iter().map(|(weight, of)| weight * of.estimate).sum();
+        let mut parts: PartInfluences =
+            list.first().map_or_else(Vec::new, |(_, of)| of.parts.iter().map(|net| vec![0.0; net.len()]).collect());
+        for (weight, of) in list {
+            for (sums, more) in parts.iter_mut().zip(&of.parts) {
+                sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += weight * more);
+            }
+        }
+        Self { estimate, parts }
+    }
+}
+
 /// What a surrogate makes of the runs of an output. Indices are those of all swaps, in the order of the layout.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurrogateEstimates {
@@ -134,7 +149,7 @@ impl SurrogateEstimates {
         }
         if corrects_first_order && corrects_total {
             for swap in 0..layout.swaps() {
-                let interaction = combined(&[(1.0, &self.total[swap]), (-1.0, &self.first_order[swap])]);
+                let interaction = Influenced::combined(&[(1.0, &self.total[swap]), (-1.0, &self.first_order[swap])]);
                 put(layout.swap(swap) + 5, total.even(), &interaction);
             }
         } else if corrects_first_order || corrects_total {
@@ -174,8 +189,17 @@ impl SurrogateEstimates {
 
     /// Mean and variance with their errors.
     pub(super) fn moments(&self) -> [Replacement; 2] {
-        let noise = |of: &Influenced, skewed| Noise::new(&[&of.parts], skewed);
-        [replacement(noise(&self.mean, false), &self.mean), replacement(noise(&self.variance, true), &self.variance)]
+        let of = |of: &Influenced, skewed| {
+            // In units of the largest influence, so that nothing under- or overflows when squared.
+            let largest = of.parts.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+            let size = if largest > 0.0 { largest } else { 1.0 };
+            let scaled = Influenced { estimate: of.estimate / size, ..Influenced::combined(&[(1.0 / size, of)]) };
+            let (estimate, error, _) = replacement(Noise::of_moment(&scaled.parts, skewed), &scaled);
+            let interval = estimate.interval.map(|i| Interval { low: i.low * size, high: i.high * size });
+            let error = StandardError { error: error.error * size, ..error };
+            (Estimate { estimate: of.estimate, interval }, error, of.parts.clone())
+        };
+        [of(&self.mean, false), of(&self.variance, true)]
     }
 }
 
@@ -183,27 +207,15 @@ fn replacement(noise: Noise, of: &Influenced) -> Replacement {
     (noise.estimate(of.estimate, &of.parts), noise.error(&of.parts), of.parts.clone())
 }
 
-/// A sum of numbers with weights.
-fn combined(list: &[(f64, &Influenced)]) -> Influenced {
-    let estimate = list.iter().map(|(weight, of)| weight * of.estimate).sum();
-    let mut parts: PartInfluences =
-        list.first().map_or_else(Vec::new, |(_, of)| of.parts.iter().map(|net| vec![0.0; net.len()]).collect());
-    for (weight, of) in list {
-        for (sums, more) in parts.iter_mut().zip(&of.parts) {
-            sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += weight * more);
-        }
-    }
-    Influenced { estimate, parts }
-}
-
 fn sum(list: &[Influenced]) -> Influenced {
-    combined(&list.iter().map(|of| (1.0, of)).collect::<Vec<_>>())
+    Influenced::combined(&list.iter().map(|of| (1.0, of)).collect::<Vec<_>>())
 }
 
 /// 100 part/all.
 fn share(part: &Influenced, all: &Influenced) -> Influenced {
     let percent = 100.0 * part.estimate / all.estimate;
-    let Influenced { parts, .. } = combined(&[(100.0 / all.estimate, part), (-percent / all.estimate, all)]);
+    let Influenced { parts, .. } =
+        Influenced::combined(&[(100.0 / all.estimate, part), (-percent / all.estimate, all)]);
     Influenced { estimate: percent, parts }
 }
 

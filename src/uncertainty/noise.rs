@@ -36,6 +36,8 @@ pub struct Noise {
     concentration: [f64; 2],
     /// Whether the truth is further above than below: true of sums of squares.
     skewed: bool,
+    /// The size of the numbers that rounding is measured by: 1 for indices.
+    unit: f64,
 }
 
 /// Variance of the mean over all nets by the spread within them, and by that between them.
@@ -75,14 +77,19 @@ impl Noise {
             quantities.iter().copied().filter(|parts| variances(parts).0 > 0.0).collect();
         let count = moving.len() as f64;
         if moving.is_empty() {
-            return Self { common: 1.0, concentration: [0.0; 2], skewed };
+            return Self { common: 1.0, concentration: [0.0; 2], skewed, unit: 1.0 };
         }
         let ratio =
             moving.iter().map(|parts| variances(parts)).map(|(within, between)| between / within).sum::<f64>() / count;
         let direct = (moving[0].len() as f64 - 1.0) * (count / DEPENDENCE).max(1.0);
         let common = (direct * ratio + COMMON_FREEDOM) / (direct + COMMON_FREEDOM);
         let sums = moving.iter().map(|parts| concentration(parts)).fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
-        Self { common, concentration: sums.map(|sum| sum / count), skewed }
+        Self { common, concentration: sums.map(|sum| sum / count), skewed, unit: 1.0 }
+    }
+
+    /// Of a number whose size says what rounding is: a mean or a variance.
+    pub fn of_moment(parts: &PartInfluences, skewed: bool) -> Self {
+        Self { unit: 0.0, ..Self::new(&[parts], skewed) }
     }
 
     /// The same without the skewness: for differences.
@@ -105,7 +112,7 @@ impl Noise {
         let error = self.error(parts);
         let half = |concentration: f64| {
             let freedom = (FREEDOM_OF_SIDE / concentration).min(error.freedom).max(1.0);
-            t_quantile(freedom).map(|quantile| quantile * error.error + ROUNDING * estimate.abs().max(1.0))
+            t_quantile(freedom).map(|quantile| quantile * error.error + ROUNDING * estimate.abs().max(self.unit))
         };
         // The influences of rows that are missing are like those that are there: large positive ones that few rows have are
         // missing from an estimate that is too small.

@@ -59,6 +59,30 @@ fn a_polynomial_has_its_indices_to_rounding() {
 }
 
 #[test]
+fn mean_and_variance_keep_their_intervals_at_any_scale() {
+    let relative = |factor: &str| {
+        let text = format!(
+            "model = \"expression\"\n[expression]\noutputs.y = \"{factor}*(exp(2*x1)*abs(x2-0.3)+x1)\"\n\
+             [[factor]]\nname = \"x1\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"x2\"\nmin = 0\nmax = 1\n"
+        );
+        let result = study(&text, &[ON, "design.base_samples=64"]).run().unwrap();
+        let output = result.output("y").unwrap();
+        [output.mean, output.variance].map(|of| {
+            let of = of.unwrap();
+            let interval = of.interval.unwrap();
+            [(of.estimate - interval.low) / of.estimate, (interval.high - of.estimate) / of.estimate]
+        })
+    };
+    let plain = relative("1");
+    assert!(plain.iter().flatten().all(|width| *width > 1e-6 && *width < 0.5), "{plain:?}");
+    for factor in ["1e-9", "1e-60", "1e60"] {
+        for (found, expected) in relative(factor).iter().flatten().zip(plain.iter().flatten()) {
+            assert!((found / expected - 1.0).abs() < 1e-5, "{factor}: {found} {expected}");
+        }
+    }
+}
+
+#[test]
 fn smooth_functions_are_known_a_hundred_times_better_and_rough_ones_no_worse() {
     for (name, factor) in [("ishigami", 1000.0), ("wing-weight", 100.0), ("sobol-g", 3.0), ("steps", 0.9)] {
         let exact = KnownAnswer::from_name(name).unwrap().default_function().exact().indices.unwrap();
