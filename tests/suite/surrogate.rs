@@ -161,6 +161,7 @@ fn the_program_tells_what_the_surrogate_did() {
         .unwrap();
     let shown = succeed(&["run", text(&file), "--out", text(folder.path())]);
     assert!(shown.contains("What the surrogate did") && shown.contains("S_1 plain"), "{shown}");
+    assert!(shown.contains("stages are those of the plain indices"), "{shown}");
     let json = std::fs::read_to_string(folder.path().join("mine.json")).unwrap();
     let value: serde_json::Value = serde_json::from_str(&json).unwrap();
     let record = &value["outputs"][0]["surrogate"];

@@ -194,6 +194,9 @@ fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
 fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let output = of.output;
     let mut sentences = Vec::new();
+    if output.surrogate.is_some() {
+        sentences.push("The stages are those of the plain indices, without the surrogate.".to_owned());
+    }
     if let Some(width) = widest(output) {
         sentences.push(format!("In the end every index is known to ± {} or better.", half_width(width)));
     }
