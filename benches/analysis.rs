@@ -2,15 +2,18 @@
 //!
 //! Analysis: all estimators of first-order, total and second-order indices from stored outputs of 8 factors at 2^16
 //! base points, on one thread, in the blocks of a run. Points: coordinates a second of each sampler, in the blocks of
-//! a run too.
+//! a run too. Surrogates: one fit.
 
 mod outputs;
 
 use std::hint::black_box;
 
-use apportion::design::{DesignSettings, LatinHypercube, RandomPoints, Sampler, SobolSequence};
+use apportion::design::{Design, DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 use apportion::estimate::{FirstOrder, Moments, SecondOrder, Total, Workspace};
 use apportion::run::BLOCK;
+use apportion::surrogate::basis::{Caps, Family};
+use apportion::surrogate::fit::{NetSums, first_candidates, fit, selection_rows};
+use apportion::surrogate::net::Net;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use outputs::{Outputs, design, function};
 
@@ -51,6 +54,41 @@ fn analysis(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// One sparse expansion, from the polynomials to the refitted coefficients, on one thread.
+fn surrogate(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("surrogate-fit-8-factors-400-terms");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    let function = function("sobol-g");
+    let families = vec![Family::Legendre; 8];
+    let caps = Caps { terms: 400, ..Caps::new(&families, 0) };
+    for base_samples in [100, 1000] {
+        let settings =
+            |seed| DesignSettings { base_samples: base_samples / 4, replicates: 1, seed, ..Default::default() };
+        let rows = Rows::plain((0..8).map(|j| vec![j]).collect());
+        let designs: Vec<Design> =
+            (0..4).map(|seed| Design::new(settings(seed), 8, rows.clone()).expect("a design")).collect();
+        let outputs: Vec<Vec<Vec<f64>>> = designs.iter().map(|design| Outputs::of(&function, design).runs).collect();
+        let rows = 10 * base_samples;
+        group.throughput(Throughput::Elements(rows));
+        group.bench_function(BenchmarkId::new("rows", rows), |bencher| {
+            bencher.iter(|| {
+                pool.install(|| {
+                    let net = |(design, outputs): (&Design, &Vec<Vec<f64>>)| {
+                        Net::new(design, 0, &families, caps.degree, outputs)
+                    };
+                    let nets: Vec<Net> = designs.iter().zip(black_box(&outputs)).map(net).collect();
+                    let candidates = first_candidates(caps, rows as usize);
+                    let most = selection_rows(nets.len());
+                    let sums: Vec<NetSums> = nets.iter().map(|net| NetSums::new(net, &candidates, most)).collect();
+                    let all: Vec<&Net> = nets.iter().collect();
+                    fit(&all, (&candidates, &sums.iter().collect::<Vec<_>>()), caps)
+                })
+            });
+        });
+    }
+    group.finish();
+}
+
 fn points(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("points");
     for dimensions in [16, 64] {
@@ -78,5 +116,5 @@ fn points(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, analysis, points);
+criterion_group!(benches, analysis, surrogate, points);
 criterion_main!(benches);

@@ -17,7 +17,8 @@ pub fn function(name: &str) -> KnownFunction {
 /// A design of one factor a swap over `factors` factors, with all companions.
 pub fn design(settings: DesignSettings, factors: usize, second_order: bool) -> Design {
     let swaps = (0..factors).map(|j| vec![j]).collect();
-    Design::new(settings, factors, Rows { swaps, companions: ALL_COMPANIONS, second_order }).expect("a design")
+    Design::new(settings, factors, Rows { swaps, companions: ALL_COMPANIONS, second_order, ..Rows::default() })
+        .expect("a design")
 }
 
 /// The inputs at the points of the first replicate, in columns: those of the matrix A, then B, then C.
@@ -45,7 +46,7 @@ impl<'a> Outputs<'a> {
         let inputs = inputs(function, design);
         let values = |run: &apportion::design::Run| {
             let matrix = |j: usize| if run.columns.contains(&j) { run.from } else { run.base };
-            let columns: Vec<&[f64]> = (0..d).map(|j| &inputs[matrix(j) as usize * d + j][..]).collect();
+            let columns: Vec<&[f64]> = (0..d).map(|j| &inputs[design.first_column(matrix(j)) + j][..]).collect();
             let mut x = vec![0.0; d];
             let value = |i: usize| {
                 x.iter_mut().zip(&columns).for_each(|(x, column)| *x = column[i]);

@@ -289,7 +289,9 @@ fn rows(study: &Study) -> String {
     words.extend(ba.then(|| format!("{} BA ({})", rows_of(swaps), askers(|rows| rows.ba))));
     words.extend(bc.then(|| format!("{} BC ({})", rows_of(swaps), askers(|rows| rows.bc))));
     words.extend(cb.then(|| format!("{} CB ({})", rows_of(swaps), askers(|rows| rows.cb))));
-    let all = 2 + swaps as u64 * (1 + design.companions().count());
+    let plain = design.plain_rows();
+    words.extend((plain > 0).then(|| format!("{plain} plain, for surrogates alone")));
+    let all = 2 + swaps as u64 * (1 + design.companions().count()) + u64::from(plain);
     let saved = all - design.rows_per_point();
     let once = if saved > 0 {
         format!("; {saved} of them the same point as another, which is run once")

@@ -57,8 +57,8 @@ fn estimators() -> String {
                 let (first, total) = (FirstOrder::of_rows(rows), Total::of_rows(rows));
                 format!(
                     "{}; {}. Where second order or another estimator brings rows BA along: {} and {}",
-                    FirstOrder::Saltelli2010.source(),
-                    Total::Jansen1999.source(),
+                    FirstOrder::SaltelliPooled.source(),
+                    Total::JansenPooled.source(),
                     first.name(),
                     total.name()
                 )

@@ -1,18 +1,25 @@
 //! The base points of a replicate.
 
-use super::{DesignSettings, LatinHypercube, RandomPoints, Sampler, SobolSequence};
+use super::{DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 
 /// Third matrices of random and Latin hypercube points come from streams of their own, so that A and B do not depend
 /// on whether there is a third: replicates count below 2^12, and the permutations of the hypercube have bit 63.
 const THIRD_STREAM: u64 = 1 << 62;
 
-/// The base points of one replicate: a column for each dimension, the first d of A, the next d of B and, if there is a
-/// third matrix, the last d of C. The columns of A and B are the same with and without C.
+/// Plain rows have a stream of their own, of every sampler.
+const PLAIN_STREAM: u64 = 1 << 61;
+
+/// The base points of one replicate: a column for each dimension, the first d of A, the next d of B, if there is a third
+/// matrix the next d of C, and the last ones of the plain rows. The columns of A and B are the same with and without the
+/// others.
 #[derive(Debug, Clone)]
 pub struct BasePoints {
     points: Points,
     /// The third matrix, where it is not part of the same sequence.
     third: Option<Points>,
+    /// The points of the plain rows, those of a base point one after the other, and how many it has.
+    plain: Option<(Points, usize)>,
+    factors: usize,
     /// Dimensions of `points`.
     dimensions: usize,
 }
@@ -25,31 +32,39 @@ enum Points {
 }
 
 impl BasePoints {
-    /// The points of `replicate` in `factors` columns for each of `matrices` (2 or 3).
-    pub(super) fn new(settings: &DesignSettings, replicate: u64, factors: usize, matrices: usize) -> Self {
+    /// The points of `replicate` in `factors` columns for each matrix that `rows` are made of.
+    pub(super) fn new(settings: &DesignSettings, replicate: u64, factors: usize, rows: &Rows) -> Self {
         let DesignSettings { sampler, seed, .. } = *settings;
+        let (matrices, plain_rows) = (rows.companions.matrices(), rows.plain_rows as usize);
         let length = settings.base_samples / settings.replicates;
-        if sampler == Sampler::Sobol {
-            let sequence = SobolSequence::scrambled(factors * matrices, seed, replicate);
-            return Self { points: Points::Sobol(sequence), third: None, dimensions: factors * matrices };
-        }
-        let of = |dimensions, stream| {
-            if sampler == Sampler::LatinHypercube {
-                Points::Latin(LatinHypercube::new(dimensions, length, seed, stream))
-            } else {
-                Points::Random(RandomPoints::new(dimensions, seed, stream))
-            }
+        let of = |dimensions, length, stream| match sampler {
+            Sampler::Sobol => Points::Sobol(SobolSequence::scrambled(dimensions, seed, stream)),
+            Sampler::LatinHypercube => Points::Latin(LatinHypercube::new(dimensions, length, seed, stream)),
+            Sampler::Random => Points::Random(RandomPoints::new(dimensions, seed, stream)),
         };
-        let third = (matrices > 2).then(|| of(factors, replicate | THIRD_STREAM));
-        Self { points: of(factors * 2, replicate), third, dimensions: factors * 2 }
+        let plain_points = || of(factors, length * plain_rows as u64, replicate | PLAIN_STREAM);
+        let plain = (plain_rows > 0).then(|| (plain_points(), plain_rows));
+        let of_sequence = if sampler == Sampler::Sobol { matrices } else { 2 };
+        let third = (matrices > of_sequence).then(|| of(factors, length, replicate | THIRD_STREAM));
+        let dimensions = factors * of_sequence;
+        Self { points: of(dimensions, length, replicate), third, plain, factors, dimensions }
     }
 
     /// The points `first`, `first + 1`, ... into `columns`: one per dimension, all of one length; values in (0, 1).
     pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
         let (own, rest) = columns.split_at_mut(self.dimensions.min(columns.len()));
         self.points.fill(first, own);
-        if let Some(third) = &self.third {
-            third.fill(first, rest);
+        let (third, plain) = rest.split_at_mut(if self.third.is_some() { self.factors.min(rest.len()) } else { 0 });
+        if let Some(points) = &self.third {
+            points.fill(first, third);
+        }
+        if let (Some((points, rows)), Some(length)) = (&self.plain, plain.first().map(Vec::len)) {
+            let mut all = vec![vec![0.0; length * rows]; self.factors];
+            points.fill(first * *rows as u64, &mut all);
+            for (number, column) in plain.iter_mut().enumerate() {
+                let points = all[number % self.factors].iter().skip(number / self.factors).step_by(*rows);
+                column.iter_mut().zip(points).for_each(|(slot, u)| *slot = *u);
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::{MAX_DIMENSIONS, MAX_FACTORS, MAX_PAIRED_FACTORS, MAX_POINTS, MAX_REPLICATES};
+use super::{MAX_DIMENSIONS, MAX_FACTORS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_POINTS, MAX_REPLICATES};
 
 /// Why a design cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -50,6 +50,12 @@ pub enum DesignError {
     TooManyReplicates {
         /// The number asked for.
         replicates: u64,
+    },
+    /// More plain rows than the memory of a block of base points is for.
+    #[error("plain_rows = {plain_rows}: at most {MAX_PLAIN_ROWS} for each base sample are possible")]
+    TooManyPlainRows {
+        /// The number asked for.
+        plain_rows: u32,
     },
     /// More model runs than can be counted.
     #[error("{base_samples} base samples of {rows_per_point} runs each are more runs than can be counted")]

@@ -6,7 +6,7 @@
 //! for `2 + k` rows: A, B, and one row AB_s for each of the k [`Swap`]s, which is A with some columns taken from B
 //! (Saltelli et al. 2010, Comput. Phys. Commun. 181, 259-270, "radial" scheme of its table 2). [`Companions`] add rows
 //! BA_s, BC_s and CB_s for the estimators that need them; C is then the coordinates 2d to 3d. Rows that are the same
-//! point are one row: they are run once.
+//! point are one row: they are run once. Plain rows, at points of a sequence of their own, teach surrogates.
 
 mod base;
 mod error;
@@ -36,6 +36,9 @@ pub const MAX_REPLICATES: u64 = 4096;
 
 /// Most factors of a design with second-order indices: their sums take d (d - 1) numbers for every output.
 pub const MAX_PAIRED_FACTORS: usize = 256;
+
+/// Most plain rows of a base point.
+pub const MAX_PLAIN_ROWS: u32 = 1000;
 
 /// Most factors of a design, whatever the sampler: every base point costs a run for each of them.
 pub const MAX_FACTORS: usize = 10_000;
@@ -130,6 +133,9 @@ impl Design {
         if sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / matrices {
             return Err(DesignError::TooManyFactors { factors, matrices });
         }
+        if rows.plain_rows > MAX_PLAIN_ROWS {
+            return Err(DesignError::TooManyPlainRows { plain_rows: rows.plain_rows });
+        }
         if replicates == 0 {
             return Err(DesignError::NoReplicates);
         }
@@ -143,7 +149,7 @@ impl Design {
             return Err(DesignError::TooFewSamples { base_samples, replicates });
         }
         let points = base_samples.div_ceil(replicates);
-        if points > MAX_POINTS {
+        if points.saturating_mul(u64::from(rows.plain_rows.max(1))) > MAX_POINTS {
             return Err(DesignError::TooManySamples { base_samples, replicates });
         }
         let single = single_factors(&rows.swaps, factors);
@@ -209,9 +215,19 @@ impl Design {
         if self.asked.second_order { &self.single } else { &[] }
     }
 
-    /// Columns of the base points: d for each of the matrices A, B and, if there are rows of it, C.
+    /// Columns of the base points: d for each of the matrices A, B, C if there are rows of it, and the plain ones.
     pub fn columns(&self) -> usize {
-        self.factors * self.asked.companions.matrices()
+        self.factors * (self.asked.companions.matrices() + self.asked.plain_rows as usize)
+    }
+
+    /// The number of the first of the d columns of `matrix`.
+    pub fn first_column(&self, matrix: Matrix) -> usize {
+        self.factors * matrix.place(self.asked.companions.matrices())
+    }
+
+    /// Rows of every base point that only surrogates learn from.
+    pub fn plain_rows(&self) -> u32 {
+        self.asked.plain_rows
     }
 
     /// The rows of one base point that are run, in the order in which rows are counted.
@@ -256,7 +272,7 @@ impl Design {
 
     /// The base points of one replicate, in [`Design::columns`] columns.
     pub fn replicate(&self, replicate: u64) -> BasePoints {
-        BasePoints::new(&self.settings, replicate, self.factors, self.asked.companions.matrices())
+        BasePoints::new(&self.settings, replicate, self.factors, &self.asked)
     }
 
     /// Replicate, base point within it, and kind of a row, in the order in which rows are counted. A row that is
@@ -274,7 +290,7 @@ impl Design {
         self.replicate(replicate).fill(point, &mut columns);
         for (column, u) in u.iter_mut().enumerate() {
             let matrix = if run.columns.binary_search(&column).is_ok() { run.from } else { run.base };
-            *u = columns[matrix as usize * self.factors + column][0];
+            *u = columns[self.first_column(matrix) + column][0];
         }
     }
 }

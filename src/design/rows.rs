@@ -51,6 +51,8 @@ pub struct Rows {
     pub companions: Companions,
     /// Whether the sums for second-order indices are kept; needs the companions BA.
     pub second_order: bool,
+    /// Rows of every base point at points of their own, which only surrogates learn from ([`crate::surrogate`]).
+    pub plain_rows: u32,
 }
 
 impl Rows {
@@ -75,6 +77,8 @@ pub enum RowKind {
     Bc(usize),
     /// C with the columns of the swap from B.
     Cb(usize),
+    /// A point that no other row of the design shares a column with; the number counts those of a base point.
+    Plain(u32),
 }
 
 /// One of the independent matrices of a design.
@@ -86,6 +90,20 @@ pub enum Matrix {
     B,
     /// Dimensions 2d to 3d.
     C,
+    /// Points of a sequence of its own, of which every base point has as many as it has plain rows.
+    Plain(u32),
+}
+
+impl Matrix {
+    /// Its place among the matrices of a design: A, B, C if there are `matrices` = 3, and the plain ones.
+    pub(super) fn place(self, matrices: usize) -> usize {
+        match self {
+            Self::A => 0,
+            Self::B => 1,
+            Self::C => 2,
+            Self::Plain(number) => matrices + number as usize,
+        }
+    }
 }
 
 /// A row that is run: the row of `base` with the `columns` of `from`.
@@ -116,7 +134,8 @@ pub(super) struct Runs {
 }
 
 impl Runs {
-    /// The runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s, BC_s, CB_s of their first rows.
+    /// The runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s, BC_s, CB_s of their first rows, the plain
+    /// ones last.
     pub fn of(rows: &Rows, factors: usize) -> Self {
         let mut unique = Unique { factors, runs: Vec::new(), numbers: BTreeMap::new() };
         unique.number(RowKind::A, Matrix::A, &[], Matrix::B);
@@ -130,6 +149,13 @@ impl Runs {
         let ba = series(ba, RowKind::Ba, Matrix::B, Matrix::A);
         let bc = series(bc, RowKind::Bc, Matrix::B, Matrix::C);
         let cb = series(cb, RowKind::Cb, Matrix::C, Matrix::B);
+        let plain = |number| Run {
+            kind: RowKind::Plain(number),
+            base: Matrix::Plain(number),
+            columns: Vec::new(),
+            from: Matrix::Plain(number),
+        };
+        unique.runs.extend((0..rows.plain_rows).map(plain));
         Self { runs: unique.runs, ab, ba, bc, cb }
     }
 }
@@ -188,7 +214,7 @@ mod tests {
 
     fn runs(factors: usize, swaps: &[&[usize]], companions: Companions) -> Runs {
         let swaps = swaps.iter().map(|swap| swap.to_vec()).collect();
-        Runs::of(&Rows { swaps, companions, second_order: false }, factors)
+        Runs::of(&Rows { swaps, companions, ..Rows::default() }, factors)
     }
 
     /// The row of a kind, column by column, straight from its definition.
@@ -204,6 +230,7 @@ mod tests {
             RowKind::Ba(s) => mixed(B, s, A),
             RowKind::Bc(s) => mixed(B, s, C),
             RowKind::Cb(s) => mixed(C, s, B),
+            RowKind::Plain(number) => vec![Matrix::Plain(number); factors],
         }
     }
 

@@ -30,6 +30,40 @@ fn with_companions(sampler: Sampler) -> Design {
 }
 
 #[test]
+fn plain_rows_have_points_of_their_own_that_fill_the_cube_together() {
+    for sampler in Sampler::ALL {
+        for without in [design(sampler), with_companions(sampler)] {
+            let rows = Rows { plain_rows: 4, ..without.asked.clone() };
+            let design = Design::new(without.settings.clone(), 3, rows).unwrap();
+            let (all, plain) = (design.rows_per_point(), without.rows_per_point());
+            assert_eq!((all, design.columns()), (plain + 4, without.columns() + 4 * 3));
+            let point = |design: &Design, row: u64| {
+                let mut u = [0.0; 3];
+                design.point(row, &mut u);
+                u
+            };
+            for base in [0, 5, 63] {
+                for row in 0..plain {
+                    assert_eq!(point(&design, base * all + row), point(&without, base * plain + row), "{sampler:?}");
+                }
+                assert_eq!(design.locate(base * all + plain + 2).2, RowKind::Plain(2));
+            }
+            // The second replicate: 16 base points of 4.
+            let points: Vec<[f64; 3]> = (16..32)
+                .flat_map(|base| (plain..all).map(move |row| base * all + row))
+                .map(|r| point(&design, r))
+                .collect();
+            for factor in 0..3 {
+                let mut cells: Vec<u64> = points.iter().map(|u| (u[factor] * 64.0) as u64).collect();
+                cells.sort_unstable();
+                cells.dedup();
+                assert!(cells.len() == 64 || sampler == Sampler::Random, "{sampler:?} {factor}: {} cells", cells.len());
+            }
+        }
+    }
+}
+
+#[test]
 fn companions_mix_a_b_and_c_and_every_run_is_where_it_is_said_to_be() {
     for sampler in Sampler::ALL {
         let design = with_companions(sampler);
@@ -85,13 +119,18 @@ fn a_third_matrix_leaves_a_and_b_as_they_are_and_is_another_one() {
 fn second_order_indices_are_of_single_factors_each_once() {
     let ba = Companions { ba: true, ..Companions::NONE };
     let swaps = vec![vec![0, 1], vec![2], vec![], vec![0], vec![2], vec![1, 1]];
-    let rows = Rows { swaps, companions: ba, second_order: true };
+    let rows = Rows { swaps, companions: ba, second_order: true, ..Rows::default() };
     let paired = |rows: &Rows| Design::new(DesignSettings::default(), 3, rows.clone()).map(|d| d.paired().to_vec());
     assert_eq!(paired(&rows), Ok(vec![1, 3]));
     assert_eq!(paired(&Rows { second_order: false, ..rows.clone() }), Ok(vec![]));
     let without = Rows { companions: Companions::NONE, ..rows };
     assert_eq!(paired(&without), Err(DesignError::SecondOrderWithoutBa));
-    let all = |d: usize| Rows { swaps: (0..d).map(|j| vec![j]).collect(), companions: ba, second_order: true };
+    let all = |d: usize| Rows {
+        swaps: (0..d).map(|j| vec![j]).collect(),
+        companions: ba,
+        second_order: true,
+        ..Rows::default()
+    };
     assert!(Design::new(DesignSettings::default(), 256, all(256)).is_ok());
     let error = Design::new(DesignSettings::default(), 257, all(257)).unwrap_err();
     assert_eq!(error, DesignError::TooManyPairs { factors: 257 });

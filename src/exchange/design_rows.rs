@@ -57,13 +57,12 @@ impl<'a> DesignRows<'a> {
         let runs = design.rows_per_point();
         let points = (BLOCK / runs).max(1).min(design.points_per_replicate() - self.point) as usize;
         self.fill(points);
-        let factors = design.factors();
         for (number, column) in into.iter_mut().enumerate() {
             column.clear();
             for point in 0..points {
                 column.extend(design.runs().iter().map(|run| {
                     let matrix: Matrix = if run.columns.binary_search(&number).is_ok() { run.from } else { run.base };
-                    self.values[matrix as usize * factors + number][point]
+                    self.values[design.first_column(matrix) + number][point]
                 }));
             }
         }

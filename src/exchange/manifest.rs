@@ -151,9 +151,9 @@ impl Manifest {
         let settings = study.design.settings();
         let column = |column: &usize| study.space.factors()[*column].name.clone();
         let run = |run: &Run| ManifestRun {
-            base: matrix(run.base).to_owned(),
+            base: matrix(run.base),
             columns: run.columns.iter().map(column).collect(),
-            from: matrix(run.from).to_owned(),
+            from: matrix(run.from),
         };
         let factors = study.space.factors().iter().map(|factor| ManifestFactor {
             name: factor.name.clone(),
@@ -276,10 +276,11 @@ pub fn design_sha256(space: &Space, design: &Design) -> String {
     digest.finish()
 }
 
-fn matrix(matrix: Matrix) -> &'static str {
+fn matrix(matrix: Matrix) -> String {
     match matrix {
-        Matrix::A => "A",
-        Matrix::B => "B",
-        Matrix::C => "C",
+        Matrix::A => "A".to_owned(),
+        Matrix::B => "B".to_owned(),
+        Matrix::C => "C".to_owned(),
+        Matrix::Plain(number) => format!("plain {}", number + 1),
     }
 }

@@ -105,6 +105,7 @@ fn provenance(study: &Study, analysis: &Analysis) -> Provenance {
         sampler: settings.sampler.name().to_owned(),
         base_samples: settings.base_samples,
         replicates: settings.replicates,
+        plain_rows: design.plain_rows(),
         model_runs: design.rows(),
         threads: analysis.threads,
         wall_seconds: analysis.wall_seconds,

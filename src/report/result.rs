@@ -92,6 +92,9 @@ pub struct Provenance {
     pub base_samples: u64,
     /// Independent randomisations that share them.
     pub replicates: u64,
+    /// Runs of each base point at points of their own, for surrogates alone.
+    #[serde(default)]
+    pub plain_rows: u32,
     /// Runs of the model.
     pub model_runs: u64,
     /// Threads used.

@@ -218,7 +218,7 @@ impl Task for Blocks<'_> {
 
 /// What a thread needs to evaluate blocks, kept from block to block.
 pub(super) struct Scratch {
-    /// Columns of A, then of B, then of C if there is one, in the unit cube.
+    /// The columns of the base points, in the unit cube.
     unit: Vec<Vec<f64>>,
     /// The same in SI units.
     values: Vec<Vec<f64>>,
@@ -286,7 +286,7 @@ impl Scratch {
             job.space.factors()[k % factors].fill_si(unit, values);
         }
         let values = &self.values;
-        let columns_of = |matrix: Matrix| &values[matrix as usize * factors..][..factors];
+        let columns_of = |matrix: Matrix| &values[job.design.first_column(matrix)..][..factors];
         let mut inputs: Vec<&[f64]> = Vec::with_capacity(factors);
         for (run, batch) in job.design.runs().iter().zip(&mut self.batches) {
             if context.is_stopped() {

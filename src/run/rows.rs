@@ -177,7 +177,7 @@ impl RowValues {
             values.resize(length, 0.0);
             job.space.factors()[k % factors].fill_si(unit, values);
         }
-        let column_of = |matrix: Matrix, factor: usize| &self.values[matrix as usize * factors + factor];
+        let column_of = |matrix: Matrix, factor: usize| &self.values[design.first_column(matrix) + factor];
         for (factor, input) in self.inputs.iter_mut().enumerate() {
             input.clear();
             // Which matrix a run takes this factor from.

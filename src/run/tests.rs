@@ -195,7 +195,7 @@ fn with_rows(rows: Rows, model: &Of) -> OutputTotals {
 
 fn all_companions(swaps: Vec<Vec<usize>>) -> Rows {
     let companions = crate::design::Companions { ba: true, bc: true, cb: true };
-    Rows { swaps, companions, second_order: true }
+    Rows { swaps, companions, second_order: true, ..Rows::default() }
 }
 
 #[test]

@@ -98,6 +98,12 @@ pub enum BuildError {
         /// Its value.
         value: f64,
     },
+    /// Plain rows where no surrogate would learn from them.
+    #[error("plain rows serve surrogates alone, and there are none with {why}")]
+    PlainRows {
+        /// The option that stands against them.
+        why: String,
+    },
 }
 
 /// A study in the making; [`Study::builder`] begins one.
@@ -109,6 +115,7 @@ pub struct StudyBuilder {
     sampler: Sampler,
     base_samples: Option<u64>,
     replicates: Option<u64>,
+    plain_rows: u32,
     seed: u64,
     analysis: Option<AnalysisOptions>,
     target: Target,
@@ -125,6 +132,7 @@ impl StudyBuilder {
             sampler,
             base_samples: None,
             replicates: None,
+            plain_rows: 0,
             seed,
             analysis: None,
             target: Target::default(),
@@ -178,6 +186,14 @@ impl StudyBuilder {
     #[must_use]
     pub fn replicates(mut self, replicates: u64) -> Self {
         self.replicates = Some(replicates);
+        self
+    }
+
+    /// Runs of every base sample at points of their own, which only surrogates learn from: for models so dear that a few
+    /// hundred runs are all. Three quarters of the runs are a good share.
+    #[must_use]
+    pub fn plain_rows(mut self, rows: u32) -> Self {
+        self.plain_rows = rows;
         self
     }
 
@@ -240,7 +256,10 @@ impl StudyBuilder {
             replicates,
             seed: self.seed,
         });
-        let design = Design::new(settings, space.factors().len(), rows(&analysis, &space))?;
+        if let Some(why) = analysis.refuses_plain_rows(self.sampler, replicates).filter(|_| self.plain_rows > 0) {
+            return Err(BuildError::PlainRows { why });
+        }
+        let design = Design::new(settings, space.factors().len(), rows(&analysis, &space, self.plain_rows))?;
         let design = target.within_max_runs(design).map_err(|least| BuildError::MaxRuns { least })?;
         let source = in_words(&self.name, &design, &space);
         Ok(Study {
@@ -312,6 +331,9 @@ fn in_words(name: &str, design: &Design, space: &Space) -> String {
         settings.replicates,
         settings.seed
     );
+    if design.plain_rows() > 0 {
+        let _ = writeln!(text, "plain_rows = {}", design.plain_rows());
+    }
     for factor in space.factors() {
         let law = serde_json::to_string(factor.distribution()).unwrap_or_default();
         // Escapes of JSON are escapes of TOML.

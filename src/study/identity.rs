@@ -40,6 +40,9 @@ impl Study {
             "swaps": design.swaps().iter().map(|swap| names(swap).join("+")).collect::<Vec<_>>(),
             "companions": { "ba": design.companions().ba, "bc": design.companions().bc, "cb": design.companions().cb },
         });
+        if design.plain_rows() > 0 {
+            points["plain_rows"] = json!(design.plain_rows());
+        }
         if settings_of_design.sampler == Sampler::LatinHypercube {
             points["base_samples"] = json!(settings_of_design.base_samples);
         }

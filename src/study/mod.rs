@@ -29,7 +29,7 @@ use crate::model::Model;
 use crate::space::Space;
 use crate::surrogate::FEWEST_NETS;
 use crate::uncertainty::{IntervalMethod, Layout};
-use options::MOST_AUTOMATIC_ROWS;
+use options::{MOST_AUTOMATIC_VALUES, MOST_AUTOMATIC_VALUES_OF_PROGRAMS};
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
 #[derive(Debug, Clone)]
@@ -161,14 +161,18 @@ impl Study {
     pub fn uses_surrogate(&self, design: &Design) -> bool {
         let fits =
             self.analysis.intervals == IntervalMethod::Nets && design.settings().replicates >= FEWEST_NETS as u64;
-        let model = || self.subject.model(&self.space);
         fits && match self.analysis.surrogate {
             SurrogateChoice::Off => false,
             SurrogateChoice::On => true,
+            SurrogateChoice::Auto if design.plain_rows() > 0 => true,
             SurrogateChoice::Auto => {
-                let model = model();
-                let quick = design.rows().saturating_mul(model.outputs().len() as u64) <= MOST_AUTOMATIC_ROWS;
-                model.concurrency().is_some() || (quick && !self.target.grows())
+                let model = self.subject.model(&self.space);
+                let values = design.rows().saturating_mul(model.outputs().len() as u64);
+                if model.concurrency().is_some() {
+                    values <= MOST_AUTOMATIC_VALUES_OF_PROGRAMS
+                } else {
+                    values <= MOST_AUTOMATIC_VALUES && !self.target.grows()
+                }
             }
         }
     }

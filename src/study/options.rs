@@ -1,9 +1,10 @@
 //! What is asked of the runs of a study, and when they end.
 
-use crate::design::{Companions, Design, DesignSettings, Rows, Sampler};
+use crate::design::{Companions, Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler};
 use crate::estimate::Estimator;
 use crate::run::FailurePolicy;
 use crate::space::Space;
+use crate::surrogate::FEWEST_NETS;
 use crate::uncertainty::IntervalMethod;
 
 /// What is asked of the runs.
@@ -52,14 +53,30 @@ impl AnalysisOptions {
     }
 }
 
+impl AnalysisOptions {
+    /// Why plain rows, which only surrogates learn from, would be of no use; `None` if they are.
+    pub(super) fn refuses_plain_rows(&self, sampler: Sampler, replicates: u64) -> Option<String> {
+        let fewest = FEWEST_NETS as u64;
+        if self.surrogate == SurrogateChoice::Off {
+            Some("surrogate = \"off\"".to_owned())
+        } else if self.intervals != IntervalMethod::Nets || sampler == Sampler::LatinHypercube {
+            Some(format!("intervals = \"{}\"", self.intervals.name()))
+        } else if replicates < fewest {
+            Some(format!("replicates = {replicates}, fewer than {fewest}"))
+        } else {
+            None
+        }
+    }
+}
+
 /// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are known exactly, so that the
 /// runs need only show the rest ([`crate::surrogate`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SurrogateChoice {
     /// No.
-    #[default]
     Off,
-    /// Where the fit takes no more than a second or so: of up to 2^16 rows and outputs together, and of programs.
+    /// Where the fit takes no more than a second or so, of up to 2^16 rows times outputs, and of programs up to 2^22.
+    #[default]
     Auto,
     /// Of every run whose points are Sobol' nets or random, and whose outputs fit into memory.
     On,
@@ -80,7 +97,10 @@ impl SurrogateChoice {
 }
 
 /// Rows times outputs up to which surrogates are fitted without being asked for.
-pub(super) const MOST_AUTOMATIC_ROWS: u64 = 1 << 16;
+pub(super) const MOST_AUTOMATIC_VALUES: u64 = 1 << 16;
+
+/// The same for programs, whose runs take longer than any fit: all outputs must fit into memory.
+pub(super) const MOST_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;
 
 /// How well the indices must be known, and what that may cost: a run goes on by doubling until one of these is reached. A
 /// run without any has the size that its design says.
@@ -168,13 +188,52 @@ pub(super) const DEFAULT_RESAMPLES: usize = 1000;
 pub(super) const DEFAULT_THRESHOLD: f64 = 0.05;
 pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
 
+/// Share of the runs of a split design above which its base samples are not doubled once more.
+const SPLIT: u64 = 3;
+
+/// Base samples and plain rows of each for a split design of at most `runs` runs: an eighth to a third of them, rather more
+/// than less, for base samples of `runs_per_point` runs without plain rows, a power of two in each of `replicates`. An error
+/// with the runs of the smallest such design if that takes more.
+pub(super) fn split(runs: u64, runs_per_point: u64, replicates: u64) -> Result<(u64, u32), u64> {
+    let runs_of = |points: u64| points.saturating_mul(replicates).saturating_mul(runs_per_point);
+    let least = runs_of(2);
+    if least > runs {
+        return Err(least);
+    }
+    let mut points = 2;
+    while runs_of(2 * points) <= runs / SPLIT {
+        points *= 2;
+    }
+    let base_samples = points * replicates;
+    let plain = (runs - runs_of(points)) / base_samples;
+    Ok((base_samples, plain.min(u64::from(MAX_PLAIN_ROWS)) as u32))
+}
+
 /// The rows for what is asked: the factors, the groups, the subsets, the dummy.
-pub(super) fn rows(analysis: &AnalysisOptions, space: &Space) -> Rows {
+pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -> Rows {
     let single = (0..space.factors().len()).map(|number| vec![number]);
     let groups = space.groups().into_iter().map(|group| group.factors);
     let dummy = analysis.dummy.then(Vec::new);
     let swaps = single.chain(groups).chain(analysis.subsets.iter().cloned()).chain(dummy).collect();
     let second_order = Companions { ba: analysis.second_order, ..Companions::NONE };
     let companions = analysis.estimators.iter().fold(second_order, |all, estimator| all.union(estimator.needs()));
-    Rows { swaps, companions, second_order: analysis.second_order }
+    Rows { swaps, companions, second_order: analysis.second_order, plain_rows }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_split_design_stays_within_its_runs_and_has_a_power_of_two_in_each_replicate() {
+        assert_eq!(split(300, 10, 4), Ok((8, 27)));
+        assert_eq!(split(80, 10, 4), Ok((8, 0)));
+        assert_eq!(split(79, 10, 4), Err(80));
+        assert_eq!(split(1 << 60, u64::MAX, 4), Err(u64::MAX));
+        for (runs, per_point) in [(97, 5), (480, 10), (1000, 3), (5000, 22), (1 << 40, 10)] {
+            let (base, plain) = split(runs, per_point, 4).unwrap();
+            assert!(base * (per_point + u64::from(plain)) <= runs && (base / 4).is_power_of_two());
+            assert!(base == 8 || 8 * base * per_point >= runs && 3 * base * per_point <= runs, "{runs}: {base}");
+        }
+    }
 }

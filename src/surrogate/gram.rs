@@ -1,11 +1,18 @@
 //! Inner products of many columns, and greedy least squares on them. Sums have a fixed order, whatever the number of
 //! threads.
 
-/// Rows whose products are summed before they are added to the whole: their columns fit into a cache.
-const CHUNK: usize = 512;
+use multiversion::multiversion;
 
-/// Partial sums of one product.
-const LANES: usize = 4;
+use crate::sum::product;
+
+/// Rows whose products are summed before they are added to the whole: two panels of them fit into a cache.
+const CHUNK: usize = 256;
+
+/// Columns of a panel.
+const WIDTH: usize = 8;
+
+/// Columns of one panel that are multiplied with those of another one at a time: the sums fit into registers.
+const HEIGHT: usize = WIDTH / 2;
 
 /// Share of its own square that a column must keep beyond those chosen before it.
 const INDEPENDENT: f64 = 1e-6;
@@ -49,26 +56,7 @@ impl Square {
 
     /// Adds the inner products of `columns`, one for each row of the matrix.
     pub fn add_products(&mut self, columns: &[&[f64]]) {
-        let rows = columns.first().map_or(0, |column| column.len());
-        for start in (0..rows).step_by(CHUNK) {
-            let part = start..rows.min(start + CHUNK);
-            let mut i = 0;
-            while i < self.size {
-                let mut j = 0;
-                while j <= i {
-                    let (a, b) = ([i, (i + 1).min(self.size - 1)], [j, (j + 1).min(self.size - 1)]);
-                    let tile = products(a.map(|k| &columns[k][part.clone()]), b.map(|k| &columns[k][part.clone()]));
-                    for (row, sums) in a.into_iter().zip(tile).take(self.size - i) {
-                        let sums = b.into_iter().zip(sums).take(self.size - j);
-                        for (column, sum) in sums.filter(|(column, _)| *column <= row) {
-                            self.values[row * self.size + column] += sum;
-                        }
-                    }
-                    j += 2;
-                }
-                i += 2;
-            }
-        }
+        add_products(self, columns);
         for i in 0..self.size {
             for j in 0..i {
                 self.values[j * self.size + i] = self.values[i * self.size + j];
@@ -77,32 +65,51 @@ impl Square {
     }
 }
 
-/// The four products of two columns with two others.
-#[inline(always)]
-fn products([a, b]: [&[f64]; 2], [c, d]: [&[f64]; 2]) -> [[f64; 2]; 2] {
-    let n = a.len();
-    let (a, b, c, d) = (&a[..n], &b[..n], &c[..n], &d[..n]);
-    let mut lanes = [[0.0; LANES]; 4];
-    let whole = n - n % LANES;
-    let mut i = 0;
-    while i < whole {
-        for lane in 0..LANES {
-            let (a, b, c, d) = (a[i + lane], b[i + lane], c[i + lane], d[i + lane]);
-            lanes[0][lane] += a * c;
-            lanes[1][lane] += a * d;
-            lanes[2][lane] += b * c;
-            lanes[3][lane] += b * d;
+/// Adds the inner products of `columns` on the diagonal and below it, and some above. Each version does the same operations
+/// in the same order: wider registers change the time and no bit.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+fn add_products(sums: &mut Square, columns: &[&[f64]]) {
+    let (size, rows) = (sums.size, columns.first().map_or(0, |column| column.len()));
+    let mut panels: Vec<Vec<[f64; WIDTH]>> = vec![vec![[0.0; WIDTH]; CHUNK]; size.div_ceil(WIDTH)];
+    for start in (0..rows).step_by(CHUNK) {
+        let part = start..rows.min(start + CHUNK);
+        for (column, values) in columns.iter().enumerate() {
+            let panel = &mut panels[column / WIDTH];
+            panel.iter_mut().zip(&values[part.clone()]).for_each(|(row, value)| row[column % WIDTH] = *value);
         }
-        i += LANES;
+        for i in 0..panels.len() {
+            for j in 0..=i {
+                let (a, b) = (&panels[i][..part.len()], &panels[j][..part.len()]);
+                for (first, tile) in [(i * WIDTH, products::<0>(a, b)), (i * WIDTH + HEIGHT, products::<HEIGHT>(a, b))]
+                {
+                    for (row, products) in (first..size).zip(tile) {
+                        let sums = &mut sums.values[row * size + j * WIDTH..(row + 1) * size];
+                        sums.iter_mut().zip(products).for_each(|(sum, product)| *sum += product);
+                    }
+                }
+            }
+        }
     }
-    for (lane, i) in (whole..n).enumerate() {
-        lanes[0][lane] += a[i] * c[i];
-        lanes[1][lane] += a[i] * d[i];
-        lanes[2][lane] += b[i] * c[i];
-        lanes[3][lane] += b[i] * d[i];
+}
+
+/// The products of the columns `FIRST`, `FIRST` + 1, ... of one panel with all of another one.
+#[inline(always)]
+fn products<const FIRST: usize>(a: &[[f64; WIDTH]], b: &[[f64; WIDTH]]) -> [[f64; WIDTH]; HEIGHT] {
+    let mut sums = [[0.0; WIDTH]; HEIGHT];
+    for (a, b) in a.iter().zip(b) {
+        for i in 0..HEIGHT {
+            for j in 0..WIDTH {
+                sums[i][j] += a[FIRST + i] * b[j];
+            }
+        }
     }
-    let [ac, ad, bc, bd] = lanes.map(|l| (l[0] + l[1]) + (l[2] + l[3]));
-    [[ac, ad], [bc, bd]]
+    sums
+}
+
+/// `factor` less `weight` times `earlier`.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+fn subtract(factor: &mut [f64], weight: f64, earlier: &[f64]) {
+    factor.iter_mut().zip(earlier).for_each(|(value, earlier)| *value -= weight * earlier);
 }
 
 /// Columns chosen one by one, each the one that lowers the sum of squares most, made orthonormal in this order.
@@ -139,8 +146,7 @@ impl Path {
             let root = left[next].sqrt();
             let mut factor: Vec<f64> = gram.row(next).to_vec();
             for earlier in &factors {
-                let weight = earlier[next];
-                factor.iter_mut().zip(earlier).for_each(|(value, earlier)| *value -= weight * earlier);
+                subtract(&mut factor, earlier[next], earlier);
             }
             factor.iter_mut().for_each(|value| *value /= root);
             let score = rest[next] / root;
@@ -173,22 +179,20 @@ impl Path {
     /// The sum of squares that 1, 2, ... chosen columns leave of other outputs, with the inner products `gram` and `right`
     /// and the sum of squares `square`.
     pub fn held_out(&self, gram: &Square, right: &[f64], square: f64) -> Vec<f64> {
+        let of_chosen: Vec<Vec<f64>> =
+            self.chosen.iter().map(|&i| self.chosen.iter().map(|&j| gram.at(i, j)).collect()).collect();
+        let right: Vec<f64> = self.chosen.iter().map(|&column| right[column]).collect();
         let mut errors = Vec::with_capacity(self.chosen.len());
-        // The fit so far in terms of the chosen columns, and its products with all of them.
+        // The products of the fit so far with all chosen columns.
         let mut products = vec![0.0; self.chosen.len()];
         let mut error = square;
-        for (k, (score, row)) in self.scores.iter().zip(&self.inverse).enumerate() {
-            let with_chosen = |i: usize| -> f64 {
-                let row_i = gram.row(self.chosen[i]);
-                row.iter().zip(&self.chosen).map(|(weight, &column)| weight * row_i[column]).sum()
-            };
-            let mine: Vec<f64> = (0..self.chosen.len()).map(with_chosen).collect();
-            let own: f64 = row.iter().zip(&mine).map(|(weight, product)| weight * product).sum();
-            let with_fit: f64 = row.iter().zip(&products[..=k]).map(|(weight, product)| weight * product).sum();
-            let with_outputs: f64 = row.iter().zip(&self.chosen).map(|(weight, &column)| weight * right[column]).sum();
-            error += score * score * own + 2.0 * score * (with_fit - with_outputs);
+        for (score, row) in self.scores.iter().zip(&self.inverse) {
+            let mut mine = vec![0.0; self.chosen.len()];
+            row.iter().zip(&of_chosen).for_each(|(weight, column)| subtract(&mut mine, -weight, column));
+            let own = product(row, &mine);
+            error += score * score * own + 2.0 * score * (product(row, &products) - product(row, &right));
             errors.push(error);
-            products.iter_mut().zip(&mine).for_each(|(sum, product)| *sum += score * product);
+            subtract(&mut products, -score, &mine);
         }
         errors
     }
@@ -247,7 +251,6 @@ pub fn solve(gram: &Square, right: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sum::product;
 
     /// Numbers without structure between -1/2 and 1/2.
     fn columns(count: usize, rows: usize) -> Vec<Vec<f64>> {

@@ -28,6 +28,9 @@ pub const FEWEST_NETS: usize = 3;
 /// Fewest base points of a net.
 const FEWEST_POINTS: usize = 4;
 
+/// The same if each has plain rows, which teach more than those of a base point that share their columns.
+const FEWEST_POINTS_WITH_PLAIN_ROWS: usize = 2;
+
 /// Largest sum of degrees of Hermite polynomials in a term. Those of high degree are large where hardly any row is: few rows
 /// decide their coefficients, and no row shows what they do beyond.
 const FEW_HERMITE_DEGREES: usize = 4;
@@ -127,7 +130,8 @@ impl Job<'_> {
             Net::new(design, number as u64, families, caps.degree, outputs)
         };
         let nets: Vec<Net> = self.outputs.par_iter().enumerate().map(net).collect();
-        if nets.iter().any(|net| net.points() < FEWEST_POINTS) {
+        let fewest = if design.plain_rows() > 0 { FEWEST_POINTS_WITH_PLAIN_ROWS } else { FEWEST_POINTS };
+        if nets.iter().any(|net| net.points() < fewest) {
             return None;
         }
         let training = nets.len() - 1;

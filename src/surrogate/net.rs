@@ -29,7 +29,7 @@ impl Net {
             polynomials(&families[number % factors], &u, degree)
         };
         let matrix = |run: &Run, factor: usize| {
-            if run.columns.binary_search(&factor).is_ok() { run.from as usize } else { run.base as usize }
+            design.first_column(if run.columns.binary_search(&factor).is_ok() { run.from } else { run.base }) / factors
         };
         Self {
             columns: base.iter().enumerate().map(of_column).collect(),

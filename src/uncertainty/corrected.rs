@@ -1,6 +1,6 @@
 //! Indices corrected by a surrogate in the place of the plain ones, where their errors are smaller.
 
-use super::estimates::Layout;
+use super::estimates::{Layout, Number};
 use super::net_decay::{PartInfluences, StandardError};
 use super::noise::Noise;
 use super::{Estimate, Interval};
@@ -15,6 +15,11 @@ pub struct Influenced {
 }
 
 impl Influenced {
+    /// The number is `estimate`, whatever the rows.
+    fn settled(&self, estimate: f64) -> Self {
+        Self { estimate, parts: self.parts.iter().map(|net| vec![0.0; net.len()]).collect() }
+    }
+
     /// A sum of numbers with weights.
     pub fn combined(list: &[(f64, &Self)]) -> Self {
         let estimate = list.iter().map(|(weight, of)| weight * of.estimate).sum();
@@ -98,80 +103,77 @@ pub(super) struct Corrections {
 }
 
 impl SurrogateEstimates {
-    /// What replaces the `plain` numbers of `layout` with the errors `errors`.
-    pub(super) fn corrections(&self, layout: &Layout, plain: &[Estimate], errors: &[StandardError]) -> Corrections {
+    /// What replaces the `plain` numbers of `layout` with the errors `errors`, but for those of `settled` swaps.
+    pub(super) fn corrections(
+        &self,
+        layout: &Layout,
+        (plain, errors): (&[Estimate], &[StandardError]),
+        settled: &[bool],
+    ) -> Corrections {
         let real = layout.swaps() - usize::from(layout.dummy);
-        let noise = |list: &[Influenced], skewed| {
-            Noise::new(&list[..real].iter().map(|index| &index.parts).collect::<Vec<_>>(), skewed)
+        let kind = |index: Number, list: &[Influenced]| {
+            let known = |(swap, of): (usize, &Influenced)| {
+                if settled[swap] { of.settled(plain[layout.place(swap, index)].estimate) } else { of.clone() }
+            };
+            let list: Vec<Influenced> = list.iter().enumerate().map(known).collect();
+            let moving: Vec<usize> = (0..real).filter(|swap| !settled[*swap]).collect();
+            let noise =
+                Noise::new(&moving.iter().map(|swap| &list[*swap].parts).collect::<Vec<_>>(), index == Number::Total);
+            let plain: f64 = moving.iter().map(|swap| errors[layout.place(*swap, index)].error.powi(2)).sum();
+            let corrected: f64 = moving.iter().map(|swap| noise.error(&list[*swap].parts).error.powi(2)).sum();
+            let is_known = !moving.is_empty() && plain.is_finite() && corrected.is_finite();
+            (list, noise, is_known.then(|| plain / corrected.max(f64::MIN_POSITIVE)))
         };
-        let (first, total) = (noise(&self.first_order, false), noise(&self.total, true));
-        let gain = |kind: usize, list: &[Influenced], noise: Noise| -> Option<f64> {
-            let plain: f64 = (0..real).map(|swap| errors[layout.swap(swap) + kind].error.powi(2)).sum();
-            let corrected: f64 = list[..real].iter().map(|index| noise.error(&index.parts).error.powi(2)).sum();
-            (plain.is_finite() && corrected.is_finite()).then(|| plain / corrected.max(f64::MIN_POSITIVE))
-        };
-        let gains = [gain(0, &self.first_order, first), gain(1, &self.total, total)];
-        let [corrects_first_order, corrects_total] = gains.map(|gain| gain.is_some_and(|gain| gain > 1.0));
+        let (first_order, first, gain_first_order) = kind(Number::FirstOrder, &self.first_order);
+        let (all_total, total, gain_total) = kind(Number::Total, &self.total);
+        let [corrects_first_order, corrects_total] =
+            [gain_first_order, gain_total].map(|gain| gain.is_some_and(|gain| gain > 1.0));
         let mut replacements = Vec::new();
-        let mut put = |place: usize, noise: Noise, of: &Influenced| {
-            replacements.push((place, replacement(noise, of)));
-        };
-        let factors = 0..layout.factors;
+        let mut put = |place: usize, noise: Noise, of: &Influenced| replacements.push((place, replacement(noise, of)));
         if corrects_first_order {
-            put(0, first, &sum(&self.first_order[factors.clone()]));
-            for (swap, index) in self.first_order.iter().enumerate() {
-                put(layout.swap(swap), first, index);
-            }
-            for (place, index) in self.second_order.iter().enumerate() {
-                put(layout.pairs() + place, first, index);
+            let places = [Number::FirstOrder, Number::ShareFirstOrder];
+            indices(layout, (&first_order, settled), places, &mut |place, is_share, of| {
+                put(place, if is_share { first.even() } else { first }, of);
+            });
+            let pairs = layout.pair_list().into_iter().zip(&self.second_order).enumerate();
+            for (pair, (_, index)) in pairs.filter(|(_, ((j, k), _))| !settled[*j] && !settled[*k]) {
+                put(layout.pairs() + pair, first, index);
             }
         }
         if corrects_total {
-            put(1, total, &sum(&self.total[factors]));
-            for (swap, index) in self.total.iter().enumerate() {
-                put(layout.swap(swap) + 1, total, index);
-            }
+            let places = [Number::Total, Number::ShareTotal];
+            indices(layout, (&all_total, settled), places, &mut |place, is_share, of| {
+                put(place, if is_share { total.even() } else { total }, of);
+            });
         }
-        for (offset, list, noise, corrects) in
-            [(2, &self.first_order, first, corrects_first_order), (3, &self.total, total, corrects_total)]
-        {
-            // Shares are differences.
-            let noise = noise.even();
-            for (range, all) in [(0..layout.factors), (layout.factors..layout.factors + layout.groups)]
-                .map(|range| (range.clone(), sum(&list[range])))
-                .into_iter()
-                .filter(|(_, all)| corrects && all.estimate > 0.0)
-            {
-                for swap in range {
-                    put(layout.swap(swap) + offset, noise, &share(&list[swap], &all));
+        for swap in (0..layout.swaps()).filter(|swap| !settled[*swap]) {
+            let place = layout.place(swap, Number::Interaction);
+            let (of_first, of_total) = (&first_order[swap], &all_total[swap]);
+            let [plain_first, plain_total] =
+                [Number::FirstOrder, Number::Total].map(|number| plain[layout.place(swap, number)]);
+            match (corrects_first_order, corrects_total) {
+                (true, true) => {
+                    let interaction = Influenced::combined(&[(1.0, of_total), (-1.0, of_first)]);
+                    replacements.push((place, replacement(total.even(), &interaction)));
                 }
-            }
-        }
-        if corrects_first_order && corrects_total {
-            for swap in 0..layout.swaps() {
-                let interaction = Influenced::combined(&[(1.0, &self.total[swap]), (-1.0, &self.first_order[swap])]);
-                put(layout.swap(swap) + 5, total.even(), &interaction);
-            }
-        } else if corrects_first_order || corrects_total {
-            for swap in 0..layout.swaps() {
-                let place = layout.swap(swap);
-                let (mut of_first, mut of_total) = (plain[place], plain[place + 1]);
-                if corrects_first_order {
-                    of_first = first.estimate(self.first_order[swap].estimate, &self.first_order[swap].parts);
-                } else {
-                    of_total = total.estimate(self.total[swap].estimate, &self.total[swap].parts);
+                (true, false) => {
+                    let first = first.estimate(of_first.estimate, &of_first.parts);
+                    replacements.push((place, (difference(plain_total, first), errors[place], Vec::new())));
                 }
-                replacements.push((place + 5, (difference(of_total, of_first), errors[place + 5], Vec::new())));
+                (false, true) => {
+                    let total = total.estimate(of_total.estimate, &of_total.parts);
+                    replacements.push((place, (difference(total, plain_first), errors[place], Vec::new())));
+                }
+                (false, false) => (),
             }
         }
         if self.is_heavy_tailed {
             for (place, (estimate, error, parts)) in &mut replacements {
-                let plain = plain[*place];
-                estimate.interval = hull(estimate.interval, plain.interval);
+                estimate.interval = hull(estimate.interval, plain[*place].interval);
                 (*error, *parts) = (errors[*place], Vec::new());
             }
         }
-        let plain_of = |kind: usize| (0..layout.swaps()).map(|swap| plain[layout.swap(swap) + kind]).collect();
+        let plain_of = |number| (0..layout.swaps()).map(|swap| plain[layout.place(swap, number)]).collect();
         let used = SurrogateUse {
             explained: self.explained,
             term_count: self.term_count,
@@ -179,10 +181,10 @@ impl SurrogateEstimates {
             is_heavy_tailed: self.is_heavy_tailed,
             corrects_first_order,
             corrects_total,
-            gain_first_order: gains[0],
-            gain_total: gains[1],
-            plain_first_order: plain_of(0),
-            plain_total: plain_of(1),
+            gain_first_order,
+            gain_total,
+            plain_first_order: plain_of(Number::FirstOrder),
+            plain_total: plain_of(Number::Total),
         };
         Corrections { replacements, used }
     }
@@ -200,6 +202,29 @@ impl SurrogateEstimates {
             (Estimate { estimate: of.estimate, interval }, error, of.parts.clone())
         };
         [of(&self.mean, false), of(&self.variance, true)]
+    }
+}
+
+/// Gives `put` the indices of one kind: their sum, those of every swap, and the shares of factors and groups, but for those of
+/// `settled` swaps.
+fn indices(
+    layout: &Layout,
+    (list, settled): (&[Influenced], &[bool]),
+    [index, share_of]: [Number; 2],
+    put: &mut dyn FnMut(usize, bool, &Influenced),
+) {
+    let factors = 0..layout.factors;
+    // The sums of both kinds stand before the swaps, in the order of the kinds.
+    put(index as usize, false, &sum(&list[factors.clone()]));
+    for (swap, of) in list.iter().enumerate().filter(|(swap, _)| !settled[*swap]) {
+        put(layout.place(swap, index), false, of);
+    }
+    for range in [factors, layout.factors..layout.factors + layout.groups] {
+        let all = sum(&list[range.clone()]);
+        if all.estimate > 0.0 {
+            let moving = range.filter(|swap| !settled[*swap]);
+            moving.for_each(|swap| put(layout.place(swap, share_of), true, &share(&list[swap], &all)));
+        }
     }
 }
 

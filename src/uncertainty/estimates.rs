@@ -22,9 +22,21 @@ pub struct Layout {
     pub second_order: bool,
 }
 
-/// Numbers of one swap: first order, total; its two shares, the gap to the check of the first order, and total minus first
-/// order.
-const PER_SWAP: usize = 6;
+/// The numbers of one swap, in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Number {
+    FirstOrder,
+    Total,
+    ShareFirstOrder,
+    ShareTotal,
+    /// First order less its check by another formula.
+    CheckGap,
+    /// Total less first order.
+    Interaction,
+}
+
+/// How many there are.
+const PER_SWAP: usize = Number::Interaction as usize + 1;
 
 /// Numbers of one swap under one other estimator: first order and total, and how far they are from the default ones.
 const PER_ESTIMATOR: usize = 4;
@@ -43,6 +55,11 @@ impl Layout {
     /// Place of the numbers of swap `swap`.
     pub(super) fn swap(&self, swap: usize) -> usize {
         2 + swap * PER_SWAP
+    }
+
+    /// Place of one of them.
+    pub(super) fn place(&self, swap: usize, number: Number) -> usize {
+        self.swap(swap) + number as usize
     }
 
     /// Place of the numbers of swap `swap` under the estimator number `estimator`.

@@ -3,7 +3,7 @@
 use super::by_points::{Bounds, ByPoints};
 use super::concentration::{Side, interval};
 use super::corrected::{Corrections, SurrogateEstimates, SurrogateUse};
-use super::estimates::{Layout, quantities};
+use super::estimates::{Layout, Number, quantities};
 use super::influence::Influences;
 use super::method::IntervalMethod;
 use super::net_decay::{PartInfluences, StandardError};
@@ -169,6 +169,7 @@ pub fn output_indices(
     let pooled = layout.pooled(influences.whole.len());
     let unseen = unseen(layout, &whole, &influences.whole);
     let half_seen: Vec<bool> = (0..layout.swaps()).map(|swap| half_seen(&whole, swap)).collect();
+    let inert: Vec<bool> = (0..layout.swaps()).map(|swap| whole.swap(swap).inert()).collect();
     let still: Vec<bool> = unseen.iter().zip(&influences.parts).map(|(unseen, parts)| unseen.applies(parts)).collect();
     let mut judged = match options.by_points() {
         Some(by_points) => {
@@ -181,9 +182,16 @@ pub fn output_indices(
             Judged::of(influences, options.method, &pooled, &|place| layout.side(place))
         }
     };
-    judged.allow_for_unseen(&unseen, &still);
+    let allowed = judged.allow_for_unseen(&unseen, &still);
     judged.allow_for_half_seen(layout, &half_seen);
-    let surrogate = options.surrogate.map(|surrogate| judged.correct(layout, surrogate));
+    // Where all rows agree the plain indices have no noise that a surrogate could take away.
+    let settled: Vec<bool> = (0..layout.swaps())
+        .map(|swap| {
+            let places = [Number::FirstOrder, Number::Total].map(|number| layout.place(swap, number));
+            inert[swap] || places.into_iter().any(|place| allowed[place])
+        })
+        .collect();
+    let surrogate = options.surrogate.map(|surrogate| judged.correct(layout, surrogate, &settled));
     let first = judged.first(layout, options.seed);
     let mut effects: Vec<EffectEstimates> = (0..layout.swaps())
         .map(|swap| {
@@ -220,8 +228,10 @@ impl Judged {
         Self { estimates, errors, parts }
     }
 
-    /// Gives the quantities that are `still`, and those whose nets agree to rounding, the errors that their rows cannot show.
-    fn allow_for_unseen(&mut self, unseen: &[Unseen], still: &[bool]) {
+    /// Gives the quantities that are `still`, and those whose nets agree to rounding, the errors that their rows cannot show;
+    /// tells which.
+    fn allow_for_unseen(&mut self, unseen: &[Unseen], still: &[bool]) -> Vec<bool> {
+        let mut allowed = vec![false; self.estimates.len()];
         for (place, unseen) in unseen.iter().enumerate().filter(|(_, unseen)| unseen.half_width > 0.0) {
             let Estimate { estimate, interval } = &mut self.estimates[place];
             let error = &mut self.errors[place].error;
@@ -231,12 +241,16 @@ impl Judged {
             let half_width = unseen.half_width;
             *interval = Some(Interval { low: *estimate - half_width, high: *estimate + half_width });
             *error = half_width / NORMAL_QUANTILE;
+            allowed[place] = true;
         }
+        allowed
     }
 
-    /// Puts what the surrogate has corrected in the place of the plain estimates, where its errors are smaller.
-    fn correct(&mut self, layout: &Layout, surrogate: &SurrogateEstimates) -> SurrogateUse {
-        let Corrections { replacements, used } = surrogate.corrections(layout, &self.estimates, &self.errors);
+    /// Puts what the surrogate has corrected in the place of the plain estimates, where its errors are smaller; the indices of
+    /// `settled` swaps stay.
+    fn correct(&mut self, layout: &Layout, surrogate: &SurrogateEstimates, settled: &[bool]) -> SurrogateUse {
+        let Corrections { replacements, used } =
+            surrogate.corrections(layout, (&self.estimates, &self.errors), settled);
         for (place, (estimate, error, parts)) in replacements {
             self.estimates[place] = estimate;
             self.errors[place] = error;
@@ -259,8 +273,9 @@ impl Judged {
     /// of them accordingly.
     fn allow_for_half_seen(&mut self, layout: &Layout, half_seen: &[bool]) {
         for swap in (0..layout.swaps()).filter(|swap| half_seen[*swap]) {
-            let place = layout.swap(swap);
-            let (Some(total), Some(first)) = (self.estimates[place + 1].interval, &mut self.estimates[place].interval)
+            let [first, total, interaction] =
+                [Number::FirstOrder, Number::Total, Number::Interaction].map(|number| layout.place(swap, number));
+            let (Some(total), Some(first)) = (self.estimates[total].interval, &mut self.estimates[first].interval)
             else {
                 continue;
             };
@@ -269,8 +284,7 @@ impl Judged {
                 continue;
             }
             first.high = total.high;
-            // Total minus first order.
-            if let Some(interaction) = &mut self.estimates[place + 5].interval {
+            if let Some(interaction) = &mut self.estimates[interaction].interval {
                 interaction.low -= more;
             }
             // The sum of the first-order indices.
@@ -281,7 +295,7 @@ impl Judged {
     }
 
     fn first(&self, layout: &Layout, seed: u64) -> Option<Vec<f64>> {
-        let places: Vec<usize> = (0..layout.factors).map(|swap| layout.swap(swap) + 1).collect();
+        let places: Vec<usize> = (0..layout.factors).map(|swap| layout.place(swap, Number::Total)).collect();
         let estimates: Vec<f64> = places.iter().map(|&place| self.estimates[place].estimate).collect();
         let errors: Vec<StandardError> = places.iter().map(|&place| self.errors[place]).collect();
         let parts: Vec<&PartInfluences> = places.iter().map(|&place| &self.parts[place]).collect();
@@ -289,7 +303,7 @@ impl Judged {
     }
 
     fn effect(&self, layout: &Layout, swap: usize, threshold: f64) -> EffectEstimates {
-        let place = layout.swap(swap);
+        let (place, total_place) = (layout.swap(swap), layout.place(swap, Number::Total));
         let [first_order, total, share_first_order, share_total, check_gap, interaction] =
             std::array::from_fn(|k| self.estimates[place + k]);
         let (first_order, total, contradictory) = agreeing(first_order, total);
@@ -308,7 +322,7 @@ impl Judged {
             interaction,
             contradictory,
             probability_first: None,
-            probability_above: probability_above(total.estimate, self.errors[place + 1], threshold),
+            probability_above: probability_above(total.estimate, self.errors[total_place], threshold),
             others: others.collect(),
         }
     }

@@ -7,7 +7,7 @@
 //! moves the index by more than the range of the output allows. Only a factor that leaves the output unchanged in
 //! every row keeps an error of 0.
 
-use super::estimates::Layout;
+use super::estimates::{Layout, Number};
 use super::net_decay::PartInfluences;
 use crate::estimate::Moments;
 
@@ -59,19 +59,23 @@ pub(super) fn unseen(layout: &Layout, moments: &Moments, values: &[f64]) -> Vec<
     let active = acts[..layout.factors].iter().filter(|acts| **acts).count();
     let mut most = 0.0f64;
     for swap in (0..layout.swaps()).filter(|swap| acts[*swap]) {
-        let (place, sums) = (layout.swap(swap), moments.swap(swap));
-        let total = values[place + 1].abs().min(1.0);
+        let sums = moments.swap(swap);
+        let total = values[layout.place(swap, Number::Total)].abs().min(1.0);
         // A row adds at most R^2/V to a first-order index by Saltelli's formula, and half of that to the others.
         let first = bound(sums.base.n, if sums.ba.is_some() { 0.5 } else { 1.0 });
         let half = bound(sums.base.n, 0.5);
         let of_first = Unseen { half_width: first, rounding: ROUNDING * total.sqrt() };
         let of_total = Unseen { half_width: half, rounding: ROUNDING * total };
-        (list[place], list[place + 1]) = (of_first, of_total);
+        for (number, unseen) in [(Number::FirstOrder, of_first), (Number::Total, of_total)] {
+            list[layout.place(swap, number)] = unseen;
+        }
         // The share of the only factor that does anything is 100 % for sure.
         if active > 1 || swap >= layout.factors {
             let percent =
                 |unseen: Unseen| Unseen { half_width: 100.0 * unseen.half_width, rounding: 100.0 * unseen.rounding };
-            (list[place + 2], list[place + 3]) = (percent(of_first), percent(of_total));
+            for (number, unseen) in [(Number::ShareFirstOrder, of_first), (Number::ShareTotal, of_total)] {
+                list[layout.place(swap, number)] = percent(unseen);
+            }
         }
         for estimator in 0..layout.estimators.len() {
             let place = layout.other(estimator, swap);
@@ -86,7 +90,7 @@ pub(super) fn unseen(layout: &Layout, moments: &Moments, values: &[f64]) -> Vec<
     }
     if layout.second_order {
         for (pair, (j, k)) in layout.pair_list().into_iter().enumerate().filter(|(_, (j, k))| acts[*j] && acts[*k]) {
-            let total = |swap: usize| values[layout.swap(swap) + 1].abs().min(1.0);
+            let total = |swap: usize| values[layout.place(swap, Number::Total)].abs().min(1.0);
             let n = moments.swap(j).base.n.min(moments.swap(k).base.n);
             let rounding = ROUNDING * (total(j) * total(k)).sqrt();
             list[layout.pairs() + pair] = Unseen { half_width: bound(n, 1.0), rounding };
@@ -118,7 +122,7 @@ mod tests {
         assert!(of(0).applies(&vec![vec![1e-16, -1e-16]; 2]) && !of(0).applies(&vec![vec![1e-3, 0.0]; 2]));
         assert!(!of(1).applies(&vec![vec![0.0; 2]; 2]));
         // The only factor that acts has all of the share.
-        assert_eq!(unseen[layout.swap(0) + 2], Unseen::NONE);
+        assert_eq!(unseen[layout.place(0, Number::ShareFirstOrder)], Unseen::NONE);
     }
 
     #[test]

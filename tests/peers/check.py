@@ -177,6 +177,17 @@ def differences(y, j, k):
     return sum(products) / 2 / pooled(y)[1]
 
 
+def pooled_with_swap(y, j):
+    """Variance of y_A, y_B and y_AB pooled, and the covariance of y_A and y_B, held between -1/2 and 1/2 of it."""
+    f0, variance = pooled(y)[0], np.var(np.concatenate([y.a, y.b, y.ab[j]]))
+    return variance, np.clip(np.mean((y.a - f0) * (y.b - f0)), -variance / 2, variance / 2)
+
+
+def saltelli_pooled(y, j):
+    variance, covariance = pooled_with_swap(y, j)
+    return np.mean((y.b - pooled(y)[0]) * (y.ab[j] - y.a)) / (variance - covariance)
+
+
 FIRST_ORDER = {
     "sobol-1993": sobol_1993,
     "homma-saltelli-1996": homma_saltelli_first,
@@ -184,6 +195,7 @@ FIRST_ORDER = {
     "saltelli-2002": saltelli_2002,
     "sobol-2007": sobol_2007_first,
     "saltelli-2010": saltelli_2010,
+    "saltelli-pooled": saltelli_pooled,
     "martinez-2011": lambda y, j: correlation(y.b, y.ab[j]),
     "glen-isaacs-2012": lambda y, j: glen_isaacs(y, j)[0],
     # x is B, y is A, z is C, u the factor.
@@ -195,6 +207,7 @@ FIRST_ORDER = {
 TOTAL = {
     "homma-saltelli-1996": homma_saltelli_total,
     "jansen-1999": jansen_total,
+    "jansen-pooled": lambda y, j: np.mean((y.a - y.ab[j]) ** 2) / 2 / pooled_with_swap(y, j)[0],
     "sobol-2007": sobol_2007_total,
     "martinez-2011": lambda y, j: 1 - correlation(y.a, y.ab[j]),
     "glen-isaacs-2012": lambda y, j: glen_isaacs(y, j)[1],

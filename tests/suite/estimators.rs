@@ -17,7 +17,7 @@ fn estimates(study: &Study, sampler: Sampler, base_samples: u64) -> Vec<Vec<f64>
         let rows = Rows {
             swaps: (0..factors).map(|j| vec![j]).collect(),
             companions: Companions { ba: true, bc: true, cb: true },
-            second_order: false,
+            ..Rows::default()
         };
         let settings = DesignSettings { sampler, base_samples, replicates: 1, seed };
         let design = Design::new(settings, factors, rows).unwrap();

@@ -140,6 +140,18 @@ fn ishigami(out: &Path, more: &[&str]) -> Output {
     apportion(&[&["run", text(&study), "--out", text(out)], more].concat())
 }
 
+/// Without surrogates, which need the outputs of all runs: the journal holds sums.
+fn sums(out: &Path, more: &[&str]) -> Output {
+    ishigami(out, &[&["--set", "analysis.surrogate=\"off\""], more].concat())
+}
+
+#[track_caller]
+fn sums_runs(out: &Path, more: &[&str]) -> u64 {
+    let output = sums(out, more);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    on_record(&stderr(&output))
+}
+
 #[track_caller]
 fn ishigami_runs(out: &Path, more: &[&str]) -> u64 {
     let output = ishigami(out, more);
@@ -302,43 +314,47 @@ fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed(
 fn a_finished_study_goes_on_with_every_run_it_has() {
     let folder = tempfile::tempdir().unwrap();
     let (long, grown) = (folder.path().join("long"), folder.path().join("grown"));
-    refused(&ishigami(&grown, &["--double"]), 2, "--double: there is no result to double");
-    assert_eq!(ishigami_runs(&grown, &["--base-samples", "1024"]), 0);
-    assert_eq!(ishigami_runs(&grown, &["--double"]), 1024 * 5);
-    assert_eq!(ishigami_runs(&grown, &["--double"]), 2048 * 5);
-    assert_eq!(ishigami_runs(&grown, &["--base-samples", "8192"]), 4096 * 5);
-    assert_eq!(ishigami_runs(&long, &["--base-samples", "8192"]), 0);
+    refused(&sums(&grown, &["--double"]), 2, "--double: there is no result to double");
+    assert_eq!(sums_runs(&grown, &["--base-samples", "1024"]), 0);
+    assert_eq!(sums_runs(&grown, &["--double"]), 1024 * 5);
+    assert_eq!(sums_runs(&grown, &["--double"]), 2048 * 5);
+    assert_eq!(sums_runs(&grown, &["--base-samples", "8192"]), 4096 * 5);
+    assert_eq!(sums_runs(&long, &["--base-samples", "8192"]), 0);
     assert!(numbers(&grown, "ishigami") == numbers(&long, "ishigami"));
     // Sums cannot be divided: a shorter run leaves them as they are. With --restart nothing is on record.
-    let fewer = ishigami(&grown, &["--base-samples", "1024"]);
+    let fewer = sums(&grown, &["--base-samples", "1024"]);
     assert!(stderr(&fewer).contains("the sums of 8192 base samples, which cannot be divided"), "{}", stderr(&fewer));
     refused(
-        &ishigami(&grown, &["--base-samples", "1024", "--resume"]),
+        &sums(&grown, &["--base-samples", "1024", "--resume"]),
         2,
         "ask for as many or more, or leave out --resume",
     );
-    assert_eq!(ishigami_runs(&grown, &["--base-samples", "8192"]), 8192 * 5);
-    assert_eq!(ishigami_runs(&grown, &["--base-samples", "1024", "--no-journal"]), 0);
-    assert_eq!(ishigami_runs(&grown, &["--base-samples", "1024", "--restart"]), 0);
-    assert_eq!(ishigami_runs(&grown, &["--base-samples", "1024"]), 1024 * 5);
+    assert_eq!(sums_runs(&grown, &["--base-samples", "8192"]), 8192 * 5);
+    assert_eq!(sums_runs(&grown, &["--base-samples", "1024", "--no-journal"]), 0);
+    assert_eq!(sums_runs(&grown, &["--base-samples", "1024", "--restart"]), 0);
+    assert_eq!(sums_runs(&grown, &["--base-samples", "1024"]), 1024 * 5);
     // Outputs are not in the sums, but sums are made of outputs.
     let saved = folder.path().join("outputs.csv");
     let save = ["--base-samples", "1024", "--save-outputs", text(&saved)];
     refused(
-        &ishigami(&grown, &[&save[..], &["--resume"]].concat()),
+        &sums(&grown, &[&save[..], &["--resume"]].concat()),
         2,
         "holds the sums of the runs, and their outputs are needed",
     );
-    let anew = ishigami(&grown, &save);
+    let anew = sums(&grown, &save);
     assert!(stderr(&anew).contains("their outputs are needed: the journal was moved to "), "{}", stderr(&anew));
-    assert_eq!(ishigami_runs(&grown, &["--double"]), 1024 * 5);
+    assert_eq!(sums_runs(&grown, &["--double"]), 1024 * 5);
 }
 
 #[test]
 fn failures_that_come_back_leave_the_result_as_it_was() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("holes.toml");
-    std::fs::write(&study, "model = \"ishigami-holes\"\n[design]\nbase_samples = 512\n").unwrap();
+    std::fs::write(
+        &study,
+        "model = \"ishigami-holes\"\n[design]\nbase_samples = 512\n[analysis]\nsurrogate = \"off\"\n",
+    )
+    .unwrap();
     let saved = folder.path().join("outputs.csv");
     let with = |more: &[&str]| {
         let output = apportion(&[&["run", text(&study), "--out", text(folder.path())], more].concat());
@@ -505,7 +521,7 @@ fn a_damaged_journal_of_sums_is_never_used() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, damaged) = (folder.path().join("whole"), folder.path().join("damaged"));
     let size = ["--base-samples", "4096"];
-    ishigami_runs(&whole, &size);
+    sums_runs(&whole, &size);
     let bytes = std::fs::read(whole.join("ishigami.journal")).unwrap();
     std::fs::create_dir(&damaged).unwrap();
     let journal = damaged.join("ishigami.journal");
@@ -514,8 +530,8 @@ fn a_damaged_journal_of_sums_is_never_used() {
         torn[place] ^= 1;
         for torn in [&torn[..], &bytes[..place]] {
             std::fs::write(&journal, torn).unwrap();
-            refused(&ishigami(&damaged, &[&size[..], &["--resume"]].concat()), 2, "its sums are damaged");
-            let anew = ishigami(&damaged, &size);
+            refused(&sums(&damaged, &[&size[..], &["--resume"]].concat()), 2, "its sums are damaged");
+            let anew = sums(&damaged, &size);
             assert!(stderr(&anew).contains("its sums are damaged: the journal was moved to "), "{}", stderr(&anew));
             assert!(numbers(&damaged, "ishigami") == numbers(&whole, "ishigami"));
         }

@@ -21,6 +21,8 @@ fn study(text: &str, more: &[&str]) -> Study {
 
 const ON: &str = "analysis.surrogate=\"on\"";
 
+const OFF: &str = "analysis.surrogate=\"off\"";
+
 #[test]
 fn a_polynomial_has_its_indices_to_rounding() {
     // Var(x1) = 1/12, Var(2 x2) = 4/12, x1 x2 centred 3: 9/144.
@@ -100,7 +102,7 @@ fn smooth_functions_are_known_a_hundred_times_better_and_rough_ones_no_worse() {
             });
             seeds.sum::<f64>().sqrt()
         };
-        let (plain, corrected) = (error(&[]), error(&[ON]));
+        let (plain, corrected) = (error(&[OFF]), error(&[ON]));
         assert!(corrected * factor < plain, "{name}: {corrected:e} against {plain:e}");
     }
 }
@@ -151,6 +153,90 @@ fn where_there_is_nothing_to_fit_the_plain_indices_stand() {
     assert!(!with("model = \"ishigami\"", &["design.base_samples=64", "design.replicates=2"]), "too few nets");
     assert!(!with("model = \"ishigami\"", &["design.base_samples=8"]), "too few points");
     assert!(!with("model = \"constant\"", &["design.base_samples=64"]), "no variance");
+}
+
+#[test]
+fn a_few_hundred_runs_are_split_into_base_samples_and_plain_rows() {
+    let run = |text: &str, more: &[&str]| {
+        let study = study(text, more);
+        (study.design().clone(), study.run().unwrap())
+    };
+    let (design, result) = run("model = \"borehole\"", &["design.budget_runs=300"]);
+    // 8 base samples of 10 runs, 27 plain rows each.
+    assert_eq!((design.settings().base_samples, design.plain_rows(), design.rows()), (8, 27, 296));
+    let exact = KnownAnswer::from_name("borehole").unwrap().default_function().exact().indices.unwrap();
+    let error = |result: &apportion::Analysis| {
+        let factors = &result.outputs[0].indices.as_ref().unwrap().factors;
+        let of = |(effect, exact): (&apportion::EffectEstimates, &f64)| (effect.total.estimate - exact).abs();
+        factors.iter().zip(&exact.total).map(of).fold(0.0, f64::max)
+    };
+    let (_, plain) = run("model = \"borehole\"", &["design.base_samples=28", OFF]);
+    assert!(error(&result) < 1e-3 && error(&plain) > 1e-2, "{:e} {:e}", error(&result), error(&plain));
+    // A polynomial of two factors is exact.
+    let text = "model = \"expression\"\n[expression]\noutputs.y = \"x1 + 2*x2\"\n\
+                [[factor]]\nname = \"x1\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"x2\"\nmin = 0\nmax = 1\n";
+    let (_, result) = run(text, &["design.base_samples=8", "design.plain_rows=5"]);
+    let output = &result.outputs[0];
+    let totals: Vec<f64> =
+        output.indices.as_ref().unwrap().factors.iter().map(|effect| effect.total.estimate).collect();
+    assert!((totals[0] - 0.2).abs() < 1e-9 && (totals[1] - 0.8).abs() < 1e-9, "{totals:?}");
+    assert!((output.mean.unwrap().estimate - 1.5).abs() < 1e-9);
+}
+
+#[test]
+fn a_design_without_surrogates_has_no_use_for_plain_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.toml");
+    std::fs::write(&file, "model = \"borehole\"\n").unwrap();
+    let check = |sets: &[&str]| {
+        let sets = sets.iter().flat_map(|set| ["--set", set]);
+        apportion(&["check", text(&file)].into_iter().chain(sets).collect::<Vec<_>>())
+    };
+    let budget = "design.budget_runs=300";
+    refused(&check(&[budget, OFF]), "surrogate = \"off\"");
+    refused(&check(&["design.plain_rows=3", "analysis.intervals=replicates"]), "intervals = \"replicates\"");
+    refused(&check(&["design.plain_rows=3", "design.sampler=latin-hypercube"]), "beside surrogates");
+    refused(&check(&["design.plain_rows=3", "design.replicates=2"]), "replicates = 2");
+    refused(&check(&["design.plain_rows=1001"]), "at most 1000");
+    refused(&check(&[budget, "design.base_samples=64"]), "beside `base_samples`");
+    refused(&check(&["design.budget_runs=79"]), "80 or more");
+}
+
+#[test]
+fn shards_and_files_of_outputs_give_the_bits_of_one_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let file = path("mine.toml");
+    std::fs::write(&file, "model = \"ishigami\"\n[design]\nbase_samples = 64\nplain_rows = 3\n").unwrap();
+    let numbers = |name: &str| -> serde_json::Value {
+        let json = std::fs::read_to_string(path(name)).unwrap();
+        serde_json::from_str::<serde_json::Value>(&json).unwrap()["outputs"][0].take()
+    };
+    succeed(&["run", text(&file), "--out", text(&path("one"))]);
+    let shards: Vec<std::path::PathBuf> = (1..=3)
+        .map(|shard| {
+            let out = path(&format!("shard{shard}"));
+            succeed(&["run", text(&file), "--shard", &format!("{shard}/3"), "--out", text(&out)]);
+            let parts = crate::common::files(&out).into_iter().find(|name| name.contains("shard"));
+            out.join(parts.expect("the file of a shard"))
+        })
+        .collect();
+    let mut merge = vec!["merge", text(&file)];
+    merge.extend(shards.iter().map(|shard| text(shard)));
+    let merged = path("merged");
+    merge.extend(["--out", text(&merged)]);
+    succeed(&merge);
+    assert_eq!(numbers("one/mine.json"), numbers("merged/mine.json"));
+    // The same by a table of the points, evaluated on its own.
+    let (points, outputs, out) = (path("points.csv"), path("outputs.csv"), path("analysed"));
+    succeed(&["sample", text(&file), "-o", text(&points)]);
+    succeed(&["evaluate", text(&file), text(&points), "-o", text(&outputs)]);
+    succeed(&["analyze", text(&outputs), "--design", text(&points), "--out", text(&out)]);
+    let name = crate::common::files(&out).into_iter().find(|name| name.ends_with(".json")).unwrap();
+    let (one, analysed) = (numbers("one/mine.json"), numbers(&format!("analysed/{name}")));
+    for key in ["indices", "surrogate", "mean", "variance"] {
+        assert_eq!(one[key], analysed[key], "{key}");
+    }
 }
 
 #[test]

@@ -46,6 +46,13 @@ fn azzini_denominator(s: &Sample, j: usize) -> f64 {
     mean(|i| (s.a[i] - s.b[i]).powi(2) + (s.ba[j][i] - s.ab[j][i]).powi(2), s.a.len())
 }
 
+/// Variance of y_A, y_B and y_AB pooled, and covariance of y_A and y_B about the mean of both.
+fn pooled_with_swap(s: &Sample, j: usize) -> (f64, f64) {
+    let (n, f0) = (s.a.len(), pooled(s).0);
+    let all: Vec<f64> = [&s.a[..], &s.b[..], &s.ab[j][..]].concat();
+    (variance(&all, all.len() as f64), mean(|i| (s.a[i] - f0) * (s.b[i] - f0), n))
+}
+
 fn first_order(estimator: FirstOrder, s: &Sample, j: usize) -> f64 {
     let (n, a, b, ab, ba, bc) = (s.a.len(), &s.a, &s.b, &s.ab[j], &s.ba[j], &s.bc[j]);
     let (f0, v) = pooled(s);
@@ -61,6 +68,10 @@ fn first_order(estimator: FirstOrder, s: &Sample, j: usize) -> f64 {
         }
         FirstOrder::Sobol2007 => mean(|i| b[i] * (ab[i] - a[i]), n) / v,
         FirstOrder::Saltelli2010 => mean(|i| (b[i] - f0) * (ab[i] - a[i]), n) / v,
+        FirstOrder::SaltelliPooled => {
+            let (v3, covariance) = pooled_with_swap(s, j);
+            mean(|i| (b[i] - f0) * (ab[i] - a[i]), n) / (v3 - covariance.max(-v3 / 2.0).min(v3 / 2.0))
+        }
         FirstOrder::Jansen1999 => (v - mean(|i| (b[i] - ab[i]).powi(2), n) / 2.0) / v,
         FirstOrder::JanonMonod2014 => janon_monod(b, ab),
         FirstOrder::Martinez2011 => r(b, ab),
@@ -77,6 +88,7 @@ fn total(estimator: Total, s: &Sample, j: usize) -> f64 {
         Total::HommaSaltelli1996 => (v - mean(|i| a[i] * ab[i], n) + f0 * f0) / v,
         Total::Sobol2007 => mean(|i| a[i] * (a[i] - ab[i]), n) / v,
         Total::Jansen1999 => mean(|i| (a[i] - ab[i]).powi(2), n) / 2.0 / v,
+        Total::JansenPooled => mean(|i| (a[i] - ab[i]).powi(2), n) / 2.0 / pooled_with_swap(s, j).0,
         Total::JanonMonod2014 => 1.0 - janon_monod(a, ab),
         Total::Martinez2011 => 1.0 - r(a, ab),
         Total::GlenIsaacs2012 => glen_isaacs(s, j).1,
@@ -119,6 +131,21 @@ fn every_estimator_is_its_published_formula() {
         let tolerance = 1e-14 * (1.0 + offset * offset) * 10.0;
         assert_close(&everything(&sample.moments()), &textbook(&sample), tolerance);
     }
+}
+
+#[test]
+fn rows_that_vary_together_have_indices_all_the_same() {
+    // An event in one and the same base point of A, B and AB: their covariance is their variance.
+    let mut event = vec![0.0; 16];
+    event[5] = 1.0;
+    let block = BlockOutputs { a: &event, b: &event, ab: &[&event], ..BlockOutputs::default() };
+    let moments = Moments::of_block(block, &mut Workspace::default());
+    assert_eq!(FirstOrder::SaltelliPooled.estimate(&moments, 0), 0.0);
+    // AB without the event: S = -V/(V3 - V3/2), with V = 1/16 - 1/256 and V3 = 1/24 - 1/576 of 2 rows in 48.
+    let block = BlockOutputs { a: &event, b: &event, ab: &[&[0.0; 16]], ..BlockOutputs::default() };
+    let moments = Moments::of_block(block, &mut Workspace::default());
+    let (v, v3) = (1.0 / 16.0 - 1.0 / 256.0, 1.0 / 24.0 - 1.0 / 576.0);
+    assert!((FirstOrder::SaltelliPooled.estimate(&moments, 0) + v / (v3 / 2.0)).abs() < 1e-14);
 }
 
 #[test]

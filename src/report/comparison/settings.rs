@@ -57,6 +57,7 @@ pub(super) fn differences(a: &ResultFile, b: &ResultFile) -> Vec<SettingDifferen
     for (what, a, b) in [
         ("base samples", p.base_samples, q.base_samples),
         ("replicates", p.replicates, q.replicates),
+        ("plain rows", p.plain_rows.into(), q.plain_rows.into()),
         ("seed", p.seed, q.seed),
     ] {
         note(what, Some(a.to_string()), Some(b.to_string()));

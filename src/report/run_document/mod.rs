@@ -117,6 +117,9 @@ fn cost(result: &ResultFile) -> Vec<Part> {
         ("time", format!("{} s", significant(format!("{seconds:.2e}").parse().unwrap_or(seconds)))),
         ("threads", provenance.threads.to_string()),
     ];
+    if provenance.plain_rows > 0 {
+        rows.insert(2, ("plain rows of each, for surrogates", provenance.plain_rows.to_string()));
+    }
     if seconds > 0.0 {
         let rate = (provenance.model_runs as f64 / seconds).round() as u64;
         rows.push(("runs per second", grouped(rate)));

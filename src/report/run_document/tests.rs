@@ -33,9 +33,10 @@ fn the_leading_factor_stands_at_the_top() {
         "How the indices settled",
         "Distribution of the output",
         "The output against its factors",
+        "What the surrogate did",
         "Cost",
     ];
-    assert_eq!(titles(&page)[..7], expected);
+    assert_eq!(titles(&page)[..8], expected);
     let sorted = |mut names: FileNames| {
         names.data.sort();
         names.charts.sort();

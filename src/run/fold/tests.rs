@@ -19,7 +19,7 @@ fn space() -> Space {
 fn design(base_samples: u64, replicates: u64) -> Design {
     let settings = DesignSettings { base_samples, replicates, seed: 1, ..DesignSettings::default() };
     let companions = Companions { ba: true, bc: true, cb: true };
-    let rows = Rows { swaps: vec![vec![0], vec![1]], companions, second_order: true };
+    let rows = Rows { swaps: vec![vec![0], vec![1]], companions, second_order: true, ..Rows::default() };
     Design::new(settings, 2, rows).unwrap()
 }
 

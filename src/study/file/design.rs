@@ -2,11 +2,11 @@
 
 use super::context::{Context, Fault};
 use super::error::Problem;
-use super::sections::{At, StudyFile};
+use super::sections::{At, DesignSection, StudyFile};
 use super::{analysis, context::choice};
 use crate::design::{Design, DesignError, DesignSettings, Sampler};
 use crate::space::Space;
-use crate::study::options::rows;
+use crate::study::options::{rows, split};
 use crate::study::{AnalysisOptions, Target};
 
 /// The design with what is asked of it, and notes on what was read otherwise than it was written.
@@ -29,7 +29,10 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
     let target = analysis::target(context, section, sampler)?;
     let or = |value: &Option<At<u64>>, default| value.as_ref().map_or(default, |value| *value.get_ref());
     let replicates = or(&section.replicates, analysis.intervals.default_replicates());
-    let base_samples = or(&section.base_samples, target.base_samples(replicates));
+    let split = split_design(context, section, (&analysis, space), (sampler, replicates))?;
+    let (base_samples, plain_rows) =
+        split.unwrap_or_else(|| (or(&section.base_samples, target.base_samples(replicates)), 0));
+    let plain_rows = section.plain_rows.as_ref().map_or(plain_rows, |rows| *rows.get_ref());
     let seed = or(&section.seed, defaults.seed);
     let settings = target.first_stage(DesignSettings { sampler, base_samples, replicates, seed });
     let mut notes = Vec::new();
@@ -40,9 +43,10 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
         ));
     }
     let asked = settings.base_samples;
-    let design = Design::new(settings, space.factors().len(), rows(&analysis, space)).map_err(|error| {
+    let design = Design::new(settings, space.factors().len(), rows(&analysis, space, plain_rows)).map_err(|error| {
         let span = match error {
             DesignError::NoReplicates => section.replicates.as_ref().map(At::span),
+            DesignError::TooManyPlainRows { .. } => section.plain_rows.as_ref().map(At::span),
             DesignError::TooManyPairs { .. } => file.analysis.second_order.as_ref().map(At::span),
             _ => section.base_samples.as_ref().or(section.replicates.as_ref()).map(At::span),
         };
@@ -78,4 +82,49 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
         notes.push("`aggregate` has no effect with a single output".to_owned());
     }
     Ok(Plan { design, analysis, target, notes })
+}
+
+/// Base samples and plain rows by `budget_runs`, if the section has it; and whether plain rows are of any use here.
+fn split_design(
+    context: &Context<'_>,
+    section: &DesignSection,
+    (analysis, space): (&AnalysisOptions, &Space),
+    (sampler, replicates): (Sampler, u64),
+) -> Result<Option<(u64, u32)>, Fault> {
+    let wrong = |key: &str, expected: &str, found: String| Problem::WrongType {
+        key: key.to_owned(),
+        expected: expected.to_owned(),
+        found,
+    };
+    let plain_rows =
+        section.plain_rows.as_ref().filter(|rows| *rows.get_ref() > 0).map(|rows| ("plain_rows", rows.span()));
+    let Some((key, span)) = section.budget_runs.as_ref().map(|runs| ("budget_runs", runs.span())).or(plain_rows) else {
+        return Ok(None);
+    };
+    if let Some(why) = analysis.refuses_plain_rows(sampler, replicates) {
+        let expected = "beside surrogates, which alone learn from plain rows";
+        return Err(context.fault(span, wrong(key, expected, format!("beside {why}"))));
+    }
+    let Some(runs) = &section.budget_runs else { return Ok(None) };
+    let others = [
+        ("base_samples", section.base_samples.is_some()),
+        ("plain_rows", section.plain_rows.is_some()),
+        ("target", section.target.is_some()),
+        ("budget", section.budget.is_some()),
+        ("max_runs", section.max_runs.is_some()),
+    ];
+    if let Some((other, _)) = others.into_iter().find(|(_, is_there)| *is_there) {
+        let expected = "alone: it decides the size of the design";
+        return Err(context.fault(runs.span(), wrong(key, expected, format!("beside `{other}`"))));
+    }
+    let one = DesignSettings { sampler, base_samples: 2, replicates: 1, ..DesignSettings::default() };
+    // What is wrong with the rows is told of when the design is made.
+    let Ok(design) = Design::new(one, space.factors().len(), rows(analysis, space, 0)) else { return Ok(None) };
+    let split = split(*runs.get_ref(), design.rows_per_point(), replicates).map_err(|least| {
+        let runs_per_point = design.rows_per_point();
+        let expected =
+            format!("{least} or more (2 base samples in each of {replicates} replicates, {runs_per_point} runs each)");
+        context.fault(runs.span(), wrong(key, &expected, runs.get_ref().to_string()))
+    })?;
+    Ok(Some(split))
 }

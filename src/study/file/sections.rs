@@ -90,6 +90,13 @@ pub(super) struct DesignSection {
     pub base_samples: Option<At<u64>>,
     /// Independent randomisations that share the base samples.
     pub replicates: Option<At<u64>>,
+    /// Runs of every base sample at points of their own, which only surrogates learn from: for models so dear that a few
+    /// hundred runs are all.
+    #[schemars(range(max = 1000))]
+    pub plain_rows: Option<At<u32>>,
+    /// Model runs in all, of which about a quarter is for base samples and the rest for plain rows.
+    #[schemars(range(min = 1))]
+    pub budget_runs: Option<At<u64>>,
     /// Seed of the design; 0 is one like any other.
     pub seed: Option<At<u64>>,
     /// Double the run until every index is known to this.

@@ -20,7 +20,7 @@ impl Sample {
         let second_order = companions.ba;
         let swaps = vec![vec![0], vec![1], vec![2]];
         let settings = DesignSettings { sampler: Sampler::Random, base_samples: points, replicates: 1, seed: 5 };
-        let design = Design::new(settings, 3, Rows { swaps, companions, second_order }).unwrap();
+        let design = Design::new(settings, 3, Rows { swaps, companions, second_order, ..Rows::default() }).unwrap();
         let runs = design.rows_per_point();
         let mut u = [0.0; 3];
         let mut output = |point: u64, run: u64| {

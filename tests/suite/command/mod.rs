@@ -142,14 +142,14 @@ pub const FORMULA: &str = "x1 + 2*x2 + x1*x3";
 pub fn rows_where(condition: impl Fn(f64) -> bool) -> u64 {
     let case = Case::new("", "");
     let study = apportion::study::Study::load(&case.path("study.toml"), &[]).unwrap();
-    let (design, factors) = (study.design(), study.space().factors().len());
+    let design = study.design();
     let (mut count, points) = (0, design.points_per_replicate() as usize);
     for replicate in 0..design.settings().replicates {
         let mut unit = vec![vec![0.0; points]; design.columns()];
         design.replicate(replicate).fill(0, &mut unit);
         for run in design.runs() {
             let matrix = if run.columns.contains(&0) { run.from } else { run.base };
-            count += unit[matrix as usize * factors].iter().filter(|u| condition(**u)).count() as u64;
+            count += unit[design.first_column(matrix)].iter().filter(|u| condition(**u)).count() as u64;
         }
     }
     count

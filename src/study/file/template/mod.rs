@@ -118,6 +118,7 @@ fn design_table(factors: usize) -> String {
          [design]\n\
          base_samples = {}    # best a power of two\n\
          seed = {}    # the same seed gives the same numbers, on any machine and any number of threads\n\
+         # budget_runs = 300    # instead of base_samples where runs take minutes: so many in all, split for surrogates\n\
          # target = {{ half_width = 0.01 }}    # or: go on until every index is known to this, starting small\n\
          # budget = \"60 s\"    # but stop before this time is over\n\n\
          # More from the same runs: joint effects of pairs (nearly twice the runs), a factor that does nothing.\n\
