@@ -36,9 +36,12 @@ pub enum FirstOrder {
     Sobol2007,
     /// S = 1/n sum (y_B - f0)(y_AB - y_A)/V.
     Saltelli2010,
-    /// S = 1/n sum (y_B - f0)(y_AB - y_A)/(V3 - cov(y_A, y_B)), V3 the variance of y_A, y_B and y_AB pooled, the covariance
-    /// held between -V3/2 and V3/2: the default without rows BA. The covariance, 0 for all points, is in the numerator too:
-    /// for additive outputs its noise cancels.
+    /// S = 1/n sum (y_B - f0)(y_AB - y_A)/(S V_B,AB + (1 - S) V3 - c), V_B,AB the variance of y_B and y_AB pooled, V3 that
+    /// of y_A, y_B and y_AB, c the covariance of y_A and y_B: the default without rows BA.
+    ///
+    /// The covariance, 0 for all points, is in the numerator too; at S = 1 so is the variance of y_B and y_AB: their noise
+    /// cancels. Small indices have the denominator of most rows. (On the right side S is held between 0 and 1, c between
+    /// -V3/2 and V3/2, and V_B,AB - c is at least half of V3 - c.)
     SaltelliPooled,
     /// S = 1 - 1/(2n) sum (y_B - y_AB)^2/V.
     Jansen1999,
@@ -114,7 +117,7 @@ impl FirstOrder {
                 "Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (b), centred on the pooled mean"
             }
             Self::SaltelliPooled => {
-                "Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (b), centred on the pooled mean, over the variance of A, B and AB pooled less the covariance of A and B"
+                "Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (b), centred on the pooled mean, over a mixture of the variances of B and AB, and of A, B and AB, less the covariance of A and B"
             }
             Self::Jansen1999 => {
                 "Jansen (1999), Comput. Phys. Commun. 117, 35-43; Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (c)"
@@ -184,7 +187,8 @@ pub enum Total {
     Sobol2007,
     /// ST = 1/(2n) sum (y_A - y_AB)^2/V.
     Jansen1999,
-    /// ST = 1/(2n) sum (y_A - y_AB)^2/V3, V3 the variance of y_A, y_B and y_AB pooled: the default without rows BA.
+    /// ST = 1/(2n) sum (y_A - y_AB)^2/(ST V_A,AB + (1 - ST) V3), V_A,AB the variance of y_A and y_AB pooled, at least V3/2:
+    /// the default without rows BA, with the reasons of [`FirstOrder::SaltelliPooled`].
     JansenPooled,
     /// ST = 1 - cov(y_A, y_AB)/V, mean and variance from those two rows pooled.
     JanonMonod2014,
@@ -246,7 +250,7 @@ impl Total {
                 "Jansen (1999), Comput. Phys. Commun. 117, 35-43, eq. 14; Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (f)"
             }
             Self::JansenPooled => {
-                "Jansen (1999), Comput. Phys. Commun. 117, 35-43, eq. 14, over the variance of A, B and AB pooled"
+                "Jansen (1999), Comput. Phys. Commun. 117, 35-43, eq. 14, over a mixture of the variances of A and AB, and of A, B and AB"
             }
             Self::JanonMonod2014 => FirstOrder::JanonMonod2014.source(),
             Self::Martinez2011 => FirstOrder::Martinez2011.source(),

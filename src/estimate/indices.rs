@@ -15,8 +15,8 @@ pub struct Indices {
 }
 
 impl Indices {
-    /// The default estimators on `moments`: Saltelli et al. 2010 (b), centred, and Jansen 1999, both over the pooled
-    /// variance of A, B and AB; with rows BA those of Azzini et al. 2021.
+    /// The default estimators on `moments`: Saltelli et al. 2010 (b), centred, and Jansen 1999, over the variance of the rows
+    /// of the swap; with rows BA those of Azzini et al. 2021.
     ///
     /// # Errors
     /// [`Undefined`] if there are fewer than two base points or the output has no usable variance.
@@ -132,11 +132,14 @@ mod tests {
         let mut a = zero;
         a[5] = 1.0;
         let got = indices(&a, &zero, &zero).unwrap();
-        // One of the 48 values of A, B and AB is 1. The covariance of y_A and y_B about f0 = 1/32 is -1/32^2.
-        let (variance, covariance) = ((1.0 / 48.0) * (47.0 / 48.0), -1.0 / 1024.0);
-        // S = mean (y_B - f0)(y_AB - y_A)/(V3 - cov) = (1/32)(1/16)/(V3 - cov); ST = mean (y_AB - y_A)^2/(2 V3) = (1/32)/V3.
-        assert!((got.first_order[0] - 1.0 / 512.0 / (variance - covariance)).abs() < 1e-14, "{got:?}");
-        assert!((got.total[0] - 1.0 / 32.0 / variance).abs() < 1e-14, "{got:?}");
+        // One of the 48 values of A, B and AB is 1, none of those of B and AB, and one of the 32 of A and AB. The covariance of
+        // y_A and y_B about f0 = 1/32 is -1/32^2.
+        let (all, covariance) = ((1.0 / 48.0) * (47.0 / 48.0), -1.0 / 1024.0);
+        // S = mean (y_B - f0)(y_AB - y_A)/D = (1/32)(1/16)/D, D = S (V3 - cov)/2 + (1 - S)(V3 - cov).
+        let (s, denominator) = (got.first_order[0], all - covariance);
+        assert!((s * (1.0 - s / 2.0) * denominator - 1.0 / 512.0).abs() < 1e-14, "{got:?}");
+        // ST = mean (y_AB - y_A)^2/2/V = (1/32)/((1/32)(31/32)), more than 1.
+        assert!((got.total[0] - 32.0 / 31.0).abs() < 1e-14, "{got:?}");
         assert!(got.check[0].is_nan());
     }
 

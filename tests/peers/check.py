@@ -177,15 +177,27 @@ def differences(y, j, k):
     return sum(products) / 2 / pooled(y)[1]
 
 
-def pooled_with_swap(y, j):
-    """Variance of y_A, y_B and y_AB pooled, and the covariance of y_A and y_B, held between -1/2 and 1/2 of it."""
-    f0, variance = pooled(y)[0], np.var(np.concatenate([y.a, y.b, y.ab[j]]))
-    return variance, np.clip(np.mean((y.a - f0) * (y.b - f0)), -variance / 2, variance / 2)
+def mixture(numerator, of_none, of_one):
+    """x = numerator/(x of_one + (1 - x) of_none), with x between 0 and 1 on the right side: a root of a quadratic equation."""
+    of_one = max(of_one, of_none / 2)
+    if numerator <= 0:
+        return numerator / of_none
+    if numerator >= of_one:
+        return numerator / of_one
+    roots = np.roots([of_one - of_none, of_none, -numerator])
+    return min(roots.real[roots.real > 0])
 
 
 def saltelli_pooled(y, j):
-    variance, covariance = pooled_with_swap(y, j)
-    return np.mean((y.b - pooled(y)[0]) * (y.ab[j] - y.a)) / (variance - covariance)
+    f0, of_none = pooled(y)[0], np.var(np.concatenate([y.a, y.b, y.ab[j]]))
+    covariance = np.clip(np.mean((y.a - f0) * (y.b - f0)), -of_none / 2, of_none / 2)
+    of_one = np.var(np.concatenate([y.b, y.ab[j]]))
+    return mixture(np.mean((y.b - f0) * (y.ab[j] - y.a)), of_none - covariance, of_one - covariance)
+
+
+def jansen_pooled(y, j):
+    of_none, of_one = np.var(np.concatenate([y.a, y.b, y.ab[j]])), np.var(np.concatenate([y.a, y.ab[j]]))
+    return mixture(np.mean((y.a - y.ab[j]) ** 2) / 2, of_none, of_one)
 
 
 FIRST_ORDER = {
@@ -207,7 +219,7 @@ FIRST_ORDER = {
 TOTAL = {
     "homma-saltelli-1996": homma_saltelli_total,
     "jansen-1999": jansen_total,
-    "jansen-pooled": lambda y, j: np.mean((y.a - y.ab[j]) ** 2) / 2 / pooled_with_swap(y, j)[0],
+    "jansen-pooled": jansen_pooled,
     "sobol-2007": sobol_2007_total,
     "martinez-2011": lambda y, j: 1 - correlation(y.a, y.ab[j]),
     "glen-isaacs-2012": lambda y, j: glen_isaacs(y, j)[1],

@@ -46,11 +46,24 @@ fn azzini_denominator(s: &Sample, j: usize) -> f64 {
     mean(|i| (s.a[i] - s.b[i]).powi(2) + (s.ba[j][i] - s.ab[j][i]).powi(2), s.a.len())
 }
 
-/// Variance of y_A, y_B and y_AB pooled, and covariance of y_A and y_B about the mean of both.
-fn pooled_with_swap(s: &Sample, j: usize) -> (f64, f64) {
-    let (n, f0) = (s.a.len(), pooled(s).0);
-    let all: Vec<f64> = [&s.a[..], &s.b[..], &s.ab[j][..]].concat();
-    (variance(&all, all.len() as f64), mean(|i| (s.a[i] - f0) * (s.b[i] - f0), n))
+/// Variance of all values of some columns.
+fn variance_of(columns: &[&[f64]]) -> f64 {
+    let all = columns.concat();
+    variance(&all, all.len() as f64)
+}
+
+/// The solution of x = n/(x one + (1 - x) none), by bisection of x (x one + (1 - x) none) - n where there is one.
+fn mixture(n: f64, none: f64, one: f64) -> f64 {
+    let one = one.max(none / 2.0);
+    if n <= 0.0 || n >= one {
+        return n / if n <= 0.0 { none } else { one };
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..80 {
+        let x = (low + high) / 2.0;
+        *if x * (x * one + (1.0 - x) * none) < n { &mut low } else { &mut high } = x;
+    }
+    (low + high) / 2.0
 }
 
 fn first_order(estimator: FirstOrder, s: &Sample, j: usize) -> f64 {
@@ -69,8 +82,9 @@ fn first_order(estimator: FirstOrder, s: &Sample, j: usize) -> f64 {
         FirstOrder::Sobol2007 => mean(|i| b[i] * (ab[i] - a[i]), n) / v,
         FirstOrder::Saltelli2010 => mean(|i| (b[i] - f0) * (ab[i] - a[i]), n) / v,
         FirstOrder::SaltelliPooled => {
-            let (v3, covariance) = pooled_with_swap(s, j);
-            mean(|i| (b[i] - f0) * (ab[i] - a[i]), n) / (v3 - covariance.max(-v3 / 2.0).min(v3 / 2.0))
+            let v3 = variance_of(&[a, b, ab]);
+            let c = mean(|i| (a[i] - f0) * (b[i] - f0), n).max(-v3 / 2.0).min(v3 / 2.0);
+            mixture(mean(|i| (b[i] - f0) * (ab[i] - a[i]), n), v3 - c, variance_of(&[b, ab]) - c)
         }
         FirstOrder::Jansen1999 => (v - mean(|i| (b[i] - ab[i]).powi(2), n) / 2.0) / v,
         FirstOrder::JanonMonod2014 => janon_monod(b, ab),
@@ -88,7 +102,9 @@ fn total(estimator: Total, s: &Sample, j: usize) -> f64 {
         Total::HommaSaltelli1996 => (v - mean(|i| a[i] * ab[i], n) + f0 * f0) / v,
         Total::Sobol2007 => mean(|i| a[i] * (a[i] - ab[i]), n) / v,
         Total::Jansen1999 => mean(|i| (a[i] - ab[i]).powi(2), n) / 2.0 / v,
-        Total::JansenPooled => mean(|i| (a[i] - ab[i]).powi(2), n) / 2.0 / pooled_with_swap(s, j).0,
+        Total::JansenPooled => {
+            mixture(mean(|i| (a[i] - ab[i]).powi(2), n) / 2.0, variance_of(&[a, b, ab]), variance_of(&[a, ab]))
+        }
         Total::JanonMonod2014 => 1.0 - janon_monod(a, ab),
         Total::Martinez2011 => 1.0 - r(a, ab),
         Total::GlenIsaacs2012 => glen_isaacs(s, j).1,
@@ -141,11 +157,26 @@ fn rows_that_vary_together_have_indices_all_the_same() {
     let block = BlockOutputs { a: &event, b: &event, ab: &[&event], ..BlockOutputs::default() };
     let moments = Moments::of_block(block, &mut Workspace::default());
     assert_eq!(FirstOrder::SaltelliPooled.estimate(&moments, 0), 0.0);
+    assert_eq!(Total::JansenPooled.estimate(&moments, 0), 0.0);
     // AB without the event: S = -V/(V3 - V3/2), with V = 1/16 - 1/256 and V3 = 1/24 - 1/576 of 2 rows in 48.
     let block = BlockOutputs { a: &event, b: &event, ab: &[&[0.0; 16]], ..BlockOutputs::default() };
     let moments = Moments::of_block(block, &mut Workspace::default());
     let (v, v3) = (1.0 / 16.0 - 1.0 / 256.0, 1.0 / 24.0 - 1.0 / 576.0);
     assert!((FirstOrder::SaltelliPooled.estimate(&moments, 0) + v / (v3 / 2.0)).abs() < 1e-14);
+}
+
+#[test]
+fn a_factor_that_does_everything_has_indices_of_1_whatever_the_rows() {
+    // AB is B: the numerators are variances of y_B and y_AB less the covariance, and of y_A and y_AB less it.
+    let (a, b) = ([0.0, 1.0, 5.0, -2.0, 0.5, 0.25, 3.0, -1.0], [2.0, 0.0, 1.5, -3.0, 2.5, 0.75, -7.0, 1.0]);
+    let block = BlockOutputs { a: &a, b: &b, ab: &[&b], ..BlockOutputs::default() };
+    let moments = Moments::of_block(block, &mut Workspace::default());
+    let gap = moments.base().mean() - moments.base().mean_b;
+    let variance = moments.base().bb / 8.0;
+    let c = moments.base().ab / 8.0 - gap * gap;
+    // About f0, not about the mean of B, which differs.
+    let expected = (variance + gap * gap - c) / (variance - c);
+    assert!((FirstOrder::SaltelliPooled.estimate(&moments, 0) - expected).abs() < 1e-14);
 }
 
 #[test]
