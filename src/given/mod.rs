@@ -13,6 +13,7 @@ mod order;
 mod outcome;
 mod rank;
 mod repeats;
+mod surrogate;
 
 use thiserror::Error;
 
@@ -27,6 +28,9 @@ pub use evenness::PointSet;
 pub use outcome::{InputIndices, OutputIndices};
 #[doc(hidden)]
 pub use rank::rank_first_order;
+pub use surrogate::{
+    SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, LEAST_EXPLAINED, surrogate_indices,
+};
 
 pub(crate) use column::centred;
 use order::Order;

@@ -1,0 +1,70 @@
+//! What the rows do to indices through the distributions of the inputs, where these are those of the columns.
+//!
+//! The polynomials of a column are orthonormal in its own distribution, so that an expansion has the variances that belong
+//! to the distributions of the table. Other rows would have had others. With g = sum b_a phi_a less its constant, V_u = E g_u^2
+//! the variance of its conditional mean given the inputs u, and the inputs independent, a row x moves V_u by the n-th part of
+//!
+//! - sum over j in u of E\[g_u^2 | x_j\] - V_u, and
+//! - sum over j not in u of 2 (E\[g_u g | x_j\] - V_u),
+//!
+//! the derivative of V_u by the distribution of each input (von Mises 1947). Terms that differ in the degree of one input only
+//! are what both conditional means are made of.
+
+use std::collections::BTreeMap;
+
+use super::contributions::Contributions;
+use crate::surrogate::basis::Term;
+use crate::surrogate::fit::Expansion;
+use crate::surrogate::net::Net;
+
+/// The terms of an expansion that are alike but for the degree of one input.
+struct Alike {
+    /// The other inputs of the terms, with their degrees.
+    rest: Term,
+    /// The coefficient of the term without the input; 0 for the constant.
+    without: f64,
+    /// The degrees of the input and the coefficients.
+    degrees: Vec<(usize, f64)>,
+}
+
+fn alike(expansion: &Expansion) -> BTreeMap<(usize, Term), Alike> {
+    let pairs = || expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty());
+    let known: BTreeMap<&Term, f64> = pairs().map(|(term, b)| (term, *b)).collect();
+    let mut groups: BTreeMap<(usize, Term), Alike> = BTreeMap::new();
+    for (term, &b) in pairs() {
+        for (place, &(input, degree)) in term.iter().enumerate() {
+            let mut rest = term.clone();
+            rest.remove(place);
+            let without = known.get(&rest).copied().unwrap_or(0.0);
+            let group = groups.entry((input, rest.clone())).or_insert(Alike { rest, without, degrees: Vec::new() });
+            group.degrees.push((degree, b));
+        }
+    }
+    groups
+}
+
+/// Adds these influences of the rows of a fold to those of its contributions.
+pub(super) fn add(net: &Net, expansion: &Expansion, contributions: &mut Contributions) {
+    let mut values = Vec::new();
+    for ((input, _), group) in &alike(expansion) {
+        let mut sums = vec![0.0; net.points()];
+        for &(degree, b) in &group.degrees {
+            net.fill(&vec![(*input, degree)], 0, &mut values);
+            sums.iter_mut().zip(&values).for_each(|(sum, p)| *sum += b * p);
+        }
+        let variance: f64 = group.degrees.iter().map(|(_, b)| b * b).sum();
+        let squares: Vec<f64> = sums.iter().map(|h| h * h - variance).collect();
+        let products: Vec<f64> = sums.iter().map(|h| 2.0 * group.without * h).collect();
+        let both: Vec<f64> = squares.iter().zip(&products).map(|(a, b)| a + b).collect();
+        contributions.variance.move_by(&both);
+        contributions.total_of(*input).move_by(&squares);
+        for (other, _) in &group.rest {
+            contributions.total_of(*other).move_by(&both);
+        }
+        match group.rest[..] {
+            [] => contributions.first_order_of(*input).move_by(&squares),
+            [(other, _)] => contributions.first_order_of(other).move_by(&products),
+            _ => {}
+        }
+    }
+}
