@@ -86,7 +86,9 @@ fn main() {
         Some(rows) => rows.split(',').map(|rows| rows.parse().expect("a number")).collect(),
         None => vec![200, 1000],
     };
-    println!("{seeds} seeds; errors of S and ST by surrogates, of S by ranks and bins; coverage and misses below of S and ST");
+    println!(
+        "{seeds} seeds; errors of S and ST by surrogates, of S by ranks and bins; coverage and misses below of S and ST"
+    );
     for name in &names {
         let function = KnownAnswer::from_name(name).expect("a function of the list").default_function();
         for &rows in &all_rows {

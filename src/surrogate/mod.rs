@@ -156,9 +156,8 @@ impl Job<'_> {
             return None;
         }
         let swaps: Vec<Vec<usize>> = design.swaps().iter().map(|swap| sorted(swap)).collect();
-        let contributions = |net: &Net, expansion: &Expansion| {
-            Contributions::new(design, net, expansion, &swaps, self.pairs)
-        };
+        let contributions =
+            |net: &Net, expansion: &Expansion| Contributions::new(design, net, expansion, &swaps, self.pairs);
         let (nets, expansions) = cross_fitted(&nets, caps, contributions).into_iter().unzip();
         Some(Corrected { nets, expansions })
     }

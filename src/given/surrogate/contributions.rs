@@ -38,6 +38,12 @@ impl Contribution {
         self.moves.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
     }
 
+    /// These influences.
+    #[cfg(test)]
+    pub fn moves(&self) -> &[f64] {
+        &self.moves
+    }
+
     fn in_parts(&self) -> Folded {
         let all: Vec<f64> = self.rows.iter().zip(&self.moves).map(|(row, more)| row + more).collect();
         let parts = in_parts(&[all]).into_iter().flatten().collect();
@@ -125,7 +131,8 @@ impl Contributions {
 
     /// In parts, as the intervals need them.
     pub fn in_parts(&self) -> FoldSums {
-        let of = |list: &BTreeMap<usize, Contribution>| list.iter().map(|(input, of)| (*input, of.in_parts())).collect();
+        let of =
+            |list: &BTreeMap<usize, Contribution>| list.iter().map(|(input, of)| (*input, of.in_parts())).collect();
         FoldSums {
             rows: self.left.len(),
             variance: self.variance.in_parts(),

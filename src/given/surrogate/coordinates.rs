@@ -1,8 +1,10 @@
 //! In which variable of every input an expansion is a polynomial.
 
-use super::super::order::Order;
+use rayon::prelude::*;
+
 use super::SurrogateRefusal;
 use crate::given::Column;
+use crate::given::order::Order;
 use crate::space::{Distribution, LARGEST_U, SMALLEST_U};
 use crate::sum::rescaled;
 use crate::surrogate::basis::Family;
@@ -11,12 +13,17 @@ use crate::surrogate::{Trial, trials};
 /// A positive or negative column whose largest value is this many times its smallest may be smooth in its logarithm.
 const WIDE: f64 = 3.0;
 
-/// How far the distribution of a column may be from the stated one, times the root of the number of rows (Kolmogorov 1933): by
-/// chance, one column in 30 million is farther.
-const FAR: f64 = 3.0;
+/// Share of the tables of which a column is farther from its stated distribution, by chance, than is accepted.
+const REFUSED_BY_CHANCE: f64 = 1e-4;
 
-/// Steps of the search for a quantile: each halves the interval.
+/// Share of the support by which values may lie outside, as rounding leaves them.
+const MARGIN: f64 = 1e-9;
+
+/// Steps of the search for a probability: each halves the interval.
 const HALVINGS: usize = 64;
+
+/// A probability that a value has of its own is larger than this.
+const STEP: f64 = 1e-9;
 
 /// The polynomials of every input in one set of variables, and these.
 pub(super) struct Coordinates {
@@ -32,7 +39,8 @@ pub(super) struct Coordinates {
 pub(super) fn of_columns(inputs: &[Column], orders: &[Order]) -> Vec<Coordinates> {
     let values: Vec<Vec<f64>> = inputs.iter().map(|input| rescaled(&input.values).0).collect();
     let logarithms: Vec<Option<Vec<f64>>> = values.iter().map(|x| logarithm(x)).collect();
-    let mixed: Vec<Vec<f64>> = logarithms.iter().zip(&values).map(|(log, x)| log.as_ref().unwrap_or(x).clone()).collect();
+    let mixed: Vec<Vec<f64>> =
+        logarithms.iter().zip(&values).map(|(log, x)| log.as_ref().unwrap_or(x).clone()).collect();
     let ranks = orders.iter().map(|order| {
         let ranks = order.centred_ranks();
         let half = ranks.len() as f64 / 2.0;
@@ -76,47 +84,50 @@ pub(super) fn of_distributions(
     orders: &[Order],
     distributions: &[Distribution],
 ) -> Result<Vec<Coordinates>, SurrogateRefusal> {
+    // The tail of the distribution of Kolmogorov (1933) is 2 exp(-2 x^2), of the largest distance times the root of the rows.
+    let far = ((2.0 * inputs.len() as f64 / REFUSED_BY_CHANCE).ln() / 2.0).sqrt();
     let quantiles = |((input, order), distribution): ((&Column, &Order), &Distribution)| {
-        let u: Vec<f64> = input.values.iter().map(|x| probability(distribution, *x)).collect();
-        let far = distance(order, distribution, &input.values) * (u.len() as f64).sqrt() > FAR;
-        if far { Err(SurrogateRefusal::OtherDistribution { input: input.name.clone() }) } else { Ok(u) }
+        quantiles(&input.values, order, distribution, far)
+            .ok_or_else(|| SurrogateRefusal::OtherDistribution { input: input.name.clone() })
     };
     let values: Vec<Vec<f64>> =
-        inputs.iter().zip(orders).zip(distributions).map(quantiles).collect::<Result<_, _>>()?;
+        inputs.par_iter().zip(orders).zip(distributions).map(quantiles).collect::<Result<_, _>>()?;
     let families: Vec<Family> = distributions.iter().map(Family::new).collect();
     let of = |trial: Trial| Coordinates { trial, values: values.clone(), name: "the given distributions" };
     Ok(trials(&families).into_iter().map(of).collect())
 }
 
-/// The largest and the smallest probability at which the quantile is not above, or not below, `x`.
-fn bounds(distribution: &Distribution, x: f64) -> (f64, f64) {
-    let search = |below: &dyn Fn(f64) -> bool| {
-        let (mut low, mut high) = (SMALLEST_U, LARGEST_U);
+/// The probability of values below each of `values`, with half of that of the value itself; `None` if they do not follow the
+/// distribution.
+fn quantiles(values: &[f64], order: &Order, distribution: &Distribution, far: f64) -> Option<Vec<f64>> {
+    let (low, high) = distribution.support();
+    let margin = MARGIN * (high - low);
+    if margin.is_finite() && values.iter().any(|x| *x < low - margin || *x > high + margin) {
+        return None;
+    }
+    let count = values.len() as f64;
+    let mut u = vec![0.0; values.len()];
+    let (mut before, mut distance) = (0, 0.0_f64);
+    for group in order.iter() {
+        let (low, high) = probabilities(distribution, values[group[0]]);
+        group.iter().for_each(|&row| u[row] = low + (high - low) / 2.0);
+        let after = before + group.len();
+        distance = distance.max((low - before as f64 / count).abs()).max((high - after as f64 / count).abs());
+        before = after;
+    }
+    (distance * count.sqrt() <= far).then_some(u)
+}
+
+/// The probabilities of values below `x`, and of values up to `x`.
+fn probabilities(distribution: &Distribution, x: f64) -> (f64, f64) {
+    let search = |(mut low, mut high): (f64, f64), is_below: &dyn Fn(f64) -> bool| {
         for _ in 0..HALVINGS {
             let middle = low + (high - low) / 2.0;
-            if below(distribution.quantile(middle)) { low = middle } else { high = middle }
+            if is_below(distribution.quantile(middle)) { low = middle } else { high = middle }
         }
         low + (high - low) / 2.0
     };
-    (search(&|q| q < x), search(&|q| q <= x))
-}
-
-/// The probability of values below `x`, with half of that of `x` itself.
-fn probability(distribution: &Distribution, x: f64) -> f64 {
-    let (low, high) = bounds(distribution, x);
-    low + (high - low) / 2.0
-}
-
-/// The largest distance between the shares of rows and the probabilities up to any value, and the share of rows outside.
-fn distance(order: &Order, distribution: &Distribution, values: &[f64]) -> f64 {
-    let count = values.len() as f64;
-    let mut before = 0;
-    let mut largest: f64 = 0.0;
-    for group in order.iter() {
-        let (low, high) = bounds(distribution, values[group[0]]);
-        let after = before + group.len();
-        largest = largest.max((low - before as f64 / count).abs()).max((high - after as f64 / count).abs());
-        before = after;
-    }
-    largest
+    let low = search((SMALLEST_U, LARGEST_U), &|quantile| quantile < x);
+    let is_step = low + STEP < LARGEST_U && distribution.quantile(low + STEP) <= x;
+    (low, if is_step { search((low, LARGEST_U), &|quantile| quantile <= x) } else { low })
 }

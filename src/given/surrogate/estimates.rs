@@ -11,6 +11,10 @@ pub(super) fn of(fitted: &Fitted, inputs: usize) -> SurrogateOutput {
     let left_mean = folds.iter().map(|fold| fold.left.0).sum::<f64>() / rows;
     let mut variance = gathered(folds, rows, |fold| Some(&fold.variance));
     variance.estimate -= left_mean * left_mean;
+    if !(variance.estimate > 0.0 && variance.estimate.is_finite()) {
+        // What is left is then larger than all there is; the outputs have variance 1.
+        variance.estimate = 1.0;
+    }
     let index = |numerator: &Influenced| {
         let (estimate, scale) = (numerator.estimate / variance.estimate, 1.0 / variance.estimate);
         Influenced { estimate, ..Influenced::combined(&[(scale, numerator), (-estimate * scale, &variance)]) }
@@ -20,7 +24,7 @@ pub(super) fn of(fitted: &Fitted, inputs: usize) -> SurrogateOutput {
     let total: Vec<Influenced> =
         (0..inputs).map(|input| index(&gathered(folds, rows, |fold| fold.total.get(&input)))).collect();
     let left = fitted.left_square() / variance.estimate;
-    let unknown = if left.is_finite() { left.clamp(0.0, 1.0) } else { 1.0 };
+    let unknown = left.clamp(0.0, 1.0);
     let noise = |list: &[Influenced], skewed: bool| {
         Noise::new(&list.iter().map(|index| &index.parts).collect::<Vec<_>>(), skewed)
     };

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::order::Order;
-use super::{Column, Dependence, GivenIndices, NoVariance, PointSet, centred};
+use super::{Column, Dependence, GivenIndices, NoVariance, centred};
 use crate::space::Distribution;
 use crate::surrogate::basis::{Caps, polynomials};
 use crate::surrogate::fit::Expansion;
@@ -60,7 +60,9 @@ pub enum SurrogateRefusal {
         inputs: usize,
     },
     /// A column that has not been drawn from the distribution that it is said to have.
-    #[error("the values of `{input}` do not follow the distribution that is stated for it: check its unit and its bounds")]
+    #[error(
+        "the values of `{input}` do not follow the distribution that is stated for it: check its unit and its bounds"
+    )]
     OtherDistribution {
         /// The input.
         input: String,
@@ -122,8 +124,8 @@ pub struct SurrogateIndices {
 /// needed for high accuracy: from n random rows of unknown distributions no index is known better than to some 1/sqrt(n).
 ///
 /// Estimates are those of the surrogates (Sudret 2008), with the correction that is linear in what these leave. The part that
-/// is quadratic in it lies between 0 and [`unknown`](SurrogateOutput::unknown), which is added to the upper ends of the intervals.
-/// Those are of 95 %, and where the points are no independent draws, they hold for the distribution of the table alone.
+/// is quadratic in it lies between 0 and [`unknown`](SurrogateOutput::unknown), which is added to the upper ends of the 95 %
+/// intervals. These are those of independent rows, and too wide for points that are more even.
 ///
 /// # Errors
 /// [`SurrogateRefusal`]: inputs that depend on each other, another number of distributions than of inputs, a column that does not
@@ -151,11 +153,7 @@ pub fn surrogate_indices(
         None => coordinates::of_columns(&inputs, &orders),
     };
     let folds: Vec<usize> = rows.iter().map(Vec::len).collect();
-    let job = Job {
-        coordinates: &coordinates,
-        folds: &folds,
-        random_columns: distributions.is_none() && indices.points == PointSet::Independent,
-    };
+    let job = Job { coordinates: &coordinates, folds: &folds, own_distributions: distributions.is_none() };
     let of_output = |output: &Column| Ok(job.output(&centred(&chosen(output).values)?));
     Ok(Surrogates {
         rows: folds.iter().sum(),
@@ -183,11 +181,12 @@ fn used_rows(rows: usize, inputs: usize) -> Vec<Vec<usize>> {
 
 /// The same table for all outputs.
 struct Job<'a> {
+    /// What is tried, one at least.
     coordinates: &'a [Coordinates],
     /// Rows of every fold.
     folds: &'a [usize],
-    /// Whether the distributions are those of the columns, and these have been drawn at random.
-    random_columns: bool,
+    /// Whether the distributions are those of the columns.
+    own_distributions: bool,
 }
 
 /// Every fold, corrected by an expansion of the others.
@@ -210,15 +209,14 @@ impl Job<'_> {
     fn output(&self, z: &[f64]) -> SurrogateOutput {
         let square = z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64;
         let z: Vec<f64> = z.iter().map(|z| z / square.sqrt()).collect();
-        let mut best: Option<Fitted> = None;
-        for coordinates in self.coordinates {
+        let mut best = self.fitted(&self.coordinates[0], &z);
+        for coordinates in &self.coordinates[1..] {
             let fitted = self.fitted(coordinates, &z);
-            let limit = best.as_ref().map_or(f64::INFINITY, |best| coordinates.trial.ratio * best.left_square());
-            if best.is_none() || fitted.left_square() < limit {
-                best = Some(fitted);
+            if fitted.left_square() < coordinates.trial.ratio * best.left_square() {
+                best = fitted;
             }
         }
-        best.map_or_else(|| unreachable!("there is a trial"), |best| estimates::of(&best, self.coordinates[0].values.len()))
+        estimates::of(&best, self.coordinates[0].values.len())
     }
 
     fn fitted(&self, coordinates: &Coordinates, z: &[f64]) -> Fitted {
@@ -240,7 +238,7 @@ impl Job<'_> {
         drop(columns);
         let of_fold = |net: &Net, expansion: &Expansion| {
             let mut contributions = Contributions::new(net, expansion);
-            if self.random_columns {
+            if self.own_distributions {
                 marginals::add(net, expansion, &mut contributions);
             }
             contributions.in_parts()

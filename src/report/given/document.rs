@@ -61,9 +61,11 @@ fn output_parts(output: &GivenOutputRecord, table: Table) -> Vec<Part> {
         parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", output.name)));
     }
     parts.extend((!table.rows.is_empty()).then(|| table.into()));
-    parts.extend(output.served().map(|of| {
-        Part::Text(sentences::of_surrogate(of.explained, of.unknown, of.terms, &of.polynomials_of))
-    }));
+    parts.extend(
+        output
+            .served()
+            .map(|of| Part::Text(sentences::of_surrogate(of.explained, of.unknown, of.terms, &of.polynomials_of))),
+    );
     parts
 }
 
@@ -146,11 +148,7 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord, name: &str) -> Ta
         ),
         None => first_order.to_owned(),
     };
-    Table {
-        file: data_name(name),
-        sums,
-        ..Table::new(caption, columns).with_rows(rows)
-    }
+    Table { file: data_name(name), sums, ..Table::new(caption, columns).with_rows(rows) }
 }
 
 /// What was read, and how the numbers came about.

@@ -4,11 +4,7 @@ use super::{GivenFacts, SurrogateResult};
 use crate::given::{GivenIndices, LEAST_EXPLAINED, Method, OutputIndices, PointSet, SurrogateOutput, bins_for};
 use crate::report::format::{fixed, significant};
 
-pub(super) fn estimators(
-    indices: &GivenIndices,
-    surrogates: Option<&SurrogateResult>,
-    method: Method,
-) -> Vec<String> {
+pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateResult>, method: Method) -> Vec<String> {
     let rank = "rank: Gamboa, Gremaud, Klein and Lagnoux 2022, averaged over the orders of ties".to_owned();
     let bins = bins_for(indices.rows);
     let binned = match indices.points {
@@ -88,8 +84,7 @@ pub(super) fn warnings(
     }
     if surrogates.is_some_and(Result::is_ok) && indices.points != PointSet::Independent {
         warnings.push(
-            "the intervals by the surrogate take the distributions of the columns for those of the inputs, and do not know \
-             how far even points are from them"
+            "the intervals by the surrogate are those of random rows, and too wide for these, which are more even"
                 .to_owned(),
         );
     }
