@@ -1,12 +1,13 @@
-//! `apportion given-data`: first-order indices from a table that exists already.
+//! `apportion given-data`: indices from a table that exists already.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::exchange::{Missing, Selection, Table, read_table, table_of_bytes};
 use apportion::files::read_whole;
-use apportion::given::{Method, analyse};
+use apportion::given::{Column, Method, analyse, surrogate_indices};
 use apportion::report::given::{GivenFacts, build_given, given_document};
+use apportion::{Distribution, Study};
 use sha2::{Digest, Sha256};
 
 use super::Failure;
@@ -30,6 +31,14 @@ pub struct Arguments {
     /// How to estimate: by ranks, by bins, or by ranks with the bins as a check
     #[arg(long, value_name = "METHOD", default_value = "both", value_parser = parse_method)]
     method: Method,
+    /// Total indices too, and first-order ones that are far more accurate where the model is smooth: by a surrogate, fitted to
+    /// the rows and corrected by those that it has not seen
+    #[arg(long)]
+    surrogate: bool,
+    /// Study whose factors the inputs are, by name and in their units: a surrogate that knows their distributions is more
+    /// accurate
+    #[arg(long, value_name = "STUDY", requires = "surrogate")]
+    study: Option<PathBuf>,
     /// Leave out rows without a value in one of these columns, and count them
     #[arg(long)]
     drop_missing: bool,
@@ -65,6 +74,9 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     say_of_table(&arguments.table, (&table.skipped, rows.is_unended()));
     let Table { inputs, outputs, dropped, .. } = table;
     let indices = analyse(&inputs, &outputs, arguments.method, arguments.seed).map_err(|error| wrong(&error))?;
+    let distributions = arguments.study.as_deref().map(|study| distributions(study, &inputs)).transpose()?;
+    let fit = || surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());
+    let surrogates = arguments.surrogate.then(fit);
     let name = stem(&arguments.table);
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&name));
     let artefacts = arguments.charts.artefacts(folder).beside_input(&arguments.table);
@@ -75,6 +87,24 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
         method: arguments.method,
         seed: arguments.seed,
     };
-    let result = build_given(&indices, (&inputs, &outputs), &facts);
+    let result = build_given(&indices, surrogates.as_ref(), (&inputs, &outputs), &facts);
     deliver(&artefacts, &given_document(&result, &name))
+}
+
+/// The distributions that the study of this file has for the `inputs`.
+fn distributions(path: &Path, inputs: &[Column]) -> Result<Vec<Distribution>, Failure> {
+    let study = Study::load(path, &[])?;
+    let of_input = |input: &Column| {
+        let factor = study.space().factors().iter().find(|factor| factor.name == input.name);
+        factor.map(|factor| factor.distribution().clone()).ok_or_else(|| {
+            let known: Vec<&str> = study.space().factors().iter().map(|factor| factor.name.as_str()).collect();
+            Failure::Input(anyhow!(
+                "{}: the input `{}` is no factor of the study, which are {}; choose the inputs by --inputs",
+                path.display(),
+                input.name,
+                known.join(", ")
+            ))
+        })
+    };
+    inputs.iter().map(of_input).collect()
 }

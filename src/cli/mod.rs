@@ -68,7 +68,7 @@ enum Command {
     Analyze(analyze::Arguments),
     /// Evaluate a study's model at points from a CSV file
     Evaluate(evaluate::Arguments),
-    /// First-order indices from a table of inputs and outputs that exists already
+    /// Indices from a table of inputs and outputs that exists already
     GivenData(given_data::Arguments),
     /// Explain a study before running it: factors, cost (by a short pilot), memory, files
     Check(check::Arguments),

@@ -34,6 +34,11 @@ impl Dependence {
     pub fn correlated(&self) -> bool {
         self.strongest.spearman.abs() > self.noise.max(Self::NEGLIGIBLE)
     }
+
+    /// A pair that clearly depends on each other, by rank or in another way.
+    pub fn dependent(&self) -> Option<&(String, String)> {
+        if self.correlated() { Some(&self.strongest.inputs) } else { self.uneven.as_ref() }
+    }
 }
 
 /// The dependence between `inputs`, all of which vary; `None` if there are fewer than two.

@@ -1,9 +1,9 @@
-//! First-order Sobol' indices from data that exist already: a table of inputs and outputs, whoever made it.
+//! Sobol' indices from data that exist already: a table of inputs and outputs, whoever made it.
 //!
-//! There is no design to rely on, so nothing but S_j = V(E[Y|X_j])/V(Y) can be estimated, and only from rows that are
-//! independent draws. [`analyse`] looks at the rows first ([`PointSet`]) and refuses what would give wrong numbers; then
-//! it estimates by [`rank`](rank_first_order) and by [`bins`](binned_first_order), two methods that share nothing but
-//! the data.
+//! There is no design to rely on, and rows must be independent draws. [`analyse`] looks at the rows first ([`PointSet`]) and
+//! refuses what would give wrong numbers; then it estimates S_j = V(E[Y|X_j])/V(Y) by [`rank`](rank_first_order) and by
+//! [`bins`](binned_first_order), two methods that share nothing but the data. [`surrogate_indices`] adds total indices, and
+//! more accurate first-order ones where the model is smooth and the inputs are independent of each other.
 
 mod binned;
 mod column;
@@ -13,6 +13,7 @@ mod order;
 mod outcome;
 mod rank;
 mod repeats;
+mod surrogate;
 
 use thiserror::Error;
 
@@ -27,6 +28,9 @@ pub use evenness::PointSet;
 pub use outcome::{InputIndices, OutputIndices};
 #[doc(hidden)]
 pub use rank::rank_first_order;
+pub use surrogate::{
+    LEAST_EXPLAINED, SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, surrogate_indices,
+};
 
 pub(crate) use column::centred;
 use order::Order;

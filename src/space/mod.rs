@@ -4,7 +4,7 @@
 
 pub mod distribution;
 
-pub use distribution::{Distribution, DistributionError};
+pub use distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
 
 use crate::quantity::Unit;
 

@@ -2,7 +2,7 @@
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::own::OwnPolynomials;
+use super::own::{OwnPolynomials, Recurrence};
 use crate::space::Distribution;
 
 /// Most factors in a term of the first candidates.
@@ -29,6 +29,8 @@ pub enum Family {
     Hermite,
     /// Those of the factor's own distribution, in its values.
     Own(Box<OwnPolynomials>),
+    /// Those of the values of a column, orthonormal in its own distribution, at these values.
+    Column(Box<Recurrence>),
 }
 
 impl Family {
@@ -45,11 +47,22 @@ impl Family {
         }
     }
 
+    /// That of a column of `values`, between -2 and 2: of no degree if they are all alike.
+    pub fn of_column(values: &[f64]) -> Self {
+        let bounds = |(low, high): (f64, f64), x: &f64| (low.min(*x), high.max(*x));
+        let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
+        let weight = 1.0 / values.len() as f64;
+        let nodes: Vec<(f64, f64)> = values.iter().map(|x| (*x, weight)).collect();
+        let recurrence = Recurrence::new(&nodes, (low, high), MOST_DEGREES);
+        Self::Column(Box::new(recurrence.unwrap_or_default()))
+    }
+
     /// The largest degree that there is.
     fn degree(&self) -> usize {
         match self {
             Self::Legendre | Self::Hermite => MOST_DEGREES,
             Self::Own(own) => own.degree(),
+            Self::Column(own) => own.degree(),
         }
     }
 }
@@ -77,12 +90,22 @@ pub struct Caps<'a> {
 impl<'a> Caps<'a> {
     /// For factors with polynomials of these `families`.
     pub fn new(families: &'a [Family], hermite_degree: usize) -> Self {
-        let (terms, degree) = match families.len() {
-            0..=4 => (400, MOST_DEGREES),
-            5..=10 => (300, 10),
-            _ => (260, 6),
+        let terms = match families.len() {
+            0..=4 => 400,
+            5..=10 => 300,
+            _ => 260,
         };
+        let degree = Self::degree_of(families.len());
         Self { terms, degree, hermite_degree, families }
+    }
+
+    /// Largest sum of degrees of a term, of that many factors.
+    pub fn degree_of(factors: usize) -> usize {
+        match factors {
+            0..=4 => MOST_DEGREES,
+            5..=10 => 10,
+            _ => 6,
+        }
     }
 
     /// Whether `term` is of no higher degree than it may be.
@@ -242,11 +265,13 @@ fn leading_factors(active: &[Term], coefficients: &[f64], order: &[usize]) -> Ve
     variances.into_iter().map(|(factor, _)| factor).collect()
 }
 
-/// The orthonormal polynomials of degrees 1 to `degree` of one factor at `u`, a column for each degree.
+/// The orthonormal polynomials of degrees 1 to `degree` of one factor at `u`, a column for each degree: at the quantiles of the
+/// factor, or at the values of a [`Family::Column`].
 pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
     let mut columns: Vec<Vec<f64>> = Vec::with_capacity(degree);
     match family {
         Family::Own(own) => columns = own.columns(u),
+        Family::Column(own) => columns = own.columns(u, degree),
         Family::Legendre => {
             let x: Vec<f64> = u.iter().map(|u| 2.0 * u - 1.0).collect();
             let (mut before, mut now) = (vec![1.0; u.len()], x.clone());

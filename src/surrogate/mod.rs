@@ -74,18 +74,43 @@ pub fn surrogate_estimates(
     let outputs: Vec<Vec<Vec<f64>>> = raw.iter().map(scale).collect();
     let pairs = if layout.second_order { layout.pair_list() } else { Vec::new() };
     let job = Job { design, outputs: &outputs, pairs: &pairs };
-    let mut corrected = job.corrected(families, FEW_HERMITE_DEGREES)?;
+    let mut best: Option<Corrected> = None;
+    for Trial { families, hermite_degree, ratio } in trials(families) {
+        let other = job.corrected(&families, hermite_degree)?;
+        if best.as_ref().is_none_or(|best| other.residual() < ratio * best.residual()) {
+            best = Some(other);
+        }
+    }
+    let corrected = best?;
+    Some(estimates(&corrected, (design.swaps().len(), pairs.len()), (mean, sd)))
+}
+
+/// Polynomials that are tried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trial {
+    /// Those of every factor.
+    pub families: Vec<Family>,
+    /// Largest sum of degrees of Hermite polynomials in a term.
+    pub hermite_degree: usize,
+    /// How much of what the best trial before it leaves it may leave, to be taken in its place.
+    pub ratio: f64,
+}
+
+/// What is tried for factors with the polynomials `families`, in this order.
+pub fn trials(families: &[Family]) -> Vec<Trial> {
+    let trial = |families: &[Family], hermite_degree: usize, ratio: f64| Trial {
+        families: families.to_vec(),
+        hermite_degree,
+        ratio,
+    };
+    let mut trials = vec![trial(families, FEW_HERMITE_DEGREES, 1.0)];
     if families.contains(&Family::Hermite) {
         let of_quantiles = |family: &Family| if *family == Family::Hermite { Family::Legendre } else { family.clone() };
         let bounded: Vec<Family> = families.iter().map(of_quantiles).collect();
-        for (families, degree, ratio) in [(&bounded[..], 0, 1.0), (families, MANY_HERMITE_DEGREES, CLEARLY_LESS)] {
-            let other = job.corrected(families, degree)?;
-            if other.residual() < ratio * corrected.residual() {
-                corrected = other;
-            }
-        }
+        trials.push(trial(&bounded, 0, 1.0));
+        trials.push(trial(families, MANY_HERMITE_DEGREES, CLEARLY_LESS));
     }
-    Some(estimates(&corrected, (design.swaps().len(), pairs.len()), (mean, sd)))
+    trials
 }
 
 /// What surrogates are fitted to: the outputs of every replicate and run, scaled.
@@ -134,21 +159,30 @@ impl Job<'_> {
         if nets.iter().any(|net| net.points() < fewest) {
             return None;
         }
-        let training = nets.len() - 1;
-        let rows = selection_rows(training);
-        let all_rows =
-            nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
-        let candidates = first_candidates(caps, all_rows);
-        let sums: Vec<NetSums> = nets.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
         let swaps: Vec<Vec<usize>> = design.swaps().iter().map(|swap| sorted(swap)).collect();
-        let of_net = |k: usize| {
-            let expansion = fit(&without(&nets, k), (&candidates, &without(&sums, k)), caps);
-            (Contributions::new(design, &nets[k], &expansion, &swaps, self.pairs), expansion)
-        };
-        let all: Vec<(Contributions, Expansion)> = (0..nets.len()).into_par_iter().map(of_net).collect();
-        let (nets, expansions) = all.into_iter().unzip();
+        let contributions =
+            |net: &Net, expansion: &Expansion| Contributions::new(design, net, expansion, &swaps, self.pairs);
+        let (nets, expansions) = cross_fitted(&nets, caps, contributions).into_iter().unzip();
         Some(Corrected { nets, expansions })
     }
+}
+
+/// For every net the expansion fitted to the others, and what `of` makes of both.
+pub fn cross_fitted<T: Send>(
+    nets: &[Net],
+    caps: Caps<'_>,
+    of: impl Fn(&Net, &Expansion) -> T + Sync,
+) -> Vec<(T, Expansion)> {
+    let training = nets.len() - 1;
+    let rows = selection_rows(training);
+    let all_rows = nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
+    let candidates = first_candidates(caps, all_rows);
+    let sums: Vec<NetSums> = nets.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
+    let of_net = |k: usize| {
+        let expansion = fit(&without(nets, k), (&candidates, &without(&sums, k)), caps);
+        (of(&nets[k], &expansion), expansion)
+    };
+    (0..nets.len()).into_par_iter().map(of_net).collect()
 }
 
 fn sorted(swap: &[usize]) -> Vec<usize> {
@@ -239,7 +273,7 @@ fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
 }
 
 /// The terms of all surrogates by their mean share of the variance.
-fn told_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm> {
+pub fn told_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm> {
     let mut terms: Vec<(&Term, f64)> = Vec::new();
     for expansion in expansions {
         for (term, b) in expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty()) {

@@ -40,6 +40,12 @@ impl Net {
         }
     }
 
+    /// Plain rows, one run of one matrix: `columns` has a column for each factor and degree from 1.
+    pub fn of_rows(columns: Vec<Vec<Vec<f64>>>, outputs: Vec<f64>) -> Self {
+        let (factors, points) = (columns.len(), outputs.len());
+        Self { columns, factors, outputs: vec![outputs], matrices: vec![vec![0; factors]], points }
+    }
+
     /// Base points.
     pub fn points(&self) -> usize {
         self.points

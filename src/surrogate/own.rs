@@ -21,35 +21,31 @@ const RULE: [(f64, f64); 5] = [
 /// Length of what a polynomial has beyond those of lower degree, below which it has nothing: as many levels, as many degrees.
 const NOTHING: f64 = 1e-7;
 
-/// The three-term recurrence b_(k+1) p_(k+1) = (x - a_k) p_k - b_k p_(k-1), p_0 = 1, of values moved to -1 to 1.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OwnPolynomials {
-    distribution: Distribution,
+/// Polynomials orthonormal under some weights, by the three-term recurrence b_(k+1) p_(k+1) = (x - a_k) p_k - b_k p_(k-1),
+/// p_0 = 1, of values moved to -1 to 1.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Recurrence {
     middle: f64,
     half: f64,
     /// (a_k, b_(k+1)) from k = 0.
-    recurrence: Vec<(f64, f64)>,
+    coefficients: Vec<(f64, f64)>,
 }
 
-impl OwnPolynomials {
-    /// Up to `degree`, or fewer for a distribution of few levels, by the discretised procedure of Stieltjes (Gautschi 1982,
-    /// SIAM J. Sci. Stat. Comput. 3, 289-317). `None` without a bounded support of positive width.
-    pub fn new(distribution: &Distribution, degree: usize) -> Option<Self> {
-        let (low, high) = distribution.support();
+impl Recurrence {
+    /// Up to `degree`, or fewer for few values, under `nodes` (value, weight) of weights that sum to 1, between `low` and `high`,
+    /// by the discretised procedure of Stieltjes (Gautschi 1982, SIAM J. Sci. Stat. Comput. 3, 289-317). `None` without bounds
+    /// of positive distance.
+    pub fn new(nodes: &[(f64, f64)], (low, high): (f64, f64), degree: usize) -> Option<Self> {
         let (middle, half) = (low + (high - low) / 2.0, (high - low) / 2.0);
         if !(half > 0.0 && half.is_finite() && middle.is_finite()) {
             return None;
         }
-        let nodes = match distribution.levels() {
-            Some(levels) => of_levels(distribution, &levels),
-            None => of_quantiles(distribution),
-        };
-        let nodes: Vec<(f64, f64)> = nodes.into_iter().map(|(x, weight)| ((x - middle) / half, weight)).collect();
+        let nodes: Vec<(f64, f64)> = nodes.iter().map(|(x, weight)| ((x - middle) / half, *weight)).collect();
         let sum = |values: &[f64], of: &dyn Fn(f64, f64) -> f64| -> f64 {
             nodes.iter().zip(values).map(|((x, weight), p)| weight * of(*x, *p)).sum()
         };
         let (mut before, mut now, mut length) = (vec![0.0; nodes.len()], vec![1.0; nodes.len()], 0.0);
-        let mut recurrence = Vec::with_capacity(degree);
+        let mut coefficients = Vec::with_capacity(degree);
         for _ in 0..degree {
             let a = sum(&now, &|x, p| x * p * p);
             let rest = nodes.iter().zip(now.iter().zip(&before)).map(|((x, _), (p, q))| (x - a) * p - length * q);
@@ -59,24 +55,22 @@ impl OwnPolynomials {
                 break;
             }
             before = std::mem::replace(&mut now, rest.iter().map(|p| p / length).collect());
-            recurrence.push((a, length));
+            coefficients.push((a, length));
         }
-        Some(Self { distribution: distribution.clone(), middle, half, recurrence })
+        Some(Self { middle, half, coefficients })
     }
 
     /// The largest degree.
     pub fn degree(&self) -> usize {
-        self.recurrence.len()
+        self.coefficients.len()
     }
 
-    /// The polynomials of degree 1, 2, ... at the quantiles of `u`, a column for each.
-    pub fn columns(&self, u: &[f64]) -> Vec<Vec<f64>> {
-        let mut x = vec![0.0; u.len()];
-        self.distribution.fill(u, &mut x);
-        x.iter_mut().for_each(|x| *x = (*x - self.middle) / self.half);
-        let (mut before, mut now, mut length) = (vec![0.0; u.len()], vec![1.0; u.len()], 0.0);
-        let mut columns = Vec::with_capacity(self.degree());
-        for &(a, next_length) in &self.recurrence {
+    /// The polynomials of degree 1, 2, ... and at most `degree` at the values `x`, a column for each.
+    pub fn columns(&self, x: &[f64], degree: usize) -> Vec<Vec<f64>> {
+        let x: Vec<f64> = x.iter().map(|x| (x - self.middle) / self.half).collect();
+        let (mut before, mut now, mut length) = (vec![0.0; x.len()], vec![1.0; x.len()], 0.0);
+        let mut columns = Vec::with_capacity(self.degree().min(degree));
+        for &(a, next_length) in self.coefficients.iter().take(degree) {
             let next = |(x, (p, q)): (&f64, (&f64, &f64))| ((x - a) * p - length * q) / next_length;
             let next: Vec<f64> = x.iter().zip(now.iter().zip(&before)).map(next).collect();
             before = std::mem::replace(&mut now, next);
@@ -84,6 +78,41 @@ impl OwnPolynomials {
             length = next_length;
         }
         columns
+    }
+}
+
+/// The polynomials of a distribution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OwnPolynomials {
+    distribution: Distribution,
+    recurrence: Recurrence,
+}
+
+impl OwnPolynomials {
+    /// Up to `degree`, or fewer for a distribution of few levels. `None` without a bounded support of positive width.
+    pub fn new(distribution: &Distribution, degree: usize) -> Option<Self> {
+        let (low, high) = distribution.support();
+        if !(high > low && (high - low).is_finite()) {
+            return None;
+        }
+        let nodes = match distribution.levels() {
+            Some(levels) => of_levels(distribution, &levels),
+            None => of_quantiles(distribution),
+        };
+        let recurrence = Recurrence::new(&nodes, (low, high), degree)?;
+        Some(Self { distribution: distribution.clone(), recurrence })
+    }
+
+    /// The largest degree.
+    pub fn degree(&self) -> usize {
+        self.recurrence.degree()
+    }
+
+    /// The polynomials of degree 1, 2, ... at the quantiles of `u`, a column for each.
+    pub fn columns(&self, u: &[f64]) -> Vec<Vec<f64>> {
+        let mut x = vec![0.0; u.len()];
+        self.distribution.fill(u, &mut x);
+        self.recurrence.columns(&x, self.degree())
     }
 }
 
@@ -155,7 +184,7 @@ mod tests {
     #[test]
     fn those_of_uniform_factors_are_legendres() {
         let own = OwnPolynomials::new(&Distribution::uniform(2.0, 5.0).unwrap(), 14).unwrap();
-        for (k, (a, b)) in own.recurrence.iter().enumerate() {
+        for (k, (a, b)) in own.recurrence.coefficients.iter().enumerate() {
             let n = k as f64 + 1.0;
             assert!(a.abs() < 1e-12 && (b - n / (4.0 * n * n - 1.0).sqrt()).abs() < 1e-12, "{k} {a} {b}");
         }

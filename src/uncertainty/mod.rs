@@ -33,7 +33,7 @@ pub use influence::{Influences, Outputs};
 pub use jackknife::jackknife;
 pub use method::IntervalMethod;
 pub use net_decay::{PartInfluences, StandardError, net_errors};
-pub use noise::in_parts;
+pub use noise::{Noise, in_parts};
 pub use output::{
     EffectEstimates, IntervalOptions, OtherEstimates, OutputIndices, OutputMoments, differs_clearly, output_indices,
     output_moments,

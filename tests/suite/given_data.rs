@@ -158,3 +158,70 @@ fn the_table_is_never_overwritten() {
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(std::fs::read_to_string(&path).unwrap().starts_with("x1,x2,y"));
 }
+
+#[test]
+fn a_surrogate_adds_total_indices() {
+    let content = table(&random(3, 300, 4));
+    let run = Run::of(&content, &["--outputs", "y", "--surrogate"]);
+    let result = run.result();
+    let surrogate = result.surrogate.as_ref().unwrap();
+    assert_eq!((surrogate.rows, surrogate.distributions.as_deref()), (Some(300), Some("columns")));
+    let of = result.outputs[0].surrogate.as_ref().unwrap();
+    assert!(of.serves && of.unknown < 1e-12, "{}", of.unknown);
+    for (index, exact) in of.indices.iter().zip([9.0, 4.0, 1.0]) {
+        let (low, high) = (index.total.low.unwrap(), index.total.high.unwrap());
+        assert!(low <= exact / 14.0 && exact / 14.0 <= high && high - low < 0.15, "{index:?}");
+    }
+    let printed = stdout(&run.output);
+    for part in ["S_1, by surrogate", "S_T, by surrogate", "explains more than 99.9 %", "is not assigned to inputs"] {
+        assert!(printed.contains(part), "no {part:?} in {printed}");
+    }
+    let csv = std::fs::read_to_string(run.out().join("table-indices.csv")).unwrap();
+    assert!(
+        csv.starts_with("output,input,rank,") && csv.lines().next().unwrap().ends_with("surrogate_unknown"),
+        "{csv}"
+    );
+    let page = std::fs::read_to_string(run.out().join("table.html")).unwrap();
+    assert!(page.contains("S_T, by surrogate") || page.contains("by surrogate"));
+}
+
+#[test]
+fn a_study_tells_the_distributions() {
+    let study = |max: f64| {
+        let factors: String = (1..=3).map(|j| format!("[[factor]]\nname = \"x{j}\"\nmin = 0\nmax = {max}\n")).collect();
+        format!("model = \"expression\"\n[expression]\noutputs.y = \"3*x1 + 2*x2 + x3\"\n{factors}")
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.toml");
+    std::fs::write(&path, study(1.0)).unwrap();
+    let content = table(&random(3, 200, 4));
+    let with_study = ["--outputs", "y", "--surrogate", "--study", text(&path)];
+    let result = Run::of(&content, &with_study).result();
+    for (index, exact) in result.outputs[0].surrogate.as_ref().unwrap().indices.iter().zip([9.0, 4.0, 1.0]) {
+        assert!((index.first_order.estimate - exact / 14.0).abs() < 1e-9, "{index:?}");
+    }
+    assert_eq!(result.surrogate.unwrap().distributions.as_deref(), Some("given"));
+    std::fs::write(&path, study(2.0)).unwrap();
+    let result = Run::of(&content, &with_study).result();
+    assert!(
+        result.warnings[0].contains("no indices by a surrogate: the values of `x1` do not follow"),
+        "{:?}",
+        result.warnings
+    );
+    assert!(result.outputs[0].surrogate.is_none() && result.outputs[0].indices.is_some());
+    std::fs::write(&path, study(1.0).replace("x3", "x4")).unwrap();
+    Run::of(&content, &with_study).refused("the input `x3` is no factor of the study");
+    Run::of(&content, &["--outputs", "y", "--study", text(&path)]).refused("--surrogate");
+}
+
+#[test]
+fn a_surrogate_that_does_not_serve_says_so() {
+    let columns = random(4, 200, 4);
+    let mut content = "x1,x2,y\n".to_owned();
+    (0..200).for_each(|k| content.push_str(&format!("{},{},{}\n", columns[0][k], columns[1][k], columns[3][k])));
+    let run = Run::of(&content, &["--outputs", "y", "--surrogate"]);
+    let result = run.result();
+    assert!(!result.outputs[0].surrogate.as_ref().unwrap().serves);
+    assert!(result.outputs[0].warnings[0].contains("the surrogate does not serve"), "{:?}", result.outputs[0].warnings);
+    assert!(result.notes[0].contains("no total index") && !stdout(&run.output).contains("S_T, by surrogate"));
+}

@@ -24,6 +24,7 @@ mod frozen;
 mod fuzz;
 mod given;
 mod given_data;
+mod given_surrogate;
 mod intervals;
 mod journal;
 mod known;

@@ -2,36 +2,48 @@
 
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord};
 use crate::report::chart::{Chart, Colour, Series};
-use crate::report::factor_bars::{MOST, index_panel};
+use crate::report::factor_bars::{INDEX, MOST, index_panel};
 use crate::report::leading::{Contender, may_lead, names, percent};
 
 /// The indices of one output in percent of its variance, one bar per input and method, with their intervals; the input of
-/// the largest index on top.
+/// the largest index on top, of the largest total index where there are any.
 pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
     let indices = output.indices.as_deref().unwrap_or_default();
     let ranks: Vec<_> = indices.iter().map(|index| index.rank).collect();
     let bins: Vec<_> = indices.iter().map(|index| index.binned.map(|binned| binned.estimate)).collect();
-    let keys: Vec<f64> =
-        ranks.iter().zip(&bins).map(|(rank, bin)| rank.or(*bin).map_or(f64::NAN, |index| index.estimate)).collect();
-    let series =
-        [(Series::new("by ranks", Colour::Series(1)), ranks), (Series::new("by bins", Colour::Series(5)), bins)];
+    let served = output.served().map(|of| &of.indices);
+    let by_surrogate: Vec<_> = (0..indices.len()).map(|k| served.map(|list| list[k].first_order)).collect();
+    let total: Vec<_> = (0..indices.len()).map(|k| served.map(|list| list[k].total)).collect();
+    let leading = |k: usize| total[k].or(ranks[k]).or(bins[k]).map_or(f64::NAN, |index| index.estimate);
+    let keys: Vec<f64> = (0..indices.len()).map(leading).collect();
+    let series = [
+        (Series::new("by ranks", Colour::Series(1)), ranks),
+        (Series::new("by bins", Colour::Series(5)), bins),
+        (Series::new("by surrogate", Colour::Series(2)), by_surrogate),
+        (Series::new("total, by surrogate", Colour::Series(3)), total),
+    ];
     let used = series.into_iter().filter(|(_, values)| values.iter().any(Option::is_some));
     let inputs: Vec<String> = indices.iter().map(|index| index.input.clone()).collect();
     let beyond = match inputs.len().saturating_sub(MOST) {
         0 => String::new(),
         more => format!(" {more} inputs of smaller index are not shown."),
     };
-    let panel = index_panel("first-order index (% of the variance)", inputs, used, &keys);
-    Chart::new(format!("First-order indices of {}", output.name), caption(result, output) + &beyond).panels([panel])
+    let (axis, title) = match served {
+        Some(_) => (INDEX, "Indices"),
+        None => ("first-order index (% of the variance)", "First-order indices"),
+    };
+    let panel = index_panel(axis, inputs, used, &keys);
+    Chart::new(format!("{title} of {}", output.name), caption(result, output) + &beyond).panels([panel])
 }
 
 /// What is seen, in one sentence.
 fn caption(result: &GivenFile, output: &GivenOutputRecord) -> String {
-    let leading = |index: &GivenIndexRecord| {
-        let total = index.rank.or(index.binned.map(|binned| binned.estimate))?;
+    let leading = |(number, index): (usize, &GivenIndexRecord)| {
+        let by_surrogate = output.served().map(|of| of.indices[number].first_order);
+        let total = by_surrogate.or(index.rank).or(index.binned.map(|binned| binned.estimate))?;
         Some(Contender { label: index.input.clone(), first_order: None, total, probability: None })
     };
-    let known: Vec<Contender> = output.indices.iter().flatten().filter_map(leading).collect();
+    let known: Vec<Contender> = output.indices.iter().flatten().enumerate().filter_map(leading).collect();
     let from = format!("From {} given rows", result.table.rows);
     match (&may_lead(&known)[..], &output.reason) {
         ([lead], _) if known[*lead].total.estimate > 0.0 => {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::sentences;
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord, given_chart};
 use crate::report::csv::Field;
 use crate::report::distribution::OutputDistribution;
@@ -60,6 +61,11 @@ fn output_parts(output: &GivenOutputRecord, table: Table) -> Vec<Part> {
         parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", output.name)));
     }
     parts.extend((!table.rows.is_empty()).then(|| table.into()));
+    parts.extend(
+        output
+            .served()
+            .map(|of| Part::Text(sentences::of_surrogate(of.explained, of.unknown, of.terms, &of.polynomials_of))),
+    );
     parts
 }
 
@@ -83,38 +89,66 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord, name: &str) -> Ta
         true => Column::number(heading).named(Field::estimate(name)),
         false => Column::in_file(Field::estimate(name)),
     };
-    let columns = [
+    let mut columns = vec![
         Column::in_file(Field::new("output")),
         Column::text("input").named(Field::new("input")),
         method("S_1, by ranks", "rank", ranks),
         method("S_1, by bins", "binned", bins),
         Column::in_file(Field::new("bins")),
     ];
+    let asked = result.surrogate.is_some();
+    if asked {
+        let serves = result.outputs.iter().any(GivenOutputRecord::is_served);
+        columns.extend([
+            method("S_1, by surrogate", "surrogate", serves),
+            method("S_T, by surrogate", "surrogate_total", serves),
+            Column::in_file(Field::new("surrogate_unknown")),
+        ]);
+    }
     let cell = |record: Option<EstimateRecord>| {
         Cell::valued(record.map_or_else(String::new, |record| estimate(record, 3)), Value::Estimate(record))
     };
-    let row = |index: &GivenIndexRecord| {
+    let row = |(number, index): (usize, &GivenIndexRecord)| {
         let bins = index.binned.map_or(Value::Empty, |binned| binned.bins.into());
-        vec![
+        let mut row = vec![
             Cell::from(&output.name),
             Cell::from(&index.input),
             cell(index.rank),
             cell(index.binned.map(|binned| binned.estimate)),
             Cell::valued("", bins),
-        ]
+        ];
+        if asked {
+            let served = output.served().map(|of| &of.indices[number]);
+            let unknown = output.served().map_or(Value::Empty, |of| Value::Number(of.unknown));
+            row.extend([
+                cell(served.map(|index| index.first_order)),
+                cell(served.map(|index| index.total)),
+                Cell::valued("", unknown),
+            ]);
+        }
+        row
     };
     // The sum is that of the leading estimates, by ranks where there are any.
     let sum: Cell = output.sum_first_order.map_or_else(String::new, |sum| fixed(sum, 3)).into();
     let of_method = if ranks { [sum, Cell::default()] } else { [Cell::default(), sum] };
     let names: [Cell; 2] = [Cell::default(), "sum".into()];
-    let rows = output.indices.iter().flatten().map(row);
-    let caption =
-        "First-order index of each input, the part of the variance that knowing it removes, with its 95 % interval.";
-    Table {
-        file: data_name(name),
-        sums: names.into_iter().chain(of_method).chain([Cell::default()]).collect(),
-        ..Table::new(caption, columns).with_rows(rows)
+    let mut sums: Vec<Cell> = names.into_iter().chain(of_method).chain([Cell::default()]).collect();
+    if asked {
+        let sum = output.served().map_or_else(String::new, |of| fixed(of.sum_first_order, 3));
+        sums.extend([sum.into(), Cell::default(), Cell::default()]);
     }
+    let rows = output.indices.iter().flatten().enumerate().map(row);
+    let first_order =
+        "First-order index of each input, the part of the variance that knowing it removes, with its 95 % interval.";
+    let caption = match output.served() {
+        Some(of) => format!(
+            "{first_order} S_T, the total index, has the interactions as well. Upper ends by the surrogate contain what it \
+             leaves, {} of the variance.",
+            sentences::percent(of.unknown)
+        ),
+        None => first_order.to_owned(),
+    };
+    Table { file: data_name(name), sums, ..Table::new(caption, columns).with_rows(rows) }
 }
 
 /// What was read, and how the numbers came about.

@@ -4,11 +4,13 @@ mod chart;
 mod document;
 mod record;
 mod sentences;
+mod surrogate;
 
 pub use chart::given_chart;
 pub use document::given_document;
 pub(super) use document::{file_name, moments};
 pub use record::{
     BinnedRecord, DependenceRecord, GivenFacts, GivenFile, GivenIndexRecord, GivenInputRecord, GivenOutputRecord,
-    GivenProvenance, TableRecord, build_given,
+    GivenProvenance, SurrogateResult, TableRecord, build_given,
 };
+pub use surrogate::{GivenSurrogateIndex, GivenSurrogateOutput, GivenSurrogateRecord};

@@ -3,7 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::sentences;
-use crate::given::{Binned, Column, GivenIndices, InputIndices, Method, OutputIndices, PointSet};
+use super::surrogate::{GivenSurrogateOutput, GivenSurrogateRecord, surrogate_output, surrogate_record};
+use crate::given::{
+    Binned, Column, GivenIndices, InputIndices, Method, NoVariance, OutputIndices, PointSet, SurrogateOutput,
+    SurrogateRefusal, Surrogates,
+};
 use crate::quantity::Unit;
 use crate::report::distribution::OutputDistribution;
 use crate::report::records::estimate_record;
@@ -24,6 +28,9 @@ pub struct GivenFile {
     pub inputs: Vec<GivenInputRecord>,
     /// Dependence between the inputs; `null` with fewer than two that vary.
     pub dependence: Option<DependenceRecord>,
+    /// How surrogates were fitted; `null` if they were not asked for.
+    #[serde(default)]
+    pub surrogate: Option<GivenSurrogateRecord>,
     /// The outputs.
     pub outputs: Vec<GivenOutputRecord>,
     /// What a careful reader should know of this table, in sentences.
@@ -101,10 +108,25 @@ pub struct GivenOutputRecord {
     pub indices: Option<Vec<GivenIndexRecord>>,
     /// Sum of the leading estimates (by ranks if there are any, else by bins) over the inputs.
     pub sum_first_order: Option<f64>,
+    /// Indices by surrogates; `null` if they were not asked for, or there are none.
+    #[serde(default)]
+    pub surrogate: Option<GivenSurrogateOutput>,
     /// Why there are no indices.
     pub reason: Option<String>,
     /// What a careful reader should know, in sentences.
     pub warnings: Vec<String>,
+}
+
+impl GivenOutputRecord {
+    /// Whether its indices by surrogates are the ones to read.
+    pub(super) fn is_served(&self) -> bool {
+        self.served().is_some()
+    }
+
+    /// The indices by surrogates that are to be read.
+    pub(super) fn served(&self) -> Option<&GivenSurrogateOutput> {
+        self.surrogate.as_ref().filter(|surrogate| surrogate.serves)
+    }
 }
 
 /// The first-order index of one input.
@@ -145,10 +167,22 @@ pub struct GivenFacts {
     pub seed: u64,
 }
 
-/// The result file for `indices` of the columns they were estimated from.
-pub fn build_given(indices: &GivenIndices, (inputs, outputs): (&[Column], &[Column]), facts: &GivenFacts) -> GivenFile {
-    let outputs: Vec<GivenOutputRecord> =
-        indices.outputs.iter().zip(outputs).map(|(indices, column)| output_record(indices, column)).collect();
+/// Surrogates, or why there are none.
+pub type SurrogateResult = Result<Surrogates, SurrogateRefusal>;
+
+/// The result file for `indices` of the columns they were estimated from, and what `surrogates` say of them if asked for.
+pub fn build_given(
+    indices: &GivenIndices,
+    surrogates: Option<&SurrogateResult>,
+    (inputs, outputs): (&[Column], &[Column]),
+    facts: &GivenFacts,
+) -> GivenFile {
+    let of_output = |(number, (indices, column)): (usize, (&OutputIndices, &Column))| {
+        let by_surrogate = surrogates.and_then(|result| result.as_ref().ok()).map(|all| &all.outputs[number]);
+        output_record(indices, by_surrogate.and_then(|result: &Result<_, NoVariance>| result.as_ref().ok()), column)
+    };
+    let outputs: Vec<GivenOutputRecord> = indices.outputs.iter().zip(outputs).enumerate().map(of_output).collect();
+    let serves = outputs.iter().any(GivenOutputRecord::is_served);
     GivenFile {
         format: "apportion-given-data".to_owned(),
         version: 1,
@@ -156,8 +190,8 @@ pub fn build_given(indices: &GivenIndices, (inputs, outputs): (&[Column], &[Colu
             apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
             method: facts.method.name().to_owned(),
             seed: facts.seed,
-            estimators: sentences::estimators(indices, facts.method),
-            interval: sentences::interval(indices),
+            estimators: sentences::estimators(indices, surrogates, facts.method),
+            interval: sentences::interval(indices, serves),
         },
         table: TableRecord {
             file: facts.file.clone(),
@@ -175,9 +209,10 @@ pub fn build_given(indices: &GivenIndices, (inputs, outputs): (&[Column], &[Colu
             noise: dependence.noise,
             uneven: dependence.uneven.clone(),
         }),
+        surrogate: surrogates.map(surrogate_record),
         outputs,
-        warnings: sentences::warnings(indices, facts),
-        notes: sentences::notes(),
+        warnings: sentences::warnings(indices, surrogates, facts),
+        notes: sentences::notes(serves),
     }
 }
 
@@ -195,7 +230,7 @@ fn input_record(column: &Column) -> GivenInputRecord {
     GivenInputRecord { name: column.name.clone(), min, max }
 }
 
-fn output_record(output: &OutputIndices, column: &Column) -> GivenOutputRecord {
+fn output_record(output: &OutputIndices, surrogate: Option<&SurrogateOutput>, column: &Column) -> GivenOutputRecord {
     let indices = output.indices.as_ref();
     let leading = |index: &InputIndices| index.leading().map(|estimate| estimate.estimate);
     GivenOutputRecord {
@@ -203,8 +238,9 @@ fn output_record(output: &OutputIndices, column: &Column) -> GivenOutputRecord {
         distribution: OutputDistribution::of(&column.values, &Unit::dimensionless()).ok(),
         indices: indices.ok().map(|indices| indices.iter().map(index_record).collect()),
         sum_first_order: indices.ok().and_then(|indices| indices.iter().map(leading).sum()),
+        surrogate: surrogate.zip(indices.ok()).map(|(surrogate, inputs)| surrogate_output(surrogate, inputs)),
         reason: indices.err().map(ToString::to_string),
-        warnings: sentences::output_warnings(output),
+        warnings: sentences::output_warnings(output, surrogate),
     }
 }
 

@@ -1,9 +1,10 @@
 //! What a result from given data says in sentences.
 
-use super::GivenFacts;
-use crate::given::{GivenIndices, Method, OutputIndices, PointSet, bins_for};
+use super::{GivenFacts, SurrogateResult};
+use crate::given::{GivenIndices, LEAST_EXPLAINED, Method, OutputIndices, PointSet, SurrogateOutput, bins_for};
+use crate::report::format::{fixed, two_digits};
 
-pub(super) fn estimators(indices: &GivenIndices, method: Method) -> Vec<String> {
+pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateResult>, method: Method) -> Vec<String> {
     let rank = "rank: Gamboa, Gremaud, Klein and Lagnoux 2022, averaged over the orders of ties".to_owned();
     let bins = bins_for(indices.rows);
     let binned = match indices.points {
@@ -15,19 +16,45 @@ pub(super) fn estimators(indices: &GivenIndices, method: Method) -> Vec<String> 
         _ => format!("binned: variance of the means over {bins} bins of equal probability"),
     };
     let ranked = method != Method::Binned && indices.points == PointSet::Independent;
-    let list = [ranked.then_some(rank), (method != Method::Rank).then_some(binned)];
+    let surrogate = surrogates.and_then(|result| result.as_ref().ok()).map(|all| {
+        let polynomials = if all.given_distributions { "the given distributions" } else { "the columns\' distributions" };
+        format!(
+            "surrogate: sparse polynomial chaos expansions (Sudret 2008), orthonormal in {polynomials}, each fitted to {} of \
+             {} parts of the rows and corrected by the other part in what is linear in its errors",
+            all.folds - 1,
+            all.folds
+        )
+    });
+    let list = [ranked.then_some(rank), (method != Method::Rank).then_some(binned), surrogate];
     list.into_iter().flatten().collect()
 }
 
-pub(super) fn interval(indices: &GivenIndices) -> Option<String> {
-    (indices.points == PointSet::Independent).then(|| "95 %, asymptotic, for independent rows".to_owned())
+pub(super) fn interval(indices: &GivenIndices, by_surrogate: bool) -> Option<String> {
+    let mut parts = Vec::new();
+    if indices.points == PointSet::Independent {
+        parts.push("95 %, asymptotic, for independent rows");
+    }
+    if by_surrogate {
+        parts.push(
+            "by the surrogate: 95 %, from the influence of every row, the upper end raised by the share of the variance that \
+             the surrogate leaves",
+        );
+    }
+    (!parts.is_empty()).then(|| parts.join("; "))
 }
 
 /// What holds of all indices from given data.
-pub(super) fn notes() -> Vec<String> {
-    [
+pub(super) fn notes(by_surrogate: bool) -> Vec<String> {
+    let orders = if by_surrogate {
+        "by ranks and bins, given data yield first-order indices only; those by the surrogate, with the total indices, lack a \
+         part of the variance that no rows of a table assign to inputs (noise, inputs that are not in the table, fine \
+         structure): up to all of it may belong to any of them, and the upper ends of the intervals contain it"
+    } else {
         "given data yield first-order indices only: no total index, and nothing on interactions; what the sum of the \
-         indices lacks of 1 may be interactions, noise, or inputs that are not in the table",
+         indices lacks of 1 may be interactions, noise, or inputs that are not in the table"
+    };
+    [
+        orders,
         "if inputs depend on each other, S_j is the share of the variance that knowing input j alone removes: it contains \
          effects of the inputs that go with it, and the sum may exceed 1",
         "the indices describe the distribution of the inputs in the table; they say nothing of values outside it",
@@ -41,8 +68,26 @@ pub(super) fn notes() -> Vec<String> {
 const FEW_FOR_BINS: usize = 300;
 
 /// What a careful reader should know of the table.
-pub(super) fn warnings(indices: &GivenIndices, facts: &GivenFacts) -> Vec<String> {
+pub(super) fn warnings(
+    indices: &GivenIndices,
+    surrogates: Option<&SurrogateResult>,
+    facts: &GivenFacts,
+) -> Vec<String> {
     let mut warnings = Vec::new();
+    match surrogates {
+        Some(Err(refusal)) => warnings.push(format!("no indices by a surrogate: {refusal}")),
+        Some(Ok(all)) if all.rows < indices.rows => warnings.push(format!(
+            "the table is large: the surrogate is fitted to {} of its {} rows, drawn at random",
+            all.rows, indices.rows
+        )),
+        _ => {}
+    }
+    if surrogates.is_some_and(Result::is_ok) && indices.points != PointSet::Independent {
+        warnings.push(
+            "the intervals by the surrogate are those of random rows, and too wide for these, which are more even"
+                .to_owned(),
+        );
+    }
     if let Some((rows, line)) = facts.dropped {
         let were = if rows == 1 { "row was" } else { "rows were" };
         warnings.push(format!(
@@ -76,8 +121,16 @@ pub(super) fn warnings(indices: &GivenIndices, facts: &GivenFacts) -> Vec<String
     warnings
 }
 
-pub(super) fn output_warnings(output: &OutputIndices) -> Vec<String> {
+pub(super) fn output_warnings(output: &OutputIndices, surrogate: Option<&SurrogateOutput>) -> Vec<String> {
     let mut warnings = Vec::new();
+    if let Some(surrogate) = surrogate.filter(|surrogate| !surrogate.serves()) {
+        warnings.push(format!(
+            "the surrogate does not serve: of rows that it was not fitted to it explains {} of the variance, and {} are \
+             needed. Read the first-order indices by ranks and bins; there are no total indices",
+            percent(surrogate.explained.max(0.0)),
+            percent(LEAST_EXPLAINED)
+        ));
+    }
     for index in output.indices.iter().flatten() {
         if index.constant {
             warnings.push(format!("the input `{}` has one value only: its index is 0 by definition", index.input));
@@ -91,4 +144,21 @@ pub(super) fn output_warnings(output: &OutputIndices) -> Vec<String> {
         }
     }
     warnings
+}
+
+/// A share in percent.
+pub(super) fn percent(share: f64) -> String {
+    if share > 0.0 && share < 0.01 { "less than 1 %".to_owned() } else { format!("{} %", fixed(100.0 * share, 0)) }
+}
+
+/// What the surrogate of an output that serves did.
+pub(super) fn of_surrogate(explained: f64, unknown: f64, terms: f64, polynomials_of: &str) -> String {
+    let left = if unknown < 1e-3 { two_digits(100.0 * unknown) } else { fixed(100.0 * unknown, 1) };
+    format!(
+        "The surrogate, of {} terms in polynomials of {polynomials_of}, explains {} % of the variance of rows that it was not \
+         fitted to. The rest, {left} %, is not assigned to inputs: an index may be larger than its estimate by so much, and the \
+         upper ends of the intervals contain it.",
+        fixed(terms, 0),
+        if explained > 0.999 { "more than 99.9".to_owned() } else { fixed(100.0 * explained, 1) },
+    )
 }

@@ -1,0 +1,133 @@
+//! In which variable of every input an expansion is a polynomial.
+
+use rayon::prelude::*;
+
+use super::SurrogateRefusal;
+use crate::given::Column;
+use crate::given::order::Order;
+use crate::space::{Distribution, LARGEST_U, SMALLEST_U};
+use crate::sum::rescaled;
+use crate::surrogate::basis::Family;
+use crate::surrogate::{Trial, trials};
+
+/// A positive or negative column whose largest value is this many times its smallest may be smooth in its logarithm.
+const WIDE: f64 = 3.0;
+
+/// Share of the tables of which a column is farther from its stated distribution, by chance, than is accepted.
+const REFUSED_BY_CHANCE: f64 = 1e-4;
+
+/// Share of the support by which values may lie outside, as rounding leaves them.
+const MARGIN: f64 = 1e-9;
+
+/// Steps of the search for a probability: each halves the interval.
+const HALVINGS: usize = 64;
+
+/// A probability that a value has of its own is larger than this.
+const STEP: f64 = 1e-9;
+
+/// The polynomials of every input in one set of variables, and these.
+pub(super) struct Coordinates {
+    /// The polynomials.
+    pub trial: Trial,
+    /// The variable of every input at every row.
+    pub values: Vec<Vec<f64>>,
+    /// What the variables are.
+    pub name: &'static str,
+}
+
+/// What is tried, without knowing the distributions: the values, the logarithms of wide and skewed columns, the ranks.
+pub(super) fn of_columns(inputs: &[Column], orders: &[Order]) -> Vec<Coordinates> {
+    let values: Vec<Vec<f64>> = inputs.iter().map(|input| rescaled(&input.values).0).collect();
+    let logarithms: Vec<Option<Vec<f64>>> = values.iter().map(|x| logarithm(x)).collect();
+    let mixed: Vec<Vec<f64>> =
+        logarithms.iter().zip(&values).map(|(log, x)| log.as_ref().unwrap_or(x).clone()).collect();
+    let ranks = orders.iter().map(|order| {
+        let ranks = order.centred_ranks();
+        let half = ranks.len() as f64 / 2.0;
+        ranks.into_iter().map(|rank| rank / half).collect()
+    });
+    let of = |name: &'static str, values: Vec<Vec<f64>>| Coordinates {
+        trial: Trial { families: values.iter().map(|x| Family::of_column(x)).collect(), hermite_degree: 0, ratio: 1.0 },
+        values,
+        name,
+    };
+    let has_logarithms = logarithms.iter().any(Option::is_some);
+    let mut all = vec![of("values", values)];
+    all.extend(has_logarithms.then(|| of("values and logarithms", mixed)));
+    all.push(of("ranks", ranks.collect()));
+    all
+}
+
+/// The logarithm of the absolute values of a wide column of one sign, if it is less skewed than they are.
+fn logarithm(x: &[f64]) -> Option<Vec<f64>> {
+    let size = |bound: fn(f64, f64) -> f64, from: f64| x.iter().map(|x| x.abs()).fold(from, bound);
+    let one_sign = x.iter().all(|x| *x > 0.0) || x.iter().all(|x| *x < 0.0);
+    if !one_sign || size(f64::max, 0.0) < WIDE * size(f64::min, f64::INFINITY) {
+        return None;
+    }
+    let logarithms: Vec<f64> = x.iter().map(|x| x.abs().ln()).collect();
+    (skewness(&logarithms).abs() < skewness(x).abs()).then_some(logarithms)
+}
+
+fn skewness(x: &[f64]) -> f64 {
+    let mean = crate::sum::mean(x);
+    let moment = |power: i32| x.iter().map(|x| (x - mean).powi(power)).sum::<f64>() / x.len() as f64;
+    moment(3) / moment(2).powf(1.5)
+}
+
+/// What is tried where the distributions are known.
+///
+/// # Errors
+/// [`SurrogateRefusal::OtherDistribution`] if a column has not been drawn from its distribution.
+pub(super) fn of_distributions(
+    inputs: &[Column],
+    orders: &[Order],
+    distributions: &[Distribution],
+) -> Result<Vec<Coordinates>, SurrogateRefusal> {
+    // The tail of the distribution of Kolmogorov (1933) is 2 exp(-2 x^2), of the largest distance times the root of the rows.
+    let far = ((2.0 * inputs.len() as f64 / REFUSED_BY_CHANCE).ln() / 2.0).sqrt();
+    let quantiles = |((input, order), distribution): ((&Column, &Order), &Distribution)| {
+        quantiles(&input.values, order, distribution, far)
+            .ok_or_else(|| SurrogateRefusal::OtherDistribution { input: input.name.clone() })
+    };
+    let values: Vec<Vec<f64>> =
+        inputs.par_iter().zip(orders).zip(distributions).map(quantiles).collect::<Result<_, _>>()?;
+    let families: Vec<Family> = distributions.iter().map(Family::new).collect();
+    let of = |trial: Trial| Coordinates { trial, values: values.clone(), name: "the given distributions" };
+    Ok(trials(&families).into_iter().map(of).collect())
+}
+
+/// The probability of values below each of `values`, with half of that of the value itself; `None` if they do not follow the
+/// distribution.
+fn quantiles(values: &[f64], order: &Order, distribution: &Distribution, far: f64) -> Option<Vec<f64>> {
+    let (low, high) = distribution.support();
+    let margin = MARGIN * (high - low);
+    if margin.is_finite() && values.iter().any(|x| *x < low - margin || *x > high + margin) {
+        return None;
+    }
+    let count = values.len() as f64;
+    let mut u = vec![0.0; values.len()];
+    let (mut before, mut distance) = (0, 0.0_f64);
+    for group in order.iter() {
+        let (low, high) = probabilities(distribution, values[group[0]]);
+        group.iter().for_each(|&row| u[row] = low + (high - low) / 2.0);
+        let after = before + group.len();
+        distance = distance.max((low - before as f64 / count).abs()).max((high - after as f64 / count).abs());
+        before = after;
+    }
+    (distance * count.sqrt() <= far).then_some(u)
+}
+
+/// The probabilities of values below `x`, and of values up to `x`.
+fn probabilities(distribution: &Distribution, x: f64) -> (f64, f64) {
+    let search = |(mut low, mut high): (f64, f64), is_below: &dyn Fn(f64) -> bool| {
+        for _ in 0..HALVINGS {
+            let middle = low + (high - low) / 2.0;
+            if is_below(distribution.quantile(middle)) { low = middle } else { high = middle }
+        }
+        low + (high - low) / 2.0
+    };
+    let low = search((SMALLEST_U, LARGEST_U), &|quantile| quantile < x);
+    let is_step = low + STEP < LARGEST_U && distribution.quantile(low + STEP) <= x;
+    (low, if is_step { search((low, LARGEST_U), &|quantile| quantile <= x) } else { low })
+}

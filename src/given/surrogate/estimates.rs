@@ -1,0 +1,59 @@
+//! Indices and intervals from the contributions of all folds.
+
+use super::contributions::{FoldSums, Folded};
+use super::{Fitted, SurrogateIndices, SurrogateOutput, told_terms};
+use crate::uncertainty::{Estimate, Influenced, Interval, Noise};
+
+/// What all folds say of the indices of `inputs` inputs.
+pub(super) fn of(fitted: &Fitted, inputs: usize) -> SurrogateOutput {
+    let Fitted { folds, expansions, polynomials_of } = fitted;
+    let rows = folds.iter().map(|fold| fold.rows).sum::<usize>() as f64;
+    let left_mean = folds.iter().map(|fold| fold.left.0).sum::<f64>() / rows;
+    let mut variance = gathered(folds, rows, |fold| Some(&fold.variance));
+    variance.estimate -= left_mean * left_mean;
+    if !(variance.estimate > 0.0 && variance.estimate.is_finite()) {
+        // What is left is then larger than all there is; the outputs have variance 1.
+        variance.estimate = 1.0;
+    }
+    let index = |numerator: &Influenced| {
+        let (estimate, scale) = (numerator.estimate / variance.estimate, 1.0 / variance.estimate);
+        Influenced { estimate, ..Influenced::combined(&[(scale, numerator), (-estimate * scale, &variance)]) }
+    };
+    let first_order: Vec<Influenced> =
+        (0..inputs).map(|input| index(&gathered(folds, rows, |fold| fold.first_order.get(&input)))).collect();
+    let total: Vec<Influenced> =
+        (0..inputs).map(|input| index(&gathered(folds, rows, |fold| fold.total.get(&input)))).collect();
+    let left = fitted.left_square() / variance.estimate;
+    let unknown = left.clamp(0.0, 1.0);
+    let noise = |list: &[Influenced], skewed: bool| {
+        Noise::new(&list.iter().map(|index| &index.parts).collect::<Vec<_>>(), skewed)
+    };
+    let (of_first_order, of_total) = (noise(&first_order, false), noise(&total, true));
+    let raised = |noise: Noise, of: &Influenced| {
+        let Estimate { estimate, interval } = noise.estimate(of.estimate, &of.parts);
+        let interval = interval.map(|Interval { low, high }| Interval { low, high: high + unknown });
+        Estimate { estimate, interval }
+    };
+    let of_input = |(first, all): (&Influenced, &Influenced)| SurrogateIndices {
+        first_order: raised(of_first_order, first),
+        total: raised(of_total, all),
+    };
+    SurrogateOutput {
+        explained: 1.0 - left,
+        unknown,
+        polynomials_of,
+        term_count: expansions.iter().map(|e| e.terms.len() as f64).sum::<f64>() / expansions.len() as f64,
+        terms: told_terms(expansions, variance.estimate),
+        indices: first_order.iter().zip(&total).map(of_input).collect(),
+    }
+}
+
+/// The mean over all rows, with the influences of the parts of every fold.
+fn gathered<'a>(folds: &'a [FoldSums], rows: f64, of: impl Fn(&'a FoldSums) -> Option<&'a Folded>) -> Influenced {
+    let estimate = folds.iter().filter_map(&of).map(|fold| fold.sum).sum::<f64>() / rows;
+    let parts = |fold: &'a FoldSums| match of(fold) {
+        Some(folded) => folded.parts.iter().map(|x| x - estimate).collect(),
+        None => vec![-estimate; fold.variance.parts.len()],
+    };
+    Influenced { estimate, parts: folds.iter().map(parts).collect() }
+}

@@ -1,0 +1,124 @@
+//! What the rows do to indices through the distributions of the inputs, where these are those of the columns.
+//!
+//! The polynomials of a column are orthonormal in its own distribution, so that an expansion has the variances that belong
+//! to the distributions of the table. Other rows would have had others. With g = sum b_a phi_a less its constant, V_u = E g_u^2
+//! the variance of its conditional mean given the inputs u, and the inputs independent, a row x moves V_u by the n-th part of
+//!
+//! - sum over j in u of E\[g_u^2 | x_j\] - V_u, and
+//! - sum over j not in u of 2 (E\[g_u g | x_j\] - V_u),
+//!
+//! the derivative of V_u by the distribution of each input (von Mises 1947). Terms that differ in the degree of one input only
+//! are what both conditional means are made of.
+
+use std::collections::BTreeMap;
+
+use super::contributions::Contributions;
+use crate::surrogate::basis::Term;
+use crate::surrogate::fit::Expansion;
+use crate::surrogate::net::Net;
+
+/// The terms of an expansion that are alike but for the degree of one input.
+struct Alike {
+    /// The other inputs of the terms, with their degrees.
+    rest: Term,
+    /// The coefficient of the term without the input; 0 for the constant.
+    without: f64,
+    /// The degrees of the input and the coefficients.
+    degrees: Vec<(usize, f64)>,
+}
+
+fn alike(expansion: &Expansion) -> BTreeMap<(usize, Term), Alike> {
+    let pairs = || expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty());
+    let known: BTreeMap<&Term, f64> = pairs().map(|(term, b)| (term, *b)).collect();
+    let mut groups: BTreeMap<(usize, Term), Alike> = BTreeMap::new();
+    for (term, &b) in pairs() {
+        for (place, &(input, degree)) in term.iter().enumerate() {
+            let mut rest = term.clone();
+            rest.remove(place);
+            let without = known.get(&rest).copied().unwrap_or(0.0);
+            let group = groups.entry((input, rest.clone())).or_insert(Alike { rest, without, degrees: Vec::new() });
+            group.degrees.push((degree, b));
+        }
+    }
+    groups
+}
+
+/// Adds these influences of the rows of a fold to those of its contributions.
+pub(super) fn add(net: &Net, expansion: &Expansion, contributions: &mut Contributions) {
+    let mut values = Vec::new();
+    for ((input, _), group) in &alike(expansion) {
+        let mut sums = vec![0.0; net.points()];
+        for &(degree, b) in &group.degrees {
+            net.fill(&vec![(*input, degree)], 0, &mut values);
+            sums.iter_mut().zip(&values).for_each(|(sum, p)| *sum += b * p);
+        }
+        let variance: f64 = group.degrees.iter().map(|(_, b)| b * b).sum();
+        let squares: Vec<f64> = sums.iter().map(|h| h * h - variance).collect();
+        let products: Vec<f64> = sums.iter().map(|h| 2.0 * group.without * h).collect();
+        let both: Vec<f64> = squares.iter().zip(&products).map(|(a, b)| a + b).collect();
+        contributions.variance.move_by(&both);
+        contributions.total_of(*input).move_by(&squares);
+        for (other, _) in &group.rest {
+            contributions.total_of(*other).move_by(&both);
+        }
+        match group.rest[..] {
+            [] => contributions.first_order_of(*input).move_by(&squares),
+            [(other, _)] => contributions.first_order_of(other).move_by(&products),
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surrogate::basis::{Family, polynomials};
+
+    const X: [[f64; 8]; 2] =
+        [[0.1, 0.9, 0.35, 0.7, 0.2, 0.55, 0.8, 0.05], [-1.0, 0.5, 0.0, 2.0, 1.5, -0.5, 0.25, 0.75]];
+
+    fn model(a: f64, b: f64) -> f64 {
+        a + b * b - 2.0 * a * b
+    }
+
+    /// V, V_1, V_2, VT_1, VT_2 where the rows have these weights in the distribution of each input.
+    fn variances(weights: &[f64]) -> [f64; 5] {
+        let mean = |of: &dyn Fn(usize) -> f64| -> f64 { (0..8).map(|i| weights[i] * of(i)).sum() };
+        let all = mean(&|i| mean(&|j| model(X[0][i], X[1][j])));
+        let one = mean(&|i| mean(&|j| model(X[0][i], X[1][j])).powi(2)) - all * all;
+        let two = mean(&|j| mean(&|i| model(X[0][i], X[1][j])).powi(2)) - all * all;
+        let both = mean(&|i| mean(&|j| model(X[0][i], X[1][j]).powi(2))) - all * all;
+        [both, one, two, both - two, both - one]
+    }
+
+    #[test]
+    fn influences_are_derivatives_by_the_weights_of_rows() {
+        let columns: Vec<Vec<Vec<f64>>> = X.iter().map(|x| polynomials(&Family::of_column(x), x, 2)).collect();
+        let terms: Vec<Term> = vec![vec![], vec![(0, 1)], vec![(1, 1)], vec![(1, 2)], vec![(0, 1), (1, 1)]];
+        let value = |term: &Term, rows: [usize; 2]| -> f64 {
+            term.iter().map(|&(input, degree)| columns[input][degree - 1][rows[input]]).product()
+        };
+        let coefficient = |term: &Term| -> f64 {
+            let all = (0..8).flat_map(|i| (0..8).map(move |j| [i, j]));
+            all.map(|[i, j]| model(X[0][i], X[1][j]) * value(term, [i, j])).sum::<f64>() / 64.0
+        };
+        let expansion = Expansion { coefficients: terms.iter().map(coefficient).collect(), terms };
+        let net = Net::of_rows(columns.clone(), vec![0.0; 8]);
+        let mut contributions = Contributions::new(&net, &expansion);
+        add(&net, &expansion, &mut contributions);
+        let mut found: Vec<Vec<f64>> = vec![contributions.variance.moves().to_vec()];
+        found.extend((0..2).map(|input| contributions.first_order_of(input).moves().to_vec()));
+        found.extend((0..2).map(|input| contributions.total_of(input).moves().to_vec()));
+        for row in 0..8 {
+            let step = 1e-4;
+            let moved = |step: f64| -> Vec<f64> {
+                (0..8).map(|i| (1.0 - step) / 8.0 + if i == row { step } else { 0.0 }).collect()
+            };
+            let (up, down) = (variances(&moved(step)), variances(&moved(-step)));
+            for (number, found) in found.iter().enumerate() {
+                let derivative = (up[number] - down[number]) / (2.0 * step);
+                assert!((found[row] - derivative).abs() < 1e-6, "{number} {row}: {} {derivative}", found[row]);
+            }
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! First-order and total indices from given data by a surrogate.
+//!
+//! The rows are dealt to folds. A sparse polynomial chaos expansion fitted to all folds but one has exact indices (Sudret 2008,
+//! Reliab. Eng. Syst. Saf. 93, 964-979), and the rows of that one correct what it missed, as far as rows of a table can
+//! ([`contributions`]). What they cannot tell is bounded by the variance that the expansion leaves, and stands in the upper end
+//! of every interval.
+
+mod contributions;
+mod coordinates;
+mod estimates;
+mod marginals;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use thiserror::Error;
+
+use super::order::Order;
+use super::{Column, Dependence, GivenIndices, NoVariance, centred};
+use crate::space::Distribution;
+use crate::surrogate::basis::{Caps, polynomials};
+use crate::surrogate::fit::Expansion;
+use crate::surrogate::net::Net;
+use crate::surrogate::{cross_fitted, told_terms};
+use crate::uncertainty::{Estimate, SurrogateTerm};
+use contributions::{Contributions, FoldSums};
+use coordinates::Coordinates;
+
+/// Share of the variance of rows that it has not seen which a surrogate must explain to serve: what it leaves adds to the upper
+/// end of every interval.
+pub const LEAST_EXPLAINED: f64 = 0.9;
+
+/// Parts of the table, each of which is corrected by an expansion of the others.
+const FOLDS: usize = 8;
+
+/// Most rows that are used.
+const MOST_ROWS: usize = 1 << 16;
+
+/// Most values of polynomials that are kept.
+const MOST_VALUES: usize = 100_000_000;
+
+/// Why no surrogate is fitted to a table.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SurrogateRefusal {
+    /// Inputs that depend on each other.
+    #[error(
+        "the inputs `{}` and `{}` depend on each other; a surrogate yields indices of independent inputs only, and no total \
+         index has a meaning here", .inputs.0, .inputs.1
+    )]
+    Dependent {
+        /// The pair.
+        inputs: (String, String),
+    },
+    /// Another number of distributions than of inputs.
+    #[error("{distributions} distributions for {inputs} inputs")]
+    Distributions {
+        /// Distributions.
+        distributions: usize,
+        /// Inputs.
+        inputs: usize,
+    },
+    /// A column that has not been drawn from the distribution that it is said to have.
+    #[error(
+        "the values of `{input}` do not follow the distribution that is stated for it: check its unit and its bounds"
+    )]
+    OtherDistribution {
+        /// The input.
+        input: String,
+    },
+}
+
+/// What surrogates say of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surrogates {
+    /// Rows used: all, or of very large tables some, drawn at random.
+    pub rows: usize,
+    /// Parts of the table, each corrected by an expansion of the others.
+    pub folds: usize,
+    /// Whether the distributions of the inputs were given; else they are those of the columns.
+    pub given_distributions: bool,
+    /// One entry per output, in their order, or why there is none.
+    pub outputs: Vec<Result<SurrogateOutput, NoVariance>>,
+}
+
+/// What surrogates say of an output.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurrogateOutput {
+    /// Share of the variance that the surrogates explain of the rows that they were not fitted to (Q^2); 1 at most, and
+    /// negative where they are worse than the mean.
+    pub explained: f64,
+    /// The rest, between 0 and 1: an index may be larger than its estimate by so much, whatever the number of rows. The upper
+    /// ends of the intervals contain it.
+    pub unknown: f64,
+    /// In which variable of the inputs the surrogates are polynomials.
+    pub polynomials_of: &'static str,
+    /// Number of terms, of all surrogates on average.
+    pub term_count: f64,
+    /// The terms that carry most of the variance, the first ones first.
+    pub terms: Vec<SurrogateTerm>,
+    /// One entry per input, in their order.
+    pub indices: Vec<SurrogateIndices>,
+}
+
+impl SurrogateOutput {
+    /// Whether the surrogates explain at least [`LEAST_EXPLAINED`]; else the other estimates are the ones to read.
+    pub fn serves(&self) -> bool {
+        self.explained >= LEAST_EXPLAINED
+    }
+}
+
+/// The indices of one input by surrogates, nominally between 0 and 1 and not clamped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurrogateIndices {
+    /// First-order index, without what no rows tell.
+    pub first_order: Estimate,
+    /// Total index, without what no rows tell.
+    pub total: Estimate,
+}
+
+/// First-order and total Sobol' indices of every output of a table by surrogates, cross-fitted and corrected.
+///
+/// `inputs` and `outputs` are the columns that `indices` were estimated from. `distributions` has one entry per input, or is
+/// `None`: then the distributions are those of the columns, and the intervals contain how well the rows know them. They are
+/// needed for high accuracy: from n random rows of unknown distributions no index is known better than to some 1/sqrt(n).
+///
+/// Estimates are those of the surrogates (Sudret 2008), with the correction that is linear in what these leave. The part that
+/// is quadratic in it lies between 0 and [`unknown`](SurrogateOutput::unknown), which is added to the upper ends of the 95 %
+/// intervals. These are those of independent rows, and too wide for points that are more even.
+///
+/// # Errors
+/// [`SurrogateRefusal`]: inputs that depend on each other, another number of distributions than of inputs, a column that does not
+/// follow its distribution.
+pub fn surrogate_indices(
+    inputs: &[Column],
+    outputs: &[Column],
+    indices: &GivenIndices,
+    distributions: Option<&[Distribution]>,
+) -> Result<Surrogates, SurrogateRefusal> {
+    if let Some(dependent) = indices.dependence.as_ref().and_then(Dependence::dependent) {
+        return Err(SurrogateRefusal::Dependent { inputs: dependent.clone() });
+    }
+    let rows = used_rows(indices.rows, inputs.len());
+    let chosen = |column: &Column| -> Column {
+        Column { name: column.name.clone(), values: rows.iter().flatten().map(|&row| column.values[row]).collect() }
+    };
+    let inputs: Vec<Column> = inputs.iter().map(chosen).collect();
+    let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
+    let coordinates = match distributions {
+        Some(list) if list.len() != inputs.len() => {
+            return Err(SurrogateRefusal::Distributions { distributions: list.len(), inputs: inputs.len() });
+        }
+        Some(list) => coordinates::of_distributions(&inputs, &orders, list)?,
+        None => coordinates::of_columns(&inputs, &orders),
+    };
+    let folds: Vec<usize> = rows.iter().map(Vec::len).collect();
+    let job = Job { coordinates: &coordinates, folds: &folds, own_distributions: distributions.is_none() };
+    let of_output = |output: &Column| Ok(job.output(&centred(&chosen(output).values)?));
+    Ok(Surrogates {
+        rows: folds.iter().sum(),
+        folds: FOLDS,
+        given_distributions: distributions.is_some(),
+        outputs: outputs.iter().map(of_output).collect(),
+    })
+}
+
+/// The numbers of the rows of every fold, each in rising order. They are dealt at random, but always in the same way: rows of
+/// Sobol' points that are at equal distances in their order fill a part of the space only.
+fn used_rows(rows: usize, inputs: usize) -> Vec<Vec<usize>> {
+    let most = MOST_ROWS.min(MOST_VALUES / (inputs * Caps::degree_of(inputs))).max(super::FEWEST_ROWS);
+    let mut all: Vec<usize> = (0..rows).collect();
+    let mut rng = ChaCha8Rng::seed_from_u64(0);
+    for k in (1..rows).rev() {
+        all.swap(k, rng.random_range(0..=k as u64) as usize);
+    }
+    all.truncate(most);
+    let mut folds = vec![Vec::new(); FOLDS];
+    all.into_iter().enumerate().for_each(|(place, row)| folds[place % FOLDS].push(row));
+    folds.iter_mut().for_each(|fold| fold.sort_unstable());
+    folds
+}
+
+/// The same table for all outputs.
+struct Job<'a> {
+    /// What is tried, one at least.
+    coordinates: &'a [Coordinates],
+    /// Rows of every fold.
+    folds: &'a [usize],
+    /// Whether the distributions are those of the columns.
+    own_distributions: bool,
+}
+
+/// Every fold, corrected by an expansion of the others.
+struct Fitted {
+    folds: Vec<FoldSums>,
+    expansions: Vec<Expansion>,
+    polynomials_of: &'static str,
+}
+
+impl Fitted {
+    /// Mean square of what the expansions leave.
+    fn left_square(&self) -> f64 {
+        let rows: usize = self.folds.iter().map(|fold| fold.rows).sum();
+        self.folds.iter().map(|fold| fold.left.1).sum::<f64>() / rows as f64
+    }
+}
+
+impl Job<'_> {
+    /// What surrogates say of the centred outputs `z`.
+    fn output(&self, z: &[f64]) -> SurrogateOutput {
+        let square = z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64;
+        let z: Vec<f64> = z.iter().map(|z| z / square.sqrt()).collect();
+        let mut best = self.fitted(&self.coordinates[0], &z);
+        for coordinates in &self.coordinates[1..] {
+            let fitted = self.fitted(coordinates, &z);
+            if fitted.left_square() < coordinates.trial.ratio * best.left_square() {
+                best = fitted;
+            }
+        }
+        estimates::of(&best, self.coordinates[0].values.len())
+    }
+
+    fn fitted(&self, coordinates: &Coordinates, z: &[f64]) -> Fitted {
+        let caps = Caps::new(&coordinates.trial.families, coordinates.trial.hermite_degree);
+        let columns: Vec<Vec<Vec<f64>>> = coordinates
+            .values
+            .par_iter()
+            .zip(&coordinates.trial.families)
+            .map(|(values, family)| polynomials(family, values, caps.degree))
+            .collect();
+        let mut start = 0;
+        let net = |count: &usize| {
+            let range = start..start + count;
+            start += count;
+            let of_input = |list: &Vec<Vec<f64>>| list.iter().map(|column| column[range.clone()].to_vec()).collect();
+            Net::of_rows(columns.iter().map(of_input).collect(), z[range.clone()].to_vec())
+        };
+        let nets: Vec<Net> = self.folds.iter().map(net).collect();
+        drop(columns);
+        let of_fold = |net: &Net, expansion: &Expansion| {
+            let mut contributions = Contributions::new(net, expansion);
+            if self.own_distributions {
+                marginals::add(net, expansion, &mut contributions);
+            }
+            contributions.in_parts()
+        };
+        let (folds, expansions) = cross_fitted(&nets, caps, of_fold).into_iter().unzip();
+        Fitted { folds, expansions, polynomials_of: coordinates.name }
+    }
+}
