@@ -29,8 +29,12 @@ impl BasePoints {
     pub(super) fn new(settings: &DesignSettings, replicate: u64, factors: usize, matrices: usize) -> Self {
         let DesignSettings { sampler, seed, .. } = *settings;
         let length = settings.base_samples / settings.replicates;
-        if sampler == Sampler::Sobol {
-            let sequence = SobolSequence::scrambled(factors * matrices, seed, replicate);
+        if sampler.is_digital() {
+            let sequence = if sampler == Sampler::Sobol {
+                SobolSequence::scrambled(factors * matrices, seed, replicate)
+            } else {
+                SobolSequence::pick_freeze(factors, matrices, seed, replicate)
+            };
             return Self { points: Points::Sobol(sequence), third: None, dimensions: factors * matrices };
         }
         let of = |dimensions, stream| {
