@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use apportion::design::{Companions, Design, Sampler};
+use apportion::design::{Companions, Design};
 use apportion::estimate::{FirstOrder, Total};
 use apportion::model::ModelKind;
 use apportion::model::RunContext;
@@ -373,7 +373,7 @@ fn correlated_pairs(design: &Design) -> Option<String> {
     const NEEDED: [(usize, u64); 3] = [(100, 1 << 14), (50, 1 << 12), (30, 1 << 11)];
     let points = design.points_per_replicate();
     let (_, needed) = *NEEDED.iter().find(|(factors, _)| design.factors() > *factors)?;
-    (design.settings().sampler == Sampler::Sobol && points < needed).then(|| {
+    (design.settings().sampler.is_digital() && points < needed).then(|| {
         format!(
             "{} factors at {points} points a replicate: some pairs of dimensions of Sobol' points are still correlated, \
              which widens the errors; use {needed} points a replicate or more",

@@ -38,16 +38,22 @@ impl BasePoints {
         let (matrices, plain_rows) = (rows.companions.matrices(), rows.plain_rows as usize);
         let length = settings.base_samples / settings.replicates;
         let of = |dimensions, length, stream| match sampler {
-            Sampler::Sobol => Points::Sobol(SobolSequence::scrambled(dimensions, seed, stream)),
+            Sampler::Sobol | Sampler::SobolPickFreeze => {
+                Points::Sobol(SobolSequence::scrambled(dimensions, seed, stream))
+            }
             Sampler::LatinHypercube => Points::Latin(LatinHypercube::new(dimensions, length, seed, stream)),
             Sampler::Random => Points::Random(RandomPoints::new(dimensions, seed, stream)),
         };
         let plain_points = || of(factors, length * plain_rows as u64, replicate | PLAIN_STREAM);
         let plain = (plain_rows > 0).then(|| (plain_points(), plain_rows));
-        let of_sequence = if sampler == Sampler::Sobol { matrices } else { 2 };
+        let of_sequence = if sampler.is_digital() { matrices } else { 2 };
         let third = (matrices > of_sequence).then(|| of(factors, length, replicate | THIRD_STREAM));
         let dimensions = factors * of_sequence;
-        Self { points: of(dimensions, length, replicate), third, plain, factors, dimensions }
+        let points = match sampler {
+            Sampler::SobolPickFreeze => Points::Sobol(SobolSequence::pick_freeze(factors, matrices, seed, replicate)),
+            _ => of(dimensions, length, replicate),
+        };
+        Self { points, third, plain, factors, dimensions }
     }
 
     /// The points `first`, `first + 1`, ... into `columns`: one per dimension, all of one length; values in (0, 1).

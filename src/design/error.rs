@@ -2,7 +2,9 @@
 
 use thiserror::Error;
 
-use super::{MAX_DIMENSIONS, MAX_FACTORS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_POINTS, MAX_REPLICATES};
+use super::{
+    MAX_DIMENSIONS, MAX_FACTORS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_POINTS, MAX_REPLICATES, MAX_SEARCHED_FACTORS,
+};
 
 /// Why a design cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -29,6 +31,14 @@ pub enum DesignError {
         factors: usize,
         /// Matrices of the design: 2 for A and B, 3 with C.
         matrices: usize,
+    },
+    /// More factors than nets were searched for.
+    #[error(
+        "{factors} factors are too many for the sampler \"sobol-pick-freeze\", whose nets serve at most {MAX_SEARCHED_FACTORS}: use the sampler \"sobol\""
+    )]
+    NoSearchedNets {
+        /// The number asked for.
+        factors: usize,
     },
     /// No replicate at all.
     #[error("replicates = 0: at least 1 is needed, and at least 2 for intervals")]

@@ -12,6 +12,7 @@ mod base;
 mod error;
 mod joe_kuo;
 mod latin;
+mod pick_freeze;
 mod random;
 mod rows;
 mod sobol;
@@ -22,6 +23,7 @@ pub use base::BasePoints;
 pub use error::DesignError;
 pub use joe_kuo::MAX_DIMENSIONS;
 pub use latin::LatinHypercube;
+pub use pick_freeze::MAX_SEARCHED_FACTORS;
 pub use random::RandomPoints;
 pub use rows::{Companions, Matrix, RowKind, Rows, Run, Swap};
 pub use sobol::SobolSequence;
@@ -49,6 +51,9 @@ pub const MAX_FACTORS: usize = 10_000;
 pub enum Sampler {
     /// Owen-scrambled Sobol' points: the default, and the most accurate one for most models.
     Sobol,
+    /// Owen-scrambled nets whose generator matrices were searched for pick-freeze designs of just as many factors, up to
+    /// [`MAX_SEARCHED_FACTORS`].
+    SobolPickFreeze,
     /// Independent uniform points.
     Random,
     /// Latin hypercube points.
@@ -57,15 +62,21 @@ pub enum Sampler {
 
 impl Sampler {
     /// All samplers, the default first.
-    pub const ALL: [Self; 3] = [Self::Sobol, Self::Random, Self::LatinHypercube];
+    pub const ALL: [Self; 4] = [Self::Sobol, Self::SobolPickFreeze, Self::Random, Self::LatinHypercube];
 
     /// The name used in study files and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sobol => "sobol",
+            Self::SobolPickFreeze => "sobol-pick-freeze",
             Self::Random => "random",
             Self::LatinHypercube => "latin-hypercube",
         }
+    }
+
+    /// Whether its points are scrambled digital nets, complete at powers of two.
+    pub fn is_digital(self) -> bool {
+        matches!(self, Self::Sobol | Self::SobolPickFreeze)
     }
 }
 
@@ -119,7 +130,7 @@ impl Design {
     ///
     /// # Errors
     /// [`DesignError`] if there is no factor, no replicate or more than [`MAX_REPLICATES`], fewer than two or more than
-    /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for, a swap of a column that
+    /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for or than there are searched nets for, a swap of a column that
     /// does not exist, or second-order indices without the rows BA or of more than [`MAX_PAIRED_FACTORS`] factors.
     pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
@@ -135,6 +146,9 @@ impl Design {
         }
         if rows.plain_rows > MAX_PLAIN_ROWS {
             return Err(DesignError::TooManyPlainRows { plain_rows: rows.plain_rows });
+        }
+        if sampler == Sampler::SobolPickFreeze && factors > MAX_SEARCHED_FACTORS {
+            return Err(DesignError::NoSearchedNets { factors });
         }
         if replicates == 0 {
             return Err(DesignError::NoReplicates);
@@ -267,7 +281,7 @@ impl Design {
 
     /// True if the points of a replicate are complete nets: a power of two of them, or points that need none.
     pub fn balanced(&self) -> bool {
-        self.settings.sampler != Sampler::Sobol || self.points_per_replicate().is_power_of_two()
+        !self.settings.sampler.is_digital() || self.points_per_replicate().is_power_of_two()
     }
 
     /// The base points of one replicate, in [`Design::columns`] columns.

@@ -82,7 +82,8 @@ impl Layout {
     pub(super) fn side(&self, place: usize) -> Side {
         let (of_swaps, of_others) = (self.swap(0)..self.other(0, 0), self.other(0, 0)..self.pairs());
         let difference = if of_swaps.contains(&place) {
-            matches!((place - of_swaps.start) % PER_SWAP, 2..=4)
+            let (first, last) = (Number::ShareFirstOrder as usize, Number::CheckGap as usize);
+            (first..=last).contains(&((place - of_swaps.start) % PER_SWAP))
         } else {
             of_others.contains(&place) && (place - of_others.start) % PER_ESTIMATOR >= 2
         };

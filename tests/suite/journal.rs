@@ -489,7 +489,7 @@ fn a_quick_run_killed_at_any_moment_ends_in_the_same_bits() {
 fn a_quick_run_that_is_interrupted_goes_on_and_grows() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, stopped) = (folder.path().join("whole"), folder.path().join("stopped"));
-    let long = ["--base-samples", "65536"];
+    let long = ["--base-samples", "524288"];
     let arguments = |out: &Path, more: &[&str]| {
         let study = study_path("coulomb-general");
         let all = [&["run", text(&study), "--out", text(out)], more].concat();

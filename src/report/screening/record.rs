@@ -143,7 +143,7 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
         ScreeningDesign::Trajectory { levels } => (None, Some(levels)),
     };
     let what = match sampler {
-        Some(Sampler::Sobol | Sampler::LatinHypercube) => "randomisations of the design",
+        Some(Sampler::Sobol | Sampler::SobolPickFreeze | Sampler::LatinHypercube) => "randomisations of the design",
         _ if parts == settings.trajectories => "trajectories",
         _ => "equal parts of the trajectories",
     };

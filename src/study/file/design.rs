@@ -28,7 +28,7 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
     let analysis = analysis::analysis(context, &file.analysis, sampler, space)?;
     let target = analysis::target(context, section, sampler)?;
     let or = |value: &Option<At<u64>>, default| value.as_ref().map_or(default, |value| *value.get_ref());
-    let replicates = or(&section.replicates, analysis.intervals.default_replicates());
+    let replicates = or(&section.replicates, analysis.intervals.default_replicates(sampler));
     let split = split_design(context, section, (&analysis, space), (sampler, replicates))?;
     let (base_samples, plain_rows) =
         split.unwrap_or_else(|| (or(&section.base_samples, target.base_samples(replicates)), 0));
