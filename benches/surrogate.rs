@@ -1,18 +1,24 @@
 //! What surrogates do for the indices: errors and coverage, plain and corrected, at equal runs.
 //!
-//! `cargo bench --bench surrogate` writes `docs/accuracy/surrogate.csv` and `docs/accuracy/surrogate.md`;
+//! `cargo bench --bench surrogate` writes `docs/accuracy/surrogate.csv` and `docs/accuracy/surrogate.md` (some 40 minutes on two cores);
 //! `cargo bench --bench surrogate -- 40 64,256 ishigami,borehole` takes 40 seeds, those sizes and functions, and writes
 //! nothing.
+//!
+//! The plain indices are today's default ones without surrogates. Those of before are of four nets by the formulas of Saltelli
+//! (2010) and Jansen, those of one net are what other programs do, and those of a split design have the same number of runs.
 
 use std::fmt::Write as _;
 use std::path::Path;
 
 use apportion::model::KnownAnswer;
-use apportion::{Estimate, Study};
+use apportion::{Estimate, OutputIndices, Study};
 use rayon::prelude::*;
 
-const SEEDS: u64 = 40;
-const SIZES: [u64; 3] = [16, 64, 256];
+/// Base samples in all and seeds.
+const SIZES: [(u64, u64); 5] = [(16, 200), (64, 400), (256, 200), (1024, 40), (4096, 10)];
+
+/// Base samples up to which split designs of as many runs are measured.
+const MOST_SPLIT: u64 = 64;
 
 /// Smooth functions: errors fall by orders of magnitude.
 const SMOOTH: [&str; 9] =
@@ -83,6 +89,7 @@ struct Errors {
     square: f64,
     within: f64,
     width: f64,
+    intervals: f64,
     count: f64,
 }
 
@@ -90,11 +97,14 @@ impl Errors {
     fn add(&mut self, estimates: impl Iterator<Item = (Estimate, f64)>) {
         for (Estimate { estimate, interval }, exact) in estimates {
             self.square += (estimate - exact).powi(2);
-            let interval = interval.expect("an interval");
-            // Exact answers are known to some 1e-9 where they come by quadrature.
-            self.within += f64::from(u8::from(interval.low - 1e-8 <= exact && exact <= interval.high + 1e-8));
-            self.width += interval.high - interval.low;
             self.count += 1.0;
+            // Few rows of rare outputs may have none.
+            if let Some(interval) = interval {
+                // Exact answers are known to some 1e-9 where they come by quadrature.
+                self.within += f64::from(u8::from(interval.low - 1e-8 <= exact && exact <= interval.high + 1e-8));
+                self.width += interval.high - interval.low;
+                self.intervals += 1.0;
+            }
         }
     }
 
@@ -103,12 +113,12 @@ impl Errors {
     }
 
     fn coverage(&self) -> f64 {
-        self.within / self.count
+        self.within / self.intervals
     }
 
     /// Mean width over that of an interval made from the true error.
     fn relative_width(&self) -> f64 {
-        self.width / self.count / (2.0 * 1.96 * self.rmse())
+        self.width / self.intervals / (2.0 * 1.96 * self.rmse())
     }
 
     fn merged(self, other: Self) -> Self {
@@ -116,41 +126,60 @@ impl Errors {
             square: self.square + other.square,
             within: self.within + other.within,
             width: self.width + other.width,
+            intervals: self.intervals + other.intervals,
             count: self.count + other.count,
         }
     }
 }
 
-/// First-order and total indices: corrected, plain, and of one net.
-type Row = [[Errors; 2]; 3];
+/// The columns of the table.
+const METHODS: [&str; 5] = ["corrected", "split", "plain", "before", "one_net"];
+
+/// First-order and total indices by every method.
+type Row = [[Errors; 2]; METHODS.len()];
 
 fn measured(case: &Case, size: u64, seeds: u64) -> (Row, f64, f64) {
-    let study = |seed: u64, more: &[&str]| {
-        let set = [format!("design.base_samples={size}"), format!("design.seed={seed}")];
-        let overrides: Vec<String> = set.into_iter().chain(more.iter().map(|text| (*text).to_owned())).collect();
-        Study::parse(&case.text, Path::new("case.toml"), &overrides).expect("a study")
+    let run = |seed: u64, more: &[&str]| {
+        let seed = format!("design.seed={}", 1000 + seed);
+        let overrides: Vec<String> = more.iter().copied().chain([&seed[..]]).map(str::to_owned).collect();
+        let study = Study::parse(&case.text, Path::new("case.toml"), &overrides).expect("a study");
+        let result = study.runner().threads(1).run().expect("a result");
+        // Of rare events all rows of a few may be alike.
+        result.outputs[0].indices.clone().ok()
     };
+    let base_samples = format!("design.base_samples={size}");
+    let budget = format!("design.budget_runs={}", size * (2 + case.first.len() as u64));
+    let (off, others) = ("analysis.surrogate=\"off\"", "analysis.estimators=[\"saltelli-2010\", \"jansen\"]");
     let of_seed = |seed: u64| {
-        let seed = 1000 + seed;
         let mut row = Row::default();
-        let run = |study: &Study| study.runner().threads(1).run().expect("a result");
-        let corrected = run(&study(seed, &["analysis.surrogate=\"on\""]));
-        let indices = corrected.outputs[0].indices.as_ref().expect("indices");
-        let exact = || case.first.iter().copied().zip(case.total.iter().copied());
-        row[0][0].add(indices.factors.iter().map(|factor| factor.first_order).zip(case.first.iter().copied()));
-        row[0][1].add(indices.factors.iter().map(|factor| factor.total).zip(case.total.iter().copied()));
+        let mut add = |method: usize, of: &dyn Fn(usize) -> [Estimate; 2]| {
+            let factors = 0..case.first.len();
+            row[method][0].add(factors.clone().map(|k| (of(k)[0], case.first[k])));
+            row[method][1].add(factors.map(|k| (of(k)[1], case.total[k])));
+        };
+        let default = |indices: &OutputIndices, k: usize| [indices.factors[k].first_order, indices.factors[k].total];
+        // By the formulas of Saltelli and of Jansen.
+        let before = |indices: &OutputIndices, k: usize| {
+            let others = &indices.factors[k].others;
+            [others[0].first_order, others[1].total].map(|estimate| estimate.expect("an estimate"))
+        };
         let mut used = (0.0, 0.0);
-        if let Some(surrogate) = &indices.surrogate {
-            used = (surrogate.explained, f64::from(u8::from(surrogate.corrects_first_order)));
+        if let Some(corrected) = run(seed, &[&base_samples, "analysis.surrogate=\"on\""]) {
+            add(0, &|k| default(&corrected, k));
+            if let Some(surrogate) = corrected.surrogate {
+                used = (surrogate.explained, f64::from(u8::from(surrogate.corrects_first_order)));
+            }
         }
-        let plain = run(&study(seed, &[]));
-        let indices = plain.outputs[0].indices.as_ref().expect("indices");
-        row[1][0].add(indices.factors.iter().zip(exact()).map(|(factor, exact)| (factor.first_order, exact.0)));
-        row[1][1].add(indices.factors.iter().zip(exact()).map(|(factor, exact)| (factor.total, exact.1)));
-        let single = run(&study(seed, &["design.replicates=1"]));
-        let indices = single.outputs[0].indices.as_ref().expect("indices");
-        row[2][0].add(indices.factors.iter().zip(exact()).map(|(factor, exact)| (factor.first_order, exact.0)));
-        row[2][1].add(indices.factors.iter().zip(exact()).map(|(factor, exact)| (factor.total, exact.1)));
+        if let Some(split) = (size <= MOST_SPLIT).then(|| run(seed, &[&budget])).flatten() {
+            add(1, &|k| default(&split, k));
+        }
+        if let Some(plain) = run(seed, &[&base_samples, off, others]) {
+            add(2, &|k| default(&plain, k));
+            add(3, &|k| before(&plain, k));
+        }
+        if let Some(single) = run(seed, &[&base_samples, "design.replicates=1", others]) {
+            add(4, &|k| before(&single, k));
+        }
         (row, used.0, used.1)
     };
     let all: Vec<(Row, f64, f64)> = (0..seeds).into_par_iter().map(of_seed).collect();
@@ -163,75 +192,118 @@ fn measured(case: &Case, size: u64, seeds: u64) -> (Row, f64, f64) {
     (row.expect("seeds"), explained, used)
 }
 
+/// Gains of one function and size: over the default of before, over one net, and of a split design over the unsplit one.
+struct Gain {
+    kind: &'static str,
+    size: u64,
+    of: [f64; 3],
+}
+
+/// Geometric mean and least of some gains.
+fn mean_and_least(gains: &[f64]) -> String {
+    if gains.iter().any(|gain| !gain.is_finite()) || gains.is_empty() {
+        return "-".to_owned();
+    }
+    let mean = (gains.iter().map(|gain| gain.ln()).sum::<f64>() / gains.len() as f64).exp();
+    let least = gains.iter().copied().fold(f64::INFINITY, f64::min);
+    format!("{mean:.2}, {least:.2}")
+}
+
+/// Cells (function, size, index) whose coverage is below .92, from .92 to .98, and above.
+fn cells(coverages: &[f64]) -> [usize; 3] {
+    let count = |fits: fn(f64) -> bool| coverages.iter().filter(|coverage| fits(**coverage)).count();
+    [count(|c| c < 0.92), count(|c| (0.92..=0.98).contains(&c)), count(|c| c > 0.98)]
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|text| text != "--bench").collect();
-    let seeds = arguments.first().and_then(|text| text.parse().ok()).unwrap_or(SEEDS);
-    let sizes: Vec<u64> = arguments
-        .get(1)
-        .map_or_else(|| SIZES.to_vec(), |text| text.split(',').filter_map(|size| size.parse().ok()).collect());
+    let seeds: Option<u64> = arguments.first().and_then(|text| text.parse().ok());
+    let asked: Option<Vec<u64>> =
+        arguments.get(1).map(|text| text.split(',').filter_map(|size| size.parse().ok()).collect());
+    let sizes: Vec<(u64, u64)> = match asked {
+        None => SIZES.iter().map(|(size, usual)| (*size, seeds.unwrap_or(*usual))).collect(),
+        Some(sizes) => sizes.into_iter().map(|size| (size, seeds.unwrap_or(40))).collect(),
+    };
     let all = [("smooth", &SMOOTH[..]), ("rough", &ROUGH[..]), ("skewed", &SKEWED[..])];
-    let mut csv =
-        "kind,function,base_samples,index,rmse_corrected,rmse_plain,rmse_one_net,coverage_corrected,coverage_plain,\
-                   width_corrected,width_plain,explained,used\n"
-            .to_owned();
-    let mut gains: Vec<(&str, u64, f64, f64)> = Vec::new();
+    let columns = |what: &str| METHODS.map(|method| format!("{what}_{method}")).join(",");
+    let mut csv = format!(
+        "kind,function,base_samples,seeds,index,{},{},{},explained,used\n",
+        columns("rmse"),
+        columns("coverage"),
+        columns("width")
+    );
+    let mut gains: Vec<Gain> = Vec::new();
+    let mut coverages: Vec<(u64, f64, f64)> = Vec::new();
     for (kind, names) in all {
         for name in names.iter().filter(|name| arguments.get(2).is_none_or(|list| list.split(',').any(|n| n == **name)))
         {
             let case = case(name);
-            for &size in &sizes {
+            for &(size, seeds) in &sizes {
                 let (row, explained, used) = measured(&case, size, seeds);
                 for (index, place) in [("S", 0), ("ST", 1)] {
-                    let [corrected, plain, single] = [row[0][place], row[1][place], row[2][place]];
-                    gains.push((kind, size, plain.rmse() / corrected.rmse(), single.rmse() / corrected.rmse()));
+                    let of = row.map(|errors| errors[place]);
+                    let over = |method: usize| of[method].rmse() / of[0].rmse();
+                    gains.push(Gain { kind, size, of: [over(3), over(4), of[0].rmse() / of[1].rmse()] });
+                    coverages.push((size, of[0].coverage(), of[2].coverage()));
                     println!(
-                        "{name:18} {size:5} {index:2} rmse {:.1e} plain {:.1e} one {:.1e} gain {:8.1} {:8.1} coverage {:.3} {:.3} \
-                         width {:.2} {:.2} Q2 {explained:.4} used {used:.2}",
-                        corrected.rmse(),
-                        plain.rmse(),
-                        single.rmse(),
-                        plain.rmse() / corrected.rmse(),
-                        single.rmse() / corrected.rmse(),
-                        corrected.coverage(),
-                        plain.coverage(),
-                        corrected.relative_width(),
-                        plain.relative_width(),
+                        "{name:18} {size:5} {index:2} rmse {:.1e} split {:.1e} plain {:.1e} before {:.1e} one {:.1e} coverage \
+                         {:.3} {:.3} {:.3} width {:.2} {:.2} Q2 {explained:.4} used {used:.2}",
+                        of[0].rmse(),
+                        of[1].rmse(),
+                        of[2].rmse(),
+                        of[3].rmse(),
+                        of[4].rmse(),
+                        of[0].coverage(),
+                        of[1].coverage(),
+                        of[2].coverage(),
+                        of[0].relative_width(),
+                        of[2].relative_width(),
                     );
+                    let list = |value: &dyn Fn(&Errors) -> String| of.each_ref().map(value).join(",");
                     let _ = writeln!(
                         csv,
-                        "{kind},\"{name}\",{size},{index},{:.3e},{:.3e},{:.3e},{:.4},{:.4},{:.3},{:.3},{explained:.5},{used:.3}",
-                        corrected.rmse(),
-                        plain.rmse(),
-                        single.rmse(),
-                        corrected.coverage(),
-                        plain.coverage(),
-                        corrected.relative_width(),
-                        plain.relative_width(),
+                        "{kind},\"{name}\",{size},{seeds},{index},{},{},{},{explained:.5},{used:.3}",
+                        list(&|errors| format!("{:.3e}", errors.rmse())),
+                        list(&|errors| format!("{:.4}", errors.coverage())),
+                        list(&|errors| format!("{:.3}", errors.relative_width())),
                     );
                 }
             }
         }
     }
     let mut text = "# Indices corrected by surrogates\n\nRoot mean square errors of all first-order and total indices at equal \
-                    runs: how many times smaller with `surrogate = \"on\"` than without, and than with a single Saltelli net of \
-                    the same size. 40 seeds, N base samples in all; every function with its errors and the coverage of its \
-                    95 % intervals is in `surrogate.csv`. Written by `cargo bench --bench surrogate`.\n\n| functions | N | gain over four plain nets: geometric mean, least | over one net |\n\
-                    |---|---|---|---|\n"
+                    runs, N base samples in all: how many times smaller with surrogates than those of the default of before \
+                    (four nets, formulas of Saltelli 2010 and Jansen 1999), and than those of a single Saltelli net by the \
+                    same formulas, as other programs do it; and how many times smaller again with a split design \
+                    (`budget_runs`) of as many runs. Every function with its errors, and the coverage and relative width of \
+                    its 95 % intervals, is in `surrogate.csv` (`plain`: today's default without surrogates). Written by \
+                    `cargo bench --bench surrogate`.\n\n\
+                    | functions | N | seeds | gain over the default of before: geometric mean, least | over one net | of a split design |\n\
+                    |---|---|---|---|---|---|\n"
         .to_owned();
     for (kind, _) in all {
-        for size in &sizes {
-            let of = |which: fn(&(&str, u64, f64, f64)) -> f64| -> Vec<f64> {
-                gains.iter().filter(|gain| gain.0 == kind && gain.1 == *size).map(which).collect()
+        for (size, seeds) in &sizes {
+            let of = |which: usize| -> Vec<f64> {
+                let here = gains.iter().filter(|gain| gain.kind == kind && gain.size == *size);
+                here.map(|gain| gain.of[which]).collect()
             };
-            let told = |gains: Vec<f64>| {
-                let mean = (gains.iter().map(|gain| gain.ln()).sum::<f64>() / gains.len() as f64).exp();
-                let least = gains.iter().copied().fold(f64::INFINITY, f64::min);
-                format!("{mean:.2}, {least:.2}")
-            };
-            let line = format!("| {kind} | {size} | {} | {} |", told(of(|gain| gain.2)), told(of(|gain| gain.3)));
+            let [before, one, split] = [0, 1, 2].map(|which| mean_and_least(&of(which)));
+            let line = format!("| {kind} | {size} | {seeds} | {before} | {one} | {split} |");
             println!("{line}");
             text.push_str(&format!("{line}\n"));
         }
+    }
+    text.push_str(
+        "\nCoverage of the 95 % intervals: cells (function and kind of index) below .92, from .92 to .98, and above; with \
+         surrogates, and without.\n\n| N | with | without |\n|---|---|---|\n",
+    );
+    for (size, _) in &sizes {
+        let here = || coverages.iter().filter(|cell| cell.0 == *size);
+        let [with, without] = [here().map(|cell| cell.1).collect(), here().map(|cell| cell.2).collect()]
+            .map(|list: Vec<f64>| cells(&list).map(|count| count.to_string()).join(", "));
+        let line = format!("| {size} | {with} | {without} |");
+        println!("{line}");
+        text.push_str(&format!("{line}\n"));
     }
     if arguments.is_empty() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy");
