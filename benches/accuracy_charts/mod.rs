@@ -11,7 +11,8 @@ const SHOWN: [&str; 4] = ["ishigami", "product", "sobol-g", "steps"];
 
 /// Whether it is what a study uses that asks for nothing, or for rows BA.
 pub fn is_default(formula: Formula) -> bool {
-    let (first, total) = ([FirstOrder::Saltelli2010, FirstOrder::Azzini2021], [Total::Jansen1999, Total::Azzini2021]);
+    let (first, total) =
+        ([FirstOrder::SaltelliPooled, FirstOrder::Azzini2021], [Total::JansenPooled, Total::Azzini2021]);
     match formula {
         Formula::First(estimator) => first.contains(&estimator),
         Formula::Total(estimator) => total.contains(&estimator),
@@ -36,8 +37,8 @@ fn panels(all: &[Curve], x: &str, line: impl Fn(&Curve) -> Option<Mark>) -> Vec<
 fn samplers(all: &[Curve]) -> Chart {
     let line = |curve: &Curve| {
         let stroke = match curve.formula {
-            Formula::First(FirstOrder::Saltelli2010) => Stroke::SolidWithPoints,
-            Formula::Total(Total::Jansen1999) => Stroke::Dashed,
+            Formula::First(FirstOrder::SaltelliPooled) => Stroke::SolidWithPoints,
+            Formula::Total(Total::JansenPooled) => Stroke::Dashed,
             _ => return None,
         };
         let colour = match curve.sampler {
@@ -50,22 +51,26 @@ fn samplers(all: &[Curve]) -> Chart {
         Some(Series::new(name, colour).stroke(stroke).line(curve.points.clone()))
     };
     let caption = format!(
-        "Root mean square error over the factors and {SEEDS} seeds against the number of base points. First order by \
-         Saltelli 2010, total by Jansen 1999."
+        "Root mean square error over the factors and {SEEDS} seeds against the number of base points. By \
+         the default estimators."
     );
     Chart::new("Error of the indices by sampler", caption).panels(panels(all, "Base points", line))
 }
 
+/// The estimators over mixtures of variances, one for each index.
+const POOLED: [&str; 2] = ["saltelli-pooled", "jansen-pooled"];
+
 /// The series of an estimator: the stroke tells the family of its formula.
 fn series(name: &str) -> Series {
     let families = [
-        (Stroke::Dotted, ["sobol-1993", "homma-saltelli-1996", "saltelli-2002", "sobol-2007"]),
-        (Stroke::Dashed, ["martinez-2011", "glen-isaacs-2012", "janon-monod-2014", ""]),
-        (Stroke::SolidWithPoints, ["saltelli-2010", "jansen-1999", "owen-2013", "azzini-2021"]),
+        (Stroke::Dotted, ["sobol-1993", "homma-saltelli-1996", "saltelli-2002", "sobol-2007", ""]),
+        (Stroke::Dashed, ["martinez-2011", "glen-isaacs-2012", "janon-monod-2014", "", ""]),
+        (Stroke::SolidWithPoints, ["saltelli-2010", "jansen-1999", "owen-2013", "azzini-2021", POOLED[0]]),
+        (Stroke::SolidWithPoints, ["", "", "", "", POOLED[1]]),
     ];
-    let colours = [0, 1, 2, 4].map(Colour::Series);
+    let colours = [0, 1, 2, 4, 6].map(Colour::Series);
     let place =
-        |(stroke, names): &(Stroke, [&str; 4])| Some((colours[names.iter().position(|n| *n == name)?], *stroke));
+        |(stroke, names): &(Stroke, [&str; 5])| Some((colours[names.iter().position(|n| *n == name)?], *stroke));
     let (colour, stroke) = families.iter().find_map(place).unwrap_or((Colour::Reference, Stroke::Solid));
     Series::new(name, colour).stroke(stroke)
 }

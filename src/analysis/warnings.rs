@@ -57,6 +57,9 @@ pub(super) fn of_flags(model: &dyn Model, whole: &Totals) -> Vec<String> {
 /// Effective number of rows behind a variance below which it counts as that of few.
 const FEW_ROWS: f64 = 40.0;
 
+/// Share of the variance that surrogates should explain for a split design to gain (`docs/accuracy/surrogate.md`).
+const LITTLE: f64 = 0.9;
+
 /// Excess kurtosis (that of an exponential distribution) up to which few rows are just a small sample.
 const HEAVY: f64 = 6.0;
 
@@ -92,6 +95,16 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
              corrected indices hold those of the plain ones too"
                 .to_owned(),
         );
+    }
+    if let Some(used) =
+        indices.surrogate.as_ref().filter(|used| study.design.plain_rows() > 0 && used.explained < LITTLE)
+    {
+        warnings.push(format!(
+            "the surrogates explain {:.0} % of the variance of runs that they were not fitted to, so that plain rows, which only \
+             they learn from, are of little use: all runs as base samples are better for this output, and errors and intervals \
+             may be too small here",
+            (100.0 * used.explained).max(0.0)
+        ));
     }
     for (name, effect) in names_of_swaps(study).iter().zip(indices.effects()) {
         if effect.interaction.estimate < 0.0 && differs_clearly(effect.interaction) {

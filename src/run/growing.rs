@@ -112,8 +112,17 @@ impl<'a> GrowingRun<'a> {
     }
 
     /// What `work` returns, done on the threads of this run.
+    ///
+    /// # Panics
+    /// If the caller is a thread of another pool, and no thread can be started to wait for this one.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        self.pool.install(work)
+        if rayon::current_thread_index().is_none() {
+            return self.pool.install(work);
+        }
+        // A thread of another pool that waits for this one does other work of its pool, which may be a run as well, and
+        // another one in that: many runs side by side would use up its stack.
+        std::thread::scope(|scope| scope.spawn(|| self.pool.install(work)).join())
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     }
 
     /// Runs the base points that every replicate lacks to hold `points` of them, at most the design's. Those that have been

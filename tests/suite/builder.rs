@@ -111,3 +111,18 @@ fn what_cannot_be_built_says_why() {
     assert!(with(|o| o.subsets = vec![vec![]]).contains("subset []"));
     assert!(with(|o| o.threshold = f64::NAN).contains("threshold = NaN: expected a number from 0 to 1"));
 }
+
+/// Runs on the threads of somebody's pool do not run inside each other, which would use up the stack.
+#[test]
+fn many_runs_go_side_by_side_on_the_threads_of_another_pool() {
+    use rayon::prelude::*;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(1 << 20).build().unwrap();
+    let text = "model = \"ishigami\"\n[design]\nbase_samples = 64\n";
+    let run = |seed: u64| {
+        let seed = format!("design.seed={seed}");
+        let study = Study::parse(text, std::path::Path::new("many.toml"), &[seed]).unwrap();
+        study.runner().threads(1).run().unwrap().outputs[0].mean.unwrap().estimate
+    };
+    let means: Vec<f64> = pool.install(|| (0..300).into_par_iter().map(run).collect());
+    assert_eq!(means[..20], (0..20).map(run).collect::<Vec<f64>>());
+}
