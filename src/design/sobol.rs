@@ -34,11 +34,11 @@ impl SobolSequence {
         Self::plain(dimensions).with_scrambles(seed, replicate)
     }
 
-    /// The scrambled sequence for pick-freeze of `factors` factors, from 1 to [`MAX_SEARCHED_FACTORS`], in `matrices` matrices,
+    /// The scrambled sequence for pick-freeze of `factors` factors, from 1 to [`MAX_SEARCHED_FACTORS`](super::MAX_SEARCHED_FACTORS), in `matrices` matrices,
     /// 2 or 3: the first `factors` dimensions are those of A, the next those of B, then those of C. Sequences of another
     /// `seed` or `replicate` are independent.
     ///
-    /// A and B have searched generator matrices ([`super::pick_freeze`]), which come in pairs (A_i, B_i); the
+    /// A and B have searched generator matrices (`examples/search_nets.rs`), which come in pairs (A_i, B_i); the
     /// pairs are dealt to the factors at random, anew for every replicate, so that no factor has a better place
     /// than another. C has the dimensions of the Sobol' sequence that follow those of A and B there.
     ///

@@ -39,10 +39,10 @@ pub fn give_or_take(record: EstimateRecord) -> String {
     let text = fixed(record.estimate, DIGITS);
     let (Some(low), Some(high)) = (record.low, record.high) else { return text };
     let half_width = (high - low) / 2.0;
-    if (low + high - 2.0 * record.estimate).abs() > 0.01 * (high - low) {
-        estimate(record, DIGITS)
-    } else if half_width < LEAST / 2.0 {
+    if half_width < LEAST / 2.0 {
         format!("{text} ± < 0.0001")
+    } else if (low + high - 2.0 * record.estimate).abs() > 0.01 * (high - low) {
+        estimate(record, DIGITS)
     } else {
         format!("{text} ± {}", fixed(half_width, DIGITS))
     }
@@ -180,8 +180,15 @@ pub fn change(part: f64) -> Option<String> {
 /// `0.678 (0.676 to 0.680)`, with as many decimals as the interval deserves; the estimate alone without an interval.
 pub fn index(record: EstimateRecord) -> String {
     let (Some(low), Some(high)) = (record.low, record.high) else { return minus(&fixed(record.estimate, 3)) };
-    let digits = decimals((high - low) / 2.0);
-    minus(&format!("{} ({} to {})", fixed(record.estimate, digits), fixed(low, digits), fixed(high, digits)))
+    let half_width = (high - low) / 2.0;
+    let digits = decimals(half_width);
+    let [text, low, high] = [record.estimate, low, high].map(|number| fixed(number, digits));
+    let is_too_narrow = half_width > 0.0 && low == high;
+    minus(&if is_too_narrow {
+        format!("{text} ± {}", two_digits(half_width))
+    } else {
+        format!("{text} ({low} to {high})")
+    })
 }
 
 /// A share of 1 in percent with its bounds: `39.2 % (38.9 to 39.5 %)`.
@@ -309,12 +316,15 @@ mod tests {
         assert_eq!((count(1, "run", "runs"), count(2, "run", "runs")), ("one run".to_owned(), "2 runs".to_owned()));
         assert_eq!(index(record(0.6755, 0.6778, 0.6801)), "0.678 (0.675 to 0.680)");
         assert_eq!(index(record(-0.02, 0.0, 0.02)), "0.00 (−0.02 to 0.02)");
+        assert_eq!(index(record(1.0, 1.0, 1.0)), "1.000 (1.000 to 1.000)");
+        assert_eq!(index(record(0.758_136_218, 0.758_136_22, 0.758_136_226)), "0.7581362 ± 4e-9");
         assert_eq!(percent(record(0.3890, 0.3920, 0.3950)), "39.2 % (38.9 to 39.5 %)");
         assert_eq!(percent(EstimateRecord { estimate: 0.5, low: None, high: None }), "50.0 %");
         assert_eq!(give_or_take(record(0.0, 0.0, 0.0)), "0");
         assert_eq!(give_or_take(record(1e-6, 2e-6, 3e-6)), "< 0.0001");
         assert_eq!(give_or_take(record(-2e-5, 1e-5, 4e-5)), "0 ± < 0.0001");
         assert_eq!(give_or_take(record(0.012_34, 0.012_35, 0.012_36)), "0.0123 ± < 0.0001");
+        assert_eq!(give_or_take(record(0.012_340, 0.012_343, 0.012_36)), "0.0123 ± < 0.0001");
         assert_eq!(give_or_take(record(0.48, 0.5, 0.52)), "0.5000 ± 0.0200");
         assert_eq!(give_or_take(record(-4e-5, 5e-5, 14e-5)), "0.0001 ± 0.0001");
         assert_eq!(give_or_take(record(0.4, 0.5, 0.52)), "0.5000 [0.4000, 0.5200]");
