@@ -249,7 +249,7 @@ impl StudyBuilder {
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(self.sampler));
         let analysis = checked(analysis, self.sampler, space.factors().len())?;
         let target = checked_target(self.target, self.sampler)?;
-        let replicates = self.replicates.unwrap_or(analysis.intervals.default_replicates(self.sampler));
+        let replicates = self.replicates.unwrap_or(analysis.default_replicates(self.sampler, self.plain_rows > 0));
         let settings = target.first_stage(DesignSettings {
             sampler: self.sampler,
             base_samples: self.base_samples.unwrap_or_else(|| target.base_samples(replicates)),

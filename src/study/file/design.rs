@@ -7,7 +7,8 @@ use super::{analysis, context::choice};
 use crate::design::{Design, DesignError, DesignSettings, Sampler};
 use crate::space::Space;
 use crate::study::options::{rows, split};
-use crate::study::{AnalysisOptions, Target};
+use crate::study::{AnalysisOptions, SurrogateChoice, Target};
+use crate::surrogate::FEWEST_NETS;
 
 /// The design with what is asked of it, and notes on what was read otherwise than it was written.
 pub(super) struct Plan {
@@ -28,7 +29,9 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
     let analysis = analysis::analysis(context, &file.analysis, sampler, space)?;
     let target = analysis::target(context, section, sampler)?;
     let or = |value: &Option<At<u64>>, default| value.as_ref().map_or(default, |value| *value.get_ref());
-    let replicates = or(&section.replicates, analysis.intervals.default_replicates(sampler));
+    let has_plain_rows =
+        section.budget_runs.is_some() || section.plain_rows.as_ref().is_some_and(|rows| *rows.get_ref() > 0);
+    let replicates = or(&section.replicates, analysis.default_replicates(sampler, has_plain_rows));
     let split = split_design(context, section, (&analysis, space), (sampler, replicates))?;
     let (base_samples, plain_rows) =
         split.unwrap_or_else(|| (or(&section.base_samples, target.base_samples(replicates)), 0));
@@ -77,6 +80,9 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
             "the run starts with base_samples = {} instead of {begun}, which would take more than max_runs",
             design.settings().base_samples
         ));
+    }
+    if analysis.surrogate == SurrogateChoice::On && replicates < FEWEST_NETS as u64 {
+        notes.push(format!("`surrogate` has no effect with fewer than {FEWEST_NETS} replicates"));
     }
     if analysis.aggregate && outputs < 2 {
         notes.push("`aggregate` has no effect with a single output".to_owned());
