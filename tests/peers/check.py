@@ -178,14 +178,18 @@ def differences(y, j, k):
 
 
 def mixture(numerator, of_none, of_one):
-    """x = numerator/(x of_one + (1 - x) of_none), with x between 0 and 1 on the right side: a root of a quadratic equation."""
+    """x = numerator/(x of_one + (1 - x) of_none), with x between 0 and 1 on the right side: by bisection."""
     of_one = max(of_one, of_none / 2)
     if numerator <= 0:
         return numerator / of_none
     if numerator >= of_one:
         return numerator / of_one
-    roots = np.roots([of_one - of_none, of_none, -numerator])
-    return min(roots.real[roots.real > 0])
+    # In extended precision, which NumPy's roots of polynomials do not have.
+    low, high = np.longdouble(0), np.longdouble(1)
+    for _ in range(100):
+        x = (low + high) / 2
+        low, high = (x, high) if x * (x * of_one + (1 - x) * of_none) < numerator else (low, x)
+    return (low + high) / 2
 
 
 def saltelli_pooled(y, j):
