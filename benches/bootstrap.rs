@@ -33,8 +33,15 @@ fn bootstrap(criterion: &mut Criterion) {
         let parts: Vec<MomentParts> = totals.iter().map(|totals| totals.outputs[0].moments.clone()).collect();
         let points = KeptPoints::all(&design, &kept);
         for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
-            let options =
-                IntervalOptions { method, threshold: 0.05, seed: 1, resamples: 1000, points, surrogate: None };
+            let options = IntervalOptions {
+                method,
+                threshold: 0.05,
+                seed: 1,
+                resamples: 1000,
+                points,
+                ranks: true,
+                surrogate: None,
+            };
             group.bench_function(format!("{}, 2^{exponent} points", method.name()), |bencher| {
                 bencher.iter(|| output_indices(&parts, &Layout::plain(design.factors()), &options).expect("indices"));
             });

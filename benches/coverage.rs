@@ -210,7 +210,15 @@ fn sample(
         let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
         let totals = run(job, 0, &|_| ()).expect("threads");
         let parts: Vec<MomentParts> = totals.iter().map(|t| t.outputs[0].moments.clone()).collect();
-        let options = IntervalOptions { method, threshold: 0.05, seed, resamples: 0, points: None, surrogate: None };
+        let options = IntervalOptions {
+            method,
+            threshold: 0.05,
+            seed,
+            resamples: 0,
+            points: None,
+            ranks: false,
+            surrogate: None,
+        };
         let layout = Layout::plain(case.first.len());
         let Ok(indices) = output_indices(&parts, &layout, &options) else { return Vec::new() };
         let factors = indices.factors.iter().zip(&case.total).filter(|(_, total)| **total > 1e-12);

@@ -17,7 +17,7 @@
 //! Without default features the crate is the engine, the physics of the nanoparticle and the known functions. `study` adds
 //! study files, programs as models and [`exchange`]; `parquet` its tables in Parquet; `charts` adds [`report`]: results as
 //! JSON, text, CSV and SVG; `png` its charts as pictures; `page` its pages and folders of files. `cli`, the default, is the
-//! program with all of them.
+//! program with all of them, and `mpi` the same on the ranks of an MPI job.
 //!
 //! # An example
 //!
@@ -75,6 +75,8 @@ pub mod estimate;
 #[cfg(feature = "study")]
 pub mod exchange;
 #[doc(hidden)]
+pub mod extended;
+#[doc(hidden)]
 pub mod files;
 pub mod given;
 #[doc(hidden)]
@@ -101,13 +103,18 @@ pub mod surrogate;
 pub mod sweep;
 #[cfg(feature = "study")]
 mod text;
+#[cfg(feature = "charts")]
+#[doc(hidden)]
+pub mod trade;
 #[doc(hidden)]
 pub mod uncertainty;
 
 // The modules that are hidden are open to the program, which is a crate of its own, and promise nothing.
 #[doc(hidden)]
 pub use analysis::MixedModels;
-pub use analysis::{Aggregate, Analysis, FailureCount, LookupError, NoIndices, OutputAnalysis, StopReason, Stopped};
+pub use analysis::{
+    Aggregate, Analysis, FailureCount, LookupError, LowRuns, NoIndices, OutputAnalysis, Spending, StopReason, Stopped,
+};
 pub use design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
@@ -117,10 +124,10 @@ pub use model::{
 #[cfg(feature = "study")]
 pub use model::{CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, PerRun, Program, Protocol};
 pub use quantity::{Domain, Quantity, Unit, UnitError};
-pub use run::{FailurePolicy, Progress, RunError, Shard, ShardError};
-pub use runner::{Resume, Runner};
+pub use run::{FailurePolicy, Progress, RemoteWorkers, Requests, RunError, Shard, ShardError};
+pub use runner::{Resume, Runner, WorkerStudy};
 pub use space::{Distribution, DistributionError, Factor, Space};
-pub use study::{AnalysisOptions, BuildError, Study, StudyBuilder, Target};
+pub use study::{AnalysisOptions, BuildError, Study, StudyBuilder, SurrogateChoice, Target};
 #[cfg(feature = "study")]
 pub use study::{Diagnostic, StudyError};
 pub use uncertainty::{AggregateIndices, EffectEstimates, Estimate, Interval, IntervalMethod, OutputIndices, Stage};

@@ -13,7 +13,6 @@ pub const LONGEST_TITLE: usize = 500;
 pub const LONGEST_STUDY_NAME: usize = 120;
 
 /// Most bytes of an output's name in the name of a file.
-#[cfg(feature = "study")]
 const LONGEST_PART: usize = 80;
 
 /// Whether `c` is a character that cannot be seen, but changes the text around it: one of control, a mark that turns the
@@ -82,7 +81,6 @@ pub fn shown(text: &str) -> String {
 /// ```
 /// assert_eq!(apportion::report::file_part("../x: y"), ".._x_ y");
 /// ```
-#[cfg(feature = "study")]
 pub fn file_part(name: &str) -> String {
     let safe = |c: char| if is_hidden(c) || "/\\:*?\"<>|".contains(c) { '_' } else { c };
     let mut part: String = name.chars().map(safe).collect();

@@ -3,36 +3,54 @@
 //! Each sum runs in [`LANES`] interleaved partial sums that are joined pairwise at the end. This fixes the order of the
 //! additions, keeps the rounding error of a block near eps sqrt(n), and lets the compiler use vector instructions.
 
+use multiversion::multiversion;
+
 /// Number of interleaved partial sums.
 pub const LANES: usize = 8;
 
 /// Sum of `f(i)` for `i` in `0..n`, in the fixed shape.
 #[inline(always)]
 pub(crate) fn sum_by(n: usize, f: impl Fn(usize) -> f64) -> f64 {
-    let mut lanes = [0.0; LANES];
+    let [sum] = sums_by(n, |i| [f(i)]);
+    sum
+}
+
+/// The sums of several terms at once, each in the fixed shape.
+#[expect(clippy::needless_range_loop, reason = "the compiler makes one wide register of the lanes of this form")]
+#[inline(always)]
+pub(crate) fn sums_by<const K: usize>(n: usize, f: impl Fn(usize) -> [f64; K]) -> [f64; K] {
+    let mut lanes = [[0.0; LANES]; K];
     let whole = n - n % LANES;
     let mut i = 0;
     while i < whole {
-        for (lane, sum) in lanes.iter_mut().enumerate() {
-            *sum += f(i + lane);
+        for lane in 0..LANES {
+            let terms = f(i + lane);
+            for k in 0..K {
+                lanes[k][lane] += terms[k];
+            }
         }
         i += LANES;
     }
-    for (sum, i) in lanes.iter_mut().zip(whole..n) {
-        *sum += f(i);
+    for (lane, i) in (whole..n).enumerate() {
+        let terms = f(i);
+        for k in 0..K {
+            lanes[k][lane] += terms[k];
+        }
     }
-    ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]))
+    lanes.map(|l| ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7])))
 }
 
 /// Arithmetic mean of `x`; 0 for no values.
 ///
 /// The mean is taken relative to the first value, so that an offset common to all values costs no digits.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 pub fn mean(x: &[f64]) -> f64 {
     let Some(&origin) = x.first() else { return 0.0 };
     origin + sum_by(x.len(), |i| x[i] - origin) / x.len() as f64
 }
 
 /// Sum of x y over the common length of `x` and `y`.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 pub fn product(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len().min(y.len());
     let (x, y) = (&x[..n], &y[..n]);
@@ -40,10 +58,37 @@ pub fn product(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// Sum of (x - mean_x)(y - mean_y) over the common length of `x` and `y`.
-pub fn centred_product((x, mean_x): (&[f64], f64), (y, mean_y): (&[f64], f64)) -> f64 {
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+pub fn centred_product(x: (&[f64], f64), y: (&[f64], f64)) -> f64 {
+    let ((x, mean_x), (y, mean_y)) = (x, y);
     let n = x.len().min(y.len());
     let (x, y) = (&x[..n], &y[..n]);
     sum_by(n, |i| (x[i] - mean_x) * (y[i] - mean_y))
+}
+
+/// The [centred products](centred_product) of `z` with `x`, `y` and itself in one pass; all are of one length.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+pub(crate) fn centred_products(x: (&[f64], f64), y: (&[f64], f64), z: (&[f64], f64)) -> [f64; 3] {
+    let ((x, mean_x), (y, mean_y), (z, mean_z)) = (x, y, z);
+    let n = z.len();
+    let (x, y) = (&x[..n], &y[..n]);
+    sums_by(n, |i| {
+        let centred = z[i] - mean_z;
+        [(x[i] - mean_x) * centred, (y[i] - mean_y) * centred, centred * centred]
+    })
+}
+
+/// The smallest and the largest of finite values; infinities of none.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+pub(crate) fn range(x: &[f64]) -> (f64, f64) {
+    let (mut low, mut high) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
+    for chunk in x.chunks(LANES) {
+        for (lane, &value) in chunk.iter().enumerate() {
+            low[lane] = if value < low[lane] { value } else { low[lane] };
+            high[lane] = if value > high[lane] { value } else { high[lane] };
+        }
+    }
+    (low.into_iter().fold(f64::INFINITY, f64::min), high.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
 /// The values times 2^-e, and e, which brings the largest magnitude between 1 and 2: sums of powers of them can neither

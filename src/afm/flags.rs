@@ -37,6 +37,7 @@ impl Flag {
         }
     }
 
+    #[inline]
     const fn bit(self) -> u8 {
         1 << self as u8
     }
@@ -51,17 +52,20 @@ impl Flags {
     pub const NONE: Self = Self(0);
 
     /// This set, and `flag` too if `raised`.
+    #[inline(always)]
     #[must_use]
     pub const fn with(self, flag: Flag, raised: bool) -> Self {
         Self(self.0 | if raised { flag.bit() } else { 0 })
     }
 
     /// Whether `flag` is in the set.
+    #[inline]
     pub const fn contains(self, flag: Flag) -> bool {
         self.0 & flag.bit() != 0
     }
 
     /// Whether no flag is in the set.
+    #[inline]
     pub const fn is_empty(self) -> bool {
         self.0 == 0
     }

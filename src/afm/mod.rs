@@ -26,6 +26,7 @@
 //! the Coulomb and Hurtado-Kim models and of the LuGre model. Where their printed equations
 //! disagree, the docstring says which reading was taken.
 
+mod cube_root;
 mod named;
 mod root;
 

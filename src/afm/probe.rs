@@ -36,13 +36,19 @@ impl Probe {
     /// The probe of a scene that has been [checked](Scene::check).
     #[inline]
     pub fn new(scene: &Scene, torsion: Torsion) -> Self {
+        Self::with_sine(scene, torsion, scene.preload_angle.sin())
+    }
+
+    /// The same, `sine` being that of the preload angle.
+    #[inline(always)]
+    pub(super) fn with_sine(scene: &Scene, torsion: Torsion, sine: f64) -> Self {
         let &Scene { length, width, thickness, height, elastic_modulus, .. } = scene;
         let bending = elastic_modulus * width * thickness / (4.0 * length * length * length);
         let normal = bending * thickness * thickness;
         let lateral = bending * width * width;
         let torsional = scene.effective_shear_modulus() * torsion_constant(width, thickness, torsion) / length;
         // The angle may be minus zero, whose sign would turn the force angle of a scene without any force around.
-        let preload_deflection = length * scene.preload_angle.sin().abs();
+        let preload_deflection = length * sine.abs();
         Self {
             normal,
             lateral,
@@ -55,7 +61,7 @@ impl Probe {
 }
 
 /// J of K_theta = G J/L, for a section of `width` by `thickness` (m^4).
-#[inline]
+#[inline(always)]
 fn torsion_constant(width: f64, thickness: f64, torsion: Torsion) -> f64 {
     match torsion {
         Torsion::ThinStrip => width * (thickness * thickness * thickness) / 3.0,

@@ -165,7 +165,7 @@ impl Default for Scene {
 
 impl Scene {
     /// The shear modulus of the cantilever in force (Pa): the one given, else E/(2 (1 + nu)).
-    #[inline]
+    #[inline(always)]
     pub fn effective_shear_modulus(&self) -> f64 {
         match self.shear_modulus {
             Some(given) => given,
@@ -174,12 +174,14 @@ impl Scene {
     }
 
     /// The mass of the tip in force (kg): the one given, else that of a cone.
+    #[inline(always)]
     pub fn effective_tip_mass(&self) -> f64 {
         let &Self { probe_density, tip_base_radius: r, height, .. } = self;
         self.tip_mass.unwrap_or(probe_density * std::f64::consts::PI * r * r * height / 3.0)
     }
 
     /// The moment of inertia of the tip about its centre of mass in force (kg m2): the one given, else that of a cone.
+    #[inline(always)]
     pub fn effective_tip_inertia(&self) -> f64 {
         let &Self { tip_base_radius: r, height, .. } = self;
         self.tip_inertia.unwrap_or(self.effective_tip_mass() * (3.0 / 80.0) * (4.0 * r * r + height * height))

@@ -1,17 +1,22 @@
 //! From the totals of a run to its result.
 
-use super::finished_run::{FinishedRun, row_inputs};
-use super::result::{Aggregate, Analysis, FailureCount, NoIndices, OutputAnalysis, Stopped};
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::finished_run::{FinishedRun, LowTotals, row_inputs};
+use super::result::{Aggregate, Analysis, FailureCount, LowRuns, NoIndices, OutputAnalysis, Stopped};
 use super::warnings;
 use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs, Scaling, merged};
-use crate::model::{Model, Output, RowFailure};
+use crate::model::{MANY_OUTPUTS, Model, Output, RowFailure};
 use crate::run::{Tally, Totals};
 use crate::study::Study;
-use crate::surrogate::{families, surrogate_estimates};
+use crate::surrogate::low_fidelity::{LowOutputs, low_fidelity_estimates};
+use crate::surrogate::{families, surrogates_together};
 use crate::uncertainty::{
     Estimate, Interval, IntervalOptions, KeptPoints, OutputMoments, SurrogateEstimates, aggregate_indices,
-    output_indices, output_moments, stages,
+    output_indices, output_moments, points_of_stages, stages,
 };
 
 /// The result of a run; `stopped` tells why a growing one ended.
@@ -19,17 +24,30 @@ pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
     let FinishedRun { study, model, replicates, .. } = *run;
     let mut whole = Totals::none(model);
     replicates.iter().for_each(|totals| whole.add_counts(totals));
-    let outputs = model.outputs().iter().enumerate();
+    let corrected = Corrections::of(run);
+    let outputs = model.outputs().par_iter().enumerate();
     Analysis {
         design: run.design.clone(),
-        outputs: outputs.map(|(number, output)| output_analysis(run, output, number, &whole)).collect(),
+        outputs: outputs.map(|(number, output)| output_analysis(run, output, number, (&whole, &corrected))).collect(),
         flags: model.flags().iter().cloned().zip(whole.flags).collect(),
         counts: model.counters().iter().cloned().zip(whole.counts.values()).collect(),
         aggregate: aggregate(study, model, replicates),
         stopped,
         threads: run.threads,
         wall_seconds: run.wall_seconds,
+        lows: run.lows.iter().map(low_runs).collect(),
+        spending: None,
         mixed_models: Vec::new(),
+    }
+}
+
+fn low_runs(low: &LowTotals<'_>) -> LowRuns {
+    let runs = |replicates: &[Totals]| replicates.iter().map(|totals| totals.runs).sum();
+    LowRuns {
+        name: low.name.to_owned(),
+        shared_runs: runs(low.shared),
+        own_base_samples: low.design.settings().base_samples,
+        own_runs: runs(low.own),
     }
 }
 
@@ -37,29 +55,87 @@ pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
 pub(crate) fn interval_options(study: &Study) -> IntervalOptions<'static> {
     let (analysis, seed) = (&study.analysis, study.design.settings().seed);
     let (method, threshold, resamples) = (analysis.intervals, analysis.threshold, analysis.resamples);
-    IntervalOptions { method, threshold, seed, resamples, points: None, surrogate: None }
+    IntervalOptions { method, threshold, seed, resamples, points: None, ranks: true, surrogate: None }
 }
 
-/// What a surrogate makes of the outputs of all runs, if the study asks for one and they have been kept.
-pub(crate) fn surrogate(study: &Study, design: &Design, kept: &[&PointOutputs]) -> Option<SurrogateEstimates> {
-    if !study.uses_surrogate(design) || kept.iter().all(|outputs| outputs.points() == 0) {
-        return None;
+/// What surrogates and cheaper models make of every output of the runs of `design`, the first of `replicates`, if the study
+/// asks for it and the outputs have been kept: of each the one with the smallest errors.
+pub(crate) fn surrogates(
+    study: &Study,
+    design: &Design,
+    replicates: &[Totals],
+    lows: &[LowTotals<'_>],
+) -> Vec<Option<SurrogateEstimates>> {
+    let outputs = replicates.first().map_or(0, |totals| totals.outputs.len());
+    let first = |replicates: &[Totals], number: usize| -> Vec<PointOutputs> {
+        let kept = outputs_kept(replicates, number).into_iter();
+        kept.map(|outputs| outputs.prefix(design.points_per_replicate())).collect()
+    };
+    let kept: Vec<Vec<PointOutputs>> = (0..outputs).map(|number| first(replicates, number)).collect();
+    if !study.uses_surrogate(design) || kept.iter().flatten().all(|outputs| outputs.points() == 0) {
+        return vec![None; outputs];
     }
-    surrogate_estimates(design, &families(&study.space), &study.layout(), kept)
+    let kept: Vec<Vec<&PointOutputs>> = kept.iter().map(|replicates| replicates.iter().collect()).collect();
+    let (families, layout) = (families(&study.space), study.layout());
+    let alone = surrogates_together(design, &families, &layout, &kept);
+    let best = |(number, alone): (usize, Option<SurrogateEstimates>)| {
+        let of_low = |low: &LowTotals<'_>| {
+            let own = low.outputs.get(number)?.as_ref()?;
+            let shared = first(low.shared, number);
+            let low = LowOutputs { name: low.name, shared: shared.iter().collect(), own };
+            low_fidelity_estimates(design, &families, &layout, &kept[number], &low)
+        };
+        let all = alone.into_iter().chain(lows.iter().filter_map(of_low));
+        all.min_by(|a, b| a.squared_error().total_cmp(&b.squared_error()))
+    };
+    alone.into_iter().enumerate().map(best).collect()
+}
+
+/// What surrogates and cheaper models make of every output, in the end and at every stage of the run.
+struct Corrections {
+    whole: Vec<Option<SurrogateEstimates>>,
+    /// By the base points of a replicate.
+    stages: BTreeMap<u64, Vec<Option<SurrogateEstimates>>>,
+}
+
+impl Corrections {
+    fn of(run: &FinishedRun<'_>) -> Self {
+        let FinishedRun { study, design, replicates, lows, .. } = *run;
+        let known = run.surrogates.map(<[_]>::to_vec);
+        let whole = known.unwrap_or_else(|| surrogates(study, design, replicates, lows));
+        let mut stages = BTreeMap::new();
+        if whole.iter().any(Option::is_some) {
+            // All outputs have the same parts.
+            let parts: Vec<&MomentParts> =
+                replicates.iter().filter_map(|totals| Some(&totals.outputs.first()?.moments)).collect();
+            for points in points_of_stages(&parts) {
+                if let Ok(design) = design.with_points(points) {
+                    stages.insert(points, surrogates(study, &design, replicates, lows));
+                }
+            }
+        }
+        Self { whole, stages }
+    }
+}
+
+/// Output number `number` of every run of each replicate.
+pub(crate) fn outputs_kept(replicates: &[Totals], number: usize) -> Vec<&PointOutputs> {
+    replicates.iter().map(|totals| &totals.outputs[number].point_outputs).collect()
 }
 
 /// The result for output number `number`; `whole` holds the counts over all replicates.
-fn output_analysis(run: &FinishedRun<'_>, output: &Output, number: usize, whole: &Totals) -> OutputAnalysis {
+fn output_analysis(
+    run: &FinishedRun<'_>,
+    output: &Output,
+    number: usize,
+    (whole, corrected): (&Totals, &Corrections),
+) -> OutputAnalysis {
     let study = run.study;
     let totals = &whole.outputs[number];
     let parts: Vec<MomentParts> = run.replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
-    let kept: Vec<&PointOutputs> = run.replicates.iter().map(|t| &t.outputs[number].point_outputs).collect();
-    let surrogate = surrogate(study, run.design, &kept);
-    let options = IntervalOptions {
-        points: KeptPoints::all(run.design, &kept),
-        surrogate: surrogate.as_ref(),
-        ..interval_options(study)
-    };
+    let kept = outputs_kept(run.replicates, number);
+    let surrogate = corrected.whole.get(number).and_then(Option::as_ref);
+    let options = IntervalOptions { points: KeptPoints::all(run.design, &kept), surrogate, ..interval_options(study) };
     let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>());
     let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &options), used.count());
     let failure = |(failure, tally): (&RowFailure, &Tally)| failure_count(run, failure, *tally);
@@ -73,10 +149,13 @@ fn output_analysis(run: &FinishedRun<'_>, output: &Output, number: usize, whole:
     let mut warnings = warnings::of_runs(run, totals.runs_failed, used.fewest());
     warnings.extend(warnings::of_flags(run.model, whole));
     if let Ok(indices) = &indices {
+        warnings.extend(warnings::of_digits(&totals.values));
         warnings.extend(warnings::of_values(&totals.values));
         warnings.extend(warnings::of_indices(study, indices));
     }
     let factors = study.space.factors().iter().map(|factor| factor.name.clone()).collect();
+    let of_stage = |points: u64| corrected.stages.get(&points).filter(|_| surrogate.is_some())?.get(number)?.as_ref();
+    let convergence = indices.as_ref().map(|indices| stages(&parts, &layout, &options, indices, &of_stage));
     OutputAnalysis {
         name: output.name.to_string(),
         unit: output.unit.clone(),
@@ -86,7 +165,7 @@ fn output_analysis(run: &FinishedRun<'_>, output: &Output, number: usize, whole:
         runs_failed: totals.runs_failed,
         base_points_used: used.fewest(),
         failures: totals.failures.iter().map(failure).collect(),
-        convergence: if indices.is_ok() { stages(&parts, &layout, &options) } else { Vec::new() },
+        convergence: convergence.unwrap_or_default(),
         indices,
         values: totals.values,
         samples: run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect(),
@@ -129,14 +208,14 @@ fn failure_count(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> F
 
 fn aggregate(study: &Study, model: &dyn Model, replicates: &[Totals]) -> Option<Aggregate> {
     let outputs = model.outputs();
-    if !study.analysis.aggregate || outputs.len() < 2 {
+    if outputs.len() < 2 || !study.analysis.aggregate && outputs.len() < MANY_OUTPUTS {
         return None;
     }
     let same_unit = outputs.iter().all(|output| output.unit.compatible(&outputs[0].unit));
     let scaling = if same_unit { Scaling::Plain } else { Scaling::Standardised };
-    let parts: Vec<Vec<MomentParts>> = (0..outputs.len())
-        .map(|number| replicates.iter().map(|totals| totals.outputs[number].moments.clone()).collect())
+    let parts: Vec<Vec<&MomentParts>> = (0..outputs.len())
+        .map(|number| replicates.iter().map(|totals| &totals.outputs[number].moments).collect())
         .collect();
-    let parts: Vec<&[MomentParts]> = parts.iter().map(Vec::as_slice).collect();
+    let parts: Vec<&[&MomentParts]> = parts.iter().map(Vec::as_slice).collect();
     Some(Aggregate { scaling, indices: aggregate_indices(&parts, scaling, study.analysis.intervals) })
 }

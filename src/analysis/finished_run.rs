@@ -4,6 +4,8 @@ use crate::design::Design;
 use crate::model::Model;
 use crate::run::{Place, Totals};
 use crate::study::Study;
+use crate::surrogate::low_fidelity::OwnOutputs;
+use crate::uncertainty::SurrogateEstimates;
 
 /// A run of a study that is over.
 #[derive(Clone, Copy)]
@@ -16,10 +18,29 @@ pub(crate) struct FinishedRun<'a> {
     pub design: &'a Design,
     /// Totals of each replicate.
     pub replicates: &'a [Totals],
+    /// The runs of cheaper models.
+    pub lows: &'a [LowTotals<'a>],
+    /// What surrogates and cheaper models make of every output, where that is known already.
+    pub surrogates: Option<&'a [Option<SurrogateEstimates>]>,
     /// Threads that ran the model.
     pub threads: usize,
     /// Seconds from the first run to the last.
     pub wall_seconds: f64,
+}
+
+/// The runs of a cheaper model.
+#[derive(Clone, Copy)]
+pub(crate) struct LowTotals<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Totals of each replicate at the rows of the dear model.
+    pub shared: &'a [Totals],
+    /// A design of its own.
+    pub design: &'a Design,
+    /// Totals of each replicate of that.
+    pub own: &'a [Totals],
+    /// Every output at its rows.
+    pub outputs: &'a [Option<OwnOutputs>],
 }
 
 /// Names of everything that has indices, in the order of the swaps: factors, groups, subsets, dummy.

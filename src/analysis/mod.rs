@@ -5,10 +5,13 @@ mod finished_run;
 mod result;
 mod warnings;
 
-pub(crate) use estimate::{analysis, interval_options, surrogate};
-pub(crate) use finished_run::FinishedRun;
+pub(crate) use estimate::{analysis, interval_options, outputs_kept, surrogates};
+pub(crate) use finished_run::{FinishedRun, LowTotals};
 #[cfg(feature = "charts")]
 pub(crate) use finished_run::{names_of_swaps, row_inputs};
+#[cfg(feature = "charts")]
+pub(crate) use result::LOST;
 pub use result::{
-    Aggregate, Analysis, FailureCount, LookupError, MixedModels, NoIndices, OutputAnalysis, StopReason, Stopped,
+    Aggregate, Analysis, FailureCount, LookupError, LowRuns, MixedModels, NoIndices, OutputAnalysis, Spending,
+    StopReason, Stopped,
 };

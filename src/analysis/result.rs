@@ -8,6 +8,7 @@ use crate::design::Design;
 use crate::estimate::{CentralMoments, Scaling, Undefined};
 use crate::model::{Counter, Flag};
 use crate::quantity::Unit;
+use crate::study::SurrogateChoice;
 use crate::uncertainty::{AggregateIndices, EffectEstimates, Estimate, OutputIndices, Stage};
 
 /// The result of a run of a [`Study`](crate::study::Study).
@@ -46,8 +47,44 @@ pub struct Analysis {
     pub threads: usize,
     /// Seconds from the first run to the last.
     pub wall_seconds: f64,
+    /// The cheaper models that were run beside the model.
+    pub lows: Vec<LowRuns>,
+    /// What a run that was to be accurate chose, and why; `None` for others.
+    pub spending: Option<Spending>,
     /// Where more than one version of the model answered, or may have: an entry for each reason; empty otherwise.
     pub mixed_models: Vec<MixedModels>,
+}
+
+/// What a run that was asked for an [accuracy](crate::Target::accuracy) chose, and why.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Spending {
+    /// The half width that was asked for.
+    pub accuracy: f64,
+    /// Runs of the model in all, those of trials included.
+    pub runs: u64,
+    /// Whether surrogates were fitted.
+    pub surrogate: SurrogateChoice,
+    /// Runs that the same half width would take at least without surrogates and cheaper models, by the intervals of the plain
+    /// indices of this run, if they fall in proportion to the runs: those of rough outputs fall more slowly. `None` if they
+    /// are unknown.
+    pub plain_runs: Option<u64>,
+    /// Why it was chosen, in sentences.
+    pub reasons: Vec<String>,
+}
+
+/// The runs of a cheaper model beside those of the model.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct LowRuns {
+    /// Its name.
+    pub name: String,
+    /// Runs at the rows of the model.
+    pub shared_runs: u64,
+    /// Base samples of its own design.
+    pub own_base_samples: u64,
+    /// Runs of that.
+    pub own_runs: u64,
 }
 
 /// Runs that another version of the model answered.
@@ -272,6 +309,13 @@ impl OutputAnalysis {
         self.effect("group", name, &self.names[1], |indices| &indices.groups)
     }
 
+    /// How far indices may be off because the outputs are rounded: by some four times the step between neighbouring doubles
+    /// of their size, in standard deviations. Beyond [`LOST`] the result warns of it.
+    #[cfg(feature = "charts")]
+    pub(crate) fn error_of_rounding(&self) -> f64 {
+        error_of_rounding(&self.values)
+    }
+
     fn effect(
         &self,
         what: &'static str,
@@ -285,4 +329,14 @@ impl OutputAnalysis {
         let indices = indices.map_err(|&reason| LookupError::NoIndices { output: self.name.clone(), reason })?;
         of(indices).get(place).ok_or_else(unknown)
     }
+}
+
+/// Error of indices by rounding of the outputs beyond which a result warns of it.
+pub(crate) const LOST: f64 = 1e-3;
+
+/// See [`OutputAnalysis::error_of_rounding`]; infinite of outputs that do not vary.
+pub(super) fn error_of_rounding(values: &CentralMoments) -> f64 {
+    let Some(((low, high), variance)) = values.range().zip(values.variance()) else { return f64::INFINITY };
+    let largest = low.abs().max(high.abs());
+    4.0 * (largest.next_up() - largest) / variance.sqrt()
 }

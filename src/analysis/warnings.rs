@@ -1,6 +1,7 @@
 //! What a careful reader of a result should know, in sentences.
 
 use super::finished_run::{FinishedRun, names_of_swaps};
+use super::result::{LOST, error_of_rounding};
 use crate::estimate::CentralMoments;
 use crate::model::Model;
 use crate::run::Totals;
@@ -73,6 +74,17 @@ pub(super) fn of_values(values: &CentralMoments) -> Option<String> {
             "the variance rests on few rows, as if on {rows:.0} of the {n} of A and B (excess kurtosis {kurtosis:.0}): rows as \
              large may be missing from the sample, so that intervals are longer above the estimates than below, and may still be \
              too short; more base samples help, or the logarithm of the output"
+        )
+    })
+}
+
+/// A warning of outputs whose size leaves few digits to what varies in them.
+pub(super) fn of_digits(values: &CentralMoments) -> Option<String> {
+    let error = error_of_rounding(values);
+    (error > LOST && error.is_finite()).then(|| {
+        format!(
+            "the output is so much larger than what varies in it that doubles keep few digits of that: indices may be off by \
+             some {error:.1e}; subtract a constant from it before it is rounded"
         )
     })
 }
@@ -198,6 +210,17 @@ mod tests {
         assert_eq!(of_values(&CentralMoments::of(&[1.0; 8])), None);
         let many: Vec<f64> = rare.iter().cycle().take(20_000).copied().collect();
         assert_eq!(of_values(&CentralMoments::of(&many)), None);
+    }
+
+    #[test]
+    fn lost_digits_are_warned_of() {
+        // Steps of 1/8 about 1e15, for a standard deviation of 0.5: an error of 4/4.
+        let shifted: Vec<f64> = (0..8).map(|i| 1e15 + f64::from(i % 2)).collect();
+        let warning = of_digits(&CentralMoments::of(&shifted)).unwrap();
+        assert!(warning.contains("off by some 1.0e0"), "{warning}");
+        let near: Vec<f64> = (0..8).map(|i| 1e11 + f64::from(i % 2)).collect();
+        assert_eq!(of_digits(&CentralMoments::of(&near)), None);
+        assert_eq!(of_digits(&CentralMoments::of(&[1.0; 8])), None);
     }
 
     #[test]

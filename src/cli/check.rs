@@ -138,7 +138,8 @@ fn factors(study: &Study) -> String {
                 .collect();
             below.push_str(&format!("{}: {}\n", factor.name, shares.join(", ")));
         }
-        if factor.determined {
+        let is_truncated = law.parameters().iter().any(|(_, value)| matches!(value, Parameter::Bounds(..)));
+        if factor.determined || is_truncated {
             below.push_str(&format!("{}: {} with {}\n", factor.name, law.name(), parameters(factor)));
         }
         table.add_row([
@@ -162,6 +163,7 @@ fn parameters(factor: &Factor) -> String {
     let parameters = factor.distribution().parameters();
     let words = parameters.iter().filter_map(|(name, value)| match value {
         Parameter::Number(number) => Some(format!("{name} = {number}")),
+        Parameter::Bounds(min, max) => Some(format!("{name} = [{min}, {max}]")),
         _ => None,
     });
     words.collect::<Vec<_>>().join(", ")
@@ -249,6 +251,10 @@ fn asked(study: &Study) -> String {
     if study.uses_surrogate(study.design()) {
         parts.push("correction by surrogates".to_owned());
     }
+    let lows: Vec<&str> = study.low_fidelities().iter().map(|low| low.name.as_str()).collect();
+    if !lows.is_empty() {
+        parts.push(format!("cheaper models {}", lows.join(", ")));
+    }
     let companions = study.design().companions();
     let (first, total) = (FirstOrder::of_rows(companions), Total::of_rows(companions));
     let none = "none: a single replicate says nothing about its error".to_owned();
@@ -311,7 +317,7 @@ fn runs(number: u64) -> String {
 
 /// How a growing run goes on and when it ends.
 fn stopping(study: &Study) -> String {
-    let Target { half_width, budget, max_runs } = study.target();
+    let Target { half_width, budget, max_runs, is_free } = study.target();
     let ends = [
         half_width.map(|width| format!("every first-order and total index is known to {width} (half its interval)")),
         budget.map(|seconds| format!("twice the runs would take longer than {}", duration(seconds))),
@@ -320,6 +326,12 @@ fn stopping(study: &Study) -> String {
     let ends: Vec<String> = ends.into_iter().flatten().collect();
     if ends.is_empty() {
         return String::new();
+    }
+    if is_free {
+        return format!(
+            "accuracy: trials decide base samples, plain rows, surrogates and cheaper models; runs are added until {}\n",
+            ends.join(", or ")
+        );
     }
     format!("growth: the runs are doubled, none of them lost, until {}\n", ends.join(", or "))
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use apportion::exchange::{Missing, Selection, Table, read_table, table_of_bytes};
 use apportion::files::read_whole;
-use apportion::given::{Column, Method, analyse, surrogate_indices};
+use apportion::given::{Column, Method, analyse, measures, surrogate_indices};
 use apportion::report::given::{GivenFacts, build_given, given_document};
 use apportion::{Distribution, Study};
 use sha2::{Digest, Sha256};
@@ -39,6 +39,9 @@ pub struct Arguments {
     /// accurate
     #[arg(long, value_name = "STUDY", requires = "surrogate")]
     study: Option<PathBuf>,
+    /// Other measures too: Borgonovo's delta, distances after Kolmogorov and Kuiper, PAWN, R2-HSIC, and S_1 by the spectrum
+    #[arg(long)]
+    measures: bool,
     /// Leave out rows without a value in one of these columns, and count them
     #[arg(long)]
     drop_missing: bool,
@@ -87,7 +90,10 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
         method: arguments.method,
         seed: arguments.seed,
     };
-    let result = build_given(&indices, surrogates.as_ref(), (&inputs, &outputs), &facts);
+    let mut result = build_given(&indices, surrogates.as_ref(), (&inputs, &outputs), &facts);
+    if arguments.measures {
+        result = result.with_measures(&measures(&inputs, &outputs, &indices, arguments.seed));
+    }
     deliver(&artefacts, &given_document(&result, &name))
 }
 

@@ -13,6 +13,7 @@ mod new;
 mod output;
 mod past_runs;
 mod progress;
+mod ranks;
 mod report;
 mod reproduce;
 mod run;
@@ -22,6 +23,8 @@ mod screen;
 mod simulate;
 mod stop;
 mod sweep;
+mod trade;
+mod trade_extremes;
 
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
@@ -33,6 +36,7 @@ use apportion::report::{ReadError, WriteError, wrapped};
 use apportion::run::RunError;
 use apportion::run::journal::JournalError;
 use apportion::study::{Study, StudyError};
+use ranks::Ranks;
 
 /// Sobol' global sensitivity analysis: which factor decides an output, and by how many percent.
 ///
@@ -62,6 +66,8 @@ enum Command {
     Screen(screen::Arguments),
     /// Move one factor at a time around the nominal point: curves, ranges and slopes of every output
     Sweep(sweep::Arguments),
+    /// Accuracy against time: which settings give which accuracy at the least cost; or what becomes of a study at its extremes
+    Trade(trade::Arguments),
     /// Write the points of a study to a file, for a model outside
     Sample(sample::Arguments),
     /// Indices from the outputs that a model outside computed at the points of `sample`, or of SALib
@@ -100,6 +106,13 @@ struct DesignChanges {
     /// Base samples in all, over the replicates (the same as --set design.base_samples=N)
     #[arg(long, value_name = "N", value_parser = whole_number)]
     base_samples: Option<u64>,
+    /// Half width that the 95 % interval of every index must reach; the run chooses what gets there at the least cost (the same
+    /// as --set accuracy=A)
+    #[arg(long, value_name = "A", conflicts_with_all = ["base_samples", "budget_runs"])]
+    accuracy: Option<f64>,
+    /// Model runs in all, split between base samples and plain rows for surrogates (the same as --set design.budget_runs=N)
+    #[arg(long, value_name = "N", value_parser = whole_number, conflicts_with = "base_samples")]
+    budget_runs: Option<u64>,
     /// Seed of the design (the same as --set design.seed=S)
     #[arg(long, value_name = "S", value_parser = whole_number)]
     seed: Option<u64>,
@@ -115,7 +128,9 @@ impl DesignChanges {
     fn overrides(&self) -> Vec<String> {
         let base_samples = self.base_samples.map(|n| format!("design.base_samples={n}"));
         let seed = self.seed.map(|s| format!("design.seed={s}"));
-        base_samples.into_iter().chain(seed).collect()
+        let accuracy = self.accuracy.map(|a| format!("accuracy={a:?}"));
+        let budget_runs = self.budget_runs.map(|n| format!("design.budget_runs={n}"));
+        base_samples.into_iter().chain(accuracy).chain(budget_runs).chain(seed).collect()
     }
 }
 
@@ -180,6 +195,8 @@ enum Failure {
     Input(anyhow::Error),
     /// The run failed: exit code 1.
     Run(anyhow::Error),
+    /// The input was wrong, which another process has said: exit code 2.
+    Silent,
 }
 
 impl From<StudyError> for Failure {
@@ -221,11 +238,27 @@ impl From<std::io::Error> for Failure {
 /// Runs the program and returns its exit code.
 pub fn main() -> ExitCode {
     stop::hear_of_size_limits();
-    // Usage errors leave through clap, with exit code 2.
-    let outcome = match Cli::parse().command {
+    #[cfg(feature = "mpi")]
+    if let Some((size, _)) = ranks::job() {
+        return ranks::mpi::main(size, |others| command_line(Some(others)));
+    }
+    command_line(None)
+}
+
+/// Does what the command line says, in the company of other ranks if there are any.
+fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // There is nowhere to complain if that cannot be printed.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    exit_code(match cli.command {
         Command::New(arguments) => new::new(&arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
-        Command::Run(arguments) => run::run(&arguments),
+        Command::Run(arguments) => run::run(&arguments, others),
         Command::Merge(arguments) => merge::merge(&arguments),
         Command::Sample(arguments) => sample::sample(&arguments),
         Command::Analyze(arguments) => analyze::analyze(&arguments),
@@ -233,6 +266,7 @@ pub fn main() -> ExitCode {
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Screen(arguments) => screen::screen(&arguments),
         Command::Sweep(arguments) => sweep::sweep(&arguments),
+        Command::Trade(arguments) => trade::trade(&arguments),
         Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
         Command::GivenData(arguments) => given_data::given_data(&arguments),
         Command::Check(arguments) => check::check(&arguments),
@@ -241,13 +275,18 @@ pub fn main() -> ExitCode {
         Command::Schema(arguments) => schema::schema(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),
-    };
+    })
+}
+
+/// The exit code of what came out; what went wrong is said.
+fn exit_code(outcome: Result<(), Failure>) -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         // A reader that closes the pipe early has seen what it wanted.
         Err(Failure::Run(error)) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(Failure::Run(error)) => fail(&error, 1),
         Err(Failure::Input(error)) => fail(&error, 2),
+        Err(Failure::Silent) => ExitCode::from(2),
     }
 }
 
@@ -292,12 +331,12 @@ fn fitted(text: String, width: Option<usize>) -> String {
 
 /// The columns of the terminal that standard output is.
 fn stdout_width() -> Option<usize> {
-    comfy_table::Table::new().width().map(usize::from)
+    comfy_table::Table::new().width().map(usize::from).filter(|width| *width > 0)
 }
 
 /// The columns of the terminal that standard error is.
 fn stderr_width() -> Option<usize> {
-    comfy_table::Table::new().use_stderr().width().map(usize::from)
+    comfy_table::Table::new().use_stderr().width().map(usize::from).filter(|width| *width > 0)
 }
 
 /// A text without characters that would change the terminal: names and titles are the user's, or somebody else's.

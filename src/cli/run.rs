@@ -15,6 +15,7 @@ use apportion::study::Study;
 
 use super::output::{self, ChartArguments, default_folder};
 use super::progress::Meter;
+use super::ranks::{self, Ranks};
 use super::stop::Stoppable;
 use super::{DesignChanges, Failure, StudyArguments, Threads, say, stop};
 
@@ -76,7 +77,10 @@ impl RecordArguments {
     }
 }
 
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Failure> {
+    if arguments.record.shard.is_none() {
+        ranks::refuse_copies()?;
+    }
     let stop = stop::on_signal();
     let study = study_of(arguments)?;
     let folder = folder_of(arguments, &study);
@@ -86,11 +90,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if asked.shard.is_none() {
         artefacts.check(&file_names(&study))?;
     } else if study.target().grows() {
-        let why = "a study with a target, a budget or max_runs has no size that could be shared out beforehand";
+        let why =
+            "a study with an accuracy, a target, a budget or max_runs has no size that could be shared out beforehand";
         return Err(Failure::Input(anyhow!("--shard: {why}")));
     }
     let saved = match &arguments.save_outputs {
         None => None,
+        Some(_) if study.target().is_free => {
+            let why = "with `accuracy` the run chooses its rows: run once more with the lines that the result shows";
+            return Err(Failure::Input(anyhow!("--save-outputs: {why}")));
+        }
         Some(path) => {
             let format = Format::of(path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
             prepare_file(path)?;
@@ -101,6 +110,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let store = saved.as_ref().map(|_| Store::new(study.design(), study.model().as_ref()));
     let meter = Meter::new(study.name(), study.design().rows());
     let runner = study.runner().threads(arguments.threads.number()).on_progress(|progress| meter.update(progress));
+    let runner = match others {
+        None => runner,
+        Some(others) => {
+            // A job has a rank for every core, unless it says otherwise.
+            let threads = arguments.threads.number().max(1);
+            others.begin(&study, &arguments.study.study, threads);
+            say(&format!("note: {} ranks with {}", others.count_all(), workers(threads)));
+            runner.threads(threads).remote_workers(others)
+        }
+    };
     let mut runner = runner.on_message(say).stop(stop).resume(asked.resume()).mix_models(asked.mix_models);
     if let Some(journal) = &journal {
         runner = runner.journal(journal);
@@ -116,12 +135,22 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name(), journal.display()));
         return Ok(());
     }
-    let result = ResultFile::new(&study, &runner.run().map_err(failed)?);
+    let analysis = runner.run().map_err(failed)?;
+    stop::writing()?;
+    let result = ResultFile::new(&study, &analysis);
+    drop(analysis);
     meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
     if let Some((target, store)) = saved.zip(store.as_ref()) {
         save(&study, &result, store, target)?;
     }
     deliver(&study, &artefacts, &result)
+}
+
+/// Most outputs without indices that are named.
+const NAMED: usize = 12;
+
+fn workers(threads: usize) -> String {
+    if threads == 1 { "a worker each".to_owned() } else { format!("{threads} workers each") }
 }
 
 /// The journal of the study called `name`, or of one of its shards, in `folder`.
@@ -192,9 +221,11 @@ pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile) -> Res
     if lost.is_empty() {
         return Ok(());
     }
+    let more = lost.len().saturating_sub(NAMED);
+    let more = if more > 0 { format!(" and {more} more outputs") } else { String::new() };
     Err(Failure::Run(anyhow!(
-        "no indices of {}: too many runs failed (the result says which and why)",
-        lost.join(", ")
+        "no indices of {}{more}: too many runs failed (the result says which and why)",
+        lost[..lost.len().min(NAMED)].join(", ")
     )))
 }
 

@@ -36,6 +36,14 @@ pub fn on_signal() -> &'static AtomicBool {
     &STOP
 }
 
+/// From now on signals are left to another process, which hears them too and tells this one.
+#[cfg(feature = "mpi")]
+pub fn leave_to_another() {
+    if let Err(error) = ctrlc::set_handler(|| ()) {
+        super::say(&format!("warning: Ctrl-C will end this rank at once: {error}"));
+    }
+}
+
 /// From now on a signal ends the program at once: the model has been run, and what is left is drawing, which nobody
 /// needs to wait for.
 ///

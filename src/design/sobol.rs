@@ -1,5 +1,6 @@
 //! Owen-scrambled Sobol' points, addressed by index.
 
+use multiversion::multiversion;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sobol_burley::parts::owen_scramble_rev;
@@ -77,14 +78,54 @@ impl SobolSequence {
     pub fn fill(&self, dimension: usize, first: u64, out: &mut [f64]) {
         assert!(first + out.len() as u64 <= 1 << BITS, "the sequence ends at 2^32 points");
         let directions = self.directions[dimension];
-        let mut coordinate = at_index(directions, first);
+        let tile = first_tile(directions);
         let scramble = self.scrambles.as_ref().map(|keys| keys[dimension]);
-        for (slot, next) in out.iter_mut().zip(first + 1..) {
-            let digits = scramble.map_or(coordinate, |key| owen_scramble_rev(coordinate, key));
-            *slot = (f64::from(digits.reverse_bits()) + 0.5) * CELL;
-            coordinate ^= directions[(next.trailing_zeros() as usize).min(BITS - 1)];
+        let (mut index, mut rest) = (first, out);
+        while !rest.is_empty() {
+            let skipped = index as usize % TILE;
+            let (part, others) = rest.split_at_mut(rest.len().min(TILE - skipped));
+            // Gray code is linear: the points of a tile differ from those of the first one by one number.
+            let points = coordinates(at_index(directions, index - skipped as u64), &tile, scramble);
+            part.copy_from_slice(&points[skipped..][..part.len()]);
+            index += part.len() as u64;
+            rest = others;
         }
     }
+}
+
+/// Points that are made at once.
+const TILE: usize = 64;
+
+/// The bit-reversed coordinates of the first points.
+fn first_tile(directions: &Directions) -> [u32; TILE] {
+    let mut tile = [0; TILE];
+    for (bit, direction) in directions.iter().enumerate().take(TILE.ilog2() as usize) {
+        // Those with this bit of the Gray code, in the order of the Gray code: the others backwards.
+        let (before, after) = tile[..2 << bit].split_at_mut(1 << bit);
+        after.iter_mut().zip(before.iter().rev()).for_each(|(point, other)| *point = other ^ direction);
+    }
+    tile
+}
+
+/// The coordinates of the points of a tile, whose first one is at `origin`, scrambled by a key.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+fn coordinates(origin: u32, tile: &[u32; TILE], scramble: Option<u32>) -> [f64; TILE] {
+    let mut coordinates = [0.0; TILE];
+    match scramble {
+        Some(key) => {
+            for (slot, point) in coordinates.iter_mut().zip(tile) {
+                *slot = in_cell(owen_scramble_rev(origin ^ point, key));
+            }
+        }
+        None => coordinates.iter_mut().zip(tile).for_each(|(slot, point)| *slot = in_cell(origin ^ point)),
+    }
+    coordinates
+}
+
+/// The middle of the cell of a bit-reversed coordinate.
+#[inline(always)]
+fn in_cell(reversed: u32) -> f64 {
+    (f64::from(reversed.reverse_bits()) + 0.5) * CELL
 }
 
 /// Streams of the deals are apart from those of the scrambles: replicates count below 2^12.
@@ -106,7 +147,7 @@ const CELL: f64 = 1.0 / (1u64 << BITS) as f64;
 /// The bit-reversed coordinate of point `index`.
 fn at_index(directions: &Directions, index: u64) -> u32 {
     let gray = index ^ (index >> 1);
-    (0..BITS).filter(|k| gray >> k & 1 == 1).fold(0, |sum, k| sum ^ directions[k])
+    directions.iter().enumerate().fold(0, |sum, (k, direction)| sum ^ if gray >> k & 1 == 1 { *direction } else { 0 })
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! One set of indices for several outputs.
 
-use super::{FirstOrder, Indices, Moments, Total, Undefined};
+use super::Undefined;
 
 /// How outputs are weighed against each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,26 +11,24 @@ pub enum Scaling {
     Standardised,
 }
 
-/// Aggregated indices of several outputs of one design: sum_k V_j^k/sum_k V^k, which is the mean of the outputs'
-/// indices weighted by their variances.
+/// Aggregated indices of several outputs of one design, each with its variance and a list of its indices:
+/// sum_k V_j^k/sum_k V^k, which is the mean of the outputs' indices weighted by their variances.
 ///
 /// Gamboa, Janon, Klein and Lagnoux (2014), Electron. J. Stat. 8, 575-603; Lamboni, Monod and Makowski (2011), Reliab.
 /// Eng. Syst. Saf. 96, 450-459. An output that is constant has no part in it.
 ///
 /// # Errors
 /// [`Undefined`] if all outputs are constant, or one has no indices for another reason.
-pub fn aggregated(
-    outputs: &[&Moments],
-    first_order: FirstOrder,
-    total: Total,
+pub fn aggregated<'a>(
+    outputs: impl Iterator<Item = &'a Result<(f64, Vec<f64>), Undefined>>,
     scaling: Scaling,
-) -> Result<Indices, Undefined> {
-    let mut varying = Vec::with_capacity(outputs.len());
-    for moments in outputs {
-        match Indices::by(moments, first_order, total) {
-            Ok(indices) => varying.push((moments.variance(), indices)),
+) -> Result<Vec<f64>, Undefined> {
+    let mut varying: Vec<(f64, &[f64])> = Vec::new();
+    for output in outputs {
+        match output {
+            Ok((variance, indices)) => varying.push((*variance, indices)),
             Err(Undefined::ZeroVariance) => (),
-            Err(undefined) => return Err(undefined),
+            Err(undefined) => return Err(*undefined),
         }
     }
     // Relative to the largest, so that variances near the ends of the doubles can be added.
@@ -40,14 +38,7 @@ pub fn aggregated(
         Scaling::Standardised => 1.0,
     };
     let sum: f64 = varying.iter().map(|(variance, _)| weight(*variance)).sum();
-    let swaps = varying.first().ok_or(Undefined::ZeroVariance)?.1.total.len();
-    let mean = |list: fn(&Indices) -> &[f64]| -> Vec<f64> {
-        let of = |swap: usize| varying.iter().map(|(v, indices)| weight(*v) * list(indices)[swap]).sum::<f64>() / sum;
-        (0..swaps).map(of).collect()
-    };
-    Ok(Indices {
-        first_order: mean(|indices| &indices.first_order),
-        total: mean(|indices| &indices.total),
-        check: mean(|indices| &indices.check),
-    })
+    let count = varying.first().ok_or(Undefined::ZeroVariance)?.1.len();
+    let mean = |place: usize| varying.iter().map(|(v, indices)| weight(*v) * indices[place]).sum::<f64>() / sum;
+    Ok((0..count).map(mean).collect())
 }

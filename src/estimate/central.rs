@@ -1,7 +1,9 @@
 //! Mean, variance, skewness and kurtosis of an output.
 
+use multiversion::multiversion;
+
 use crate::binary::binary_fields;
-use crate::sum::mean;
+use crate::sum::{mean, range, sums_by};
 
 /// Count, mean, range, and sums of the second to fourth powers of the deviations from the mean, of single outputs.
 ///
@@ -40,9 +42,7 @@ impl CentralMoments {
     fn of_finite(values: &[f64]) -> Self {
         let mean = mean(values);
         let [m2, m3, m4] = powers(values, mean);
-        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        Self { n: values.len() as u64, mean, m2, m3, m4, range: (!values.is_empty()).then_some((low, high)) }
+        Self { n: values.len() as u64, mean, m2, m3, m4, range: (!values.is_empty()).then(|| range(values)) }
     }
 
     /// Adds other values.
@@ -101,18 +101,12 @@ impl CentralMoments {
     }
 }
 
-/// Sums of the second, third and fourth powers of x - mean, in interleaved partial sums.
+/// Sums of the second, third and fourth powers of x - mean.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn powers(x: &[f64], mean: f64) -> [f64; 3] {
-    const LANES: usize = crate::sum::LANES;
-    let mut lanes = [[0.0; LANES]; 3];
-    for chunk in x.chunks(LANES) {
-        for (lane, x) in chunk.iter().enumerate() {
-            let d = x - mean;
-            let square = d * d;
-            lanes[0][lane] += square;
-            lanes[1][lane] += square * d;
-            lanes[2][lane] += square * square;
-        }
-    }
-    lanes.map(|l| ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7])))
+    sums_by(x.len(), |i| {
+        let d = x[i] - mean;
+        let square = d * d;
+        [square, square * d, square * square]
+    })
 }

@@ -6,6 +6,7 @@ use super::swap_moments::{Columns, SwapMoments};
 use super::workspace::Workspace;
 use crate::binary::binary_fields;
 use crate::design::{Companions, Design};
+use crate::sum;
 
 /// First and second moments of the outputs of a Saltelli design, all centred on their own means.
 ///
@@ -197,6 +198,6 @@ impl Moments {
 
 /// Smallest and largest of both columns; `None` without any.
 fn range(a: &[f64], b: &[f64]) -> Option<(f64, f64)> {
-    let both = || a.iter().chain(b).copied();
-    (!a.is_empty()).then(|| (both().fold(f64::INFINITY, f64::min), both().fold(f64::NEG_INFINITY, f64::max)))
+    let ((low, high), (other_low, other_high)) = (sum::range(a), sum::range(b));
+    (!a.is_empty()).then(|| (low.min(other_low), high.max(other_high)))
 }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::binary::{Binary, Reader};
+
 /// One output at every run of consecutive base points: a column per unique run, the points in order; not finite where a
 /// run failed. Held in blocks that are shared, so that appending copies no outputs.
 #[derive(Debug, Clone, Default)]
@@ -37,6 +39,22 @@ impl PointOutputs {
         self.points
     }
 
+    /// The first `end` base points alone; blocks that end there are shared.
+    #[must_use]
+    pub fn prefix(&self, end: u64) -> Self {
+        let mut prefix = Self::default();
+        for (block, columns) in self.blocks.iter().zip(self.blocks(end)) {
+            let is_whole = columns.first().is_some_and(|column| column.len() == block.points);
+            let of_block = if is_whole {
+                Self { blocks: vec![Arc::clone(block)], points: block.points as u64 }
+            } else {
+                Self::of_block(&columns)
+            };
+            prefix.append(&of_block);
+        }
+        prefix
+    }
+
     /// The columns of every block up to base point number `end`, in order.
     pub fn blocks<'a>(&'a self, end: u64) -> impl Iterator<Item = Vec<&'a [f64]>> {
         let mut left = usize::try_from(end).unwrap_or(usize::MAX);
@@ -50,6 +68,29 @@ impl PointOutputs {
         };
         let sized = self.blocks.iter().map(move |block| (block, take(block)));
         sized.filter(|(_, taken)| *taken > 0).map(cut)
+    }
+}
+
+impl Binary for PointOutputs {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.blocks.len().write(out);
+        for block in &self.blocks {
+            block.points.write(out);
+            block.outputs.write(out);
+        }
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        let mut read = Self::default();
+        for _ in 0..u64::read(from)? {
+            let block = Block { points: usize::read(from)?, outputs: Vec::read(from)? };
+            if !block.outputs.len().is_multiple_of(block.points) {
+                return None;
+            }
+            read.points += block.points as u64;
+            read.blocks.push(Arc::new(block));
+        }
+        Some(read)
     }
 }
 

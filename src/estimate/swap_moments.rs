@@ -3,7 +3,7 @@
 use super::base_moments::{BaseMoments, Shift};
 use super::workspace::Workspace;
 use crate::binary::binary_fields;
-use crate::sum::{centred_product, mean};
+use crate::sum::{centred_product, centred_products, mean};
 
 /// Means and sums of centred products of the outputs of one swap s, over the base points at which all of its rows have
 /// an output.
@@ -125,23 +125,12 @@ impl SwapMoments {
                 eg: e.map_or(0.0, |e| centred_product(e, g)),
             }
         });
-        let ba = e.map(|e| BaMoments {
-            mean_e: e.1,
-            ee: centred_product(e, e),
-            ae: centred_product(a, e),
-            be: centred_product(b, e),
-            de: centred_product(d, e),
+        let ba = e.map(|e| {
+            let [ae, be, ee] = centred_products(a, b, e);
+            BaMoments { mean_e: e.1, ee, ae, be, de: centred_product(d, e) }
         });
-        Self {
-            base,
-            mean_d: d.1,
-            dd: centred_product(d, d),
-            ad: centred_product(a, d),
-            bd: centred_product(b, d),
-            ba,
-            bc,
-            cb,
-        }
+        let [ad, bd, dd] = centred_products(a, b, d);
+        Self { base, mean_d: d.1, dd, ad, bd, ba, bc, cb }
     }
 
     /// Adds other base points of the same swap.

@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 use super::rows::ColumnKind;
 use crate::design::{BasePoints, Design, Matrix};
 use crate::quantity::Unit;
-use crate::space::{Distribution, Factor, Space};
+use crate::space::{Factor, Space};
 
 /// Rows of a block, about.
 const BLOCK: u64 = 1 << 13;
@@ -101,7 +101,7 @@ pub(super) fn factor_column(factor: &Factor) -> ColumnKind {
     let law = factor.distribution();
     let labels = law.labels().unwrap_or_default().iter();
     let labels = labels.filter_map(|label| Some((label.clone(), law.value_of(label)?))).collect();
-    ColumnKind { labels, whole: matches!(law, Distribution::Integer(_)), ..ColumnKind::numbers(&factor.name) }
+    ColumnKind { labels, whole: law.is_whole(), ..ColumnKind::numbers(&factor.name) }
 }
 
 /// SHA-256 of the numbers of rows, row by row, each as the eight bytes of a little-endian double.

@@ -3,12 +3,14 @@
 //! There is no design to rely on, and rows must be independent draws. [`analyse`] looks at the rows first ([`PointSet`]) and
 //! refuses what would give wrong numbers; then it estimates S_j = V(E[Y|X_j])/V(Y) by [`rank`](rank_first_order) and by
 //! [`bins`](binned_first_order), two methods that share nothing but the data. [`surrogate_indices`] adds total indices, and
-//! more accurate first-order ones where the model is smooth and the inputs are independent of each other.
+//! more accurate first-order ones where the model is smooth and the inputs are independent of each other. [`measures`] looks
+//! at more than the variance.
 
 mod binned;
 mod column;
 mod dependence;
 mod evenness;
+mod measures;
 mod order;
 mod outcome;
 mod rank;
@@ -25,6 +27,7 @@ pub use dependence::{Dependence, PairDependence};
 #[doc(hidden)]
 pub use evenness::Evidence;
 pub use evenness::PointSet;
+pub use measures::{InputMeasures, MOST_ROWS_OF_KERNELS, Measure, Measured, PERMUTATIONS, measures};
 pub use outcome::{InputIndices, OutputIndices};
 #[doc(hidden)]
 pub use rank::rank_first_order;

@@ -1,10 +1,19 @@
 //! The critical pushing force of a nanoparticle as a model: the adapter between factors and [`crate::afm`].
 
+#[cfg(feature = "study")]
+mod second;
+
+#[cfg(feature = "study")]
+pub(crate) use second::AfmSecond;
+
 use super::{Batch, Choice, Counter, CounterKind, Flag, Input, Model, Output, RowFailure, RunContext, Worker};
 use crate::afm::{
     self, ContactTheory, Critical, Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion,
     critical_force,
+    force::{AT_ONCE, ClosedForms, Column, Slips},
 };
+use std::ops::Range;
+
 use crate::quantity::Unit;
 
 /// An output of the critical-force computation.
@@ -74,6 +83,29 @@ impl AfmOutput {
         }
     }
 
+    /// The values of scenes solved at once in SI units, where they are at hand.
+    fn column(self, slips: &Slips) -> Option<&Column> {
+        match self {
+            Self::CriticalForce => Some(&slips.critical_force),
+            Self::LateralForce => Some(&slips.lateral_force),
+            Self::NormalForce => Some(&slips.normal_force),
+            Self::ContactRadius => Some(&slips.contact_radius),
+            Self::CriticalTime | Self::LogCriticalForce | Self::ForceAngle | Self::Indentation => None,
+        }
+    }
+
+    /// The value of scene number `i` of those solved at once.
+    fn of_many(self, i: usize, forms: &ClosedForms) -> Result<f64, Failure> {
+        let slips = forms.slips();
+        match self {
+            Self::CriticalTime => forms.critical_time(i),
+            Self::LogCriticalForce => Ok(slips.critical_force[i].ln()),
+            Self::ForceAngle => Ok(slips.lateral_force[i].atan2(slips.normal_force[i])),
+            Self::Indentation => forms.indentation(i),
+            other => Ok(other.column(slips).map_or(f64::NAN, |column| column[i])),
+        }
+    }
+
     /// The value in SI units.
     fn of(self, critical: &Critical) -> Result<f64, Failure> {
         Ok(match self {
@@ -82,7 +114,7 @@ impl AfmOutput {
             Self::NormalForce => critical.normal_force,
             Self::CriticalTime => critical.critical_time?,
             Self::LogCriticalForce => critical.critical_force.ln(),
-            Self::ForceAngle => critical.force_angle,
+            Self::ForceAngle => critical.force_angle(),
             Self::ContactRadius => critical.contact_radius,
             Self::Indentation => critical.indentation,
         })
@@ -202,7 +234,9 @@ impl Model for AfmModel {
     }
 
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
-        Box::new(AfmWorker { model: self, context, scene: self.scene, reasons: Vec::new(), spent: Spent::default() })
+        let forms = ClosedForms::new(&self.scene, &self.options, &self.factors).map(Box::new);
+        let scene = self.scene;
+        Box::new(AfmWorker { model: self, context, scene, forms, reasons: Vec::new(), spent: Spent::default() })
     }
 }
 
@@ -210,6 +244,8 @@ struct AfmWorker<'a> {
     model: &'a AfmModel,
     context: &'a RunContext<'a>,
     scene: Scene,
+    /// Rows in closed form are computed many at once.
+    forms: Option<Box<ClosedForms>>,
     /// The failures met so far, in words: there are few, and each is put into words once.
     reasons: Vec<(Failure, RowFailure)>,
     spent: Spent,
@@ -226,17 +262,16 @@ struct Spent {
 impl Worker for AfmWorker<'_> {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
         self.spent = Spent::default();
-        for row in 0..batch.rows() {
-            if row % ROWS_BETWEEN_LOOKS == 0 && self.context.is_stopped() {
+        let step = if self.forms.is_some() { AT_ONCE } else { ROWS_BETWEEN_LOOKS };
+        for first in (0..batch.rows()).step_by(step) {
+            if self.context.is_stopped() {
                 batch.give_up(RowFailure::interrupted());
                 break;
             }
-            for (parameter, column) in self.model.factors.iter().zip(inputs) {
-                (parameter.set)(&mut self.scene, column[row]);
-            }
-            match critical_force(&self.scene, &self.model.options) {
-                Err(failure) => batch.fail_row(row, &self.reason(failure)),
-                Ok(critical) => self.write(row, &critical, batch),
+            let rows = first..batch.rows().min(first + step);
+            match self.forms.take() {
+                Some(forms) => self.forms = Some(self.run_at_once(forms, inputs, rows, batch)),
+                None => rows.for_each(|row| self.run_row(inputs, row, batch)),
             }
         }
         let Spent { rungs, evaluations, largest_error } = &self.spent;
@@ -248,6 +283,51 @@ impl Worker for AfmWorker<'_> {
 }
 
 impl AfmWorker<'_> {
+    fn run_row(&mut self, inputs: &[&[f64]], row: usize, batch: &mut Batch) {
+        for (parameter, column) in self.model.factors.iter().zip(inputs) {
+            (parameter.set)(&mut self.scene, column[row]);
+        }
+        match critical_force(&self.scene, &self.model.options) {
+            Err(failure) => batch.fail_row(row, &self.reason(failure)),
+            Ok(critical) => self.write(row, &critical, batch),
+        }
+    }
+
+    fn run_at_once(
+        &mut self,
+        mut forms: Box<ClosedForms>,
+        inputs: &[&[f64]],
+        rows: Range<usize>,
+        batch: &mut Batch,
+    ) -> Box<ClosedForms> {
+        let columns = self.model.factors.iter().zip(inputs);
+        let are_set = columns.fold(true, |all, (parameter, column)| all & forms.set(parameter, &column[rows.clone()]));
+        forms.solve();
+        if !are_set || !forms.are_ordinary(rows.len()) {
+            rows.for_each(|row| self.run_row(inputs, row, batch));
+            return forms;
+        }
+        for (column, output) in self.model.which.iter().enumerate() {
+            if let Some(values) = output.column(forms.slips()) {
+                batch.column_mut(column)[rows.clone()].copy_from_slice(&values[..rows.len()]);
+                continue;
+            }
+            for (i, row) in rows.clone().enumerate() {
+                match output.of_many(i, &forms) {
+                    Ok(value) => batch.set(row, column, value),
+                    Err(failure) => batch.fail(row, column, self.reason(failure)),
+                }
+            }
+        }
+        let slips = forms.slips();
+        self.spent.rungs[Fidelity::ClosedForm as usize] += rows.len() as u64;
+        self.spent.evaluations += rows.len() as u64;
+        self.spent.largest_error =
+            slips.error_estimate[..rows.len()].iter().fold(self.spent.largest_error, |a, b| a.max(*b));
+        forms.count_flags(rows.len(), |flag, raised| batch.raise_by(flag, raised));
+        forms
+    }
+
     fn reason(&mut self, failure: Failure) -> RowFailure {
         if let Some((_, reason)) = self.reasons.iter().find(|(known, _)| *known == failure) {
             return reason.clone();
@@ -292,6 +372,36 @@ mod tests {
         for output in AfmOutput::ALL {
             assert!(Unit::parse(output.row().1).is_ok());
         }
+    }
+
+    /// One bad row among many: it fails with its reason, and costs the others not a bit.
+    #[test]
+    fn rows_are_the_same_in_any_company() {
+        let outputs = AfmOutput::ALL.to_vec();
+        let factors = ["length", "velocity"].map(|name| Parameter::from_name(name).unwrap());
+        let model = AfmModel::new(Scene::default(), Options::default(), factors.to_vec(), outputs);
+        let run = |length: &[f64], velocity: &[f64]| {
+            let mut batch = Batch::new(&model);
+            batch.reset(length.len());
+            model.worker(&RunContext::default()).run(&[length, velocity], &mut batch);
+            batch.settle();
+            batch
+        };
+        let lengths: Vec<f64> = (0..150).map(|i| 200e-6 + 1e-6 * f64::from(i)).collect();
+        let velocities: Vec<f64> = (0..150).map(|i| 1e-9 * f64::from(i)).collect();
+        let mut broken = lengths.clone();
+        broken[100] = -1.0;
+        let (whole, other) = (run(&lengths, &velocities), run(&broken, &velocities));
+        for output in 0..AfmOutput::ALL.len() {
+            for row in 0..150 {
+                let alone = run(&lengths[row..=row], &velocities[row..=row]);
+                let same = |batch: &Batch| batch.column(output)[row].to_bits() == alone.column(output)[0].to_bits();
+                assert!(same(&whole) && (row == 100 || same(&other)), "{output} {row}");
+            }
+        }
+        assert_eq!(whole.failures().len(), 1, "the time at rest");
+        assert_eq!(other.failures().len(), 1 + AfmOutput::ALL.len());
+        assert_eq!((whole.flags()[3], other.flags()[3]), (150, 149));
     }
 
     #[test]

@@ -125,7 +125,12 @@ impl Batch {
 
     /// Counts one raised validity flag.
     pub fn raise(&mut self, flag: usize) {
-        self.flags[flag] += 1;
+        self.raise_by(flag, 1);
+    }
+
+    /// Counts a validity flag that so many rows raised.
+    pub fn raise_by(&mut self, flag: usize, rows: u64) {
+        self.flags[flag] += rows;
     }
 
     /// Counts `amount` by the counter of that number.
@@ -149,7 +154,8 @@ impl Batch {
         self.failures.sort_unstable();
         let named = self.failures.len();
         for (output, column) in self.columns.iter().enumerate() {
-            if column.iter().all(|value| value.is_finite()) {
+            // Without an early end, many values at a time.
+            if column.iter().fold(true, |all, value| all & value.is_finite()) {
                 continue;
             }
             for (row, value) in column.iter().enumerate() {

@@ -15,7 +15,11 @@ mod expression;
 mod external;
 mod function;
 mod known;
+#[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only subjects of study files have a second calculation"))]
+mod second;
 
+#[cfg(feature = "study")]
+pub(crate) use afm::AfmSecond;
 pub use afm::{AfmModel, AfmOutput, EVALUATIONS, LARGEST_ERROR, RUNGS, edge_unit};
 pub use batch::{Batch, RowFailure};
 pub use catalogue::{ModelKind, known_inputs};
@@ -34,11 +38,18 @@ pub use known::{
     ParameterInfo, ParameterValue, SecondOrder,
 };
 
+#[cfg(feature = "study")]
+pub(crate) use second::InMoreDigits;
+pub use second::{Answered, Reference, SecondCalculation, Unchecked};
+
 use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::quantity::{Domain, Unit};
 use crate::space::Distribution;
+
+/// From so many outputs on they are told together: an overview in the place of files for each.
+pub(crate) const MANY_OUTPUTS: usize = 12;
 
 /// One output of a model.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,5 +1,6 @@
 //! The files of a document: their names, whether they can be written, and the writing.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -165,7 +166,7 @@ impl Artefacts {
             prepare_folder(&self.folder.join(CHARTS))?;
         }
         let data = document.data_files();
-        let data = data.into_iter().map(|file| self.put(&file.name, stop, || Ok(file.text.into_bytes())));
+        let data = data.into_iter().map(|file| self.put(&file.name, stop, || Ok(Cow::Borrowed(file.text.as_bytes()))));
         let data = data.collect::<Result<_, _>>()?;
         let figures = document.figures();
         let drawn: Vec<_> = figures.into_iter().filter(|figure| !figure.stem.is_empty()).collect();
@@ -177,19 +178,19 @@ impl Artefacts {
                 figure.chart.svg().map_err(|source| ArtefactError::Chart { file: figure.stem.clone(), source })?;
             self.formats.iter().try_for_each(|format| {
                 let bytes = || match format {
-                    ChartFormat::Svg => Ok(svg.clone().into_bytes()),
+                    ChartFormat::Svg => Ok(Cow::Borrowed(svg.as_bytes())),
                     #[cfg(not(feature = "png"))]
                     ChartFormat::Png => Err(ArtefactError::WithoutPng),
                     #[cfg(feature = "png")]
                     ChartFormat::Png => png(&svg)
-                        .map(|picture| picture.bytes)
+                        .map(|picture| Cow::Owned(picture.bytes))
                         .map_err(|source| ArtefactError::Png { file: figure.stem.clone(), source }),
                 };
                 self.put(&chart_path(&figure.stem, *format), stop, bytes).map(|_| ())
             })
         })?;
         let page = self.put(&format!("{}.html", document.name), stop, || {
-            Ok(document.html_in_folder(&self.formats)?.into_bytes())
+            Ok(Cow::Owned(document.html_in_folder(&self.formats)?.into_bytes()))
         })?;
         let has_charts = !drawn.is_empty() && !self.formats.is_empty();
         let charts = has_charts.then(|| (self.folder.join(CHARTS), drawn.len()));
@@ -197,11 +198,11 @@ impl Artefacts {
     }
 
     /// Writes the file at `path` below the folder, and gives where it lies.
-    fn put(
+    fn put<'b>(
         &self,
         path: &str,
         stop: &AtomicBool,
-        bytes: impl FnOnce() -> Result<Vec<u8>, ArtefactError>,
+        bytes: impl FnOnce() -> Result<Cow<'b, [u8]>, ArtefactError>,
     ) -> Result<PathBuf, ArtefactError> {
         if stop.load(Ordering::SeqCst) {
             return Err(ArtefactError::Stopped);

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use thiserror::Error;
@@ -42,8 +42,7 @@ pub fn stream_atomically(
         if existing.as_ref().is_some_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
             return write(&mut std::fs::OpenOptions::new().write(true).open(&target)?);
         }
-        let mut file = temporary_in(folder_of(&target))?;
-        let _known = Unfinished::note(file.path());
+        let (mut file, _known) = Unfinished::create(folder_of(&target))?;
         write(file.as_file_mut())?;
         if let Some(metadata) = existing {
             file.as_file().set_permissions(metadata.permissions())?;
@@ -175,24 +174,28 @@ fn remove_left_overs(folder: &Path) {
 /// The temporary files of this process that are being written.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Removes the files that are being written and are not whole yet: for a process that is about to end at once.
+/// Removes the files that are being written and are not whole yet: for a process that is about to end at once. No other can be
+/// begun after that: the threads that would write them wait for the end.
 pub fn remove_unfinished() {
     let Ok(files) = UNFINISHED.lock() else { return };
     for file in &*files {
         // It may have become a result in the meantime.
         let _ = std::fs::remove_file(file);
     }
+    std::mem::forget(files);
 }
 
 /// A file noted as being written, as long as this lives.
 struct Unfinished(PathBuf);
 
 impl Unfinished {
-    fn note(path: &Path) -> Self {
-        if let Ok(mut files) = UNFINISHED.lock() {
-            files.push(path.to_owned());
-        }
-        Self(path.to_owned())
+    /// A new file in `folder`, and the note of it: both or none for [`remove_unfinished`].
+    fn create(folder: &Path) -> std::io::Result<(tempfile::NamedTempFile, Self)> {
+        let mut files = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+        let file = temporary_in(folder)?;
+        files.push(file.path().to_owned());
+        let noted = Self(file.path().to_owned());
+        Ok((file, noted))
     }
 }
 

@@ -1,14 +1,15 @@
 //! From a study and its analysis to the result file.
 
+use rayon::prelude::*;
 use serde_json::Value;
 
 use super::build_output::OutputRecords;
 use super::records::estimate_record;
 use super::result::{
-    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, MixedModels, Provenance,
-    ResultFile, RungRecord, StoppingRecord, StudyRecord, ValidityRecord,
+    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, LowRecord, MixedModels,
+    Provenance, ResultFile, RungRecord, SpendingRecord, StoppingRecord, StudyRecord, ValidityRecord,
 };
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, LowRuns, Spending};
 use crate::estimate::{FirstOrder, Scaling, Total};
 use crate::model::{EVALUATIONS, LARGEST_ERROR, RUNGS};
 use crate::study::Study;
@@ -41,11 +42,13 @@ impl ResultFile {
             study: study_record(study),
             provenance: provenance(study, analysis),
             factors: factor_records(study),
-            outputs: analysis.outputs.iter().map(|output| records.record(output)).collect(),
+            outputs: analysis.outputs.par_iter().map(|output| records.record(output)).collect(),
             validity: validity.collect(),
             effort: effort_record(analysis),
             aggregate: aggregate_record(study, analysis),
             stopping: stopping_record(study, analysis),
+            spending: spending_record(study, analysis),
+            lows: analysis.lows.iter().map(low_record).collect(),
         }
     }
 }
@@ -59,6 +62,35 @@ fn stopping_record(study: &Study, analysis: &Analysis) -> Option<StoppingRecord>
         budget_seconds: target.budget,
         max_runs: target.max_runs,
     })
+}
+
+fn spending_record(study: &Study, analysis: &Analysis) -> Option<SpendingRecord> {
+    let Spending { accuracy, runs, surrogate, plain_runs, reasons } = analysis.spending.as_ref()?;
+    let design = &analysis.design;
+    let mut lines = format!("[design]\nbase_samples = {}\n", design.settings().base_samples);
+    if design.plain_rows() > 0 {
+        lines.push_str(&format!("plain_rows = {}\n", design.plain_rows()));
+    }
+    lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", surrogate.name()));
+    if let [low] = &analysis.lows[..] {
+        lines.push_str("[fidelity]\n");
+        lines.push_str(&match study.lows.len() {
+            0 => format!("low = [\"{}\"]\n", low.name),
+            1 => String::new(),
+            _ => format!("# of `low` keep `{}` alone\n", low.name),
+        });
+        lines.push_str(&format!("base_samples = {}\n", low.own_base_samples));
+    }
+    Some(SpendingRecord { accuracy: *accuracy, runs: *runs, plain_runs: *plain_runs, reasons: reasons.clone(), lines })
+}
+
+fn low_record(low: &LowRuns) -> LowRecord {
+    LowRecord {
+        name: low.name.clone(),
+        shared_runs: low.shared_runs,
+        own_base_samples: low.own_base_samples,
+        own_runs: low.own_runs,
+    }
 }
 
 fn effort_record(analysis: &Analysis) -> Option<EffortRecord> {

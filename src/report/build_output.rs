@@ -6,8 +6,8 @@ use super::distribution::OutputDistribution;
 use super::records::{estimate_record, input_value};
 use super::result::{
     DistributionRecord, EffectRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord, IntervalRecord,
-    OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord, SurrogateRecord,
-    SurrogateTermRecord,
+    LowUseRecord, OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
+    SurrogateRecord, SurrogateTermRecord,
 };
 use super::scatter::{FirstRows, scatter_record};
 use crate::analysis::{Analysis, FailureCount, OutputAnalysis, names_of_swaps, row_inputs};
@@ -129,6 +129,11 @@ fn surrogate_record(study: &Study, used: &SurrogateUse) -> SurrogateRecord {
         gain_total: used.gain_total,
         leading_terms: used.terms.iter().map(term).collect(),
         plain: names_of_swaps(study).into_iter().zip(plain).map(of_swap).collect(),
+        low: used.low.as_ref().map(|low| LowUseRecord {
+            name: low.name.clone(),
+            slope: low.slope,
+            explained: low.explained,
+        }),
     }
 }
 

@@ -23,6 +23,7 @@ pub mod format;
 pub mod given;
 mod interval_widths;
 mod leading;
+mod output_axis;
 mod read;
 mod records;
 mod result;
@@ -55,6 +56,9 @@ pub use result::ResultFile;
 pub use run_charts::{convergence_chart, distribution_chart, indices_chart, interactions_chart, scatter_chart};
 pub use run_document::run_document;
 pub use schema::result_schema;
+
+pub(crate) use records::{json, study_setup};
+pub(crate) use study_sections::{inputs, study_section};
 
 // Open to the program, which is a crate of its own.
 #[cfg(feature = "page")]

@@ -57,7 +57,7 @@ pub struct Drawing {
     pub chart: Chart,
 }
 
-pub(super) fn study_setup(study: &Study) -> StudySetup {
+pub(crate) fn study_setup(study: &Study) -> StudySetup {
     let constants = study.constants().into_iter().map(|(name, value, unit)| ConstantRecord { name, value, unit });
     let factor = |factor: &crate::space::Factor| FactorSetup {
         name: factor.name.clone(),
@@ -97,7 +97,7 @@ impl StudySetup {
     }
 
     /// The headline of its charts.
-    pub(super) fn headline(&self) -> &str {
+    pub(crate) fn headline(&self) -> &str {
         self.title.as_deref().unwrap_or(&self.name)
     }
 }
@@ -120,7 +120,7 @@ pub(super) fn input_value(factor: &crate::space::Factor, value: f64) -> Value {
 }
 
 /// JSON text of plain data, ending in a newline; a number that is not finite is null.
-pub(super) fn json(file: &impl Serialize) -> String {
+pub(crate) fn json(file: &impl Serialize) -> String {
     serde_json::to_string_pretty(file).expect("plain data") + "\n"
 }
 

@@ -5,6 +5,7 @@
 
 mod indices;
 mod scatter;
+mod spending;
 mod surrogate;
 
 use schemars::JsonSchema;
@@ -13,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::distribution::OutputDistribution;
 pub use indices::*;
 pub use scatter::*;
+pub use spending::{LowRecord, LowUseRecord, SpendingRecord};
 pub use surrogate::*;
 
 /// The result of a run of apportion.
@@ -44,6 +46,12 @@ pub struct ResultFile {
     /// Why a growing run ended; `null` for one of fixed size.
     #[serde(default)]
     pub stopping: Option<StoppingRecord>,
+    /// What a run that was asked for an accuracy chose, and why.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spending: Option<SpendingRecord>,
+    /// Cheaper models that were run beside the model.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lows: Vec<LowRecord>,
 }
 
 /// What was asked.

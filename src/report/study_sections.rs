@@ -46,14 +46,14 @@ pub(super) fn failures<'a>(failures: impl IntoIterator<Item = (&'a str, String, 
 }
 
 /// The inputs of a run in words, the first dozen of many.
-pub(super) fn inputs(inputs: &Map<String, Value>) -> String {
+pub(crate) fn inputs(inputs: &Map<String, Value>) -> String {
     const MOST: usize = 12;
     let more = if inputs.len() > MOST { ", …" } else { "" };
     inputs.iter().take(MOST).map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ") + more
 }
 
 /// What was asked: the factors, the choices, the file.
-pub(super) fn study_section(study: &StudySetup) -> Section {
+pub(crate) fn study_section(study: &StudySetup) -> Section {
     let mut parts = Vec::new();
     let shown = &study.factors[..study.factors.len().min(FACTORS)];
     let has_groups = shown.iter().any(|factor| factor.group.is_some());
@@ -93,8 +93,15 @@ fn distribution(distribution: &Value, unit: &str) -> String {
     let Value::Object(keys) = distribution else { return "unknown".to_owned() };
     let family = keys.get("name").and_then(Value::as_str).unwrap_or("unknown");
     let parameters = keys.iter().filter(|(key, _)| *key != "name");
-    let parameters: Vec<String> =
-        parameters.map(|(key, json)| format!("{} {}", key.replace('_', " "), plain(json))).collect();
+    // Distributions in distributions, those of a mixture.
+    let inner = |json: &Value| {
+        let all = json.as_array().filter(|all| all.iter().all(Value::is_object))?;
+        Some(all.iter().map(|law| format!("({})", self::distribution(law, ""))).collect::<Vec<_>>().join(", "))
+    };
+    let parameter = |(key, json): (&String, &Value)| {
+        format!("{} {}", key.replace('_', " "), inner(json).unwrap_or_else(|| plain(json)))
+    };
+    let parameters: Vec<String> = parameters.map(parameter).collect();
     let unit = match unit {
         "" | "1" => String::new(),
         unit => format!(" ({unit})"),
@@ -133,5 +140,8 @@ mod tests {
         let many = serde_json::json!({"name": "discrete", "values": [1, 2, 3, 4, 5, 6, 7, 8, 9]});
         assert_eq!(distribution(&many, "1"), "discrete, values 1; 2; 3; 4; 5; 6; 7; 8; … (9 in all)");
         assert_eq!(distribution(&Value::Null, "1"), "unknown");
+        let mixture = serde_json::json!({"name": "mixture", "components": [uniform, {"name": "gamma", "shape": 2, "truncate": [1, "inf"]}]});
+        let words = "mixture, components (uniform, min 0.25, max 2.5), (gamma, shape 2, truncate 1; inf) (um)";
+        assert_eq!(distribution(&mixture, "um"), words);
     }
 }

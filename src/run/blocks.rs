@@ -5,18 +5,25 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::executor::{Evaluated, Finished, LOOK, Task};
-use super::fold::{Fold, merged};
+use super::fold::{Branch, Fold, append, merged};
 use super::journal::Checkpoint;
-use super::totals::{OutputTotals, Place, SAMPLE, Tally, Totals};
+use super::remote::{Abroad, DesignKey, Errand};
+use super::scratch::{BlockPlace, Scratch};
+use super::totals::{Place, SAMPLE, Totals};
 use super::{BLOCK, FailurePolicy, Job, RunError, Store};
-use crate::design::{BasePoints, Matrix};
-use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace, part_length};
-use crate::model::{Batch, RowFailure, RunContext, Standing, Worker};
+use crate::binary::{Binary, Reader, binary_fields};
+use crate::design::BasePoints;
+use crate::estimate::{PointOutputs, part_length};
+use crate::model::{RunContext, Standing, Worker};
 
 /// Time between checkpoints: a share of what the run has taken, within bounds.
 const CHECKPOINT_SHARE: u32 = 4;
 const LEAST_INTERVAL: Duration = Duration::from_millis(200);
 const MOST_INTERVAL: Duration = Duration::from_secs(3);
+
+/// Most rows of a strip, and of one whose outputs are kept.
+const MOST_ROWS: u64 = 1 << 40;
+const MOST_KEPT_ROWS: u64 = 1 << 17;
 
 /// The base points of every replicate up to `end`, from where a fold stands.
 pub(super) struct Blocks<'a> {
@@ -27,6 +34,8 @@ pub(super) struct Blocks<'a> {
     range: Range<u64>,
     failures: FailurePolicy,
     keeps_outputs: bool,
+    /// Whether blocks are given out in strips, for workers that are far away.
+    in_strips: bool,
     /// Outputs that are known.
     store: Option<&'a Store>,
     checkpoint: Option<&'a Checkpoint>,
@@ -38,29 +47,35 @@ struct State {
     fold: Fold,
     /// The next block: its number, and its replicate.
     next: (u64, usize),
-    /// Blocks that were taken and are not in the fold yet.
+    /// Where the strip of blocks ends that every replicate gives out in turn.
+    strip_end: u64,
+    /// Blocks that were taken and are not in the fold yet; of strips, those that are on their way into it.
     in_flight: usize,
-    /// Whether no block is given out until all are in the fold, for a checkpoint.
+    /// Whether no block is given out until all are in the fold, for a checkpoint; of strips, none is taken in.
     is_pausing: bool,
     is_writing: bool,
     started: Instant,
     written: Instant,
 }
 
-/// A block of one replicate, counted from the first of the task.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Block {
-    replicate: usize,
-    number: u64,
-    first: u64,
-    points: u64,
+/// Consecutive blocks of one replicate, counted from the first of the task.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Strip {
+    pub replicate: usize,
+    pub number: u64,
+    pub blocks: u64,
 }
+
+binary_fields!(Strip { replicate, number, blocks });
 
 /// How the outputs of blocks are treated.
 #[derive(Clone, Copy)]
 pub(super) struct BlockOptions<'a> {
     pub failures: FailurePolicy,
     pub keeps_outputs: bool,
+    /// Whether blocks are given out in strips, for workers that are far away. A checkpoint then does not wait for them: it
+    /// holds the blocks before the first one that is still away.
+    pub in_strips: bool,
     /// Outputs that are known.
     pub store: Option<&'a Store>,
     /// Where sums are recorded from time to time.
@@ -74,12 +89,12 @@ impl<'a> Blocks<'a> {
         let points = (0..replicates).map(|replicate| job.design.replicate(replicate)).collect();
         let range = fold.from()..end;
         let first = (0..replicates as usize).map(|replicate| fold.blocks(replicate)).min().unwrap_or(0);
-        let (next, now) = ((first, 0), Instant::now());
+        let (next, strip_end, now) = ((first, 0), first, Instant::now());
         let (is_pausing, is_writing) = (false, false);
-        let state = State { fold, next, in_flight: 0, is_pausing, is_writing, started: now, written: now };
-        let BlockOptions { failures, keeps_outputs, store, checkpoint } = options;
+        let state = State { fold, next, strip_end, in_flight: 0, is_pausing, is_writing, started: now, written: now };
+        let BlockOptions { failures, keeps_outputs, in_strips, store, checkpoint } = options;
         let (state, settled) = (Mutex::new(state), Condvar::new());
-        Self { job, context, points, range, failures, keeps_outputs, store, checkpoint, state, settled }
+        Self { job, context, points, range, failures, keeps_outputs, in_strips, store, checkpoint, state, settled }
     }
 
     /// The fold, with all blocks that were finished.
@@ -92,17 +107,62 @@ impl<'a> Blocks<'a> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The block of that number, if it is one.
-    fn block(&self, number: u64, replicate: usize) -> Option<Block> {
+    /// The base points of the block of that number, if it is one.
+    fn block(&self, number: u64) -> Option<Range<u64>> {
         let place = self.range.start / BLOCK + number;
-        let first = (place * BLOCK).max(self.range.start);
-        let end = ((place + 1) * BLOCK).min(self.range.end);
-        (first < end).then(|| Block { replicate, number, first, points: end - first })
+        let points = (place * BLOCK).max(self.range.start)..((place + 1) * BLOCK).min(self.range.end);
+        (!points.is_empty()).then_some(points)
     }
 
-    /// Whether a block ends before its time, at the end of the run.
-    fn is_tail(&self, block: &Block) -> bool {
-        !(block.first + block.points).is_multiple_of(BLOCK)
+    /// Blocks before the one that ends before its time, at the end of the run, if there is one.
+    fn whole_blocks(&self) -> u64 {
+        self.range.end / BLOCK - self.range.start / BLOCK
+    }
+
+    /// Whether a strip is the block that ends before its time.
+    fn is_tail(&self, strip: &Strip) -> bool {
+        strip.number >= self.whole_blocks()
+    }
+
+    /// Where a strip of best `most` rows for one of `workers` workers ends that begins with block `number`.
+    fn strip_end(&self, number: u64, most: u64, workers: usize) -> u64 {
+        let whole = self.whole_blocks();
+        if !self.in_strips || number >= whole {
+            return number + 1;
+        }
+        let replicates = self.points.len() as u64;
+        let share = (whole - number) * replicates / (2 * workers as u64);
+        let blocks = (most / (BLOCK * self.job.design.rows_per_point())).min(share).max(1);
+        // From one multiple of a power of two to the next the strip is one branch of the tree.
+        let width = 1 << blocks.ilog2();
+        ((number / width + 1) * width).min(whole)
+    }
+
+    /// Waits until no checkpoint is about to be taken; `None` if the run is to end first.
+    fn unless_pausing(&self) -> Option<MutexGuard<'_, State>> {
+        let mut state = self.state();
+        while state.is_pausing {
+            if self.context.is_stopped() {
+                return None;
+            }
+            state = self.settled.wait_timeout(state, LOOK).unwrap_or_else(PoisonError::into_inner).0;
+        }
+        Some(state)
+    }
+
+    /// Puts a branch into the tree.
+    fn put(&self, replicate: usize, branch: Branch) {
+        let Branch { mut first, mut blocks, mut totals } = branch;
+        loop {
+            let mut state = self.state();
+            // Branches are merged while other threads go on.
+            let Some((other, sibling)) = state.fold.take_sibling(replicate, first, blocks) else {
+                return state.fold.put(replicate, first, blocks, totals);
+            };
+            drop(state);
+            totals = merged((first, totals), (other, sibling));
+            (first, blocks) = (first.min(other), 2 * blocks);
+        }
     }
 
     /// Writes a checkpoint if it is time for one and nothing is under way.
@@ -126,252 +186,162 @@ impl<'a> Blocks<'a> {
 }
 
 impl Task for Blocks<'_> {
-    type Piece = Block;
-    type Output = Totals;
+    type Piece = Strip;
+    type Output = Vec<Branch>;
     type Scratch = Scratch;
 
     fn scratch(&self) -> Scratch {
         Scratch::new(self.job)
     }
 
-    fn next(&self, _: u64, _: usize) -> Option<Block> {
-        let mut state = self.state();
-        while state.is_pausing {
-            if self.context.is_stopped() {
-                return None;
-            }
-            state = self.settled.wait_timeout(state, LOOK).unwrap_or_else(PoisonError::into_inner).0;
-        }
-        // Block by block through the replicates: where a run stops, they are equally long.
+    fn next(&self, most: u64, workers: usize) -> Option<Strip> {
+        let mut state = if self.in_strips { self.state() } else { self.unless_pausing()? };
+        // Strip by strip through the replicates: where a run stops, they are equally long.
         loop {
             let (number, replicate) = state.next;
-            let block = self.block(number, replicate)?;
-            state.next = if replicate + 1 < self.points.len() { (number, replicate + 1) } else { (number + 1, 0) };
-            if number >= state.fold.blocks(replicate) || self.is_tail(&block) {
-                state.in_flight += 1;
-                return Some(block);
+            self.block(number)?;
+            if replicate == 0 {
+                state.strip_end = self.strip_end(number, most, workers);
+            }
+            let end = state.strip_end;
+            state.next = if replicate + 1 < self.points.len() { (number, replicate + 1) } else { (end, 0) };
+            let is_tail = number >= self.whole_blocks();
+            let number = if is_tail { number } else { number.max(state.fold.blocks(replicate)) };
+            if number < end {
+                state.in_flight += usize::from(!self.in_strips);
+                return Some(Strip { replicate, number, blocks: end - number });
             }
         }
     }
 
-    fn rows(&self, block: &Block) -> u64 {
-        block.points * self.job.design.rows_per_point()
+    fn most_rows(&self) -> u64 {
+        match (self.in_strips, self.keeps_outputs) {
+            (true, false) => MOST_ROWS,
+            (true, true) => MOST_KEPT_ROWS,
+            (false, _) => 1,
+        }
+    }
+
+    fn rows(&self, strip: &Strip) -> u64 {
+        let first = self.block(strip.number).map_or(0, |points| points.start);
+        let end = self.block(strip.number + strip.blocks - 1).map_or(first, |points| points.end);
+        (end - first) * self.job.design.rows_per_point()
     }
 
     fn evaluate(
         &self,
         worker: &mut dyn Worker,
         scratch: &mut Scratch,
-        block: &Block,
+        strip: &Strip,
         on_rows: &dyn Fn(u64),
-    ) -> Evaluated<Totals> {
-        let replicate = block.replicate as u64;
+    ) -> Evaluated<Vec<Branch>> {
+        let (replicate, standing) = (strip.replicate as u64, Standing::Final);
         let sample = (SAMPLE / self.job.design.settings().replicates).max(1);
-        let place = BlockPlace {
-            first: Place { replicate, point: block.first, run: 0 },
-            part_length: part_length(block.first / BLOCK, BLOCK),
-            sampled: sample.saturating_sub(block.first) as usize,
-            keeps_outputs: self.keeps_outputs,
-        };
-        let standing = Standing::Final;
-        let recalled = self.store.is_some_and(|store| scratch.recall(store, place, block.points as usize));
-        if !recalled {
-            self.points[block.replicate].fill(block.first, scratch.unit_columns(block.points as usize));
-            let given_up = scratch.run_rows(self.job, (worker, self.context), on_rows);
-            if given_up.is_some() {
-                return Evaluated { output: None, standing, given_up, is_urgent: false };
-            }
-        }
-        let output = Some(scratch.totals(self.job, place));
-        Evaluated { output, standing, given_up: None, is_urgent: false }
-    }
-
-    fn accept(&self, block: &Block, mut totals: Totals) -> Result<Finished, RunError> {
-        let finished = Finished { rows: totals.runs, failed: totals.failed_runs };
-        if self.failures == FailurePolicy::Fail
-            && let Some((row, reason)) = totals.first_failure()
-        {
-            return Err(RunError::RowFailed { row, reason });
-        }
-        let replicate = block.replicate;
-        if self.is_tail(block) {
-            let mut state = self.state();
-            state.fold.put_tail(replicate, totals);
-            state.in_flight -= 1;
-            return self.write_if_due(state).map(|()| finished);
-        }
-        let (mut first, mut blocks) = (block.number, 1);
-        loop {
-            let mut state = self.state();
-            // Branches are merged while other threads go on.
-            let Some((other, sibling)) = state.fold.take_sibling(replicate, first, blocks) else {
-                state.fold.put(replicate, first, blocks, totals);
-                state.in_flight -= 1;
-                return self.write_if_due(state).map(|()| finished);
+        let mut branches = Vec::new();
+        for number in strip.number..strip.number + strip.blocks {
+            let Some(block) = self.block(number) else { continue };
+            let points = (block.end - block.start) as usize;
+            let place = BlockPlace {
+                first: Place { replicate, point: block.start, run: 0 },
+                part_length: part_length(block.start / BLOCK, BLOCK),
+                sampled: sample.saturating_sub(block.start) as usize,
+                keeps_outputs: self.keeps_outputs,
             };
-            drop(state);
-            totals = merged((first, totals), (other, sibling));
-            (first, blocks) = (first.min(other), 2 * blocks);
+            let recalled = self.store.is_some_and(|store| scratch.recall(store, place, points));
+            if !recalled {
+                self.points[strip.replicate].fill(block.start, scratch.unit_columns(points));
+                let given_up = scratch.run_rows(self.job, (worker, self.context), on_rows);
+                if given_up.is_some() {
+                    return Evaluated { output: None, standing, given_up, is_urgent: false };
+                }
+            }
+            append(&mut branches, Branch { first: number, blocks: 1, totals: scratch.totals(self.job, place) });
         }
+        Evaluated { output: Some(branches), standing, given_up: None, is_urgent: false }
+    }
+
+    fn accept(&self, strip: &Strip, branches: Vec<Branch>) -> Result<Finished, RunError> {
+        let mut finished = Finished { rows: 0, failed: 0 };
+        for Branch { totals, .. } in &branches {
+            finished.rows += totals.runs;
+            finished.failed += totals.failed_runs;
+            if self.failures == FailurePolicy::Fail
+                && let Some((row, reason)) = totals.first_failure()
+            {
+                return Err(RunError::RowFailed { row, reason });
+            }
+        }
+        if self.in_strips {
+            // A run that is to end takes no checkpoint any more.
+            let mut state = self.unless_pausing().unwrap_or_else(|| self.state());
+            state.in_flight += 1;
+        }
+        for branch in branches {
+            if self.is_tail(strip) {
+                self.state().fold.put_tail(strip.replicate, branch.totals);
+            } else {
+                self.put(strip.replicate, branch);
+            }
+        }
+        let mut state = self.state();
+        state.in_flight -= 1;
+        self.write_if_due(state).map(|()| finished)
+    }
+
+    fn abroad(&self) -> Option<&dyn Abroad<Strip, Vec<Branch>>> {
+        self.in_strips.then_some(self)
     }
 }
 
-/// What a thread needs to evaluate blocks, kept from block to block.
-pub(super) struct Scratch {
-    /// The columns of the base points, in the unit cube.
-    unit: Vec<Vec<f64>>,
-    /// The same in SI units.
-    values: Vec<Vec<f64>>,
-    /// Outputs of every run of the design.
-    batches: Vec<Batch>,
-    workspace: Workspace,
-}
-
-impl Scratch {
-    fn new(job: Job<'_>) -> Self {
-        let (columns, runs) = (job.design.columns(), job.design.runs().len());
-        Self {
-            unit: vec![Vec::new(); columns],
-            values: vec![Vec::new(); columns],
-            batches: vec![Batch::new(job.model); runs],
-            workspace: Workspace::default(),
+impl Abroad<Strip, Vec<Branch>> for Blocks<'_> {
+    fn errand(&self) -> Errand {
+        Errand {
+            is_of_blocks: true,
+            design: DesignKey::new(self.job.design),
+            from: self.range.start,
+            end: self.range.end,
+            keeps_outputs: self.keeps_outputs,
+            fails: self.failures == FailurePolicy::Fail,
         }
     }
 
-    /// The unit-cube columns for `rows` base points, to be filled.
-    fn unit_columns(&mut self, rows: usize) -> &mut [Vec<f64>] {
-        for column in &mut self.unit {
-            column.resize(rows, 0.0);
-        }
-        &mut self.unit
+    fn write_piece(&self, strip: &Strip, out: &mut Vec<u8>) {
+        strip.write(out);
     }
 
-    /// Sets the outputs of `points` base points at `place` to those in `store`; false if a row is missing there.
-    fn recall(&mut self, store: &Store, place: BlockPlace, points: usize) -> bool {
-        self.batches.iter_mut().for_each(|batch| batch.reset(points));
-        store.recall(place.first.replicate, place.first.point, &mut self.batches)
+    fn read_piece(&self, from: &mut Reader<'_>) -> Option<Strip> {
+        let strip = Strip::read(from)?;
+        let is_one = strip.replicate < self.points.len() && strip.blocks > 0;
+        let last = strip.number.checked_add(strip.blocks)?.checked_sub(1)?;
+        (is_one && last <= self.whole_blocks() && self.block(last).is_some()).then_some(strip)
     }
 
-    /// The totals of the outputs that were evaluated or recalled last.
-    fn totals(&mut self, job: Job<'_>, place: BlockPlace) -> Totals {
-        let rows = self.batches.first().map_or(0, Batch::rows);
-        let mut totals = Totals {
-            runs: (rows * self.batches.len()) as u64,
-            failed_runs: self.batches.iter().map(failed_rows).sum(),
-            ..Totals::none(job.model)
-        };
-        for batch in &self.batches {
-            totals.counts.merge(batch.counts());
-            for (total, raised) in totals.flags.iter_mut().zip(batch.flags()) {
-                *total += raised;
+    fn write_output(&self, branches: &Vec<Branch>, out: &mut Vec<u8>) {
+        branches.len().write(out);
+        for Branch { first, blocks, totals } in branches {
+            first.write(out);
+            blocks.write(out);
+            totals.write(out);
+            if self.keeps_outputs {
+                totals.outputs.iter().for_each(|output| output.point_outputs.write(out));
             }
         }
-        for (output, of_output) in totals.outputs.iter_mut().enumerate() {
-            *of_output = self.totals_of(job, output, place);
-        }
-        totals
     }
 
-    /// Evaluates the base points in the unit columns; `on_rows` is told of every batch. Returns why the model gave up, if
-    /// it did.
-    fn run_rows(
-        &mut self,
-        job: Job<'_>,
-        (worker, context): (&mut dyn Worker, &RunContext<'_>),
-        on_rows: &dyn Fn(u64),
-    ) -> Option<RowFailure> {
-        let factors = job.design.factors();
-        for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
-            values.resize(unit.len(), 0.0);
-            job.space.factors()[k % factors].fill_si(unit, values);
+    fn read_output(&self, strip: &Strip, from: &mut Reader<'_>) -> Option<Vec<Branch>> {
+        let mut branches = Vec::new();
+        let mut next = strip.number;
+        for _ in 0..u64::read(from)? {
+            let (first, blocks, mut totals) = (u64::read(from)?, u64::read(from)?, Totals::read(from)?);
+            for output in totals.outputs.iter_mut().filter(|_| self.keeps_outputs) {
+                output.point_outputs = PointOutputs::read(from)?;
+            }
+            if first != next || !totals.fits(self.job.design, self.job.model) {
+                return None;
+            }
+            next = next.checked_add(blocks)?;
+            branches.push(Branch { first, blocks, totals });
         }
-        let values = &self.values;
-        let columns_of = |matrix: Matrix| &values[job.design.first_column(matrix)..][..factors];
-        let mut inputs: Vec<&[f64]> = Vec::with_capacity(factors);
-        for (run, batch) in job.design.runs().iter().zip(&mut self.batches) {
-            if context.is_stopped() {
-                return Some(RowFailure::interrupted());
-            }
-            inputs.clear();
-            inputs.extend(columns_of(run.base).iter().map(Vec::as_slice));
-            for &column in &run.columns {
-                inputs[column] = &columns_of(run.from)[column];
-            }
-            batch.reset(inputs[0].len());
-            worker.run(&inputs, batch);
-            batch.settle();
-            if let Some(reason) = batch.given_up() {
-                return Some(reason.clone());
-            }
-            on_rows(batch.rows() as u64);
-        }
-        None
+        (next == strip.number + strip.blocks).then_some(branches)
     }
-
-    fn totals_of(&mut self, job: Job<'_>, output: usize, place: BlockPlace) -> OutputTotals {
-        let design = job.design;
-        let mut totals = OutputTotals::default();
-        for (run, batch) in self.batches.iter_mut().enumerate() {
-            let failures = batch.failures().iter().filter(|(o, _, _)| *o == output).map(|(_, row, why)| (*row, why));
-            let failed: Vec<usize> = failures.clone().map(|(row, _)| row).collect();
-            for (row, failure) in failures {
-                let first = Place { point: place.first.point + row as u64, run: run as u64, ..place.first };
-                totals.runs_failed += 1;
-                totals.count(failure.clone(), Tally { count: 1, first });
-            }
-            // Whatever the model left there: it says that it failed.
-            for row in failed {
-                batch.set(row, output, f64::NAN);
-            }
-        }
-        let column = |run: &usize| self.batches[*run].column(output);
-        let columns = |runs: &[usize]| runs.iter().map(column).collect::<Vec<&[f64]>>();
-        let (a, b) = (column(&0), column(&1));
-        let (ab, ba) = (columns(design.ab_runs()), columns(design.ba_runs()));
-        let (bc, cb) = (columns(design.bc_runs()), columns(design.cb_runs()));
-        let length = place.part_length as usize;
-        let mut parts = Vec::with_capacity(a.len().div_ceil(length));
-        let mut cut: [Vec<&[f64]>; 4] = Default::default();
-        for first in (0..a.len()).step_by(length) {
-            let part = first..(first + length).min(a.len());
-            for (cut, whole) in cut.iter_mut().zip([&ab, &ba, &bc, &cb]) {
-                cut.clear();
-                cut.extend(whole.iter().map(|column| &column[part.clone()]));
-            }
-            let [ab, ba, bc, cb] = cut.each_ref().map(Vec::as_slice);
-            let outputs =
-                BlockOutputs { a: &a[part.clone()], b: &b[part.clone()], ab, ba, bc, cb, paired: design.paired() };
-            parts.push(Moments::of_block(outputs, &mut self.workspace));
-        }
-        if place.keeps_outputs {
-            let runs: Vec<&[f64]> = self.batches.iter().map(|batch| batch.column(output)).collect();
-            totals.point_outputs = PointOutputs::of_block(&runs);
-        }
-        totals.moments = MomentParts::new(place.part_length, a.len() as u64, parts);
-        totals.values = CentralMoments::of(a);
-        totals.values.merge(&CentralMoments::of(b));
-        totals.sample = a.iter().zip(b).take(place.sampled).flat_map(|(a, b)| [*a, *b]).collect();
-        totals
-    }
-}
-
-/// Where a block lies in its design, and what is kept of it.
-#[derive(Debug, Clone, Copy)]
-struct BlockPlace {
-    /// The first base point's A.
-    first: Place,
-    /// Base points in each part whose moments are kept apart, a power of two.
-    part_length: u64,
-    /// How many of its base points, from the first on, belong to the sample.
-    sampled: usize,
-    /// Whether all outputs are kept.
-    keeps_outputs: bool,
-}
-
-/// Rows of a settled batch with at least one failure.
-fn failed_rows(batch: &Batch) -> u64 {
-    let mut rows: Vec<usize> = batch.failures().iter().map(|&(_, row, _)| row).collect();
-    rows.sort_unstable();
-    rows.dedup();
-    rows.len() as u64
 }

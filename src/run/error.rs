@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use super::journal::JournalError;
 use super::{MAX_STORED_BYTES, Place};
+use crate::design::DesignError;
 use crate::model::RowFailure;
 
 /// Why a run could not take place, or was given up.
@@ -47,11 +48,22 @@ pub enum RunError {
         /// Model runs there would have been.
         total: u64,
     },
+    /// There is no design for a part of the run.
+    #[error("a trial run, or that of a cheaper model, has no design: {0}")]
+    Design(DesignError),
     /// The model cannot go on.
     #[error("the model cannot go on: {reason}")]
     GaveUp {
         /// Why.
         reason: RowFailure,
+    },
+    /// A worker in another process does not answer any more, or answers nonsense.
+    #[error("the worker number {worker} in another process is lost: {source}")]
+    LostWorker {
+        /// Its number among the workers in other processes, from 0.
+        worker: usize,
+        /// Why.
+        source: std::io::Error,
     },
     /// The journal cannot be used.
     #[error(transparent)]

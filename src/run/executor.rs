@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::remote::{Abroad, Answer, Remote, Talk};
 use super::{Progress, RunError, threads_in_force};
 use crate::model::{Model, RowFailure, RunContext, Standing, Worker};
 
@@ -18,6 +19,12 @@ const PIECE_SECONDS: f64 = 0.2;
 
 /// Most rows of a piece.
 const MOST_ROWS: u64 = 4096;
+
+/// Workers whose pieces can come in at that rate: with more, pieces are longer (`docs/scaling.md`).
+const HANDS_AT_EASE: f64 = 256.0;
+
+/// Pieces that a worker in another process has at once: it need not wait while the next one is on its way.
+const PIECES_AHEAD: usize = 2;
 
 /// Rows to be run: a source of pieces, how a worker evaluates one, and a sink of what comes of them. A source that knows
 /// the outputs of some rows already does not give them out.
@@ -49,6 +56,16 @@ pub(crate) trait Task: Sync {
 
     /// The sink. An error ends the run.
     fn accept(&self, piece: &Self::Piece, output: Self::Output) -> Result<Finished, RunError>;
+
+    /// Most rows that a worker asks for at once.
+    fn most_rows(&self) -> u64 {
+        MOST_ROWS
+    }
+
+    /// How its pieces and outputs travel, if workers in other processes can evaluate them.
+    fn abroad(&self) -> Option<&dyn Abroad<Self::Piece, Self::Output>> {
+        None
+    }
 }
 
 /// What has come of a piece.
@@ -72,14 +89,18 @@ pub(crate) struct Finished {
 /// The workers of a model for one run: threads of this process, each with a worker of its own that lives as long as the
 /// run. There are as many as the model asks for by its [concurrency](Model::concurrency), or else as many as threads.
 ///
-/// Workers elsewhere (MPI ranks, an executor of another language) come in here, beside the threads of
-/// [`execute`](Self::execute): all that they need of a [`Task`] is to take pieces and to hand over outputs.
+/// [Workers elsewhere](super::RemoteWorkers) (MPI ranks, an executor of another language) come in here, beside the threads
+/// of [`execute`](Self::execute): each has a thread that takes pieces for it and hands over what it makes of them.
 pub(crate) struct Executor<'a> {
     model: &'a dyn Model,
     context: &'a RunContext<'a>,
     workers: usize,
+    remote: Option<Remote<'a>>,
     idle: Mutex<Vec<Box<dyn Worker + 'a>>>,
 }
+
+/// Bytes of the stack of a thread that talks to a worker elsewhere, of which there may be thousands.
+const STACK: usize = 1 << 19;
 
 impl<'a> Executor<'a> {
     /// Workers of `model` for the run of `context`, on at most `threads` threads (0: as many as the model asks for, or
@@ -90,7 +111,17 @@ impl<'a> Executor<'a> {
             (Some(workers), 0) => workers.max(1),
             (Some(workers), threads) => workers.clamp(1, threads),
         };
-        Self { model, context, workers, idle: Mutex::default() }
+        Self { model, context, workers, remote: None, idle: Mutex::default() }
+    }
+
+    /// The same with workers in other processes.
+    pub fn with_remote(self, remote: Option<Remote<'a>>) -> Self {
+        Self { remote, ..self }
+    }
+
+    /// Whether there are workers in other processes.
+    pub fn has_remote(&self) -> bool {
+        self.remote.is_some()
     }
 
     pub fn model(&self) -> &'a dyn Model {
@@ -113,18 +144,32 @@ impl<'a> Executor<'a> {
     ) -> Result<Progress, RunError> {
         let [done, failed] = [before.done, before.failed].map(AtomicU64::new);
         let (pending, end) = (AtomicU64::new(0), Mutex::new(None));
-        let execution = Execution { executor: self, task, before, start, on_progress, done, failed, pending, end };
-        let left = before.total.saturating_sub(before.done).max(1);
-        match self.workers.min(usize::try_from(left).unwrap_or(usize::MAX)) {
-            1 => execution.work(),
-            workers => std::thread::scope(|scope| {
+        let abroad = self.remote.zip(task.abroad());
+        let remote = abroad.map_or(0, |(remote, _)| remote.workers.count());
+        let hands = self.workers + remote;
+        let execution =
+            &Execution { executor: self, task, hands, before, start, on_progress, done, failed, pending, end };
+        let left = usize::try_from(before.total.saturating_sub(before.done).max(1)).unwrap_or(usize::MAX);
+        let workers = self.workers.min(left);
+        match (workers, remote.min(left - workers)) {
+            (1, 0) => execution.work(),
+            (workers, remote) => std::thread::scope(|scope| {
                 for _ in 0..workers {
-                    scope.spawn(|| execution.work());
+                    scope.spawn(move || execution.work());
+                }
+                for worker in 0..remote {
+                    let Some((remote, abroad)) = abroad else { break };
+                    let talk = move || execution.work_remotely(remote.talk(worker, self.context), abroad);
+                    let thread = std::thread::Builder::new().stack_size(STACK);
+                    if let Err(source) = thread.spawn_scoped(scope, talk) {
+                        execution.end(RunError::Threads { threads: hands, source: source.into() });
+                    }
                 }
             }),
         }
         let progress = Progress { done: execution.done.load(Ordering::Relaxed), ..execution.progress() };
-        match execution.end.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        let end = execution.end.lock().unwrap_or_else(PoisonError::into_inner).take();
+        match end {
             None => Ok(progress),
             // Rows that were pending may have come to stand since.
             Some(RunError::Interrupted { total, .. }) => Err(RunError::Interrupted { done: progress.done, total }),
@@ -142,6 +187,8 @@ impl<'a> Executor<'a> {
 struct Execution<'e, 'a, T> {
     executor: &'e Executor<'a>,
     task: &'e T,
+    /// Workers in all.
+    hands: usize,
     before: Progress,
     start: Instant,
     on_progress: &'e (dyn Fn(Progress) + Sync),
@@ -154,7 +201,7 @@ struct Execution<'e, 'a, T> {
 
 impl<T: Task> Execution<'_, '_, T> {
     fn work(&self) {
-        let Executor { model, context, workers, .. } = *self.executor;
+        let Executor { model, context, .. } = *self.executor;
         let _guard = EndIfPanicking(context);
         let idle = self.executor.idle().pop();
         let mut worker = idle.unwrap_or_else(|| model.worker(context));
@@ -162,13 +209,7 @@ impl<T: Task> Execution<'_, '_, T> {
         let mut most = 1;
         let mut unconfirmed = Unconfirmed::<T>::new();
         loop {
-            if context.is_interrupted() {
-                self.end(RunError::Interrupted { done: 0, total: self.before.total });
-            }
-            let is_stopped = context.is_stopped();
-            let again = if is_stopped { None } else { unconfirmed.again.pop_front() };
-            let piece = again.or_else(|| if is_stopped { None } else { self.task.next(most, workers) });
-            let Some(piece) = piece else {
+            let Some(piece) = self.next(&mut unconfirmed, most) else {
                 if unconfirmed.pieces.is_empty() || !self.hand_over(&mut unconfirmed, worker.confirm()) {
                     break;
                 }
@@ -196,17 +237,87 @@ impl<T: Task> Execution<'_, '_, T> {
                 break;
             }
             if let Some(reason) = given_up {
-                self.end(if context.is_interrupted() {
-                    RunError::Interrupted { done: 0, total: self.before.total }
-                } else {
-                    RunError::GaveUp { reason }
-                });
+                self.give_up(reason);
                 break;
             }
-            let fitting = (PIECE_SECONDS * rows as f64 / seconds.max(1e-9)) as u64;
-            most = fitting.clamp(1, (8 * rows).min(MOST_ROWS));
+            most = self.fitting(rows, seconds);
         }
         self.executor.idle().push(worker);
+    }
+
+    /// The same for a worker in another process: a piece is evaluated while the next one is on its way.
+    fn work_remotely(&self, talk: Talk<'_>, abroad: &dyn Abroad<T::Piece, T::Output>) {
+        let _guard = EndIfPanicking(self.executor.context);
+        let worker = talk.worker();
+        if let Err(source) = self.converse(talk, abroad) {
+            self.end(RunError::LostWorker { worker, source });
+        }
+    }
+
+    fn converse(&self, talk: Talk<'_>, abroad: &dyn Abroad<T::Piece, T::Output>) -> std::io::Result<()> {
+        let errand = abroad.errand();
+        let mut unconfirmed = Unconfirmed::<T>::new();
+        let mut sent = VecDeque::new();
+        let (mut most, mut goes_on) = (1, true);
+        loop {
+            while goes_on && sent.len() < PIECES_AHEAD {
+                let Some(piece) = self.next(&mut unconfirmed, most) else { break };
+                talk.ask(&errand, |out| abroad.write_piece(&piece, out))?;
+                sent.push_back(piece);
+            }
+            let Some(piece) = sent.pop_front() else {
+                if !goes_on || unconfirmed.pieces.is_empty() {
+                    return Ok(());
+                }
+                talk.ask_to_confirm()?;
+                let standing = talk.hear(|_| None::<T::Output>)?.standing;
+                goes_on = self.hand_over(&mut unconfirmed, standing);
+                continue;
+            };
+            let rows = self.task.rows(&piece);
+            let Answer { seconds, standing, given_up, output } = talk.hear(|from| abroad.read_output(&piece, from))?;
+            self.pending.fetch_add(rows, Ordering::Relaxed);
+            unconfirmed.pieces.push((piece, output));
+            if standing == Standing::Pending {
+                (self.on_progress)(self.progress());
+            }
+            // What is on its way is heard to the end: the next task begins with a worker that has nothing to say.
+            goes_on &= self.hand_over(&mut unconfirmed, standing);
+            if let Some(reason) = given_up {
+                self.give_up(reason);
+                goes_on = false;
+            }
+            most = self.fitting(rows, seconds);
+        }
+    }
+
+    /// The next piece for a worker, of best `most` rows, unless the run is to end.
+    fn next(&self, unconfirmed: &mut Unconfirmed<T>, most: u64) -> Option<T::Piece> {
+        let context = self.executor.context;
+        if context.is_interrupted() {
+            self.end(RunError::Interrupted { done: 0, total: self.before.total });
+        }
+        if context.is_stopped() {
+            return None;
+        }
+        unconfirmed.again.pop_front().or_else(|| self.task.next(most, self.hands))
+    }
+
+    /// Rows of the next piece, where so many took so many seconds.
+    fn fitting(&self, rows: u64, seconds: f64) -> u64 {
+        // A thousand workers must not bring a thousand answers at once.
+        let piece_seconds = PIECE_SECONDS * (self.hands as f64 / HANDS_AT_EASE).max(1.0);
+        let fitting = (piece_seconds * rows as f64 / seconds.max(1e-9)) as u64;
+        fitting.clamp(1, rows.saturating_mul(8).clamp(1, self.task.most_rows()))
+    }
+
+    /// A worker cannot go on.
+    fn give_up(&self, reason: RowFailure) {
+        self.end(if self.executor.context.is_interrupted() {
+            RunError::Interrupted { done: 0, total: self.before.total }
+        } else {
+            RunError::GaveUp { reason }
+        });
     }
 
     /// Hands to the sink what stands; whether it was taken.

@@ -87,10 +87,10 @@ impl Sums {
 
 /// Consecutive blocks of a replicate.
 #[derive(Debug)]
-struct Branch {
-    first: u64,
-    blocks: u64,
-    totals: Totals,
+pub(super) struct Branch {
+    pub first: u64,
+    pub blocks: u64,
+    pub totals: Totals,
 }
 
 /// The blocks of a run on their way into the tree.
@@ -224,6 +224,17 @@ pub(super) fn merged(one: (u64, Totals), other: (u64, Totals)) -> Totals {
     let ((_, mut left), (_, right)) = if one.0 < other.0 { (one, other) } else { (other, one) };
     left.merge(&right);
     left
+}
+
+/// Appends `branch` to those before it, merged with all that it makes larger branches with.
+pub(super) fn append(branches: &mut Vec<Branch>, mut branch: Branch) {
+    while let Some(last) =
+        branches.pop_if(|last| last.blocks == branch.blocks && last.first == branch.first ^ branch.blocks)
+    {
+        let Branch { first, blocks, totals } = last;
+        branch = Branch { first, blocks: 2 * blocks, totals: merged((first, totals), (branch.first, branch.totals)) };
+    }
+    branches.push(branch);
 }
 
 #[cfg(test)]

@@ -1,16 +1,17 @@
 //! A run of totals that can be doubled.
 
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::blocks::{BlockOptions, Blocks};
 use super::executor::Executor;
 use super::fold::{Fold, Sums};
 use super::journal::Checkpoint;
+use super::pool::thread_pool;
+use super::remote::Remote;
 use super::rows::{Known, MissingRows};
-use super::{
-    BLOCK, FailurePolicy, Job, MAX_STORED_BYTES, PieceSink, Progress, RunError, Store, Totals, threads_in_force,
-};
+use super::{BLOCK, FailurePolicy, Job, MAX_STORED_BYTES, PieceSink, Progress, RunError, Store, Totals};
 use crate::design::Design;
 use crate::model::RunContext;
 
@@ -19,7 +20,7 @@ pub struct GrowingRun<'a> {
     job: Job<'a>,
     executor: Executor<'a>,
     /// For what is estimated from the totals.
-    pool: rayon::ThreadPool,
+    pool: Arc<rayon::ThreadPool>,
     start: Instant,
     failures: FailurePolicy,
     keeps_outputs: bool,
@@ -48,10 +49,7 @@ impl<'a> GrowingRun<'a> {
     /// [`RunError::Threads`] if the threads cannot be started.
     pub fn new(job: Job<'a>, context: &'a RunContext<'a>, threads: usize) -> Result<Self, RunError> {
         assert_eq!(job.space.factors().len(), job.design.factors(), "space and design have the same factors");
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads_in_force(threads))
-            .build()
-            .map_err(|source| RunError::Threads { threads: threads_in_force(threads), source: source.into() })?;
+        let pool = thread_pool(threads)?;
         Ok(Self {
             job,
             executor: Executor::new(job.model, context, threads),
@@ -69,6 +67,12 @@ impl<'a> GrowingRun<'a> {
             totals: Vec::new(),
             progress: Progress { done: 0, recalled: 0, total: 0, failed: 0, elapsed: Duration::ZERO },
         })
+    }
+
+    /// The same run with workers in other processes too.
+    #[must_use]
+    pub(crate) fn with_remote(self, remote: Option<Remote<'a>>) -> Self {
+        Self { executor: self.executor.with_remote(remote), ..self }
     }
 
     /// The same run with outputs kept in `store`: rows that are there are not evaluated. `sink` takes every piece of
@@ -158,6 +162,8 @@ impl<'a> GrowingRun<'a> {
         let options = BlockOptions {
             failures: self.failures,
             keeps_outputs: self.keeps_outputs,
+            // Outputs that are here are folded here.
+            in_strips: self.store.is_none() && self.executor.has_remote(),
             store: self.store,
             checkpoint: self.checkpoint,
         };

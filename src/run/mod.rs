@@ -18,7 +18,10 @@ mod fold;
 mod growing;
 pub mod journal;
 mod pilot;
+mod pool;
+mod remote;
 mod rows;
+mod scratch;
 mod shard;
 mod store;
 mod table;
@@ -26,12 +29,14 @@ mod totals;
 
 use std::time::Duration;
 
-pub use each::run_each;
+pub use each::{run_each, run_each_in};
 pub use error::RunError;
 pub(crate) use executor::Executor;
 pub use fold::Sums;
 pub use growing::GrowingRun;
 pub use pilot::Pilot;
+pub(crate) use remote::{Remote, Request, refuse, serve};
+pub use remote::{RemoteWorkers, Requests};
 pub use rows::RowValues;
 pub use shard::{Shard, ShardError};
 pub use store::{Piece, Store};

@@ -5,8 +5,11 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 use super::executor::{Evaluated, Finished, Task};
+use super::journal::{record, write_record};
+use super::remote::{Abroad, DesignKey, Errand};
 use super::store::{Piece, Store};
 use super::{FailurePolicy, Job, PieceSink, Place, RunError};
+use crate::binary::{Binary, Reader};
 use crate::design::{BasePoints, Matrix};
 use crate::model::{Batch, RowFailure, Worker};
 
@@ -118,6 +121,52 @@ impl Task for MissingRows<'_> {
             }
         }
         Ok(finished)
+    }
+
+    fn abroad(&self) -> Option<&dyn Abroad<Self::Piece, Vec<Piece>>> {
+        Some(self)
+    }
+}
+
+impl Abroad<(u64, Range<u64>), Vec<Piece>> for MissingRows<'_> {
+    fn errand(&self) -> Errand {
+        Errand {
+            is_of_blocks: false,
+            design: DesignKey::new(self.job.design),
+            from: 0,
+            end: 0,
+            keeps_outputs: true,
+            fails: self.failures == FailurePolicy::Fail,
+        }
+    }
+
+    fn write_piece(&self, (replicate, rows): &(u64, Range<u64>), out: &mut Vec<u8>) {
+        [*replicate, rows.start, rows.end].iter().for_each(|number| number.write(out));
+    }
+
+    fn read_piece(&self, from: &mut Reader<'_>) -> Option<(u64, Range<u64>)> {
+        let (replicate, rows) = (u64::read(from)?, u64::read(from)?..u64::read(from)?);
+        let design = self.job.design;
+        let is_one = replicate < design.settings().replicates && rows.start < rows.end;
+        (is_one && rows.end <= design.points_per_replicate() * design.rows_per_point()).then_some((replicate, rows))
+    }
+
+    /// Pieces travel as they go on record.
+    fn write_output(&self, pieces: &Vec<Piece>, out: &mut Vec<u8>) {
+        pieces.iter().for_each(|piece| write_record(out, piece));
+    }
+
+    fn read_output(&self, (replicate, rows): &(u64, Range<u64>), from: &mut Reader<'_>) -> Option<Vec<Piece>> {
+        let mut pieces = Vec::new();
+        while !from.bytes.is_empty() {
+            let piece = record(from)?;
+            let end = piece.first.checked_add(piece.rows(self.store.outputs()))?;
+            if piece.replicate != *replicate || piece.first < rows.start || end > rows.end {
+                return None;
+            }
+            pieces.push(piece);
+        }
+        Some(pieces)
     }
 }
 

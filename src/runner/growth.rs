@@ -1,11 +1,15 @@
 //! When a run that grows has enough.
 
-use crate::analysis::{StopReason, Stopped, interval_options, surrogate};
+use super::low_fidelity::LowRun;
+use crate::analysis::{StopReason, Stopped, interval_options, surrogates};
 use crate::design::{Design, MAX_POINTS};
-use crate::estimate::{MomentParts, PointOutputs};
+use crate::estimate::{MomentParts, PointOutputs, Undefined};
 use crate::run::GrowingRun;
 use crate::study::{Study, Target};
-use crate::uncertainty::{IntervalOptions, KeptPoints, output_indices};
+use crate::uncertainty::{IntervalOptions, KeptPoints, SurrogateEstimates, output_indices};
+
+/// Base samples below which missing intervals say nothing of those of more runs.
+const FEW_BASE_SAMPLES: u64 = 256;
 
 /// The longest design that a run of `design` can grow into.
 pub(super) fn longest(design: &Design) -> Design {
@@ -19,17 +23,63 @@ pub(super) fn longest(design: &Design) -> Design {
     }
 }
 
+/// How well the indices are known at some stage of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Stage {
+    /// Largest half width of the indices of all outputs; `None` if some are missing.
+    pub widest: Option<f64>,
+    /// Of the output that it belongs to, the squared errors that come from the rows of the model, and those that come from the
+    /// runs of a cheaper model.
+    pub squared_errors: [f64; 2],
+    /// What surrogates and cheaper models made of every output.
+    pub surrogates: Vec<Option<SurrogateEstimates>>,
+}
+
+/// The stage that `run` has reached with the help of `lows`. An output that does not vary has no indices and waits for none.
+pub(super) fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
+    let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());
+    let (layout, options) = (study.layout(), interval_options(study));
+    let mut all = Stage { widest: None, squared_errors: [0.0; 2], surrogates: Vec::new() };
+    let Ok(design) = run.design().with_points(run.points_per_replicate()) else { return all };
+    let lows: Vec<_> = lows.iter().map(LowRun::totals).collect();
+    let mut is_known = true;
+    all.surrogates = surrogates(study, &design, run.totals(), &lows);
+    for number in 0..outputs {
+        let parts: Vec<MomentParts> = run.totals().iter().map(|t| t.outputs[number].moments.clone()).collect();
+        let kept: Vec<&PointOutputs> = run.totals().iter().map(|t| &t.outputs[number].point_outputs).collect();
+        let surrogate = all.surrogates.get(number).and_then(Option::as_ref);
+        let points = KeptPoints::all(&design, &kept);
+        let options = IntervalOptions { points, surrogate, ranks: false, ..options };
+        match output_indices(&parts, &layout, &options).map(|indices| indices.largest_half_width()) {
+            Ok(Some(widest)) if all.widest.is_none_or(|before| widest > before) => {
+                all.widest = Some(widest);
+                all.squared_errors = surrogate.map_or([1.0, 0.0], |surrogate| surrogate.squared_errors());
+            }
+            Ok(Some(_)) | Err(Undefined::ZeroVariance) => (),
+            Ok(None) | Err(_) => is_known = false,
+        }
+    }
+    all.widest = all.widest.filter(|_| is_known);
+    all
+}
+
 /// Why the run should not be doubled once more; `None` if it should.
-pub(super) fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design) -> Option<Stopped> {
-    let Target { half_width, budget, max_runs } = study.target;
-    let widest = widest(study, run);
+pub(super) fn reason_to_stop(
+    study: &Study,
+    run: &GrowingRun<'_>,
+    longest: &Design,
+    widest: Option<f64>,
+) -> Option<Stopped> {
+    let Target { half_width, budget, max_runs, is_free } = study.target;
     let met = half_width.map(|target| widest.is_some_and(|widest| widest <= target));
     let next = run.points_per_replicate() * 2;
-    let runs = u128::from(next) * u128::from(longest.settings().replicates) * u128::from(longest.rows_per_point());
+    let replicates = longest.settings().replicates;
+    let runs = u128::from(next) * u128::from(replicates) * u128::from(longest.rows_per_point());
     let seconds = 2.0 * run.elapsed().as_secs_f64();
+    let is_small = is_free && run.points_per_replicate() * replicates < FEW_BASE_SAMPLES;
     let reason = match (half_width, widest) {
         (Some(target), Some(widest)) if widest <= target => StopReason::TargetMet { widest, target },
-        (Some(_), None) => StopReason::NoIntervals,
+        (Some(_), None) if !is_small => StopReason::NoIntervals,
         _ if next > longest.points_per_replicate() => StopReason::EndOfSequence,
         _ if run.room_for(next).is_err() => StopReason::Memory,
         _ => match (max_runs, budget) {
@@ -39,26 +89,4 @@ pub(super) fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Desi
         },
     };
     Some(Stopped { reason, target_met: met })
-}
-
-/// Largest half width of the indices of all outputs; `None` if some are missing. An output that does not vary has no
-/// indices and waits for none.
-fn widest(study: &Study, run: &GrowingRun<'_>) -> Option<f64> {
-    let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());
-    let (layout, options) = (study.layout(), interval_options(study));
-    let design = run.design();
-    let mut widest = None;
-    for number in 0..outputs {
-        let parts: Vec<MomentParts> = run.totals().iter().map(|t| t.outputs[number].moments.clone()).collect();
-        let kept: Vec<&PointOutputs> = run.totals().iter().map(|t| &t.outputs[number].point_outputs).collect();
-        let surrogate = surrogate(study, design, &kept);
-        let points = KeptPoints::all(design, &kept);
-        let options = IntervalOptions { points, surrogate: surrogate.as_ref(), ..options };
-        match output_indices(&parts, &layout, &options) {
-            Ok(indices) => widest = Some(indices.largest_half_width()?.max(widest.unwrap_or(0.0))),
-            Err(crate::estimate::Undefined::ZeroVariance) => (),
-            Err(_) => return None,
-        }
-    }
-    widest
 }

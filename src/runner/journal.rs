@@ -1,5 +1,7 @@
 //! The journal of a study's run: found, checked against the study, and gone on with or begun anew.
 
+mod recall;
+
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -11,6 +13,8 @@ use crate::model::Messages;
 use crate::run::journal::{Checkpoint, Contents, Journal, JournalError, differences, read_journal_file};
 use crate::run::{Piece, RunError, Shard, Store, Sums};
 use crate::study::Study;
+pub(super) use recall::{Foreign, part};
+use recall::{Recalled, filled, recall, rows_on_record};
 
 /// Outputs of more bytes than this are not put on record for quick runs: it takes longer than to evaluate them again.
 const LARGE: u64 = 64 << 20;
@@ -34,14 +38,6 @@ pub(super) struct JournalRequest {
     pub mixes_models: bool,
     pub shard: Option<Shard>,
     pub needs_outputs: bool,
-}
-
-/// Runs on record that were evaluated with other files of the model than those of now.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Foreign {
-    /// The names of the files that differ.
-    pub names: String,
-    pub rows: u64,
 }
 
 /// The runs of a study that are on record, and where more are put on record.
@@ -317,118 +313,6 @@ fn go_on(journal: Journal, contents: &Contents, store: Store, files: ModelFiles)
         journal.append_files(files.begun()).map_err(|source| RunError::NotKept { source })?;
     }
     Ok(OpenJournal::from_outputs(store, journal, files))
-}
-
-/// What is on record, by the model that answered.
-struct Recalled {
-    /// Runs that were evaluated with the files of now.
-    own: Store,
-    /// These and all others, if there are others.
-    all: Option<Store>,
-    foreign: Option<Foreign>,
-    /// Runs that failed, and are to be evaluated again.
-    forgotten: u64,
-}
-
-/// What a journal holds of `study`, whose model has `files` now. Where a run is there twice, that of the files of now
-/// counts, and else the later one.
-fn recall(study: &Study, contents: &Contents, files: &Value, resume: Resume) -> Recalled {
-    let again = |store: &Store| if resume == Resume::RetryFailed { store.forget_failures() } else { 0 };
-    let is_own = |now: &Value| differing(now, files).is_none();
-    let mut names = None;
-    for (_, before) in contents.pieces_with_files() {
-        names = names.or_else(|| differing(before, files));
-    }
-    let own = filled_by(study, contents, &is_own);
-    let Some(names) = names else {
-        let forgotten = again(&own);
-        return Recalled { own, all: None, foreign: None, forgotten };
-    };
-    let all = filled_by(study, contents, &|before| !is_own(before));
-    own.pieces().iter().for_each(|piece| {
-        all.insert(piece);
-    });
-    let forgotten = again(&all);
-    again(&own);
-    let rows = all.rows().saturating_sub(own.rows());
-    let foreign = (rows > 0).then_some(Foreign { names, rows });
-    Recalled { own, all: Some(all), foreign, forgotten }
-}
-
-impl Recalled {
-    /// Why nothing of it is of use, if runs are there, but all of another model.
-    fn of_another_model(&self) -> Option<String> {
-        let foreign = self.foreign.as_ref().filter(|_| self.own.rows() == 0)?;
-        Some(format!("{} changed since the journal was written", foreign.names))
-    }
-
-    /// Refuses runs of another model, of which the user may not know.
-    fn refuse(&self, path: &Path, resume: Resume) -> Result<(), RunError> {
-        let Some(Foreign { names, rows }) = &self.foreign else { return Ok(()) };
-        let option = resume.option();
-        Err(refused(
-            path,
-            format!(
-                "{names} changed since {rows} of the runs on record were evaluated: the result would mix two models. Undo \
-             the change; or leave out {option}, and they are evaluated again; or add --mix-models, and they are used, which \
-             the result then says"
-            ),
-        ))
-    }
-}
-
-/// A store of what a journal of this study holds of the model as it is now.
-fn filled(study: &Study, contents: &Contents) -> Store {
-    recall(study, contents, ModelFiles::new(study).begun(), Resume::IfThere).own
-}
-
-/// What a journal of a part holds, and the files that it was evaluated with.
-///
-/// # Errors
-/// [`RunError::Refused`] if several models have answered.
-pub(super) fn part(study: &Study, path: &Path, contents: &Contents) -> Result<(Store, Value), RunError> {
-    if contents.sums.is_some() {
-        return Err(refused(
-            path,
-            "this journal holds the sums of a run, and not the outputs of a part of one".to_owned(),
-        ));
-    }
-    let last = contents.pieces_with_files().last().map(|(_, files)| files);
-    let files = last.or(contents.stretches.last().map(|stretch| &stretch.files)).unwrap_or(&Value::Null);
-    let recalled = recall(study, contents, files, Resume::IfThere);
-    match recalled.foreign {
-        None => Ok((recalled.own, files.clone())),
-        Some(Foreign { names, rows }) => {
-            let what = "of its runs were evaluated with another";
-            Err(refused(path, format!("{rows} {what} {names} than the others: evaluate this part again")))
-        }
-    }
-}
-
-fn filled_by(study: &Study, contents: &Contents, wanted: &dyn Fn(&Value) -> bool) -> Store {
-    let model = study.model();
-    let store = Store::new(&study.design, model.as_ref());
-    let outputs = store.outputs();
-    let fits = |piece: &Piece| {
-        let rows = piece.rows(outputs);
-        let failures =
-            piece.failures.iter().all(|(row, output, _)| u64::from(*row) < rows && (*output as usize) < outputs);
-        piece.replicate < study.design.settings().replicates
-            && failures
-            && rows as usize * outputs == piece.values.len()
-    };
-    for (piece, files) in contents.pieces_with_files() {
-        if wanted(files) && fits(piece) {
-            store.insert(piece);
-        }
-    }
-    store
-}
-
-/// Rows of the design that are in `store`.
-fn rows_on_record(study: &Study, store: &Store) -> u64 {
-    let rows = study.design.points_per_replicate() * study.design.rows_per_point();
-    (0..study.design.settings().replicates).map(|replicate| store.count(replicate, 0..rows).0).sum()
 }
 
 fn fresh(study: &Study, path: &Path, request: JournalRequest) -> Result<OpenJournal, RunError> {

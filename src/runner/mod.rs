@@ -1,22 +1,29 @@
 //! A study through its model: the whole way of the data in one call.
 
+mod accuracy;
 mod growth;
 mod journal;
+mod low_fidelity;
 mod merge;
 mod model_files;
+mod worker;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::time::Instant;
 
-use crate::analysis::{Analysis, FinishedRun, analysis};
+use crate::analysis::{Analysis, FinishedRun, LowTotals, StopReason, Stopped, analysis};
 use crate::model::{Messages, RunContext};
-use crate::run::{GrowingRun, Job, Piece, Progress, RunError, Shard, Store, threads_in_force};
+use crate::run::{GrowingRun, Job, Piece, Progress, Remote, RemoteWorkers, RunError, Shard, Store, threads_in_force};
 use crate::study::Study;
-use growth::{longest, reason_to_stop};
+use crate::uncertainty::SurrogateEstimates;
+use growth::{Stage, longest, reason_to_stop, stage};
 use journal::{JournalRequest, OpenJournal};
+use low_fidelity::{LowRun, LowStudy, sinks};
 use model_files::ModelFiles;
+pub use worker::WorkerStudy;
 
 impl Study {
     /// Runs the study on all cores and estimates its indices.
@@ -43,6 +50,7 @@ impl Study {
         Runner {
             study: self,
             threads: 0,
+            remote: None,
             on_progress: Box::new(|_| ()),
             on_message: Arc::new(|_: &str| ()),
             stop: None,
@@ -88,6 +96,7 @@ pub enum Resume {
 pub struct Runner<'a> {
     study: &'a Study,
     threads: usize,
+    remote: Option<&'a dyn RemoteWorkers>,
     on_progress: Box<dyn Fn(Progress) + Sync + 'a>,
     on_message: Arc<dyn Fn(&str) + Send + Sync>,
     stop: Option<&'a AtomicBool>,
@@ -110,6 +119,11 @@ impl<'a> Runner<'a> {
     /// On so many threads (0, the default: one per core). The result is the same in every bit on any number.
     pub fn threads(self, threads: usize) -> Self {
         Self { threads, ..self }
+    }
+
+    /// With workers in other processes too, which [know](WorkerStudy) the same study. The result is the same in every bit.
+    pub fn remote_workers(self, workers: &'a dyn RemoteWorkers) -> Self {
+        Self { remote: Some(workers), ..self }
     }
 
     /// Calls `on_progress` from time to time, from any thread.
@@ -160,7 +174,11 @@ impl<'a> Runner<'a> {
     /// Otherwise rows that fail are part of the result.
     pub fn run(self) -> Result<Analysis, RunError> {
         let context = self.context();
-        let result = self.open(None, context.messages()).and_then(|record| self.analyse(&context, record));
+        let result = if self.study.target.is_free {
+            accuracy::run_accurately(&self, &context)
+        } else {
+            self.open(None, context.messages()).and_then(|record| self.analyse(&context, record))
+        };
         context.messages().finish();
         result
     }
@@ -227,9 +245,17 @@ impl<'a> Runner<'a> {
         journal::open(study, path, request, messages)
     }
 
-    fn set_up<'r>(&self, job: Job<'r>, context: &'r RunContext<'r>) -> Result<GrowingRun<'r>, RunError> {
+    fn set_up<'r>(&self, job: Job<'r>, context: &'r RunContext<'r>) -> Result<GrowingRun<'r>, RunError>
+    where
+        'a: 'r,
+    {
         let run = GrowingRun::new(job, context, self.threads)?.with_failures(self.study.analysis.failures);
-        Ok(run.with_outputs_kept(self.study.needs_outputs()))
+        Ok(run.with_outputs_kept(self.study.needs_outputs()).with_remote(self.remote_for(0)))
+    }
+
+    /// The workers in other processes for the model of that number: see [`Remote::subject`].
+    fn remote_for(&self, subject: u64) -> Option<Remote<'a>> {
+        self.remote.map(|workers| Remote { workers, subject })
     }
 
     fn analyse(&self, context: &RunContext<'_>, mut record: OpenJournal) -> Result<Analysis, RunError> {
@@ -255,26 +281,30 @@ impl<'a> Runner<'a> {
             points = sums.first_stage(points, study.target.grows());
             run = run.with_checkpoint(checkpoint, sums);
         }
-        let grown = run.grow_to(points, &*self.on_progress).and_then(|()| {
-            if !study.target.grows() {
-                return Ok(None);
-            }
-            loop {
-                if let Some(reason) = run.install(|| reason_to_stop(study, &run, &longest)) {
-                    return Ok(Some(reason));
-                }
-                run.grow_to(run.points_per_replicate() * 2, &*self.on_progress)?;
-            }
-        });
+        let low_studies = LowStudy::all(self, context)?;
+        let low_sinks = sinks(&low_studies);
+        let mut lows = LowRun::all(self, &low_studies, &low_sinks, context)?;
+        let grown = run
+            .grow_to(points, &*self.on_progress)
+            .and_then(|()| if study.target.is_free { Ok(()) } else { self.begin_lows(&run, &mut lows) })
+            .and_then(|()| if study.target.grows() { self.grow(&mut run, &mut lows).map(Some) } else { Ok(None) });
+        let (grown, surrogates) = match grown {
+            Ok(Some((stopped, surrogates))) => (Ok(Some(stopped)), Some(surrogates)),
+            Ok(None) => (Ok(None), None),
+            Err(error) => (Err(error), None),
+        };
         let recorded = run.write_checkpoint().and_then(|()| record.sync());
         let stopped = finish(grown, recorded)?;
         let design = longest.with_points(run.points_per_replicate()).unwrap_or(longest.clone());
+        let low_totals: Vec<LowTotals<'_>> = lows.iter().map(LowRun::totals).collect();
         let finished = FinishedRun {
             study,
             model: model.as_ref(),
             design: &design,
             replicates: run.totals(),
-            threads: threads_in_force(self.threads),
+            lows: &low_totals,
+            surrogates: surrogates.as_deref(),
+            threads: threads_in_force(self.threads) + self.remote.map_or(0, RemoteWorkers::count),
             wall_seconds: run.elapsed().as_secs_f64(),
         };
         let mut result = run.install(|| analysis(&finished, stopped));
@@ -286,6 +316,82 @@ impl<'a> Runner<'a> {
         }
         Ok(result)
     }
+}
+
+/// Why a run that grew has ended, and what surrogates and cheaper models make of every output.
+type Grown = (Stopped, Vec<Option<SurrogateEstimates>>);
+
+/// Part of the squared error that cheaper models need not go below.
+const ENOUGH: f64 = 1.0 / 16.0;
+
+impl Runner<'_> {
+    /// The first runs of cheaper models. One that is no cheaper is not run in a run that grows.
+    fn begin_lows(&self, run: &GrowingRun<'_>, lows: &mut Vec<LowRun<'_>>) -> Result<(), RunError> {
+        let seconds = run.elapsed().as_secs_f64();
+        for low in lows.iter_mut() {
+            low.follow(run.points_per_replicate())?;
+        }
+        if self.study.target.is_free {
+            lows.retain(|low| low.is_cheaper(seconds));
+        }
+        lows.iter_mut().try_for_each(|low| low.begin(seconds))
+    }
+
+    /// Doubles the run, or the own runs of a cheaper model, until there is a reason to stop; that, and what surrogates and
+    /// cheaper models make of the outputs then.
+    fn grow(&self, run: &mut GrowingRun<'_>, lows: &mut Vec<LowRun<'_>>) -> Result<Grown, RunError> {
+        let longest = run.design();
+        let is_met = |stopped: &Stopped| matches!(stopped.reason, StopReason::TargetMet { .. });
+        let mut seconds = run.elapsed().as_secs_f64() - lows.iter().flat_map(LowRun::seconds).sum::<f64>();
+        if self.study.target.is_free && !lows.is_empty() {
+            // Where the first runs are enough, cheaper models need not run.
+            let Stage { widest, surrogates, .. } = run.install(|| stage(self.study, run, &[]));
+            if let Some(stopped) = reason_to_stop(self.study, run, longest, widest).filter(is_met) {
+                lows.clear();
+                return Ok((stopped, surrogates));
+            }
+            self.begin_lows(run, lows)?;
+            let best = run.install(|| best_low(self.study, run, lows, seconds));
+            let mut place = 0;
+            lows.retain(|_| {
+                place += 1;
+                best == Some(place - 1)
+            });
+        }
+        loop {
+            let Stage { widest, squared_errors: [own, of_low], surrogates } =
+                run.install(|| stage(self.study, run, lows));
+            let stopped = reason_to_stop(self.study, run, longest, widest);
+            if let ([low], false) = (&mut lows[..], stopped.as_ref().is_some_and(is_met)) {
+                let [shared, cost] = low.seconds();
+                let pays = of_low * (seconds + shared) > own * cost && of_low > ENOUGH * own;
+                if pays && low.can_double() {
+                    low.double()?;
+                    continue;
+                }
+            }
+            if let Some(stopped) = stopped {
+                return Ok((stopped, surrogates));
+            }
+            let start = Instant::now();
+            run.grow_to(run.points_per_replicate() * 2, &*self.on_progress)?;
+            seconds += start.elapsed().as_secs_f64();
+            lows.iter_mut().try_for_each(|low| low.follow(run.points_per_replicate()))?;
+        }
+    }
+}
+
+/// The one of `lows` that promises the least cost for an accuracy, by number, where the rows so far took `seconds`; `None` if
+/// none is better than surrogates alone.
+fn best_low(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>], seconds: f64) -> Option<usize> {
+    let alone = stage(study, run, &[]).squared_errors[0] * seconds;
+    let of_low = |low: &LowRun<'_>| {
+        let [own, of_low] = stage(study, run, std::slice::from_ref(low)).squared_errors;
+        let [shared, cost] = low.seconds();
+        ((own * (seconds + shared)).sqrt() + (of_low * cost).sqrt()).powi(2)
+    };
+    let all = lows.iter().map(of_low).enumerate().filter(|(_, cost)| *cost < alone);
+    all.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
 }
 
 /// The outcome of a run whose record was written as `recorded` says. An error of the run is told before one of the record.

@@ -173,7 +173,7 @@ pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Fail
     let critical = critical_force(scene, options)?;
     // The scene's own angle among them, so that its slip can be read off the steep curves.
     let grid = (1..ANGLES).map(|i| std::f64::consts::FRAC_PI_2 * i as f64 / ANGLES as f64);
-    let mut angle: Vec<f64> = grid.chain([critical.force_angle]).collect();
+    let mut angle: Vec<f64> = grid.chain([critical.force_angle()]).collect();
     angle.sort_by(f64::total_cmp);
     let colours = [law_colour(options.friction), Colour::Series(1), Colour::Series(4), Colour::Series(5)];
     let mut lines = Vec::new();
@@ -182,5 +182,5 @@ pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Fail
         let force = angle.iter().map(sets_in).collect::<Result<Vec<_>, Failure>>()?;
         lines.push(ModeLine { mode: mode.name().to_owned(), colour, force });
     }
-    Ok(ModeDiagram { angle, forces: lines, current: Some((critical.force_angle, critical.critical_force)) })
+    Ok(ModeDiagram { angle, forces: lines, current: Some((critical.force_angle(), critical.critical_force)) })
 }

@@ -5,106 +5,16 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
-use thiserror::Error;
 
-use super::options::rows;
-use super::subject::CustomSubject;
-use super::{AnalysisOptions, Study, Target};
-use crate::design::{Design, DesignError, DesignSettings, Sampler};
+use super::options::{rows, split_design};
+use super::subject::{CustomSubject, LowFidelity};
+use super::{AnalysisOptions, BuildError, Study, Target};
+use crate::design::{Design, DesignSettings, Sampler};
 use crate::estimate::Estimator;
 use crate::model::Model;
 use crate::names::{names_files, refused_name, refused_output_name, refused_title, shown};
 use crate::quantity::Unit;
-use crate::space::{Distribution, DistributionError, Factor, Space};
-
-/// Why a study cannot be built.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum BuildError {
-    /// The name cannot name files.
-    #[error("the name {0:?} of the study: expected {NAME}", NAME = crate::names::NAME_RULE)]
-    Name(String),
-    /// A name or title that no table or file has room for, or with marks in it that are not seen.
-    #[error("{what} {name}: expected {expected}")]
-    Words {
-        /// What it is of.
-        what: &'static str,
-        /// The name or title, or its beginning.
-        name: String,
-        /// What would be right.
-        expected: String,
-    },
-    /// The model has no outputs.
-    #[error("the model has no outputs")]
-    NoOutputs,
-    /// A name twice.
-    #[error("{what} `{name}` is there twice")]
-    Repeated {
-        /// What the name is of.
-        what: &'static str,
-        /// The name.
-        name: String,
-    },
-    /// A factor cannot be converted to SI units.
-    #[error("factor `{factor}`: {source}")]
-    Factor {
-        /// Its name.
-        factor: String,
-        /// Why.
-        source: DistributionError,
-    },
-    /// There is no such design.
-    #[error(transparent)]
-    Design(#[from] DesignError),
-    /// Intervals of a kind that does not hold for these points.
-    #[error("intervals \"{method}\" do not hold for points of the sampler \"{sampler}\"")]
-    UnfitInterval {
-        /// The kind of interval.
-        method: &'static str,
-        /// The sampler.
-        sampler: &'static str,
-    },
-    /// A subset names no factors, or one that is not there.
-    #[error("subset {subset:?}: expected numbers of factors, counted from 0, of which there are {factors}")]
-    Subset {
-        /// The subset.
-        subset: Vec<usize>,
-        /// The number of factors.
-        factors: usize,
-    },
-    /// A target that no run can reach.
-    #[error("{what} = {value}: expected a finite number above 0")]
-    NotPositive {
-        /// What of the target.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A target for points that cannot be added to.
-    #[error(
-        "a run goes on until a target by adding points, and a Latin hypercube has none to add: take another sampler"
-    )]
-    CannotGrow,
-    /// Fewer runs than the smallest design takes.
-    #[error("max_runs of the target: expected {least} or more, which 2 base points in each replicate take")]
-    MaxRuns {
-        /// Runs of the smallest design.
-        least: u64,
-    },
-    /// A share or threshold that is none.
-    #[error("{what} = {value}: expected a number from 0 to 1")]
-    NotAShare {
-        /// Which.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// Plain rows where no surrogate would learn from them.
-    #[error("plain rows serve surrogates alone, and there are none with {why}")]
-    PlainRows {
-        /// The option that stands against them.
-        why: String,
-    },
-}
+use crate::space::{Distribution, Factor, Space};
 
 /// A study in the making; [`Study::builder`] begins one.
 pub struct StudyBuilder {
@@ -116,9 +26,11 @@ pub struct StudyBuilder {
     base_samples: Option<u64>,
     replicates: Option<u64>,
     plain_rows: u32,
+    budget_runs: Option<u64>,
     seed: u64,
     analysis: Option<AnalysisOptions>,
     target: Target,
+    lows: Vec<LowFidelity>,
 }
 
 impl StudyBuilder {
@@ -133,9 +45,11 @@ impl StudyBuilder {
             base_samples: None,
             replicates: None,
             plain_rows: 0,
+            budget_runs: None,
             seed,
             analysis: None,
             target: Target::default(),
+            lows: Vec::new(),
         }
     }
 
@@ -197,6 +111,27 @@ impl StudyBuilder {
         self
     }
 
+    /// The best split design of at most so many runs, in the place of [`base_samples`](Self::base_samples) and
+    /// [`plain_rows`](Self::plain_rows): an eighth to a third of the runs at base samples, the others at plain rows.
+    ///
+    /// ```
+    /// use apportion::{Study, model::function_model, uniform};
+    ///
+    /// let model = function_model("y", |x| x[0] + x[1] * x[1]);
+    /// let study = Study::builder("dear", model)
+    ///     .factor("a", uniform(0.0, 1.0)?)
+    ///     .factor("b", uniform(0.0, 1.0)?)
+    ///     .budget_runs(100)
+    ///     .build()?;
+    /// assert!(study.design().rows() <= 100);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn budget_runs(mut self, runs: u64) -> Self {
+        self.budget_runs = Some(runs);
+        self
+    }
+
     /// Seed of the design, 0 by default.
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
@@ -215,6 +150,15 @@ impl StudyBuilder {
     #[must_use]
     pub fn until(mut self, target: Target) -> Self {
         self.target = target;
+        self
+    }
+
+    /// A cheaper model of the same outputs, by name: it stands in for the model where that helps, and the runs of the model
+    /// show the rest. `base_samples` is the size of its own design; `None` to let the run choose.
+    #[must_use]
+    pub fn low_fidelity(mut self, name: &str, model: impl Model + 'static, base_samples: Option<u64>) -> Self {
+        let subject = Arc::new(CustomSubject::new(Arc::new(model)));
+        self.lows.push(LowFidelity { name: name.to_owned(), subject, base_samples });
         self
     }
 
@@ -249,28 +193,45 @@ impl StudyBuilder {
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(self.sampler));
         let analysis = checked(analysis, self.sampler, space.factors().len())?;
         let target = checked_target(self.target, self.sampler)?;
-        let replicates = self.replicates.unwrap_or(analysis.default_replicates(self.sampler, self.plain_rows > 0));
-        let settings = target.first_stage(DesignSettings {
-            sampler: self.sampler,
-            base_samples: self.base_samples.unwrap_or_else(|| target.base_samples(replicates)),
-            replicates,
-            seed: self.seed,
-        });
-        if let Some(why) = analysis.refuses_plain_rows(self.sampler, replicates).filter(|_| self.plain_rows > 0) {
+        let is_split = self.plain_rows > 0 || self.budget_runs.is_some();
+        let replicates = self.replicates.unwrap_or(analysis.default_replicates(self.sampler, is_split));
+        if let Some(why) = analysis.refuses_plain_rows(self.sampler, replicates).filter(|_| is_split) {
             return Err(BuildError::PlainRows { why });
         }
-        let design = Design::new(settings, space.factors().len(), rows(&analysis, &space, self.plain_rows))?;
+        let mut sizes = (self.base_samples.unwrap_or_else(|| target.base_samples(replicates)), self.plain_rows);
+        if let Some(runs) = self.budget_runs {
+            let others = [
+                ("base_samples", self.base_samples.is_some()),
+                ("plain_rows", self.plain_rows > 0),
+                ("a target", self.target != Target::default()),
+            ];
+            if let Some((other, _)) = others.into_iter().find(|(_, is_there)| *is_there) {
+                return Err(BuildError::BudgetRunsBeside { other });
+            }
+            let split = split_design(runs, (&analysis, &space), (self.sampler, replicates)).transpose();
+            sizes = split.map_err(|least| BuildError::BudgetRuns { least })?.unwrap_or(sizes);
+        }
+        let (base_samples, plain_rows) = sizes;
+        let settings =
+            target.first_stage(DesignSettings { sampler: self.sampler, base_samples, replicates, seed: self.seed });
+        let design = Design::new(settings, space.factors().len(), rows(&analysis, &space, plain_rows))?;
         let design = target.within_max_runs(design).map_err(|least| BuildError::MaxRuns { least })?;
+        for low in &self.lows {
+            if let Some(problem) = low.refused(&*self.model, &space) {
+                return Err(BuildError::LowFidelity { name: low.name.clone(), problem });
+            }
+        }
         let source = in_words(&self.name, &design, &space);
         Ok(Study {
             sha256: Sha256::digest(source.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect(),
             name: self.name,
             title: self.title,
-            subject: Arc::new(CustomSubject(self.model)),
+            subject: Arc::new(CustomSubject::new(self.model)),
             space,
             design,
             analysis,
             target,
+            lows: self.lows,
             overrides: Vec::new(),
             source,
             notes: Vec::new(),

@@ -3,6 +3,7 @@
 //! A [`Study`] comes from a file ([`Study::load`]) or is built in code ([`Study::builder`]); after that nothing
 //! re-validates.
 
+mod build_error;
 mod builder;
 #[cfg(feature = "study")]
 mod file;
@@ -12,7 +13,8 @@ mod subject;
 
 use std::sync::Arc;
 
-pub use builder::{BuildError, StudyBuilder};
+pub use build_error::BuildError;
+pub use builder::StudyBuilder;
 #[cfg(feature = "study")]
 pub use file::{
     AfmSubject, CommandSubject, Diagnostic, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula,
@@ -20,15 +22,18 @@ pub use file::{
     study_schema, template,
 };
 pub use options::{AnalysisOptions, SurrogateChoice, Target};
-pub use subject::Subject;
+use subject::CustomSubject;
+pub use subject::{LowFidelity, Rung, Subject};
 
 pub use crate::names::nearest;
 
 use crate::design::Design;
 use crate::model::Model;
 use crate::space::Space;
-use crate::surrogate::FEWEST_NETS;
+use crate::surrogate::{FEWEST_NETS, fewest_points};
 use crate::uncertainty::{IntervalMethod, Layout};
+#[cfg(feature = "charts")]
+pub(crate) use options::rows;
 use options::{MOST_AUTOMATIC_VALUES, MOST_AUTOMATIC_VALUES_OF_PROGRAMS};
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
@@ -49,6 +54,8 @@ pub struct Study {
     pub(crate) analysis: AnalysisOptions,
     /// When a run that grows ends.
     pub(crate) target: Target,
+    /// Cheaper models of the same outputs.
+    pub(crate) lows: Vec<LowFidelity>,
     /// Changes made to the file on the command line, as given.
     pub(crate) overrides: Vec<String>,
     /// The file, word for word.
@@ -82,6 +89,24 @@ impl Study {
     /// ```
     pub fn builder(name: &str, model: impl Model + 'static) -> StudyBuilder {
         StudyBuilder::new(name, Arc::new(model))
+    }
+
+    /// The study with `model` in the place of its own: a model that is part of a program, with a study file for the rest.
+    /// `version` tells it from other models of the same outputs, so that the runs of one are not taken for those of another.
+    ///
+    /// # Errors
+    /// [`BuildError::OtherOutputs`] if its outputs, by name and unit, are not those of the study.
+    pub fn with_model(self, model: impl Model + 'static, version: &str) -> Result<Self, BuildError> {
+        let words = |model: &dyn Model| {
+            let outputs = model.outputs().iter().map(|output| format!("{} ({})", output.name, output.unit));
+            outputs.collect::<Vec<_>>().join(", ")
+        };
+        let (found, expected) = (words(&model), words(&*self.model()));
+        if found != expected {
+            return Err(BuildError::OtherOutputs { found, expected });
+        }
+        let subject = CustomSubject::new(Arc::new(model)).with_version(version);
+        Ok(Self { subject: Arc::new(subject), ..self })
     }
 
     /// Its name, by default that of the file without its ending. Result files are named after it.
@@ -118,6 +143,11 @@ impl Study {
     /// When a run that grows ends.
     pub fn target(&self) -> Target {
         self.target
+    }
+
+    /// Cheaper models of the same outputs, which stand in for the model where they help.
+    pub fn low_fidelities(&self) -> &[LowFidelity] {
+        &self.lows
     }
 
     /// Changes made to the file on the command line, as given.
@@ -159,12 +189,14 @@ impl Study {
 
     /// Whether the indices of a run of `design`, which may be longer than that of the study, are corrected by surrogates.
     pub fn uses_surrogate(&self, design: &Design) -> bool {
-        let fits =
-            self.analysis.intervals == IntervalMethod::Nets && design.settings().replicates >= FEWEST_NETS as u64;
+        let has_points = self.target.grows() || design.points_per_replicate() >= fewest_points(design) as u64;
+        let fits = has_points
+            && self.analysis.intervals == IntervalMethod::Nets
+            && design.settings().replicates >= FEWEST_NETS as u64;
         fits && match self.analysis.surrogate {
             SurrogateChoice::Off => false,
             SurrogateChoice::On => true,
-            SurrogateChoice::Auto if design.plain_rows() > 0 => true,
+            SurrogateChoice::Auto if design.plain_rows() > 0 || !self.lows.is_empty() => true,
             SurrogateChoice::Auto => {
                 let model = self.subject.model(&self.space);
                 let values = design.rows().saturating_mul(model.outputs().len() as u64);

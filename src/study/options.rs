@@ -56,7 +56,7 @@ impl AnalysisOptions {
 impl AnalysisOptions {
     /// Replicates where nothing else is said: as many as the kind of interval works best with on points of `sampler`, and
     /// enough for surrogates where these are asked for, by `surrogate = "on"` or by plain rows.
-    pub(super) fn default_replicates(&self, sampler: Sampler, has_plain_rows: bool) -> u64 {
+    pub(crate) fn default_replicates(&self, sampler: Sampler, has_plain_rows: bool) -> u64 {
         let of_intervals = self.intervals.default_replicates(sampler);
         let asks = self.surrogate == SurrogateChoice::On || has_plain_rows && self.surrogate == SurrogateChoice::Auto;
         if asks && self.intervals == IntervalMethod::Nets {
@@ -121,7 +121,7 @@ pub(super) const MOST_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;
 /// use apportion::Target;
 ///
 /// let target = Target::half_width(0.01).budget(60.0);
-/// assert_eq!(target, Target { half_width: Some(0.01), budget: Some(60.0), max_runs: None });
+/// assert_eq!(target, Target { half_width: Some(0.01), budget: Some(60.0), ..Target::default() });
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Target {
@@ -131,12 +131,20 @@ pub struct Target {
     pub budget: Option<f64>,
     /// Model runs that it may take.
     pub max_runs: Option<u64>,
+    /// Whether the run chooses its design, surrogates and cheaper models by itself.
+    pub is_free: bool,
 }
 
 impl Target {
     /// Every first-order and total index to this half width of its interval.
     pub const fn half_width(half_width: f64) -> Self {
-        Self { half_width: Some(half_width), budget: None, max_runs: None }
+        Self { half_width: Some(half_width), budget: None, max_runs: None, is_free: false }
+    }
+
+    /// The same, and the run chooses by itself what gets there at the least cost: how many base samples and plain rows, with or
+    /// without surrogates and cheaper models.
+    pub const fn accuracy(half_width: f64) -> Self {
+        Self { is_free: true, ..Self::half_width(half_width) }
     }
 
     /// But no doubling that would take longer than so many seconds.
@@ -159,6 +167,8 @@ impl Target {
     /// Base samples of the design from which a run with `replicates` starts where nothing else is said.
     pub(super) fn base_samples(&self, replicates: u64) -> u64 {
         match self {
+            // Trials decide what is run.
+            Self { is_free: true, .. } => FIRST_FREE_POINTS.saturating_mul(replicates),
             // A model so slow that its user thinks in time may not have time for more.
             Self { budget: Some(_), .. } => FIRST_POINTS.saturating_mul(replicates),
             target if target.grows() => FIRST_STAGE,
@@ -179,7 +189,7 @@ impl Target {
 
     /// `design` halved until it takes no more than the runs that it may; an error with the runs of the smallest one if
     /// that takes more.
-    pub(super) fn within_max_runs(&self, mut design: Design) -> Result<Design, u64> {
+    pub(crate) fn within_max_runs(&self, mut design: Design) -> Result<Design, u64> {
         while self.max_runs.is_some_and(|most| design.rows() > most) {
             match design.with_points(design.points_per_replicate() / 2) {
                 Ok(shorter) => design = shorter,
@@ -196,6 +206,9 @@ const FIRST_STAGE: u64 = 1 << 10;
 /// Base points of each replicate with which one starts that has a budget of time.
 const FIRST_POINTS: u64 = 64;
 
+/// The same of one that chooses its design by itself.
+const FIRST_FREE_POINTS: u64 = 4;
+
 pub(super) const DEFAULT_RESAMPLES: usize = 1000;
 pub(super) const DEFAULT_THRESHOLD: f64 = 0.05;
 pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
@@ -203,10 +216,22 @@ pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
 /// Share of the runs of a split design above which its base samples are not doubled once more.
 const SPLIT: u64 = 3;
 
+/// Base samples and plain rows of each for a split design of at most `runs` runs in `replicates` of points of `sampler`; an
+/// error with the runs of the smallest such design if that takes more. `None` where there is no design of any size.
+pub(super) fn split_design(
+    runs: u64,
+    (analysis, space): (&AnalysisOptions, &Space),
+    (sampler, replicates): (Sampler, u64),
+) -> Option<Result<(u64, u32), u64>> {
+    let one = DesignSettings { sampler, base_samples: 2, replicates: 1, ..DesignSettings::default() };
+    let one = Design::new(one, space.factors().len(), rows(analysis, space, 0)).ok()?;
+    Some(split(runs, one.rows_per_point(), replicates))
+}
+
 /// Base samples and plain rows of each for a split design of at most `runs` runs: an eighth to a third of them, rather more
 /// than less, for base samples of `runs_per_point` runs without plain rows, a power of two in each of `replicates`. An error
 /// with the runs of the smallest such design if that takes more.
-pub(super) fn split(runs: u64, runs_per_point: u64, replicates: u64) -> Result<(u64, u32), u64> {
+fn split(runs: u64, runs_per_point: u64, replicates: u64) -> Result<(u64, u32), u64> {
     let runs_of = |points: u64| points.saturating_mul(replicates).saturating_mul(runs_per_point);
     let least = runs_of(2);
     if least > runs {
@@ -222,7 +247,7 @@ pub(super) fn split(runs: u64, runs_per_point: u64, replicates: u64) -> Result<(
 }
 
 /// The rows for what is asked: the factors, the groups, the subsets, the dummy.
-pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -> Rows {
+pub(crate) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -> Rows {
     let single = (0..space.factors().len()).map(|number| vec![number]);
     let groups = space.groups().into_iter().map(|group| group.factors);
     let dummy = analysis.dummy.then(Vec::new);

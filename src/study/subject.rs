@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use crate::model::Model;
-use crate::space::Space;
+use crate::model::{Model, SecondCalculation};
+use crate::space::{Factor, Space};
 
 /// A model with its choices made, ready to be run on the factors of any space.
 pub trait Subject: fmt::Debug + Send + Sync + Any {
@@ -28,14 +28,90 @@ pub trait Subject: fmt::Debug + Send + Sync + Any {
         Vec::new()
     }
 
+    /// The outputs on the factors of `space` by another way, to check them by; or why there is none, in a few words.
+    ///
+    /// # Errors
+    /// The reason.
+    fn second_calculation(&self, _space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
+        Err("the model is a program, and nothing else computes what it does")
+    }
+
+    /// Inputs that are no factors of `space`, and whose extremes are worth a look all the same.
+    fn further_inputs(&self, _space: &Space) -> Vec<Factor> {
+        Vec::new()
+    }
+
     /// Files of the user, beside the study itself, that the outputs depend on, as far as the study names them.
     fn files(&self) -> Vec<PathBuf> {
+        Vec::new()
+    }
+
+    /// The name of the model among its [rungs](Self::rungs).
+    fn rung_name(&self) -> String {
+        "the model".to_owned()
+    }
+
+    /// The models of the same outputs that differ in fidelity, the cheapest first; none if there is one alone.
+    fn rungs(&self) -> Vec<Rung> {
+        Vec::new()
+    }
+
+    /// The exact first-order and total indices of the factors of `space`, if they are known.
+    fn exact_indices(&self, _space: &Space) -> Option<(Vec<f64>, Vec<f64>)> {
+        None
+    }
+
+    /// Cheaper models of the same outputs that come with this one, by name, the nearest first.
+    fn cheaper(&self) -> Vec<LowFidelity> {
         Vec::new()
     }
 
     /// Whether rows are evaluated by somebody else, and only their outputs are analysed here.
     fn is_external(&self) -> bool {
         false
+    }
+}
+
+/// One of several models of the same outputs.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Rung {
+    /// Its name.
+    pub name: String,
+    /// The model.
+    pub subject: Arc<dyn Subject>,
+    /// The lines of a study that ask for it.
+    pub lines: String,
+    /// Whether it stands for the truth.
+    pub is_finest: bool,
+}
+
+/// A cheaper model of the same outputs.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct LowFidelity {
+    /// Its name.
+    pub name: String,
+    /// The model.
+    pub subject: Arc<dyn Subject>,
+    /// Base samples of its own design; `None` to let the run choose.
+    pub base_samples: Option<u64>,
+}
+
+impl LowFidelity {
+    /// Why it cannot stand in for `model` on the factors of `space`; `None` if it can.
+    pub(super) fn refused(&self, model: &dyn Model, space: &Space) -> Option<String> {
+        let low = self.subject.model(space);
+        let names = |model: &dyn Model| -> Vec<String> { model.outputs().iter().map(|o| o.name.to_string()).collect() };
+        let (own, wanted) = (names(&*low), names(model));
+        if own != wanted {
+            return Some(format!(
+                "its outputs are {}, and must be those of the model: {}",
+                own.join(", "),
+                wanted.join(", ")
+            ));
+        }
+        None
     }
 }
 
@@ -47,11 +123,25 @@ impl dyn Subject {
 }
 
 /// A model that is part of a program.
-pub(super) struct CustomSubject(pub Arc<dyn Model>);
+pub(super) struct CustomSubject {
+    model: Arc<dyn Model>,
+    /// What tells it from others in journals, if anything does.
+    version: Option<String>,
+}
+
+impl CustomSubject {
+    pub(super) fn new(model: Arc<dyn Model>) -> Self {
+        Self { model, version: None }
+    }
+
+    pub(super) fn with_version(self, version: &str) -> Self {
+        Self { version: Some(version.to_owned()), ..self }
+    }
+}
 
 impl fmt::Debug for CustomSubject {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("CustomSubject").field("outputs", &self.0.outputs()).finish_non_exhaustive()
+        f.debug_struct("CustomSubject").field("outputs", &self.model.outputs()).finish_non_exhaustive()
     }
 }
 
@@ -61,6 +151,10 @@ impl Subject for CustomSubject {
     }
 
     fn model(&self, _space: &Space) -> Box<dyn Model> {
-        Box::new(self.0.clone())
+        Box::new(Arc::clone(&self.model))
+    }
+
+    fn settings(&self) -> Vec<(&'static str, Value)> {
+        self.version.iter().map(|version| ("version", Value::from(version.as_str()))).collect()
     }
 }

@@ -43,6 +43,7 @@ impl Family {
             | Distribution::LogNormal(_)
             | Distribution::Weibull(_)
             | Distribution::Gumbel(_) => Self::Hermite,
+            // Those without bounds of the rest have none of their own, and are taken by their quantiles.
             _ => OwnPolynomials::new(distribution, MOST_DEGREES).map_or(Self::Legendre, |own| Self::Own(Box::new(own))),
         }
     }

@@ -43,12 +43,43 @@ fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
     term.iter().any(|(factor, _)| swap.binary_search(factor).is_ok())
 }
 
-fn mean_power(columns: &[Vec<f64>], power: i32) -> f64 {
+/// The mean of a power over all columns.
+pub(super) fn mean_power(columns: &[Vec<f64>], power: i32) -> f64 {
     let count: usize = columns.iter().map(Vec::len).sum();
     columns.iter().flatten().map(|e| e.powi(power)).sum::<f64>() / count.max(1) as f64
 }
 
+/// The values of `expansion` at every run and point of `net`, and what it leaves of the outputs.
+pub(super) fn values_and_rest(net: &Net, expansion: &Expansion) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+    let mut values = Vec::new();
+    let mut surrogate = vec![vec![0.0; net.points()]; net.runs()];
+    for (run, sums) in surrogate.iter_mut().enumerate() {
+        for (term, b) in expansion.terms.iter().zip(&expansion.coefficients) {
+            net.fill(term, run, &mut values);
+            sums.iter_mut().zip(&values).for_each(|(sum, value)| *sum += b * value);
+        }
+    }
+    let less = |(f, g): (&Vec<f64>, &Vec<f64>)| f.iter().zip(g).map(|(f, g)| f - g).collect();
+    let e = net.outputs.iter().zip(&surrogate).map(less).collect();
+    (surrogate, e)
+}
+
 impl Contributions {
+    /// Nothing yet, of that many swaps and pairs at the points of `net`.
+    pub(super) fn zeros(swaps: usize, pairs: usize, net: &Net) -> Self {
+        let points = net.points();
+        let columns = |count: usize| vec![vec![0.0; points]; count];
+        Self {
+            first_order: columns(swaps),
+            total: [columns(swaps), columns(swaps)],
+            pairs: columns(pairs),
+            variance: vec![0.0; points],
+            mean: vec![0.0; points],
+            residual: (0.0, 0.0),
+            rows: points * net.runs(),
+        }
+    }
+
     /// Of `net` corrected by the surrogate `expansion` of other nets; `swaps` and `pairs` have their factors in rising order.
     pub fn new(
         design: &Design,
@@ -57,26 +88,9 @@ impl Contributions {
         swaps: &[Vec<usize>],
         pairs: &[(usize, usize)],
     ) -> Self {
-        let (points, runs) = (net.points(), net.runs());
-        let mut values = Vec::new();
-        let mut surrogate = vec![vec![0.0; points]; runs];
-        for (run, sums) in surrogate.iter_mut().enumerate() {
-            for (term, b) in expansion.terms.iter().zip(&expansion.coefficients) {
-                net.fill(term, run, &mut values);
-                sums.iter_mut().zip(&values).for_each(|(sum, value)| *sum += b * value);
-            }
-        }
-        let less = |(f, g): (&Vec<f64>, &Vec<f64>)| f.iter().zip(g).map(|(f, g)| f - g).collect();
-        let e: Vec<Vec<f64>> = net.outputs.iter().zip(&surrogate).map(less).collect();
-        let mut all = Self {
-            first_order: vec![vec![0.0; points]; swaps.len()],
-            total: [vec![vec![0.0; points]; swaps.len()], vec![vec![0.0; points]; swaps.len()]],
-            pairs: vec![vec![0.0; points]; pairs.len()],
-            variance: vec![0.0; points],
-            mean: vec![0.0; points],
-            residual: (mean_power(&e, 2), mean_power(&e, 4)),
-            rows: points * runs,
-        };
+        let (surrogate, e) = values_and_rest(net, expansion);
+        let mut all = Self::zeros(swaps.len(), pairs.len(), net);
+        all.residual = (mean_power(&e, 2), mean_power(&e, 4));
         all.add_surrogate(net, expansion, &e, (swaps, pairs));
         all.add_residual(design, net, &surrogate, &e, (swaps.len(), pairs));
         all
@@ -103,24 +117,54 @@ impl Contributions {
                 continue;
             }
             let contributions: Vec<f64> = products.iter().map(|sum| b * b + 2.0 * b * sum / runs).collect();
-            let add =
-                |column: &mut Vec<f64>| column.iter_mut().zip(&contributions).for_each(|(sum, more)| *sum += more);
-            add(&mut self.variance);
-            for (number, swap) in swaps.iter().enumerate() {
-                if within(term, swap) {
-                    add(&mut self.first_order[number]);
-                }
-                if touches(term, swap) {
-                    add(&mut self.total[0][number]);
-                    self.total[1][number].iter_mut().for_each(|sum| *sum += b * b);
-                }
+            self.add_term((swaps, pairs), term, [&|p| contributions[p], &|_| b * b]);
+        }
+    }
+
+    /// What a term that is no constant adds at every point to the numbers that it belongs to, and to the second form of the
+    /// total indices.
+    pub(super) fn add_term(
+        &mut self,
+        (swaps, pairs): (&[Vec<usize>], &[(usize, usize)]),
+        term: &[(usize, usize)],
+        [first, second]: [&dyn Fn(usize) -> f64; 2],
+    ) {
+        let add = |column: &mut Vec<f64>, value: &dyn Fn(usize) -> f64| {
+            column.iter_mut().enumerate().for_each(|(p, sum)| *sum += value(p));
+        };
+        add(&mut self.variance, first);
+        for (number, swap) in swaps.iter().enumerate() {
+            if within(term, swap) {
+                add(&mut self.first_order[number], first);
             }
-            for (column, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
-                if matches!(term[..], [(a, _), (b, _)] if a == j && b == k) {
-                    add(column);
-                }
+            if touches(term, swap) {
+                add(&mut self.total[0][number], first);
+                add(&mut self.total[1][number], second);
             }
         }
+        for (column, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
+            if matches!(*term, [(a, _), (b, _)] if a == j && b == k) {
+                add(column, first);
+            }
+        }
+    }
+
+    /// All columns of numbers.
+    fn columns_mut(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
+        let [total, second] = &mut self.total;
+        let lists = self.first_order.iter_mut().chain(total).chain(second).chain(&mut self.pairs);
+        lists.chain([&mut self.variance, &mut self.mean])
+    }
+
+    /// Multiplies all numbers.
+    pub(super) fn scale(&mut self, factor: f64) {
+        self.columns_mut().flatten().for_each(|value| *value *= factor);
+    }
+
+    /// Appends the points that follow.
+    pub(super) fn append(&mut self, mut following: Self) {
+        self.rows += following.rows;
+        self.columns_mut().zip(following.columns_mut()).for_each(|(column, more)| column.append(more));
     }
 
     /// What is quadratic in `e`, by pick-freeze.

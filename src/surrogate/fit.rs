@@ -1,7 +1,7 @@
 //! Sparse polynomial chaos expansions: few terms, chosen by greedy least squares, their number by leaving out a net.
 
 use super::basis::{Caps, Term, first_terms, neighbours};
-use super::gram::{Path, Square, solve};
+use super::gram::{Path, Square, lower_factor, solve};
 use super::net::Net;
 use crate::sum::product;
 
@@ -26,25 +26,49 @@ pub struct Expansion {
     pub coefficients: Vec<f64>,
 }
 
+/// The runs of a net that surrogates are fitted to: those of one output, or of many at the same rows.
+pub struct Training<'a> {
+    net: &'a Net,
+    /// For each output those of every run.
+    outputs: Vec<&'a [Vec<f64>]>,
+}
+
+impl<'a> Training<'a> {
+    /// The output of `net`.
+    pub fn new(net: &'a Net) -> Self {
+        Self::of_outputs(net, vec![&net.outputs])
+    }
+
+    /// Other `outputs` at the rows of `net`: for each of them those of every run.
+    pub fn of_outputs(net: &'a Net, outputs: Vec<&'a [Vec<f64>]>) -> Self {
+        Self { net, outputs }
+    }
+}
+
 /// Sums over the rows of a net by which terms are chosen.
 pub struct NetSums {
     gram: Square,
-    right: Vec<f64>,
-    square: f64,
+    /// For each output its products with the terms, and its sum of squares.
+    right: Vec<Vec<f64>>,
+    squares: Vec<f64>,
     rows: usize,
 }
 
 impl NetSums {
     /// For the candidates `terms`, of at most `most` rows.
-    pub fn new(net: &Net, terms: &[Term], most: usize) -> Self {
-        let rows = net.spaced_rows(most);
-        let outputs: Vec<f64> = rows.iter().map(|&(run, point)| net.outputs[run][point]).collect();
-        let columns: Vec<Vec<f64>> = terms.iter().map(|term| net.at(term, &rows)).collect();
+    pub fn new(of: &Training<'_>, terms: &[Term], most: usize) -> Self {
+        let rows = of.net.spaced_rows(most);
+        let columns: Vec<Vec<f64>> = terms.iter().map(|term| of.net.at(term, &rows)).collect();
         let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let mut gram = Square::zeros(terms.len());
         gram.add_products(&columns);
-        let right = columns.iter().map(|column| product(column, &outputs)).collect();
-        Self { gram, right, square: product(&outputs, &outputs), rows: rows.len() }
+        let of_output = |outputs: &&[Vec<f64>]| -> (Vec<f64>, f64) {
+            let outputs: Vec<f64> = rows.iter().map(|&(run, point)| outputs[run][point]).collect();
+            let right = columns.iter().map(|column| product(column, &outputs)).collect();
+            (right, product(&outputs, &outputs))
+        };
+        let (right, squares) = of.outputs.iter().map(of_output).unzip();
+        Self { gram, right, squares, rows: rows.len() }
     }
 }
 
@@ -58,75 +82,144 @@ pub fn first_candidates(caps: Caps<'_>, rows: usize) -> Vec<Term> {
     first_terms(caps, caps.terms.min(20.max(2 * rows)))
 }
 
-/// The expansion fitted to the nets `training`; `first` holds the candidates of the first round and their sums over each of
-/// these nets.
-pub fn fit(training: &[&Net], first: (&[Term], &[&NetSums]), caps: Caps<'_>) -> Expansion {
+/// Expansions of one output or of many, which share their terms.
+pub struct Expansions {
+    /// Lists of terms.
+    terms: Vec<Vec<Term>>,
+    /// For each output the number of its list, and the coefficients of the first of its terms.
+    of: Vec<(usize, Vec<f64>)>,
+}
+
+impl Expansions {
+    /// The expansion of output number `output`.
+    pub fn of_output(&self, output: usize) -> Expansion {
+        let (list, coefficients) = &self.of[output];
+        Expansion { terms: self.terms[*list][..coefficients.len()].to_vec(), coefficients: coefficients.clone() }
+    }
+}
+
+/// The expansions fitted to the nets `training`; `first` holds the candidates of the first round and their sums over each of
+/// these nets. Terms are chosen for all outputs together, and for each output how many of them it takes.
+pub fn fit(training: &[&Training<'_>], first: (&[Term], &[&NetSums]), caps: Caps<'_>) -> Expansions {
     let rounds = if caps.families.len() <= 10 { 3 } else { 2 };
     let rows = selection_rows(training.len());
-    let mut best = chosen(first.0, first.1);
+    let mut found = vec![chosen(first.0, first.1)];
     let mut candidates = first.0.to_vec();
-    for _ in 1..rounds {
-        let next = neighbours(&best.1.terms, &best.1.coefficients, caps);
+    let mut best = 0;
+    for round in 1..rounds {
+        let next = neighbours(&found[best].terms, &found[best].weights, caps);
         if next.iter().all(|term| candidates.contains(term)) {
             break;
         }
         let sums: Vec<NetSums> = training.iter().map(|net| NetSums::new(net, &next, rows)).collect();
-        let found = chosen(&next, &sums.iter().collect::<Vec<_>>());
+        found.push(chosen(&next, &sums.iter().collect::<Vec<_>>()));
         candidates = next;
-        if found.0 < best.0 {
-            best = found;
+        if found[round].error() < found[best].error() {
+            best = round;
         }
     }
-    refitted(training, best.1.terms)
+    let outputs = found[0].sizes.len();
+    let error = |round: usize, output: usize| found[round].errors[output];
+    let best_of = |output: usize| {
+        (1..found.len()).fold(0, |best, round| if error(round, output) < error(best, output) { round } else { best })
+    };
+    let best: Vec<usize> = (0..outputs).map(best_of).collect();
+    let mut all = Expansions { terms: Vec::new(), of: vec![(0, Vec::new()); outputs] };
+    for (round, chosen) in found.iter().enumerate() {
+        let members = (0..outputs).filter(|&output| best[output] == round);
+        let members: Vec<(usize, usize)> = members.map(|output| (output, chosen.sizes[output])).collect();
+        let most = members.iter().map(|(_, size)| *size).max().unwrap_or(0);
+        let terms = chosen.terms[..most].to_vec();
+        let coefficients = refitted(training, &terms, &members);
+        members.iter().zip(coefficients).for_each(|((output, _), of)| all.of[*output] = (round, of));
+        all.terms.push(terms);
+    }
+    all
 }
 
-/// The best terms among `candidates` with their coefficients, and the sum of squares that they leave of each net when it is
-/// left out.
-fn chosen(candidates: &[Term], nets: &[&NetSums]) -> (f64, Expansion) {
+/// Terms chosen among some candidates, those that all outputs gain most from first.
+struct Chosen {
+    terms: Vec<Term>,
+    /// Root mean squares of their coefficients over the outputs.
+    weights: Vec<f64>,
+    /// How many of them each output takes.
+    sizes: Vec<usize>,
+    /// The sum of squares that these leave of each net when it is left out.
+    errors: Vec<f64>,
+}
+
+impl Chosen {
+    /// What is left of all outputs.
+    fn error(&self) -> f64 {
+        self.errors.iter().sum()
+    }
+}
+
+/// The best terms among `candidates`.
+fn chosen(candidates: &[Term], nets: &[&NetSums]) -> Chosen {
     let rows: usize = nets.iter().map(|net| net.rows).sum();
     let folds = nets.len() as f64;
     let most = (TERMS_PER_ROW * rows as f64 * (folds - 1.0) / folds) as usize;
     let most = MOST_TERMS.min(candidates.len()).min(most.max(2));
-    let mut errors = vec![0.0; most];
+    let outputs = nets.first().map_or(0, |net| net.right.len());
+    let mut errors = vec![vec![0.0; most]; outputs];
     for (left_out, net) in nets.iter().enumerate() {
         let others: Vec<&NetSums> =
             nets.iter().enumerate().filter(|(place, _)| *place != left_out).map(|(_, net)| *net).collect();
         let (gram, right) = joined(&others);
-        let path = Path::new(&gram, &right, most);
-        let held_out = path.held_out(&net.gram, &net.right, net.square);
-        let last = held_out.last().copied().unwrap_or(net.square);
-        let of_size = held_out.iter().copied().chain(std::iter::repeat(last));
-        errors.iter_mut().zip(of_size).for_each(|(sum, error)| *sum += error.max(0.0));
+        let held_out = Path::new(&gram, right, most).held_out(&net.gram, &net.right, &net.squares);
+        for ((errors, held_out), square) in errors.iter_mut().zip(held_out).zip(&net.squares) {
+            let last = held_out.last().copied().unwrap_or(*square);
+            let of_size = held_out.into_iter().chain(std::iter::repeat(last));
+            errors.iter_mut().zip(of_size).for_each(|(sum, error)| *sum += error.max(0.0));
+        }
     }
-    let place = (1..most).fold(0, |best, k| if errors[k] < errors[best] { k } else { best });
+    let place = |errors: &Vec<f64>| (1..most).fold(0, |best, k| if errors[k] < errors[best] { k } else { best });
+    let places: Vec<usize> = errors.iter().map(place).collect();
     let (gram, right) = joined(nets);
-    let path = Path::new(&gram, &right, place + 1);
-    let terms = path.chosen.iter().map(|&column| candidates[column].clone()).collect();
-    (errors[place], Expansion { terms, coefficients: path.coefficients(path.chosen.len()) })
+    let path = Path::new(&gram, right, places.iter().max().map_or(0, |place| place + 1));
+    let sizes: Vec<usize> = places.iter().map(|place| (place + 1).min(path.chosen.len())).collect();
+    let mut squares = vec![0.0; path.chosen.len()];
+    for (output, size) in sizes.iter().enumerate() {
+        let coefficients = path.coefficients(output, *size);
+        squares.iter_mut().zip(coefficients).for_each(|(sum, b)| *sum += b * b);
+    }
+    Chosen {
+        terms: path.chosen.iter().map(|&column| candidates[column].clone()).collect(),
+        weights: squares.iter().map(|square| (square / outputs as f64).sqrt()).collect(),
+        sizes,
+        errors: errors.iter().zip(&places).map(|(errors, place)| errors[*place]).collect(),
+    }
 }
 
-fn joined(nets: &[&NetSums]) -> (Square, Vec<f64>) {
-    let size = nets.first().map_or(0, |net| net.right.len());
-    let (mut gram, mut right) = (Square::zeros(size), vec![0.0; size]);
+fn joined(nets: &[&NetSums]) -> (Square, Vec<Vec<f64>>) {
+    let (size, outputs) = nets.first().map_or((0, 0), |net| (net.gram.size(), net.right.len()));
+    let (mut gram, mut right) = (Square::zeros(size), vec![vec![0.0; size]; outputs]);
     for net in nets {
         gram.add(&net.gram);
-        right.iter_mut().zip(&net.right).for_each(|(sum, more)| *sum += more);
+        for (right, more) in right.iter_mut().zip(&net.right) {
+            right.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+        }
     }
     (gram, right)
 }
 
-/// The least-squares expansion in `terms` over all rows of the nets.
-fn refitted(nets: &[&Net], terms: Vec<Term>) -> Expansion {
+/// The coefficients of the least-squares expansions over all rows of the nets: for each of `members` its number of the first
+/// `terms`.
+fn refitted(nets: &[&Training<'_>], terms: &[Term], members: &[(usize, usize)]) -> Vec<Vec<f64>> {
     let mut gram = Square::zeros(terms.len());
-    let mut right = vec![0.0; terms.len()];
+    let mut right = vec![vec![0.0; terms.len()]; members.len()];
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); terms.len()];
-    for net in nets {
-        for (run, outputs) in net.outputs.iter().enumerate() {
-            columns.iter_mut().zip(&terms).for_each(|(column, term)| net.fill(term, run, column));
+    for Training { net, outputs } in nets {
+        for run in 0..net.runs() {
+            columns.iter_mut().zip(terms).for_each(|(column, term)| net.fill(term, run, column));
             gram.add_products(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>());
-            right.iter_mut().zip(&columns).for_each(|(sum, column)| *sum += product(column, outputs));
+            for (right, (output, size)) in right.iter_mut().zip(members) {
+                let outputs = &outputs[*output][run];
+                right.iter_mut().zip(&columns).take(*size).for_each(|(sum, column)| *sum += product(column, outputs));
+            }
         }
     }
-    let coefficients = solve(&gram, &right);
-    Expansion { terms, coefficients }
+    let lower = lower_factor(&gram);
+    right.iter().zip(members).map(|(right, (_, size))| solve(&lower[..*size], right)).collect()
 }

@@ -112,35 +112,49 @@ fn subtract(factor: &mut [f64], weight: f64, earlier: &[f64]) {
     factor.iter_mut().zip(earlier).for_each(|(value, earlier)| *value -= weight * earlier);
 }
 
-/// Columns chosen one by one, each the one that lowers the sum of squares most, made orthonormal in this order.
+/// Takes `score` times `factor` off `rest`, and adds the squares of what is left to `squares`.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+fn take_off(rest: &mut [f64], score: f64, factor: &[f64], squares: &mut [f64]) {
+    for ((rest, factor), square) in rest.iter_mut().zip(factor).zip(squares) {
+        *rest -= factor * score;
+        *square += *rest * *rest;
+    }
+}
+
+/// Columns chosen one by one, each the one that lowers the sum of squares of all outputs most, made orthonormal in this order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
     /// The numbers of the columns, in the order in which they were chosen.
     pub chosen: Vec<usize>,
-    /// The coefficient of each in the orthonormal system.
-    scores: Vec<f64>,
+    /// For each output the coefficient of each in the orthonormal system.
+    scores: Vec<Vec<f64>>,
     /// The orthonormal column number k in terms of the chosen ones: row k has k + 1 values.
     inverse: Vec<Vec<f64>>,
 }
 
 impl Path {
-    /// Up to `most` columns of those with the inner products `gram`, whose products with the outputs are `right`. The first
+    /// Up to `most` columns of those with the inner products `gram`, whose products with each output are `right`. The first
     /// column is always the first. Equal gains go to the column that comes first.
-    pub fn new(gram: &Square, right: &[f64], most: usize) -> Self {
+    pub fn new(gram: &Square, right: Vec<Vec<f64>>, most: usize) -> Self {
         let size = gram.size();
         let own: Vec<f64> = (0..size).map(|j| gram.at(j, j)).collect();
-        let (mut left, mut rest) = (own.clone(), right.to_vec());
+        let (mut left, mut rest) = (own.clone(), right);
+        let mut squares = vec![0.0; size];
+        for rest in &rest {
+            squares.iter_mut().zip(rest).for_each(|(sum, rest)| *sum += rest * rest);
+        }
+        let least = LEAST_GAIN * rest.len() as f64;
         let mut open = vec![true; size];
         let mut factors: Vec<Vec<f64>> = Vec::new();
-        let (mut chosen, mut scores): (Vec<usize>, Vec<f64>) = (Vec::new(), Vec::new());
+        let (mut chosen, mut scores): (Vec<usize>, Vec<Vec<f64>>) = (Vec::new(), vec![Vec::new(); rest.len()]);
         while chosen.len() < most.min(size) {
             let gain = |j: usize| {
                 let fits = open[j] && left[j] > INDEPENDENT * own[j];
-                if fits { rest[j] * rest[j] / left[j] } else { -1.0 }
+                if fits { squares[j] / left[j] } else { -1.0 }
             };
             let best = (1..size).fold((0, gain(0)), |best, j| if gain(j) > best.1 { (j, gain(j)) } else { best });
             let (next, gained) = if chosen.is_empty() { (0, 0.0) } else { best };
-            if !chosen.is_empty() && gained <= LEAST_GAIN {
+            if !chosen.is_empty() && gained <= least {
                 break;
             }
             let root = left[next].sqrt();
@@ -149,14 +163,15 @@ impl Path {
                 subtract(&mut factor, earlier[next], earlier);
             }
             factor.iter_mut().for_each(|value| *value /= root);
-            let score = rest[next] / root;
-            for j in 0..size {
-                left[j] -= factor[j] * factor[j];
-                rest[j] -= factor[j] * score;
+            left.iter_mut().zip(&factor).for_each(|(left, factor)| *left -= factor * factor);
+            squares.fill(0.0);
+            for (rest, scores) in rest.iter_mut().zip(&mut scores) {
+                let score = rest[next] / root;
+                take_off(rest, score, &factor, &mut squares);
+                scores.push(score);
             }
             open[next] = false;
             chosen.push(next);
-            scores.push(score);
             factors.push(factor);
         }
         let lower: Vec<Vec<f64>> = chosen
@@ -167,34 +182,42 @@ impl Path {
         Self { chosen, scores, inverse: inverse(&lower) }
     }
 
-    /// The coefficients of the first `size` chosen columns.
-    pub fn coefficients(&self, size: usize) -> Vec<f64> {
+    /// The coefficients of the first `size` chosen columns for output number `output`.
+    pub fn coefficients(&self, output: usize, size: usize) -> Vec<f64> {
         let mut all = vec![0.0; size];
-        for (score, row) in self.scores.iter().zip(&self.inverse).take(size) {
+        for (score, row) in self.scores[output].iter().zip(&self.inverse).take(size) {
             all.iter_mut().zip(row).for_each(|(sum, weight)| *sum += score * weight);
         }
         all
     }
 
-    /// The sum of squares that 1, 2, ... chosen columns leave of other outputs, with the inner products `gram` and `right`
-    /// and the sum of squares `square`.
-    pub fn held_out(&self, gram: &Square, right: &[f64], square: f64) -> Vec<f64> {
+    /// The sums of squares that 1, 2, ... chosen columns leave of other rows, with the inner products `gram`, and for each
+    /// output the products `right` and the sum of squares in `squares`.
+    pub fn held_out(&self, gram: &Square, right: &[Vec<f64>], squares: &[f64]) -> Vec<Vec<f64>> {
         let of_chosen: Vec<Vec<f64>> =
             self.chosen.iter().map(|&i| self.chosen.iter().map(|&j| gram.at(i, j)).collect()).collect();
-        let right: Vec<f64> = self.chosen.iter().map(|&column| right[column]).collect();
-        let mut errors = Vec::with_capacity(self.chosen.len());
-        // The products of the fit so far with all chosen columns.
-        let mut products = vec![0.0; self.chosen.len()];
-        let mut error = square;
-        for (score, row) in self.scores.iter().zip(&self.inverse) {
+        // The products of every orthonormal column with all chosen ones.
+        let products_of = |row: &Vec<f64>| {
             let mut mine = vec![0.0; self.chosen.len()];
             row.iter().zip(&of_chosen).for_each(|(weight, column)| subtract(&mut mine, -weight, column));
-            let own = product(row, &mine);
-            error += score * score * own + 2.0 * score * (product(row, &products) - product(row, &right));
-            errors.push(error);
-            subtract(&mut products, -score, &mine);
-        }
-        errors
+            mine
+        };
+        let columns: Vec<Vec<f64>> = self.inverse.iter().map(products_of).collect();
+        let own: Vec<f64> = self.inverse.iter().zip(&columns).map(|(row, mine)| product(row, mine)).collect();
+        let of_output = |((scores, right), square): ((&Vec<f64>, &Vec<f64>), &f64)| {
+            let right: Vec<f64> = self.chosen.iter().map(|&column| right[column]).collect();
+            // The products of the fit so far with all chosen columns.
+            let mut products = vec![0.0; self.chosen.len()];
+            let mut error = *square;
+            let mut errors = Vec::with_capacity(self.chosen.len());
+            for (score, (row, (mine, own))) in scores.iter().zip(self.inverse.iter().zip(columns.iter().zip(&own))) {
+                error += score * score * own + 2.0 * score * (product(row, &products) - product(row, &right));
+                errors.push(error);
+                subtract(&mut products, -score, mine);
+            }
+            errors
+        };
+        self.scores.iter().zip(right).zip(squares).map(of_output).collect()
     }
 }
 
@@ -213,8 +236,8 @@ fn inverse(lower: &[Vec<f64>]) -> Vec<Vec<f64>> {
     rows
 }
 
-/// The least-squares solution of `gram` x = `right`, with a ridge at the size of rounding.
-pub fn solve(gram: &Square, right: &[f64]) -> Vec<f64> {
+/// The lower triangular factor of `gram`, with a ridge at the size of rounding (Cholesky).
+pub fn lower_factor(gram: &Square) -> Vec<Vec<f64>> {
     let size = gram.size();
     let trace: f64 = (0..size).map(|i| gram.at(i, i)).sum();
     let ridge = 1e-12 * trace / size.max(1) as f64;
@@ -236,7 +259,13 @@ pub fn solve(gram: &Square, right: &[f64]) -> Vec<f64> {
         row[i] = row[i].max(f64::MIN_POSITIVE).sqrt();
         lower.push(row);
     }
-    let mut x = right.to_vec();
+    lower
+}
+
+/// The least-squares solution of G x = `right`, where the first rows of the factor of G are `lower`: the first columns alone.
+pub fn solve(lower: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
+    let size = lower.len();
+    let mut x = right[..size].to_vec();
     for i in 0..size {
         let known: f64 = lower[i][..i].iter().zip(&x).map(|(a, b)| a * b).sum();
         x[i] = (x[i] - known) / lower[i][i];
@@ -290,20 +319,39 @@ mod tests {
         let y: Vec<f64> = (0..300).map(|r| 3.0 * columns[7][r] - 0.5 * columns[2][r] + 0.01 * columns[4][r]).collect();
         let gram = gram(&columns);
         let right: Vec<f64> = columns.iter().map(|column| product(column, &y)).collect();
-        let path = Path::new(&gram, &right, 4);
+        let path = Path::new(&gram, vec![right.clone()], 4);
         assert_eq!(path.chosen, [0, 7, 2, 4]);
-        let coefficients = path.coefficients(4);
+        let coefficients = path.coefficients(0, 4);
         for (found, exact) in coefficients.iter().zip([0.0, 3.0, -0.5, 0.01]) {
             assert!((found - exact).abs() < 1e-12, "{coefficients:?}");
         }
-        let errors = path.held_out(&gram, &right, product(&y, &y));
+        let errors = path.held_out(&gram, &[right], &[product(&y, &y)]).remove(0);
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0]) && errors[3].abs() < 1e-10, "{errors:?}");
         // The error of three columns, term by term.
-        let b = path.coefficients(3);
+        let b = path.coefficients(0, 3);
         let left: f64 = (0..300)
             .map(|r| (y[r] - path.chosen.iter().zip(&b).map(|(&c, b)| b * columns[c][r]).sum::<f64>()).powi(2))
             .sum();
         assert!((errors[2] - left).abs() < 1e-10, "{} {left}", errors[2]);
+    }
+
+    #[test]
+    fn outputs_choose_together_and_keep_their_own_coefficients() {
+        let columns = columns(12, 300);
+        let gram = gram(&columns);
+        let make = |of: &dyn Fn(usize) -> f64| (0..300).map(of).collect::<Vec<f64>>();
+        let outputs = [make(&|r| 3.0 * columns[7][r]), make(&|r| 2.0 * columns[2][r] - columns[7][r])];
+        let right: Vec<Vec<f64>> =
+            outputs.iter().map(|y| columns.iter().map(|column| product(column, y)).collect()).collect();
+        let path = Path::new(&gram, right.clone(), 3);
+        assert_eq!(path.chosen, [0, 7, 2]);
+        for (output, exact) in [[0.0, 3.0, 0.0], [0.0, -1.0, 2.0]].iter().enumerate() {
+            let found = path.coefficients(output, 3);
+            assert!(found.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+        }
+        let squares: Vec<f64> = outputs.iter().map(|y| product(y, y)).collect();
+        let errors = path.held_out(&gram, &right, &squares);
+        assert!(errors[0][1].abs() < 1e-10 && errors[1][1] > 1.0 && errors[1][2].abs() < 1e-10, "{errors:?}");
     }
 
     #[test]
@@ -312,7 +360,7 @@ mod tests {
         columns.push(columns[1].clone());
         let y = columns[1].clone();
         let right: Vec<f64> = columns.iter().map(|column| product(column, &y)).collect();
-        assert_eq!(Path::new(&gram(&columns), &right, 4).chosen, [0, 1]);
+        assert_eq!(Path::new(&gram(&columns), vec![right], 4).chosen, [0, 1]);
     }
 
     #[test]
@@ -321,7 +369,7 @@ mod tests {
         let exact = [1.0, -2.0, 0.0, 4.0, 0.5];
         let y: Vec<f64> = (0..40).map(|r| (0..5).map(|c| exact[c] * columns[c][r]).sum()).collect();
         let right: Vec<f64> = columns.iter().map(|column| product(column, &y)).collect();
-        for (found, exact) in solve(&gram(&columns), &right).iter().zip(exact) {
+        for (found, exact) in solve(&lower_factor(&gram(&columns)), &right).iter().zip(exact) {
             assert!((found - exact).abs() < 1e-9);
         }
     }

@@ -8,18 +8,22 @@ pub mod basis;
 pub mod corrected;
 pub mod fit;
 pub mod gram;
+pub mod low_fidelity;
 pub mod net;
 mod own;
+mod together;
+
+pub use together::surrogates_together;
 
 use rayon::prelude::*;
 
 use crate::design::{Design, Sampler};
 use crate::estimate::PointOutputs;
 use crate::space::Space;
-use crate::uncertainty::{Influenced, Layout, SurrogateEstimates, SurrogateTerm, in_parts};
+use crate::uncertainty::{Influenced, Layout, PartInfluences, SurrogateEstimates, SurrogateTerm, in_parts};
 use basis::{Caps, Family, Term};
 use corrected::Contributions;
-use fit::{Expansion, NetSums, first_candidates, fit, selection_rows};
+use fit::{Expansion, Expansions, NetSums, Training, first_candidates, fit, selection_rows};
 use net::Net;
 
 /// Fewest nets: a surrogate of the others has its number of terms by leaving out one of them.
@@ -62,27 +66,27 @@ pub fn surrogate_estimates(
     layout: &Layout,
     replicates: &[&PointOutputs],
 ) -> Option<SurrogateEstimates> {
-    if design.settings().sampler == Sampler::LatinHypercube || replicates.len() < FEWEST_NETS {
+    if !takes_surrogates(design, replicates.len()) {
         return None;
     }
-    let raw: Vec<Vec<Vec<f64>>> = replicates.iter().map(|kept| columns(kept, design.runs().len())).collect();
-    let finite = raw.iter().flatten().flatten().copied().filter(|y| y.is_finite());
-    let (mean, sd) = mean_and_sd(&finite.collect::<Vec<f64>>())?;
-    let scale = |runs: &Vec<Vec<f64>>| -> Vec<Vec<f64>> {
-        runs.iter().map(|run| run.iter().map(|y| (y - mean) / sd).collect()).collect()
-    };
-    let outputs: Vec<Vec<Vec<f64>>> = raw.iter().map(scale).collect();
+    let (outputs, scale) = scaled(replicates, design.runs().len(), None)?;
     let pairs = if layout.second_order { layout.pair_list() } else { Vec::new() };
     let job = Job { design, outputs: &outputs, pairs: &pairs };
     let mut best: Option<Corrected> = None;
     for Trial { families, hermite_degree, ratio } in trials(families) {
-        let other = job.corrected(&families, hermite_degree)?;
-        if best.as_ref().is_none_or(|best| other.residual() < ratio * best.residual()) {
-            best = Some(other);
-        }
+        best = Corrected::better(best, job.corrected(&families, hermite_degree)?, ratio);
     }
-    let corrected = best?;
-    Some(estimates(&corrected, (design.swaps().len(), pairs.len()), (mean, sd)))
+    Some(estimates(&best?, &[], (design.swaps().len(), pairs.len()), scale))
+}
+
+/// Whether there are enough nets, and points that are nets.
+fn takes_surrogates(design: &Design, replicates: usize) -> bool {
+    design.settings().sampler != Sampler::LatinHypercube && replicates >= FEWEST_NETS
+}
+
+/// Fewest base points of a net of `design` that surrogates are fitted to.
+pub fn fewest_points(design: &Design) -> usize {
+    if design.plain_rows() > 0 { FEWEST_POINTS_WITH_PLAIN_ROWS } else { FEWEST_POINTS }
 }
 
 /// Polynomials that are tried.
@@ -127,6 +131,12 @@ struct Corrected {
 }
 
 impl Corrected {
+    /// The `next` of two trials if it leaves less than `ratio` times what the `best` one does.
+    fn better(best: Option<Self>, next: Self, ratio: f64) -> Option<Self> {
+        let is_better = best.as_ref().is_none_or(|best| next.residual() < ratio * best.residual());
+        if is_better { Some(next) } else { best }
+    }
+
     /// Mean square of what the surrogates leave.
     fn residual(&self) -> f64 {
         self.residual_powers().0
@@ -155,11 +165,10 @@ impl Job<'_> {
             Net::new(design, number as u64, families, caps.degree, outputs)
         };
         let nets: Vec<Net> = self.outputs.par_iter().enumerate().map(net).collect();
-        let fewest = if design.plain_rows() > 0 { FEWEST_POINTS_WITH_PLAIN_ROWS } else { FEWEST_POINTS };
-        if nets.iter().any(|net| net.points() < fewest) {
+        if nets.iter().any(|net| net.points() < fewest_points(design)) {
             return None;
         }
-        let swaps: Vec<Vec<usize>> = design.swaps().iter().map(|swap| sorted(swap)).collect();
+        let swaps = sorted_swaps(design);
         let contributions =
             |net: &Net, expansion: &Expansion| Contributions::new(design, net, expansion, &swaps, self.pairs);
         let (nets, expansions) = cross_fitted(&nets, caps, contributions).into_iter().unzip();
@@ -173,22 +182,44 @@ pub fn cross_fitted<T: Send>(
     caps: Caps<'_>,
     of: impl Fn(&Net, &Expansion) -> T + Sync,
 ) -> Vec<(T, Expansion)> {
-    let training = nets.len() - 1;
-    let rows = selection_rows(training);
-    let all_rows = nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
-    let candidates = first_candidates(caps, all_rows);
-    let sums: Vec<NetSums> = nets.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
-    let of_net = |k: usize| {
-        let expansion = fit(&without(nets, k), (&candidates, &without(&sums, k)), caps);
-        (of(&nets[k], &expansion), expansion)
+    let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
+    let with = |(net, expansions): (&Net, Expansions)| {
+        let expansion = expansions.of_output(0);
+        (of(net, &expansion), expansion)
     };
+    nets.par_iter().zip(fitted_to_others(nets, &training, caps)).map(with).collect()
+}
+
+/// For every net the expansions fitted to the `training` runs of the others.
+fn fitted_to_others(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>) -> Vec<Expansions> {
+    let (candidates, rows) = first_round(nets, caps);
+    let sums: Vec<NetSums> = training.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
+    let of_net = |k: usize| fit(&without(training, k), (&candidates, &without(&sums, k)), caps);
     (0..nets.len()).into_par_iter().map(of_net).collect()
 }
 
-fn sorted(swap: &[usize]) -> Vec<usize> {
-    let mut swap = swap.to_vec();
-    swap.sort_unstable();
-    swap
+/// The candidates of the first round, and the rows of each net that choose among them.
+fn first_round(nets: &[Net], caps: Caps<'_>) -> (Vec<Term>, usize) {
+    let training = nets.len() - 1;
+    let rows = selection_rows(training);
+    let all_rows = nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
+    (first_candidates(caps, all_rows), rows)
+}
+
+/// The expansion fitted to all nets but number `k`.
+fn expansion_without(nets: &[Net], k: usize, caps: Caps<'_>) -> Expansion {
+    let (candidates, rows) = first_round(nets, caps);
+    let others: Vec<Training<'_>> = without(nets, k).into_iter().map(Training::new).collect();
+    let sums: Vec<NetSums> = others.iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
+    let (others, sums): (Vec<&Training<'_>>, Vec<&NetSums>) = (others.iter().collect(), sums.iter().collect());
+    fit(&others, (&candidates, &sums), caps).of_output(0)
+}
+
+/// The factors of every swap in rising order.
+fn sorted_swaps(design: &Design) -> Vec<Vec<usize>> {
+    let mut swaps: Vec<Vec<usize>> = design.swaps().to_vec();
+    swaps.iter_mut().for_each(|swap| swap.sort_unstable());
+    swaps
 }
 
 fn without<T>(list: &[T], left_out: usize) -> Vec<&T> {
@@ -204,6 +235,17 @@ fn columns(kept: &PointOutputs, runs: usize) -> Vec<Vec<f64>> {
     columns
 }
 
+/// Outputs of every replicate and run over their standard deviation, less their mean, and both, unless a scale is given.
+type Scaled = (Vec<Vec<Vec<f64>>>, (f64, f64));
+
+fn scaled(replicates: &[&PointOutputs], runs: usize, scale: Option<(f64, f64)>) -> Option<Scaled> {
+    let mut outputs: Vec<Vec<Vec<f64>>> = replicates.iter().map(|kept| columns(kept, runs)).collect();
+    let finite = || outputs.iter().flatten().flatten().copied().filter(|y| y.is_finite()).collect::<Vec<f64>>();
+    let (mean, sd) = scale.map_or_else(|| mean_and_sd(&finite()), Some)?;
+    outputs.iter_mut().flatten().flatten().for_each(|y| *y = (*y - mean) / sd);
+    Some((outputs, (mean, sd)))
+}
+
 /// `None` if the values are all alike, or none.
 fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
     let mean = crate::sum::mean(values);
@@ -214,15 +256,25 @@ fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
     (size > 0.0 && sd.is_finite() && mean.is_finite()).then_some((mean, sd))
 }
 
-/// The means over all points, and what each part does to them.
-fn estimates(corrected: &Corrected, (swaps, pairs): (usize, usize), (mean, sd): (f64, f64)) -> SurrogateEstimates {
+/// The means over all points, and what each part does to them; those of `low`, the runs of a cheaper model, are added.
+fn estimates(
+    corrected: &Corrected,
+    low: &[Contributions],
+    (swaps, pairs): (usize, usize),
+    (mean, sd): (f64, f64),
+) -> SurrogateEstimates {
     let Corrected { nets, expansions } = corrected;
-    let gathered = |column: &dyn Fn(&Contributions) -> &Vec<f64>| -> Influenced {
+    let of_nets = |nets: &[Contributions], column: &dyn Fn(&Contributions) -> &Vec<f64>| {
         let columns: Vec<Vec<f64>> = nets.iter().map(|net| column(net).clone()).collect();
         let count: usize = columns.iter().map(Vec::len).sum();
-        let estimate = columns.iter().flatten().sum::<f64>() / count as f64;
-        let parts = in_parts(&columns).into_iter().map(|net| net.into_iter().map(|x| x - estimate).collect()).collect();
-        Influenced { estimate, parts }
+        let mean = columns.iter().flatten().sum::<f64>() / count.max(1) as f64;
+        let parts: PartInfluences =
+            in_parts(&columns).into_iter().map(|net| net.into_iter().map(|x| x - mean).collect()).collect();
+        (mean, parts)
+    };
+    let gathered = |column: &dyn Fn(&Contributions) -> &Vec<f64>| {
+        let ((mean, parts), (of_low, low)) = (of_nets(nets, column), of_nets(low, column));
+        Influenced { estimate: mean + of_low, parts, low }
     };
     let variance = gathered(&|net| &net.variance);
     let index = |numerator: &Influenced| {
@@ -251,6 +303,7 @@ fn estimates(corrected: &Corrected, (swaps, pairs): (usize, usize), (mean, sd): 
         terms: told_terms(expansions, variance.estimate),
         term_count: expansions.iter().map(|e| e.terms.len() as f64).sum::<f64>() / expansions.len() as f64,
         variance: scaled(variance, 0.0, sd * sd),
+        low: None,
     }
 }
 
@@ -258,7 +311,7 @@ fn estimates(corrected: &Corrected, (swaps, pairs): (usize, usize), (mean, sd): 
 fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
     let (mut covariance, mut variance) = (0.0, 0.0);
     for (a, b) in first.iter().zip(second) {
-        for (a, b) in a.parts.iter().zip(&b.parts) {
+        for (a, b) in a.parts.iter().chain(&a.low).zip(b.parts.iter().chain(&b.low)) {
             let n = a.len() as f64;
             let mean = |list: &[f64]| list.iter().sum::<f64>() / n;
             let (mean_a, mean_b) = (mean(a), mean(b));

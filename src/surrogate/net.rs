@@ -1,5 +1,7 @@
 //! The runs of one replicate as the fit sees them: polynomials of the base points, and the outputs of every run.
 
+use std::sync::Arc;
+
 use super::basis::{Family, Term, polynomials};
 use crate::design::{Design, Run};
 
@@ -7,22 +9,34 @@ use crate::design::{Design, Run};
 /// run failed are left out.
 pub struct Net {
     /// For each matrix and factor a column for each degree from 1.
-    columns: Vec<Vec<Vec<f64>>>,
+    columns: Arc<Vec<Vec<Vec<f64>>>>,
     factors: usize,
     /// For each run its outputs, less the mean of all and over their standard deviation.
     pub outputs: Vec<Vec<f64>>,
     /// For each run and factor the matrix of its column.
-    matrices: Vec<Vec<usize>>,
+    matrices: Arc<Vec<Vec<usize>>>,
     points: usize,
 }
 
 impl Net {
-    /// The base points `points` of `replicate` whose `outputs`, a column for each run, are all finite.
+    /// The first base points of `replicate`, those of them whose `outputs`, a column for each run, are all finite.
     pub fn new(design: &Design, replicate: u64, families: &[Family], degree: usize, outputs: &[Vec<f64>]) -> Self {
-        let count = outputs.first().map_or(0, Vec::len);
+        let outputs: Vec<&[f64]> = outputs.iter().map(Vec::as_slice).collect();
+        Self::of_points(design, (replicate, 0), families, degree, &outputs)
+    }
+
+    /// The same from base point number `first` on.
+    pub fn of_points(
+        design: &Design,
+        (replicate, first): (u64, u64),
+        families: &[Family],
+        degree: usize,
+        outputs: &[&[f64]],
+    ) -> Self {
+        let count = outputs.first().map_or(0, |run| run.len());
         let good: Vec<usize> = (0..count).filter(|&p| outputs.iter().all(|run| run[p].is_finite())).collect();
         let mut base = vec![vec![0.0; count]; design.columns()];
-        design.replicate(replicate).fill(0, &mut base);
+        design.replicate(replicate).fill(first, &mut base);
         let factors = design.factors();
         let of_column = |(number, u): (usize, &Vec<f64>)| {
             let u: Vec<f64> = good.iter().map(|&p| u[p]).collect();
@@ -32,10 +46,12 @@ impl Net {
             design.first_column(if run.columns.binary_search(&factor).is_ok() { run.from } else { run.base }) / factors
         };
         Self {
-            columns: base.iter().enumerate().map(of_column).collect(),
+            columns: Arc::new(base.iter().enumerate().map(of_column).collect()),
             factors,
             outputs: outputs.iter().map(|run| good.iter().map(|&p| run[p]).collect()).collect(),
-            matrices: design.runs().iter().map(|run| (0..factors).map(|f| matrix(run, f)).collect()).collect(),
+            matrices: Arc::new(
+                design.runs().iter().map(|run| (0..factors).map(|f| matrix(run, f)).collect()).collect(),
+            ),
             points: good.len(),
         }
     }
@@ -43,7 +59,20 @@ impl Net {
     /// Plain rows, one run of one matrix: `columns` has a column for each factor and degree from 1.
     pub fn of_rows(columns: Vec<Vec<Vec<f64>>>, outputs: Vec<f64>) -> Self {
         let (factors, points) = (columns.len(), outputs.len());
-        Self { columns, factors, outputs: vec![outputs], matrices: vec![vec![0; factors]], points }
+        let matrices = Arc::new(vec![vec![0; factors]]);
+        Self { columns: Arc::new(columns), factors, outputs: vec![outputs], matrices, points }
+    }
+
+    /// Other `outputs` at the same rows.
+    pub fn with_outputs(&self, outputs: Vec<Vec<f64>>) -> Self {
+        let Self { columns, factors, matrices, points, .. } = self;
+        Self {
+            columns: Arc::clone(columns),
+            factors: *factors,
+            outputs,
+            matrices: Arc::clone(matrices),
+            points: *points,
+        }
     }
 
     /// Base points.

@@ -56,6 +56,7 @@ pub(super) fn local(
     let points = match distribution {
         Distribution::Discrete(_)
         | Distribution::Integer(_)
+        | Distribution::Poisson(_)
         | Distribution::Categorical(_)
         | Distribution::Constant(_) => None,
         _ => Some(Points::of(x, distribution)),

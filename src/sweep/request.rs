@@ -180,7 +180,7 @@ impl FactorValues {
         };
         let values = match distribution {
             Distribution::Constant(_) => vec![low],
-            Distribution::Integer(_) if high - low >= points as f64 => {
+            whole if whole.is_whole() && high - low >= points as f64 => {
                 (0..points).map(|i| between(i).round()).collect()
             }
             _ => match distribution.levels() {
@@ -232,9 +232,7 @@ impl FactorValues {
             }
         }
         let values = quantities.iter().map(|quantity| in_unit(quantity, factor)).collect::<Result<Vec<f64>, _>>()?;
-        if let (Distribution::Integer(_), Some(value)) =
-            (factor.distribution(), values.iter().find(|v| v.fract() != 0.0))
-        {
+        if let (true, Some(value)) = (factor.distribution().is_whole(), values.iter().find(|v| v.fract() != 0.0)) {
             return Err(SweepError::NotWhole { value: *value, name: factor.name.clone() });
         }
         Ok(Self { factor: number, values })

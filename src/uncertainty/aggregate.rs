@@ -1,12 +1,13 @@
 //! Indices over several outputs together, with intervals.
 
+use rayon::prelude::*;
+
 use super::Estimate;
 use super::concentration::Side;
-use super::influence::{Influences, Outputs};
+use super::influence::{Influences, LeftOut};
 use super::method::IntervalMethod;
 use super::output::{Judged, agreeing};
-use crate::design::Companions;
-use crate::estimate::{FirstOrder, MomentParts, Moments, Scaling, Total, Undefined, aggregated, merged};
+use crate::estimate::{FirstOrder, Indices, MomentParts, Moments, Scaling, Total, Undefined, aggregated};
 
 /// Aggregated indices of every swap.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,27 +18,30 @@ pub struct AggregateIndices {
     pub total: Vec<Estimate>,
 }
 
-/// Aggregated indices of `outputs` by the default estimators ([`aggregated`]).
+/// Aggregated indices of `outputs`, which have the parts of their replicates, by the default estimators ([`aggregated`]).
 ///
 /// # Errors
 /// [`Undefined`] if all outputs are constant, or one has no indices for another reason.
 pub fn aggregate_indices(
-    outputs: Outputs<'_>,
+    outputs: &[&[&MomentParts]],
     scaling: Scaling,
     method: IntervalMethod,
 ) -> Result<AggregateIndices, Undefined> {
-    let of = |outputs: &[Moments]| {
-        let companions = outputs.first().map_or(Companions::NONE, Moments::companions);
-        let outputs: Vec<&Moments> = outputs.iter().collect();
-        aggregated(&outputs, FirstOrder::of_rows(companions), Total::of_rows(companions), scaling)
+    let of = |moments: &Moments| {
+        let companions = moments.companions();
+        let indices = Indices::by(moments, FirstOrder::of_rows(companions), Total::of_rows(companions));
+        indices.map(|Indices { first_order, total, .. }| (moments.variance(), [first_order, total].concat()))
     };
-    let whole: Vec<Moments> = outputs
-        .iter()
-        .map(|replicates| merged(&replicates.iter().map(MomentParts::whole).collect::<Vec<_>>()))
-        .collect();
-    of(&whole)?;
-    let list = |outputs: &[Moments]| of(outputs).ok().map(|indices| [indices.first_order, indices.total].concat());
-    let influences = Influences::of(outputs, &list).ok_or(Undefined::NoRuns)?;
+    // Output by output: the sums of all at once, without each part, would fill the memory.
+    let all: Vec<LeftOut<_>> = outputs.par_iter().map(|replicates| LeftOut::of(replicates, &of)).collect();
+    let whole = aggregated(all.iter().map(|output| &output.whole), scaling)?;
+    let largest = |of: &dyn Fn(&LeftOut<_>) -> f64| all.iter().map(of).fold(0.0, f64::max);
+    let parts = all.iter().map(|output| output.without.len()).min().unwrap_or(0);
+    let points: Vec<f64> = (0..parts).map(|part| largest(&|output| output.points_of_parts[part])).collect();
+    let without = (0..parts).map(|part| aggregated(all.iter().map(|output| &output.without[part]), scaling).ok());
+    let without: Vec<Option<Vec<f64>>> = without.collect();
+    let replicates = outputs.first().ok_or(Undefined::NoRuns)?;
+    let influences = Influences::new(replicates, whole, &without, (largest(&|output| output.points), &points));
     let pooled = vec![true; influences.whole.len()];
     let mut first_order = Judged::of(influences, method, &pooled, &|_| Side::Above).estimates;
     let total = first_order.split_off(first_order.len() / 2);

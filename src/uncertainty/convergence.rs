@@ -1,5 +1,6 @@
 //! How estimates and intervals changed as a run grew, read from its parts once it is over.
 
+use super::corrected::SurrogateEstimates;
 use super::estimates::Layout;
 use super::output::{IntervalOptions, OutputIndices, output_indices};
 use crate::estimate::MomentParts;
@@ -16,11 +17,10 @@ pub struct Stage {
 /// Fewest parts of a replicate that make a stage: fewer say next to nothing of its error.
 const FEWEST_PARTS: usize = 4;
 
-/// The stages of a run at each half of the one after it, the whole last: every prefix of the parts of each replicate is a
-/// run of its own. Stages without indices are left out.
-pub fn stages(replicates: &[MomentParts], layout: &Layout, options: &IntervalOptions<'_>) -> Vec<Stage> {
+/// How many parts of a replicate each stage but the last has, in ascending order.
+fn sizes_of_stages(replicates: &[&MomentParts]) -> Vec<usize> {
     let parts = replicates.iter().map(|replicate| replicate.parts().len()).min().unwrap_or(0);
-    let mut sizes = vec![parts];
+    let mut sizes = Vec::new();
     // Down from the largest power of two below the whole: prefixes of a net are nets.
     let mut size = parts.next_power_of_two() / 2;
     while size >= FEWEST_PARTS {
@@ -28,12 +28,39 @@ pub fn stages(replicates: &[MomentParts], layout: &Layout, options: &IntervalOpt
         size /= 2;
     }
     sizes.reverse();
+    sizes
+}
+
+/// The most base points that a replicate has at each stage but the last.
+pub fn points_of_stages(replicates: &[&MomentParts]) -> Vec<u64> {
+    let longest = |size: usize| replicates.iter().map(|replicate| replicate.prefix(size).points()).max().unwrap_or(0);
+    sizes_of_stages(replicates).into_iter().map(longest).collect()
+}
+
+/// The stages of a run at each half of the one after it, `whole` last: every prefix of the parts of each replicate is a
+/// run of its own. `surrogate` tells what a surrogate makes of so many first base points of each replicate. Stages without
+/// indices are left out.
+pub fn stages<'s>(
+    replicates: &[MomentParts],
+    layout: &Layout,
+    options: &IntervalOptions<'_>,
+    whole: &OutputIndices,
+    surrogate: &dyn Fn(u64) -> Option<&'s SurrogateEstimates>,
+) -> Vec<Stage> {
     let stage = |size: usize| {
         let prefix: Vec<MomentParts> = replicates.iter().map(|replicate| replicate.prefix(size)).collect();
         let base_samples = prefix.iter().map(MomentParts::points).sum();
         let longest = prefix.iter().map(MomentParts::points).max().unwrap_or(0);
-        let options = IntervalOptions { points: options.points.map(|points| points.prefix(longest)), ..*options };
+        let options = IntervalOptions {
+            points: options.points.map(|points| points.prefix(longest)),
+            surrogate: surrogate(longest),
+            ranks: false,
+            ..*options
+        };
         output_indices(&prefix, layout, &options).ok().map(|indices| Stage { base_samples, indices })
     };
-    sizes.into_iter().filter_map(stage).collect()
+    let base_samples = replicates.iter().map(MomentParts::points).sum();
+    let last = Stage { base_samples, indices: whole.clone() };
+    let sizes = sizes_of_stages(&replicates.iter().collect::<Vec<_>>());
+    sizes.into_iter().filter_map(stage).chain([last]).collect()
 }

@@ -12,26 +12,35 @@ pub struct Influenced {
     pub estimate: f64,
     /// The mean influence of the points of every part, `[net][part]`.
     pub parts: PartInfluences,
+    /// The same of the runs of a cheaper model, which are independent of the others; empty without one.
+    pub low: PartInfluences,
 }
 
 impl Influenced {
     /// The number is `estimate`, whatever the rows.
     fn settled(&self, estimate: f64) -> Self {
-        Self { estimate, parts: self.parts.iter().map(|net| vec![0.0; net.len()]).collect() }
+        Self { estimate, parts: still(&self.parts), low: still(&self.low) }
     }
 
     /// A sum of numbers with weights.
     pub fn combined(list: &[(f64, &Self)]) -> Self {
         let estimate = list.iter().map(|(weight, of)| weight * of.estimate).sum();
-        let mut parts: PartInfluences =
-            list.first().map_or_else(Vec::new, |(_, of)| of.parts.iter().map(|net| vec![0.0; net.len()]).collect());
-        for (weight, of) in list {
-            for (sums, more) in parts.iter_mut().zip(&of.parts) {
-                sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += weight * more);
+        let of = |parts: fn(&Self) -> &PartInfluences| {
+            let mut sums = list.first().map_or_else(Vec::new, |(_, of)| still(parts(of)));
+            for (weight, of) in list {
+                for (sums, more) in sums.iter_mut().zip(parts(of)) {
+                    sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += weight * more);
+                }
             }
-        }
-        Self { estimate, parts }
+            sums
+        };
+        Self { estimate, parts: of(|of| &of.parts), low: of(|of| &of.low) }
     }
+}
+
+/// Parts of the same sizes that have no influence.
+fn still(parts: &PartInfluences) -> PartInfluences {
+    parts.iter().map(|net| vec![0.0; net.len()]).collect()
 }
 
 /// What a surrogate makes of the runs of an output. Indices are those of all swaps, in the order of the layout.
@@ -55,6 +64,24 @@ pub struct SurrogateEstimates {
     pub terms: Vec<SurrogateTerm>,
     /// Number of terms, of all surrogates on average.
     pub term_count: f64,
+    /// The cheaper model that stands in beside the surrogates, if there is one.
+    pub low: Option<LowFidelityUse>,
+}
+
+/// What was made of a cheaper model.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct LowFidelityUse {
+    /// Its name.
+    pub name: String,
+    /// How much the output of the dear model rises with that of the cheaper one, by least squares.
+    pub slope: f64,
+    /// Share of the variance that the cheaper model explains by itself, of the runs that its slope was not fitted to.
+    pub explained: f64,
+    /// Its runs at the rows of the dear model.
+    pub shared_runs: u64,
+    /// Its runs at points of their own.
+    pub own_runs: u64,
 }
 
 /// A term of a surrogate.
@@ -91,6 +118,8 @@ pub struct SurrogateUse {
     pub plain_first_order: Vec<Estimate>,
     /// The plain total indices of all swaps.
     pub plain_total: Vec<Estimate>,
+    /// The cheaper model that stands in beside the surrogates, if there is one.
+    pub low: Option<LowFidelityUse>,
 }
 
 /// A number, its interval, its error, and its influences.
@@ -103,6 +132,23 @@ pub(super) struct Corrections {
 }
 
 impl SurrogateEstimates {
+    /// The sum of the squared errors of all first-order and total indices.
+    pub fn squared_error(&self) -> f64 {
+        self.squared_errors().iter().sum()
+    }
+
+    /// What the rows of the model contribute to it, and what the runs of a cheaper model do.
+    pub fn squared_errors(&self) -> [f64; 2] {
+        let of_kind = |list: &[Influenced], skewed: bool| {
+            let noise = Noise::new(&list.iter().map(|of| &of.parts).collect::<Vec<_>>(), skewed);
+            let squares = list.iter().map(|of| [noise.error(of), noise.error_of_parts(&of.parts)]);
+            squares
+                .fold([0.0; 2], |[all, own], [of_all, of_own]| [all + of_all.error.powi(2), own + of_own.error.powi(2)])
+        };
+        let ([all, own], [more, more_own]) = (of_kind(&self.first_order, false), of_kind(&self.total, true));
+        [own + more_own, (all + more - own - more_own).max(0.0)]
+    }
+
     /// What replaces the `plain` numbers of `layout` with the errors `errors`, but for those of `settled` swaps.
     pub(super) fn corrections(
         &self,
@@ -120,7 +166,7 @@ impl SurrogateEstimates {
             let noise =
                 Noise::new(&moving.iter().map(|swap| &list[*swap].parts).collect::<Vec<_>>(), index == Number::Total);
             let plain: f64 = moving.iter().map(|swap| errors[layout.place(*swap, index)].error.powi(2)).sum();
-            let corrected: f64 = moving.iter().map(|swap| noise.error(&list[*swap].parts).error.powi(2)).sum();
+            let corrected: f64 = moving.iter().map(|swap| noise.error(&list[*swap]).error.powi(2)).sum();
             let is_known = !moving.is_empty() && plain.is_finite() && corrected.is_finite();
             (list, noise, is_known.then(|| plain / corrected.max(f64::MIN_POSITIVE)))
         };
@@ -157,11 +203,11 @@ impl SurrogateEstimates {
                     replacements.push((place, replacement(total.even(), &interaction)));
                 }
                 (true, false) => {
-                    let first = first.estimate(of_first.estimate, &of_first.parts);
+                    let first = first.estimate(of_first);
                     replacements.push((place, (difference(plain_total, first), errors[place], Vec::new())));
                 }
                 (false, true) => {
-                    let total = total.estimate(of_total.estimate, &of_total.parts);
+                    let total = total.estimate(of_total);
                     replacements.push((place, (difference(total, plain_first), errors[place], Vec::new())));
                 }
                 (false, false) => (),
@@ -185,6 +231,7 @@ impl SurrogateEstimates {
             gain_total,
             plain_first_order: plain_of(Number::FirstOrder),
             plain_total: plain_of(Number::Total),
+            low: self.low.clone(),
         };
         Corrections { replacements, used }
     }
@@ -193,7 +240,8 @@ impl SurrogateEstimates {
     pub(super) fn moments(&self) -> [Replacement; 2] {
         let of = |of: &Influenced, skewed| {
             // In units of the largest influence, so that nothing under- or overflows when squared.
-            let largest = of.parts.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+            let influences = of.parts.iter().chain(&of.low).flatten();
+            let largest = influences.fold(0.0, |largest: f64, x| largest.max(x.abs()));
             let size = if largest > 0.0 { largest } else { 1.0 };
             let scaled = Influenced { estimate: of.estimate / size, ..Influenced::combined(&[(1.0 / size, of)]) };
             let (estimate, error, _) = replacement(Noise::of_moment(&scaled.parts, skewed), &scaled);
@@ -229,7 +277,7 @@ fn indices(
 }
 
 fn replacement(noise: Noise, of: &Influenced) -> Replacement {
-    (noise.estimate(of.estimate, &of.parts), noise.error(&of.parts), of.parts.clone())
+    (noise.estimate(of), noise.error(of), of.parts.clone())
 }
 
 fn sum(list: &[Influenced]) -> Influenced {
@@ -239,9 +287,10 @@ fn sum(list: &[Influenced]) -> Influenced {
 /// 100 part/all.
 fn share(part: &Influenced, all: &Influenced) -> Influenced {
     let percent = 100.0 * part.estimate / all.estimate;
-    let Influenced { parts, .. } =
-        Influenced::combined(&[(100.0 / all.estimate, part), (-percent / all.estimate, all)]);
-    Influenced { estimate: percent, parts }
+    Influenced {
+        estimate: percent,
+        ..Influenced::combined(&[(100.0 / all.estimate, part), (-percent / all.estimate, all)])
+    }
 }
 
 /// The interval that holds both, or nothing if one of them is unknown.

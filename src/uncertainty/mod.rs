@@ -26,10 +26,10 @@ mod unseen;
 pub use aggregate::{AggregateIndices, aggregate_indices};
 #[cfg(feature = "study")]
 pub(crate) use by_points::quantile;
-pub use convergence::{Stage, stages};
-pub use corrected::{Influenced, SurrogateEstimates, SurrogateTerm, SurrogateUse};
+pub use convergence::{Stage, points_of_stages, stages};
+pub use corrected::{Influenced, LowFidelityUse, SurrogateEstimates, SurrogateTerm, SurrogateUse};
 pub use estimates::Layout;
-pub use influence::{Influences, Outputs};
+pub use influence::Influences;
 pub use jackknife::jackknife;
 pub use method::IntervalMethod;
 pub use net_decay::{PartInfluences, StandardError, net_errors};
@@ -47,7 +47,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 pub const LEVEL: f64 = 0.95;
 
 /// Quantile of the normal distribution for [`LEVEL`].
-const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
+pub(crate) const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// A two-sided confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq)]

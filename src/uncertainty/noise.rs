@@ -6,7 +6,7 @@
 //! freedom that its largest contributions leave.
 
 use super::net_decay::{PartInfluences, StandardError};
-use super::{Estimate, Interval, t_quantile};
+use super::{Estimate, Influenced, Interval, t_quantile};
 
 /// Parts of a net whose mean influences stand for its points, at most.
 const PARTS: usize = 64;
@@ -98,8 +98,22 @@ impl Noise {
         Self { concentration: [low.max(high); 2], skewed: false, ..self }
     }
 
-    /// The standard error of the mean of the influences.
-    pub fn error(&self, parts: &PartInfluences) -> StandardError {
+    /// The standard error of the number.
+    pub fn error(&self, of: &Influenced) -> StandardError {
+        let own = self.error_of_parts(&of.parts);
+        if of.low.is_empty() {
+            return own;
+        }
+        // The runs of the cheaper model are independent: variances add up (the freedom after Welch and Satterthwaite).
+        let low = Self::new(&[&of.low], false).error_of_parts(&of.low);
+        let (a, b) = (own.error * own.error, low.error * low.error);
+        let freedom = (a + b).powi(2) / (a * a / own.freedom + b * b / low.freedom);
+        let freedom = if freedom.is_finite() { freedom } else { own.freedom.min(low.freedom) };
+        StandardError { error: own.error.hypot(low.error), freedom }
+    }
+
+    /// The standard error of the mean of influences.
+    pub fn error_of_parts(&self, parts: &PartInfluences) -> StandardError {
         let (within, between) = variances(parts);
         let direct = parts.len() as f64 - 1.0;
         let freedom = PRIOR_FREEDOM + direct;
@@ -107,9 +121,9 @@ impl Noise {
         StandardError { error: variance.sqrt(), freedom }
     }
 
-    /// The estimate with its interval.
-    pub fn estimate(&self, estimate: f64, parts: &PartInfluences) -> Estimate {
-        let error = self.error(parts);
+    /// The number with its interval.
+    pub fn estimate(&self, of: &Influenced) -> Estimate {
+        let (estimate, error) = (of.estimate, self.error(of));
         let half = |concentration: f64| {
             let freedom = (FREEDOM_OF_SIDE / concentration).min(error.freedom).max(1.0);
             t_quantile(freedom).map(|quantile| quantile * error.error + ROUNDING * estimate.abs().max(self.unit))

@@ -27,6 +27,8 @@ pub struct IntervalOptions<'a> {
     /// The outputs of every base point, for the methods that [keep](IntervalMethod::keeps_outputs) them. Without any they
     /// are approximated by batches.
     pub points: Option<KeptPoints<'a>>,
+    /// Whether the probabilities to be first are wanted: they take most of the time of a small design.
+    pub ranks: bool,
     /// What a surrogate makes of the outputs, to take the place of the plain estimates where it is more accurate.
     pub surrogate: Option<&'a SurrogateEstimates>,
 }
@@ -88,7 +90,7 @@ pub struct EffectEstimates {
     /// both were then lengthened until they met.
     pub contradictory: bool,
     /// Probability that the total index is the largest of all factors'; `None` for others than factors, and where errors are
-    /// unknown. Where several total indices are equal in truth, it is as likely to be any number as any other.
+    /// unknown or [ranks](IntervalOptions::ranks) were not asked for. Where several total indices are equal in truth, it is as likely to be any number as any other.
     pub probability_first: Option<f64>,
     /// Probability that the total index is above the threshold.
     pub probability_above: Option<f64>,
@@ -128,7 +130,7 @@ impl<'a> IntervalOptions<'a> {
 /// Mean and variance of one output from the parts of its replicates; `None` without any base point.
 pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>) -> Option<OutputMoments> {
     let of = |m: &Moments| (m.count() > 0).then(|| vec![m.mean(), m.variance()]);
-    let influences = Influences::of(&[replicates], &|outputs| of(&outputs[0]))?;
+    let influences = Influences::of(replicates, &of)?;
     let bounds = options.by_points().map(|by_points| {
         let whole: Vec<Moments> = replicates.iter().map(MomentParts::whole).collect();
         by_points.bounds(merged(&whole).without_swaps(), &influences.whole, &of)
@@ -164,8 +166,7 @@ pub fn output_indices(
     let whole: Vec<Moments> = replicates.iter().map(MomentParts::whole).collect();
     let whole = merged(&whole);
     Indices::of(&whole)?;
-    let influences =
-        Influences::of(&[replicates], &|outputs| quantities(layout, &outputs[0])).ok_or(Undefined::NoRuns)?;
+    let influences = Influences::of(replicates, &|moments| quantities(layout, moments)).ok_or(Undefined::NoRuns)?;
     let pooled = layout.pooled(influences.whole.len());
     let unseen = unseen(layout, &whole, &influences.whole);
     let half_seen: Vec<bool> = (0..layout.swaps()).map(|swap| half_seen(&whole, swap)).collect();
@@ -192,7 +193,7 @@ pub fn output_indices(
         })
         .collect();
     let surrogate = options.surrogate.map(|surrogate| judged.correct(layout, surrogate, &settled));
-    let first = judged.first(layout, options.seed);
+    let first = if options.ranks { judged.first(layout, options.seed) } else { None };
     let mut effects: Vec<EffectEstimates> = (0..layout.swaps())
         .map(|swap| {
             let mut effect = judged.effect(layout, swap, options.threshold);

@@ -33,6 +33,9 @@ pub fn probability_first(
         k == lead || estimates[lead] - estimates[k] <= reach
     };
     let rivals: Vec<usize> = (0..estimates.len()).filter(within_reach).collect();
+    if rivals.len() == 1 {
+        return Some((0..estimates.len()).map(|k| f64::from(u8::from(k == lead))).collect());
+    }
     let directions = coordinates(rivals.iter().map(|&k| direction(parts[k])).collect());
     let chi_squared = ChiSquared::new(errors[lead].freedom).ok()?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);

@@ -98,6 +98,207 @@ class TruncatedGumbel:
         return self.scale * mp.sqrt(self.moment(2, self.moment(1, 0)))
 
 
+class Exact:
+    """By its distribution function from below and from above, to 50 digits; `start` is a frozen distribution of SciPy."""
+
+    def __init__(self, below, above, start, mean=None, std=None, kinks=()):
+        self.below, self.above, self.start = below, above, start
+        self.exact_mean, self.exact_std, self.kinks = mean, std, kinks
+
+    def quantile(self, u):
+        u = mp.mpf(u)
+        low, high = map(mp.mpf, self.start)
+
+        def miss(x):
+            """In logarithms of the smaller probability."""
+            if u > 0.5:
+                above = self.above(x)
+                return -mp.log(above / (1 - u)) if above > 0 else mp.mpf(2000)
+            below = self.below(x)
+            return mp.log(below / u) if below > 0 else mp.mpf(-2000)
+
+        # Regula falsi in its Illinois form, with halvings by magnitude where it is slow.
+        before, after, slow, moved = miss(low), miss(high), 0, 0
+        if before >= 0 or after <= 0:
+            return low if before >= 0 else high
+        while high - low > mp.mpf(10) ** -19 * max(abs(low), abs(high)):
+            width = high - low
+            x = low + width * before / (before - after)
+            by_secant = slow < 2 and low < x < high
+            if not by_secant:
+                x = mp.sqrt(low * high) if low > 0 else (low + high) / 2 if low > -1 or high < 1 else mp.mpf(0)
+                x = -mp.sqrt(low * high) if high < 0 else x
+            here = miss(x)
+            if abs(here) < mp.mpf(10) ** -20:
+                return x
+            if here < 0:
+                after *= mp.mpf("0.5") if moved == -1 else 1
+                low, before, moved = x, here, -1
+            else:
+                before *= mp.mpf("0.5") if moved == 1 else 1
+                high, after, moved = x, here, 1
+            slow = slow + 1 if high - low > width / 2 and slow < 2 else 0
+            moved = moved if by_secant else 0
+        return (low + high) / 2
+
+    def ppf(self, us):
+        return [self.quantile(u) for u in us]
+
+    def mean(self):
+        return self.exact_mean
+
+    def std(self):
+        return self.exact_std
+
+
+class Poisson:
+    """Of SciPy, from above where its distribution function rounds to 1."""
+
+    def __init__(self, mean):
+        self.law = stats.poisson(mean)
+        self.mean, self.std = self.law.mean, self.law.std
+
+    def ppf(self, us):
+        return [self.law.ppf(u) if u < 0.5 else self.from_above(1 - u) for u in us]
+
+    def from_above(self, v):
+        k = max(0, int(self.law.isf(v)) - 5)
+        while self.law.sf(k) >= v:
+            k += 1
+        return k
+
+
+def t_tails(df):
+    def tail(z):
+        if z * z < df:
+            constant = mp.gamma((df + 1) / 2) / mp.gamma(df / 2) / mp.sqrt(mp.pi * df)
+            return mp.mpf("0.5") - abs(z) * constant * mp.hyp2f1(0.5, (df + 1) / 2, 1.5, -z * z / df)
+        return mp.betainc(df / mp.mpf(2), mp.mpf("0.5"), 0, df / (df + z * z), regularized=True) / 2
+
+    return lambda z: tail(z) if z < 0 else 1 - tail(z), lambda z: tail(z) if z > 0 else 1 - tail(z)
+
+
+def gamma_tails(shape):
+    return (
+        lambda x: mp.gammainc(shape, 0, x, regularized=True),
+        lambda x: mp.gammainc(shape, x, mp.inf, regularized=True),
+    )
+
+
+def inverse_gaussian_tails(mean, scale):
+    def parts(x):
+        root = mp.sqrt(mp.mpf(scale) / x)
+        with mp.workdps(120):
+            far = mp.exp(2 * mp.mpf(scale) / mean) * mp.ncdf(-root * (x / mean + 1))
+        return root * (x / mean - 1), far
+
+    def below(x):
+        t, far = parts(x)
+        return mp.ncdf(t) + far
+
+    def above(x):
+        t, far = parts(x)
+        return mp.ncdf(-t) - far
+
+    return below, above
+
+
+def moved(tails, location, scale):
+    below, above = tails
+    return lambda x: below((x - location) / scale), lambda x: above((x - location) / scale)
+
+
+def truncated(tails, low, high, density):
+    """Tails, mean and standard deviation of what is left between the bounds; moments by quadrature of the density."""
+    below, above = tails
+    b0 = below(mp.mpf(low)) if mp.isfinite(low) else mp.mpf(0)
+    a1 = above(mp.mpf(high)) if mp.isfinite(high) else mp.mpf(0)
+    mass = 1 - b0 - a1
+
+    def integral(of, centre):
+        points = [mp.mpf(p) for p in (low, centre, high)]
+        return mp.quad(lambda x: of(x) * density(x), points) / mass
+
+    def moments(centre):
+        mean = integral(lambda x: x, centre)
+        return mean, mp.sqrt(integral(lambda x: (x - mean) ** 2, centre))
+
+    return (lambda x: (below(x) - b0) / mass, lambda x: (above(x) - a1) / mass), moments
+
+
+def gamma_density(shape):
+    return lambda x: mp.exp((shape - 1) * mp.log(x) - x - mp.loggamma(shape))
+
+
+def log_normal_tails(m, s):
+    return (lambda x: mp.ncdf((mp.log(x) - m) / s), lambda x: mp.ncdf(-(mp.log(x) - m) / s))
+
+
+def pareto_tails(shape, least):
+    return (lambda x: 1 - (least / x) ** mp.mpf(shape), lambda x: (least / x) ** mp.mpf(shape))
+
+
+def t_density(df):
+    constant = mp.gamma((df + 1) / mp.mpf(2)) / mp.gamma(df / mp.mpf(2)) / mp.sqrt(df * mp.pi)
+    return lambda z: constant * (1 + z * z / mp.mpf(df)) ** (-(df + 1) / mp.mpf(2))
+
+
+def mixed(parts):
+    """Tails, mean and standard deviation of a mixture of (weight, tails, mean, sd)."""
+    total = mp.fsum(w for w, *_ in parts)
+    mean = mp.fsum(w * m for w, _, m, _ in parts) / total
+    variance = mp.fsum(w * (s * s + (m - mean) ** 2) for w, _, m, s in parts) / total
+    tails = tuple(lambda x, side=side: mp.fsum(w * t[side](x) for w, t, *_ in parts) / total for side in (0, 1))
+    return tails, mean, mp.sqrt(variance)
+
+
+def normal_tails(mean, sd):
+    return (lambda x: mp.ncdf((x - mean) / sd), lambda x: mp.ncdf((mean - x) / sd))
+
+
+def exact_cases():
+    """(family, parameters, exact distribution) of the families that are solved for, and of truncations and mixtures."""
+    for a, s, x in [(0.01, 1, 0), (0.3, 2, 0), (1, 3, 1), (2.5, 1e-9, 0), (30, 1, -5), (1000, 0.5, 0)]:
+        tails = moved(gamma_tails(mp.mpf(a)), mp.mpf(x), mp.mpf(s))
+        ends = (x + s * mp.mpf(10) ** (-330 / a if a < 1 else -330), x + s * (a + 60 * mp.sqrt(a) + 800))
+        yield "gamma", dict(shape=a, scale=s, location=x), Exact(*tails, ends, x + mp.mpf(a) * s, s * mp.sqrt(a))
+    for df, m, s in [(2.5, 0, 1), (3, 1, 2), (7, -1e-6, 1e-6), (50, 0, 1)]:
+        tails = moved(t_tails(mp.mpf(df)), mp.mpf(m), mp.mpf(s))
+        end = 100 * s * mp.mpf(10) ** (330 / df)
+        std = s * mp.sqrt(mp.mpf(df) / (mp.mpf(df) - 2))
+        yield "student-t", dict(df=df, location=m, scale=s), Exact(*tails, (m - end, m + end), m, std)
+    for m, s in [(1, 1), (2, 1e-3), (1, 1e-6), (3e-9, 1e-8), (1, 50), (10, 1e5)]:
+        tails = inverse_gaussian_tails(mp.mpf(m), mp.mpf(s))
+        ends = (mp.mpf(10) ** -4 * min(m, s), m * (4 + 2000 * mp.mpf(m) / s))
+        yield "inverse-gaussian", dict(mean=m, scale=s), Exact(*tails, ends, m, m * mp.sqrt(mp.mpf(m) / s))
+    inf = mp.inf
+    for low, high in [(0.5, 2), (0, 0.1), (8, inf), (40, 41), (1e-3, inf)]:
+        tails, moments = truncated(gamma_tails(mp.mpf(2)), low, high, gamma_density(2))
+        mean, std = moments(low + 1 if high == inf else (low + high) / 2)
+        ends = (low + mp.mpf(10) ** -330, 900 if high == inf else high)
+        yield "gamma", dict(shape=2, scale=1, location=0, truncate=[low, high]), Exact(*tails, ends, mean, std)
+    for df, low, high in [(1, -5, 20), (4, 3, inf), (3, -inf, 0.5)]:
+        tails, moments = truncated(t_tails(mp.mpf(df)), low, high, t_density(df))
+        mean, std = moments(0 if low < 0 < high else 5)
+        ends = (max(low, -mp.mpf(10) ** 110), min(high, mp.mpf(10) ** 90))
+        yield "student-t", dict(df=df, location=0, scale=1, truncate=[low, high]), Exact(*tails, ends, mean, std)
+    for m, s, low, high in [(0, 1, 0.5, 4), (1, 0.25, 0.1, 3)]:
+        density = lambda x, m=m, s=s: mp.npdf((mp.log(x) - m) / s) / (x * s)
+        tails, moments = truncated(log_normal_tails(mp.mpf(m), mp.mpf(s)), low, high, density)
+        yield "log-normal", dict(log_mean=m, log_sd=s, truncate=[low, high]), Exact(*tails, (low, high), *moments(1.5))
+    tails, moments = truncated(pareto_tails(0.8, 2), 2, 1000, lambda x: mp.mpf("0.8") / x * (2 / x) ** mp.mpf("0.8"))
+    yield "pareto", dict(shape=0.8, min=2, truncate=[-inf, 1000]), Exact(*tails, (2, 1000), *moments(30))
+    normals = [(3, 0, 1), (1, 5, mp.mpf("0.5"))]
+    tails, mean, std = mixed([(w, normal_tails(m, s), m, s) for w, m, s in normals])
+    components = [dict(distribution="normal", mean=m, sd=float(s)) for _, m, s in normals]
+    keys = dict(components=components, weights=[3, 1])
+    yield "mixture", keys, Exact(*tails, (-40, 40), mean, std)
+    parts = [(2, gamma_tails(mp.mpf(3)), 3, mp.sqrt(3)), (1, log_normal_tails(-10, 1), mp.exp(-9.5), mp.exp(-9.5) * mp.sqrt(mp.e - 1))]
+    tails, mean, std = mixed(parts)
+    components = [dict(distribution="gamma", shape=3, scale=1, location=0), dict(distribution="log-normal", log_mean=-10, log_sd=1)]
+    yield "mixture", dict(components=components, weights=[2, 1]), Exact(*tails, (mp.mpf(10) ** -30, 800), mean, std)
+
+
 CASES = [
     ("uniform", dict(min=a, max=b), stats.uniform(a, b - a)) for a, b in [(0, 1), (-3, 5), (2e-6, 2.5e-6)]
 ] + [
@@ -161,14 +362,41 @@ CASES = [
         (5, 2, 4, 4.001),
         (3, 0.5, 0, 10),
     ]
-]
+] + [
+    ("exponential", dict(scale=s, location=x), stats.expon(x, s)) for s, x in [(1, 0), (3e-9, 0), (2, -5)]
+] + [
+    ("logistic", dict(location=m, scale=s), stats.logistic(m, s)) for m, s in [(0, 1), (1e3, 5)]
+] + [
+    ("pareto", dict(shape=b, min=s), stats.pareto(b, scale=s)) for b, s in [(2.5, 1), (3, 1e-6), (40, 7)]
+] + [
+    ("poisson", dict(mean=m), Poisson(m)) for m in [1e-3, 0.7, 4, 36.5, 1000, 250000]
+] + list(exact_cases())
+
+# Far out in the lower tail, of the families that are solved for here.
+FAR = [1e-290, 1e-100]
+
+
+def numbers(value):
+    if isinstance(value, (list, tuple)):
+        return [numbers(inner) for inner in value]
+    if isinstance(value, dict):
+        return {key: numbers(inner) for key, inner in value.items()}
+    if isinstance(value, str):
+        return value
+    value = float(value)
+    return value if np.isfinite(value) else "inf" if value > 0 else "-inf"
+
+
+def us(frozen):
+    return FAR + U if isinstance(frozen, Exact) else U
+
 
 cases = [
     dict(
         distribution=name,
-        parameters={key: float(value) for key, value in parameters.items()},
-        u=U,
-        quantile=[float(x) for x in frozen.ppf(U)],
+        parameters=numbers(parameters),
+        u=us(frozen),
+        quantile=[float(x) for x in frozen.ppf(us(frozen))],
         mean=float(frozen.mean()),
         sd=float(frozen.std()),
     )

@@ -1,5 +1,7 @@
 //! Studies built in code.
 
+use std::path::Path;
+
 use apportion::design::Sampler;
 use apportion::estimate::Estimator;
 use apportion::model::{FunctionModel, Output, function_model};
@@ -7,7 +9,7 @@ use apportion::quantity::Unit;
 use apportion::report::ResultFile;
 use apportion::report::parse_result;
 use apportion::space::{Distribution, Factor};
-use apportion::study::{AnalysisOptions, BuildError, Study, StudyBuilder};
+use apportion::study::{AnalysisOptions, BuildError, Study, StudyBuilder, Target};
 use apportion::uncertainty::IntervalMethod;
 
 fn unit() -> Distribution {
@@ -88,6 +90,17 @@ fn options_ask_for_more() {
 }
 
 #[test]
+fn a_budget_of_runs_makes_the_design_of_the_file() {
+    let study = sum().factor("a", unit()).factor("b", unit()).budget_runs(100).build().unwrap();
+    let text = "model = \"expression\"\noutputs.y = \"a + b\"\n[design]\nbudget_runs = 100\n\
+        [[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"b\"\nmin = 0\nmax = 1\n";
+    let file = Study::parse(text, Path::new("mine.toml"), &[]).unwrap();
+    assert_eq!(study.design().plain_rows(), file.design().plain_rows());
+    assert_eq!(study.design().settings(), file.design().settings());
+    assert!(study.design().plain_rows() > 0 && study.design().rows() <= 100);
+}
+
+#[test]
 fn what_cannot_be_built_says_why() {
     let two = || sum().factor("a", unit()).factor("b", unit());
     let reason = |builder: StudyBuilder| builder.build().unwrap_err().to_string();
@@ -95,6 +108,10 @@ fn what_cannot_be_built_says_why() {
     assert_eq!(reason(two().factor("a", unit())), "factor `a` is there twice");
     assert!(reason(two().base_samples(2)).contains("base_samples = 2 is too few for 4 replicates"));
     assert!(reason(two().replicates(0)).contains("replicates = 0"));
+    assert!(reason(two().budget_runs(31)).starts_with("budget_runs: expected 32 or more"));
+    assert!(reason(two().budget_runs(100).base_samples(16)).starts_with("budget_runs beside base_samples"));
+    assert!(reason(two().budget_runs(100).until(Target::half_width(0.1))).contains("beside a target"));
+    assert!(reason(two().budget_runs(100).sampler(Sampler::LatinHypercube)).starts_with("plain rows serve surrogates"));
     let nameless = Study::builder("a/b", function_model("y", |x| x[0])).factor("x", unit());
     assert!(reason(nameless).starts_with("the name \"a/b\" of the study: expected letters"));
     let none = FunctionModel::new(Vec::new(), |_: &[f64], _: &mut [f64]| Ok(()));

@@ -56,9 +56,11 @@ fn assert_sound(scene: &Scene, options: &Options) -> bool {
             false
         }
         Ok(critical) => {
-            let Critical { normal_force, lateral_force, critical_force, force_angle, .. } = critical;
+            let Critical { normal_force, lateral_force, critical_force, .. } = critical;
             let Critical { contact_radius, indentation, error_estimate, .. } = critical;
-            for value in [normal_force, lateral_force, critical_force, force_angle, contact_radius, indentation] {
+            for value in
+                [normal_force, lateral_force, critical_force, critical.force_angle(), contact_radius, indentation]
+            {
                 assert!(value.is_finite(), "{critical:?}\n{scene:?}\n{options:?}");
             }
             assert!((0.0..=1.0).contains(&error_estimate), "{critical:?}\n{scene:?}\n{options:?}");

@@ -228,3 +228,149 @@ fn points_and_sweeps_of_no_category_are_refused() {
         assert!(stderr(&output).contains(expected), "{}", stderr(&output));
     }
 }
+
+/// A study with a factor of every family that people asked for, among them truncated ones; its model is their sum.
+pub const FAMILIES: &str = r#"model = "expression"
+[expression]
+outputs.y = "g + e + p + t + l + a + i + h + q + m + n"
+[design]
+base_samples = 4096
+[factor.g]
+distribution = "gamma"
+mean = 2
+sd = 1
+[factor.e]
+distribution = "exponential"
+mean = 1
+truncate = [0.5, inf]
+[factor.p]
+distribution = "poisson"
+mean = 4
+[factor.t]
+distribution = "student-t"
+df = 5
+location = 0
+scale = 1
+[factor.l]
+distribution = "logistic"
+mean = 2
+sd = 1
+[factor.a]
+distribution = "pareto"
+shape = 1
+min = 1
+truncate = [-inf, 4]
+[factor.i]
+distribution = "inverse-gaussian"
+mean = 2
+sd = 1
+[factor.h]
+distribution = "histogram"
+quantiles = { "0" = 1, "0.5" = 2, "1" = 5 }
+[factor.q]
+distribution = "histogram"
+edges = [0, 1, 3]
+weights = [1, 3]
+[factor.m]
+distribution = "mixture"
+weights = [3, 1]
+components = [{ distribution = "constant", value = 0 }, { distribution = "exponential", mean = 4 }]
+[factor.n]
+distribution = "normal"
+mean = 0
+sd = 1
+truncate = [-inf, 0]
+"#;
+
+/// Indices of a sum are the shares of the variances, which all have closed forms here.
+#[test]
+fn every_family_has_its_share_of_a_sum() {
+    let folder = Folder::new();
+    let (study, out) = (folder.with("study.toml", FAMILIES), folder.path("out"));
+    let table = succeed(&["check", text(&study)]);
+    // The median of 1 + an exponential of mean 1 from 0.5 on; the mean of the half normal distribution.
+    assert_eq!(line(&table, "e")[1..6], ["exponential", "1.5", "1", "0.551293", "1.19315"]);
+    assert_eq!(line(&table, "m")[1..6], ["mixture", "1", "2.64575", "0", "0"]);
+    assert_eq!(line(&table, "n")[1..3], ["truncated-normal", "-0.797885"]);
+    assert!(table.contains("e: exponential with scale = 1, location = 0, truncate = [0.5, inf]"), "{table}");
+    assert!(table.contains("a: pareto with shape = 1, min = 1, truncate = [1, 4]"), "{table}");
+    assert!(table.contains("i: inverse-gaussian with mean = 2, scale = 8"), "{table}");
+    succeed(&["run", text(&study), "--out", text(&out), "--set", "analysis.surrogate=\"off\""]);
+    let result: Value = serde_json::from_str(&std::fs::read_to_string(out.join("study.json")).unwrap()).unwrap();
+    // Of a Pareto distribution of shape 1 between 1 and 4: mean 4/3 ln 4, mean square 4/3 * 3.
+    let pareto = 4.0 - (4.0 / 3.0 * 4f64.ln()).powi(2);
+    // Of bins: mean of the squared deviations and of the widths over 12.
+    let quantiles = 0.5 * (1.0 + 1.0) + (1.0 + 9.0) / 24.0;
+    let bins = 0.25 * 1.125f64.powi(2) + 0.75 * 0.375f64.powi(2) + (0.25 + 0.75 * 4.0) / 12.0;
+    let half_normal = 1.0 - 2.0 / std::f64::consts::PI;
+    let variances = [1.0, 1.0, 4.0, 5.0 / 3.0, 1.0, pareto, 1.0, quantiles, bins, 7.0, half_normal];
+    let total: f64 = variances.iter().sum();
+    let indices = result["outputs"][0]["indices"].as_array().expect("a list");
+    for (index, variance) in indices.iter().zip(variances) {
+        for kind in ["first_order", "total"] {
+            let estimate = index[kind]["estimate"].as_f64().expect("a number");
+            // The long tails are felt at 4096 base samples.
+            assert!((estimate - variance / total).abs() < 0.01, "{index} {}", variance / total);
+        }
+    }
+    assert_eq!(result["factors"][1]["distribution"]["truncate"][1], "inf");
+    assert_eq!(result["factors"][9]["distribution"]["components"][1]["name"], "exponential");
+    let page = std::fs::read_to_string(out.join("study.html")).unwrap();
+    assert!(page.contains("mixture, weights 3; 1, components (constant, value 0), (exponential, scale 4"), "the page");
+    // Swept from end to end, whole numbers one by one.
+    succeed(&["sweep", text(&study), "--out", text(&out)]);
+    succeed(&["screen", text(&study), "--out", text(&out)]);
+    let csv = std::fs::read_to_string(out.join("study-sweep.csv")).unwrap();
+    assert!(csv.lines().any(|line| line.starts_with("p,1,3,")), "{csv}");
+}
+
+/// Replaces `from` in the study of all families and expects exit code 2 with all of `expected` in the message.
+#[track_caller]
+fn refused_family(from: &str, to: &str, expected: &[&str]) {
+    let folder = Folder::new();
+    assert!(FAMILIES.contains(from), "{from}");
+    let study = folder.with("study.toml", FAMILIES.replacen(from, to, 1));
+    let output = apportion(&["check", text(&study)]);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for part in expected {
+        assert!(message.contains(part), "no {part:?} in:\n{message}");
+    }
+}
+
+#[test]
+fn what_makes_no_family_is_refused_with_its_place() {
+    refused_family("truncate = [-inf, 0]", "truncate = [2, -1]", &["study.toml:50:12:", "the lower one first"]);
+    refused_family("truncate = [-inf, 0]", "truncate = [1]", &["study.toml:50:12:", "must be two numbers"]);
+    refused_family(
+        "truncate = [-inf, 0]",
+        "truncate = [50, 60]",
+        &["study.toml:50:12:", "leaves nothing of this normal"],
+    );
+    refused_family("truncate = [-inf, 4]", "", &["study.toml:28:9:", "has no finite variance", "greater than 2.0"]);
+    refused_family("df = 5", "df = 2", &["study.toml:19:6:", "has no finite variance"]);
+    refused_family("\"0.5\" = 2", "\"x\" = 2", &["study.toml:37:24:", "must be values by probabilities from 0 to 1"]);
+    refused_family("\"0.5\" = 2", "0.5 = 2", &["stands in quotes, as in \"0.5\" = 2"]);
+    refused_family("\"1\" = 5", "\"0.9\" = 5", &["study.toml:37:13:", "no value for the probability 1"]);
+    refused_family("edges = [0, 1, 3]", "edges = [0, 1, 1]", &["study.toml:40:9:", "`edges[2]` is 1"]);
+    refused_family("value = 0 }", "value = 0, unit = \"m\" }", &["study.toml:45:62:", "belongs to the whole factor"]);
+    refused_family("value = 0 }", "name = \"u\", value = 0 }", &["study.toml:45:44:", "which alone has a name"]);
+    refused_family(
+        "\"constant\", value = 0",
+        "\"boolean\"",
+        &["study.toml:45:14:", "it cannot be a part of a mixture"],
+    );
+    refused_family("\"poisson\"", "\"pois\"", &["study.toml:15:16:", "did you mean `poisson`?"]);
+}
+
+#[test]
+fn a_bound_that_is_another_factor_is_refused_with_a_way_out() {
+    let expected = ["study.toml:50:7:", "`max` is the factor `g`", "depend on each other", "n = n_part*g"];
+    refused_family("truncate = [-inf, 0]", "max = \"g\"", &expected);
+    refused_family(
+        "truncate = [-inf, 0]",
+        "truncate = [0, \"g\"]",
+        &["study.toml:50:16:", "`truncate` is the factor `g`"],
+    );
+    refused_family("mean = 4 }", "mean = \"g\" }", &["factor `m`: `mean` is the factor `g`"]);
+}

@@ -225,3 +225,41 @@ fn a_surrogate_that_does_not_serve_says_so() {
     assert!(result.outputs[0].warnings[0].contains("the surrogate does not serve"), "{:?}", result.outputs[0].warnings);
     assert!(result.notes[0].contains("no total index") && !stdout(&run.output).contains("S_T, by surrogate"));
 }
+
+#[test]
+fn other_measures_stand_beside_the_indices() {
+    // x3 counts least, and x4 for nothing.
+    let columns = random(4, 600, 12);
+    let content = table(&columns);
+    let weightless = content.lines().enumerate().map(|(row, line)| match row {
+        0 => format!("{line}\n"),
+        _ => {
+            let y = columns[0][row - 1] * 3.0 + columns[1][row - 1] * 2.0 + columns[2][row - 1];
+            format!("{},{y}\n", line.rsplit_once(',').unwrap().0)
+        }
+    });
+    let content: String = weightless.collect();
+    let run = Run::of(&content, &["--outputs", "y", "--measures"]);
+    let said = stdout(&run.output);
+    assert!(said.contains("All measures put x1 first for y."), "{said}");
+    let result: GivenFile =
+        serde_json::from_str(&std::fs::read_to_string(run.out().join("table.json")).unwrap()).unwrap();
+    let measures = result.outputs[0].measures.as_ref().unwrap();
+    for name in ["fourier", "delta", "kolmogorov", "kuiper", "pawn_median", "pawn_max", "r2_hsic"] {
+        let of = |input: usize| measures[input].measures[name].estimate.estimate;
+        assert!(of(0) > of(1) && of(1) > of(2).max(of(3)), "{name}: {:?}", [of(0), of(1), of(2), of(3)]);
+        let p_value = |input: usize| measures[input].measures[name].p_value.unwrap();
+        assert!(p_value(0) <= 0.005 && p_value(1) <= 0.005 && p_value(3) > 0.001, "{name}");
+    }
+    let csv = std::fs::read_to_string(run.out().join("table-measures.csv")).unwrap();
+    assert!(csv.starts_with("output,input,fourier,fourier_low,fourier_high,fourier_p,delta,"), "{csv}");
+    assert!(run.out().join("charts/table-measures.svg").exists());
+    // The rows of a net are no independent draws.
+    let even = Run::of(&table(&sobol(3, 512, 0)), &["--outputs", "y", "--measures"]);
+    let result: GivenFile =
+        serde_json::from_str(&std::fs::read_to_string(even.out().join("table.json")).unwrap()).unwrap();
+    let measures = &result.outputs[0].measures.as_ref().unwrap()[0].measures;
+    assert!(measures.values().all(|of| of.p_value.is_none() && of.estimate.low.is_none()));
+    let without = Run::of(&table(&sobol(3, 512, 0)), &["--outputs", "y"]);
+    assert!(!without.out().join("table-measures.csv").exists());
+}

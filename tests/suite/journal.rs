@@ -1,7 +1,10 @@
 //! Interrupted is not lost: journals, resuming, doubling, shards, through the program.
 
+mod parts;
+mod sums;
+
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
@@ -17,13 +20,6 @@ fn slow(out: &Path, more: &[&str]) -> Vec<String> {
     let outputs = out.join("outputs.csv");
     let arguments = ["run", text(&study), "--out", text(out), "--save-outputs", text(&outputs)];
     [&arguments[..], &SLOW, more].concat().iter().map(ToString::to_string).collect()
-}
-
-/// A run of 393,216 quick rows, whose sums are on record.
-fn quick(out: &Path, more: &[&str]) -> Vec<String> {
-    let study = study_path("coulomb-general");
-    let arguments = ["run", text(&study), "--out", text(out), "--base-samples", "32768"];
-    [&arguments[..], more].concat().iter().map(ToString::to_string).collect()
 }
 
 fn words(arguments: &[String]) -> Vec<&str> {
@@ -140,18 +136,6 @@ fn ishigami(out: &Path, more: &[&str]) -> Output {
     apportion(&[&["run", text(&study), "--out", text(out)], more].concat())
 }
 
-/// Without surrogates, which need the outputs of all runs: the journal holds sums.
-fn sums(out: &Path, more: &[&str]) -> Output {
-    ishigami(out, &[&["--set", "analysis.surrogate=\"off\""], more].concat())
-}
-
-#[track_caller]
-fn sums_runs(out: &Path, more: &[&str]) -> u64 {
-    let output = sums(out, more);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    on_record(&stderr(&output))
-}
-
 #[track_caller]
 fn ishigami_runs(out: &Path, more: &[&str]) -> u64 {
     let output = ishigami(out, more);
@@ -222,53 +206,6 @@ fn a_journal_of_another_study_is_refused_with_the_reason_or_moved_aside() {
 }
 
 #[test]
-fn a_merge_that_is_refused_leaves_the_runs_on_record_alone() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path();
-    let small = ["--base-samples", "256"];
-    ishigami_runs(out, &small);
-    for part in ["1/2", "2/2"] {
-        assert_eq!(ishigami(out, &["--base-samples", "256", "--shard", part]).status.code(), Some(0));
-    }
-    let journal = std::fs::read(out.join("ishigami.journal")).unwrap();
-    let study = study_path("ishigami");
-    let merge = |more: &[&str]| {
-        apportion(&[&["merge", text(&study), "--out", text(out), "--base-samples", "256"], more].concat())
-    };
-    for _ in 0..2 {
-        refused(
-            &merge(&["--set", "factor.x2.max=3"]),
-            2,
-            "ishigami-shard-1-of-2.journal: the journal is of another study",
-        );
-    }
-    assert_eq!(std::fs::read(out.join("ishigami.journal")).unwrap(), journal);
-    assert!(!out.join("ishigami.journal.old").exists());
-    assert_eq!(merge(&[]).status.code(), Some(0));
-}
-
-#[test]
-fn parts_add_to_what_an_interrupted_run_and_other_parts_have_done() {
-    let folder = tempfile::tempdir().unwrap();
-    let (out, whole) = (folder.path().join("out"), folder.path().join("whole"));
-    let size = ["--base-samples", "4096"];
-    ishigami_runs(&whole, &size);
-    // A journal that was cut short is that of a run that was interrupted.
-    let saved = folder.path().join("outputs.csv");
-    ishigami_runs(&out, &[&size[..], &["--save-outputs", text(&saved)]].concat());
-    let journal = out.join("ishigami.journal");
-    let bytes = std::fs::read(&journal).unwrap();
-    std::fs::write(&journal, &bytes[..bytes.len() / 3]).unwrap();
-    for part in ["1/3", "2/3", "3/3", "2/5"] {
-        assert_eq!(ishigami(&out, &[&size[..], &["--shard", part]].concat()).status.code(), Some(0));
-    }
-    let study = study_path("ishigami");
-    let merged = apportion(&[&["merge", text(&study), "--out", text(&out)], &size[..]].concat());
-    assert_eq!(merged.status.code(), Some(0), "{}", stderr(&merged));
-    assert!(numbers(&out, "ishigami") == numbers(&whole, "ishigami"));
-}
-
-#[test]
 fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed() {
     let folder = tempfile::tempdir().unwrap();
     let (here, there) = (folder.path().join("here"), folder.path().join("there"));
@@ -311,42 +248,6 @@ fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed(
 }
 
 #[test]
-fn a_finished_study_goes_on_with_every_run_it_has() {
-    let folder = tempfile::tempdir().unwrap();
-    let (long, grown) = (folder.path().join("long"), folder.path().join("grown"));
-    refused(&sums(&grown, &["--double"]), 2, "--double: there is no result to double");
-    assert_eq!(sums_runs(&grown, &["--base-samples", "1024"]), 0);
-    assert_eq!(sums_runs(&grown, &["--double"]), 1024 * 5);
-    assert_eq!(sums_runs(&grown, &["--double"]), 2048 * 5);
-    assert_eq!(sums_runs(&grown, &["--base-samples", "8192"]), 4096 * 5);
-    assert_eq!(sums_runs(&long, &["--base-samples", "8192"]), 0);
-    assert!(numbers(&grown, "ishigami") == numbers(&long, "ishigami"));
-    // Sums cannot be divided: a shorter run leaves them as they are. With --restart nothing is on record.
-    let fewer = sums(&grown, &["--base-samples", "1024"]);
-    assert!(stderr(&fewer).contains("the sums of 8192 base samples, which cannot be divided"), "{}", stderr(&fewer));
-    refused(
-        &sums(&grown, &["--base-samples", "1024", "--resume"]),
-        2,
-        "ask for as many or more, or leave out --resume",
-    );
-    assert_eq!(sums_runs(&grown, &["--base-samples", "8192"]), 8192 * 5);
-    assert_eq!(sums_runs(&grown, &["--base-samples", "1024", "--no-journal"]), 0);
-    assert_eq!(sums_runs(&grown, &["--base-samples", "1024", "--restart"]), 0);
-    assert_eq!(sums_runs(&grown, &["--base-samples", "1024"]), 1024 * 5);
-    // Outputs are not in the sums, but sums are made of outputs.
-    let saved = folder.path().join("outputs.csv");
-    let save = ["--base-samples", "1024", "--save-outputs", text(&saved)];
-    refused(
-        &sums(&grown, &[&save[..], &["--resume"]].concat()),
-        2,
-        "holds the sums of the runs, and their outputs are needed",
-    );
-    let anew = sums(&grown, &save);
-    assert!(stderr(&anew).contains("their outputs are needed: the journal was moved to "), "{}", stderr(&anew));
-    assert_eq!(sums_runs(&grown, &["--double"]), 1024 * 5);
-}
-
-#[test]
 fn failures_that_come_back_leave_the_result_as_it_was() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("holes.toml");
@@ -375,39 +276,6 @@ fn failures_that_come_back_leave_the_result_as_it_was() {
     assert!(messages.contains("the journal holds sums: all runs are evaluated anew"), "{messages}");
     assert_eq!(on_record(&messages), 0);
     assert!(bits(&again) == bits(&with(&["--base-samples", "1024", "--no-journal"]).0));
-}
-
-#[test]
-fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
-    let folder = tempfile::tempdir().unwrap();
-    let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
-    let small = ["--base-samples", "1024"];
-    ishigami_runs(&whole, &small);
-    let study = study_path("ishigami");
-    let merge =
-        |more: &[&str]| apportion(&[&["merge", text(&study), "--out", text(&parts)], &small[..], more].concat());
-    for shard in ["3/3", "1/3"] {
-        ishigami_runs(&parts, &[&small[..], &["--shard", shard]].concat());
-    }
-    refused(&merge(&[]), 1, "1705 of 5120 runs are missing: there is no journal of shard 2/3");
-    ishigami_runs(&parts, &[&small[..], &["--shard", "2/3"]].concat());
-    // A shard that is there is not evaluated again.
-    assert!(ishigami_runs(&parts, &[&small[..], &["--shard", "2/3", "--resume"]].concat()) > 0);
-    let merged = merge(&[]);
-    assert_eq!(merged.status.code(), Some(0), "{}", stderr(&merged));
-    assert!(numbers(&parts, "ishigami") == numbers(&whole, "ishigami"));
-    // Merging again changes nothing; the merged journal is one to go on with.
-    assert_eq!(merge(&[]).status.code(), Some(0));
-    assert_eq!(ishigami_runs(&parts, &["--double"]), 5120);
-
-    let other = apportion(&[&["merge", text(&study), "--out", text(&parts), "--seed", "2"], &small[..]].concat());
-    refused(&other, 2, "design.seed was 0 and is now 2");
-    assert!(!parts.join("ishigami.journal.old").exists(), "nothing is touched before all is known to fit");
-    let empty = folder.path().join("empty");
-    refused(&apportion(&["merge", text(&study), "--out", text(&empty)]), 2, "no ishigami-shard-I-of-N.journal is here");
-    refused(&ishigami(&parts, &["--shard", "4/3"]), 2, "expected a part as in 3/8");
-    let growing = ["--shard", "1/2", "--set", "design.max_runs=100000"];
-    refused(&ishigami(&parts, &growing), 2, "has no size that could be shared out beforehand");
 }
 
 #[test]
@@ -442,124 +310,4 @@ fn two_runs_do_not_write_one_journal() {
     refused(&second, 1, "lugre-environmental.journal: another run is writing this journal");
     first.kill().unwrap();
     first.wait().unwrap();
-}
-
-#[test]
-fn the_journal_of_a_quick_run_does_not_grow_with_it() {
-    let folder = tempfile::tempdir().unwrap();
-    let journal = folder.path().join("ishigami.journal");
-    let size = |base_samples: &str| {
-        assert_eq!(ishigami(folder.path(), &["--base-samples", base_samples]).status.code(), Some(0));
-        std::fs::metadata(&journal).unwrap().len()
-    };
-    // Beyond the values that are kept for charts.
-    let sizes = ["65536", "131072", "524288"].map(size);
-    assert!(sizes[2] < 2_000_000 && sizes[2] <= sizes[0] + sizes[0] / 4, "{sizes:?}");
-}
-
-#[test]
-fn a_quick_run_killed_at_any_moment_ends_in_the_same_bits() {
-    let folder = tempfile::tempdir().unwrap();
-    let (whole, killed) = (folder.path().join("whole"), folder.path().join("killed"));
-    succeed(&words(&quick(&whole, &["--no-journal"])));
-    let (journal, mut state, mut recorded) = (killed.join("coulomb-general.journal"), 7, 0);
-    for round in 0..3 {
-        for _ in 0..4 {
-            let mut child = spawn(&quick(&killed, &[]));
-            std::thread::sleep(Duration::from_millis(random(&mut state) % 5000));
-            child.kill().unwrap();
-            let (_, messages) = ended(child);
-            assert!(!messages.contains("moved"), "a journal of no use after a kill: {messages}");
-            recorded += on_record(&messages);
-            if journal.exists() {
-                assert!(apportion::run::journal::read_journal_file(&journal).unwrap().sums.is_some());
-            }
-        }
-        succeed(&words(&quick(&killed, &[])));
-        assert!(result(&killed, "coulomb-general") == result(&whole, "coulomb-general"), "round {round}");
-        // Whatever a kill may have left behind is gone or overwritten.
-        assert!(!killed.join("coulomb-general.journal.new").exists());
-        std::fs::remove_dir_all(&killed).unwrap();
-    }
-    eprintln!("{recorded} runs were on record after kills");
-}
-
-#[test]
-#[cfg(unix)]
-fn a_quick_run_that_is_interrupted_goes_on_and_grows() {
-    let folder = tempfile::tempdir().unwrap();
-    let (whole, stopped) = (folder.path().join("whole"), folder.path().join("stopped"));
-    let long = ["--base-samples", "524288"];
-    let arguments = |out: &Path, more: &[&str]| {
-        let study = study_path("coulomb-general");
-        let all = [&["run", text(&study), "--out", text(out)], more].concat();
-        all.iter().map(ToString::to_string).collect::<Vec<String>>()
-    };
-    succeed(&words(&arguments(&whole, &long)));
-    let child = spawn(&arguments(&stopped, &long));
-    let journal = stopped.join("coulomb-general.journal");
-    wait_for_bytes(&journal, 100);
-    std::thread::sleep(Duration::from_millis(500));
-    let second = apportion(&words(&arguments(&stopped, &long)));
-    signal(&child, "-INT");
-    let (code, messages) = ended(child);
-    if code == Some(0) {
-        eprintln!("the run was over before it was interrupted");
-        return;
-    }
-    refused(&second, 1, "coulomb-general.journal: another run is writing this journal");
-    assert!(messages.contains("error: interrupted after "), "{messages}");
-    assert!(messages.contains("the same command with --resume goes on"), "{messages}");
-    let resumed = apportion(&words(&arguments(&stopped, &[&long[..], &["--resume"]].concat())));
-    assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
-    assert!(on_record(&stderr(&resumed)) > 0, "{}", stderr(&resumed));
-    assert!(numbers(&stopped, "coulomb-general") == numbers(&whole, "coulomb-general"));
-}
-
-#[test]
-fn a_damaged_journal_of_sums_is_never_used() {
-    let folder = tempfile::tempdir().unwrap();
-    let (whole, damaged) = (folder.path().join("whole"), folder.path().join("damaged"));
-    let size = ["--base-samples", "4096"];
-    sums_runs(&whole, &size);
-    let bytes = std::fs::read(whole.join("ishigami.journal")).unwrap();
-    std::fs::create_dir(&damaged).unwrap();
-    let journal = damaged.join("ishigami.journal");
-    for place in [bytes.len() / 2, bytes.len() - 1] {
-        let mut torn = bytes.clone();
-        torn[place] ^= 1;
-        for torn in [&torn[..], &bytes[..place]] {
-            std::fs::write(&journal, torn).unwrap();
-            refused(&sums(&damaged, &[&size[..], &["--resume"]].concat()), 2, "its sums are damaged");
-            let anew = sums(&damaged, &size);
-            assert!(stderr(&anew).contains("its sums are damaged: the journal was moved to "), "{}", stderr(&anew));
-            assert!(numbers(&damaged, "ishigami") == numbers(&whole, "ishigami"));
-        }
-    }
-}
-
-/// The commands of `docs/clusters.md` for GNU parallel, with whatever stands for it here.
-#[test]
-#[cfg(unix)]
-fn a_job_array_on_one_machine() {
-    let folder = tempfile::tempdir().unwrap();
-    let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
-    ishigami_runs(&whole, &["--base-samples", "1024"]);
-    let has =
-        |program: &str| Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success());
-    let run = "run \"$STUDY\" --base-samples 1024 --threads 1 --out \"$OUT\" --shard";
-    let line = if has("parallel") {
-        format!("parallel --will-cite --jobs 2 '\"$APPORTION\" {run} {{}}/4' ::: 1 2 3 4")
-    } else {
-        eprintln!("GNU parallel is not here: xargs stands for it");
-        format!("printf '%s\\n' 1 2 3 4 | xargs -P 2 -I {{}} sh -c '\"$APPORTION\" {run} {{}}/4'")
-    };
-    let mut shell = Command::new("bash");
-    shell.args(["-c", &line]).env("APPORTION", assert_cmd::cargo::cargo_bin!("apportion"));
-    let output = shell.env("STUDY", study_path("ishigami")).env("OUT", &parts).output().unwrap();
-    assert!(output.status.success(), "{}", stderr(&output));
-    succeed(&["merge", text(&study_path("ishigami")), "--base-samples", "1024", "--out", text(&parts)]);
-    assert!(numbers(&parts, "ishigami") == numbers(&whole, "ishigami"));
-    let journals: Vec<PathBuf> = (1..=4).map(|i| parts.join(format!("ishigami-shard-{i}-of-4.journal"))).collect();
-    assert!(journals.iter().all(|journal| journal.is_file()));
 }

@@ -62,6 +62,7 @@ fn indices(model: &Changed, base_samples: u64) -> OutputIndices {
         seed: 0,
         resamples: 0,
         points: None,
+        ranks: true,
         surrogate: None,
     };
     output_indices(&moments, &Layout::plain(3), &options).unwrap()

@@ -42,6 +42,20 @@ fn every_study_of_the_repository_fits_the_schema() {
 }
 
 #[test]
+fn a_study_of_all_families_fits_the_schema() {
+    let validator = validator("study");
+    // JSON has no infinity.
+    let text = crate::factors::FAMILIES.replace("inf]", "1e9]").replace("[-inf", "[-1e9");
+    assert_eq!(complaints(&validator, &study(&text)), Vec::<String>::new());
+    for wrong in
+        ["truncate = [1]", "quantiles = [1, 2]", "components = []", "components = [{ name = \"x\" }]", "df = \"x\""]
+    {
+        let value = study(&format!("[factor.x]\n{wrong}"));
+        assert_ne!(complaints(&validator, &value), Vec::<String>::new(), "{wrong}");
+    }
+}
+
+#[test]
 fn new_studies_of_all_models_fit_the_schema() {
     let (validator, folder) = (validator("study"), tempfile::tempdir().unwrap());
     for model in apportion::model::ModelKind::all() {

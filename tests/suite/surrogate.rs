@@ -198,8 +198,9 @@ fn a_design_without_surrogates_has_no_use_for_plain_rows() {
     refused(&check(&["design.plain_rows=3", "design.sampler=latin-hypercube"]), "beside surrogates");
     refused(&check(&["design.plain_rows=3", "design.replicates=2"]), "replicates = 2");
     refused(&check(&["design.plain_rows=1001"]), "at most 1000");
-    refused(&check(&[budget, "design.base_samples=64"]), "beside `base_samples`");
     refused(&check(&["design.budget_runs=79"]), "80 or more");
+    std::fs::write(&file, "model = \"borehole\"\n[design]\nbudget_runs = 300\nbase_samples = 64\n").unwrap();
+    refused(&check(&[]), "beside `base_samples`");
 }
 
 #[test]
@@ -256,6 +257,31 @@ fn shards_and_files_of_outputs_give_the_bits_of_one_run() {
 }
 
 #[test]
+fn the_stages_of_a_run_are_what_shorter_runs_give() {
+    let folder = tempfile::tempdir().unwrap();
+    let result = |base_samples: u64| -> serde_json::Value {
+        let path = |ending: &str| folder.path().join(format!("{base_samples}{ending}"));
+        let lines =
+            format!("model = \"sobol-g\"\n[design]\nbase_samples = {base_samples}\n[analysis]\nsurrogate = \"on\"\n");
+        std::fs::write(path(".toml"), lines).unwrap();
+        succeed(&["run", text(&path(".toml")), "--out", text(folder.path())]);
+        serde_json::from_str(&std::fs::read_to_string(path(".json")).unwrap()).unwrap()
+    };
+    let whole = result(512);
+    let stages = whole["outputs"][0]["convergence"].as_array().unwrap();
+    assert_eq!(stages.len(), 5);
+    for stage in stages {
+        let shorter = result(stage["base_samples"].as_u64().unwrap());
+        let last = shorter["outputs"][0]["convergence"].as_array().unwrap().last().unwrap();
+        assert_eq!(stage, last);
+        let of_result = |index: &serde_json::Value| [index["first_order"].clone(), index["total"].clone()];
+        let shorter = shorter["outputs"][0]["indices"].as_array().unwrap();
+        let stage = stage["indices"].as_array().unwrap();
+        assert!(stage.iter().map(of_result).eq(shorter.iter().map(of_result)));
+    }
+}
+
+#[test]
 fn the_program_tells_what_the_surrogate_did() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mine.toml");
@@ -263,7 +289,7 @@ fn the_program_tells_what_the_surrogate_did() {
         .unwrap();
     let shown = succeed(&["run", text(&file), "--out", text(folder.path())]);
     assert!(shown.contains("What the surrogate did") && shown.contains("S_1 plain"), "{shown}");
-    assert!(shown.contains("stages are those of the plain indices"), "{shown}");
+    assert!(shown.contains("The surrogate was fitted anew to the runs of every stage."), "{shown}");
     let json = std::fs::read_to_string(folder.path().join("mine.json")).unwrap();
     let value: serde_json::Value = serde_json::from_str(&json).unwrap();
     let record = &value["outputs"][0]["surrogate"];

@@ -2,6 +2,7 @@
 
 use super::{Contact, Pair, hertz, maugis_dugdale};
 use crate::afm::Failure;
+use crate::afm::cube_root::cube_root;
 
 /// The coefficients of the closed form for one lambda.
 struct Transition {
@@ -49,7 +50,7 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     let root = alpha * (compliance * pair.unit_load()).sqrt() + (compliance * margin / pull_off).sqrt();
     // a^3, in a form that does not divide by the adhesion.
     let cube = rest * rest * rest * (root * root) / ((1.0 + alpha) * (1.0 + alpha));
-    let radius = cube.cbrt();
+    let radius = cube_root(cube);
     Ok(Contact { radius, indentation: maugis_dugdale::indentation(pair, radius) })
 }
 

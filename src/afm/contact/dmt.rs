@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Contact, Pair};
+use super::{Contact, Pair, hertz};
 use crate::afm::Failure;
 
 /// a^3 = (R/K) (F + 2 pi w R), d = a^2/R: a Hertz contact whose load the surface forces add to, without changing its
@@ -15,7 +15,7 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     if margin < 0.0 {
         return Err(Failure::BeyondPullOff);
     }
-    let radius = (pair.radius / pair.modulus * margin).cbrt();
+    let radius = hertz::radius(pair, margin);
     Ok(Contact { radius, indentation: radius * radius / pair.radius })
 }
 

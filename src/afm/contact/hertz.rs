@@ -2,6 +2,7 @@
 
 use super::{Contact, Pair};
 use crate::afm::Failure;
+use crate::afm::cube_root::cube_root;
 
 /// a^3 = R F/K, d = a^2/R. Adhesion is not looked at.
 ///
@@ -11,8 +12,14 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     if load < 0.0 {
         return Err(Failure::BeyondPullOff);
     }
-    let radius = (pair.radius / pair.modulus * load).cbrt();
+    let radius = radius(pair, load);
     Ok(Contact { radius, indentation: radius * radius / pair.radius })
+}
+
+/// The radius alone (m), of a load >= 0.
+#[inline]
+pub(super) fn radius(pair: &Pair, load: f64) -> f64 {
+    cube_root(pair.radius / pair.modulus * load)
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::{Contact, Pair};
 use crate::afm::Failure;
+use crate::afm::cube_root::cube_root;
 
 /// a^3 = (R/K) [F + 3 pi w R + sqrt(6 pi w R F + (3 pi w R)^2)], d = a^2/R - (2/3) sqrt(6 pi w a/K): the surface forces
 /// act inside the contact only. Valid for soft, large, sticky bodies: Tabor parameter above 5.
@@ -17,8 +18,15 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     if margin < 0.0 {
         return Err(Failure::BeyondPullOff);
     }
-    let radius = (pair.radius / pair.modulus * (load + pull + (pull * margin).sqrt())).cbrt();
+    let radius = radius(pair, load);
     Ok(Contact { radius, indentation: radius * radius / pair.radius - stretch(pair, radius) })
+}
+
+/// The radius alone (m); NaN beyond pull-off.
+#[inline(always)]
+pub(super) fn radius(pair: &Pair, load: f64) -> f64 {
+    let pull = 3.0 * PI * pair.adhesion * pair.radius;
+    cube_root(pair.radius / pair.modulus * (load + pull + (pull * (2.0 * load + pull)).sqrt()))
 }
 
 /// (2/3) sqrt(6 pi w a/K), by which adhesion reduces the indentation.
@@ -28,7 +36,7 @@ pub(super) fn stretch(pair: &Pair, radius: f64) -> f64 {
 }
 
 /// 1.5 pi w R.
-#[inline]
+#[inline(always)]
 pub(super) fn pull_off(pair: &Pair) -> f64 {
     0.5 * (3.0 * PI * pair.adhesion * pair.radius)
 }
@@ -111,7 +119,7 @@ mod tests {
         #[test]
         fn without_adhesion_it_is_hertz_exactly(pair in pair(), load in 0.0..1e-3_f64) {
             let pair = Pair { adhesion: 0.0, ..pair };
-            let hertz = (pair.radius / pair.modulus * load).cbrt();
+            let hertz = cube_root(pair.radius / pair.modulus * load);
             let indentation = hertz * hertz / pair.radius;
             prop_assert_eq!(contact(&pair, load), Ok(Contact { radius: hertz, indentation }));
         }

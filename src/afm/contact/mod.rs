@@ -51,7 +51,7 @@ pub struct Pair {
 
 impl Pair {
     /// The particle on the substrate: R = R_p.
-    #[inline]
+    #[inline(always)]
     pub fn substrate(scene: &Scene) -> Self {
         Self {
             radius: scene.particle_radius,
@@ -72,8 +72,14 @@ impl Pair {
     /// pull-off in units of the reach of the surface forces (Tabor 1977).
     #[inline]
     pub fn tabor(&self) -> f64 {
+        self.tabor_cubed().cbrt()
+    }
+
+    /// The cube of [`tabor`](Self::tabor), which is enough to compare with.
+    #[inline(always)]
+    fn tabor_cubed(&self) -> f64 {
         let strain = self.adhesion / (self.modulus * self.separation);
-        (16.0 / 9.0 * (self.radius / self.separation) * strain * strain).cbrt()
+        16.0 / 9.0 * (self.radius / self.separation) * strain * strain
     }
 
     /// Maugis' parameter lambda = 1.157 mu_T: small for DMT, large for JKR (Maugis 1992).
@@ -145,7 +151,7 @@ impl ContactTheory {
     }
 
     /// Size of the force that pulls `pair` apart (N).
-    #[inline]
+    #[inline(always)]
     pub fn pull_off(self, pair: &Pair) -> f64 {
         match self {
             Self::Hertz => 0.0,
@@ -171,11 +177,35 @@ impl ContactTheory {
     /// Whether the theory is meant for this Tabor parameter. Hertz suits no adhesion at all, where the parameter is 0.
     #[inline]
     pub fn suits(self, tabor: f64) -> bool {
+        let (least, largest) = self.tabor_range();
+        least <= tabor && tabor <= largest
+    }
+
+    /// Whether the theory is meant for the Tabor parameter of `pair`. Without adhesion all are.
+    #[inline(always)]
+    pub(in crate::afm) fn suits_pair(self, pair: &Pair) -> bool {
+        let (least, largest) = self.tabor_range();
+        let cubed = pair.tabor_cubed();
+        pair.adhesion == 0.0 || least * least * least <= cubed && cubed <= largest * largest * largest
+    }
+
+    /// The least and the largest Tabor parameter that the theory is meant for.
+    #[inline(always)]
+    fn tabor_range(self) -> (f64, f64) {
         match self {
-            Self::Hertz => tabor == 0.0,
-            Self::Jkr => tabor >= 5.0,
-            Self::Dmt => tabor <= 0.1,
-            Self::MaugisDugdale | Self::Cos | Self::Auto => true,
+            Self::Hertz => (0.0, 0.0),
+            Self::Jkr => (5.0, f64::INFINITY),
+            Self::Dmt => (0.0, 0.1),
+            Self::MaugisDugdale | Self::Cos | Self::Auto => (0.0, f64::INFINITY),
+        }
+    }
+
+    /// The contact radius alone (m), as [`contact`](Self::contact) has it; NaN beyond pull-off.
+    #[inline(always)]
+    pub(in crate::afm) fn radius(self, pair: &Pair, load: f64) -> f64 {
+        match self {
+            Self::Jkr => jkr::radius(pair, load),
+            _ => self.contact(pair, load).map_or(f64::NAN, |contact| contact.radius),
         }
     }
 }

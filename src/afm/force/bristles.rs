@@ -81,7 +81,14 @@ impl<'a> Bristles<'a> {
         };
         // Bristles and dashpots each approach their end exponentially, by 1e-12 in 28 of their times.
         let horizon = 10.0 + 30.0 * (1.0 + 3.0 / self.stiffness);
-        let mut march = March::<Rodas, _, 5>::new(self, (0.0, start), control);
+        // While the bristles stretch, the velocity of the particle counts by what it moves them. Where they give way, it
+        // decides by itself when the force is largest.
+        let mut stretching = March::<Rodas, _, 5>::new(self, (0.0, start), control);
+        let halfway = |t: f64, y: &[f64; 5]| Ok(y[0] / self.strength(self.load(t - y[2], y[0]), 1.0) - 0.5);
+        let (Outcome::Event(half) | Outcome::Horizon(half)) = stretching.until(horizon, halfway)?;
+        let [forces, turning, way, _, bristles] = control.scale;
+        let control = Control { scale: [forces, turning, way, 1.0, bristles], ..control };
+        let mut march = March::<Rodas, _, 5>::new(self, (half.t, half.y), control);
         let outcome = march.until(horizon, event)?;
         let end = match outcome {
             Outcome::Event(end) => end,
@@ -98,7 +105,7 @@ impl<'a> Bristles<'a> {
             twist: tip.twist,
             contact: self.substrate.contact(tip.normal_force)?,
         };
-        Ok((slip, march.evaluations()))
+        Ok((slip, stretching.evaluations() + march.evaluations()))
     }
 
     /// theta' of the tip in equilibrium at the start, the apex moving at V less what the bristles yield: a start without

@@ -5,9 +5,10 @@ use super::slip::{Error, Slip};
 use super::substrate::Substrate;
 use super::swing::Swing;
 use super::{Cost, Critical, Options};
+use crate::afm::contact::Contact;
 use crate::afm::friction::{LuGre, LuGreForm};
 use crate::afm::probe::Probe;
-use crate::afm::{Failure, Fidelity, Flag, FrictionLaw, Scene};
+use crate::afm::{Failure, Fidelity, Flag, Flags, FrictionLaw, Scene};
 
 /// F_Z = F_Z0, F_Y* by the law of friction, s = F_Y*/k_lat, theta = F_Y* H/K_theta.
 #[inline]
@@ -15,43 +16,67 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let probe = Probe::new(scene, options.torsion);
     let substrate = Substrate::new(scene, options, (&probe, LuGreForm::Fast));
     let hold = substrate.hold(probe.preload_force)?;
-    let lateral_force = hold.capacity;
-    let slip = Slip {
+    let slip = slip(&probe, scene.height, (hold.capacity, hold.contact));
+    let of_law = of_law(&substrate, probe.preload_force, hold.capacity);
+    Ok(Critical {
+        flags: flags(&slip, scene, options),
+        error_estimate: error(&substrate, (&probe, &slip), of_law),
+        cost: Cost { evaluations: hold.evaluations },
+        ..slip.critical(&substrate, Fidelity::ClosedForm)
+    })
+}
+
+/// The slip of a contact that holds `lateral_force` (N).
+#[inline(always)]
+pub(super) fn slip(probe: &Probe, height: f64, (lateral_force, contact): (f64, Contact)) -> Slip {
+    Slip {
         normal_force: probe.preload_force,
         lateral_force,
         travel: lateral_force / probe.apex,
-        twist: lateral_force * scene.height / probe.torsional,
-        contact: hold.contact,
-    };
-    let mut error = twisting(&substrate, &probe, &slip) + Swing::new(scene, &probe).left_out(&slip, &substrate);
-    let mut fast = false;
-    if options.friction == FrictionLaw::LuGre {
-        let law = LuGre::of(scene);
-        fast = !law.is_slow(scene.velocity);
-        // The ramp peaks between Fss(V) and the strength at rest.
-        let load = probe.preload_force + substrate.adhesive_load;
-        error.lateral += (law.stribeck(load, 0.0) - law.stribeck(load, scene.velocity)).abs();
+        twist: lateral_force * height / probe.torsional,
+        contact,
     }
-    let mut critical = slip.critical(&substrate, Fidelity::ClosedForm);
-    critical.flags = critical.flags.with(Flag::FastLuGreForm, fast);
-    Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations: hold.evaluations }, ..critical })
+}
+
+/// How far `capacity` may be off by the law itself (N): a LuGre ramp peaks between Fss(V), the fast form, and the strength
+/// at rest; other laws are as accurate as their integration.
+#[inline]
+pub(super) fn of_law(substrate: &Substrate, normal_force: f64, capacity: f64) -> f64 {
+    if substrate.options.friction != FrictionLaw::LuGre {
+        return capacity * substrate.error();
+    }
+    let law = LuGre::of(substrate.scene);
+    let load = normal_force + substrate.adhesive_load;
+    (law.stribeck(load, 0.0) - law.stribeck(load, substrate.scene.velocity)).abs()
+}
+
+/// The flags of the slip, and that of the fast form.
+#[inline(always)]
+pub(super) fn flags(slip: &Slip, scene: &Scene, options: &Options) -> Flags {
+    let is_fast = !LuGre::of(scene).is_slow(scene.velocity);
+    let is_lugre = options.friction == FrictionLaw::LuGre;
+    slip.flags(scene, options).with(Flag::FastLuGreForm, is_lugre & is_fast)
+}
+
+/// The relative error of F_cr by what is left out, the twist and the swing of the tip, and by the [law](of_law).
+#[inline(always)]
+pub(super) fn error(substrate: &Substrate, (probe, slip): (&Probe, &Slip), of_law: f64) -> f64 {
+    let mut error = twisting(substrate, probe, slip) + Swing::new(substrate.scene, probe).left_out(slip, substrate);
+    error.lateral += of_law;
+    error.of(slip)
 }
 
 /// What the twist takes from the normal force, K_z H (1 - cos theta), which the closed form leaves out, and from the
 /// friction with it; the twist itself is larger by the moment of the normal force.
-#[inline]
+#[inline(always)]
 fn twisting(substrate: &Substrate, probe: &Probe, slip: &Slip) -> Error {
     let height = substrate.scene.height;
     let softened = probe.torsional - slip.normal_force * height;
-    if softened <= 0.0 {
-        return Error { normal: f64::INFINITY, lateral: 0.0 };
-    }
     let twist = slip.lateral_force * height / softened;
     // A twentieth more, for the terms of higher order.
     let normal = 1.05 * 0.5 * probe.normal * height * twist * twist;
-    if normal >= slip.normal_force - substrate.least_normal_force() {
-        // It lifts the tip until nothing holds the particle down.
-        return Error { normal: f64::INFINITY, lateral: 0.0 };
-    }
-    Error { normal, lateral: normal * substrate.slope(slip.lateral_force, slip.normal_force) }
+    // Else it tips the probe over, or lifts the tip until nothing holds the particle down.
+    let holds = (softened > 0.0) & (normal < slip.normal_force - substrate.least_normal_force());
+    let lateral = normal * substrate.slope(slip.lateral_force, slip.normal_force);
+    Error { normal: if holds { normal } else { f64::INFINITY }, lateral: if holds { lateral } else { 0.0 } }
 }

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use super::bristles::Bristles;
 use super::carried::Eve;
 use super::motion::{FINEST, Motion, Tip, local_tolerance};
-use super::quasi_static::Statics;
+use super::quasi_static::{self, Statics};
 use super::slip::{Error, Slip};
 use super::substrate::Substrate;
 use super::swing::Swing;
@@ -40,8 +40,14 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         slip = found.held_back()?;
         evaluations += spent;
     }
-    // The march aims at a tenth of the tolerance a step.
-    let mut error = Error { normal: 0.0, lateral: options.tolerance * slip.lateral_force };
+    // What inertia does not explain, the march has missed: far outside any laboratory it steps over the slip, or F_Z falls
+    // by more than F_Y rises.
+    let missed = slip.beyond(&limit, quasi_static::left_out(&limit, scene, &substrate, &probe));
+    // The march aims at a tenth of the tolerance a step, in F_Y.
+    let mut error = Error { normal: missed.normal, lateral: options.tolerance * slip.lateral_force };
+    if missed.normal.max(missed.lateral) > 10.0 * options.tolerance * limit.normal_force.hypot(limit.lateral_force) {
+        error.lateral += missed.lateral;
+    }
     if options.friction == FrictionLaw::LuGre {
         error = error + Swing::new(scene, &probe).left_out(&slip, &substrate);
     }

@@ -17,13 +17,19 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let probe = Probe::new(scene, options.torsion);
     let substrate = Substrate::new(scene, options, (&probe, LuGreForm::Ramp));
     let statics = Statics::new(scene, &probe)?;
-    let (mut slip, mut evaluations) = statics.slip(&substrate)?;
+    let (limit, mut evaluations) = statics.slip(&substrate)?;
+    let mut slip = limit;
     if scene.velocity > 0.0 && slip.travel > 0.0 && slip.lateral_force > 0.0 {
         let (found, spent) = march(&Motion::new(scene, &statics, &slip), &substrate, &slip)?;
         slip = found.held_back()?;
         evaluations += spent;
     }
-    let error = Error { normal: 0.0, lateral: probe.apex * scene.velocity * options.step };
+    let mut error = Error { normal: 0.0, lateral: probe.apex * scene.velocity * options.step };
+    // A step far longer than the way to the slip meets the inertia of the tip, and its geometry.
+    let missed = slip.beyond(&limit, error);
+    if missed.lateral > 0.5 * error.lateral || missed.normal > 0.1 * limit.normal_force.abs() {
+        error = error + missed;
+    }
     let critical = slip.critical(&substrate, Fidelity::FixedStep);
     Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })
 }

@@ -5,6 +5,7 @@ mod auto;
 mod bristles;
 mod carried;
 mod closed_form;
+mod closed_forms;
 mod dynamic;
 mod fixed_step;
 mod motion;
@@ -15,6 +16,7 @@ mod swing;
 #[cfg(test)]
 mod tests;
 
+pub use closed_forms::{AT_ONCE, ClosedForms, Column, Slips};
 pub(super) use quasi_static::Statics;
 
 use super::friction::LuGreParameters;
@@ -117,8 +119,6 @@ pub struct Critical {
     pub lateral_force: f64,
     /// Critical force F_cr = hypot(F_Y, F_Z) (N).
     pub critical_force: f64,
-    /// Angle of the tip force from the vertical, psi = atan2(F_Y, F_Z) (rad).
-    pub force_angle: f64,
     /// Travel of the substrate until then, s (m), less what the particle crept on its bristles.
     pub travel: f64,
     /// Time until then, t_cr = s/V (s); or why there is none, [`Failure::VelocityZero`] where V =
@@ -184,6 +184,11 @@ pub fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Fail
 }
 
 impl Critical {
+    /// Angle of the tip force from the vertical, psi = atan2(F_Y, F_Z) (rad).
+    pub fn force_angle(&self) -> f64 {
+        self.lateral_force.atan2(self.normal_force)
+    }
+
     /// This result, if every quantity is finite. Infinite or undefined ones arise only from
     /// overflow or underflow, since the scene has been checked.
     #[inline]

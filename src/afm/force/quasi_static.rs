@@ -12,7 +12,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::slip::Slip;
+use super::slip::{Error, Slip};
 use super::substrate::{Hold, Substrate};
 use super::swing::Swing;
 use super::{Cost, Critical, Options};
@@ -27,16 +27,22 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let substrate = Substrate::new(scene, options, (&probe, LuGreForm::Ramp));
     let statics = Statics::new(scene, &probe)?;
     let (slip, evaluations) = statics.slip(&substrate)?;
-    let mut error = Swing::new(scene, &probe).left_out(&slip, &substrate);
+    let error = left_out(&slip, scene, &substrate, &probe);
+    let critical = slip.critical(&substrate, Fidelity::QuasiStatic);
+    Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })
+}
+
+/// What inertia may do to the forces of the quasi-static `slip`.
+pub(super) fn left_out(slip: &Slip, scene: &Scene, substrate: &Substrate, probe: &Probe) -> Error {
+    let mut error = Swing::new(scene, probe).left_out(slip, substrate);
     error.lateral += slip.lateral_force * substrate.error();
-    if options.friction == FrictionLaw::LuGre {
+    if substrate.options.friction == FrictionLaw::LuGre {
         // How far a particle that breaks loose overshoots depends on how fast the tip can follow.
-        let law = LuGre::with(scene, options.lugre, slip.contact.radius);
+        let law = LuGre::with(scene, substrate.options.lugre, slip.contact.radius);
         let steady = law.steady_force(slip.normal_force + substrate.adhesive_load, scene.velocity);
         error.lateral += (slip.lateral_force - steady).max(0.0);
     }
-    let critical = slip.critical(&substrate, Fidelity::QuasiStatic);
-    Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })
+    error
 }
 
 /// The probe in equilibrium.

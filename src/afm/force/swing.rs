@@ -25,12 +25,13 @@ pub(super) struct Swing {
 }
 
 /// I_T = I_c + m H^2/4 (kg m2).
+#[inline(always)]
 pub(super) fn inertia_about_apex(scene: &Scene) -> f64 {
     scene.effective_tip_inertia() + 0.25 * scene.effective_tip_mass() * scene.height * scene.height
 }
 
 impl Swing {
-    #[inline]
+    #[inline(always)]
     pub fn new(scene: &Scene, probe: &Probe) -> Self {
         let height = scene.height;
         let mass = scene.effective_tip_mass();
@@ -52,7 +53,7 @@ impl Swing {
     }
 
     /// Of F_Z at a twist (N).
-    #[inline]
+    #[inline(always)]
     pub fn normal(&self, twist: f64) -> f64 {
         self.centrifugal + twist * self.normal_per_twist
     }
@@ -60,7 +61,7 @@ impl Swing {
     /// What is left out where the swing is: F_Z swings, and friction with it. The lateral force at the slip is the
     /// friction's for a particle that sticks until then; on bristles it is the largest of a force that swings with the
     /// spring.
-    #[inline]
+    #[inline(always)]
     pub fn left_out(&self, slip: &Slip, substrate: &Substrate) -> Error {
         let normal = self.normal(slip.twist);
         let spring = if substrate.options.friction == FrictionLaw::LuGre { self.spring } else { 0.0 };

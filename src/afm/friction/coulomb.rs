@@ -16,13 +16,13 @@ pub struct Coulomb {
 
 impl Coulomb {
     /// The law with the constants of `scene`.
-    #[inline]
+    #[inline(always)]
     pub fn of(scene: &Scene) -> Self {
         Self { coefficient: scene.static_friction, shear_strength: scene.shear_strength }
     }
 
     /// The largest lateral force (N).
-    #[inline]
+    #[inline(always)]
     pub fn capacity(&self, pressed: Pressed) -> f64 {
         self.coefficient * pressed.load + self.shear_strength * (PI * pressed.radius * pressed.radius)
     }

@@ -122,10 +122,13 @@ fn activation(barrier: f64, disorder: f64) -> f64 {
 
 impl Sheared {
     pub(super) fn control(&self, drive: &Drive) -> Control<2> {
+        let disorder = self.law.initial_disorder;
+        // Where it is sheared slowly it ages long before it strains, of which a first step by the strain alone sees nothing.
+        let ageing = self.law.ageing_rate / self.rate * activation(self.law.ageing_barrier, disorder);
         Control {
             tolerance: drive.tolerance,
-            scale: [1.0, self.law.initial_disorder],
-            first_step: 1e-3 / self.modulus,
+            scale: [1.0, disorder],
+            first_step: (1e-3 / self.modulus).min(1e-3 * disorder / ageing),
             longest_step: f64::INFINITY,
             step_budget: drive.step_budget,
         }

@@ -45,7 +45,7 @@ pub(crate) fn particle_mass(scene: &Scene) -> f64 {
 
 impl LuGre {
     /// The law with the constants of `scene`.
-    #[inline]
+    #[inline(always)]
     pub fn of(scene: &Scene) -> Self {
         Self {
             stiffness: scene.bristle_stiffness,
@@ -107,7 +107,7 @@ impl LuGre {
 
     /// Whether `velocity` (m/s) is so far below the Stribeck velocity (1 %) that the steady force
     /// stands for the peak of the ramp.
-    #[inline]
+    #[inline(always)]
     pub fn is_slow(&self, velocity: f64) -> bool {
         velocity <= 0.01 * self.stribeck_velocity
     }

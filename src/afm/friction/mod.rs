@@ -94,6 +94,16 @@ pub struct Held {
     pub evaluations: u64,
 }
 
+impl Held {
+    /// This force, if it lies in `range`.
+    ///
+    /// # Errors
+    /// [`Failure::StepTooSmall`] for a march that has missed what would have limited it.
+    fn within(self, range: std::ops::RangeInclusive<f64>) -> Result<Self, Failure> {
+        if range.contains(&self.force) { Ok(self) } else { Err(Failure::StepTooSmall) }
+    }
+}
+
 impl Drive {
     /// Pulled at the velocity of `scene` through a spring of `stiffness` (N/m): frozen LuGre parameters, fast form, a
     /// tolerance of 1e-8 and a million steps.
@@ -147,6 +157,7 @@ impl FrictionLaw {
     }
 
     /// Whether friction still holds under a load below zero, by the area that adhesion keeps together.
+    #[inline]
     pub fn lives_on_area(self) -> bool {
         matches!(self, Self::Coulomb | Self::HurtadoKim | Self::LemaitreCarlson)
     }

@@ -10,6 +10,7 @@ use crate::afm::ode::{Control, March, Outcome, Problem, Rodas};
 /// In units of F0, the largest friction at hand, for forces, V for velocities and F0/(k_lat V) for time: p = sigma0 z,
 /// u = v, and w = (F - p)/s, the force on the dashpots in units of s, their size at V. So F is not subtracted from p,
 /// which it equals to many digits.
+#[derive(Clone, Copy)]
 pub(super) struct Ramp {
     law: LuGre,
     load: f64,
@@ -54,12 +55,22 @@ pub(super) fn peak(law: &LuGre, load: f64, drive: &Drive) -> Result<Held, Failur
         // Without dashpots only its mass gives the particle a velocity.
         mass: if damped { 0.0 } else { inertia },
     };
-    match ramp.climb(drive) {
+    // Bristles hold no more than the largest friction, the dashpots up to V no more than at V, and a mass that is brought to
+    // V takes V sqrt(k_lat m): more comes of steps too long to see the bristles give way, far outside any laboratory.
+    let inertial = velocity * (drive.stiffness * drive.mass).sqrt();
+    let most = largest + (law.damping + law.viscous_friction) * velocity + inertial;
+    let climbed = match ramp.climb(drive) {
         // Where friction weakens faster than the dashpots hold, a massless particle has no velocity to go on with.
         Err(Failure::StepTooSmall) if damped => Ramp { mass: inertia, ..ramp }.climb(drive),
         climbed => climbed,
-    }
+    };
+    climbed?.within(UNDERSHOOT * steady..=OVERSHOOT * most)
 }
+
+/// What a peak may exceed its bound by.
+const OVERSHOOT: f64 = 1.01;
+/// Share of the force of steady sliding that a peak reaches in any case.
+const UNDERSHOOT: f64 = 0.5;
 
 /// Whether the peak lies [near enough](Drive::near_steady) to the force of steady sliding, by bounds.
 ///

@@ -123,18 +123,21 @@ fn aggregated_indices_are_means_weighted_by_variances() {
     let [f_moments, g_moments, constant] =
         [factorial(f).moments(), factorial(g).moments(), factorial(|_, _| 7.0).moments()];
     let (vf, vg) = (partial_variances(f), partial_variances(g));
-    let all = [&f_moments, &g_moments, &constant];
-    let of = |scaling| aggregated(&all, FirstOrder::Saltelli2010, Total::Jansen1999, scaling).unwrap();
+    let listed = |moments: &Moments| {
+        let indices = Indices::by(moments, FirstOrder::Saltelli2010, Total::Jansen1999)?;
+        Ok((moments.variance(), [indices.first_order, indices.total].concat()))
+    };
+    let all = [listed(&f_moments), listed(&g_moments), listed(&constant)];
+    // The first-order indices of both factors, then the total ones.
+    let of = |scaling| aggregated(all.iter(), scaling).unwrap();
     let (sum_f, sum_g): (f64, f64) = (vf.iter().sum(), vg.iter().sum());
     let plain = of(Scaling::Plain);
     let exact = (vf[0] + vf[2] + vg[0] + vg[2]) / (sum_f + sum_g);
-    assert!((plain.total[0] - exact).abs() < 1e-13);
-    assert!((plain.first_order[1] - (vf[1] + vg[1]) / (sum_f + sum_g)).abs() < 1e-13);
+    assert!((plain[2] - exact).abs() < 1e-13);
+    assert!((plain[1] - (vf[1] + vg[1]) / (sum_f + sum_g)).abs() < 1e-13);
     let standardised = of(Scaling::Standardised);
-    assert!((standardised.first_order[1] - (vf[1] / sum_f + vg[1] / sum_g) / 2.0).abs() < 1e-13);
-    let nothing = aggregated(&[&constant], FirstOrder::Saltelli2010, Total::Jansen1999, Scaling::Plain);
-    assert_eq!(nothing, Err(Undefined::ZeroVariance));
-    let empty =
-        aggregated(&[&f_moments, &Moments::empty(2)], FirstOrder::Saltelli2010, Total::Jansen1999, Scaling::Plain);
-    assert_eq!(empty, Err(Undefined::NoRuns));
+    assert!((standardised[1] - (vf[1] / sum_f + vg[1] / sum_g) / 2.0).abs() < 1e-13);
+    assert_eq!(aggregated(all[2..].iter(), Scaling::Plain), Err(Undefined::ZeroVariance));
+    let empty = [listed(&f_moments), listed(&Moments::empty(2))];
+    assert_eq!(aggregated(empty.iter(), Scaling::Plain), Err(Undefined::NoRuns));
 }

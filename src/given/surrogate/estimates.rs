@@ -30,7 +30,7 @@ pub(super) fn of(fitted: &Fitted, inputs: usize) -> SurrogateOutput {
     };
     let (of_first_order, of_total) = (noise(&first_order, false), noise(&total, true));
     let raised = |noise: Noise, of: &Influenced| {
-        let Estimate { estimate, interval } = noise.estimate(of.estimate, &of.parts);
+        let Estimate { estimate, interval } = noise.estimate(of);
         let interval = interval.map(|Interval { low, high }| Interval { low, high: high + unknown });
         Estimate { estimate, interval }
     };
@@ -55,5 +55,5 @@ fn gathered<'a>(folds: &'a [FoldSums], rows: f64, of: impl Fn(&'a FoldSums) -> O
         Some(folded) => folded.parts.iter().map(|x| x - estimate).collect(),
         None => vec![-estimate; fold.variance.parts.len()],
     };
-    Influenced { estimate, parts: folds.iter().map(parts).collect() }
+    Influenced { estimate, parts: folds.iter().map(parts).collect(), low: Vec::new() }
 }

@@ -106,7 +106,7 @@ impl Column {
         let law = factor.distribution();
         let is_truth = law.name() == "boolean";
         let cells = match law {
-            Distribution::Integer(_) => Cells::WholeNumbers,
+            whole if whole.is_whole() => Cells::WholeNumbers,
             Distribution::Categorical(categories) => Cells::Labels(
                 categories
                     .categories()

@@ -1,14 +1,34 @@
 //! The functions of the formula language. None hides an argument that has no value: NaN in, NaN out.
 
+use crate::extended::{Bounded, Extended};
+
+/// A function of one argument.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfOne {
+    /// In doubles.
+    pub plain: fn(f64) -> f64,
+    /// In twice the precision, with a bound of rounding; `None` of the two that are not to be had there.
+    pub bounded: Option<fn(Bounded) -> Bounded>,
+}
+
+/// A function of two arguments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfTwo {
+    /// In doubles.
+    pub plain: fn(f64, f64) -> f64,
+    /// In twice the precision, with a bound of rounding.
+    pub bounded: fn(Bounded, Bounded) -> Bounded,
+}
+
 /// What a function computes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Function {
     /// Of one argument.
-    One(fn(f64) -> f64),
+    One(OfOne),
     /// Of two arguments.
-    Two(fn(f64, f64) -> f64),
+    Two(OfTwo),
     /// Of two arguments or more, taken together from the left.
-    Several(fn(f64, f64) -> f64),
+    Several(OfTwo),
     /// `if(condition, then, else)`.
     Select,
 }
@@ -43,34 +63,50 @@ impl Function {
     }
 }
 
+const fn one(plain: fn(f64) -> f64, bounded: fn(Bounded) -> Bounded) -> Function {
+    Function::One(OfOne { plain, bounded: Some(bounded) })
+}
+
+const fn none(plain: fn(f64) -> f64) -> Function {
+    Function::One(OfOne { plain, bounded: None })
+}
+
+const fn two(plain: fn(f64, f64) -> f64, bounded: fn(Bounded, Bounded) -> Bounded) -> Function {
+    Function::Two(OfTwo { plain, bounded })
+}
+
+const fn several(plain: fn(f64, f64) -> f64, bounded: fn(Bounded, Bounded) -> Bounded) -> Function {
+    Function::Several(OfTwo { plain, bounded })
+}
+
 const FUNCTIONS: [(&str, Function); 28] = [
-    ("sin", Function::One(f64::sin)),
-    ("cos", Function::One(f64::cos)),
-    ("tan", Function::One(f64::tan)),
-    ("asin", Function::One(f64::asin)),
-    ("acos", Function::One(f64::acos)),
-    ("atan", Function::One(f64::atan)),
-    ("sinh", Function::One(f64::sinh)),
-    ("cosh", Function::One(f64::cosh)),
-    ("tanh", Function::One(f64::tanh)),
-    ("exp", Function::One(f64::exp)),
-    ("expm1", Function::One(f64::exp_m1)),
-    ("ln", Function::One(f64::ln)),
-    ("log1p", Function::One(f64::ln_1p)),
-    ("log2", Function::One(f64::log2)),
-    ("log10", Function::One(f64::log10)),
-    ("sqrt", Function::One(f64::sqrt)),
-    ("cbrt", Function::One(f64::cbrt)),
-    ("abs", Function::One(f64::abs)),
-    ("floor", Function::One(f64::floor)),
-    ("ceil", Function::One(f64::ceil)),
-    ("round", Function::One(f64::round)),
-    ("erf", Function::One(libm::erf)),
-    ("gamma", Function::One(libm::tgamma)),
-    ("atan2", Function::Two(f64::atan2)),
-    ("hypot", Function::Two(f64::hypot)),
-    ("min", Function::Several(least)),
-    ("max", Function::Several(largest)),
+    ("sin", one(f64::sin, |x| x.map_wave(Extended::sin))),
+    ("cos", one(f64::cos, |x| x.map_wave(Extended::cos))),
+    ("tan", one(f64::tan, Bounded::tan)),
+    ("asin", one(f64::asin, |x| x.map(Extended::asin))),
+    ("acos", one(f64::acos, |x| x.map(Extended::acos))),
+    ("atan", one(f64::atan, |x| x.map(Extended::atan))),
+    ("sinh", one(f64::sinh, |x| x.map(Extended::sinh))),
+    ("cosh", one(f64::cosh, |x| x.map(Extended::cosh))),
+    ("tanh", one(f64::tanh, |x| x.map(Extended::tanh))),
+    ("exp", one(f64::exp, |x| x.map(Extended::exp))),
+    ("expm1", one(f64::exp_m1, |x| x.map(Extended::exp_m1))),
+    ("ln", one(f64::ln, |x| x.map(Extended::ln))),
+    ("log1p", one(f64::ln_1p, |x| x.map(Extended::ln_1p))),
+    ("log2", one(f64::log2, |x| x.map(Extended::log2))),
+    ("log10", one(f64::log10, |x| x.map(Extended::log10))),
+    ("sqrt", one(f64::sqrt, |x| x.map(Extended::sqrt))),
+    ("cbrt", one(f64::cbrt, |x| x.map(Extended::cbrt))),
+    ("abs", one(f64::abs, |x| x.map_exactly(Extended::abs))),
+    ("floor", one(f64::floor, |x| x.map_exactly(Extended::floor))),
+    ("ceil", one(f64::ceil, |x| x.map_exactly(Extended::ceil))),
+    ("round", one(f64::round, |x| x.map_exactly(Extended::round))),
+    ("erf", none(libm::erf)),
+    ("gamma", none(libm::tgamma)),
+    ("atan2", two(f64::atan2, Bounded::atan2)),
+    ("hypot", two(f64::hypot, Bounded::hypot)),
+    ("min", several(least, Bounded::min)),
+    ("max", several(largest, Bounded::max)),
     ("if", Function::Select),
 ];
 
@@ -93,24 +129,24 @@ pub(super) enum Member {
 /// Functions of NumPy and of Python's `math` that are called otherwise here, or not at all.
 const PYTHON: [(&str, Function); 17] = [
     // There without doubt the natural one.
-    ("log", Function::One(f64::ln)),
-    ("arcsin", Function::One(f64::asin)),
-    ("arccos", Function::One(f64::acos)),
-    ("arctan", Function::One(f64::atan)),
-    ("arctan2", Function::Two(f64::atan2)),
-    ("absolute", Function::One(f64::abs)),
-    ("fabs", Function::One(f64::abs)),
-    ("square", Function::One(square)),
-    ("power", Function::Two(f64::powf)),
-    ("pow", Function::Two(f64::powf)),
-    ("maximum", Function::Several(largest)),
-    ("minimum", Function::Several(least)),
+    ("log", one(f64::ln, |x| x.map(Extended::ln))),
+    ("arcsin", one(f64::asin, |x| x.map(Extended::asin))),
+    ("arccos", one(f64::acos, |x| x.map(Extended::acos))),
+    ("arctan", one(f64::atan, |x| x.map(Extended::atan))),
+    ("arctan2", two(f64::atan2, Bounded::atan2)),
+    ("absolute", one(f64::abs, |x| x.map_exactly(Extended::abs))),
+    ("fabs", one(f64::abs, |x| x.map_exactly(Extended::abs))),
+    ("square", one(square, |x| x * x)),
+    ("power", two(f64::powf, Bounded::powf)),
+    ("pow", two(f64::powf, Bounded::powf)),
+    ("maximum", several(largest, Bounded::max)),
+    ("minimum", several(least, Bounded::min)),
     ("where", Function::Select),
     // Python rounds halves to even numbers.
-    ("round", Function::One(f64::round_ties_even)),
-    ("rint", Function::One(f64::round_ties_even)),
-    ("radians", Function::One(f64::to_radians)),
-    ("degrees", Function::One(f64::to_degrees)),
+    ("round", one(f64::round_ties_even, |x| x.map_exactly(Extended::round_ties_even))),
+    ("rint", one(f64::round_ties_even, |x| x.map_exactly(Extended::round_ties_even))),
+    ("radians", one(f64::to_radians, |x| x.map(|x| x * Extended::PI / 180.0.into()))),
+    ("degrees", one(f64::to_degrees, |x| x.map(|x| x * 180.0.into() / Extended::PI))),
 ];
 
 /// What `name`, such as `np.sin` or `math.pi`, stands for.

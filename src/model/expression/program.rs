@@ -1,5 +1,8 @@
 //! A formula as steps on a stack of columns.
 
+use super::functions::{OfOne, OfTwo};
+use crate::extended::{Bounded, Extended};
+
 /// Rows computed at a time: a few columns of them stay in the nearest cache.
 pub(super) const TILE: usize = 256;
 
@@ -16,17 +19,18 @@ pub(super) enum Comparison {
 
 impl Comparison {
     fn holds(self, a: f64, b: f64) -> f64 {
-        if a.is_nan() || b.is_nan() {
-            return f64::NAN;
-        }
-        f64::from(match self {
+        if a.is_nan() || b.is_nan() { f64::NAN } else { f64::from(self.is_true_of(a, b)) }
+    }
+
+    fn is_true_of<T: PartialOrd>(self, a: T, b: T) -> bool {
+        match self {
             Self::Less => a < b,
             Self::LessOrEqual => a <= b,
             Self::Greater => a > b,
             Self::GreaterOrEqual => a >= b,
             Self::Equal => a == b,
             Self::NotEqual => a != b,
-        })
+        }
     }
 }
 
@@ -38,14 +42,14 @@ pub(super) enum Step {
     Negate,
     /// A whole power, by multiplication.
     Power(i32),
-    One(fn(f64) -> f64),
+    One(OfOne),
     Add,
     Subtract,
     Multiply,
     Divide,
     Raise,
     Compare(Comparison),
-    Two(fn(f64, f64) -> f64),
+    Two(OfTwo),
     Select,
 }
 
@@ -122,14 +126,14 @@ impl Program {
                 Step::Negate => top.iter_mut().for_each(|x| *x = -*x),
                 Step::Power(2) => top.iter_mut().for_each(|x| *x *= *x),
                 Step::Power(power) => top.iter_mut().for_each(|x| *x = x.powi(*power)),
-                Step::One(function) => top.iter_mut().for_each(|x| *x = function(*x)),
+                Step::One(OfOne { plain, .. }) => top.iter_mut().for_each(|x| *x = plain(*x)),
                 Step::Add => with(top, &above[0], |a, b| a + b),
                 Step::Subtract => with(top, &above[0], |a, b| a - b),
                 Step::Multiply => with(top, &above[0], |a, b| a * b),
                 Step::Divide => with(top, &above[0], |a, b| a / b),
                 Step::Raise => with(top, &above[0], f64::powf),
                 Step::Compare(comparison) => with(top, &above[0], |a, b| comparison.holds(a, b)),
-                Step::Two(function) => with(top, &above[0], function),
+                Step::Two(OfTwo { plain, .. }) => with(top, &above[0], plain),
                 Step::Select => {
                     for ((condition, then), other) in top.iter_mut().zip(&above[0]).zip(&above[1]) {
                         *condition = match *condition {
@@ -144,6 +148,41 @@ impl Program {
         if depth == 1 {
             values.copy_from_slice(&columns[0][..rows]);
         }
+    }
+}
+
+impl Program {
+    /// The value at one point in twice the precision of doubles, with a bound of what rounding may make of the value in
+    /// doubles; `None` if a function is not to be had in that precision.
+    pub fn bounded(&self, x: &[f64]) -> Option<Bounded> {
+        let mut stack: Vec<Bounded> = Vec::new();
+        for step in &self.steps {
+            let operands = stack.split_off(stack.len() - step.operands());
+            stack.push(match (step, &operands[..]) {
+                (Step::Input(number), _) => x[*number].into(),
+                (Step::Number(number), _) => (*number).into(),
+                (Step::Negate, &[x]) => -x,
+                (Step::Power(power), &[x]) => x.powi(*power),
+                (Step::One(OfOne { bounded, .. }), &[x]) => (*bounded)?(x),
+                (Step::Add, &[a, b]) => a + b,
+                (Step::Subtract, &[a, b]) => a - b,
+                (Step::Multiply, &[a, b]) => a * b,
+                (Step::Divide, &[a, b]) => a / b,
+                (Step::Raise, &[a, b]) => a.powf(b),
+                (Step::Compare(comparison), &[a, b]) => {
+                    let apart = Bounded { value: a.value - b.value, error: a.error + b.error };
+                    apart.decides(comparison.is_true_of(a.value, b.value))
+                }
+                (Step::Two(OfTwo { bounded, .. }), &[a, b]) => bounded(a, b),
+                (Step::Select, &[condition, then, other]) => {
+                    let chosen = if condition.value.is_zero() { other } else { then };
+                    let certain = condition.decides(true).error.is_zero();
+                    if certain { chosen } else { Bounded { error: Extended::INFINITY, ..chosen } }
+                }
+                _ => return None,
+            });
+        }
+        stack.pop()
     }
 }
 

@@ -177,3 +177,34 @@ proptest! {
         }
     }
 }
+
+proptest! {
+    /// What doubles make of a formula lies within the bound of rounding, and the bound is of use: some hundred units.
+    #[test]
+    fn rounding_stays_within_its_bound(x in -3.0..3.0_f64, y in 0.1..20.0_f64, a in -1e3..1e3_f64) {
+        let formulas = [
+            "x + y - x", "x*y - y*x + a", "(x^3 - y^2)/(y + 4)", "sin(x)*exp(-y) + cos(a*x)", "sqrt(y)*cbrt(a) - ln(y)",
+            "y^x + tanh(a/100)", "atan2(x, y) + hypot(x, a)", "max(x, y, a) - min(x, y)", "if(x < 0, log10(y), log2(y))",
+            "abs(x) + floor(a) - round(y)", "expm1(x) + log1p(y) + sinh(x) - cosh(x)", "asin(x/3) - acos(x/3) + tan(x/3)",
+            "np.square(x) + np.power(y, 2.5) + math.radians(a)",
+        ];
+        for text in formulas {
+            let formula = Expression::parse(text, &symbol).unwrap();
+            let bounded = formula.bounded(&[x, y, a]).unwrap();
+            let value = formula.value(&[x, y, a]);
+            let off = (value - bounded.value.value()).abs();
+            // The truth itself is rounded to a double here.
+            let half_unit = value.abs() * f64::EPSILON / 2.0;
+            prop_assert!(off <= bounded.error.value() + half_unit, "{text}: {value} is off by {off:e}, beyond {:?}", bounded);
+            prop_assert!(bounded.error.value() < 1e-9 * (1.0 + bounded.value.abs().value() + y.powf(x.abs())), "{text}");
+        }
+    }
+}
+
+#[test]
+fn functions_that_have_no_more_digits_say_so() {
+    for (text, is_there) in [("erf(x)", false), ("gamma(y) + x", false), ("exp(x)", true)] {
+        let formula = Expression::parse(text, &symbol).unwrap();
+        assert_eq!(formula.bounded(&[0.5, 2.0, 1.0]).is_some(), is_there, "{text}");
+    }
+}

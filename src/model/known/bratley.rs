@@ -1,6 +1,6 @@
 //! The alternating sum of products of Bratley, Fox and Niederreiter.
 
-use super::function::unit_cube;
+use super::function::{product, sum, unit_cube, xs};
 use super::parameters::{FINITE, Given};
 use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
 
@@ -48,6 +48,11 @@ impl Function for Bratley {
             sum += product;
         }
         sum
+    }
+
+    fn expression(&self) -> String {
+        let term = |length: usize| product(xs(length).map(|x| format!("(-{x})")));
+        sum((1..=self.d).map(term))
     }
 
     fn exact(&self) -> Exact {

@@ -1,6 +1,6 @@
 //! A constant.
 
-use super::function::unit_cube;
+use super::function::{unit_cube, written};
 use super::parameters::{FINITE, Given};
 use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
 
@@ -39,6 +39,10 @@ impl Function for Constant {
 
     fn value(&self, _x: &[f64]) -> f64 {
         self.c
+    }
+
+    fn expression(&self) -> String {
+        written(self.c)
     }
 
     fn exact(&self) -> Exact {

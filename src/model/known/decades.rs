@@ -3,7 +3,7 @@
 use std::f64::consts::LN_10;
 
 use super::exact::{mean_of_exponential, relative_variance_of_exponential};
-use super::function::unit_cube;
+use super::function::{sum, unit_cube, written, xs};
 use super::parameters::{DIMENSION, Given, Range};
 use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
 
@@ -57,6 +57,11 @@ impl Function for Decades {
     fn value(&self, x: &[f64]) -> f64 {
         let decades: f64 = x.iter().zip(&self.k).map(|(x, k)| k * x).sum();
         10f64.powf(self.offset + decades)
+    }
+
+    fn expression(&self) -> String {
+        let decades = xs(self.k.len()).zip(&self.k).map(|(x, &k)| format!("{}*{x}", written(k)));
+        format!("10^({} + {})", written(self.offset), sum(decades))
     }
 
     fn exact(&self) -> Exact {

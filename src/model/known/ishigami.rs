@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::function::{alike, uniform};
+use super::function::{alike, uniform, written};
 use super::parameters::{FINITE, Given};
 use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
 
@@ -52,6 +52,10 @@ impl Function for Ishigami {
 
     fn value(&self, x: &[f64]) -> f64 {
         x[0].sin() + self.a * x[1].sin().powi(2) + self.b * x[2].powi(4) * x[0].sin()
+    }
+
+    fn expression(&self) -> String {
+        format!("sin(x1) + {}*sin(x2)^2 + {}*x3^4*sin(x1)", written(self.a), written(self.b))
     }
 
     fn exact(&self) -> Exact {

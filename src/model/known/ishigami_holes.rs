@@ -54,6 +54,10 @@ impl Function for IshigamiHoles {
         (x[2] > self.edge).then_some("the function has a hole where x3 exceeds its edge")
     }
 
+    fn expression(&self) -> String {
+        self.whole.expression()
+    }
+
     fn exact(&self) -> Exact {
         self.whole.exact_within(self.edge)
     }

@@ -1,6 +1,6 @@
 //! Two products of many inputs alike.
 
-use super::function::unit_cube;
+use super::function::{product, unit_cube, xs};
 use super::parameters::{FINITE, Given, ParameterInfo};
 use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterValue};
 
@@ -52,6 +52,11 @@ impl Function for Linear {
         x.iter().map(|x| (d - x) / (d - 0.5)).product()
     }
 
+    fn expression(&self) -> String {
+        let d = self.d;
+        product(xs(d).map(|x| format!("(({d} - {x})/({d} - 0.5))")))
+    }
+
     fn exact(&self) -> Exact {
         let d = self.d as f64;
         Exact::of_product(1.0, &vec![1.0 / (12.0 * (d - 0.5) * (d - 0.5)); self.d])
@@ -85,6 +90,11 @@ impl Function for Roots {
         let d = self.d as f64;
         let logs: f64 = x.iter().map(|x| x.ln()).sum();
         (d * (1.0 / d).ln_1p() + logs / d).exp()
+    }
+
+    fn expression(&self) -> String {
+        let d = self.d;
+        format!("(1 + 1/{d})^{d}*({})^(1/{d})", product(xs(d)))
     }
 
     fn exact(&self) -> Exact {

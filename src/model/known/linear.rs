@@ -1,6 +1,6 @@
 //! A weighted sum.
 
-use super::function::unit_cube;
+use super::function::{sum, unit_cube, written, xs};
 use super::parameters::{DIMENSION, FINITE, Given};
 use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
 
@@ -42,6 +42,10 @@ impl Function for Linear {
 
     fn value(&self, x: &[f64]) -> f64 {
         x.iter().zip(&self.c).map(|(x, c)| c * x).sum()
+    }
+
+    fn expression(&self) -> String {
+        sum(xs(self.c.len()).zip(&self.c).map(|(x, &c)| format!("{}*{x}", written(c))))
     }
 
     fn exact(&self) -> Exact {

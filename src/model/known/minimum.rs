@@ -1,6 +1,6 @@
 //! The smallest of several inputs.
 
-use super::function::unit_cube;
+use super::function::{unit_cube, xs};
 use super::parameters::{Given, Range};
 use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
 
@@ -41,6 +41,10 @@ impl Function for Minimum {
 
     fn value(&self, x: &[f64]) -> f64 {
         x.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    fn expression(&self) -> String {
+        format!("min({})", xs(self.d).collect::<Vec<_>>().join(", "))
     }
 
     fn exact(&self) -> Exact {

@@ -1,5 +1,6 @@
 //! A product of normal inputs.
 
+use super::function::{product, xs};
 use super::parameters::{DIMENSION, FINITE, Given, POSITIVE};
 use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
 use crate::space::Distribution;
@@ -63,6 +64,10 @@ impl Function for Product {
 
     fn value(&self, x: &[f64]) -> f64 {
         x.iter().product()
+    }
+
+    fn expression(&self) -> String {
+        product(xs(self.mu.len()))
     }
 
     fn exact(&self) -> Exact {

@@ -1,7 +1,7 @@
 //! The exponential of Sobol' and Levitan.
 
 use super::exact::{mean_of_exponential, relative_variance_of_exponential};
-use super::function::unit_cube;
+use super::function::{sum, unit_cube, written, xs};
 use super::parameters::{DIMENSION, FINITE, Given, Range};
 use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
 
@@ -57,6 +57,11 @@ impl Function for SobolLevitan {
     fn value(&self, x: &[f64]) -> f64 {
         let exponent: f64 = x.iter().zip(&self.b).map(|(x, b)| b * x).sum();
         exponent.exp() - self.mean + self.c0
+    }
+
+    fn expression(&self) -> String {
+        let exponent = sum(xs(self.b.len()).zip(&self.b).map(|(x, &b)| format!("{}*{x}", written(b))));
+        format!("exp({exponent}) - {} + {}", written(self.mean), written(self.c0))
     }
 
     fn exact(&self) -> Exact {

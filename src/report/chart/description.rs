@@ -13,7 +13,7 @@ impl Chart {
             let key = match shape {
                 Shape::Line(_) => points(series.stroke.has_line(), series.stroke.has_points()),
                 Shape::Dots(_) | Shape::Point(_) => points(false, true),
-                Shape::Bar(_) => Key::Swatch(series.colour),
+                Shape::Bar(_) | Shape::Tile(_) | Shape::Stretches(..) => Key::Swatch(series.colour),
                 _ => continue,
             };
             let entry = Entry { name: series.name.clone(), key };
@@ -76,6 +76,19 @@ impl Chart {
                 _ => continue,
             };
             text.push_str(&format!("; {said}"));
+        }
+        for (row, name) in panel.y.names.iter().enumerate() {
+            let letters: Vec<&str> =
+                panel.tiles().filter(|(_, tile)| tile.row == row).map(|(_, tile)| tile.letter.as_str()).collect();
+            if !letters.is_empty() {
+                text.push_str(&format!("; {name}: {}", letters.join(" ")));
+            }
+            let stretches =
+                panel.marks.iter().filter(|mark| matches!(mark.shape, Shape::Stretches(of, _) if of == row));
+            let shades: Vec<&str> = stretches.map(|mark| mark.series.name.as_str()).collect();
+            if !shades.is_empty() {
+                text.push_str(&format!("; {name}: {}", shades.join(", ")));
+            }
         }
         text + "."
     }

@@ -1,6 +1,6 @@
 //! Where the panels of a chart stand, and which scales they have.
 
-use super::model::{Arrangement, Bar, Chart, Mark, Panel, Shape, drawable_pair};
+use super::model::{Arrangement, Bar, Chart, Mark, Panel, Shape, Tile, drawable_pair};
 use super::plot::{TICK_GAP, tick_room, title_room};
 use super::scale::{Scale, ScaleOptions};
 use super::style::{ChartWidth, MARGIN, TICK, VALUE, drawable};
@@ -126,6 +126,24 @@ impl Panel {
         })
     }
 
+    /// The cells of a map with their marks.
+    pub(super) fn tiles(&self) -> impl Iterator<Item = (&Mark, &Tile)> {
+        self.marks.iter().filter_map(|mark| match &mark.shape {
+            Shape::Tile(tile) => Some((mark, tile)),
+            _ => None,
+        })
+    }
+
+    /// Whether it has the stretches of a map.
+    pub(super) fn has_stretches(&self) -> bool {
+        self.marks.iter().any(|mark| matches!(mark.shape, Shape::Stretches(..)))
+    }
+
+    /// Whether it is a map, whose rows stand for themselves and not about a value.
+    pub(super) fn is_map(&self) -> bool {
+        self.has_stretches() || self.tiles().next().is_some()
+    }
+
     /// The rules as (place, label).
     pub(super) fn rules(&self) -> impl Iterator<Item = (f64, &str)> {
         self.marks.iter().filter_map(|mark| match &mark.shape {
@@ -162,13 +180,16 @@ impl Panel {
                 drawable_pair((*low, *high)).into_iter().flat_map(|(low, high)| [level(low), level(high)]).collect()
             }
             Shape::Slope(..) => vec![(0.0, 0.0)],
-            Shape::Note(..) | Shape::Rule(..) => Vec::new(),
+            Shape::Stretches(_, stretches) => {
+                stretches.iter().flat_map(|&(from, to)| [level(from), level(to)]).collect()
+            }
+            Shape::Tile(_) | Shape::Note(..) | Shape::Rule(..) => Vec::new(),
         };
         self.marks.iter().flat_map(of_mark).collect()
     }
 
     fn x_values(&self) -> Vec<f64> {
-        let base = self.has_rows().then(|| self.base());
+        let base = (self.has_rows() && !self.has_stretches()).then(|| self.base());
         self.places().into_iter().map(|place| place.0).chain(self.rules().map(|rule| rule.0)).chain(base).collect()
     }
 
@@ -235,6 +256,7 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
     values.extend(room_for_labels(panels, &values, width));
     let marks = || panels.iter().flat_map(|panel| &panel.marks);
     let air = match () {
+        () if panels.iter().any(Panel::has_stretches) => 0.0,
         () if panels.iter().any(Panel::has_rows) => 0.03,
         () if panels.iter().any(Panel::has_slopes) => 0.06,
         // Points need air at the ends; lines run from edge to edge.

@@ -36,7 +36,7 @@ mod tests;
 pub use error::ChartError;
 #[doc(hidden)]
 pub use film_strip::{FilmStrip, Look, Sketch};
-pub use model::{Arrangement, Axis, Bar, Chart, Drawing, Mark, Panel, Picture, Point, Series, Shape, Stroke};
+pub use model::{Arrangement, Axis, Bar, Chart, Drawing, Mark, Panel, Picture, Point, Series, Shape, Stroke, Tile};
 pub use palette::Colour;
 #[cfg(feature = "png")]
 pub use png::{PNG_SCALE, Png, PngError, png};

@@ -141,6 +141,10 @@ pub enum Shape {
     Bar(Bar),
     /// An interval over a whole row: row, low, high.
     Interval(usize, f64, f64),
+    /// A cell of a map, on two axes of names.
+    Tile(Tile),
+    /// Stretches of a row of a map as (from, to), on a horizontal axis of numbers.
+    Stretches(usize, Vec<(f64, f64)>),
     /// Text beside a row.
     Note(usize, String),
     /// A vertical line at x with a label above; bars stand about the first of them, else about 0.
@@ -162,6 +166,19 @@ pub struct Point {
     pub x_interval: Option<(f64, f64)>,
     /// Bounds of `y`, likewise.
     pub y_interval: Option<(f64, f64)>,
+}
+
+/// A cell of a map, told by its colour and by a letter.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tile {
+    /// Its row.
+    pub row: usize,
+    /// Its column.
+    pub column: usize,
+    /// A letter or two.
+    pub letter: String,
+    /// What is shown when it is pointed at.
+    pub tip: String,
 }
 
 /// A level bar. One with an end that cannot be drawn keeps its place, which says so.
@@ -282,7 +299,8 @@ impl Panel {
         };
         self.marks.retain_mut(|mark| match &mut mark.shape {
             Shape::Bar(bar) => place(&mut bar.row),
-            Shape::Interval(row, ..) | Shape::Note(row, _) => place(row),
+            Shape::Tile(tile) => place(&mut tile.row),
+            Shape::Interval(row, ..) | Shape::Note(row, _) | Shape::Stretches(row, _) => place(row),
             _ => true,
         });
         self.y.names = order.iter().map(|&row| self.y.names[row].clone()).collect();

@@ -9,6 +9,13 @@ const COLOURS: [&str; 11] = [
     "#c4c4c4",
 ];
 
+/// The shades of maps from little to much, ever darker, so that they are told apart in grey too (ColorBrewer's YlGnBu).
+const SHADES: [&str; 9] =
+    ["#ffffd9", "#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58"];
+
+/// The first shade on which dark letters cannot be read.
+const FIRST_DARK: usize = 6;
+
 /// Outlines of points as path data about the origin, of about equal area.
 const SYMBOLS: [&str; 4] = [
     "m-2.8 0a2.8 2.8 0 1 0 5.6 0a2.8 2.8 0 1 0 -5.6 0z",
@@ -25,6 +32,8 @@ pub enum Colour {
     Series(usize),
     /// References and exact values: nearly black.
     Reference,
+    /// That of a cell of a map by how much there is, from 0, the lightest, to 8, the darkest.
+    Shade(usize),
 }
 
 impl Default for Colour {
@@ -45,14 +54,20 @@ impl Colour {
         match self {
             Self::Series(number) => COLOURS[number % COLOURS.len()],
             Self::Reference => INK,
+            Self::Shade(number) => SHADES[number.min(SHADES.len() - 1)],
         }
+    }
+
+    /// Whether letters on it must be light.
+    pub(super) fn is_dark(self) -> bool {
+        matches!(self, Self::Reference | Self::Shade(FIRST_DARK..))
     }
 
     /// The outline of a point as path data about its middle.
     pub(super) fn symbol(self) -> &'static str {
         match self {
             Self::Series(number) => SYMBOLS[number % SYMBOLS.len()],
-            Self::Reference => SYMBOLS[0],
+            Self::Reference | Self::Shade(_) => SYMBOLS[0],
         }
     }
 }
@@ -69,5 +84,16 @@ mod tests {
         colours.dedup();
         assert_eq!(colours.len(), COLOURS.len() + 1);
         assert!(colours.contains(&Colour::Series(usize::MAX).hex()));
+    }
+
+    #[test]
+    fn shades_grow_darker() {
+        let lightness = |shade: usize| {
+            let hex = Colour::Shade(shade).hex();
+            let part = |at: usize| f64::from(u8::from_str_radix(&hex[at..at + 2], 16).expect("hexadecimal"));
+            0.2126 * part(1) + 0.7152 * part(3) + 0.0722 * part(5)
+        };
+        assert!((1..SHADES.len()).all(|shade| lightness(shade) < lightness(shade - 1)));
+        assert_eq!(Colour::Shade(usize::MAX).hex(), SHADES[8]);
     }
 }

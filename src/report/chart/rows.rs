@@ -3,9 +3,12 @@
 use super::draw::Sheet;
 use super::layout::{ROW_GAP, TEXT_GAP, row_name, row_note};
 use super::model::{Bar, Mark, Panel, Series, Shape, drawable_pair};
-use super::style::{ChartWidth, INK, MARGIN, MUTED, TICK, VALUE};
+use super::style::{ChartWidth, INK, MARGIN, MUTED, PAPER, TICK, VALUE};
 use super::svg::{Anchor, Canvas, Px, Text};
 use super::text::shorten;
+
+/// Between two cells of a map, px.
+const TILE_GAP: f64 = 2.0;
 
 /// A bar with its place, px.
 struct Lane<'a> {
@@ -33,7 +36,9 @@ impl<'a> Sheet<'a> {
         let rows = 0..panel.y.names.len();
         let lanes: Vec<Lane<'_>> = rows.clone().flat_map(|row| self.lanes(row)).collect();
         self.bars(canvas, &lanes);
-        if let Some(x) = self.x(panel.base()) {
+        self.tiles(canvas);
+        self.stretches(canvas);
+        if let Some(x) = self.x(panel.base()).filter(|_| !panel.is_map()) {
             canvas.open("g", &[("class", &"baseline"), ("stroke", &INK), ("stroke-width", &"1")]);
             canvas.line((x, self.plot.top), (x, self.plot.bottom()));
             canvas.close("g");
@@ -88,6 +93,61 @@ impl<'a> Sheet<'a> {
                 ],
                 &self.chart.bar_in_words(self.cell.panel, &lane.series.name, &bar),
             );
+        }
+        canvas.close("g");
+    }
+
+    /// The cells of a map, each with its letter.
+    fn tiles(&self, canvas: &mut Canvas) {
+        let panel = self.cell.panel;
+        if panel.tiles().next().is_none() {
+            return;
+        }
+        canvas.open("g", &[("class", &"tiles")]);
+        for (mark, tile) in panel.tiles().filter(|(_, tile)| tile.row < panel.y.names.len()) {
+            let middle = self.middle(tile.row);
+            let place = tile.column as f64;
+            let Some((left, right)) = self.x(place - 0.5).zip(self.x(place + 0.5)) else { continue };
+            let Series { name, colour, .. } = &mark.series;
+            let column = panel.x.names.get(tile.column).map_or("", String::as_str);
+            let tip = format!("{}, {column}: {name}. {}", panel.y.names[tile.row], tile.tip);
+            canvas.tipped(
+                "rect",
+                &[
+                    ("x", &Px(left + TILE_GAP / 2.0)),
+                    ("y", &Px(middle - self.layout.rows.bars / 2.0)),
+                    ("width", &Px((right - left - TILE_GAP).max(1.0))),
+                    ("height", &Px(self.layout.rows.bars)),
+                    ("fill", &colour.hex()),
+                ],
+                tip.trim_end(),
+            );
+            let at = ((left + right) / 2.0, middle + VALUE.cap_height() / 2.0);
+            let ink = if colour.is_dark() { PAPER } else { INK };
+            canvas.text(&Text::new(&tile.letter, at, VALUE).anchor(Anchor::Middle).fill(ink));
+        }
+        canvas.close("g");
+    }
+
+    /// The stretches of the rows of a map. There may be thousands, so that those of a mark are one path.
+    fn stretches(&self, canvas: &mut Canvas) {
+        let panel = self.cell.panel;
+        if !panel.has_stretches() {
+            return;
+        }
+        // Neighbours touch without a seam.
+        canvas.open("g", &[("class", &"stretches"), ("shape-rendering", &"crispEdges")]);
+        for Mark { series, shape } in &panel.marks {
+            let Shape::Stretches(row, stretches) = shape else { continue };
+            let Some(name) = panel.y.names.get(*row) else { continue };
+            let (top, height) = (self.middle(*row) - self.layout.rows.bars / 2.0, self.layout.rows.bars);
+            let mut d = String::new();
+            for (left, right) in stretches.iter().filter_map(|&(from, to)| self.x(from).zip(self.x(to))) {
+                let width = Px(right - left).to_string();
+                d.push_str(&format!("M{} {}h{width}v{}h-{width}z", Px(left), Px(top), Px(height)));
+            }
+            let tip = format!("{name}: {}", series.name);
+            canvas.tipped("path", &[("d", &d), ("fill", &series.colour.hex())], &tip);
         }
         canvas.close("g");
     }
@@ -152,6 +212,8 @@ impl<'a> Sheet<'a> {
         let baseline = middle + TICK.cap_height() / 2.0;
         let is_empty = !panel.marks.iter().any(|mark| match &mark.shape {
             Shape::Bar(bar) => bar.row == row,
+            Shape::Tile(tile) => tile.row == row,
+            Shape::Stretches(of, stretches) => *of == row && !stretches.is_empty(),
             Shape::Interval(of, low, high) => *of == row && drawable_pair((*low, *high)).is_some(),
             _ => false,
         });

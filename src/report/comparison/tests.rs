@@ -102,7 +102,8 @@ fn one_sided_factors_and_missing_indices_have_their_place() {
     for drawing in comparison_charts(&file) {
         drawing.chart.svg().unwrap();
     }
-    let files = comparison_document(&file, "a-vs-b").data_files();
+    let document = comparison_document(&file, "a-vs-b");
+    let files = document.data_files();
     assert_eq!(files.iter().find(|file| file.name == "a-vs-b.csv").unwrap().text.lines().count(), 1 + 2 * 2);
 }
 

@@ -13,10 +13,13 @@ mod symbols;
 mod table;
 mod text;
 
+use std::borrow::Cow;
+
 pub use super::csv::Value;
 #[cfg(feature = "page")]
 pub use html::DocumentError;
 pub use symbols::symbols;
+pub(crate) use table::csv;
 pub use table::{Cell, Column, Mark, OnPhone, Table};
 
 use crate::report::chart::Chart;
@@ -151,7 +154,14 @@ impl Document {
     }
 
     /// The files for programs: those that are given, then one for all tables that name it, in the order of the document.
-    pub fn data_files(&self) -> Vec<DataFile> {
+    pub fn data_files(&self) -> Vec<Cow<'_, DataFile>> {
+        let of_tables = self.tables_by_file().into_iter();
+        let of_tables = of_tables.map(|(name, tables)| Cow::Owned(DataFile::new(name, csv(tables))));
+        self.files.iter().map(Cow::Borrowed).chain(of_tables).collect()
+    }
+
+    /// The files that its tables make, each with its tables in their order.
+    fn tables_by_file(&self) -> Vec<(&str, Vec<&Table>)> {
         let mut tables: Vec<&Table> = Vec::new();
         self.visit(&mut |part| {
             if let Part::Table(table) = part
@@ -161,14 +171,11 @@ impl Document {
             }
         });
         tables.sort_by_key(|table| table.at_end);
-        let mut files = self.files.clone();
-        for table in &tables {
-            if files.iter().all(|file| file.name != table.file) {
-                let of_file = tables.iter().filter(|other| other.file == table.file);
-                files.push(DataFile {
-                    name: table.file.clone(),
-                    text: table::csv(&of_file.copied().collect::<Vec<_>>()),
-                });
+        let mut files: Vec<(&str, Vec<&Table>)> = Vec::new();
+        for table in tables.into_iter().filter(|table| self.files.iter().all(|file| file.name != table.file)) {
+            match files.iter_mut().find(|(name, _)| *name == table.file) {
+                Some((_, of_file)) => of_file.push(table),
+                None => files.push((&table.file, vec![table])),
             }
         }
         files
@@ -178,11 +185,9 @@ impl Document {
     pub fn file_names(&self) -> FileNames {
         let mut charts: Vec<String> = self.figures().into_iter().map(|figure| figure.stem.clone()).collect();
         charts.retain(|stem| !stem.is_empty());
-        FileNames {
-            name: self.name.clone(),
-            data: self.data_files().into_iter().map(|file| file.name).collect(),
-            charts,
-        }
+        let of_tables = self.tables_by_file().into_iter().map(|(name, _)| name.to_owned());
+        let data = self.files.iter().map(|file| file.name.clone()).chain(of_tables).collect();
+        FileNames { name: self.name.clone(), data, charts }
     }
 
     fn visit<'a>(&'a self, see: &mut dyn FnMut(&'a Part)) {

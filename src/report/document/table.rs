@@ -1,5 +1,7 @@
 //! Tables: cells as they are printed, with the exact values behind them for CSV.
 
+use std::borrow::Borrow;
+
 use crate::report::csv::{Csv, Field, Value};
 use crate::report::format::give_or_take;
 use crate::report::result::EstimateRecord;
@@ -102,7 +104,7 @@ impl Table {
 
     /// The rows as CSV.
     pub(crate) fn csv(&self) -> String {
-        csv(&[self])
+        csv([self])
     }
 
     /// The columns that are printed, with their headings and whether they hold numbers.
@@ -126,11 +128,13 @@ impl Table {
     }
 }
 
-/// The rows of `tables`, which have the same columns, as CSV.
-pub(super) fn csv(tables: &[&Table]) -> String {
-    let Some(first) = tables.first() else { return String::new() };
-    let mut csv = Csv::new(first.columns.iter().filter_map(|column| column.field.clone()));
+/// The rows of `tables`, which have the same columns, as CSV; nothing without any.
+pub(crate) fn csv<T: Borrow<Table>>(tables: impl IntoIterator<Item = T>) -> String {
+    let mut tables = tables.into_iter().peekable();
+    let Some(first) = tables.peek() else { return String::new() };
+    let mut csv = Csv::new(first.borrow().columns.iter().filter_map(|column| column.field.clone()));
     for table in tables {
+        let table = table.borrow();
         for row in &table.rows {
             let in_file = table.columns.iter().zip(row).filter(|(column, _)| column.field.is_some());
             csv.row(in_file.map(|(_, cell)| match &cell.value {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::sentences;
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord, given_chart};
+use super::{measures, sentences};
 use crate::report::csv::Field;
 use crate::report::distribution::OutputDistribution;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
@@ -28,6 +28,7 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
         parts.push(figure.into());
         sections.push(Section::new(&format!("output-{}", place + 1), &first(&output.name), parts));
     }
+    sections.extend(measures::section(result, name, result.outputs.len()));
     let notes = result.notes.iter().map(|note| format!("{}.", crate::report::capitalised(note))).collect();
     let note = Part::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts: notes };
     sections.push(Section::new("limits", "What these indices cannot say", vec![note]));

@@ -2,6 +2,7 @@
 
 mod chart;
 mod document;
+mod measures;
 mod record;
 mod sentences;
 mod surrogate;
@@ -9,6 +10,7 @@ mod surrogate;
 pub use chart::given_chart;
 pub use document::given_document;
 pub(super) use document::{file_name, moments};
+pub use measures::{GivenMeasuresRecord, MeasuredRecord};
 pub use record::{
     BinnedRecord, DependenceRecord, GivenFacts, GivenFile, GivenIndexRecord, GivenInputRecord, GivenOutputRecord,
     GivenProvenance, SurrogateResult, TableRecord, build_given,

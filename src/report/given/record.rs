@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::measures::GivenMeasuresRecord;
 use super::sentences;
 use super::surrogate::{GivenSurrogateOutput, GivenSurrogateRecord, surrogate_output, surrogate_record};
 use crate::given::{
@@ -111,6 +112,9 @@ pub struct GivenOutputRecord {
     /// Indices by surrogates; `null` if they were not asked for, or there are none.
     #[serde(default)]
     pub surrogate: Option<GivenSurrogateOutput>,
+    /// Other measures, one entry per input; `null` if they were not asked for, or there are none.
+    #[serde(default)]
+    pub measures: Option<Vec<GivenMeasuresRecord>>,
     /// Why there are no indices.
     pub reason: Option<String>,
     /// What a careful reader should know, in sentences.
@@ -239,6 +243,7 @@ fn output_record(output: &OutputIndices, surrogate: Option<&SurrogateOutput>, co
         indices: indices.ok().map(|indices| indices.iter().map(index_record).collect()),
         sum_first_order: indices.ok().and_then(|indices| indices.iter().map(leading).sum()),
         surrogate: surrogate.zip(indices.ok()).map(|(surrogate, inputs)| surrogate_output(surrogate, inputs)),
+        measures: None,
         reason: indices.err().map(ToString::to_string),
         warnings: sentences::output_warnings(output, surrogate),
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::OtherIndexRecord;
+use super::{LowUseRecord, OtherIndexRecord};
 
 /// The surrogates of an output: polynomials fitted to the runs of all replicates but one, which correct the indices of that
 /// one.
@@ -28,6 +28,9 @@ pub struct SurrogateRecord {
     pub leading_terms: Vec<SurrogateTermRecord>,
     /// The plain indices of everything that has indices: factors, groups, subsets, dummy.
     pub plain: Vec<OtherIndexRecord>,
+    /// The cheaper model that stands in beside them, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub low: Option<LowUseRecord>,
 }
 
 /// A term of the surrogates.

@@ -1,16 +1,18 @@
 //! Charts of a run besides that of the shares, all from the result alone: the indices, what acts together, the output
-//! over its factors, how it is distributed, and how the indices settled.
+//! over its factors, how it is distributed, how the indices settled, and many outputs at a glance.
 
 mod categories;
 mod convergence;
 mod distribution;
 mod indices;
+mod map;
 mod scatter;
 mod slice_means;
 
 pub use convergence::convergence_chart;
 pub use distribution::distribution_chart;
 pub use indices::{indices_chart, interactions_chart};
+pub(super) use map::{map_chart, together_chart};
 pub use scatter::scatter_chart;
 
 use super::format::the;

@@ -1,8 +1,10 @@
 //! The charts of a run as figures, numbered through.
 
+use crate::model::MANY_OUTPUTS;
 use crate::report::chart::Chart;
 use crate::report::document::{Figure, Part};
 use crate::report::format::the;
+use crate::report::output_axis::OutputAxis;
 use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::{
     convergence_chart, distribution_chart, file_stems, indices_chart, interactions_chart, scatter_chart, study_chart,
@@ -37,16 +39,33 @@ const KINDS: [Kind; 6] = [
 ];
 
 /// The names of the charts of each output.
-pub(super) fn chart_stems(study: &str, outputs: &[&str]) -> Vec<[String; KINDS.len()]> {
+fn chart_stems(study: &str, outputs: &[&str]) -> Vec<[String; KINDS.len()]> {
     let suffixes = KINDS.map(|kind| kind.suffix);
     let stems = file_stems(study, outputs, &suffixes);
     stems.into_iter().map(|stem| suffixes.map(|suffix| format!("{stem}{suffix}"))).collect()
 }
 
+/// The names of the charts of many outputs: of all together, then of the map of each axis.
+pub(super) fn overview_stems(study: &str, axes: usize) -> Vec<String> {
+    let maps = (1..=axes).map(|axis| if axes == 1 { format!("{study}-map") } else { format!("{study}-map-{axis}") });
+    std::iter::once(format!("{study}-together")).chain(maps).collect()
+}
+
+/// The names of all charts of a study with these outputs.
+pub(super) fn all_stems(study: &str, outputs: &[&str]) -> Vec<String> {
+    if outputs.len() >= MANY_OUTPUTS {
+        return overview_stems(study, OutputAxis::all(outputs).len());
+    }
+    chart_stems(study, outputs).into_iter().flatten().collect()
+}
+
 /// Draws the figures of one output after the other.
 pub(super) struct Figures<'a> {
     pub result: &'a ResultFile,
+    /// Of the charts of each output; none where these are on the page alone.
     stems: Vec<[String; KINDS.len()]>,
+    /// Figures of several outputs.
+    others: usize,
     /// The figures so far, by output and kind.
     drawn: Vec<(usize, usize)>,
 }
@@ -68,7 +87,18 @@ impl Numbered<'_> {
 impl<'a> Figures<'a> {
     pub fn new(result: &'a ResultFile) -> Self {
         let outputs: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
-        Self { result, stems: chart_stems(&result.study.name, &outputs), drawn: Vec::new() }
+        let is_many = outputs.len() >= MANY_OUTPUTS;
+        let stems = if is_many { Vec::new() } else { chart_stems(&result.study.name, &outputs) };
+        Self { result, stems, others: 0, drawn: Vec::new() }
+    }
+
+    /// A figure of several outputs, with the anchor `name` and its files called `stem`.
+    pub fn add(&mut self, chart: Chart, name: &str, stem: &str) -> Part {
+        self.others += 1;
+        let study = &self.result.study;
+        let figure = Figure::new(self.others + self.drawn.len(), chart, stem, format!("{}.csv", study.name));
+        let figure = Figure { id: format!("figure-{name}"), ..figure };
+        figure.below(study.title.as_ref().unwrap_or(&study.name)).into()
     }
 
     /// The figure of that kind with its number and the names of its files.
@@ -82,17 +112,18 @@ impl<'a> Figures<'a> {
     pub fn others(&self) -> Vec<Figure> {
         let outputs =
             self.result.outputs.iter().enumerate().map(|(place, output)| Numbered { output, number: place + 1 });
-        let all = outputs.flat_map(|of| (0..KINDS.len()).map(move |kind| (of, kind)));
+        // Those without a name are no files.
+        let all = outputs.take(self.stems.len()).flat_map(|of| (0..KINDS.len()).map(move |kind| (of, kind)));
         let others = all.filter(|(of, kind)| !self.drawn.contains(&(of.number, *kind)));
         others.map(|(of, kind)| self.figure(of, kind)).collect()
     }
 
     fn figure(&self, of: Numbered<'_>, kind: usize) -> Figure {
         let study = &self.result.study;
-        let stem = &self.stems[of.number - 1][kind];
+        let stem = self.stems.get(of.number - 1).map_or("", |stems| &stems[kind]);
         let Kind { name, draw, data, .. } = &KINDS[kind];
         let data = if data.is_empty() { String::new() } else { format!("{}{data}", study.name) };
-        let figure = Figure::new(self.drawn.len(), draw(self.result, of.output), stem, data);
+        let figure = Figure::new(self.others + self.drawn.len(), draw(self.result, of.output), stem, data);
         let figure = Figure { id: format!("figure-{}-{name}", of.number), ..figure };
         match kind {
             SHARES => Figure { title: Some(format!("Shares of {}", the(&of.output.name))), ..figure },

@@ -1,5 +1,8 @@
 //! What a hurried reader should take along: which factor matters most, how sure that is, and what to mind.
 
+use std::collections::BTreeSet;
+
+use crate::model::MANY_OUTPUTS;
 use crate::report::format::{
     count, first, grouped, index, name, percent, share_of_runs, the, two_digits as half_width,
 };
@@ -20,6 +23,39 @@ pub(super) fn lead(result: &ResultFile) -> Vec<String> {
     }
     lead.push(trust(result));
     lead
+}
+
+/// The paragraphs at the top of the page of many outputs.
+pub(super) fn lead_of_many(result: &ResultFile) -> Vec<String> {
+    let mut lead = super::overview::answers(result);
+    lead.push(trust(result));
+    lead
+}
+
+/// For how many outputs each factor matters most.
+pub(super) struct Leads {
+    /// By the place of the factor, the outputs for which it surely does.
+    pub first: Vec<usize>,
+    /// Outputs of which it cannot be told.
+    pub open: usize,
+    /// Outputs without indices.
+    pub without: usize,
+}
+
+impl Leads {
+    pub fn of(result: &ResultFile) -> Self {
+        let mut leads = Self { first: vec![0; result.factors.len()], open: 0, without: 0 };
+        for output in &result.outputs {
+            match by_total(output) {
+                None => leads.without += 1,
+                Some(order) => match tied(&order.iter().map(|(_, index)| *index).collect::<Vec<_>>())[..] {
+                    [_] => leads.first[order[0].0] += 1,
+                    _ => leads.open += 1,
+                },
+            }
+        }
+        leads
+    }
 }
 
 /// Which factor matters most for an output, and how much is due to interactions.
@@ -176,7 +212,12 @@ fn trust(result: &ResultFile) -> String {
         let share = share_of_runs(failed as f64 / result.provenance.model_runs.max(1) as f64);
         sentences.push(format!("{} failed ({share} of all).", capitalised(&count(failed, "run", "runs"))));
     }
-    let warnings: usize = result.outputs.iter().map(|output| output.warnings.len()).sum();
+    let warnings = result.outputs.iter().flat_map(|output| &output.warnings);
+    // Of many outputs each is said once.
+    let warnings = match result.outputs.len() {
+        ..MANY_OUTPUTS => warnings.count(),
+        _ => warnings.collect::<BTreeSet<_>>().len(),
+    };
     sentences.push(match warnings {
         0 => "There are no warnings.".to_owned(),
         _ => format!(

@@ -3,21 +3,25 @@
 mod figures;
 mod lead;
 mod output;
+mod overview;
 mod tables;
 
-use figures::{Figures, Numbered, chart_stems};
+use figures::{Figures, Numbered, all_stems};
 use output::Topic;
+
+use crate::model::MANY_OUTPUTS;
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
 use super::file_names::FileNames;
 use super::format::{count, grouped, name, significant};
 use super::records::StudySetup;
-use super::result::{AggregateRecord, ResultFile};
+use super::result::{AggregateRecord, LowRecord, ResultFile, SpendingRecord};
 use super::study_sections::{study_section, validity_section};
-use super::{listed, result_json};
+use super::{capitalised, listed, result_json};
 
 /// The document of a result. Everything in it comes from the result, so that it can be made again from the JSON file.
-/// With one output every topic is a section; with several every output is.
+/// With one output every topic is a section; with several every output is; with 12 or more there is an overview, and what
+/// is said of single outputs is folded.
 ///
 /// # Example
 /// ```
@@ -35,27 +39,8 @@ use super::{listed, result_json};
 /// ```
 pub fn run_document(result: &ResultFile) -> Document {
     let mut figures = Figures::new(result);
-    let mut sections = Vec::new();
-    let single = result.outputs.len() == 1;
-    for (place, output) in result.outputs.iter().enumerate() {
-        let topics = output::topics(&mut figures, Numbered { output, number: place + 1 });
-        if single {
-            sections.extend(topics.into_iter().map(|Topic { id, title, parts }| Section::new(id, title, parts)));
-        } else {
-            let mut parts = Vec::new();
-            for Topic { title, parts: more, .. } in topics {
-                parts.push(Part::Heading(title.to_owned()));
-                parts.extend(more);
-            }
-            let heading = super::format::heading(&output.name, &output.unit);
-            sections.push(Section::new(&format!("output-{}", place + 1), &heading, parts));
-        }
-    }
-    let together = result
-        .aggregate
-        .as_ref()
-        .map(|record| Section::new("together", "All outputs together", together(result, record)));
-    sections.extend(together);
+    let is_many = result.outputs.len() >= MANY_OUTPUTS;
+    let mut sections = if is_many { overview::sections(&mut figures) } else { of_outputs(&mut figures) };
     sections.extend(validity_section(&result.validity));
     sections.push(Section::new("cost", "Cost", cost(result)));
     sections.push(study_section(&StudySetup::from_result(result)));
@@ -65,24 +50,58 @@ pub fn run_document(result: &ResultFile) -> Document {
         name: study.name.clone(),
         kicker: "Result of a study".to_owned(),
         title: study.title.clone().unwrap_or_else(|| study.name.clone()),
-        lead: lead::lead(result),
+        lead: if is_many { lead::lead_of_many(result) } else { lead::lead(result) },
         sections,
         footer: format!("Made by apportion {}.", result.provenance.apportion_version),
         charts: figures.others(),
         files: vec![DataFile::new(format!("{}.json", study.name), result_json(result))],
     };
-    // Without any index the table has a header still.
-    let indices = format!("{}.csv", study.name);
-    if document.data_files().iter().all(|file| file.name != indices) {
-        document.files.push(DataFile::new(indices, tables::no_indices_csv(result)));
+    let has_indices = document.file_names().data.contains(&format!("{}.csv", study.name));
+    let mut put = |ending: &str, text: String| {
+        document.files.push(DataFile::new(format!("{}{ending}", study.name), text));
+    };
+    if is_many {
+        put(".csv", tables::indices_csv(result));
+        if result.outputs.iter().any(|output| output.second_order.is_some()) {
+            put("-second-order.csv", tables::pairs_csv(result));
+        }
+    } else if !has_indices {
+        // Without any index the table has a header still.
+        put(".csv", tables::no_indices_csv(result));
     }
     if result.outputs.iter().any(|output| !output.estimators.is_empty()) {
-        let text = tables::estimators_csv(result);
-        document.files.push(DataFile::new(format!("{}-estimators.csv", study.name), text));
+        put("-estimators.csv", tables::estimators_csv(result));
     }
-    let text = tables::convergence_csv(result);
-    document.files.push(DataFile::new(format!("{}-convergence.csv", study.name), text));
+    put("-convergence.csv", tables::convergence_csv(result));
     document
+}
+
+/// The sections of a few outputs: of each one, then of all together.
+fn of_outputs(figures: &mut Figures<'_>) -> Vec<Section> {
+    let result = figures.result;
+    let mut sections = Vec::new();
+    let single = result.outputs.len() == 1;
+    for (place, output) in result.outputs.iter().enumerate() {
+        let topics = output::topics(figures, Numbered { output, number: place + 1 });
+        if single {
+            sections.extend(topics.into_iter().map(|Topic { id, title, parts }| Section::new(id, title, parts)));
+        } else {
+            let heading = super::format::heading(&output.name, &output.unit);
+            sections.push(Section::new(&format!("output-{}", place + 1), &heading, under_headings(topics)));
+        }
+    }
+    let together = result
+        .aggregate
+        .as_ref()
+        .map(|record| Section::new("together", "All outputs together", together(result, record)));
+    sections.extend(together);
+    sections
+}
+
+/// The parts of all topics, each under its title.
+fn under_headings(topics: Vec<Topic>) -> Vec<Part> {
+    let under = |Topic { title, parts, .. }: Topic| std::iter::once(Part::Heading(title.to_owned())).chain(parts);
+    topics.into_iter().flat_map(under).collect()
 }
 
 /// The names of the files of a run of the study called `name` with these `outputs`.
@@ -91,8 +110,7 @@ pub fn run_file_names(name: &str, outputs: &[&str], second_order: bool, estimato
     data.extend(second_order.then(|| format!("{name}-second-order.csv")));
     data.extend(estimators.then(|| format!("{name}-estimators.csv")));
     data.push(format!("{name}-convergence.csv"));
-    let charts = chart_stems(name, outputs).into_iter().flatten().collect();
-    FileNames { name: name.to_owned(), data, charts }
+    FileNames { name: name.to_owned(), data, charts: all_stems(name, outputs) }
 }
 
 /// The indices over all outputs together, or why there are none.
@@ -100,7 +118,7 @@ fn together(result: &ResultFile, aggregate: &AggregateRecord) -> Vec<Part> {
     let outputs: Vec<String> = aggregate.outputs.iter().map(|output| name(output)).collect();
     let mut parts = vec![Part::Text(format!("Of {}: {}.", listed(&outputs), aggregate.weighting))];
     match (&aggregate.indices, &aggregate.reason) {
-        (Some(indices), _) => parts.push(tables::aggregate(result, aggregate, indices)),
+        (Some(indices), _) => parts.push(tables::aggregate_of(result, aggregate, indices)),
         (None, Some(reason)) => parts.push(Part::no_indices(format!("There are no such indices: {reason}."))),
         (None, None) => (),
     }
@@ -134,6 +152,26 @@ fn cost(result: &ResultFile) -> Vec<Part> {
         ];
         parts.push(Table::pairs("Which fidelities answered.", rows).into());
     }
+    let low = |low: &LowRecord| {
+        format!(
+            "{} ({} at the rows of the model, {} of its own)",
+            low.name,
+            grouped(low.shared_runs),
+            grouped(low.own_runs)
+        )
+    };
+    if !result.lows.is_empty() {
+        let lows: Vec<String> = result.lows.iter().map(low).collect();
+        parts.push(Part::Text(format!("Cheaper models were run beside the model: {}.", lows.join(", "))));
+    }
+    if let Some(spending) = &result.spending {
+        parts.push(Part::Notice {
+            mark: Mark::Plain,
+            kind: "What the run chose".to_owned(),
+            texts: chosen(result, spending),
+        });
+        parts.push(Part::Code(spending.lines.clone()));
+    }
     if let Some(stopping) = &result.stopping {
         let (kind, mark) = match stopping.target_met {
             Some(true) => ("Target met", Mark::Good),
@@ -143,6 +181,24 @@ fn cost(result: &ResultFile) -> Vec<Part> {
         parts.push(Part::Notice { mark, kind: kind.to_owned(), texts: vec![format!("{}.", stopping.reason)] });
     }
     parts
+}
+
+/// What a run that was asked for an accuracy chose, why, and what it saved.
+fn chosen(result: &ResultFile, spending: &SpendingRecord) -> Vec<String> {
+    let mut texts: Vec<String> = spending.reasons.iter().map(|reason| format!("{}.", capitalised(reason))).collect();
+    let spent = grouped(spending.runs);
+    let saved = spending.plain_runs.filter(|plain| *plain > result.provenance.model_runs);
+    texts.push(match saved {
+        Some(plain) => format!(
+            "An accuracy of {} took {spent} runs of the model, trials included; without surrogates and cheaper models it would \
+             take {} or more.",
+            significant(spending.accuracy),
+            grouped(format!("{plain:.1e}", plain = plain as f64).parse::<f64>().unwrap_or_default() as u64)
+        ),
+        None => format!("An accuracy of {} took {spent} runs of the model, trials included.", significant(spending.accuracy)),
+    });
+    texts.push("These lines in the place of `accuracy` make the same run again, to the bit.".to_owned());
+    texts
 }
 
 /// How the answer came about.

@@ -87,6 +87,15 @@ fn surrogate(output: &OutputRecord) -> Vec<Part> {
         gain("total", record.corrects_total, record.gain_total)
     );
     let mut parts = vec![Part::Text(text)];
+    parts.extend(record.low.as_ref().map(|low| {
+        let explained = 100.0 * low.explained.clamp(0.0, 1.0);
+        Part::Text(format!(
+            "Beside the polynomials the cheaper model `{}` stands in, which by itself explains {} % of the variance: the \
+             polynomials are those of what it leaves.",
+            low.name,
+            significant((explained * 1e4).floor() / 1e4)
+        ))
+    }));
     parts.extend(tables::surrogate(output, record));
     parts
 }
@@ -122,11 +131,7 @@ fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let result = figures.result;
     let mut parts = Vec::new();
     if of.is_first() {
-        parts.push(Part::OnPage(vec![Part::Text(definitions(result))]));
-        parts.push(Part::Text(match &result.provenance.interval {
-            Some(words) => format!("Intervals (±): {words}."),
-            None => "There are no intervals: a single replicate says nothing about its error.".to_owned(),
-        }));
+        parts.extend(definitions(result));
     }
     parts.push(figures.draw(of, INDICES));
     parts.extend(tables::indices(result, of.output));
@@ -135,14 +140,19 @@ fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     parts
 }
 
-/// What the columns of the tables of indices mean.
-fn definitions(result: &ResultFile) -> String {
+/// What the columns of the tables of indices mean, and what the intervals are.
+pub(super) fn definitions(result: &ResultFile) -> [Part; 2] {
     let threshold = result.provenance.threshold;
-    format!(
+    let indices = format!(
         "S_1 is the part of the variance of the output that goes if a factor becomes known; S_T is the part that stays as \
          long as it is unknown. P(largest) is the probability that a factor's total index is the largest, \
          P(S_T > {threshold}) that it exceeds {threshold}."
-    )
+    );
+    let intervals = match &result.provenance.interval {
+        Some(words) => format!("Intervals (±): {words}."),
+        None => "There are no intervals: a single replicate says nothing about its error.".to_owned(),
+    };
+    [Part::OnPage(vec![Part::Text(indices)]), Part::Text(intervals)]
 }
 
 /// Estimates below 0, which no index is, in words.
@@ -195,7 +205,7 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let output = of.output;
     let mut sentences = Vec::new();
     if output.surrogate.is_some() {
-        sentences.push("The stages are those of the plain indices, without the surrogate.".to_owned());
+        sentences.push("The surrogate was fitted anew to the runs of every stage.".to_owned());
     }
     if let Some(width) = widest(output) {
         sentences.push(format!("In the end every index is known to ± {} or better.", half_width(width)));

@@ -1,8 +1,9 @@
 //! The tables of one output, and the files of CSV that hold more than they show.
 
 use super::lead::by_total;
+use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, Field, fields};
-use crate::report::document::{Cell, Column, Part, Table, Value};
+use crate::report::document::{Cell, Column, Part, Table, Value, csv};
 use crate::report::format::{chance, grouped, name, share, significant, two_digits, value};
 use crate::report::result::{
     AggregateIndexRecord, AggregateRecord, EffectRecord, EstimateRecord, EstimatorRecord, IndexRecord, IntervalRecord,
@@ -94,6 +95,31 @@ fn effect_row((output, kind): (&str, &str), (label, name): (String, &str), effec
     ]
 }
 
+/// The indices of all outputs, as the tables of each and the aggregated ones have them.
+pub(super) fn indices_csv(result: &ResultFile) -> String {
+    let table = |part: Part| if let Part::Table(table) = part { Some(table) } else { None };
+    let of_output = |output: &OutputRecord, at_end: bool| -> Vec<Table> {
+        let parts = indices(result, output).into_iter().chain(joint(result, output));
+        parts.filter_map(table).filter(|table| table.at_end == at_end).collect()
+    };
+    // Each is made when it is written: there may be thousands.
+    let pass = |at_end: bool| result.outputs.iter().flat_map(move |output| of_output(output, at_end));
+    let aggregate = result.aggregate.iter().filter_map(|record| Some((record, record.indices.as_ref()?)));
+    let aggregate = aggregate.filter_map(|(record, indices)| table(aggregate_of(result, record, indices)));
+    let header = std::iter::once(effect_table(result, String::new(), ""));
+    csv(header.chain(pass(false)).chain(pass(true)).chain(aggregate))
+}
+
+/// The second-order indices of all outputs.
+pub(super) fn pairs_csv(result: &ResultFile) -> String {
+    let of_output = |output: &OutputRecord| match pairs(result, output) {
+        Some(Part::Table(table)) => Some(table),
+        _ => None,
+    };
+    let header = std::iter::once(pairs_table(result, String::new()));
+    csv(header.chain(result.outputs.iter().filter_map(of_output)))
+}
+
 /// The file of indices where there are none.
 pub(super) fn no_indices_csv(result: &ResultFile) -> String {
     effect_table(result, String::new(), "").csv()
@@ -165,6 +191,11 @@ pub(super) fn pairs(result: &ResultFile, output: &OutputRecord) -> Option<Part> 
         "Second-order indices: what two factors do together beyond what each does alone.{}",
         largest(order.len().min(PAIRS), order.len(), "pairs, all in the CSV file")
     );
+    let table = pairs_table(result, caption).with_rows(pairs.iter().map(row));
+    Some(Part::Table(Table { printed: places(&order, PAIRS), ..table }))
+}
+
+fn pairs_table(result: &ResultFile, caption: String) -> Table {
     let columns = [
         Column::text("pair"),
         Column::text("interaction seen"),
@@ -174,8 +205,7 @@ pub(super) fn pairs(result: &ResultFile, output: &OutputRecord) -> Option<Part> 
         Column::number("S_2").named(Field::estimate("second_order")),
     ];
     let file = format!("{}-second-order.csv", result.study.name);
-    let table = Table::new(caption, columns).with_rows(pairs.iter().map(row));
-    Some(Part::Table(Table { printed: places(&order, PAIRS), file, ..table }))
+    Table { file, ..Table::new(caption, columns) }
 }
 
 /// The width of the intervals at every stage of the run.
@@ -301,10 +331,14 @@ pub(super) fn estimators(output: &OutputRecord) -> Vec<Part> {
 }
 
 /// Indices over all outputs together.
-pub(super) fn aggregate(result: &ResultFile, record: &AggregateRecord, indices: &[AggregateIndexRecord]) -> Part {
+pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indices: &[AggregateIndexRecord]) -> Part {
     let mut order: Vec<(usize, &AggregateIndexRecord)> = indices.iter().enumerate().collect();
     order.sort_by(|a, b| b.1.total.estimate.total_cmp(&a.1.total.estimate));
-    let outputs = record.outputs.join(" + ");
+    // The names of hundreds, in every line, would be most of the file.
+    let outputs = match record.outputs.len() {
+        ..MANY_OUTPUTS => record.outputs.join(" + "),
+        _ => "all outputs".to_owned(),
+    };
     let row = |index: &AggregateIndexRecord| {
         let nothing = || Cell::valued("", Value::Empty);
         let none = || Cell::valued("", Value::Estimate(None));

@@ -221,6 +221,7 @@ fn notes(study: &Study) -> Vec<String> {
             Distribution::Uniform(_)
                 | Distribution::Discrete(_)
                 | Distribution::Integer(_)
+                | Distribution::Poisson(_)
                 | Distribution::Categorical(_)
                 | Distribution::Constant(_)
         )

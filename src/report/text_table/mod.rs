@@ -70,7 +70,8 @@ impl TextTable {
 
 impl fmt::Display for TextTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.drawn(Table::new().width().map(usize::from)).fmt(f)
+        // Terminals that nobody looks at, such as those of mpirun, have no columns.
+        self.drawn(Table::new().width().map(usize::from).filter(|width| *width > 0)).fmt(f)
     }
 }
 

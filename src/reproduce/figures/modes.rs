@@ -75,7 +75,7 @@ fn against_contact_angle(effort: Effort) -> Result<PaperFigure, FiguresError> {
         degrees.iter().map(|angle| read(scene(angle))).collect::<Result<Vec<_>, Failure>>()
     };
     let options = Options::default();
-    let psi = critical_force(&Scene::default(), &options)?.force_angle;
+    let psi = critical_force(&Scene::default(), &options)?.force_angle();
     let at = |scene: Scene, mode, angle| pushing(scene, &options).critical_tip_force(mode, angle);
     let own = |mode: Mode, colour| -> Result<Against, Failure> {
         Ok(Against {

@@ -6,7 +6,7 @@ use crate::design::{Companions, Design, DesignSettings, Rows};
 use crate::model::{FunctionModel, Model, Output, RowFailure, RunContext};
 use crate::quantity::Unit;
 use crate::run::journal::{Checkpoint, read_journal_file};
-use crate::run::{GrowingRun, Job, Progress, RunError, run};
+use crate::run::{GrowingRun, Job, RunError, run};
 use crate::space::{Distribution, Factor, Space};
 
 fn space() -> Space {
@@ -25,9 +25,16 @@ fn design(base_samples: u64, replicates: u64) -> Design {
 
 /// sin(9 x0) + x1 / 3, failing where x0 > 0.9; counts its rows.
 fn counted(rows: &AtomicU64) -> impl Model + '_ {
+    counted_by(|| {
+        rows.fetch_add(1, Ordering::Relaxed);
+    })
+}
+
+/// The model of [`counted`], which calls `on_row` before every row.
+fn counted_by<'a>(on_row: impl Fn() + Send + Sync + 'a) -> impl Model + 'a {
     let output = Output::new("y", Unit::dimensionless(), "");
     FunctionModel::new(vec![output], move |x: &[f64], y: &mut [f64]| {
-        rows.fetch_add(1, Ordering::Relaxed);
+        on_row();
         y[0] = (9.0 * x[0]).sin() + x[1] / 3.0;
         if x[0] > 0.9 { Err(RowFailure::new("too large")) } else { Ok(()) }
     })
@@ -114,13 +121,18 @@ fn a_run_that_is_interrupted_leaves_what_it_has() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.journal");
         let checkpoint = Checkpoint::create(&path, &serde_json::json!({}), &Sums::new(2)).unwrap();
-        let stop = AtomicBool::new(false);
+        let (stop, begun) = (AtomicBool::new(false), AtomicU64::new(0));
         let (space, context) = (space(), RunContext::new(Some(&stop), |_| ()));
-        let job = Job { design: &design, space: &space, model: &model };
-        let mut run = GrowingRun::new(job, &context, 4).unwrap().with_checkpoint(&checkpoint, Sums::new(2));
+        // The model itself ends the run: progress may reach a thread of this test when all rows are done.
         let enough = after * BLOCK * design.rows_per_point();
-        let on_progress = |progress: Progress| stop.store(progress.done >= enough, Ordering::Relaxed);
-        let error = run.grow_to(u64::MAX, &on_progress).unwrap_err();
+        let ending = counted_by(|| {
+            if begun.fetch_add(1, Ordering::Relaxed) == enough {
+                stop.store(true, Ordering::Relaxed);
+            }
+        });
+        let job = Job { design: &design, space: &space, model: &ending };
+        let mut run = GrowingRun::new(job, &context, 4).unwrap().with_checkpoint(&checkpoint, Sums::new(2));
+        let error = run.grow_to(u64::MAX, &|_| ()).unwrap_err();
         assert!(matches!(error, RunError::Interrupted { .. }), "{error}");
         run.write_checkpoint().unwrap();
         drop(run);

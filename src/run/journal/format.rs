@@ -100,7 +100,8 @@ fn write_header_of(out: &mut Vec<u8>, header: &Value, version: u32) {
     out.extend_from_slice(text.as_bytes());
 }
 
-pub(super) fn write_record(out: &mut Vec<u8>, piece: &Piece) {
+/// Appends a piece as a record.
+pub(in crate::run) fn write_record(out: &mut Vec<u8>, piece: &Piece) {
     let begin = out.len();
     out.extend_from_slice(&[0; 8]);
     for number in [piece.replicate, piece.first, piece.values.len() as u64] {
@@ -187,7 +188,7 @@ fn sums(reader: &mut Reader<'_>) -> Option<Sums> {
 }
 
 /// The next record, if it is whole.
-fn record(reader: &mut Reader<'_>) -> Option<Piece> {
+pub(in crate::run) fn record(reader: &mut Reader<'_>) -> Option<Piece> {
     let (length, expected) = (reader.u32()?, reader.u32()?);
     let body = reader.take(length as usize)?;
     if checksum(&length.to_le_bytes(), body) != expected {

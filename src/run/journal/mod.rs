@@ -27,6 +27,7 @@ use serde_json::Value;
 pub use checkpoint::Checkpoint;
 pub use error::JournalError;
 pub use format::{Contents, Stretch, read_journal};
+pub(super) use format::{record, write_record};
 pub use identity::differences;
 
 use super::Piece;

@@ -123,7 +123,9 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
     let (store, stop) = (Store::new(&design, &model), AtomicBool::new(false));
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
-    let on_progress = |progress: Progress| stop.store(progress.done > 1000, Ordering::Relaxed);
+    let on_progress = |progress: Progress| {
+        stop.fetch_or(progress.done > 1000, Ordering::Relaxed);
+    };
     let context = RunContext::new(Some(&stop), |_| ());
     let mut stopped = GrowingRun::new(job, &context, 2).unwrap().with_store(&store, None);
     let slow = |progress| {

@@ -55,25 +55,47 @@ impl Distribution {
     }
 }
 
-impl Family for Beta {
-    fn name(&self) -> &'static str {
-        "beta"
-    }
-
-    fn quantile(&self, u: f64) -> f64 {
+impl Beta {
+    /// The quantile at `u`, `v` being 1 - `u`.
+    fn at(&self, u: f64, v: f64) -> f64 {
         let value = if u <= 0.0 {
             self.min
         } else if u <= self.lower.mass {
             let (x, y) = self.lower.solve(u);
             if x < y { self.min + self.width * x } else { self.max - self.width * y }
-        } else if u < 1.0 {
-            let (y, x) = self.upper.solve(1.0 - u);
+        } else if v > 0.0 {
+            let (y, x) = self.upper.solve(v);
             if x < y { self.min + self.width * x } else { self.max - self.width * y }
         } else {
             self.max
         };
         // Rounding may lead an ulp past a bound.
         value.clamp(self.min, self.max)
+    }
+}
+
+impl Family for Beta {
+    fn name(&self) -> &'static str {
+        "beta"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        self.at(u, 1.0 - u)
+    }
+
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let (x, y) = ((x - self.min) / self.width, (self.max - x) / self.width);
+        if x <= 0.0 {
+            (0.0, 1.0)
+        } else if y <= 0.0 {
+            (1.0, 0.0)
+        } else {
+            tails_of_sides(&self.lower, &self.upper, (x, y))
+        }
+    }
+
+    fn upper_quantile(&self, v: f64) -> f64 {
+        self.at(1.0 - v, v)
     }
 
     fn mean(&self) -> f64 {
@@ -115,7 +137,7 @@ impl Family for Beta {
 /// of ln I is r = a / c, its logarithm has the derivative a y - b x - r, and ln I is concave: Halley's iteration
 /// for ln I = ln p converges from the left of the root, and is never led away from it for long.
 #[derive(Clone, Debug, PartialEq)]
-struct Side {
+pub(super) struct Side {
     a: f64,
     b: f64,
     /// x at the split.
@@ -123,14 +145,14 @@ struct Side {
     /// 1 - x at the split.
     y: f64,
     /// Probability on this side.
-    mass: f64,
+    pub mass: f64,
     ln_mass: f64,
     /// Continued fraction at the split.
     fraction: f64,
 }
 
 impl Side {
-    fn new(a: f64, b: f64) -> Self {
+    pub fn new(a: f64, b: f64) -> Self {
         let sum = a + b + 2.0;
         let (x, y) = ((a + 1.0) / sum, (b + 1.0) / sum);
         let fraction = continued_fraction(a, b, x);
@@ -140,9 +162,17 @@ impl Side {
     }
 
     /// x and 1 - x at which the probability below x is `p`, at most that of this side.
-    fn solve(&self, p: f64) -> (f64, f64) {
+    pub fn solve(&self, p: f64) -> (f64, f64) {
         let (d, _) = self.distance(p);
         self.point(d)
+    }
+
+    /// The probability below `x`, on this side of the split; `y` is 1 - x.
+    fn below(&self, (x, y): (f64, f64)) -> f64 {
+        let d = (x / y).ln() - (self.x / self.y).ln();
+        let growth = (self.x * d.exp_m1()).ln_1p();
+        let fraction = continued_fraction(self.a, self.b, x);
+        (self.ln_mass + self.a * d - (self.a + self.b) * growth + (fraction / self.fraction).ln()).exp()
     }
 
     /// The distance d of the solution, and the steps taken.
@@ -187,6 +217,17 @@ impl Side {
         let ratio = d.exp();
         let sum = self.y + self.x * ratio;
         (self.x * ratio / sum, self.y / sum)
+    }
+}
+
+/// The probabilities below and above `x`, `y` being 1 - x, from the two sides of one distribution.
+pub(super) fn tails_of_sides(lower: &Side, upper: &Side, (x, y): (f64, f64)) -> (f64, f64) {
+    if x / y <= lower.x / lower.y {
+        let below = lower.below((x, y)).min(1.0);
+        (below, 1.0 - below)
+    } else {
+        let above = upper.below((y, x)).min(1.0);
+        (1.0 - above, above)
     }
 }
 

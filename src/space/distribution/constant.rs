@@ -38,6 +38,10 @@ impl Family for Constant {
         self.value
     }
 
+    fn tails(&self, x: f64) -> (f64, f64) {
+        if x < self.value { (0.0, 1.0) } else { (1.0, 0.0) }
+    }
+
     fn mean(&self) -> f64 {
         self.value
     }

@@ -90,6 +90,22 @@ impl Discrete {
         })
     }
 
+    /// The values between `min` and `max`, both included, with their weights.
+    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
+        let is_left = |value: &f64| (min..=max).contains(value);
+        let values: Vec<f64> = self.values.iter().copied().filter(is_left).collect();
+        let weights = self.weights.as_ref().map(|weights| {
+            let pairs = self.values.iter().zip(weights).filter(|(value, _)| is_left(value));
+            pairs.map(|(_, weight)| *weight).collect::<Vec<f64>>()
+        });
+        match Distribution::discrete(&values, weights.as_deref()) {
+            Err(DistributionError::NoValues | DistributionError::ZeroWeights) => {
+                Err(DistributionError::NothingLeft { distribution: "discrete", min, max })
+            }
+            made => made,
+        }
+    }
+
     pub(super) fn values(&self) -> &[f64] {
         &self.values
     }
@@ -133,7 +149,7 @@ impl Discrete {
     }
 }
 
-fn check(list: &'static str, entries: &[f64]) -> Result<(), DistributionError> {
+pub(super) fn check(list: &'static str, entries: &[f64]) -> Result<(), DistributionError> {
     match entries.iter().enumerate().find(|(_, value)| !value.is_finite()) {
         Some((index, &value)) => Err(DistributionError::EntryNotFinite { list, index, value }),
         None => Ok(()),
@@ -155,6 +171,12 @@ impl Family for Discrete {
         let index = self.cumulative.partition_point(|&probability| probability <= u);
         // The last entry is 1, which only a `u` out of range reaches.
         self.sorted.get(index).or(self.sorted.last()).copied().unwrap_or(f64::NAN)
+    }
+
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let place = self.sorted.partition_point(|value| *value <= x);
+        let below = place.checked_sub(1).map_or(0.0, |last| self.cumulative[last]);
+        (below, 1.0 - below)
     }
 
     fn mean(&self) -> f64 {

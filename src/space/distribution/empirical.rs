@@ -51,6 +51,19 @@ impl Distribution {
     }
 }
 
+impl Empirical {
+    /// The measured values between `min` and `max`, both included.
+    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
+        let values = self.law.values().iter().copied().filter(|value| (min..=max).contains(value));
+        match Distribution::empirical(&values.collect::<Vec<f64>>(), self.source.clone()) {
+            Err(DistributionError::NoValues) => {
+                Err(DistributionError::NothingLeft { distribution: "empirical", min, max })
+            }
+            made => made,
+        }
+    }
+}
+
 impl Family for Empirical {
     fn name(&self) -> &'static str {
         "empirical"

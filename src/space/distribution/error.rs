@@ -150,7 +150,7 @@ pub enum DistributionError {
         value: f64,
     },
     /// Something is stated that the family does not have.
-    #[error("a {distribution} distribution cannot be given by `{statistic}`")]
+    #[error("{} distribution cannot be given by `{statistic}`", named(.distribution))]
     NotStated {
         /// The name of the family.
         distribution: &'static str,
@@ -164,7 +164,7 @@ pub enum DistributionError {
         statistic: &'static str,
     },
     /// Too little or too much is stated.
-    #[error("a {distribution} distribution is determined by {needed}, but {given} of these {verb} given", verb = if *.given == 1 { "is" } else { "are" })]
+    #[error("{name} distribution is determined by {needed}, but {given} of these {verb} given", name = named(.distribution), verb = if *.given == 1 { "is" } else { "are" })]
     Determined {
         /// The name of the family.
         distribution: &'static str,
@@ -197,15 +197,100 @@ pub enum DistributionError {
     },
     /// The parameters are sound one by one, but lead beyond the range of `f64`.
     #[error(
-        "a {distribution} distribution with these parameters has values, a mean or a standard deviation \
-         beyond 1.8e308: choose a narrower one, or a larger unit"
+        "{} distribution with these parameters has values, a mean or a standard deviation \
+         beyond 1.8e308: choose a narrower one, or a larger unit",
+        named(.distribution)
     )]
     Overflow {
         /// The name of the family.
         distribution: &'static str,
     },
+    /// All indices rest on variances, and this distribution has none.
+    #[error(
+        "{name} distribution with `{parameter}` = {value:?} has no finite variance, of which indices are shares: \
+         `{parameter}` must be greater than {least:?}, or both tails cut off, as in truncate = [a, b]",
+        name = named(.distribution)
+    )]
+    InfiniteVariance {
+        /// The name of the family.
+        distribution: &'static str,
+        /// The parameter that decides.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must exceed.
+        least: f64,
+    },
+    /// Next to no probability is left by a truncation.
+    #[error(
+        "`truncate` leaves nothing of this {distribution} distribution: next to none of its values lie between {min} and \
+         {max}"
+    )]
+    NothingLeft {
+        /// The name of the family.
+        distribution: &'static str,
+        /// The lower bound.
+        min: f64,
+        /// The upper bound.
+        max: f64,
+    },
+    /// A truncation from a lower to an upper value that are no such.
+    #[error("`truncate` is [{min}, {max}], but must be two numbers, the lower one first; inf and -inf cut nothing off")]
+    TruncationBounds {
+        /// The lower bound.
+        min: f64,
+        /// The upper bound.
+        max: f64,
+    },
+    /// A mixture of nothing.
+    #[error("`components` is empty, but must hold at least one distribution")]
+    NoComponents,
+    /// A mixture with more or fewer weights than components.
+    #[error("there are {weights} `weights` for {components} `components`, but there must be one weight for each")]
+    Components {
+        /// How many components.
+        components: usize,
+        /// How many weights.
+        weights: usize,
+    },
+    /// Labels, which have no order, cannot be truncated, nor be a part of a mixture.
+    #[error("{} distribution has labels, which have no order: it cannot be {what}", named(.distribution))]
+    NoOrder {
+        /// The name of the family.
+        distribution: &'static str,
+        /// What was asked for.
+        what: &'static str,
+    },
+    /// A list that must rise, and does not.
+    #[error("`{list}[{index}]` is {value}, which is not above the one before it, {before}")]
+    NotRising {
+        /// The name of the list.
+        list: &'static str,
+        /// The entry, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// The one before it.
+        before: f64,
+    },
+    /// Edges of a histogram that do not go with its weights.
+    #[error("there are {edges} `edges` for {weights} `weights`, but n bins have n + 1 edges, at least 2")]
+    Edges {
+        /// How many edges.
+        edges: usize,
+        /// How many weights.
+        weights: usize,
+    },
+    /// Quantiles that do not determine a histogram.
+    #[error(
+        "`quantiles` has {found}, but must have rising values for probabilities from 0 to 1, the lowest and highest value among them, as in {{ \"0\" = 1, \"0.5\" = 2, \"1\" = 5 }}"
+    )]
+    Quantiles {
+        /// What is wrong.
+        found: String,
+    },
     /// Ratios of values have no meaning in a unit whose zero is not that of SI.
-    #[error("a {distribution} distribution cannot be in {unit}, whose 0 is not that of SI: state it in {absolute}")]
+    #[error("{} distribution cannot be in {unit}, whose 0 is not that of SI: state it in {absolute}", named(.distribution))]
     OffsetUnit {
         /// The name of the family.
         distribution: &'static str,
@@ -214,6 +299,12 @@ pub enum DistributionError {
         /// A unit that serves.
         absolute: &'static str,
     },
+}
+
+/// The name of a family with its article.
+fn named(distribution: &str) -> String {
+    let article = if distribution.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
+    format!("{article} {distribution}")
 }
 
 /// Refuses a unit with an offset, such as `degC`, to a family that is made of ratios.
@@ -249,6 +340,15 @@ pub(super) fn bounds(min: f64, max: f64, distribution: &'static str) -> Result<f
         width if width.is_infinite() => Err(DistributionError::Overflow { distribution }),
         width => Ok(width),
     }
+}
+
+/// Bounds of which one or both may be infinite, in SI.
+pub(super) fn bounds_to_si((min, max): (f64, f64), unit: &Unit) -> Result<(f64, f64), DistributionError> {
+    let in_si = |parameter: &'static str, bound: f64| match bound.is_finite() {
+        true => finite(parameter, unit.to_si(bound)),
+        false => Ok(bound),
+    };
+    Ok((in_si("min", min)?, in_si("max", max)?))
 }
 
 /// The value, if it is finite and within the range.

@@ -45,6 +45,12 @@ impl Distribution {
     }
 }
 
+impl Gumbel {
+    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
+        Distribution::gumbel_between((self.location, self.scale), (min, max))
+    }
+}
+
 impl Family for Gumbel {
     fn name(&self) -> &'static str {
         "gumbel"
@@ -52,6 +58,15 @@ impl Family for Gumbel {
 
     fn quantile(&self, u: f64) -> f64 {
         self.location - self.scale * (-u.ln()).ln()
+    }
+
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let log = (-(x - self.location) / self.scale).exp();
+        ((-log).exp(), -(-log).exp_m1())
+    }
+
+    fn upper_quantile(&self, v: f64) -> f64 {
+        self.location - self.scale * (-(-v).ln_1p()).ln()
     }
 
     fn mean(&self) -> f64 {

@@ -65,6 +65,17 @@ impl Integer {
         (self.count <= Self::FEW).then(|| (0..self.count as u32).map(level).collect())
     }
 
+    /// The whole numbers whose values lie between `min` and `max`, both included.
+    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
+        let count_up_to = |x: f64| (self.tails(x).0 * self.count).round();
+        let (skipped, last) = (count_up_to(min.next_down()), count_up_to(max));
+        if skipped >= last {
+            return Err(DistributionError::NothingLeft { distribution: "integer", min, max });
+        }
+        let kept = Self { min: self.min + skipped, count: last - skipped, units: self.units.clone() };
+        Distribution::Integer(kept).finite()
+    }
+
     fn in_unit(&self, whole: f64) -> f64 {
         self.units.iter().fold(whole, |value, unit| unit.to_si(value))
     }
@@ -84,12 +95,23 @@ impl Family for Integer {
         self.in_unit(self.min + (self.count * u).floor().clamp(0.0, self.count - 1.0))
     }
 
+    fn tails(&self, x: f64) -> (f64, f64) {
+        // The number of values up to x, by bisection, since what the units make of them cannot be undone.
+        let (mut below, mut above) = (0.0, self.count);
+        while below < above {
+            let middle = ((below + above) / 2.0).floor();
+            if self.in_unit(self.min + middle) <= x { below = middle + 1.0 } else { above = middle }
+        }
+        (below / self.count, (self.count - below) / self.count)
+    }
+
     fn mean(&self) -> f64 {
         self.in_unit(self.min + (self.count - 1.0) / 2.0)
     }
 
     fn sd(&self) -> f64 {
-        self.in_unit(((self.count - 1.0) * (self.count + 1.0) / 12.0).sqrt())
+        let whole = ((self.count - 1.0) * (self.count + 1.0) / 12.0).sqrt();
+        self.units.iter().fold(whole, |span, unit| unit.span_to_si(span))
     }
 
     fn support(&self) -> (f64, f64) {

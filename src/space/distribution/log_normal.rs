@@ -2,7 +2,7 @@
 
 use super::error::{finite, positive, refuse_offset};
 use super::family::{Family, Parameter};
-use super::normal::standard_quantile;
+use super::normal::{standard_below, standard_quantile};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 
@@ -83,6 +83,15 @@ impl Family for LogNormal {
 
     fn quantile(&self, u: f64) -> f64 {
         (self.log_mean + self.log_sd * standard_quantile(u)).exp()
+    }
+
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let z = (x.max(0.0).ln() - self.log_mean) / self.log_sd;
+        (standard_below(z), standard_below(-z))
+    }
+
+    fn upper_quantile(&self, v: f64) -> f64 {
+        (self.log_mean - self.log_sd * standard_quantile(v)).exp()
     }
 
     fn mean(&self) -> f64 {

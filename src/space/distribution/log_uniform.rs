@@ -60,6 +60,12 @@ impl Family for LogUniform {
         (self.centre * ((2.0 * u - 1.0) * self.half).exp()).clamp(self.min, self.max)
     }
 
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let part = |from: f64, to: f64| ((to - from) / from).ln_1p() / (2.0 * self.half);
+        let x = x.clamp(self.min, self.max);
+        (part(self.min, x).min(1.0), part(x, self.max).min(1.0))
+    }
+
     fn mean(&self) -> f64 {
         self.centre * (self.half.sinh() / self.half)
     }

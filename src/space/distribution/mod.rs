@@ -13,15 +13,26 @@ mod constant;
 mod discrete;
 mod empirical;
 mod error;
+mod exponential;
 mod family;
+mod gamma;
 mod gumbel;
+mod histogram;
 mod integer;
+mod inverse_gaussian;
 mod log_normal;
 mod log_uniform;
+mod logistic;
+mod mixture;
 mod normal;
+mod pareto;
+mod poisson;
 mod quadrature;
+mod solve;
 mod stated;
+mod student_t;
 mod triangular;
+mod truncated;
 mod truncated_gumbel;
 mod truncated_normal;
 mod uniform;
@@ -38,14 +49,24 @@ pub use constant::Constant;
 pub use discrete::Discrete;
 pub use empirical::{Empirical, MeasuredFile};
 pub use error::DistributionError;
+pub use exponential::Exponential;
 pub use family::Parameter;
+pub use gamma::Gamma;
 pub use gumbel::Gumbel;
+pub use histogram::Histogram;
 pub use integer::Integer;
+pub use inverse_gaussian::InverseGaussian;
 pub use log_normal::LogNormal;
 pub use log_uniform::LogUniform;
+pub use logistic::Logistic;
+pub use mixture::Mixture;
 pub use normal::Normal;
+pub use pareto::Pareto;
+pub use poisson::Poisson;
 pub use stated::{Law, Statistic};
+pub use student_t::StudentT;
 pub use triangular::Triangular;
+pub use truncated::Truncated;
 pub use truncated_gumbel::TruncatedGumbel;
 pub use truncated_normal::TruncatedNormal;
 pub use uniform::Uniform;
@@ -95,6 +116,26 @@ pub enum Distribution {
     Gumbel(Gumbel),
     /// See [`Distribution::truncated_gumbel`].
     TruncatedGumbel(TruncatedGumbel),
+    /// See [`Distribution::gamma`].
+    Gamma(Gamma),
+    /// See [`Distribution::exponential`].
+    Exponential(Exponential),
+    /// See [`Distribution::poisson`].
+    Poisson(Poisson),
+    /// See [`Distribution::student_t`].
+    StudentT(StudentT),
+    /// See [`Distribution::logistic`].
+    Logistic(Logistic),
+    /// See [`Distribution::pareto`].
+    Pareto(Pareto),
+    /// See [`Distribution::inverse_gaussian`].
+    InverseGaussian(InverseGaussian),
+    /// See [`Distribution::histogram`] and [`Distribution::histogram_of_quantiles`].
+    Histogram(Histogram),
+    /// See [`Distribution::mixture`].
+    Mixture(Mixture),
+    /// See [`Distribution::truncated`].
+    Truncated(Truncated),
     /// See [`Distribution::discrete`].
     Discrete(Discrete),
     /// See [`Distribution::integer`].
@@ -121,6 +162,16 @@ macro_rules! each {
             Distribution::Weibull($family) => $body,
             Distribution::Gumbel($family) => $body,
             Distribution::TruncatedGumbel($family) => $body,
+            Distribution::Gamma($family) => $body,
+            Distribution::Exponential($family) => $body,
+            Distribution::Poisson($family) => $body,
+            Distribution::StudentT($family) => $body,
+            Distribution::Logistic($family) => $body,
+            Distribution::Pareto($family) => $body,
+            Distribution::InverseGaussian($family) => $body,
+            Distribution::Histogram($family) => $body,
+            Distribution::Mixture($family) => $body,
+            Distribution::Truncated($family) => $body,
             Distribution::Discrete($family) => $body,
             Distribution::Integer($family) => $body,
             Distribution::Categorical($family) => $body,
@@ -134,8 +185,8 @@ impl Distribution {
     /// The quantile function (inverse of the cumulative distribution function) at `u` in the open interval (0, 1).
     ///
     /// Finite from [`SMALLEST_U`] to [`LARGEST_U`], inside [`support`](Self::support), and non-decreasing: exactly
-    /// so for the uniform, triangular, discrete, integer, categorical, empirical and constant distributions, else up to the last few bits of the
-    /// result. Outside (0, 1) it means nothing, but does not panic.
+    /// so for the uniform, triangular, discrete, integer, Poisson, categorical, empirical and constant distributions, else up
+    /// to the last few bits of the result. Outside (0, 1) it means nothing, but does not panic.
     pub fn quantile(&self, u: f64) -> f64 {
         each!(self, family => family.quantile(u))
     }
@@ -171,14 +222,38 @@ impl Distribution {
     }
 
     /// The values of a factor that takes single ones by design, ascending, each with a `u` at which it is the quantile:
-    /// of a discrete or categorical one, and of up to 1024 whole numbers. `None` of any other: measured values stand
+    /// of a discrete or categorical one, and of up to 1024 whole numbers (of a Poisson distribution but for a thousandth at
+    /// either end). `None` of any other: measured values stand
     /// for the range between them.
     pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
         match self {
             Self::Discrete(discrete) => Some(discrete.levels()),
             Self::Categorical(categorical) => Some(categorical.levels()),
             Self::Integer(integer) => integer.levels(),
+            Self::Poisson(poisson) => poisson.levels(),
             _ => None,
+        }
+    }
+
+    /// Whether its values are whole numbers, one by one: of an integer or a Poisson distribution.
+    pub fn is_whole(&self) -> bool {
+        matches!(self, Self::Integer(_) | Self::Poisson(_))
+    }
+
+    /// Whether values come close to the lower end of the support without reaching it.
+    pub fn is_open_below(&self) -> bool {
+        let (low, _) = self.support();
+        match self {
+            Self::LogNormal(_)
+            | Self::Weibull(_)
+            | Self::Gamma(_)
+            | Self::Exponential(_)
+            | Self::InverseGaussian(_) => true,
+            Self::Truncated(truncated) => truncated.law().support().0 == low && truncated.law().is_open_below(),
+            Self::Mixture(mixture) => {
+                mixture.components().all(|(component, _)| component.support().0 > low || component.is_open_below())
+            }
+            _ => false,
         }
     }
 
@@ -242,11 +317,35 @@ impl Distribution {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn to_si(&self, unit: &Unit) -> Result<Self, DistributionError> {
+        self.in_si(unit)?.finite()
+    }
+
+    /// The same before its variance is looked at, of which a part of it may have one.
+    fn in_si(&self, unit: &Unit) -> Result<Self, DistributionError> {
         each!(self, family => family.to_si(unit))
     }
 
-    /// Refuses what overflows within the promised range of `u`.
+    /// P(X <= x) and P(X > x).
+    fn tails(&self, x: f64) -> (f64, f64) {
+        match x.is_infinite() {
+            true if x > 0.0 => (1.0, 0.0),
+            true => (0.0, 1.0),
+            false => each!(self, family => family.tails(x)),
+        }
+    }
+
+    /// The quantile at 1 - `v`, with its last digits where `v` is small.
+    fn upper_quantile(&self, v: f64) -> f64 {
+        each!(self, family => family.upper_quantile(v))
+    }
+
+    /// Refuses what has no variance, or overflows within the promised range of `u`.
     fn finite(self) -> Result<Self, DistributionError> {
+        match &self {
+            Self::StudentT(student) => student.refuse_infinite_variance()?,
+            Self::Pareto(pareto) => pareto.refuse_infinite_variance()?,
+            _ => (),
+        }
         let figures = [self.quantile(SMALLEST_U), self.quantile(LARGEST_U), self.mean(), self.sd()];
         match figures.iter().all(|figure| figure.is_finite()) {
             true => Ok(self),

@@ -1,23 +1,58 @@
 //! Quadrature for the moments that have no formula without cancellation.
 
+use std::f64::consts::PI;
+
+/// Nodes from 0 up and weights of the Gauss-Legendre rule of five points on -1 to 1 (Abramowitz and Stegun 1964, table 25.4).
+const NODES: [(f64, f64); 3] = [
+    (0.0, 0.568_888_888_888_888_9),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+];
+
+/// The mean of a smooth function over `middle` - `half` to `middle` + `half`, twice, by one Gauss-Legendre rule of five points.
+fn panel(middle: f64, half: f64, function: &impl Fn(f64) -> f64) -> f64 {
+    let pair = |(node, weight): (f64, f64)| {
+        let sum = function(middle - half * node) + function(middle + half * node);
+        // The middle node is counted twice by the pair.
+        if node == 0.0 { 0.5 * weight * sum } else { weight * sum }
+    };
+    NODES.into_iter().map(pair).sum::<f64>()
+}
+
 /// The integral of a smooth function, by the Gauss-Legendre rule of five points on each of 200 panels.
 pub(super) fn integral(from: f64, to: f64, function: impl Fn(f64) -> f64) -> f64 {
     const PANELS: u32 = 200;
-    // Abramowitz and Stegun 1964, table 25.4.
-    const NODES: [(f64, f64); 3] = [
-        (0.0, 0.568_888_888_888_888_9),
-        (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    ];
     let half = 0.5 * (to - from) / f64::from(PANELS);
-    let panel = |index: u32| {
-        let middle = from + half * f64::from(2 * index + 1);
-        let pair = |(node, weight): (f64, f64)| {
-            let sum = function(middle - half * node) + function(middle + half * node);
-            // The middle node is counted twice by the pair.
-            if node == 0.0 { 0.5 * weight * sum } else { weight * sum }
-        };
-        NODES.into_iter().map(pair).sum::<f64>()
-    };
-    half * (0..PANELS).map(panel).sum::<f64>()
+    half * (0..PANELS).map(|index| panel(from + half * f64::from(2 * index + 1), half, &function)).sum::<f64>()
+}
+
+/// The integral of a function that is smooth over a short way, from `middle` - `half` to `middle` + `half`, by five points.
+pub(super) fn short_integral((middle, half): (f64, f64), function: impl Fn(f64) -> f64) -> f64 {
+    half * panel(middle, half, &function)
+}
+
+/// Mean and standard deviation of the values `quantile(u, v)`, v = 1 - u, for u from 0 to 1, with a kink at `kinks`.
+///
+/// By the tanh-sinh rule (Takahasi and Mori 1974, Publ. RIMS Kyoto Univ. 9, 721-741), which endures singularities at the
+/// ends; `u` and `v` go down to 1e-290.
+pub(super) fn moments(quantile: impl Fn(f64, f64) -> f64, kinks: &[f64]) -> (f64, f64) {
+    const STEP: f64 = 1.0 / 32.0;
+    let mut ends = vec![0.0];
+    ends.extend(kinks.iter().copied().filter(|u| 0.0 < *u && *u < 1.0));
+    ends.push(1.0);
+    let origin = quantile(0.5, 0.5);
+    let (mut first, mut second) = (0.0, 0.0);
+    for pair in ends.windows(2) {
+        let (from, length) = (pair[0], pair[1] - pair[0]);
+        for t in (-193..=193).map(|index| STEP * f64::from(index)) {
+            let ratio = (-PI * t.sinh().abs()).exp();
+            let (small, large) = (ratio / (1.0 + ratio), 1.0 / (1.0 + ratio));
+            let weight = STEP * PI * t.cosh() * small * large * length;
+            let (below, above) = if t < 0.0 { (small, large) } else { (large, small) };
+            let deviation = quantile(from + length * below, (1.0 - pair[1]) + length * above) - origin;
+            first += weight * deviation;
+            second += weight * deviation * deviation;
+        }
+    }
+    (origin + first, (second - first * first).max(0.0).sqrt())
 }

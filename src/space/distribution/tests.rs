@@ -9,6 +9,11 @@ fn made(result: Result<Distribution, Error>) -> Distribution {
     result.unwrap_or_else(|error| panic!("{error}"))
 }
 
+fn mixture() -> Result<Distribution, Error> {
+    let components = [made(Distribution::constant(1.0)), made(Distribution::logistic(1.0, 0.5))];
+    Distribution::mixture(&components, Some(&[1.0, 3.0]))
+}
+
 /// One of each family.
 fn samples() -> Vec<Distribution> {
     [
@@ -23,6 +28,16 @@ fn samples() -> Vec<Distribution> {
         Distribution::weibull(1.5, 2.0, 0.25),
         Distribution::gumbel(1.0, 2.0),
         Distribution::truncated_gumbel(1.0, 2.0, 0.5, 6.0),
+        Distribution::gamma(2.5, 2.0, 0.25),
+        Distribution::exponential(2.0, 1.0),
+        Distribution::poisson(4.5),
+        Distribution::student_t(5.0, 1.0, 2.0),
+        Distribution::logistic(1.0, 0.5),
+        Distribution::pareto(3.0, 2.0),
+        Distribution::inverse_gaussian(2.0, 3.0),
+        Distribution::histogram(&[-1.0, 0.5, 1.0, 4.0], &[1.0, 0.0, 3.0]),
+        mixture(),
+        made(Distribution::gamma(2.5, 2.0, 0.25)).truncated(1.0, f64::INFINITY),
         Distribution::discrete(&[3.0, 1.0, 2.0], Some(&[1.0, 0.0, 3.0])),
         Distribution::discrete(&[3.0, 1.0], None),
         Distribution::integer(-2.0, 5.0),
@@ -80,6 +95,38 @@ fn what_cannot_be_is_refused_by_name() {
             Error::RepeatedValue { index: 1, value: 1.0 },
         ),
         (Distribution::empirical(&[], None), Error::NoValues),
+        (Distribution::gamma(1e6, 1.0, 0.0), Error::OutOfRange { parameter: "shape", value: 1e6, min: 1e-3, max: 1e5 }),
+        (Distribution::exponential(-1.0, 0.0), Error::NotPositive { parameter: "scale", value: -1.0 }),
+        (Distribution::poisson(0.0), Error::OutOfRange { parameter: "mean", value: 0.0, min: 1e-300, max: 1e6 }),
+        (
+            Distribution::student_t(2.0, 0.0, 1.0),
+            Error::InfiniteVariance { distribution: "student-t", parameter: "df", value: 2.0, least: 2.0 },
+        ),
+        (
+            Distribution::pareto(1.5, 1.0),
+            Error::InfiniteVariance { distribution: "pareto", parameter: "shape", value: 1.5, least: 2.0 },
+        ),
+        (Distribution::logistic(0.0, 0.0), Error::NotPositive { parameter: "scale", value: 0.0 }),
+        (Distribution::inverse_gaussian(0.0, 1.0), Error::NotPositive { parameter: "mean", value: 0.0 }),
+        (Distribution::histogram(&[1.0, 2.0], &[]), Error::Edges { edges: 2, weights: 0 }),
+        (
+            Distribution::histogram(&[1.0, 2.0, 2.0], &[1.0, 1.0]),
+            Error::NotRising { list: "edges", index: 2, value: 2.0, before: 2.0 },
+        ),
+        (Distribution::histogram(&[1.0, 2.0], &[0.0]), Error::ZeroWeights),
+        (
+            Distribution::histogram_of_quantiles(&[(0.0, 1.0), (0.5, 2.0)]),
+            Error::Quantiles { found: "no value for the probability 1".to_owned() },
+        ),
+        (
+            Distribution::histogram_of_quantiles(&[(0.0, 1.0), (0.5, 0.5), (1.0, 3.0)]),
+            Error::Quantiles { found: "1 for the probability 0 and 0.5 for 0.5".to_owned() },
+        ),
+        (Distribution::mixture(&[], None), Error::NoComponents),
+        (
+            Distribution::mixture(&[made(Distribution::boolean(0.5))], None),
+            Error::NoOrder { distribution: "boolean", what: "a part of a mixture" },
+        ),
         (Distribution::constant(infinite), Error::NotFinite { parameter: "value", value: infinite }),
     ];
     for (result, expected) in cases {
@@ -108,11 +155,100 @@ fn truncation_where_nothing_is_left_is_refused() {
     assert!(!refused(640.0, 641.0) && !refused(-1e300, -6.4) && !refused(-1e300, 1e300));
 }
 
+/// What is cut off of any family: what stays itself, the two that have their own way to the bit, what is empty.
+#[test]
+fn every_family_is_truncated_by_one_rule() {
+    let (none, two) = (f64::NEG_INFINITY, [2.0, 5.0]);
+    let cut = |whole: Result<Distribution, Error>, [min, max]: [f64; 2]| made(whole).truncated(min, max);
+    let pairs = [
+        (cut(Distribution::uniform(0.0, 3.0), two), Distribution::uniform(2.0, 3.0)),
+        (cut(Distribution::log_uniform(1.0, 8.0), two), Distribution::log_uniform(2.0, 5.0)),
+        (cut(Distribution::normal(3.0, 0.5), two), Distribution::truncated_normal(3.0, 0.5, 2.0, 5.0)),
+        (
+            cut(Distribution::truncated_normal(3.0, 0.5, 2.5, 9.0), two),
+            Distribution::truncated_normal(3.0, 0.5, 2.5, 5.0),
+        ),
+        (cut(Distribution::gumbel(3.0, 0.5), two), Distribution::truncated_gumbel(3.0, 0.5, 2.0, 5.0)),
+        (cut(Distribution::integer(0.0, 9.0), [1.5, 5.0]), Distribution::integer(2.0, 5.0)),
+        (cut(Distribution::discrete(&[1.0, 2.0, 5.0, 6.0], None), two), Distribution::discrete(&two, None)),
+        (cut(Distribution::empirical(&[1.0, 2.0, 5.0], None), two), Distribution::empirical(&two, None)),
+        (cut(Distribution::pareto(3.0, 1.0), [2.0, f64::INFINITY]), Distribution::pareto(3.0, 2.0)),
+        (
+            cut(Distribution::histogram(&[0.0, 4.0, 8.0], &[1.0, 1.0]), two),
+            Distribution::histogram(&[2.0, 4.0, 5.0], &[0.5, 0.25]),
+        ),
+        (cut(Distribution::constant(3.0), two), Distribution::constant(3.0)),
+        (cut(Distribution::logistic(0.0, 1.0), [none, f64::INFINITY]), Distribution::logistic(0.0, 1.0)),
+    ];
+    for (left, expected) in pairs {
+        assert_eq!(left, expected);
+    }
+    // Nothing is cut off twice.
+    let gamma = made(Distribution::gamma(2.0, 1.0, 0.0));
+    assert_eq!(made(gamma.truncated(1.0, 9.0)).truncated(2.0, 5.0), gamma.truncated(2.0, 5.0));
+    let poisson = made(cut(Distribution::poisson(2.0), [1.0, 2.5]));
+    // 2 e^-2 and 2 e^-2.
+    assert_eq!((poisson.mean(), poisson.sd(), poisson.support()), (1.5, 0.5, (1.0, 2.0)));
+    assert_eq!([0.49, 0.51].map(|u| poisson.quantile(u)), [1.0, 2.0]);
+    for (whole, [min, max]) in [
+        (Distribution::gamma(2.0, 1.0, 0.0), [-5.0, -1.0]),
+        (Distribution::normal(0.0, 1.0), [40.0, 50.0]),
+        (Distribution::student_t(1e5, 0.0, 1.0), [60.0, 70.0]),
+        (Distribution::uniform(0.0, 1.0), [1.0, 2.0]),
+        (Distribution::integer(0.0, 9.0), [0.1, 0.9]),
+        (Distribution::poisson(2.0), [0.1, 0.9]),
+        (Distribution::constant(3.0), [4.0, 5.0]),
+        (mixture(), [1e5, 2e5]),
+    ] {
+        let whole = made(whole);
+        let error = whole.truncated(min, max);
+        assert!(matches!(error, Err(Error::NothingLeft { .. })), "{whole:?} {error:?}");
+    }
+    let bounds = gamma.truncated(3.0, 2.0);
+    assert_eq!(bounds, Err(Error::TruncationBounds { min: 3.0, max: 2.0 }));
+    assert!(matches!(cut(Distribution::boolean(0.5), [0.0, 0.5]), Err(Error::NoOrder { .. })));
+    // Between two bounds everything has a variance, and not on one side.
+    let cauchy = Distribution::StudentT(StudentT::new(1.0, 0.0, 1.0).expect("a law"));
+    assert!((made(cauchy.truncated(-1.0, 1.0)).quantile(0.75) - (std::f64::consts::PI / 8.0).tan()).abs() < 1e-15);
+    assert!(matches!(cauchy.truncated(0.0, f64::INFINITY), Err(Error::InfiniteVariance { .. })));
+}
+
+#[test]
+fn atoms_of_mixtures_are_met_exactly() {
+    let mixture = made(mixture());
+    // The logistic component has half of its values below 1: 3/8 of all below, 1/4 at 1.
+    for u in [0.376, 0.5, 0.624] {
+        assert_eq!(mixture.quantile(u), 1.0);
+    }
+    assert!(mixture.quantile(0.374) < 1.0 && mixture.quantile(0.626) > 1.0);
+    let zeros = [made(Distribution::constant(0.0)), made(Distribution::normal(0.0, 1.0))];
+    let zeros = made(Distribution::mixture(&zeros, None));
+    assert_eq!((zeros.quantile(0.26), zeros.median(), zeros.quantile(0.74)), (0.0, 0.0, 0.0));
+    // Of whole numbers alone.
+    let dice = [made(Distribution::integer(1.0, 6.0)), made(Distribution::integer(1.0, 12.0))];
+    let dice = made(Distribution::mixture(&dice, None));
+    for step in 0..1000 {
+        assert_eq!(dice.quantile((f64::from(step) + 0.5) / 1000.0).fract(), 0.0);
+    }
+}
+
+#[test]
+fn a_poisson_distribution_has_its_exact_shares() {
+    let events = made(Distribution::poisson(2.0));
+    let at = [0.1353, 0.1354, 0.4060, 0.4061, 0.6766, 0.6767].map(|u| events.quantile(u));
+    assert_eq!(at, [0.0, 1.0, 1.0, 2.0, 2.0, 3.0]);
+    assert_eq!((events.mean(), events.sd(), events.support()), (2.0, 2f64.sqrt(), (0.0, f64::INFINITY)));
+    for (value, u) in events.levels().expect("a few") {
+        assert_eq!(events.quantile(u), value);
+    }
+    assert_eq!(made(Distribution::poisson(1e6)).levels(), None);
+}
+
 #[test]
 fn names_are_those_of_study_files() {
     let mut names: Vec<_> = samples().iter().map(Distribution::name).collect();
     names.dedup();
-    let expected = "uniform log-uniform normal truncated-normal log-normal triangular beta weibull gumbel truncated-gumbel discrete integer categorical boolean empirical constant";
+    let expected = "uniform log-uniform normal truncated-normal log-normal triangular beta weibull gumbel truncated-gumbel gamma exponential poisson student-t logistic pareto inverse-gaussian histogram mixture gamma discrete integer categorical boolean empirical constant";
     assert_eq!(names.join(" "), expected);
 }
 
@@ -132,6 +268,16 @@ fn json_holds_the_name_and_the_parameters_as_given() {
     {"name":"weibull","shape":1.5,"scale":2.0,"location":0.25}
     {"name":"gumbel","location":1.0,"scale":2.0}
     {"name":"truncated-gumbel","location":1.0,"scale":2.0,"min":0.5,"max":6.0}
+    {"name":"gamma","shape":2.5,"scale":2.0,"location":0.25}
+    {"name":"exponential","scale":2.0,"location":1.0}
+    {"name":"poisson","mean":4.5}
+    {"name":"student-t","df":5.0,"location":1.0,"scale":2.0}
+    {"name":"logistic","location":1.0,"scale":0.5}
+    {"name":"pareto","shape":3.0,"min":2.0}
+    {"name":"inverse-gaussian","mean":2.0,"scale":3.0}
+    {"name":"histogram","edges":[-1.0,0.5,1.0,4.0],"weights":[1.0,0.0,3.0]}
+    {"name":"mixture","weights":[1.0,3.0],"components":[{"name":"constant","value":1.0},{"name":"logistic","location":1.0,"scale":0.5}]}
+    {"name":"gamma","shape":2.5,"scale":2.0,"location":0.25,"truncate":[1.0,"inf"]}
     {"name":"discrete","values":[3.0,1.0,2.0],"weights":[1.0,0.0,3.0]}
     {"name":"discrete","values":[3.0,1.0]}
     {"name":"integer","min":-2.0,"max":5.0}
@@ -265,6 +411,18 @@ proptest! {
             Distribution::weibull(a.abs(), b.abs(), c),
             Distribution::gumbel(a, b.abs()),
             Distribution::truncated_gumbel(a, b.abs(), c.min(d), c.max(d)),
+            Distribution::gamma(a.abs(), b.abs(), c),
+            Distribution::exponential(a.abs(), b),
+            Distribution::poisson(a.abs()),
+            Distribution::student_t(a.abs(), b, c.abs()),
+            Distribution::logistic(a, b.abs()),
+            Distribution::pareto(a.abs(), b.abs()),
+            Distribution::inverse_gaussian(a.abs(), b.abs()),
+            Distribution::histogram(&[a, b, c], &[d.abs(), 1.0]),
+            Distribution::gamma(a.abs(), b.abs(), 0.0).and_then(|law| law.truncated(c, d)),
+            Distribution::student_t(a.abs(), 0.0, 1.0).and_then(|law| law.truncated(c, d)),
+            Distribution::inverse_gaussian(a.abs(), b.abs()).and_then(|law| law.truncated(c, d)),
+            Distribution::normal(a, b.abs()).and_then(|law| Distribution::mixture(&[law, Distribution::constant(c)?], None)),
             Distribution::discrete(&list, None),
             Distribution::discrete(&p, Some(&list)),
             Distribution::integer(a.round(), b.round()),
@@ -282,4 +440,12 @@ proptest! {
             prop_assert!(distribution.sd() >= 0.0, "{:?}", distribution);
         }
     }
+}
+
+#[test]
+fn whole_numbers_of_degrees_spread_as_far_as_those_of_kelvin() {
+    let si = |unit: &str| Distribution::integer(10.0, 30.0).unwrap().to_si(&Unit::parse(unit).unwrap()).unwrap();
+    assert_eq!(si("degC").sd(), si("K").sd());
+    assert!((si("degF").sd() / si("K").sd() - 5.0 / 9.0).abs() < 1e-15);
+    assert_eq!(si("degC").mean(), 293.15);
 }

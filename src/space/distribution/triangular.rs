@@ -49,6 +49,18 @@ impl Distribution {
     }
 }
 
+impl Triangular {
+    pub(super) fn mode(&self) -> f64 {
+        self.mode
+    }
+
+    /// The density at a value between the bounds.
+    pub(super) fn density(&self, x: f64) -> f64 {
+        let part = if x < self.mode { (x - self.min) / self.below } else { (self.max - x) / self.above };
+        2.0 * part / self.width / self.width
+    }
+}
+
 impl Family for Triangular {
     fn name(&self) -> &'static str {
         "triangular"
@@ -61,6 +73,24 @@ impl Family for Triangular {
         } else {
             (self.max - self.width * ((1.0 - u) * self.above).sqrt()).max(self.mode)
         }
+    }
+
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let (low, high) = (((x - self.min) / self.width).max(0.0), ((self.max - x) / self.width).max(0.0));
+        if x <= self.mode && self.below > 0.0 {
+            let below = low * low / self.below;
+            (below, 1.0 - below)
+        } else {
+            let above = if self.above > 0.0 { high * high / self.above } else { 0.0 };
+            (1.0 - above, above)
+        }
+    }
+
+    fn upper_quantile(&self, v: f64) -> f64 {
+        if v >= self.above {
+            return self.quantile(1.0 - v);
+        }
+        (self.max - self.width * (v * self.above).sqrt()).max(self.mode)
     }
 
     fn mean(&self) -> f64 {

@@ -1,6 +1,6 @@
 //! The Gumbel distribution of maxima, truncated.
 
-use super::error::{bounds, finite, positive};
+use super::error::{bounds, bounds_to_si, finite, positive};
 use super::family::{Family, Parameter};
 use super::quadrature::integral;
 use super::{Distribution, DistributionError};
@@ -54,7 +54,16 @@ impl Distribution {
     pub fn truncated_gumbel(location: f64, scale: f64, min: f64, max: f64) -> Result<Self, DistributionError> {
         finite("location", location)?;
         positive("scale", scale)?;
-        let width = bounds(min, max, "truncated-gumbel")? / scale;
+        bounds(min, max, "truncated-gumbel")?;
+        Self::gumbel_between((location, scale), (min, max))
+    }
+
+    /// The same with bounds of which one or both may be infinite.
+    pub(super) fn gumbel_between(
+        (location, scale): (f64, f64),
+        (min, max): (f64, f64),
+    ) -> Result<Self, DistributionError> {
+        let width = (max - min) / scale;
         let [log_min, log_max] = [min, max].map(|bound| (-(bound - location) / scale).exp());
         // exp(-a) - exp(-b), which cancels nothing; where exp(-a) overflows, F(min) is 0.
         let ratio = if log_min.is_finite() { log_min * -(-width).exp_m1() } else { f64::INFINITY };
@@ -68,6 +77,10 @@ impl Distribution {
 }
 
 impl TruncatedGumbel {
+    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
+        Distribution::gumbel_between((self.location, self.scale), (min, max))
+    }
+
     /// The value of highest density, and mean and standard deviation relative to it, by quadrature.
     fn moments(&self) -> (f64, f64, f64) {
         let mode = self.location.clamp(self.min, self.max);
@@ -109,6 +122,18 @@ impl Family for TruncatedGumbel {
         value.clamp(self.min, self.max)
     }
 
+    fn tails(&self, x: f64) -> (f64, f64) {
+        // P(from < X < to) before truncation, as the mass is found.
+        let between = |from: f64, to: f64| {
+            let [log_from, log_to] = [from, to].map(|bound| (-(bound - self.location) / self.scale).exp());
+            let width = (to - from) / self.scale;
+            let ratio = if log_from.is_finite() { log_from * -(-width).exp_m1() } else { f64::INFINITY };
+            (-log_to).exp() * -(-ratio).exp_m1()
+        };
+        let (x, mass) = (x.clamp(self.min, self.max), between(self.min, self.max));
+        ((between(self.min, x) / mass).min(1.0), (between(x, self.max) / mass).min(1.0))
+    }
+
     fn mean(&self) -> f64 {
         let (mode, mean, _) = self.moments();
         mode + mean
@@ -125,11 +150,13 @@ impl Family for TruncatedGumbel {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         let Self { location, scale, min, max, .. } = *self;
-        vec![("location", location.into()), ("scale", scale.into()), ("min", min.into()), ("max", max.into())]
+        let all = [("location", location), ("scale", scale), ("min", min), ("max", max)];
+        all.into_iter().filter(|(_, value)| value.is_finite()).map(|(name, value)| (name, value.into())).collect()
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let [location, min, max] = [self.location, self.min, self.max].map(|value| unit.to_si(value));
-        Distribution::truncated_gumbel(location, unit.span_to_si(self.scale), min, max)
+        let location = finite("location", unit.to_si(self.location))?;
+        let scale = positive("scale", unit.span_to_si(self.scale))?;
+        Distribution::gumbel_between((location, scale), bounds_to_si((self.min, self.max), unit)?)
     }
 }

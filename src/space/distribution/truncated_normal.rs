@@ -2,12 +2,12 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
-use libm::{erf, erfc};
+use libm::erf;
 use statrs::function::erf::erf_inv;
 
-use super::error::{bounds, finite, positive};
+use super::error::{bounds, bounds_to_si, finite, positive};
 use super::family::{Family, Parameter};
-use super::normal::standard_quantile;
+use super::normal::{standard_below, standard_quantile};
 use super::quadrature::integral;
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
@@ -34,9 +34,16 @@ pub struct TruncatedNormal {
     mass: f64,
 }
 
-/// P(Z < z) for a standard normal Z, to full relative precision in the lower tail.
-fn below(z: f64) -> f64 {
-    0.5 * erfc(-z * FRAC_1_SQRT_2)
+/// P(a < Z < b) of the standard normal distribution: the difference of two tails on one side, or of two central parts,
+/// whichever loses no digits.
+fn between(a: f64, b: f64) -> f64 {
+    if a > 0.5 {
+        standard_below(-a) - standard_below(-b)
+    } else if b < -0.5 {
+        standard_below(b) - standard_below(a)
+    } else {
+        0.5 * (erf(b * FRAC_1_SQRT_2) - erf(a * FRAC_1_SQRT_2))
+    }
 }
 
 impl Distribution {
@@ -68,26 +75,27 @@ impl Distribution {
         finite("mean", mean)?;
         positive("sd", sd)?;
         bounds(min, max, "truncated-normal")?;
+        Self::normal_between((mean, sd), (min, max))
+    }
+
+    /// The same with bounds of which one or both may be infinite.
+    pub(super) fn normal_between((mean, sd): (f64, f64), (min, max): (f64, f64)) -> Result<Self, DistributionError> {
         let (a, b) = ((min - mean) / sd, (max - mean) / sd);
-        // The difference of two tails on one side, or of two central parts, whichever loses no digits.
-        let mass = if a > 0.5 {
-            below(-a) - below(-b)
-        } else if b < -0.5 {
-            below(b) - below(a)
-        } else {
-            0.5 * (erf(b * FRAC_1_SQRT_2) - erf(a * FRAC_1_SQRT_2))
-        };
+        let mass = between(a, b);
         // Also refused when the bounds are one number as seen from the mean, or overflow.
         if mass.is_nan() || mass < LEAST_MASS {
             return Err(DistributionError::Truncation { mean, sd, min, max });
         }
-        let centre = erf(a * FRAC_1_SQRT_2);
-        Self::TruncatedNormal(TruncatedNormal { mean, sd, min, max, below: below(a), above: below(-b), centre, mass })
-            .finite()
+        let (below, above, centre) = (standard_below(a), standard_below(-b), erf(a * FRAC_1_SQRT_2));
+        Self::TruncatedNormal(TruncatedNormal { mean, sd, min, max, below, above, centre, mass }).finite()
     }
 }
 
 impl TruncatedNormal {
+    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
+        Distribution::normal_between((self.mean, self.sd), (min, max))
+    }
+
     /// The standardised value at `u`, from the tail or the centre where the probability has the most digits.
     fn standardised(&self, u: f64) -> f64 {
         let lower = self.below + u * self.mass;
@@ -129,6 +137,14 @@ impl Family for TruncatedNormal {
         (self.mean + self.sd * self.standardised(u)).clamp(self.min, self.max)
     }
 
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let part = |from: f64, to: f64| {
+            let [from, to] = [from, to].map(|x| (x.clamp(self.min, self.max) - self.mean) / self.sd);
+            (between(from, to) / self.mass).clamp(0.0, 1.0)
+        };
+        (part(self.min, x), part(x, self.max))
+    }
+
     fn mean(&self) -> f64 {
         let (mode, mean, _) = self.moments();
         mode + mean
@@ -144,11 +160,13 @@ impl Family for TruncatedNormal {
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        vec![("mean", self.mean.into()), ("sd", self.sd.into()), ("min", self.min.into()), ("max", self.max.into())]
+        let all = [("mean", self.mean), ("sd", self.sd), ("min", self.min), ("max", self.max)];
+        all.into_iter().filter(|(_, value)| value.is_finite()).map(|(name, value)| (name, value.into())).collect()
     }
 
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let [mean, min, max] = [self.mean, self.min, self.max].map(|value| unit.to_si(value));
-        Distribution::truncated_normal(mean, unit.span_to_si(self.sd), min, max)
+        let mean = finite("mean", unit.to_si(self.mean))?;
+        let sd = positive("sd", unit.span_to_si(self.sd))?;
+        Distribution::normal_between((mean, sd), bounds_to_si((self.min, self.max), unit)?)
     }
 }

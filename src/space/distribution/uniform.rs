@@ -48,6 +48,10 @@ impl Family for Uniform {
         self.min + self.width * u
     }
 
+    fn tails(&self, x: f64) -> (f64, f64) {
+        (((x - self.min) / self.width).clamp(0.0, 1.0), ((self.max - x) / self.width).clamp(0.0, 1.0))
+    }
+
     fn mean(&self) -> f64 {
         0.5 * self.min + 0.5 * self.max
     }

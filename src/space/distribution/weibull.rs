@@ -53,6 +53,15 @@ impl Family for Weibull {
         self.location + self.scale * (-(-u).ln_1p()).powf(1.0 / self.shape)
     }
 
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let hazard = ((x - self.location).max(0.0) / self.scale).powf(self.shape);
+        (-(-hazard).exp_m1(), (-hazard).exp())
+    }
+
+    fn upper_quantile(&self, v: f64) -> f64 {
+        self.location + self.scale * (-v.ln()).powf(1.0 / self.shape)
+    }
+
     fn mean(&self) -> f64 {
         self.location + self.scale * libm::tgamma(1.0 + 1.0 / self.shape)
     }

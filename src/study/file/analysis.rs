@@ -158,7 +158,8 @@ pub(super) fn target(context: &Context<'_>, section: &DesignSection, sampler: Sa
         None => None,
         Some(text) => Some(seconds("budget", text.get_ref()).map_err(|problem| context.fault(text.span(), problem))?),
     };
-    Ok(Target { half_width, budget, max_runs: section.max_runs.as_ref().map(|runs| *runs.get_ref()) })
+    let max_runs = section.max_runs.as_ref().map(|runs| *runs.get_ref());
+    Ok(Target { half_width, budget, max_runs, is_free: false })
 }
 
 /// A time above 0, in seconds.

@@ -3,10 +3,10 @@
 use super::context::{Context, Fault};
 use super::error::Problem;
 use super::sections::{At, DesignSection, StudyFile};
-use super::{analysis, context::choice};
+use super::{analysis, context::choice, fidelity};
 use crate::design::{Design, DesignError, DesignSettings, Sampler};
 use crate::space::Space;
-use crate::study::options::{rows, split};
+use crate::study::options::{rows, split_design};
 use crate::study::{AnalysisOptions, SurrogateChoice, Target};
 use crate::surrogate::FEWEST_NETS;
 
@@ -28,11 +28,12 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
     };
     let analysis = analysis::analysis(context, &file.analysis, sampler, space)?;
     let target = analysis::target(context, section, sampler)?;
+    let target = fidelity::accuracy(context, file, (target, sampler))?;
     let or = |value: &Option<At<u64>>, default| value.as_ref().map_or(default, |value| *value.get_ref());
     let has_plain_rows =
         section.budget_runs.is_some() || section.plain_rows.as_ref().is_some_and(|rows| *rows.get_ref() > 0);
     let replicates = or(&section.replicates, analysis.default_replicates(sampler, has_plain_rows));
-    let split = split_design(context, section, (&analysis, space), (sampler, replicates))?;
+    let split = sizes_within_budget(context, section, (&analysis, space), (sampler, replicates))?;
     let (base_samples, plain_rows) =
         split.unwrap_or_else(|| (or(&section.base_samples, target.base_samples(replicates)), 0));
     let plain_rows = section.plain_rows.as_ref().map_or(plain_rows, |rows| *rows.get_ref());
@@ -91,7 +92,7 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
 }
 
 /// Base samples and plain rows by `budget_runs`, if the section has it; and whether plain rows are of any use here.
-fn split_design(
+fn sizes_within_budget(
     context: &Context<'_>,
     section: &DesignSection,
     (analysis, space): (&AnalysisOptions, &Space),
@@ -123,14 +124,10 @@ fn split_design(
         let expected = "alone: it decides the size of the design";
         return Err(context.fault(runs.span(), wrong(key, expected, format!("beside `{other}`"))));
     }
-    let one = DesignSettings { sampler, base_samples: 2, replicates: 1, ..DesignSettings::default() };
     // What is wrong with the rows is told of when the design is made.
-    let Ok(design) = Design::new(one, space.factors().len(), rows(analysis, space, 0)) else { return Ok(None) };
-    let split = split(*runs.get_ref(), design.rows_per_point(), replicates).map_err(|least| {
-        let runs_per_point = design.rows_per_point();
-        let expected =
-            format!("{least} or more (2 base samples in each of {replicates} replicates, {runs_per_point} runs each)");
+    let split = split_design(*runs.get_ref(), (analysis, space), (sampler, replicates)).transpose();
+    split.map_err(|least| {
+        let expected = format!("{least} or more, the runs of 2 base samples in each of {replicates} replicates");
         context.fault(runs.span(), wrong(key, &expected, runs.get_ref().to_string()))
-    })?;
-    Ok(Some(split))
+    })
 }

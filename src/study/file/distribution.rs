@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use super::context::{Context, Fault};
+use super::context::{Context, Fault, wrong};
 use super::distribution_forms::{FORMS, Form, Takes};
 use super::error::{Problem, meant};
 use super::measured;
 use super::sections::{At, FactorSection};
-use crate::space::distribution::{Law, Statistic};
+use crate::space::distribution::{Law, Pareto, Statistic, StudentT};
 use crate::space::{Distribution, DistributionError};
 
 /// Whether a factor's table says nothing of its distribution.
@@ -54,12 +54,30 @@ pub(super) fn of(context: &Context<'_>, section: &At<FactorSection>) -> Result<D
         return Err(context.fault(span, problem));
     };
     let mut keys = Keys { context, fields, form, used: Vec::new() };
-    let made = keys.make()?;
+    let whole = keys.make()?;
+    let made = keys.truncated(whole)?;
     keys.refuse_others()?;
     made.map_err(|error| {
         let span = keys.blamed(&error);
         context.fault(span, Problem::Distribution { factor: fields.name.get_ref().clone(), source: error })
     })
+}
+
+/// One distribution of a mixture, whose unit is that of the factor.
+fn component(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distribution, Fault> {
+    let fields = section.get_ref();
+    let spans = [
+        ("unit", fields.unit.as_ref().map(At::span)),
+        ("group", fields.group.as_ref().map(At::span)),
+        ("nominal", fields.nominal.as_ref().map(At::span)),
+    ];
+    match spans.into_iter().find_map(|(key, span)| Some((key, span?))) {
+        Some((key, span)) => {
+            let right = "it belongs to the whole factor, beside `components`";
+            Err(context.fault(span, Problem::Misplaced { name: key.to_owned(), right: right.to_owned() }))
+        }
+        None => of(context, section),
+    }
 }
 
 /// The keys of a `[[factor]]` table, and which of them the distribution has taken.
@@ -93,8 +111,47 @@ impl Keys<'_> {
                 Distribution::beta(alpha, beta, self.number("min")?, self.number("max")?)
             }
             "weibull" => {
-                let location = if self.fields.location.is_some() { self.number("location")? } else { 0.0 };
+                let location = self.location()?;
                 Distribution::weibull(self.number("shape")?, self.number("scale")?, location)
+            }
+            "gamma" => {
+                let location = self.location()?;
+                Distribution::gamma(self.number("shape")?, self.number("scale")?, location)
+            }
+            "exponential" => {
+                let location = self.location()?;
+                Distribution::exponential(self.number("scale")?, location)
+            }
+            "logistic" => Distribution::logistic(self.number("location")?, self.number("scale")?),
+            "student-t" => {
+                let (df, location, scale) = (self.number("df")?, self.number("location")?, self.number("scale")?);
+                match self.fields.truncate {
+                    // Its variance may be finite all the same.
+                    Some(_) => StudentT::new(df, location, scale).map(Distribution::StudentT),
+                    None => Distribution::student_t(df, location, scale),
+                }
+            }
+            "pareto" => {
+                let (shape, min) = (self.number("shape")?, self.number("min")?);
+                match self.fields.truncate {
+                    Some(_) => Pareto::new(shape, min).map(Distribution::Pareto),
+                    None => Distribution::pareto(shape, min),
+                }
+            }
+            "inverse-gaussian" => Distribution::inverse_gaussian(self.number("mean")?, self.number("scale")?),
+            "poisson" => Distribution::poisson(self.number("mean")?),
+            "histogram" if self.fields.edges.is_some() || self.fields.weights.is_some() => {
+                let edges = self.list("edges")?;
+                Distribution::histogram(&edges, &self.list("weights")?)
+            }
+            "histogram" => Distribution::histogram_of_quantiles(&self.quantiles()?),
+            "mixture" => {
+                let components = self.fields.components.as_ref().ok_or_else(|| self.missing("components"))?;
+                self.used.push(("components", components.span()));
+                let component = |component: &At<FactorSection>| self::component(self.context, component);
+                let components = components.get_ref().iter().map(component).collect::<Result<Vec<_>, _>>()?;
+                let weights = if self.fields.weights.is_some() { Some(self.list("weights")?) } else { None };
+                Distribution::mixture(&components, weights.as_deref())
             }
             "gumbel" => Distribution::gumbel(self.number("location")?, self.number("scale")?),
             "truncated-gumbel" => {
@@ -139,7 +196,54 @@ impl Keys<'_> {
         self.used.extend(stated.iter().map(|(value, statistic)| (statistic.name(), value.span())));
         let statements: Vec<(Statistic, f64)> =
             stated.iter().map(|(value, statistic)| (*statistic, *value.get_ref())).collect();
+        // What is truncated is said beside what is stated.
+        self.used.extend(self.fields.truncate.as_ref().map(|truncate| ("truncate", truncate.span())));
         Some(self.refuse_others().map(|()| Distribution::stated(law, &statements)))
+    }
+
+    /// What `truncate` leaves of a distribution.
+    fn truncated(
+        &mut self,
+        whole: Result<Distribution, DistributionError>,
+    ) -> Result<Result<Distribution, DistributionError>, Fault> {
+        let Some(truncate) = &self.fields.truncate else { return Ok(whole) };
+        self.used.push(("truncate", truncate.span()));
+        let [min, max] = truncate.get_ref()[..] else {
+            let expected = "two numbers, as in truncate = [1, 5]; inf or -inf cuts nothing off";
+            let found = format!("a list of {}", truncate.get_ref().len());
+            return Err(self.context.fault(truncate.span(), wrong("truncate", expected, found)));
+        };
+        Ok(whole.and_then(|whole| whole.truncated(min, max)))
+    }
+
+    /// The quantiles of a histogram, by the probabilities in `quantiles` and by the keys that have one.
+    fn quantiles(&mut self) -> Result<Vec<(f64, f64)>, Fault> {
+        let mut quantiles = Vec::new();
+        if let Some(typed) = &self.fields.quantiles {
+            self.used.push(("quantiles", typed.span()));
+            for (key, value) in typed.get_ref() {
+                let Ok(probability) = key.get_ref().trim().parse::<f64>() else {
+                    let expected = "values by probabilities from 0 to 1, as in { \"0\" = 1, \"0.5\" = 2, \"1\" = 5 }";
+                    return Err(self
+                        .context
+                        .fault(key.span(), wrong("quantiles", expected, format!("{:?}", key.get_ref()))));
+                };
+                quantiles.push((probability, *value.get_ref()));
+            }
+        }
+        for (key, value) in numbers(self.fields) {
+            let statistic = Statistic::ALL.into_iter().find(|statistic| statistic.name() == key);
+            if let Some((probability, value)) = statistic.and_then(Statistic::probability).zip(value.as_ref()) {
+                self.used.push((key, value.span()));
+                quantiles.push((probability, *value.get_ref()));
+            }
+        }
+        if quantiles.is_empty() { Err(self.missing("quantiles")) } else { Ok(quantiles) }
+    }
+
+    /// `location`, by default 0.
+    fn location(&mut self) -> Result<f64, Fault> {
+        if self.fields.location.is_some() { self.number("location") } else { Ok(0.0) }
     }
 
     fn number(&mut self, key: &'static str) -> Result<f64, Fault> {
@@ -202,7 +306,8 @@ fn blamed_key(error: &DistributionError) -> Option<&'static str> {
         DistributionError::NotFinite { parameter, .. }
         | DistributionError::NotPositive { parameter, .. }
         | DistributionError::OutOfRange { parameter, .. }
-        | DistributionError::NotWhole { parameter, .. } => Some(parameter),
+        | DistributionError::NotWhole { parameter, .. }
+        | DistributionError::InfiniteVariance { parameter, .. } => Some(parameter),
         DistributionError::NotStated { statistic, .. } | DistributionError::StatedTwice { statistic } => {
             Some(statistic)
         }
@@ -215,8 +320,14 @@ fn blamed_key(error: &DistributionError) -> Option<&'static str> {
         | DistributionError::GumbelTruncation { .. } => Some("min"),
         DistributionError::Mode { .. } => Some("mode"),
         DistributionError::NoValues => Some("values"),
-        DistributionError::EntryNotFinite { list, .. } => Some(list),
+        DistributionError::EntryNotFinite { list, .. } | DistributionError::NotRising { list, .. } => Some(list),
+        DistributionError::NothingLeft { .. } | DistributionError::TruncationBounds { .. } => Some("truncate"),
+        DistributionError::NoOrder { what: "truncated", .. } => Some("truncate"),
+        DistributionError::NoOrder { .. } | DistributionError::NoComponents => Some("components"),
+        DistributionError::Edges { .. } => Some("edges"),
+        DistributionError::Quantiles { .. } => Some("quantiles"),
         DistributionError::Lengths { .. }
+        | DistributionError::Components { .. }
         | DistributionError::NegativeWeight { .. }
         | DistributionError::ZeroWeights => Some("weights"),
         DistributionError::Overflow { .. }
@@ -225,7 +336,7 @@ fn blamed_key(error: &DistributionError) -> Option<&'static str> {
     }
 }
 
-type Numbers<'a> = [(&'static str, &'a Option<At<f64>>); 23];
+type Numbers<'a> = [(&'static str, &'a Option<At<f64>>); 24];
 
 fn numbers(fields: &FactorSection) -> Numbers<'_> {
     [
@@ -241,6 +352,7 @@ fn numbers(fields: &FactorSection) -> Numbers<'_> {
         ("shape", &fields.shape),
         ("scale", &fields.scale),
         ("location", &fields.location),
+        ("df", &fields.df),
         ("p01", &fields.p01),
         ("p05", &fields.p05),
         ("p10", &fields.p10),
@@ -255,13 +367,17 @@ fn numbers(fields: &FactorSection) -> Numbers<'_> {
     ]
 }
 
-fn lists(fields: &FactorSection) -> [(&'static str, &Option<At<Vec<f64>>>); 2] {
-    [("values", &fields.values), ("weights", &fields.weights)]
+fn lists(fields: &FactorSection) -> [(&'static str, &Option<At<Vec<f64>>>); 3] {
+    [("values", &fields.values), ("weights", &fields.weights), ("edges", &fields.edges)]
 }
 
 /// The places of the keys that are no numbers.
-fn others(fields: &FactorSection) -> [(&'static str, Option<Range<usize>>); 5] {
+fn others(fields: &FactorSection) -> [(&'static str, Option<Range<usize>>); 9] {
     [
+        ("edges", fields.edges.as_ref().map(At::span)),
+        ("quantiles", fields.quantiles.as_ref().map(At::span)),
+        ("components", fields.components.as_ref().map(At::span)),
+        ("truncate", fields.truncate.as_ref().map(At::span)),
         ("values", fields.values.as_ref().map(At::span)),
         ("weights", fields.weights.as_ref().map(At::span)),
         ("labels", fields.labels.as_ref().map(At::span)),

@@ -3,7 +3,7 @@
 use crate::space::distribution::Law;
 
 /// How each distribution is written, the default first.
-pub(super) const FORMS: [Form; 16] = [
+pub(super) const FORMS: [Form; 25] = [
     Form { name: "uniform", own: &["min", "max"], takes: Takes::Law(Law::Uniform) },
     Form { name: "log-uniform", own: &["min", "max"], takes: Takes::Law(Law::LogUniform) },
     Form { name: "normal", own: &["mean", "sd"], takes: Takes::Law(Law::Normal) },
@@ -17,6 +17,25 @@ pub(super) const FORMS: [Form; 16] = [
         name: "truncated-gumbel",
         own: &["location", "scale", "min", "max"],
         takes: Takes::Law(Law::TruncatedGumbel),
+    },
+    Form { name: "gamma", own: &["shape", "scale", "location"], takes: Takes::Law(Law::Gamma) },
+    Form { name: "exponential", own: &["scale", "location"], takes: Takes::Law(Law::Exponential) },
+    Form { name: "logistic", own: &["location", "scale"], takes: Takes::Law(Law::Logistic) },
+    Form { name: "student-t", own: &["df", "location", "scale"], takes: Takes::Law(Law::StudentT) },
+    Form { name: "pareto", own: &["shape", "min"], takes: Takes::Law(Law::Pareto) },
+    Form { name: "inverse-gaussian", own: &["mean", "scale"], takes: Takes::Law(Law::InverseGaussian) },
+    Form { name: "poisson", own: &[], takes: Takes::Keys("mean") },
+    Form {
+        name: "histogram",
+        own: &[],
+        takes: Takes::Keys(
+            "edges and weights of bins; or quantiles (or min, max, p01, p05, ..., p99), 0 and 1 among them",
+        ),
+    },
+    Form {
+        name: "mixture",
+        own: &[],
+        takes: Takes::Keys("components, tables of a distribution with its keys, and weights (default equal)"),
     },
     Form { name: "discrete", own: &[], takes: Takes::Keys("values, and weights (default equal)") },
     Form { name: "integer", own: &[], takes: Takes::Keys("min and max, whole numbers, both included") },

@@ -15,6 +15,7 @@ use crate::names::nearest;
 /// Brings `root`, a study file, to the form that `StudyFile` has.
 pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
     factors(context, root)?;
+    distributions(context, root)?;
     outputs_above(context, root)?;
     outputs_below(context, root)?;
     formulas(context, root)
@@ -76,6 +77,64 @@ fn by_order<'a>(context: &Context<'_>, table: DeTable<'a>) -> Result<Vec<Spanned
         factors.push(value);
     }
     Ok(factors)
+}
+
+/// Components of mixtures get the name of their factor, after which messages are told; what is another factor where a number
+/// stands is refused with the reason.
+fn distributions(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
+    let Some(DeValue::Array(factors)) = root.get_mut("factor").map(Spanned::get_mut) else { return Ok(()) };
+    let name_of = |factor: &Spanned<DeValue<'_>>| {
+        let name = factor.get_ref().as_table().and_then(|fields| fields.get("name"));
+        name.and_then(|name| name.get_ref().as_str()).map(str::to_owned)
+    };
+    let names: Vec<String> = factors.iter().filter_map(name_of).collect();
+    for factor in factors.iter_mut() {
+        let name = name_of(factor).unwrap_or_default();
+        if let DeValue::Table(fields) = factor.get_mut() {
+            distribution(context, fields, (&name, &names))?;
+        }
+    }
+    Ok(())
+}
+
+fn distribution(
+    context: &Context<'_>,
+    fields: &mut DeTable<'_>,
+    (name, names): (&str, &[String]),
+) -> Result<(), Fault> {
+    const WORDS: [&str; 5] = ["name", "distribution", "unit", "group", "nominal"];
+    for (key, value) in fields.iter().filter(|(key, _)| !WORDS.contains(&&**key.get_ref())) {
+        let list = std::slice::from_ref(value);
+        let numbers =
+            if **key.get_ref() == *"truncate" { value.get_ref().as_array().map_or(list, |list| list) } else { list };
+        let text = |value: &Spanned<DeValue<'_>>| Some((value.get_ref().as_str()?.to_owned(), value.span()));
+        let other = numbers.iter().filter_map(text).find(|(text, _)| names.contains(text));
+        if let Some((other, span)) = other.filter(|_| !matches!(&**key.get_ref(), "file" | "column")) {
+            let (factor, key) = (name.to_owned(), key.get_ref().to_string());
+            return Err(context.fault(span, Problem::DependsOnFactor { factor, key, other }));
+        }
+    }
+    if let Some(quantiles) = fields.get("quantiles").and_then(|value| value.get_ref().as_table())
+        && let Some((key, _)) = quantiles.iter().find(|(_, value)| value.get_ref().is_table())
+    {
+        let expected = "probabilities in quotes, as in { \"0\" = 1, \"0.5\" = 2, \"1\" = 5 }";
+        return Err(context
+            .fault(key.span(), wrong("quantiles", expected, "a key with a dot, which begins a table".to_owned())));
+    }
+    let Some(DeValue::Array(components)) = fields.get_mut("components").map(Spanned::get_mut) else { return Ok(()) };
+    for component in components.iter_mut() {
+        let span = component.span();
+        let DeValue::Table(fields) = component.get_mut() else { continue };
+        if let Some((name, _)) = fields.get_key_value("name") {
+            let right = "a component is a distribution of the factor, which alone has a name";
+            let problem = Problem::Misplaced { name: "name".to_owned(), right: right.to_owned() };
+            return Err(context.fault(name.span(), problem));
+        }
+        distribution(context, fields, (name, names))?;
+        let inside = Spanned::new(span.clone(), DeValue::String(Cow::Owned(name.to_owned())));
+        fields.insert(key("name", span), inside);
+    }
+    Ok(())
 }
 
 /// `[outputs]` above the table of the model, or `outputs.y = "..."` there: the same as in that table.

@@ -32,6 +32,12 @@ pub(super) fn samplers() -> Vec<&'static str> {
     names(&Sampler::ALL, Sampler::name)
 }
 
+/// The schema of the cheaper models.
+pub(super) fn lows(_: &mut SchemaGenerator) -> Schema {
+    let table = json!({ "type": "object", "required": ["name"], "properties": { "name": { "type": "string" } } });
+    schemars::json_schema!({ "type": "array", "items": { "anyOf": [{ "type": "string" }, table] } })
+}
+
 /// The schema of an estimator's name.
 pub(super) fn estimators() -> Value {
     json!({ "enum": names(&Estimator::ALL, Estimator::name) })
@@ -124,6 +130,11 @@ pub(super) fn expression_constants(_: &mut SchemaGenerator) -> Schema {
 /// `[external] outputs`: units by the names of the outputs.
 pub(super) fn external_outputs(_: &mut SchemaGenerator) -> Schema {
     schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "string" } })
+}
+
+/// `quantiles`: values by the probabilities below them.
+pub(super) fn quantiles(_: &mut SchemaGenerator) -> Schema {
+    schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "number" } })
 }
 
 /// `[command] outputs`: units, or tables that say where a number stands.

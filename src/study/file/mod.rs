@@ -12,6 +12,7 @@ mod distribution_forms;
 mod error;
 mod expression;
 mod external;
+mod fidelity;
 mod forms;
 mod function;
 mod guides;

@@ -21,7 +21,7 @@ pub(super) fn value(factor: &str, distribution: &Distribution, typed: &Nominal) 
 pub(super) fn is_value(distribution: &Distribution, value: f64) -> bool {
     match distribution {
         Distribution::Categorical(categories) => categories.label(value).is_some(),
-        Distribution::Integer(_) => value.fract() == 0.0,
+        whole if whole.is_whole() => value.fract() == 0.0,
         _ => true,
     }
 }
@@ -31,7 +31,7 @@ fn values(distribution: &Distribution) -> String {
         Distribution::Categorical(categories) => {
             categories.categories().map(|(label, value, _)| format!("{label} ({value})")).collect::<Vec<_>>().join(", ")
         }
-        Distribution::Integer(_) => "whole numbers".to_owned(),
+        whole if whole.is_whole() => "whole numbers".to_owned(),
         _ => "a number".to_owned(),
     }
 }

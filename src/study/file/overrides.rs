@@ -32,12 +32,39 @@ fn set(root: &mut Table, text: &str) -> Result<(), OverrideProblem> {
     }
     let value = value.trim();
     let value: Value = value.parse().unwrap_or_else(|_| Value::from(value));
+    remove_others(root, &names.join("."));
     match names[..] {
         ["factor" | "factors", factor, ref rest @ ..] if !rest.is_empty() => {
             set_in(find_factor(root, factor)?, rest, value)
         }
         ["outputs"] if root.get("outputs").is_some_and(Item::is_table_like) => Err(OverrideProblem::OutputsTable),
         _ => set_in(root, &names, value),
+    }
+}
+
+/// Keys that decide the size of a run in different ways, each with those that it takes the place of.
+const INSTEAD: [(&str, &[&str]); 5] = [
+    (
+        "accuracy",
+        &["design.base_samples", "design.plain_rows", "design.budget_runs", "design.target", "fidelity.base_samples"],
+    ),
+    ("design.budget_runs", &["accuracy", "design.base_samples", "design.plain_rows"]),
+    ("design.base_samples", &["accuracy", "design.budget_runs"]),
+    ("design.plain_rows", &["accuracy", "design.budget_runs"]),
+    ("design.target", &["accuracy"]),
+];
+
+/// Removes what `key` takes the place of.
+fn remove_others(root: &mut Table, key: &str) {
+    let others =
+        INSTEAD.iter().filter(|(own, _)| key == *own || key.strip_prefix(own).is_some_and(|k| k.starts_with('.')));
+    for other in others.flat_map(|(_, others)| *others) {
+        match other.split_once('.') {
+            Some((table, key)) => {
+                root.get_mut(table).and_then(Item::as_table_like_mut).and_then(|table| table.remove(key));
+            }
+            None => drop(root.remove(other)),
+        }
     }
 }
 

@@ -26,6 +26,9 @@ fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
             let right = "of several factors each is a table [[factor]], with two brackets, or [factor.NAME]";
             Problem::Syntax(format!("the table [factor] stands here twice: {right}"))
         }
+        _ if message.contains("dotted key") => {
+            Problem::Syntax(format!("{message}: a key that has a dot itself stands in quotes, as in \"0.5\" = 2"))
+        }
         _ => Problem::Syntax(in_words(message)),
     };
     context.fault(span, problem)

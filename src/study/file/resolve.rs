@@ -36,7 +36,8 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let name = name(context, file.name.as_ref())?;
     let (overrides, source, sha256) = Default::default();
     let title = file.title.as_ref().map(|title| title.get_ref().clone());
-    Ok(Study { name, title, subject, space, design, analysis, target, overrides, source, sha256, notes })
+    let lows = super::fidelity::lows(context, &file, (&*subject, &space), &target)?;
+    Ok(Study { name, title, subject, space, design, analysis, target, lows, overrides, source, sha256, notes })
 }
 
 /// Factors and outputs are columns of one table, and need names of their own.
@@ -147,9 +148,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
         context.fault(span, Problem::OutOfDomain { name: format!("factor `{}`", input.name), domain, found })
     };
     let (low, high) = distribution.support();
-    // Values of these come close to the lower bound without reaching it.
-    let open = matches!(distribution, Distribution::LogNormal(_) | Distribution::Weibull(_));
-    let least = if open { low.next_up() } else { low };
+    let least = if distribution.is_open_below() { low.next_up() } else { low };
     for (bound, reached, field) in [(low, least, &fields.min), (high, high, &fields.max)] {
         // Unbounded distributions reach everywhere: their rare rows outside the domain fail by name and are counted.
         if bound.is_finite() && !in_domain(reached) {

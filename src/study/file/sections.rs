@@ -1,6 +1,9 @@
 //! What was typed: the study file as TOML sees it, every value with its place in the text, once [`forms`](super::forms) has
 //! brought what can be written in several ways to one. The comments on its fields are what editors show, by the schema.
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
@@ -42,6 +45,13 @@ pub(super) struct StudyFile {
     /// The program that is the model: itself with its arguments, or a table of these and more.
     #[serde(default)]
     pub command: Option<At<CommandKey>>,
+    /// How well the indices must be known: the half width that the 95 % interval of every first-order and total index must
+    /// reach. The run chooses its design, surrogates and cheaper models by itself.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub accuracy: Option<At<f64>>,
+    /// Cheaper models of the same outputs, which stand in for the model where they help.
+    #[serde(default)]
+    pub fidelity: Option<At<FidelitySection>>,
     /// The points at which the model runs.
     #[serde(default)]
     pub design: DesignSection,
@@ -77,6 +87,19 @@ pub(super) struct ExternalSection {
     #[serde(default)]
     #[schemars(schema_with = "key_schemas::external_outputs")]
     pub outputs: Choices,
+}
+
+/// Cheaper models of the same outputs.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FidelitySection {
+    /// The cheaper models: by name those that come with the model, as in "closed-form"; or tables with what they have in the
+    /// place of the model's own, as in { name = "coarse", command = ["./coarse"] }.
+    #[schemars(schema_with = "key_schemas::lows")]
+    pub low: At<Vec<At<toml::Value>>>,
+    /// Base samples of the points of their own; by default 16384, and with `accuracy` as many as pay.
+    #[schemars(range(min = 1))]
+    pub base_samples: Option<At<u64>>,
 }
 
 /// The points at which the model runs.
@@ -188,12 +211,15 @@ pub(super) struct FactorSection {
     pub alpha: Option<At<f64>>,
     /// Second shape parameter of a beta distribution.
     pub beta: Option<At<f64>>,
-    /// Shape parameter of a Weibull distribution.
+    /// Shape parameter of a Weibull, gamma or Pareto distribution.
     pub shape: Option<At<f64>>,
-    /// Scale parameter of a Weibull or Gumbel distribution.
+    /// Scale parameter of a Weibull, gamma, exponential, Gumbel, logistic or Student t distribution; lambda of an inverse
+    /// Gaussian one.
     pub scale: Option<At<f64>>,
-    /// Location parameter of a Weibull or Gumbel distribution.
+    /// Location parameter of a Gumbel, logistic or Student t distribution; where a Weibull, gamma or exponential one begins.
     pub location: Option<At<f64>>,
+    /// Degrees of freedom of a Student t distribution.
+    pub df: Option<At<f64>>,
     /// Quantile: 1 % of the values lie below it.
     pub p01: Option<At<f64>>,
     /// Quantile: 5 % of the values lie below it.
@@ -218,8 +244,22 @@ pub(super) struct FactorSection {
     pub value: Option<At<f64>>,
     /// The values of a discrete distribution.
     pub values: Option<At<Vec<f64>>>,
-    /// The weights of the values; equal by default.
+    /// The weights of values, bins or components; equal by default (but of bins).
     pub weights: Option<At<Vec<f64>>>,
+    /// The edges of the bins of a histogram, one more than weights.
+    pub edges: Option<At<Vec<f64>>>,
+    /// Quantiles that a histogram goes through: values by their probabilities from 0 to 1, as in { "0" = 1, "0.5" = 2, "1" = 5 }.
+    #[serde(default)]
+    #[schemars(schema_with = "key_schemas::quantiles")]
+    pub quantiles: Option<At<BTreeMap<At<String>, At<f64>>>>,
+    /// The distributions of a mixture, each with its own keys.
+    #[serde(default)]
+    #[schemars(schema_with = "components")]
+    pub components: Option<At<Vec<At<FactorSection>>>>,
+    /// What is cut off: only values between these two occur, inf and -inf cut nothing off. All other keys say what the
+    /// distribution is before that.
+    #[schemars(length(min = 2, max = 2))]
+    pub truncate: Option<At<Vec<f64>>>,
     /// The labels of the categories.
     pub labels: Option<At<Vec<String>>>,
     /// A file of measured values, relative to the study.
@@ -235,6 +275,34 @@ pub(super) enum Nominal {
     Truth(bool),
     Number(f64),
     Label(String),
+}
+
+/// A distribution in a mixture: the keys of a factor that are about its distribution.
+struct ComponentSection;
+
+impl JsonSchema for ComponentSection {
+    fn schema_name() -> Cow<'static, str> {
+        "ComponentSection".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut schema = FactorSection::json_schema(generator);
+        schema.remove("required");
+        schema.insert("description".to_owned(), "A distribution in a mixture.".into());
+        if let Some(properties) = schema.get_mut("properties").and_then(serde_json::Value::as_object_mut) {
+            properties.retain(|key, _| !OF_FACTORS.contains(&key.as_str()));
+        }
+        schema
+    }
+}
+
+/// Keys of a factor that the components of a mixture do not have.
+pub(super) const OF_FACTORS: [&str; 4] = ["name", "unit", "group", "nominal"];
+
+/// `components`: tables in a list.
+fn components(generator: &mut SchemaGenerator) -> Schema {
+    let component = generator.subschema_for::<ComponentSection>();
+    schemars::json_schema!({ "type": "array", "items": component, "minItems": 1 })
 }
 
 /// `factor`: tables in a list, tables by the names of the factors, or the only one.

@@ -1,17 +1,19 @@
 //! The models that a study file can name, with their choices made.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use crate::afm::{Options, Parameter, Scene};
+use crate::afm::{Fidelity, Options, Parameter, Scene};
 use crate::model::{
-    AfmModel, AfmOutput, CommandModel, CommandSettings, Expression, ExpressionModel, ExternalModel, Form,
-    KnownFunction, KnownModel, Model, ModelKind, Output, ParameterValue, edge_unit, known_inputs,
+    AfmModel, AfmOutput, AfmSecond, CommandModel, CommandSettings, Expression, ExpressionModel, ExternalModel, Form,
+    InMoreDigits, Input, KnownFunction, KnownModel, Model, ModelKind, Output, ParameterValue, SecondCalculation,
+    edge_unit, known_inputs,
 };
 use crate::quantity::{Quantity, Unit};
-use crate::space::{Factor, Space};
-use crate::study::Subject;
+use crate::space::{Distribution, Factor, Space};
+use crate::study::{LowFidelity, Rung, Subject};
 
 /// The nanoparticle model with its choices made.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,6 +82,12 @@ fn is_factor(space: &Space, name: &str) -> bool {
     space.factors().iter().any(|factor| factor.name == name)
 }
 
+/// The shorter step of the march (s): what its force is off by, speed times step, is then below a hundredth of a nanometre.
+const SHORT_STEP: f64 = 1e-5;
+
+/// The tolerance of the finest rung.
+const FINEST_TOLERANCE: f64 = 1e-9;
+
 impl Subject for AfmSubject {
     fn name(&self) -> &'static str {
         ModelKind::AFM.name
@@ -105,6 +113,63 @@ impl Subject for AfmSubject {
         ]
     }
 
+    fn rung_name(&self) -> String {
+        let (Options { fidelity, tolerance, step, .. }, usual) = (self.options, Options::default());
+        match fidelity {
+            Fidelity::Dynamic if tolerance != usual.tolerance => {
+                format!("{}, tolerance {tolerance:e}", fidelity.name())
+            }
+            Fidelity::FixedStep if step != usual.step => format!("{}, step {step:e} s", fidelity.name()),
+            _ => fidelity.name().to_owned(),
+        }
+    }
+
+    /// The closed form, the quasi-static rung, the equations of motion in fixed steps of two lengths, and adaptively at three
+    /// tolerances.
+    fn rungs(&self) -> Vec<Rung> {
+        let Options { tolerance, step, .. } = Options::default();
+        let of = |fidelity| Options { fidelity, tolerance, step, ..self.options };
+        let (marched, dynamic) = (of(Fidelity::FixedStep), of(Fidelity::Dynamic));
+        let ladder = [
+            of(Fidelity::ClosedForm),
+            of(Fidelity::QuasiStatic),
+            marched,
+            Options { step: SHORT_STEP, ..marched },
+            Options { tolerance: 1e-3, ..dynamic },
+            dynamic,
+            Options { tolerance: FINEST_TOLERANCE, ..dynamic },
+        ];
+        let rung = |options: Options| {
+            let subject = Self { options, ..self.clone() };
+            let mut lines = format!("[afm]\nfidelity = \"{}\"\n", options.fidelity.name());
+            match options.fidelity {
+                Fidelity::Dynamic => lines.push_str(&format!("tolerance = {:e}\n", options.tolerance)),
+                Fidelity::FixedStep => lines.push_str(&format!("step = \"{:e} s\"\n", options.step)),
+                _ => (),
+            }
+            Rung {
+                name: subject.rung_name(),
+                subject: Arc::new(subject),
+                lines,
+                is_finest: options.tolerance == FINEST_TOLERANCE,
+            }
+        };
+        ladder.into_iter().map(rung).collect()
+    }
+
+    fn cheaper(&self) -> Vec<LowFidelity> {
+        let at = |fidelity: Fidelity| LowFidelity {
+            name: fidelity.name().to_owned(),
+            subject: Arc::new(Self { options: Options { fidelity, ..self.options }, ..self.clone() }),
+            base_samples: None,
+        };
+        match self.options.fidelity {
+            Fidelity::ClosedForm => Vec::new(),
+            Fidelity::QuasiStatic | Fidelity::Auto => vec![at(Fidelity::ClosedForm)],
+            Fidelity::Dynamic | Fidelity::FixedStep => vec![at(Fidelity::QuasiStatic), at(Fidelity::ClosedForm)],
+        }
+    }
+
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
         // A shear modulus that nobody set follows E and nu: it is no constant.
         let is_set = |p: &Parameter| p.name != "shear_modulus" || self.scene.shear_modulus.is_some();
@@ -114,6 +179,23 @@ impl Subject for AfmSubject {
             (p.name.to_owned(), unit.from_si((p.get)(&self.scene)), unit.to_string())
         };
         constants.map(constant).collect()
+    }
+
+    fn second_calculation(&self, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
+        let factors = space.factors().iter().filter_map(|factor| Parameter::from_name(&factor.name)).collect();
+        Ok(Box::new(AfmSecond::new(self.scene, self.options, factors, self.outputs.clone())))
+    }
+
+    /// Velocity and adhesion, which may be zero.
+    fn further_inputs(&self, space: &Space) -> Vec<Factor> {
+        let further = ["velocity", "adhesion"].into_iter().filter(|name| !is_factor(space, name));
+        let constant = |name: &'static str| {
+            let parameter = Parameter::from_name(name)?;
+            let unit = edge_unit(parameter);
+            let value = Distribution::constant(unit.from_si((parameter.get)(&self.scene))).ok()?;
+            Factor::new(name, unit, value).ok()
+        };
+        further.filter_map(constant).collect()
     }
 }
 
@@ -132,6 +214,11 @@ impl Subject for ExpressionSubject {
     fn settings(&self) -> Vec<(&'static str, Value)> {
         let texts = self.formulas.iter().map(|formula| (formula.name.clone(), json!(formula.expression.text())));
         vec![("formulas", Value::Object(texts.collect()))]
+    }
+
+    fn second_calculation(&self, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
+        let formulas = self.formulas.iter().map(|formula| formula.expression.clone()).collect();
+        Ok(Box::new(InMoreDigits::of_factors(formulas, space.factors().len())))
     }
 
     fn constants(&self, _space: &Space) -> Vec<(String, f64, String)> {
@@ -179,16 +266,39 @@ impl Subject for CommandSubject {
     }
 }
 
+impl KnownSubject {
+    /// The values of all inputs where they are no factors of `space`, and for each of its factors the input it drives.
+    fn inputs(&self, space: &Space) -> (Vec<f64>, Vec<usize>) {
+        let inputs = known_inputs(&self.function);
+        let place = |factor: &Factor| inputs.iter().position(|input| input.name == factor.name);
+        (inputs.iter().map(|i| i.nominal).collect(), space.factors().iter().filter_map(place).collect())
+    }
+}
+
 impl Subject for KnownSubject {
     fn name(&self) -> &'static str {
         self.function.answer().name()
     }
 
     fn model(&self, space: &Space) -> Box<dyn Model> {
+        let (base, factors) = self.inputs(space);
+        Box::new(KnownModel::new(self.function.clone(), base, factors))
+    }
+
+    fn exact_indices(&self, space: &Space) -> Option<(Vec<f64>, Vec<f64>)> {
         let inputs = known_inputs(&self.function);
-        let place = |factor: &Factor| inputs.iter().position(|input| input.name == factor.name);
-        let factors = space.factors().iter().filter_map(place).collect();
-        Box::new(KnownModel::new(self.function.clone(), inputs.iter().map(|i| i.nominal).collect(), factors))
+        let is_own = |(factor, input): (&Factor, &Input)| {
+            factor.name == input.name && input.distribution.as_ref() == Some(factor.distribution())
+        };
+        let factors = space.factors();
+        let all = factors.len() == inputs.len() && factors.iter().zip(&inputs).all(is_own);
+        let indices = self.function.exact().indices.filter(|_| all)?;
+        Some((indices.first_order, indices.total))
+    }
+
+    fn second_calculation(&self, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
+        let (base, factors) = self.inputs(space);
+        Ok(Box::new(InMoreDigits::of_inputs(self.function.expression(), base, factors)))
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {

@@ -120,17 +120,17 @@ fn interrupted_commands_leave_neither_files_nor_processes() {
 fn is_interrupted(case: &Case, (command, more): (&str, &[&str])) {
     let arguments = case.arguments(command, more);
     let mut run = spawn(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
-    within(20, "two workers hang", || processes(case).len() >= 2);
+    within(60, "two workers hang", || processes(case).len() >= 2);
     std::thread::sleep(Duration::from_millis(300));
     signal("-INT", &run);
     let start = Instant::now();
     let status = run.wait().unwrap();
-    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_secs(30), "{:?}", start.elapsed());
     let mut message = String::new();
     run.stderr.take().unwrap().read_to_string(&mut message).unwrap();
     assert_eq!(status.code(), Some(1), "{message}");
     contains(&message, &["error: interrupted"]);
-    within(5, "all have ended", || !processes(case).iter().any(is_alive));
+    within(60, "all have ended", || !processes(case).iter().any(is_alive));
     let left = files(&case.path("")).into_iter().filter(|name| !name.starts_with("pid-") && name != "out");
     assert_eq!(left.collect::<Vec<_>>(), ["model.py", "points.csv", "study.toml"]);
     assert!(!case.path("out").exists() || files(&case.path("out")).is_empty());

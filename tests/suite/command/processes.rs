@@ -63,7 +63,7 @@ fn a_run_that_ends_leaves_no_process() {
     case.result();
     let all = processes(&case);
     assert!(all.len() >= 2, "{all:?}");
-    within(5, "all have ended", || !all.iter().any(is_alive));
+    within(60, "all have ended", || !all.iter().any(is_alive));
 }
 
 #[cfg(unix)]
@@ -71,14 +71,14 @@ fn a_run_that_ends_leaves_no_process() {
 fn an_interrupted_run_ends_hanging_programs() {
     let case = worker(HANGS);
     let mut run = started(&case);
-    within(20, "two workers hang", || processes(&case).len() >= 4);
+    within(60, "two workers hang", || processes(&case).len() >= 4);
     std::thread::sleep(Duration::from_millis(300));
     signal("-INT", &run);
     let start = Instant::now();
     let status = run.wait().unwrap();
-    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_secs(30), "{:?}", start.elapsed());
     assert_eq!(status.code(), Some(1));
-    within(5, "all have ended", || !processes(&case).iter().any(is_alive));
+    within(60, "all have ended", || !processes(&case).iter().any(is_alive));
 }
 
 /// The engine has no time to say goodbye: the system ends its children, which do not read their input here.
@@ -93,10 +93,10 @@ fn a_killed_engine_takes_its_programs_along() {
         ),
     );
     let mut run = started(&case);
-    within(20, "two workers hang", || processes(&case).len() >= 2);
+    within(60, "two workers hang", || processes(&case).len() >= 2);
     std::thread::sleep(Duration::from_millis(300));
     assert!(processes(&case).iter().all(is_alive));
     signal("-KILL", &run);
     run.wait().unwrap();
-    within(5, "all have ended", || !processes(&case).iter().any(is_alive));
+    within(60, "all have ended", || !processes(&case).iter().any(is_alive));
 }

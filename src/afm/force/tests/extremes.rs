@@ -138,9 +138,60 @@ fn is_finite_or_named(scene: &Scene, options: &Options) -> Result<(), TestCaseEr
     }
     // Adhesion may hold against a tip that pulls.
     prop_assert!(critical.indentation.is_finite() && critical.normal_force.is_finite());
-    prop_assert!((0.0..=PI).contains(&critical.force_angle));
+    prop_assert!((0.0..=PI).contains(&critical.force_angle()));
     if let Ok(time) = critical.critical_time {
         prop_assert!(time.is_finite() && time >= 0.0);
     }
     Ok(())
+}
+
+/// Numbers that the map of extremes (`apportion trade --extremes`) found wrong without a word.
+#[test]
+fn errors_far_outside_of_any_laboratory_are_stated_or_refused() {
+    let lugre = Options { friction: FrictionLaw::LuGre, ..Options::default() };
+    let by = |fidelity, options: Options, scene: &Scene| critical_force(scene, &Options { fidelity, ..options });
+    // K_y overflows: an error that is not a number claims nothing.
+    let wide = Scene { width: 8e95, ..Scene::default() };
+    assert_eq!(critical_force(&wide, &Options::default()).unwrap().error_estimate, 1.0);
+    // The ramp stepped over the bristles giving way: 21 times the static friction.
+    let stiff = Scene {
+        bristle_stiffness: 6e15,
+        bristle_damping: 1.6e-8,
+        viscous_friction: 0.0,
+        stribeck_velocity: 1e-37,
+        static_friction: 0.85,
+        dynamic_friction: 0.6,
+        velocity: 1e-37,
+        ..Scene::default()
+    };
+    assert_eq!(by(Fidelity::QuasiStatic, lugre, &stiff), Err(Failure::StepTooSmall));
+    // The march stepped over them by 4 %: its error says so.
+    let stiff = Scene { bristle_stiffness: 1e9, ..Scene::default() };
+    let (exact, marched) =
+        (by(Fidelity::QuasiStatic, lugre, &stiff).unwrap(), by(Fidelity::Dynamic, lugre, &stiff).unwrap());
+    let off = (marched.critical_force / exact.critical_force - 1.0).abs();
+    assert!(marched.error_estimate >= 0.9 * off && exact.error_estimate < 1e-4, "{off} {marched:?}");
+    // A cantilever so thick that F_Z is 1e33 F_Y, and the march loses 2.7e-6 of it.
+    let hk = Options { friction: FrictionLaw::HurtadoKim, ..Options::default() };
+    let mut farthest = 0.0_f64;
+    for step in 0..40 {
+        let thickness = 1e24 + 5e22 * f64::from(step);
+        let [length, width, height] = [700e-6, 80e-3, 20e-3];
+        let thick = Scene { length, width, thickness, height, velocity: 1e-13, adhesion: 0.2, ..Scene::default() };
+        let exact = by(Fidelity::QuasiStatic, hk, &thick).unwrap();
+        // It may also pull the contact apart in its rounding.
+        let Ok(marched) = by(Fidelity::Dynamic, hk, &thick) else { continue };
+        let off = (marched.critical_force / exact.critical_force - 1.0).abs();
+        assert!(exact.error_estimate < 1e-12, "{thickness}: {exact:?}");
+        assert!(marched.error_estimate >= 0.9 * off, "{thickness}: {off} {marched:?}");
+        farthest = farthest.max(off);
+    }
+    assert!(farthest > 1e-6, "{farthest}");
+    // One step of 14 ms to a slip at 15 us.
+    let fast = Scene { velocity: 8e-4, ..Scene::default() };
+    let coarse = Options { step: 0.014, ..lugre };
+    let (exact, marched) =
+        (by(Fidelity::QuasiStatic, coarse, &fast).unwrap(), by(Fidelity::FixedStep, coarse, &fast).unwrap());
+    let off = (marched.critical_force - exact.critical_force).abs();
+    assert!(1.5 * marched.error_estimate * marched.critical_force >= off, "{off} {marched:?}");
 }

@@ -23,6 +23,18 @@ pub enum Law {
     Gumbel,
     /// [`Distribution::weibull`], by two and location 0, or by three.
     Weibull,
+    /// [`Distribution::gamma`], by two and location 0, or by three.
+    Gamma,
+    /// [`Distribution::exponential`], by one and location 0, or by two.
+    Exponential,
+    /// [`Distribution::logistic`], by two.
+    Logistic,
+    /// [`Distribution::student_t`], by three.
+    StudentT,
+    /// [`Distribution::pareto`], by two.
+    Pareto,
+    /// [`Distribution::inverse_gaussian`], by two.
+    InverseGaussian,
     /// [`Distribution::triangular`], by three.
     Triangular,
     /// [`Distribution::beta`], by its bounds and two.
@@ -64,12 +76,14 @@ pub enum Statistic {
     P95,
     /// The 99 % quantile.
     P99,
-    /// The location of a Gumbel or Weibull distribution.
+    /// The location of a distribution that has one.
     Location,
-    /// The scale of a Gumbel or Weibull distribution.
+    /// The scale of a distribution that has one.
     Scale,
-    /// The shape of a Weibull distribution.
+    /// The shape of a Weibull, gamma or Pareto distribution.
     Shape,
+    /// The degrees of freedom of a Student t distribution.
+    Df,
     /// The first shape of a beta distribution.
     Alpha,
     /// The second shape of a beta distribution.
@@ -82,7 +96,7 @@ pub enum Statistic {
 
 impl Statistic {
     /// All of them.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 22] = [
         Self::Min,
         Self::Max,
         Self::Mean,
@@ -100,6 +114,7 @@ impl Statistic {
         Self::Location,
         Self::Scale,
         Self::Shape,
+        Self::Df,
         Self::Alpha,
         Self::Beta,
         Self::LogMean,
@@ -126,6 +141,7 @@ impl Statistic {
             Self::Location => "location",
             Self::Scale => "scale",
             Self::Shape => "shape",
+            Self::Df => "df",
             Self::Alpha => "alpha",
             Self::Beta => "beta",
             Self::LogMean => "log_mean",
@@ -134,7 +150,7 @@ impl Statistic {
     }
 
     /// The probability below it, of a quantile; 0 and 1 of the bounds.
-    fn probability(self) -> Option<f64> {
+    pub fn probability(self) -> Option<f64> {
         Some(match self {
             Self::Min => 0.0,
             Self::P01 => 0.01,
@@ -151,6 +167,11 @@ impl Statistic {
         })
     }
 
+    /// Whether it is the one parameter beside a location and a scale.
+    fn is_shape(self) -> bool {
+        matches!(self, Self::Shape | Self::Df | Self::LogSd)
+    }
+
     fn is_quantile(self) -> bool {
         self.probability().is_some_and(|p| 0.0 < p && p < 1.0)
     }
@@ -161,13 +182,19 @@ type Statement = (Statistic, f64);
 
 impl Law {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 16] = [
         Self::Uniform,
         Self::LogUniform,
         Self::Normal,
         Self::LogNormal,
         Self::Gumbel,
         Self::Weibull,
+        Self::Gamma,
+        Self::Exponential,
+        Self::Logistic,
+        Self::StudentT,
+        Self::Pareto,
+        Self::InverseGaussian,
         Self::Triangular,
         Self::Beta,
         Self::TruncatedNormal,
@@ -183,6 +210,12 @@ impl Law {
             Self::LogNormal => "log-normal",
             Self::Gumbel => "gumbel",
             Self::Weibull => "weibull",
+            Self::Gamma => "gamma",
+            Self::Exponential => "exponential",
+            Self::Logistic => "logistic",
+            Self::StudentT => "student-t",
+            Self::Pareto => "pareto",
+            Self::InverseGaussian => "inverse-gaussian",
             Self::Triangular => "triangular",
             Self::Beta => "beta",
             Self::TruncatedNormal => "truncated-normal",
@@ -192,13 +225,18 @@ impl Law {
 
     /// Whether `statistic` can be stated of the family.
     pub fn takes(self, statistic: Statistic) -> bool {
-        use Statistic::{Alpha, Beta, Location, LogMean, LogSd, Max, Mean, Min, Mode, Scale, Sd, Shape};
+        use Statistic::{Alpha, Beta, Df, Location, LogMean, LogSd, Max, Mean, Min, Mode, Scale, Sd, Shape};
         let others: &[Statistic] = match self {
             Self::Uniform | Self::LogUniform => &[Min, Max, Mean, Sd],
             Self::Normal => &[Mean, Sd, Mode],
             Self::LogNormal => &[Mean, Sd, Mode, LogMean, LogSd],
             Self::Gumbel => &[Location, Scale, Mean, Sd, Mode],
-            Self::Weibull => &[Location, Scale, Shape, Mean, Sd, Mode],
+            Self::Weibull | Self::Gamma => &[Location, Scale, Shape, Mean, Sd, Mode],
+            Self::Exponential => &[Location, Scale, Mean, Sd],
+            Self::Logistic => &[Location, Scale, Mean, Sd, Mode],
+            Self::StudentT => &[Df, Location, Scale, Mean, Sd, Mode],
+            Self::Pareto => &[Min, Shape, Mean, Sd],
+            Self::InverseGaussian => &[Mean, Scale, Sd, Mode],
             Self::Triangular => &[Min, Mode, Max, Mean, Sd],
             Self::Beta => &[Min, Max, Alpha, Beta, Mean, Sd, Mode],
             Self::TruncatedNormal => &[Min, Max, Mean, Sd, Mode],
@@ -215,10 +253,20 @@ impl Law {
             }
             Self::Normal => "two of mean, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99",
             Self::LogNormal => "two of mean, sd, mode, log_mean, log_sd, p01, p05, p10, p25, p50, p75, p90, p95, p99",
-            Self::Gumbel => "two of location, scale, mean, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99",
-            Self::Weibull => {
+            Self::Gumbel | Self::Logistic => {
+                "two of location, scale, mean, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99"
+            }
+            Self::Weibull | Self::Gamma => {
                 "two (location 0) or three of location, scale, shape, mean, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99"
             }
+            Self::Exponential => {
+                "one (location 0) or two of location, scale, mean, sd, p01, p05, p10, p25, p50, p75, p90, p95, p99"
+            }
+            Self::StudentT => {
+                "three of df, location, scale, mean, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99"
+            }
+            Self::Pareto => "two of shape, min, mean, sd, p01, p05, p10, p25, p50, p75, p90, p95, p99",
+            Self::InverseGaussian => "two of mean, scale, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99",
             Self::Triangular => "three of min, mode, max, mean, sd, p01, p05, p10, p25, p50, p75, p90, p95, p99",
             Self::Beta => {
                 "min, max and two of alpha, beta, mean, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99"
@@ -232,12 +280,19 @@ impl Law {
         }
     }
 
+    /// Whether all values are above 0, and stay of the family in any unit without a zero of its own.
+    fn is_positive(self) -> bool {
+        matches!(self, Self::LogNormal | Self::LogUniform | Self::Pareto | Self::InverseGaussian)
+    }
+
     fn is_enough(self, stated: &[Statement]) -> bool {
         let states = |statistic| stated.iter().any(|(other, _)| *other == statistic);
         match self {
             Self::Uniform | Self::LogUniform | Self::Normal | Self::LogNormal | Self::Gumbel => stated.len() == 2,
-            Self::Weibull => stated.len() == 3 || stated.len() == 2 && !states(Statistic::Location),
-            Self::Triangular => stated.len() == 3,
+            Self::Logistic | Self::Pareto | Self::InverseGaussian => stated.len() == 2,
+            Self::Weibull | Self::Gamma => stated.len() == 3 || stated.len() == 2 && !states(Statistic::Location),
+            Self::Exponential => stated.len() == 2 || stated.len() == 1 && !states(Statistic::Location),
+            Self::Triangular | Self::StudentT => stated.len() == 3,
             Self::Beta | Self::TruncatedNormal | Self::TruncatedGumbel => {
                 stated.len() == 4 && states(Statistic::Min) && states(Statistic::Max)
             }
@@ -292,8 +347,8 @@ fn check(law: Law, stated: &[Statement]) -> Result<(), DistributionError> {
             return Err(DistributionError::StatedTwice { statistic: parameter });
         }
         super::error::finite(parameter, *value)?;
-        let positive = matches!(law, Law::LogNormal | Law::LogUniform) && *statistic != Statistic::LogMean;
-        let spread = matches!(statistic, Statistic::Sd | Statistic::Scale | Statistic::Shape | Statistic::LogSd);
+        let positive = law.is_positive() && *statistic != Statistic::LogMean;
+        let spread = matches!(statistic, Statistic::Sd | Statistic::Scale) || statistic.is_shape();
         if positive || spread {
             super::error::positive(parameter, *value)?;
         }
@@ -342,7 +397,8 @@ fn is_as_stated(
         let Some(found) = value_of(*statistic) else { return false };
         // Of pure numbers, such as shapes, the relative error counts.
         let tolerance = match statistic {
-            Statistic::Shape | Statistic::Alpha | Statistic::Beta | Statistic::LogSd => 1e-9 * value.abs(),
+            Statistic::Alpha | Statistic::Beta => 1e-9 * value.abs(),
+            shape if shape.is_shape() => 1e-9 * value.abs(),
             Statistic::LogMean => 1e-9,
             _ => 1e-9 * scale + 1e-13 * value.abs(),
         };

@@ -11,12 +11,17 @@ use super::{Law, Statement, Statistic, is_as_stated};
 type Line = [f64; 3];
 
 pub(super) fn solve(law: Law, stated: &[Statement]) -> Option<Distribution> {
+    // Of a symmetric distribution these are one.
+    let middle = |s: Statistic| matches!(s, Statistic::Location | Statistic::Mean | Statistic::Mode | Statistic::P50);
+    if law == Law::StudentT && stated.iter().filter(|(statistic, _)| middle(*statistic)).count() > 1 {
+        return None;
+    }
     let accept = |shape: f64| {
         let (location, scale) = Lines::of(law, shape, stated)?.located()?;
         let found = made(law, (location, scale, shape), stated)?;
         is_as_stated(&found, |statistic| statistic_of(law, &found, statistic, shape), stated).then_some(found)
     };
-    if let Some((_, shape)) = stated.iter().find(|(statistic, _)| is_shape(*statistic)) {
+    if let Some((_, shape)) = stated.iter().find(|(statistic, _)| statistic.is_shape()) {
         return accept(*shape);
     }
     // From narrow to wide.
@@ -24,6 +29,11 @@ pub(super) fn solve(law: Law, stated: &[Statement]) -> Option<Distribution> {
         Law::LogNormal => (1e-9, 26.0, 500),
         Law::LogUniform => (1e-9, 700.0, 500),
         Law::Weibull => (1e4, 0.015, 500),
+        Law::Gamma => (1e5, 1e-3, 300),
+        Law::StudentT => (2e5, 2.0001, 300),
+        Law::Pareto => (1e6, 2.0001, 500),
+        // The sd of a mean of 1.
+        Law::InverseGaussian => (1e-5, 1e5, 300),
         Law::Triangular => {
             return first_zero(evenly(0.0, 1.0, 401), |shape| determinant(law, shape, stated), accept);
         }
@@ -32,10 +42,6 @@ pub(super) fn solve(law: Law, stated: &[Statement]) -> Option<Distribution> {
     let (from, to, count) = logs;
     let by_log = |log: f64| determinant(law, log.exp(), stated);
     first_zero(evenly(from.ln(), to.ln(), count), by_log, |log| accept(log.exp()))
-}
-
-fn is_shape(statistic: Statistic) -> bool {
-    matches!(statistic, Statistic::Shape | Statistic::LogSd)
 }
 
 /// The distribution of location 0 (or least value 0) and scale 1.
@@ -47,6 +53,12 @@ fn standard(law: Law, shape: f64) -> Option<Distribution> {
         Law::LogUniform => Distribution::log_uniform(1.0, shape.exp()),
         Law::LogNormal => Distribution::log_normal_of_logs(0.0, shape),
         Law::Weibull => Distribution::weibull(shape, 1.0, 0.0),
+        Law::Gamma => Distribution::gamma(shape, 1.0, 0.0),
+        Law::Exponential => Distribution::exponential(1.0, 0.0),
+        Law::Logistic => Distribution::logistic(0.0, 1.0),
+        Law::StudentT => Distribution::student_t(shape, 0.0, 1.0),
+        Law::Pareto => Distribution::pareto(shape, 1.0),
+        Law::InverseGaussian => Distribution::inverse_gaussian(1.0, shape.powi(-2)),
         Law::Triangular => Distribution::triangular(0.0, shape, 1.0),
         Law::Beta | Law::TruncatedNormal | Law::TruncatedGumbel => return None,
     }
@@ -60,7 +72,7 @@ fn statistic_of(law: Law, distribution: &Distribution, statistic: Statistic, sha
         Statistic::Mode | Statistic::Location | Statistic::Scale | Statistic::LogMean => {
             return parameter_of(law, distribution, statistic, shape);
         }
-        Statistic::Shape | Statistic::LogSd => shape,
+        Statistic::Shape | Statistic::Df | Statistic::LogSd => shape,
         other => distribution.quantile(other.probability()?),
     })
 }
@@ -77,7 +89,16 @@ fn parameter_of(law: Law, distribution: &Distribution, statistic: Statistic, sha
     match (law, statistic) {
         (Law::Normal, Statistic::Mode) => parameter("mean"),
         (Law::Triangular, Statistic::Mode) => parameter("mode"),
-        (Law::Gumbel, Statistic::Mode) => parameter("location"),
+        (Law::Gumbel | Law::Logistic | Law::StudentT, Statistic::Mode) => parameter("location"),
+        (Law::Gamma, Statistic::Mode) => {
+            let (location, scale) = parameter("location").zip(parameter("scale"))?;
+            Some(location + scale * (shape - 1.0).max(0.0))
+        }
+        // mean (sqrt(1 + c^2) - c) with c = 3 mean / (2 scale)
+        (Law::InverseGaussian, Statistic::Mode) => {
+            let c = 1.5 * shape * shape;
+            parameter("mean").map(|mean| mean / (c.hypot(1.0) + c))
+        }
         (Law::LogNormal, Statistic::LogMean) => parameter("log_mean"),
         // exp(mu - sigma^2), the mode of a log-normal distribution.
         (Law::LogNormal, Statistic::Mode) => parameter("log_mean").map(|log_mean| (log_mean - shape * shape).exp()),
@@ -107,18 +128,24 @@ impl Lines {
     fn of(law: Law, shape: f64, stated: &[Statement]) -> Option<Self> {
         let standard = standard(law, shape)?;
         let mut lines = Vec::with_capacity(3);
-        let at_zero = matches!(law, Law::LogNormal | Law::LogUniform) || law == Law::Weibull && stated.len() == 2;
+        let at_zero = match law {
+            Law::Weibull | Law::Gamma => stated.len() == 2,
+            Law::Exponential => stated.len() == 1,
+            law => law.is_positive(),
+        };
         if at_zero {
             lines.push([1.0, 0.0, 0.0]);
         }
         for (statistic, value) in stated {
             lines.push(match statistic {
                 Statistic::Sd => [0.0, standard.sd(), *value],
+                // That of an inverse Gaussian distribution grows with the mean.
+                Statistic::Scale if law == Law::InverseGaussian => [0.0, shape.powi(-2), *value],
                 Statistic::Scale => [0.0, 1.0, *value],
                 Statistic::Location => [1.0, 0.0, *value],
                 // The scale of a log-normal distribution is exp(log_mean).
                 Statistic::LogMean => [0.0, 1.0, value.exp()],
-                Statistic::Shape | Statistic::LogSd => continue,
+                shape if shape.is_shape() => continue,
                 other => [1.0, statistic_of(law, &standard, *other, shape)?, *value],
             });
         }
@@ -168,6 +195,24 @@ fn made(law: Law, (location, scale, shape): (f64, f64, f64), stated: &[Statement
         }
         Law::LogNormal => Distribution::log_normal_of_logs(or(Statistic::LogMean, scale.ln()), shape),
         Law::Weibull => Distribution::weibull(shape, or(Statistic::Scale, scale), or(Statistic::Location, location)),
+        Law::Gamma => Distribution::gamma(shape, or(Statistic::Scale, scale), or(Statistic::Location, location)),
+        Law::Exponential => {
+            Distribution::exponential(or(Statistic::Scale, or(Statistic::Sd, scale)), or(Statistic::Location, location))
+        }
+        Law::Logistic => {
+            let middle = or(Statistic::Location, or(Statistic::Mean, or(Statistic::Mode, location)));
+            Distribution::logistic(middle, or(Statistic::Scale, scale))
+        }
+        Law::StudentT => {
+            let middle = or(Statistic::Location, or(Statistic::Mean, or(Statistic::Mode, location)));
+            Distribution::student_t(shape, middle, or(Statistic::Scale, scale))
+        }
+        Law::Pareto => Distribution::pareto(shape, or(Statistic::Min, scale)),
+        Law::InverseGaussian => {
+            let mean = or(Statistic::Mean, scale);
+            let variation = or(Statistic::Sd, mean * shape) / mean;
+            Distribution::inverse_gaussian(mean, or(Statistic::Scale, mean / (variation * variation)))
+        }
         Law::Triangular => {
             let (min, max) = (or(Statistic::Min, location), or(Statistic::Max, location + scale));
             Distribution::triangular(min, or(Statistic::Mode, location + scale * shape).clamp(min, max), max)

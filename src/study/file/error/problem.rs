@@ -151,6 +151,19 @@ pub enum Problem {
         /// What is wrong.
         source: DistributionError,
     },
+    /// A parameter that is another factor.
+    #[error(
+        "factor `{factor}`: `{key}` is the factor `{other}`, and the two would depend on each other: first-order and total \
+         indices share out the variance among independent factors"
+    )]
+    DependsOnFactor {
+        /// The factor's name.
+        factor: String,
+        /// The key.
+        key: String,
+        /// The other factor.
+        other: String,
+    },
     /// A nominal value that the distribution does not have.
     #[error("factor `{factor}`: its nominal value is {found}, which is not one of its values")]
     NotAValue {
@@ -256,6 +269,10 @@ impl Problem {
             Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => {
                 Some(format!("it takes {takes}"))
             }
+            Self::DependsOnFactor { factor, other, .. } => Some(format!(
+                "let a ratio or a difference vary instead, as a factor of its own: `{factor}_part` from 0 to 1, and in the \
+                 model {factor} = {factor}_part*{other}"
+            )),
             Self::NotAValue { values, .. } => Some(format!("it takes {values}")),
             Self::Measured { .. } => {
                 Some("the file is a table in CSV, or one number a line; its path is relative to the study".to_owned())

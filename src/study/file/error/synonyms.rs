@@ -3,7 +3,7 @@
 use crate::names::nearest;
 
 /// Our word, or two of them, and what SciPy, SALib, UQLab and everyday language call it.
-const SYNONYMS: [(&[&str], &[&str]); 32] = [
+const SYNONYMS: [(&[&str], &[&str]); 42] = [
     // Keys of a factor.
     (&["distribution"], &["dist", "distr", "law", "type", "pdf"]),
     (&["min", "max"], &["bounds", "bound", "range", "limits", "interval"]),
@@ -13,6 +13,16 @@ const SYNONYMS: [(&[&str], &[&str]); 32] = [
     (&["sd"], &["std", "sigma", "stdev", "stddev", "std_dev", "standard_deviation"]),
     (&["location"], &["loc"]),
     (&["mode"], &["peak", "most_likely"]),
+    (&["df"], &["dof", "nu", "degrees_of_freedom"]),
+    (&["edges"], &["bins", "bin_edges", "breaks"]),
+    (&["truncate"], &["truncated", "truncation", "trunc"]),
+    (&["gamma"], &["erlang"]),
+    (&["exponential"], &["expon", "exp"]),
+    (&["student-t"], &["t", "student", "student_t", "studentt"]),
+    (&["inverse-gaussian"], &["invgauss", "wald", "inverse-normal", "inverse_gaussian", "inversenormal"]),
+    (&["histogram"], &["rv_histogram", "piecewise", "piecewise-uniform", "cumulative", "percentiles"]),
+    (&["mixture"], &["mix"]),
+    (&["poisson"], &["pois"]),
     (&["p50"], &["median"]),
     (&["nominal"], &["default", "reference"]),
     (&["labels"], &["categories", "levels", "choices"]),

@@ -1,0 +1,93 @@
+//! Results as documents: text, page, charts and files.
+
+use std::borrow::Cow;
+use std::path::PathBuf;
+
+use apportion::report::document::Part;
+use apportion::report::{Artefacts, ChartFormat, parse_result, run_document};
+use pyo3::prelude::*;
+
+use crate::errors::{failed, input};
+
+/// What a command has to say, with the JSON that it is made from.
+#[pyclass(frozen)]
+pub struct Document {
+    document: apportion::report::Document,
+    json: String,
+}
+
+impl Document {
+    /// The JSON is one of the document's files.
+    pub fn new(document: apportion::report::Document) -> Self {
+        let json = document.files.iter().find(|file| file.name.ends_with(".json"));
+        let json = json.map(|file| file.text.clone()).unwrap_or_default();
+        Self { document, json }
+    }
+}
+
+#[pymethods]
+impl Document {
+    #[getter]
+    fn name(&self) -> &str {
+        &self.document.name
+    }
+
+    /// What decides, a sentence or two each.
+    #[getter]
+    fn lead(&self) -> Vec<String> {
+        self.document.lead.clone()
+    }
+
+    fn json(&self) -> &str {
+        &self.json
+    }
+
+    fn text(&self) -> String {
+        self.document.text()
+    }
+
+    fn html(&self) -> PyResult<String> {
+        self.document.html().map_err(failed)
+    }
+
+    /// The charts as (title, SVG), in the order of the page.
+    fn charts(&self) -> PyResult<Vec<(String, String)>> {
+        let mut charts = Vec::new();
+        for section in &self.document.sections {
+            collect(&section.parts, &mut charts)?;
+        }
+        Ok(charts)
+    }
+
+    /// The tables for programs, as (name, CSV).
+    fn tables(&self) -> Vec<(String, String)> {
+        let files = self.document.data_files().into_iter().map(Cow::into_owned);
+        files.map(|file| (file.name, file.text)).collect()
+    }
+
+    /// Writes the page, the JSON and CSV files and the charts as SVG to `folder`; returns the path of the page.
+    fn save(&self, py: Python<'_>, folder: PathBuf) -> PyResult<PathBuf> {
+        let artefacts = Artefacts::new(folder).with_charts(&[ChartFormat::Svg]);
+        let written = py.detach(|| artefacts.write(&self.document));
+        written.map(|written| written.page).map_err(failed)
+    }
+}
+
+fn collect(parts: &[Part], charts: &mut Vec<(String, String)>) -> PyResult<()> {
+    for part in parts {
+        match part {
+            Part::Figure(figure) => {
+                charts.push((figure.chart.title().to_owned(), figure.chart.svg().map_err(failed)?));
+            }
+            Part::Details { parts, .. } | Part::OnPage(parts) => collect(parts, charts)?,
+            _ => (),
+        }
+    }
+    Ok(())
+}
+
+/// The result of the JSON file that a run has written.
+#[pyfunction]
+pub fn read_result(json: &str) -> PyResult<Document> {
+    Ok(Document::new(run_document(&parse_result(json.as_bytes()).map_err(input)?)))
+}

@@ -1,0 +1,89 @@
+//! Arrays of points and outputs that exist already.
+
+use apportion::given::{Column, Method, analyse, measures as measured, surrogate_indices};
+use apportion::report::given::{GivenFacts, build_given, given_document};
+use apportion::salib::{SalibLayout, salib_indices as indices_of};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use crate::document::Document;
+use crate::errors::input;
+
+/// The columns of an array of (rows, columns).
+pub fn columns(names: Vec<String>, values: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Column>> {
+    let values = values.as_array();
+    if values.ncols() != names.len() {
+        return Err(input(format!("{} names for {} columns", names.len(), values.ncols())));
+    }
+    let column =
+        |(name, column): (String, numpy::ndarray::ArrayView1<'_, f64>)| Column { name, values: column.to_vec() };
+    Ok(names.into_iter().zip(values.columns()).map(column).collect())
+}
+
+/// Indices from rows that are independent draws.
+#[pyfunction]
+#[pyo3(signature = (inputs, outputs, *, method, surrogate, measures, distributions, seed, name, sha256))]
+#[expect(clippy::too_many_arguments, reason = "by name")]
+pub fn given_data(
+    py: Python<'_>,
+    inputs: (Vec<String>, PyReadonlyArray2<'_, f64>),
+    outputs: (Vec<String>, PyReadonlyArray2<'_, f64>),
+    method: &str,
+    surrogate: bool,
+    measures: bool,
+    distributions: Option<&crate::study::Study>,
+    seed: u64,
+    name: &str,
+    sha256: String,
+) -> PyResult<Document> {
+    let names = Method::ALL.map(Method::name).join(", ");
+    let method = Method::ALL.into_iter().find(|known| known.name() == method);
+    let method = method.ok_or_else(|| input(format!("method: expected one of {names}")))?;
+    let (inputs, outputs) = (columns(inputs.0, &inputs.1)?, columns(outputs.0, &outputs.1)?);
+    let laws = distributions.map(|study| study.distributions_of(&inputs)).transpose()?;
+    py.detach(|| {
+        let indices = analyse(&inputs, &outputs, method, seed).map_err(input)?;
+        let surrogates = surrogate.then(|| surrogate_indices(&inputs, &outputs, &indices, laws.as_deref()));
+        let facts = GivenFacts { file: name.to_owned(), sha256, dropped: None, method, seed };
+        let mut result = build_given(&indices, surrogates.as_ref(), (&inputs, &outputs), &facts);
+        if measures {
+            result = result.with_measures(&measured(&inputs, &outputs, &indices, seed));
+        }
+        Ok(Document::new(given_document(&result, name)))
+    })
+}
+
+/// An estimate with the ends of its interval.
+type Triple = (f64, f64, f64);
+
+/// First-order, total and second-order indices of outputs in SALib's layout; the last ones as (first, second, index).
+#[pyfunction]
+#[pyo3(signature = (y, d, *, second_order, resamples, seed))]
+pub fn salib_indices(
+    py: Python<'_>,
+    y: PyReadonlyArray1<'_, f64>,
+    d: usize,
+    second_order: bool,
+    resamples: usize,
+    seed: u64,
+) -> PyResult<(Vec<Triple>, Vec<Triple>, Vec<(usize, usize, Triple)>)> {
+    let y = y.as_array().to_vec();
+    let layout = if second_order { SalibLayout::SecondOrder } else { SalibLayout::FirstOrder };
+    let rows = layout.rows_per_point(d);
+    if d == 0 || y.is_empty() || !y.len().is_multiple_of(rows) || y.len() < 2 * rows {
+        return Err(input(format!("{} outputs: expected a multiple of {rows}, at least {}", y.len(), 2 * rows)));
+    }
+    if let Some(row) = y.iter().position(|y| !y.is_finite()) {
+        return Err(input(format!("output {row} (from 0) is not finite")));
+    }
+    let found = py.detach(|| indices_of(&y, (d, layout), (resamples, seed))).map_err(input)?;
+    let triple = |of: apportion::Estimate| {
+        let interval = of.interval.map_or((f64::NAN, f64::NAN), |interval| (interval.low, interval.high));
+        (of.estimate, interval.0, interval.1)
+    };
+    Ok((
+        found.indices.iter().map(|index| triple(index.first_order)).collect(),
+        found.indices.iter().map(|index| triple(index.total)).collect(),
+        found.pairs.iter().map(|pair| (pair.pair.0, pair.pair.1, triple(pair.second_order))).collect(),
+    ))
+}

@@ -1,0 +1,360 @@
+//! Studies: read, sampled, run, analysed.
+
+use std::path::PathBuf;
+use std::sync::mpsc::channel;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use apportion::given::Column;
+use apportion::report::screening::{build_screening, screening_document};
+use apportion::report::sweep::{build_sweep, sweep_document};
+use apportion::report::{ResultFile, RunFacts, run_document};
+use apportion::run::{Piece, Store, threads_in_force};
+use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen_in};
+use apportion::sweep::{FactorValues, SweepRequest, find, sweep_in};
+use apportion::{Analysis, Batch, Distribution, Resume, RowFailure, RunContext, Runner};
+use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use crate::document::Document;
+use crate::errors::{failed, input, run as run_error};
+use crate::function::{Caller, PythonModel, Stop};
+use crate::run::{Duty, Listeners, Told, attend};
+
+/// A checked study.
+#[pyclass(frozen)]
+pub struct Study {
+    study: apportion::Study,
+}
+
+/// How a function of Python is asked.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Function {
+    call: Py<PyAny>,
+    version: String,
+    /// Calls at a time from threads of the run; 0 to call it in this thread.
+    workers: usize,
+    takes_its_time: bool,
+}
+
+#[pymethods]
+impl Study {
+    /// The study of a text in the format of study files; `path` is for messages and names the study.
+    #[staticmethod]
+    fn parse(text: &str, path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
+        apportion::Study::parse(text, &path, &overrides).map(|study| Self { study }).map_err(input)
+    }
+
+    /// The study of a file.
+    #[staticmethod]
+    fn load(path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
+        apportion::Study::load(&path, &overrides).map(|study| Self { study }).map_err(input)
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        self.study.name()
+    }
+
+    #[getter]
+    fn source(&self) -> &str {
+        self.study.source()
+    }
+
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.study.notes().to_vec()
+    }
+
+    /// (name, unit) of every factor.
+    #[getter]
+    fn factors(&self) -> Vec<(String, String)> {
+        let factors = self.study.space().factors().iter();
+        factors.map(|factor| (factor.name.clone(), factor.unit().to_string())).collect()
+    }
+
+    /// (name, unit) of every output.
+    #[getter]
+    fn outputs(&self) -> Vec<(String, String)> {
+        self.study.model().outputs().iter().map(|o| (o.name.to_string(), o.unit.to_string())).collect()
+    }
+
+    #[getter]
+    fn runs(&self) -> u64 {
+        self.study.design().rows()
+    }
+
+    #[getter]
+    fn rows_per_point(&self) -> u64 {
+        self.study.design().rows_per_point()
+    }
+
+    #[getter]
+    fn base_samples(&self) -> u64 {
+        self.study.design().settings().base_samples
+    }
+
+    #[getter]
+    fn replicates(&self) -> u64 {
+        self.study.design().settings().replicates
+    }
+
+    /// Whether the number of runs is decided as they go on.
+    #[getter]
+    fn grows(&self) -> bool {
+        self.study.target().grows()
+    }
+
+    #[getter]
+    fn is_external(&self) -> bool {
+        self.study.subject().is_external()
+    }
+
+    /// Rows `first` to `last` of the design: an array of (rows, factors) in the units of the factors.
+    fn sample<'py>(&self, py: Python<'py>, first: u64, last: u64) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (space, design) = (self.study.space(), self.study.design());
+        let factors = space.factors().len();
+        let rows: Vec<f64> = py.detach(|| {
+            let mut u = vec![0.0; factors];
+            let mut values = Vec::with_capacity((last.saturating_sub(first)) as usize * factors);
+            for row in first..last.min(design.rows()) {
+                design.point(row, &mut u);
+                values.extend(space.values_at(&u));
+            }
+            values
+        });
+        let count = rows.len() / factors.max(1);
+        numpy::PyArray1::from_vec(py, rows).reshape([count, factors])
+    }
+
+    /// The outputs of the model at `points`, an array of (rows, factors) in the units of the factors: an array of (rows,
+    /// outputs), NaN where there is none, and (row, output, reason) of these.
+    #[expect(clippy::type_complexity, reason = "as Python sees it")]
+    fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Vec<(usize, String, String)>)> {
+        let (factors, model) = (self.study.space().factors(), self.study.model());
+        let array = points.as_array();
+        if array.ncols() != factors.len() {
+            return Err(input(format!("points of {} columns: the study has {} factors", array.ncols(), factors.len())));
+        }
+        let in_si = |(column, factor): (numpy::ndarray::ArrayView1<'_, f64>, &apportion::Factor)| -> Vec<f64> {
+            column.iter().map(|x| factor.unit().to_si(*x)).collect()
+        };
+        let columns: Vec<Vec<f64>> = array.columns().into_iter().zip(factors).map(in_si).collect();
+        let rows = array.nrows();
+        let mut batch = Batch::new(model.as_ref());
+        batch.reset(rows);
+        py.detach(|| {
+            let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+            model.worker(&RunContext::default()).run(&slices, &mut batch);
+            batch.settle();
+        });
+        if let Some(reason) = batch.given_up() {
+            return Err(failed(format!("the model cannot go on: {reason}")));
+        }
+        let outputs = model.outputs();
+        let value = |row: usize, output: usize| outputs[output].unit.from_si(batch.column(output)[row]);
+        let values = (0..rows).flat_map(|row| (0..outputs.len()).map(move |output| (row, output)));
+        let values: Vec<f64> = values.map(|(row, output)| value(row, output)).collect();
+        let failures = batch.failures().iter();
+        let failures = failures.map(|(output, row, why)| (*row, outputs[*output].name.to_string(), why.to_string()));
+        let failures = failures.collect();
+        Ok((numpy::PyArray1::from_vec(py, values).reshape([rows, outputs.len()])?, failures))
+    }
+
+    /// Runs the study, with `function` as its model if there is one.
+    #[pyo3(signature = (function, stop, *, threads, journal, resume, progress, message))]
+    #[expect(clippy::too_many_arguments, reason = "by name")]
+    fn run(
+        &self,
+        py: Python<'_>,
+        function: Option<Function>,
+        stop: &Stop,
+        threads: usize,
+        journal: Option<PathBuf>,
+        resume: &str,
+        progress: Option<Py<PyAny>>,
+        message: Option<Py<PyAny>>,
+    ) -> PyResult<Document> {
+        let resume = match resume {
+            "if-there" => Resume::IfThere,
+            "require" => Resume::Require,
+            "retry-failed" => Resume::RetryFailed,
+            "never" => Resume::Never,
+            _ => return Err(input("resume: expected \"if-there\", \"require\", \"retry-failed\" or \"never\"")),
+        };
+        let listeners = Listeners { progress, message };
+        self.with_function(py, function, (stop, &listeners), |study, told| {
+            let (progress, messages) = (Arc::clone(told), Arc::clone(told));
+            let mut runner: Runner<'_> = study.runner().threads(threads).resume(resume).stop(stop.flag());
+            runner = runner.on_progress(move |now| progress.progress(now));
+            runner = runner.on_message(move |line| messages.message(line));
+            if let Some(journal) = &journal {
+                runner = runner.journal(journal);
+            }
+            let analysis = runner.run().map_err(|error| run_error(&error))?;
+            Ok(document(study, &analysis))
+        })
+    }
+
+    /// The result from `outputs`, an array of (rows, outputs) in the order of [`sample`](Self::sample), NaN where there is none.
+    fn analyse(&self, py: Python<'_>, outputs: PyReadonlyArray2<'_, f64>) -> PyResult<Document> {
+        let (study, design, model) = (&self.study, self.study.design(), self.study.model());
+        let array = outputs.as_array();
+        let expected = (design.rows() as usize, model.outputs().len());
+        if array.dim() != expected {
+            return Err(input(format!(
+                "outputs of shape {:?}: the design has {expected:?} (rows, outputs)",
+                array.dim()
+            )));
+        }
+        if study.target().grows() {
+            return Err(input(
+                "a study with an accuracy or a target chooses its rows as it goes on: give it base_samples",
+            ));
+        }
+        let store = Store::new(design, model.as_ref());
+        let replicates = design.settings().replicates;
+        let rows = design.rows() / replicates;
+        let missing = RowFailure::new("there is no output");
+        for replicate in 0..replicates {
+            let mut batch = Batch::new(model.as_ref());
+            batch.reset(rows as usize);
+            for row in 0..rows as usize {
+                for (output, of) in model.outputs().iter().enumerate() {
+                    let value = of.unit.to_si(array[[replicate as usize * rows as usize + row, output]]);
+                    batch.set(row, output, value);
+                    if value.is_nan() {
+                        batch.fail(row, output, missing.clone());
+                    }
+                }
+            }
+            batch.settle();
+            store.insert(&Piece::from_batch(replicate, 0, &batch));
+        }
+        py.detach(|| {
+            let analysis = study.runner().store(&store).run().map_err(|error| run_error(&error))?;
+            Ok(document(study, &analysis))
+        })
+    }
+
+    /// Elementary effects; `levels` is `None` for the radial design.
+    #[pyo3(signature = (function, stop, *, trajectories, levels, seed, threads, progress))]
+    #[expect(clippy::too_many_arguments, reason = "by name")]
+    fn screen(
+        &self,
+        py: Python<'_>,
+        function: Option<Function>,
+        stop: &Stop,
+        trajectories: u64,
+        levels: Option<u32>,
+        seed: Option<u64>,
+        threads: usize,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Document> {
+        let listeners = Listeners { progress, message: None };
+        self.with_function(py, function, (stop, &listeners), |study, told| {
+            let in_study = study.design().settings();
+            let design = match levels {
+                None => ScreeningDesign::Radial { sampler: in_study.sampler },
+                Some(levels) => ScreeningDesign::Trajectory { levels },
+            };
+            let settings = ScreeningSettings { design, trajectories, seed: seed.unwrap_or(in_study.seed) };
+            let model = study.model();
+            let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
+            let context = RunContext::new(Some(stop.flag()), |_| ());
+            let begun = std::time::Instant::now();
+            let screening = screen_in(job, threads, &|now| told.progress(now), &context).map_err(failed)?;
+            let facts = RunFacts { threads: threads_in_force(threads), wall_seconds: begun.elapsed().as_secs_f64() };
+            let file = build_screening(study, model.as_ref(), &screening, facts);
+            Ok(Document::new(screening_document(&file)))
+        })
+    }
+
+    /// One factor at a time; `factors` and `against` are as on the command line, NAME or NAME=VALUES.
+    fn sweep(
+        &self,
+        py: Python<'_>,
+        function: Option<Function>,
+        stop: &Stop,
+        factors: Vec<String>,
+        points: usize,
+        against: Option<String>,
+    ) -> PyResult<Document> {
+        let space = self.study.space();
+        let over_range = |factor| FactorValues::over_range(space, factor, points);
+        let values = |text: &String| {
+            if text.contains('=') { FactorValues::parse(text, space) } else { find(space, text).and_then(over_range) }
+        };
+        let factors = if factors.is_empty() {
+            (0..space.factors().len()).map(over_range).collect::<Result<_, _>>()
+        } else {
+            factors.iter().map(values).collect::<Result<_, _>>()
+        };
+        let against = against.map(|text| FactorValues::parse(&text, space)).transpose().map_err(input)?;
+        let request = SweepRequest { factors: factors.map_err(input)?, against };
+        request.check(space).map_err(input)?;
+        self.with_function(py, function, (stop, &Listeners::default()), |study, _| {
+            let (model, context) = (study.model(), RunContext::new(Some(stop.flag()), |_| ()));
+            let sweeps = sweep_in(study.space(), model.as_ref(), &request, &context).map_err(failed)?;
+            let file = build_sweep(study, model.as_ref(), &sweeps);
+            Ok(Document::new(sweep_document(&file)))
+        })
+    }
+}
+
+impl Study {
+    /// The distributions of the factors that have the names of `columns`.
+    pub fn distributions_of(&self, columns: &[Column]) -> PyResult<Vec<Distribution>> {
+        let of = |column: &Column| {
+            let factor = self.study.space().factors().iter().find(|factor| factor.name == column.name);
+            factor.map(|factor| factor.distribution().clone())
+        };
+        let all = columns
+            .iter()
+            .map(|column| of(column).ok_or_else(|| input(format!("`{}` has no distribution", column.name))));
+        all.collect()
+    }
+
+    /// What `work` makes of the study with `function` as its model.
+    fn with_function(
+        &self,
+        py: Python<'_>,
+        function: Option<Function>,
+        (stop, listeners): (&Stop, &Listeners),
+        work: impl FnOnce(&apportion::Study, &Arc<Told>) -> PyResult<Document> + Send,
+    ) -> PyResult<Document> {
+        let (finished, events) = channel();
+        let told = Arc::new(Told::default());
+        let first_error = Arc::new(Mutex::new(None));
+        let (study, model) = match function {
+            None => (self.study.clone(), None),
+            Some(Function { call, version, workers, takes_its_time }) => {
+                let caller = match workers {
+                    0 => Caller::There(finished.clone()),
+                    workers => Caller::Here { workers, first_error: Arc::clone(&first_error), stop: stop.clone() },
+                };
+                let model = Arc::new(PythonModel {
+                    function: call,
+                    outputs: self.study.model().outputs().to_vec(),
+                    factor_units: PythonModel::units(self.study.space()),
+                    caller,
+                    takes_its_time,
+                });
+                (self.study.clone().with_model(Arc::clone(&model), &version).map_err(input)?, Some(model))
+            }
+        };
+        let duty = Duty { events, finished, model, stop: stop.clone() };
+        // An interruption is told before what came of it elsewhere.
+        let result = attend(py, duty, (&told, listeners), || work(&study, &told))?;
+        let first_error = first_error.lock().unwrap_or_else(PoisonError::into_inner).take();
+        first_error.map_or(result, Err)
+    }
+}
+
+fn document(study: &apportion::Study, analysis: &Analysis) -> Document {
+    Document::new(run_document(&ResultFile::new(study, analysis)))
+}

@@ -1,0 +1,58 @@
+//! A run on the ranks of an MPI job: rank 0 is the program as it is anywhere, the others evaluate rows for it.
+
+#[cfg(feature = "mpi")]
+pub mod mpi;
+
+use std::path::Path;
+
+use anyhow::anyhow;
+use apportion::RemoteWorkers;
+use apportion::study::Study;
+
+use super::Failure;
+
+/// The other ranks of the job, as rank 0 sees them.
+pub trait Ranks: RemoteWorkers {
+    /// How many there are, rank 0 included.
+    fn count_all(&self) -> usize;
+
+    /// Lets the other ranks work for the run of `study`, whose file is at `path`, each with so many workers.
+    fn begin(&self, study: &Study, path: &Path, threads: usize);
+}
+
+/// Set to `off`, this lets every process of a job be a program by itself.
+const SWITCH: &str = "APPORTION_MPI";
+
+/// Where launchers say how many processes there are, and which of them this one is.
+const VARIABLES: [(&str, &str); 4] = [
+    ("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"),
+    ("PMI_SIZE", "PMI_RANK"),
+    ("MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK"),
+    ("SLURM_NTASKS", "PMIX_RANK"),
+];
+
+/// The number of ranks of the MPI job in which this process was started, if there are more than one, and its own.
+pub fn job() -> Option<(usize, usize)> {
+    let number = |name: &str| std::env::var(name).ok()?.trim().parse::<usize>().ok();
+    if std::env::var(SWITCH).is_ok_and(|switch| switch == "off") {
+        return None;
+    }
+    let found = VARIABLES.iter().find_map(|(size, rank)| Some((number(size)?, number(rank)?)));
+    found.filter(|(size, _)| *size > 1)
+}
+
+/// Refuses to run a study once on every rank, all at the same files.
+///
+/// # Errors
+/// [`Failure::Silent`] on all ranks but the first, which has said why.
+pub fn refuse_copies() -> Result<(), Failure> {
+    match job().filter(|_| cfg!(not(feature = "mpi"))) {
+        None => Ok(()),
+        Some((size, 0)) => Err(Failure::Input(anyhow!(
+            "started as {size} ranks of an MPI job, but this program was built without MPI: every rank would run the whole study by \
+             itself, into the same files. Build it by `cargo install --path . --features mpi` (needs an MPI library and \
+             libclang), or share the run out by `--shard I/N`. ({SWITCH}=off lets every rank run by itself)"
+        ))),
+        Some(_) => Err(Failure::Silent),
+    }
+}

@@ -1,0 +1,292 @@
+//! Other measures of influence than the share of the variance, from the same table.
+//!
+//! They look at more of an output than its variance, or ask for less: whether an input has any influence at all. None of them
+//! divides a whole among the inputs, and none tells interactions from what an input does alone.
+
+mod density;
+mod distances;
+mod fourier;
+mod hsic;
+
+use std::collections::BTreeMap;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use super::column::{Column, NoVariance};
+use super::order::Order;
+use super::{GivenIndices, PointSet, centred};
+use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
+use density::Densities;
+use distances::{Distance, distances};
+pub use hsic::MOST_ROWS as MOST_ROWS_OF_KERNELS;
+
+/// A measure of the influence of an input on an output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Measure {
+    /// First-order index from the spectrum of the output in the order of the input: EASI, Plischke (2010), Reliab. Eng. Syst. Saf.
+    /// 95, 354-360, and RBD-FAST of given data, with the correction of Tissot and Prieur (2012). An estimate of S_1.
+    Fourier,
+    /// Borgonovo's (2007) delta: half of the mean distance between the density of the output and its densities where the input
+    /// is known. From kernel densities in classes of the input, less the bias by a bootstrap: Plischke, Borgonovo and Smith
+    /// (2013), Eur. J. Oper. Res. 226, 536-550.
+    Delta,
+    /// The mean over classes of the input of the largest distance between the distribution functions of the output in the class
+    /// and overall: Baucells and Borgonovo (2013), Manage. Sci. 59, 2536-2549.
+    Kolmogorov,
+    /// The same of the sum of the largest distances above and below, after Kuiper.
+    Kuiper,
+    /// The median over ten classes of the input of the distance of Kolmogorov and Smirnov: PAWN, Pianosi and Wagener (2018),
+    /// Environ. Model. Softw. 108, 197-207.
+    PawnMedian,
+    /// The largest of them.
+    PawnMax,
+    /// The criterion of independence of Hilbert and Schmidt with Gaussian kernels, normalised (R2-HSIC): Gretton et al. (2005); Da
+    /// Veiga (2015), J. Stat. Comput. Simul. 85, 1283-1305.
+    Hsic,
+}
+
+impl Measure {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Fourier, Self::Delta, Self::Kolmogorov, Self::Kuiper, Self::PawnMedian, Self::PawnMax, Self::Hsic];
+
+    /// The name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fourier => "fourier",
+            Self::Delta => "delta",
+            Self::Kolmogorov => "kolmogorov",
+            Self::Kuiper => "kuiper",
+            Self::PawnMedian => "pawn_median",
+            Self::PawnMax => "pawn_max",
+            Self::Hsic => "r2_hsic",
+        }
+    }
+
+    /// The name in tables.
+    pub fn heading(self) -> &'static str {
+        match self {
+            Self::Fourier => "S_1, Fourier",
+            Self::Delta => "delta",
+            Self::Kolmogorov => "Kolmogorov",
+            Self::Kuiper => "Kuiper",
+            Self::PawnMedian => "PAWN median",
+            Self::PawnMax => "PAWN max",
+            Self::Hsic => "R2-HSIC",
+        }
+    }
+}
+
+/// A measure of one input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Measured {
+    /// The measure, with its interval where it has one: of delta, of independent rows.
+    pub estimate: Estimate,
+    /// The probability of a measure so large, or larger, of an input without influence; `None` where rows are not independent, or
+    /// the input has one value. By [`PERMUTATIONS`] permutations of the output, of the kernels by a gamma distribution (Gretton
+    /// et al. 2008).
+    pub p_value: Option<f64>,
+}
+
+/// The measures of one input, in the order of [`Measure::ALL`].
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct InputMeasures {
+    /// The input.
+    pub input: String,
+    /// One entry per measure.
+    pub values: [Measured; 7],
+}
+
+impl InputMeasures {
+    /// One of them.
+    pub fn get(&self, measure: Measure) -> Measured {
+        self.values[measure as usize]
+    }
+}
+
+/// Permutations behind a p-value: it is known to 0.005 at best.
+pub const PERMUTATIONS: usize = 199;
+
+/// Resamples behind the bias and the interval of delta.
+const RESAMPLES: usize = 100;
+
+/// Classes of PAWN.
+const PAWN_CLASSES: usize = 10;
+
+/// What is measured by permutations: all but the kernels.
+const PERMUTED: usize = 6;
+
+/// The measures of every output with respect to every input, of the columns that gave `indices`.
+///
+/// Costs O(N log N) for each input and permutation, and O(N^2) for the kernels, of at most [`MOST_ROWS_OF_KERNELS`] rows. `seed` is
+/// that of permutations, resamples, and the order of equal inputs in the spectrum.
+pub fn measures(
+    inputs: &[Column],
+    outputs: &[Column],
+    indices: &GivenIndices,
+    seed: u64,
+) -> Vec<Result<Vec<InputMeasures>, NoVariance>> {
+    let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
+    let is_random = indices.points == PointSet::Independent;
+    let of_output = |(number, output): (usize, &Column)| {
+        let z = centred(&output.values)?;
+        let job = Job { z: &z, order: Order::of(&z), densities: Densities::new(&z), seed: [seed, number as u64] };
+        Ok(job.measures(inputs, &orders, is_random))
+    };
+    outputs.iter().enumerate().map(of_output).collect()
+}
+
+/// One output.
+struct Job<'a> {
+    z: &'a [f64],
+    order: Order,
+    densities: Densities,
+    seed: [u64; 2],
+}
+
+/// Classes of the rows by one input.
+struct Classes {
+    /// The class of every row, and how many there are.
+    fine: (Vec<usize>, usize),
+    /// Those of PAWN.
+    coarse: (Vec<usize>, usize),
+}
+
+impl Classes {
+    fn new(order: &Order, rows: usize) -> Self {
+        Self { fine: order.classes(classes_for(rows)), coarse: order.classes(PAWN_CLASSES) }
+    }
+
+    /// The classes with the rows in another order.
+    fn permuted(&self, rows: &[usize]) -> Self {
+        let permuted = |(labels, count): &(Vec<usize>, usize)| (rows.iter().map(|&row| labels[row]).collect(), *count);
+        Self { fine: permuted(&self.fine), coarse: permuted(&self.coarse) }
+    }
+
+    /// What the measures of an input without influence depend on.
+    fn sizes(&self) -> [Vec<usize>; 2] {
+        [&self.fine, &self.coarse].map(|(labels, count)| {
+            let mut sizes = vec![0; *count];
+            labels.iter().for_each(|&label| sizes[label] += 1);
+            sizes
+        })
+    }
+}
+
+/// Classes for delta and the mean distances (Plischke, Borgonovo and Smith 2013, as in SALib): at most 48.
+fn classes_for(rows: usize) -> usize {
+    let rows = rows as f64;
+    let power = 2.0 / (7.0 + ((1500.0 - rows) / 500.0).tanh());
+    (rows.powf(power).ceil() as usize).min(48)
+}
+
+impl Job<'_> {
+    fn random(&self, stream: u64) -> ChaCha8Rng {
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed[0]);
+        random.set_stream(self.seed[1] << 32 | stream);
+        random
+    }
+
+    fn measures(&self, inputs: &[Column], orders: &[Order], is_random: bool) -> Vec<InputMeasures> {
+        let classes: Vec<Classes> = orders.iter().map(|order| Classes::new(order, self.z.len())).collect();
+        let mut chance: BTreeMap<[Vec<usize>; 2], Vec<[f64; PERMUTED]>> = BTreeMap::new();
+        if is_random {
+            for classes in &classes {
+                chance.entry(classes.sizes()).or_insert_with(|| self.by_chance(classes));
+            }
+        }
+        let outputs = hsic::Outputs::new(self.z);
+        let of_input = |number: usize| {
+            let (classes, order) = (&classes[number], &orders[number]);
+            let values = match order.groups() {
+                0 | 1 => [Measured { estimate: Estimate { estimate: 0.0, interval: None }, p_value: None }; 7],
+                _ => {
+                    let rows = order.shuffled(self.seed[0], number as u64);
+                    let chance = chance.get(&classes.sizes()).map_or(&[][..], Vec::as_slice);
+                    let mut values = self.judged(self.plain(classes, &rows), chance);
+                    if is_random {
+                        values[Measure::Delta as usize].estimate = self.delta(classes, number as u64);
+                    }
+                    let (r2, p_value) = outputs.with(&inputs[number].values);
+                    let estimate = Estimate { estimate: r2, interval: None };
+                    values[Measure::Hsic as usize] = Measured { estimate, p_value: p_value.filter(|_| is_random) };
+                    values
+                }
+            };
+            InputMeasures { input: inputs[number].name.clone(), values }
+        };
+        (0..inputs.len()).into_par_iter().map(of_input).collect()
+    }
+
+    /// All but the kernels, of the rows in the order of the input.
+    fn plain(&self, classes: &Classes, rows: &[usize]) -> [f64; PERMUTED] {
+        let weights = vec![1.0; self.z.len()];
+        let fine = distances(&self.order, &classes.fine, &weights);
+        let coarse = distances(&self.order, &classes.coarse, &weights);
+        let mean = |of: fn(&Distance) -> f64| {
+            let sum: f64 = fine.iter().map(|distance| distance.weight * of(distance)).sum();
+            sum / self.z.len() as f64
+        };
+        let mut slides: Vec<f64> = coarse.iter().map(Distance::kolmogorov).collect();
+        slides.sort_by(f64::total_cmp);
+        let middle = slides.len() / 2;
+        let median = if slides.len() % 2 == 1 { slides[middle] } else { (slides[middle - 1] + slides[middle]) / 2.0 };
+        [
+            fourier::first_order(rows.iter().map(|&row| self.z[row]).collect()),
+            self.densities.delta(self.z, &classes.fine, &weights),
+            mean(Distance::kolmogorov),
+            mean(Distance::kuiper),
+            median,
+            slides[slides.len() - 1],
+        ]
+    }
+
+    /// The measures of inputs with such classes and without influence.
+    fn by_chance(&self, classes: &Classes) -> Vec<[f64; PERMUTED]> {
+        let permutation = |number: usize| {
+            let mut random = self.random(1 << 16 | number as u64);
+            let mut rows: Vec<usize> = (0..self.z.len()).collect();
+            for k in (1..rows.len()).rev() {
+                rows.swap(k, random.random_range(0..=k as u64) as usize);
+            }
+            self.plain(&classes.permuted(&rows), &rows)
+        };
+        (0..PERMUTATIONS).into_par_iter().map(permutation).collect()
+    }
+
+    fn judged(&self, found: [f64; PERMUTED], chance: &[[f64; PERMUTED]]) -> [Measured; 7] {
+        std::array::from_fn(|place| {
+            let Some(&found) = found.get(place) else {
+                return Measured { estimate: Estimate { estimate: 0.0, interval: None }, p_value: None };
+            };
+            let larger = chance.iter().filter(|by_chance| by_chance[place] >= found).count();
+            let p_value = (!chance.is_empty()).then(|| (1 + larger) as f64 / (1 + chance.len()) as f64);
+            Measured { estimate: Estimate { estimate: found, interval: None }, p_value }
+        })
+    }
+
+    /// Delta less its bias, with its interval, by resamples of the rows.
+    fn delta(&self, classes: &Classes, input: u64) -> Estimate {
+        let (z, rows) = (self.z, self.z.len());
+        let plain = self.densities.delta(z, &classes.fine, &vec![1.0; rows]);
+        let resample = |number: usize| {
+            let mut random = self.random(1 << 24 | input << 8 | number as u64);
+            let mut weights = vec![0.0; rows];
+            (0..rows).for_each(|_| weights[random.random_range(0..rows as u64) as usize] += 1.0);
+            self.densities.delta(z, &classes.fine, &weights)
+        };
+        let resampled: Vec<f64> = (0..RESAMPLES).into_par_iter().map(resample).collect();
+        let mean = resampled.iter().sum::<f64>() / RESAMPLES as f64;
+        let squares: f64 = resampled.iter().map(|delta| (delta - mean).powi(2)).sum();
+        let half_width = NORMAL_QUANTILE * (squares / (RESAMPLES as f64 - 1.0)).sqrt();
+        let estimate = 2.0 * plain - mean;
+        Estimate { estimate, interval: Some(Interval { low: estimate - half_width, high: estimate + half_width }) }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,47 @@
+//! What a run chose by itself, and the cheaper models beside it, in the result file.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What a run that was asked for an accuracy chose, and why.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
+pub struct SpendingRecord {
+    /// The half width that was asked for.
+    pub accuracy: f64,
+    /// Runs of the model in all, those of trials included.
+    pub runs: u64,
+    /// Runs that the same half width would take at least without surrogates and cheaper models, by the intervals of the plain
+    /// indices of this run; `null` if they are unknown.
+    pub plain_runs: Option<u64>,
+    /// Why it was chosen, in sentences.
+    pub reasons: Vec<String>,
+    /// Lines of a study that make the same run again, to the bit, in the place of `accuracy`.
+    pub lines: String,
+}
+
+/// The runs of a cheaper model beside those of the model.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
+pub struct LowRecord {
+    /// Its name.
+    pub name: String,
+    /// Runs at the rows of the model.
+    pub shared_runs: u64,
+    /// Base samples of its own design.
+    pub own_base_samples: u64,
+    /// Runs of that.
+    pub own_runs: u64,
+}
+
+/// What a cheaper model did to the indices of an output.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
+pub struct LowUseRecord {
+    /// Its name.
+    pub name: String,
+    /// How much the output of the model rises with that of the cheaper one, by least squares.
+    pub slope: f64,
+    /// Share of the variance that the cheaper model explains by itself.
+    pub explained: f64,
+}

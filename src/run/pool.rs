@@ -1,0 +1,34 @@
+//! Threads for what is estimated from runs.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use super::{RunError, threads_in_force};
+
+/// Pools by their number of threads. To start one takes longer than many a run.
+static POOLS: Mutex<BTreeMap<usize, Arc<ThreadPool>>> = Mutex::new(BTreeMap::new());
+
+/// A pool of `threads` threads (0: one per core), the same one for all runs that do not run inside of another pool: those
+/// would wait for threads that wait for them.
+///
+/// # Errors
+/// [`RunError::Threads`] if the threads cannot be started.
+pub(super) fn thread_pool(threads: usize) -> Result<Arc<ThreadPool>, RunError> {
+    let threads = threads_in_force(threads);
+    let new = || {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.map(Arc::new).map_err(|source| RunError::Threads { threads, source: source.into() })
+    };
+    if rayon::current_thread_index().is_some() {
+        return new();
+    }
+    let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(pool) = pools.get(&threads) {
+        return Ok(Arc::clone(pool));
+    }
+    let pool = new()?;
+    pools.insert(threads, Arc::clone(&pool));
+    Ok(pool)
+}

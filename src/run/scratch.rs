@@ -1,0 +1,168 @@
+//! The outputs of a block of base points, as a thread evaluates them, and the totals of them.
+
+use super::totals::{OutputTotals, Place, Tally, Totals};
+use super::{Job, Store};
+use crate::design::Matrix;
+use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace};
+use crate::model::{Batch, RowFailure, RunContext, Worker};
+
+/// What a thread needs to evaluate blocks, kept from block to block.
+pub(super) struct Scratch {
+    /// The columns of the base points, in the unit cube.
+    unit: Vec<Vec<f64>>,
+    /// The same in SI units.
+    values: Vec<Vec<f64>>,
+    /// Outputs of every run of the design.
+    batches: Vec<Batch>,
+    workspace: Workspace,
+}
+
+impl Scratch {
+    /// Nothing is evaluated yet.
+    pub fn new(job: Job<'_>) -> Self {
+        let (columns, runs) = (job.design.columns(), job.design.runs().len());
+        Self {
+            unit: vec![Vec::new(); columns],
+            values: vec![Vec::new(); columns],
+            batches: vec![Batch::new(job.model); runs],
+            workspace: Workspace::default(),
+        }
+    }
+
+    /// The unit-cube columns for `rows` base points, to be filled.
+    pub fn unit_columns(&mut self, rows: usize) -> &mut [Vec<f64>] {
+        for column in &mut self.unit {
+            column.resize(rows, 0.0);
+        }
+        &mut self.unit
+    }
+
+    /// Sets the outputs of `points` base points at `place` to those in `store`; false if a row is missing there.
+    pub fn recall(&mut self, store: &Store, place: BlockPlace, points: usize) -> bool {
+        self.batches.iter_mut().for_each(|batch| batch.reset(points));
+        store.recall(place.first.replicate, place.first.point, &mut self.batches)
+    }
+
+    /// The totals of the outputs that were evaluated or recalled last.
+    pub fn totals(&mut self, job: Job<'_>, place: BlockPlace) -> Totals {
+        let rows = self.batches.first().map_or(0, Batch::rows);
+        let mut totals = Totals {
+            runs: (rows * self.batches.len()) as u64,
+            failed_runs: self.batches.iter().map(failed_rows).sum(),
+            ..Totals::none(job.model)
+        };
+        for batch in &self.batches {
+            totals.counts.merge(batch.counts());
+            for (total, raised) in totals.flags.iter_mut().zip(batch.flags()) {
+                *total += raised;
+            }
+        }
+        for (output, of_output) in totals.outputs.iter_mut().enumerate() {
+            *of_output = self.totals_of(job, output, place);
+        }
+        totals
+    }
+
+    /// Evaluates the base points in the unit columns; `on_rows` is told of every batch. Returns why the model gave up, if
+    /// it did.
+    pub fn run_rows(
+        &mut self,
+        job: Job<'_>,
+        (worker, context): (&mut dyn Worker, &RunContext<'_>),
+        on_rows: &dyn Fn(u64),
+    ) -> Option<RowFailure> {
+        let factors = job.design.factors();
+        for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
+            values.resize(unit.len(), 0.0);
+            job.space.factors()[k % factors].fill_si(unit, values);
+        }
+        let values = &self.values;
+        let columns_of = |matrix: Matrix| &values[job.design.first_column(matrix)..][..factors];
+        let mut inputs: Vec<&[f64]> = Vec::with_capacity(factors);
+        for (run, batch) in job.design.runs().iter().zip(&mut self.batches) {
+            if context.is_stopped() {
+                return Some(RowFailure::interrupted());
+            }
+            inputs.clear();
+            inputs.extend(columns_of(run.base).iter().map(Vec::as_slice));
+            for &column in &run.columns {
+                inputs[column] = &columns_of(run.from)[column];
+            }
+            batch.reset(inputs[0].len());
+            worker.run(&inputs, batch);
+            batch.settle();
+            if let Some(reason) = batch.given_up() {
+                return Some(reason.clone());
+            }
+            on_rows(batch.rows() as u64);
+        }
+        None
+    }
+
+    fn totals_of(&mut self, job: Job<'_>, output: usize, place: BlockPlace) -> OutputTotals {
+        let design = job.design;
+        let mut totals = OutputTotals::default();
+        for (run, batch) in self.batches.iter_mut().enumerate() {
+            let failures = batch.failures().iter().filter(|(o, _, _)| *o == output).map(|(_, row, why)| (*row, why));
+            let failed: Vec<usize> = failures.clone().map(|(row, _)| row).collect();
+            for (row, failure) in failures {
+                let first = Place { point: place.first.point + row as u64, run: run as u64, ..place.first };
+                totals.runs_failed += 1;
+                totals.count(failure.clone(), Tally { count: 1, first });
+            }
+            // Whatever the model left there: it says that it failed.
+            for row in failed {
+                batch.set(row, output, f64::NAN);
+            }
+        }
+        let column = |run: &usize| self.batches[*run].column(output);
+        let columns = |runs: &[usize]| runs.iter().map(column).collect::<Vec<&[f64]>>();
+        let (a, b) = (column(&0), column(&1));
+        let (ab, ba) = (columns(design.ab_runs()), columns(design.ba_runs()));
+        let (bc, cb) = (columns(design.bc_runs()), columns(design.cb_runs()));
+        let length = place.part_length as usize;
+        let mut parts = Vec::with_capacity(a.len().div_ceil(length));
+        let mut cut: [Vec<&[f64]>; 4] = Default::default();
+        for first in (0..a.len()).step_by(length) {
+            let part = first..(first + length).min(a.len());
+            for (cut, whole) in cut.iter_mut().zip([&ab, &ba, &bc, &cb]) {
+                cut.clear();
+                cut.extend(whole.iter().map(|column| &column[part.clone()]));
+            }
+            let [ab, ba, bc, cb] = cut.each_ref().map(Vec::as_slice);
+            let outputs =
+                BlockOutputs { a: &a[part.clone()], b: &b[part.clone()], ab, ba, bc, cb, paired: design.paired() };
+            parts.push(Moments::of_block(outputs, &mut self.workspace));
+        }
+        if place.keeps_outputs {
+            let runs: Vec<&[f64]> = self.batches.iter().map(|batch| batch.column(output)).collect();
+            totals.point_outputs = PointOutputs::of_block(&runs);
+        }
+        totals.moments = MomentParts::new(place.part_length, a.len() as u64, parts);
+        totals.values = CentralMoments::of(a);
+        totals.values.merge(&CentralMoments::of(b));
+        totals.sample = a.iter().zip(b).take(place.sampled).flat_map(|(a, b)| [*a, *b]).collect();
+        totals
+    }
+}
+
+/// Where a block lies in its design, and what is kept of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BlockPlace {
+    /// The first base point's A.
+    pub first: Place,
+    /// Base points in each part whose moments are kept apart, a power of two.
+    pub part_length: u64,
+    /// How many of its base points, from the first on, belong to the sample.
+    pub sampled: usize,
+    /// Whether all outputs are kept.
+    pub keeps_outputs: bool,
+}
+
+/// Rows of a settled batch with at least one failure.
+fn failed_rows(batch: &Batch) -> u64 {
+    let mut rows: Vec<usize> = batch.failures().iter().map(|&(_, row, _)| row).collect();
+    rows.sort_unstable();
+    rows.dedup();
+    rows.len() as u64
+}

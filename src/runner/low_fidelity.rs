@@ -1,0 +1,234 @@
+//! The runs of cheaper models beside those of a model: at its rows, and at points of their own.
+
+use std::path::Path;
+use std::time::Instant;
+
+use super::growth::longest;
+use super::journal::{self, JournalRequest, OpenJournal};
+use super::{Resume, Runner};
+use crate::analysis::{LowTotals, outputs_kept};
+use crate::design::{Design, DesignSettings, Rows};
+use crate::model::{Model, RunContext};
+use crate::run::{GrowingRun, Job, Piece, RunError, Store};
+use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
+use crate::surrogate::families;
+use crate::surrogate::low_fidelity::OwnOutputs;
+
+/// Apart from the seed of the model's design by this, that of the cheaper models' own points is one that nobody types.
+const OWN_SEED: u64 = 0x6c6f_7720_6669_6465;
+
+/// Base samples of the own design where nothing is said and nothing is to be chosen.
+const OWN_BASE_SAMPLES: u64 = 1 << 14;
+
+/// The same at the start of a run that chooses, at most, and base points of each replicate, at least.
+const FIRST_OWN_BASE_SAMPLES: u64 = 1 << 10;
+const FIRST_OWN_POINTS: u64 = 4;
+
+/// Rows of the own design, at most: their outputs are kept.
+const MOST_OWN_ROWS: u64 = 1 << 22;
+
+/// Largest cost of a run over that of the model itself with which a model counts as cheaper.
+const CHEAPER: f64 = 0.5;
+
+/// What a cheaper model is run for, and where that is kept.
+pub(super) struct LowStudy {
+    name: String,
+    /// Its base samples, if they are not to be chosen.
+    base_samples: Option<u64>,
+    /// At the rows of the model, and at its own.
+    parts: [LowPart; 2],
+}
+
+struct LowPart {
+    study: Study,
+    model: Box<dyn Model>,
+    longest: Design,
+    record: OpenJournal,
+    store: Option<Store>,
+}
+
+impl LowStudy {
+    /// The cheaper models of the study that `runner` runs.
+    pub fn all(runner: &Runner<'_>, context: &RunContext<'_>) -> Result<Vec<Self>, RunError> {
+        runner.study.lows.iter().map(|low| Self::new(runner, low, context)).collect()
+    }
+
+    fn new(runner: &Runner<'_>, low: &LowFidelity, context: &RunContext<'_>) -> Result<Self, RunError> {
+        let study = runner.study;
+        let settings = study.design.settings();
+        let base_samples = match low.base_samples {
+            Some(base_samples) => base_samples,
+            None if study.target.grows() => FIRST_OWN_POINTS * settings.replicates,
+            None => OWN_BASE_SAMPLES,
+        };
+        let own = DesignSettings { base_samples, seed: settings.seed ^ OWN_SEED, ..settings.clone() };
+        let rows = Rows { plain_rows: 0, ..study.design.asked().clone() };
+        let own = Design::new(own, study.design.factors(), rows).map_err(RunError::Design)?;
+        let part = |design: Design, kind: &str| {
+            let mut of_low = study.clone();
+            of_low.subject = low.subject.clone();
+            of_low.design = design;
+            of_low.target = Target::default();
+            of_low.lows = Vec::new();
+            of_low.analysis.surrogate = SurrogateChoice::On;
+            LowPart::new(runner, of_low, &format!("{}-{kind}", crate::names::file_part(&low.name)), context)
+        };
+        let parts = [part(study.design.clone(), "shared")?, part(own, "own")?];
+        Ok(Self { name: low.name.clone(), base_samples: low.base_samples, parts })
+    }
+}
+
+impl LowPart {
+    /// The runs of a program are put on record beside those of the study, as its are.
+    fn new(runner: &Runner<'_>, study: Study, kind: &str, context: &RunContext<'_>) -> Result<Self, RunError> {
+        let model = study.model();
+        let longest = longest(&study.design);
+        let takes_its_time = model.concurrency().is_some();
+        let record = match runner.journal.as_deref().filter(|_| takes_its_time) {
+            None => OpenJournal::none(),
+            Some(path) => {
+                let resume = if runner.resume == Resume::Require { Resume::IfThere } else { runner.resume };
+                let request =
+                    JournalRequest { resume, mixes_models: runner.mixes_models, shard: None, needs_outputs: true };
+                journal::open(&study, &beside(path, kind), request, context.messages())?
+            }
+        };
+        let store = (takes_its_time && record.store().is_none()).then(|| Store::new(&longest, model.as_ref()));
+        Ok(Self { study, model, longest, record, store })
+    }
+
+    fn sink(&self) -> impl Fn(&Piece) -> std::io::Result<()> + Sync + '_ {
+        |piece| self.record.append(piece)
+    }
+}
+
+/// `NAME-KIND.journal` for `NAME.journal`.
+pub(super) fn beside(path: &Path, kind: &str) -> std::path::PathBuf {
+    let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    path.with_file_name(format!("{stem}-{kind}.journal"))
+}
+
+/// Takes the pieces of one part.
+pub(super) type Sink<'a> = Box<dyn Fn(&Piece) -> std::io::Result<()> + Sync + 'a>;
+
+/// The sinks of all parts of `studies`, in order.
+pub(super) fn sinks(studies: &[LowStudy]) -> Vec<Sink<'_>> {
+    studies.iter().flat_map(|study| &study.parts).map(|part| Box::new(part.sink()) as Sink<'_>).collect()
+}
+
+/// The runs of a cheaper model.
+pub(super) struct LowRun<'a> {
+    study: &'a LowStudy,
+    /// At the rows of the model, and at its own, each with the seconds that it took.
+    runs: [(GrowingRun<'a>, f64); 2],
+    /// Its own design as far as it has come, and every output at the rows of that.
+    own: (Design, Vec<Option<OwnOutputs>>),
+}
+
+impl<'a> LowRun<'a> {
+    /// Nothing is run yet.
+    pub fn all(
+        runner: &Runner<'a>,
+        studies: &'a [LowStudy],
+        sinks: &'a [Sink<'a>],
+        context: &'a RunContext<'a>,
+    ) -> Result<Vec<Self>, RunError> {
+        let run = |subject: u64, part: &'a LowPart, sink: &'a Sink<'a>| {
+            let job = Job { design: &part.longest, space: &part.study.space, model: part.model.as_ref() };
+            let run = GrowingRun::new(job, context, runner.threads)?;
+            let run = run.with_outputs_kept(true).with_remote(runner.remote_for(subject));
+            Ok::<_, RunError>(match part.record.store().or(part.store.as_ref()) {
+                Some(store) => (run.with_store(store, part.record.store().map(|_| &**sink as _)), 0.0),
+                None => (run, 0.0),
+            })
+        };
+        let of_study = |(number, (study, sinks)): (usize, (&'a LowStudy, &'a [Sink<'a>]))| {
+            let subject = number as u64 + 1;
+            let [shared, own] = &study.parts;
+            let runs = [run(subject, shared, &sinks[0])?, run(subject, own, &sinks[1])?];
+            Ok(Self { study, runs, own: (own.study.design.clone(), Vec::new()) })
+        };
+        studies.iter().zip(sinks.chunks(2)).enumerate().map(of_study).collect()
+    }
+
+    fn grow(&mut self, part: usize, points: u64) -> Result<(), RunError> {
+        let (run, seconds) = &mut self.runs[part];
+        let start = Instant::now();
+        run.grow_to(points, &|_| ())?;
+        *seconds += start.elapsed().as_secs_f64();
+        self.study.parts[part].record.sync()
+    }
+
+    /// Runs the model at the rows of the model for `points` base points of every replicate.
+    pub fn follow(&mut self, points: u64) -> Result<(), RunError> {
+        self.grow(0, points)
+    }
+
+    /// The first of its own runs, which cost no more than `seconds` if they are chosen.
+    pub fn begin(&mut self, seconds: f64) -> Result<(), RunError> {
+        let design = &self.study.parts[1].study.design;
+        let (points, replicates) = (design.points_per_replicate(), design.settings().replicates);
+        if self.study.base_samples.is_some() || points > FIRST_OWN_POINTS {
+            return self.grow_own(points);
+        }
+        let affordable = |points: u64| {
+            let rows = points * replicates * design.rows_per_point();
+            rows as f64 * self.seconds_per_run() <= seconds && points * replicates <= FIRST_OWN_BASE_SAMPLES
+        };
+        let mut points = points;
+        while affordable(points * 2) {
+            points *= 2;
+        }
+        self.grow_own(points)
+    }
+
+    /// Twice its own runs.
+    pub fn double(&mut self) -> Result<(), RunError> {
+        self.grow_own(self.runs[1].0.points_per_replicate() * 2)
+    }
+
+    fn grow_own(&mut self, points: u64) -> Result<(), RunError> {
+        self.grow(1, points)?;
+        let (run, study) = (&self.runs[1].0, &self.study.parts[1].study);
+        let design = run.design().with_points(run.points_per_replicate()).unwrap_or_else(|_| run.design().clone());
+        let families = families(&study.space);
+        let count = run.totals().first().map_or(0, |totals| totals.outputs.len());
+        let output = |number| OwnOutputs::new(&design, &families, &outputs_kept(run.totals(), number));
+        let outputs = run.install(|| (0..count).map(output).collect());
+        self.own = (design, outputs);
+        Ok(())
+    }
+
+    /// Whether its own runs can be doubled.
+    pub fn can_double(&self) -> bool {
+        let points = self.runs[1].0.points_per_replicate() * 2;
+        let design = &self.study.parts[1].longest;
+        let rows = points * design.settings().replicates * design.rows_per_point();
+        self.study.base_samples.is_none() && rows <= MOST_OWN_ROWS && points <= design.points_per_replicate()
+    }
+
+    /// Seconds of a run at the rows of the model; 0 before any.
+    fn seconds_per_run(&self) -> f64 {
+        let (run, seconds) = &self.runs[0];
+        let design = run.design();
+        let rows = run.points_per_replicate() * design.settings().replicates * design.rows_per_point();
+        seconds / rows.max(1) as f64
+    }
+
+    /// Whether its runs take clearly less than those of the model, which took `seconds` at the same rows.
+    pub fn is_cheaper(&self, seconds: f64) -> bool {
+        self.runs[0].1 <= CHEAPER * seconds
+    }
+
+    /// Seconds that another doubling of its runs at the rows of the model takes, and of its own.
+    pub fn seconds(&self) -> [f64; 2] {
+        [self.runs[0].1, self.runs[1].1]
+    }
+
+    /// What it has found.
+    pub fn totals(&self) -> LowTotals<'_> {
+        let [(shared, _), (own, _)] = &self.runs;
+        let (design, outputs) = &self.own;
+        LowTotals { name: &self.study.name, shared: shared.totals(), design, own: own.totals(), outputs }
+    }
+}

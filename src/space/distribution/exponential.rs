@@ -1,0 +1,81 @@
+//! The exponential distribution.
+
+use super::error::{finite, positive};
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// The distribution of waiting times between events that come by chance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exponential {
+    scale: f64,
+    location: f64,
+}
+
+impl Distribution {
+    /// Exponential with scale `scale` (its standard deviation, and one over the rate), beginning at `location`, 0 for the
+    /// usual one.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// F(x) = 1 - exp(-(x - location) / scale),   quantile(u) = location - scale ln(1 - u)
+    /// mean = location + scale,   sd = scale
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If `scale` is not finite and positive, `location` is not finite, or values overflow.
+    ///
+    /// ```
+    /// use apportion::Distribution;
+    ///
+    /// let wait = Distribution::exponential(2.0, 0.0)?;
+    /// assert_eq!((wait.mean(), wait.median()), (2.0, 2.0 * 2f64.ln()));
+    /// # Ok::<(), apportion::DistributionError>(())
+    /// ```
+    pub fn exponential(scale: f64, location: f64) -> Result<Self, DistributionError> {
+        positive("scale", scale)?;
+        finite("location", location)?;
+        Self::Exponential(Exponential { scale, location }).finite()
+    }
+}
+
+impl Family for Exponential {
+    fn name(&self) -> &'static str {
+        "exponential"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        self.location - self.scale * (-u).ln_1p()
+    }
+
+    fn upper_quantile(&self, v: f64) -> f64 {
+        self.location - self.scale * v.ln()
+    }
+
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let z = ((x - self.location) / self.scale).max(0.0);
+        (-(-z).exp_m1(), (-z).exp())
+    }
+
+    fn mean(&self) -> f64 {
+        self.location + self.scale
+    }
+
+    fn sd(&self) -> f64 {
+        self.scale
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (self.location, f64::INFINITY)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        vec![("scale", self.scale.into()), ("location", self.location.into())]
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        Distribution::exponential(unit.span_to_si(self.scale), unit.to_si(self.location))
+    }
+}

@@ -1,0 +1,199 @@
+//! The histogram: bins of constant density.
+
+use super::discrete::check;
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// Adjoining bins with their probabilities, each of constant density: a piecewise linear distribution function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Histogram {
+    edges: Vec<f64>,
+    weights: Vec<f64>,
+    /// The bins of positive weight.
+    bins: Vec<Bin>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Bin {
+    min: f64,
+    max: f64,
+    probability: f64,
+    /// Probability of the bins before it.
+    before: f64,
+    /// Probability of the bins after it.
+    after: f64,
+}
+
+impl Distribution {
+    /// Bin k reaches from `edges[k]` to `edges[k + 1]` and has a probability proportional to `weights[k]`, as counts and
+    /// edges of `numpy.histogram` do; the density inside a bin is constant.
+    ///
+    /// # Errors
+    ///
+    /// If there are no bins, or not one edge more than weights; an entry is not finite; edges do not rise; a weight is
+    /// negative, or all are 0; or their sum or the moments overflow.
+    ///
+    /// ```
+    /// use apportion::Distribution;
+    ///
+    /// let load = Distribution::histogram(&[0.0, 1.0, 3.0], &[1.0, 3.0])?;
+    /// assert_eq!((load.quantile(0.25), load.median(), load.mean()), (1.0, 1.0 + 2.0 / 3.0, 1.625));
+    /// # Ok::<(), apportion::DistributionError>(())
+    /// ```
+    pub fn histogram(edges: &[f64], weights: &[f64]) -> Result<Self, DistributionError> {
+        if weights.is_empty() || edges.len() != weights.len() + 1 {
+            return Err(DistributionError::Edges { edges: edges.len(), weights: weights.len() });
+        }
+        check("edges", edges)?;
+        check("weights", weights)?;
+        if let Some(index) = (1..edges.len()).find(|&k| edges[k] <= edges[k - 1]) {
+            let (value, before) = (edges[index], edges[index - 1]);
+            return Err(DistributionError::NotRising { list: "edges", index, value, before });
+        }
+        if let Some((index, &value)) = weights.iter().enumerate().find(|(_, weight)| **weight < 0.0) {
+            return Err(DistributionError::NegativeWeight { index, value });
+        }
+        let total: f64 = weights.iter().sum();
+        if total == 0.0 {
+            return Err(DistributionError::ZeroWeights);
+        }
+        let mut before = 0.0;
+        let mut bins: Vec<Bin> = Vec::with_capacity(weights.len());
+        for (edges, weight) in edges.windows(2).zip(weights).filter(|(_, weight)| **weight > 0.0) {
+            let probability = weight / total;
+            bins.push(Bin { min: edges[0], max: edges[1], probability, before: before / total, after: 0.0 });
+            before += weight;
+        }
+        let mut after = 0.0;
+        for bin in bins.iter_mut().rev() {
+            bin.after = after;
+            after += bin.probability;
+        }
+        Self::Histogram(Histogram { edges: edges.to_vec(), weights: weights.to_vec(), bins }).finite()
+    }
+
+    /// The histogram whose bins lie between quantiles that are known: pairs of a probability and the value below which lies
+    /// that share of all values. The distribution function is linear between them.
+    ///
+    /// # Errors
+    ///
+    /// If a probability lies outside [0, 1] or stands twice, 0 or 1 is missing, or values do not rise with the
+    /// probabilities.
+    ///
+    /// ```
+    /// use apportion::Distribution;
+    ///
+    /// let guess = Distribution::histogram_of_quantiles(&[(0.0, 1.0), (0.5, 2.0), (1.0, 5.0)])?;
+    /// assert_eq!((guess.quantile(0.25), guess.quantile(0.75)), (1.5, 3.5));
+    /// # Ok::<(), apportion::DistributionError>(())
+    /// ```
+    pub fn histogram_of_quantiles(quantiles: &[(f64, f64)]) -> Result<Self, DistributionError> {
+        let refused = |found: String| Err(DistributionError::Quantiles { found });
+        let mut quantiles = quantiles.to_vec();
+        quantiles.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((p, _)) = quantiles.iter().find(|(p, _)| !(0.0..=1.0).contains(p)) {
+            return refused(format!("the probability {p}"));
+        }
+        for end in [0.0, 1.0] {
+            if quantiles.iter().all(|(p, _)| *p != end) {
+                return refused(format!("no value for the probability {end}"));
+            }
+        }
+        for pair in quantiles.windows(2) {
+            let [(p, low), (q, high)] = [pair[0], pair[1]];
+            if p == q {
+                return refused(format!("two values for the probability {p}"));
+            }
+            if low >= high {
+                return refused(format!("{low} for the probability {p} and {high} for {q}"));
+            }
+        }
+        let edges: Vec<f64> = quantiles.iter().map(|(_, value)| *value).collect();
+        let weights: Vec<f64> = quantiles.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
+        Self::histogram(&edges, &weights)
+    }
+}
+
+impl Histogram {
+    /// What is left of the bins between two bounds.
+    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
+        let (mut edges, mut weights) = (Vec::new(), Vec::new());
+        for (bin, weight) in self.edges.windows(2).zip(&self.weights) {
+            let (from, to) = (bin[0].max(min), bin[1].min(max));
+            if from < to {
+                if edges.is_empty() {
+                    edges.push(from);
+                }
+                edges.push(to);
+                weights.push(weight * ((to - from) / (bin[1] - bin[0])));
+            }
+        }
+        let nothing = DistributionError::NothingLeft { distribution: "histogram", min, max };
+        if weights.iter().all(|weight| *weight == 0.0) {
+            Err(nothing)
+        } else {
+            Distribution::histogram(&edges, &weights)
+        }
+    }
+
+    fn at(&self, u: f64, v: f64) -> f64 {
+        let place = self.bins.partition_point(|bin| bin.before + bin.probability <= u).min(self.bins.len() - 1);
+        let bin = &self.bins[place];
+        let (below, above) = ((u - bin.before) / bin.probability, (v - bin.after) / bin.probability);
+        let value = if below < above {
+            bin.min + (bin.max - bin.min) * below.max(0.0)
+        } else {
+            bin.max - (bin.max - bin.min) * above.max(0.0)
+        };
+        value.clamp(bin.min, bin.max)
+    }
+}
+
+impl Family for Histogram {
+    fn name(&self) -> &'static str {
+        "histogram"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        self.at(u, 1.0 - u)
+    }
+
+    fn upper_quantile(&self, v: f64) -> f64 {
+        self.at(1.0 - v, v)
+    }
+
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let place = self.bins.partition_point(|bin| bin.max <= x);
+        let Some(bin) = self.bins.get(place) else { return (1.0, 0.0) };
+        let width = bin.max - bin.min;
+        let (low, high) = ((x - bin.min).max(0.0) / width, ((bin.max - x) / width).min(1.0));
+        (bin.before + bin.probability * low, bin.after + bin.probability * high)
+    }
+
+    fn mean(&self) -> f64 {
+        self.bins.iter().map(|bin| bin.probability * (0.5 * bin.min + 0.5 * bin.max)).sum()
+    }
+
+    fn sd(&self) -> f64 {
+        let mean = self.mean();
+        let variance = |bin: &Bin| {
+            let (deviation, width) = (0.5 * bin.min + 0.5 * bin.max - mean, bin.max - bin.min);
+            bin.probability * (deviation * deviation + width * width / 12.0)
+        };
+        self.bins.iter().map(variance).sum::<f64>().sqrt()
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (self.bins[0].min, self.bins[self.bins.len() - 1].max)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        vec![("edges", self.edges.as_slice().into()), ("weights", self.weights.as_slice().into())]
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        let edges: Vec<f64> = self.edges.iter().map(|&edge| unit.to_si(edge)).collect();
+        Distribution::histogram(&edges, &self.weights)
+    }
+}

@@ -1,0 +1,82 @@
+//! The logistic distribution.
+
+use std::f64::consts::PI;
+
+use super::error::{finite, positive};
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// Symmetric like a normal distribution, with longer tails.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Logistic {
+    location: f64,
+    scale: f64,
+}
+
+impl Distribution {
+    /// Logistic with mean `location` and scale `scale`.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// F(x) = 1 / (1 + exp(-(x - location) / scale)),   quantile(u) = location + scale ln(u / (1 - u))
+    /// mean = location,   sd = pi scale / sqrt(3)
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If `location` is not finite, `scale` is not finite and positive, or values overflow.
+    ///
+    /// ```
+    /// use apportion::Distribution;
+    ///
+    /// let logistic = Distribution::logistic(1.0, 2.0)?;
+    /// assert!((logistic.quantile(0.75) - (1.0 + 2.0 * 3f64.ln())).abs() < 1e-15);
+    /// # Ok::<(), apportion::DistributionError>(())
+    /// ```
+    pub fn logistic(location: f64, scale: f64) -> Result<Self, DistributionError> {
+        finite("location", location)?;
+        positive("scale", scale)?;
+        Self::Logistic(Logistic { location, scale }).finite()
+    }
+}
+
+impl Family for Logistic {
+    fn name(&self) -> &'static str {
+        "logistic"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        self.location + self.scale * (u.ln() - (-u).ln_1p())
+    }
+
+    fn upper_quantile(&self, v: f64) -> f64 {
+        self.location - self.scale * (v.ln() - (-v).ln_1p())
+    }
+
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let z = (x - self.location) / self.scale;
+        (1.0 / (1.0 + (-z).exp()), 1.0 / (1.0 + z.exp()))
+    }
+
+    fn mean(&self) -> f64 {
+        self.location
+    }
+
+    fn sd(&self) -> f64 {
+        PI / 3f64.sqrt() * self.scale
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        vec![("location", self.location.into()), ("scale", self.scale.into())]
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        Distribution::logistic(unit.to_si(self.location), unit.span_to_si(self.scale))
+    }
+}

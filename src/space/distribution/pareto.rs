@@ -1,0 +1,97 @@
+//! The Pareto distribution.
+
+use super::error::{positive, refuse_offset};
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// A power law from a least value on: sizes, incomes, losses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pareto {
+    shape: f64,
+    min: f64,
+}
+
+impl Distribution {
+    /// Pareto (of type I) with exponent `shape`, from `min` on.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// F(x) = 1 - (min / x)^shape,   quantile(u) = min (1 - u)^(-1 / shape)
+    /// mean = min shape / (shape - 1),   sd = min / (shape - 1) sqrt(shape / (shape - 2))
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If a parameter is not finite and positive, values overflow, or `shape <= 2`: there is no variance then.
+    ///
+    /// ```
+    /// use apportion::Distribution;
+    ///
+    /// let loss = Distribution::pareto(3.0, 2.0)?;
+    /// assert!((loss.mean() - 3.0).abs() < 1e-15 && (loss.quantile(0.875) - 4.0).abs() < 1e-15);
+    /// # Ok::<(), apportion::DistributionError>(())
+    /// ```
+    pub fn pareto(shape: f64, min: f64) -> Result<Self, DistributionError> {
+        Self::Pareto(Pareto::new(shape, min)?).finite()
+    }
+}
+
+impl Pareto {
+    /// Any shape above 0, which needs an upper bound up to 2.
+    pub(crate) fn new(shape: f64, min: f64) -> Result<Self, DistributionError> {
+        Ok(Self { shape: positive("shape", shape)?, min: positive("min", min)? })
+    }
+
+    /// What is left from `min` on is Pareto too.
+    pub(super) fn beginning_at(&self, min: f64) -> Result<Distribution, DistributionError> {
+        Distribution::pareto(self.shape, min)
+    }
+
+    pub(super) fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
+        let (distribution, parameter, value, least) = ("pareto", "shape", self.shape, 2.0);
+        let error = DistributionError::InfiniteVariance { distribution, parameter, value, least };
+        if self.shape > least { Ok(()) } else { Err(error) }
+    }
+}
+
+impl Family for Pareto {
+    fn name(&self) -> &'static str {
+        "pareto"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        (self.min * (-(-u).ln_1p() / self.shape).exp()).max(self.min)
+    }
+
+    fn upper_quantile(&self, v: f64) -> f64 {
+        (self.min * (-v.ln() / self.shape).exp()).max(self.min)
+    }
+
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let log = -self.shape * ((x - self.min).max(0.0) / self.min).ln_1p();
+        (-log.exp_m1(), log.exp())
+    }
+
+    fn mean(&self) -> f64 {
+        self.min * (self.shape / (self.shape - 1.0))
+    }
+
+    fn sd(&self) -> f64 {
+        self.min / (self.shape - 1.0) * (self.shape / (self.shape - 2.0)).sqrt()
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (self.min, f64::INFINITY)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        vec![("shape", self.shape.into()), ("min", self.min.into())]
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        refuse_offset(self.name(), unit)?;
+        Ok(Distribution::Pareto(Self::new(self.shape, unit.to_si(self.min))?))
+    }
+}

@@ -1,0 +1,145 @@
+//! Student's t distribution.
+
+use super::beta::{Side, tails_of_sides};
+use super::error::{finite, positive, within};
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// Degrees of freedom beyond are refused: fewer mean nothing, with more it is a normal distribution.
+const DEGREES: (f64, f64) = (0.01, 2e5);
+
+/// What one-sided tails of fewer degrees of freedom leave beyond the smallest probabilities shows in the moments.
+const LEAST_OF_ONE_TAIL: f64 = 2.1;
+
+/// Symmetric, with tails that fall by a power: means of few measurements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudentT {
+    df: f64,
+    location: f64,
+    scale: f64,
+    /// I_x(df / 2, 1 / 2) at x = df / (df + t^2), the probability of both tails beyond t, on either side of its split.
+    tails: Side,
+    middle: Side,
+}
+
+impl Distribution {
+    /// Student's t with `df` degrees of freedom, moved to `location` and stretched by `scale`.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// P(|t| > z) = I_x(df / 2, 1 / 2),   x = df / (df + z^2),   value = location + scale t
+    /// mean = location,   sd = scale sqrt(df / (df - 2))
+    /// ```
+    ///
+    /// with `I` the regularised incomplete beta function (Abramowitz and Stegun 1964, 26.7.1), inverted as for
+    /// [`beta`](Self::beta).
+    ///
+    /// # Errors
+    ///
+    /// If `df` lies outside [0.01, 2e5] or is at most 2 (there is no variance then), `location` is not finite, `scale`
+    /// is not finite and positive, or values overflow.
+    ///
+    /// ```
+    /// use apportion::Distribution;
+    ///
+    /// let mean = Distribution::student_t(4.0, 10.0, 0.5)?;
+    /// assert!((mean.quantile(0.975) - (10.0 + 0.5 * 2.7764451051977987)).abs() < 1e-14);
+    /// # Ok::<(), apportion::DistributionError>(())
+    /// ```
+    pub fn student_t(df: f64, location: f64, scale: f64) -> Result<Self, DistributionError> {
+        Self::StudentT(StudentT::new(df, location, scale)?).finite()
+    }
+}
+
+impl StudentT {
+    /// Any degrees of freedom, up to 2 of which need two bounds.
+    pub(crate) fn new(df: f64, location: f64, scale: f64) -> Result<Self, DistributionError> {
+        within("df", df, DEGREES)?;
+        finite("location", location)?;
+        positive("scale", scale)?;
+        let (tails, middle) = (Side::new(df / 2.0, 0.5), Side::new(0.5, df / 2.0));
+        Ok(Self { df, location, scale, tails, middle })
+    }
+
+    pub(super) fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
+        self.refuse_up_to(2.0)
+    }
+
+    /// The same of what a truncation leaves between the bounds.
+    pub(super) fn refuse_one_long_tail(&self, (min, max): (f64, f64)) -> Result<(), DistributionError> {
+        if min.is_finite() && max.is_finite() { Ok(()) } else { self.refuse_up_to(LEAST_OF_ONE_TAIL) }
+    }
+
+    fn refuse_up_to(&self, least: f64) -> Result<(), DistributionError> {
+        let (distribution, parameter, value) = ("student-t", "df", self.df);
+        let error = DistributionError::InfiniteVariance { distribution, parameter, value, least };
+        if self.df > least { Ok(()) } else { Err(error) }
+    }
+
+    /// t beyond which there is the probability `tail`, at most 1/2, on one side; `rest` is 1/2 - `tail`.
+    fn beyond(&self, tail: f64, rest: f64) -> f64 {
+        if tail <= 0.0 {
+            return f64::INFINITY;
+        }
+        if rest <= 0.0 {
+            return 0.0;
+        }
+        let (x, y) = if 2.0 * tail <= self.tails.mass {
+            self.tails.solve(2.0 * tail)
+        } else {
+            let (y, x) = self.middle.solve(2.0 * rest);
+            (x, y)
+        };
+        (self.df * (y / x)).sqrt()
+    }
+
+    /// How far from the location the values are of which the share `tail`, or the rest, lies on one side.
+    fn deviation(&self, tail: f64) -> f64 {
+        self.scale * self.beyond(tail.min(1.0 - tail), (tail - 0.5).abs()).copysign(0.5 - tail)
+    }
+}
+
+impl Family for StudentT {
+    fn name(&self) -> &'static str {
+        "student-t"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        self.location - self.deviation(u)
+    }
+
+    fn upper_quantile(&self, v: f64) -> f64 {
+        self.location + self.deviation(v)
+    }
+
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let z = (x - self.location) / self.scale;
+        let square = z * z / self.df;
+        let (both, _) = tails_of_sides(&self.tails, &self.middle, (1.0 / (1.0 + square), 1.0 / (1.0 + 1.0 / square)));
+        let tail = 0.5 * both;
+        if z < 0.0 { (tail, 1.0 - tail) } else { (1.0 - tail, tail) }
+    }
+
+    fn mean(&self) -> f64 {
+        self.location
+    }
+
+    fn sd(&self) -> f64 {
+        self.scale * (self.df / (self.df - 2.0)).sqrt()
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        vec![("df", self.df.into()), ("location", self.location.into()), ("scale", self.scale.into())]
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        let law = Self::new(self.df, unit.to_si(self.location), unit.span_to_si(self.scale))?;
+        Ok(Distribution::StudentT(law))
+    }
+}

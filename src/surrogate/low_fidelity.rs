@@ -1,0 +1,299 @@
+//! Indices of a dear model by those of a cheaper one.
+//!
+//! The cheaper model g stands in for f together with a surrogate P of what it leaves: h = alpha g + P. Its indices come from
+//! many runs of g at points of their own, and those of f follow from the rows at which both were evaluated: any number Q that
+//! is a mean over base points has Q(f) = Q(h) + mean\[q(f) - q(h)\], the control variates of Qian, Peherstorfer, O'Malley,
+//! Vesselinov and Willcox (2018), "Multifidelity Monte Carlo estimation of variance and sensitivity indices", SIAM/ASA J.
+//! Uncertain. Quantif. 6, 683-706, with the model and not its estimates as the variate. With orthonormal terms phi_a of P,
+//! coefficients b_a, and r_a = E\[phi_a g\],
+//!
+//! - V S_s(h) = alpha^2 V S_s(g) + sum over a within s of (b_a^2 + 2 alpha b_a r_a),
+//!
+//! and alike for total indices and the variance. alpha and P of a net are fitted to the others, and the runs at points of
+//! their own are independent of both, so that a poor cheap model costs accuracy and no honesty.
+
+use rayon::prelude::*;
+
+use super::basis::{Caps, Family, Term};
+use super::corrected::{Contributions, mean_power, values_and_rest};
+use super::fit::Expansion;
+use super::net::Net;
+use super::{
+    Corrected, FEW_HERMITE_DEGREES, cross_fitted, estimates, expansion_without, fewest_points, scaled, sorted_swaps,
+    takes_surrogates,
+};
+use crate::design::Design;
+use crate::estimate::PointOutputs;
+use crate::uncertainty::{Layout, LowFidelityUse, SurrogateEstimates};
+
+/// Rows of the cheaper model up to which its own indices are corrected by surrogates.
+const MOST_FITTED_ROWS: u64 = 1 << 16;
+
+/// Base points of the cheaper model that are worked on at a time.
+const CHUNK: usize = 1 << 13;
+
+/// One output of a cheaper model.
+#[derive(Clone)]
+pub struct LowOutputs<'a> {
+    /// The name of the cheaper model.
+    pub name: &'a str,
+    /// Its outputs at the rows of the dear model, of every replicate.
+    pub shared: Vec<&'a PointOutputs>,
+    /// Its outputs at points of its own.
+    pub own: &'a OwnOutputs,
+}
+
+/// One output of a cheaper model at the rows of a design of its own, whose points are independent of those of the dear model.
+pub struct OwnOutputs {
+    design: Design,
+    /// Mean and standard deviation by which the outputs are scaled.
+    scale: (f64, f64),
+    nets: OwnNets,
+}
+
+enum OwnNets {
+    /// Every net and an expansion fitted to the others.
+    Fitted(Vec<(Net, Expansion)>),
+    /// Scaled outputs of every net and run: too many for a fit, or too few.
+    Kept(Vec<Vec<Vec<f64>>>),
+}
+
+impl OwnOutputs {
+    /// Of every run of `design`; `None` where [`low_fidelity_estimates`] has no use for them.
+    pub fn new(design: &Design, families: &[Family], replicates: &[&PointOutputs]) -> Option<Self> {
+        if !takes_surrogates(design, replicates.len()) {
+            return None;
+        }
+        let (outputs, scale) = scaled(replicates, design.runs().len(), None)?;
+        let caps = Caps::new(families, FEW_HERMITE_DEGREES);
+        let mut nets = Vec::new();
+        if design.rows() <= MOST_FITTED_ROWS {
+            let net = |(number, outputs)| Net::new(design, number as u64, families, caps.degree, outputs);
+            nets = outputs.par_iter().enumerate().map(|(number, outputs)| net((number, outputs))).collect::<Vec<Net>>();
+        }
+        let is_fitted = !nets.is_empty() && nets.iter().all(|net| net.points() >= fewest_points(design));
+        let nets = if is_fitted {
+            let expansions = cross_fitted(&nets, caps, |_, _| ()).into_iter().map(|(_, expansion)| expansion);
+            let expansions: Vec<Expansion> = expansions.collect();
+            OwnNets::Fitted(nets.into_iter().zip(expansions).collect())
+        } else {
+            OwnNets::Kept(outputs)
+        };
+        Some(Self { design: design.clone(), scale, nets })
+    }
+}
+
+/// What stands in for one net of the dear model: slope and constant of the cheaper model, and an expansion of the rest.
+struct StandIn {
+    slope: f64,
+    offset: f64,
+    rest: Expansion,
+}
+
+/// The indices of `layout` from the outputs of every run of `design`, with the cheaper model `low` as a control variate; `None`
+/// where there are too few nets or points, points that are no Sobol' nets, or an output without variance.
+pub fn low_fidelity_estimates(
+    design: &Design,
+    families: &[Family],
+    layout: &Layout,
+    replicates: &[&PointOutputs],
+    low: &LowOutputs<'_>,
+) -> Option<SurrogateEstimates> {
+    if !takes_surrogates(design, replicates.len()) {
+        return None;
+    }
+    let runs = design.runs().len();
+    let (mut f, scale) = scaled(replicates, runs, None)?;
+    let (g, _) = scaled(&low.shared, runs, Some(low.own.scale))?;
+    leave_out_points_that_failed(&mut f, &g);
+    let caps = Caps::new(families, FEW_HERMITE_DEGREES);
+    let net = |number: usize| {
+        let (f, g) = (&f[number], &g[number]);
+        let of_dear = Net::new(design, number as u64, families, caps.degree, f);
+        let good = |run: usize| f[run].iter().zip(&g[run]).filter(|(f, _)| f.is_finite()).map(|(_, g)| *g).collect();
+        let of_cheap = of_dear.with_outputs((0..runs).map(good).collect());
+        (of_dear, of_cheap)
+    };
+    let (dear, cheap): (Vec<Net>, Vec<Net>) =
+        (0..f.len()).into_par_iter().map(net).collect::<Vec<_>>().into_iter().unzip();
+    if dear.iter().any(|net| net.points() < fewest_points(design)) {
+        return None;
+    }
+    let pairs = if layout.second_order { layout.pair_list() } else { Vec::new() };
+    let swaps = sorted_swaps(design);
+    let stand_ins: Vec<StandIn> = (0..dear.len()).into_par_iter().map(|k| stand_in((&dear, &cheap), k, caps)).collect();
+    let nets: Vec<Contributions> = (0..dear.len())
+        .into_par_iter()
+        .map(|k| differences(design, (&dear[k], &cheap[k]), &stand_ins[k], (&swaps, &pairs)))
+        .collect();
+    let of_low = own_contributions(low.own, families, &stand_ins, (&swaps, &pairs));
+    let slope = stand_ins.iter().map(|of| of.slope).sum::<f64>() / stand_ins.len() as f64;
+    let used = LowFidelityUse {
+        name: low.name.to_owned(),
+        slope: slope * (scale.1 / low.own.scale.1),
+        explained: 1.0 - alone(&dear, &cheap, &stand_ins),
+        shared_runs: low.shared.iter().map(|kept| kept.points()).sum::<u64>() * runs as u64,
+        own_runs: low.own.design.rows(),
+    };
+    let expansions = stand_ins.into_iter().map(|of| of.rest).collect();
+    let corrected = Corrected { nets, expansions };
+    let mut all = estimates(&corrected, &of_low, (swaps.len(), pairs.len()), scale);
+    all.low = Some(used);
+    Some(all)
+}
+
+/// Makes those points of `f` not finite at which a run of `g` failed.
+fn leave_out_points_that_failed(f: &mut [Vec<Vec<f64>>], g: &[Vec<Vec<f64>>]) {
+    for (f, g) in f.iter_mut().zip(g) {
+        let points = f.first().map_or(0, Vec::len);
+        for p in 0..points {
+            if !f.iter().chain(g).all(|run| run.get(p).is_some_and(|y| y.is_finite())) {
+                f.iter_mut().for_each(|run| run[p] = f64::NAN);
+            }
+        }
+    }
+}
+
+/// Fitted to all nets but number `k`.
+fn stand_in((dear, cheap): (&[Net], &[Net]), k: usize, caps: Caps<'_>) -> StandIn {
+    let others = |nets: &[Net]| -> Vec<f64> {
+        let of_others = nets.iter().enumerate().filter(|(place, _)| *place != k);
+        of_others.flat_map(|(_, net)| net.outputs.iter().flatten().copied()).collect()
+    };
+    let (f, g) = (others(dear), others(cheap));
+    let (mean_f, mean_g) = (crate::sum::mean(&f), crate::sum::mean(&g));
+    let square: f64 = g.iter().map(|g| (g - mean_g).powi(2)).sum();
+    let product: f64 = f.iter().zip(&g).map(|(f, g)| (f - mean_f) * (g - mean_g)).sum();
+    let slope = if square > 0.0 { product / square } else { 0.0 };
+    let offset = mean_f - slope * mean_g;
+    let left = |(f, g): (&Net, &Net)| f.with_outputs(rest(f, g, slope, offset));
+    let left: Vec<Net> = dear.iter().zip(cheap).map(left).collect();
+    StandIn { slope, offset, rest: expansion_without(&left, k, caps) }
+}
+
+/// f - alpha g - offset at every run and point.
+fn rest(dear: &Net, cheap: &Net, slope: f64, offset: f64) -> Vec<Vec<f64>> {
+    let of_run = |(f, g): (&Vec<f64>, &Vec<f64>)| f.iter().zip(g).map(|(f, g)| f - slope * g - offset).collect();
+    dear.outputs.iter().zip(&cheap.outputs).map(of_run).collect()
+}
+
+/// Share of the variance of the dear model, which is 1, that the cheaper one leaves without any expansion.
+fn alone(dear: &[Net], cheap: &[Net], stand_ins: &[StandIn]) -> f64 {
+    let of_net = |((f, g), of): ((&Net, &Net), &StandIn)| mean_power(&rest(f, g, of.slope, of.offset), 2);
+    dear.iter().zip(cheap).zip(stand_ins).map(of_net).sum::<f64>() / dear.len() as f64
+}
+
+/// What every base point of a net contributes to Q(f) - Q(h), and what is exact of Q(h).
+fn differences(
+    design: &Design,
+    (dear, cheap): (&Net, &Net),
+    stand_in: &StandIn,
+    (swaps, pairs): (&[Vec<usize>], &[(usize, usize)]),
+) -> Contributions {
+    let StandIn { slope, offset, rest: expansion } = stand_in;
+    let left = dear.with_outputs(rest(dear, cheap, *slope, *offset));
+    let (_, e) = values_and_rest(&left, expansion);
+    let f = &dear.outputs;
+    let h: Vec<Vec<f64>> = f.iter().zip(&e).map(|(f, e)| f.iter().zip(e).map(|(f, e)| f - e).collect()).collect();
+    let mean = |columns: &[&Vec<f64>]| {
+        let count = columns.iter().map(|column| column.len()).sum::<usize>().max(1);
+        columns.iter().flat_map(|column| column.iter()).sum::<f64>() / count as f64
+    };
+    let of_runs = |columns: &[Vec<f64>]| mean(&columns.iter().collect::<Vec<_>>());
+    let (mean_f, mean_h) = (of_runs(f), of_runs(&h));
+    let ([f_ab, h_ab], runs) = ([f, &h].map(|of| mean(&[&of[0], &of[1]])), f.len() as f64);
+    let mut all = Contributions::zeros(swaps.len(), pairs.len(), dear);
+    all.residual = (mean_power(&e, 2), mean_power(&e, 4));
+    for p in 0..dear.points() {
+        let square = |(f, h): (&Vec<f64>, &Vec<f64>)| (f[p] - mean_f).powi(2) - (h[p] - mean_h).powi(2);
+        all.variance[p] = f.iter().zip(&h).map(square).sum::<f64>() / runs;
+        all.mean[p] = offset + e.iter().map(|e| e[p]).sum::<f64>() / runs;
+    }
+    for (swap, &ab) in design.ab_runs().iter().enumerate() {
+        let half_square = |y: &[Vec<f64>], p: usize| (y[0][p] - y[ab][p]).powi(2) / 2.0;
+        let product = |y: &[Vec<f64>], mean: f64, p: usize| (y[1][p] - mean) * (y[ab][p] - y[0][p]);
+        for p in 0..dear.points() {
+            all.first_order[swap][p] = product(f, f_ab, p) - product(&h, h_ab, p);
+            all.total[0][swap][p] = half_square(f, p) - half_square(&h, p);
+        }
+    }
+    let (ab, ba) = (design.ab_runs(), design.ba_runs());
+    for (column, &(j, k)) in all.pairs.iter_mut().zip(pairs) {
+        let product = |y: &[Vec<f64>], j: usize, k: usize, p: usize| (y[ba[j]][p] - y[1][p]) * (y[ab[k]][p] - y[0][p]);
+        let both = |y: &[Vec<f64>], p: usize| (product(y, j, k, p) + product(y, k, j, p)) / 2.0;
+        column.iter_mut().enumerate().for_each(|(p, sum)| *sum = both(f, p) - both(&h, p));
+    }
+    all.total[1] = all.total[0].clone();
+    for (term, b) in expansion.terms.iter().zip(&expansion.coefficients) {
+        if term.is_empty() {
+            all.mean.iter_mut().for_each(|mean| *mean += b);
+        } else {
+            all.add_term((swaps, pairs), term, [&|_| b * b; 2]);
+        }
+    }
+    all
+}
+
+/// What every base point of the cheaper model's own runs contributes to Q(h), the mean over all stand-ins.
+fn own_contributions(
+    own: &OwnOutputs,
+    families: &[Family],
+    stand_ins: &[StandIn],
+    (swaps, pairs): (&[Vec<usize>], &[(usize, usize)]),
+) -> Vec<Contributions> {
+    let count = stand_ins.len() as f64;
+    let square_of_slope = stand_ins.iter().map(|of| of.slope * of.slope).sum::<f64>() / count;
+    let slope = stand_ins.iter().map(|of| of.slope).sum::<f64>() / count;
+    // 2 alpha b_a of every term, the mean over the stand-ins.
+    let mut crossed: Vec<(&Term, f64)> = Vec::new();
+    for of in stand_ins {
+        for (term, b) in of.rest.terms.iter().zip(&of.rest.coefficients).filter(|(term, _)| !term.is_empty()) {
+            let weight = 2.0 * of.slope * b / count;
+            match crossed.iter_mut().find(|(known, _)| *known == term) {
+                Some((_, sum)) => *sum += weight,
+                None => crossed.push((term, weight)),
+            }
+        }
+    }
+    let of_chunk = |net: &Net, expansion: &Expansion| {
+        let mut all = Contributions::new(&own.design, net, expansion, swaps, pairs);
+        all.scale(square_of_slope);
+        let (values, e) = values_and_rest(net, expansion);
+        let runs = net.runs() as f64;
+        for (p, mean) in all.mean.iter_mut().enumerate() {
+            *mean = slope * (0..net.runs()).map(|run| values[run][p] + e[run][p]).sum::<f64>() / runs;
+        }
+        let mut column = Vec::new();
+        for (term, weight) in &crossed {
+            let known = expansion.terms.iter().position(|of| of == *term);
+            let mut means = vec![known.map_or(0.0, |place| expansion.coefficients[place]); net.points()];
+            for (run, e) in e.iter().enumerate() {
+                net.fill(term, run, &mut column);
+                means.iter_mut().zip(&column).zip(e).for_each(|((sum, phi), e)| *sum += phi * e / runs);
+            }
+            all.add_term((swaps, pairs), term, [&|p| weight * means[p]; 2]);
+        }
+        all
+    };
+    let outputs = match &own.nets {
+        OwnNets::Fitted(nets) => return nets.par_iter().map(|(net, expansion)| of_chunk(net, expansion)).collect(),
+        OwnNets::Kept(outputs) => outputs,
+    };
+    let degree = crossed.iter().flat_map(|(term, _)| term.iter().map(|(_, degree)| *degree)).max().unwrap_or(1);
+    let nothing = Expansion { terms: vec![Vec::new()], coefficients: vec![0.0] };
+    let of_net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
+        let points = outputs.first().map_or(0, Vec::len);
+        let mut whole: Option<Contributions> = None;
+        for first in (0..points).step_by(CHUNK) {
+            let part: Vec<&[f64]> = outputs.iter().map(|run| &run[first..points.min(first + CHUNK)]).collect();
+            let net = Net::of_points(&own.design, (number as u64, first as u64), families, degree, &part);
+            let part = of_chunk(&net, &nothing);
+            match &mut whole {
+                Some(whole) => whole.append(part),
+                None => whole = Some(part),
+            }
+        }
+        whole
+    };
+    outputs.par_iter().enumerate().filter_map(of_net).collect()
+}

@@ -1,0 +1,178 @@
+//! Surrogates of many outputs of one run. Neighbours whose runs failed at the same points share the polynomials of the points
+//! and the terms, which are chosen for all of them; each has coefficients of its own, and as many terms as the nets that it
+//! leaves out ask for. A thousand outputs then cost some fifty times one.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::basis::{Caps, Family};
+use super::corrected::Contributions;
+use super::fit::{Expansions, Training};
+use super::net::Net;
+use super::{
+    Corrected, Scaled, Trial, estimates, fewest_points, fitted_to_others, scaled, sorted_swaps, surrogate_estimates,
+    takes_surrogates, trials,
+};
+use crate::design::Design;
+use crate::estimate::PointOutputs;
+use crate::uncertainty::{Layout, SurrogateEstimates};
+
+/// Outputs up to which each has terms of its own: what that gains is worth its time.
+const MOST_ALONE: usize = 32;
+
+/// About as many neighbours share their terms. Outputs of a series change slowly along it.
+const NEIGHBOURS: usize = 64;
+
+/// What [`surrogate_estimates`] makes of each of `outputs`, which have the outputs of every replicate; of more than 32 by
+/// terms that neighbours share.
+pub fn surrogates_together(
+    design: &Design,
+    families: &[Family],
+    layout: &Layout,
+    outputs: &[Vec<&PointOutputs>],
+) -> Vec<Option<SurrogateEstimates>> {
+    let alone = |replicates: &Vec<&PointOutputs>| surrogate_estimates(design, families, layout, replicates);
+    let replicates = outputs.first().map_or(0, Vec::len);
+    if outputs.len() <= MOST_ALONE || !takes_surrogates(design, replicates) {
+        return outputs.iter().map(alone).collect();
+    }
+    let all: Vec<Option<Scaled>> =
+        outputs.par_iter().map(|replicates| scaled(replicates, design.runs().len(), None)).collect();
+    // By the points at which all runs have a value.
+    let mut groups: BTreeMap<Vec<Vec<usize>>, Vec<usize>> = BTreeMap::new();
+    for (number, (scaled, _)) in all.iter().enumerate().filter_map(|(number, all)| Some((number, all.as_ref()?))) {
+        groups.entry(scaled.iter().map(|runs| good_points(runs)).collect()).or_default().push(number);
+    }
+    let mut found: Vec<Option<SurrogateEstimates>> = vec![None; outputs.len()];
+    for (good, members) in groups {
+        // Lists of nearly one length.
+        let length = members.len().div_ceil(members.len().div_ceil(NEIGHBOURS));
+        for members in members.chunks(length) {
+            let of_members: Vec<Option<SurrogateEstimates>> = if members.len() <= MOST_ALONE {
+                members.par_iter().map(|&number| alone(&outputs[number])).collect()
+            } else {
+                let scaled: Vec<&Scaled> = members.iter().filter_map(|&number| all[number].as_ref()).collect();
+                of_neighbours((design, families, layout), &good, &scaled)
+            };
+            members.iter().zip(of_members).for_each(|(number, of)| found[*number] = of);
+        }
+    }
+    found
+}
+
+/// The base points at which every run has a value.
+fn good_points(runs: &[Vec<f64>]) -> Vec<usize> {
+    let points = runs.first().map_or(0, Vec::len);
+    (0..points).filter(|&point| runs.iter().all(|run| run[point].is_finite())).collect()
+}
+
+/// Of outputs that have values at the `good` points of every replicate.
+fn of_neighbours(
+    (design, families, layout): (&Design, &[Family], &Layout),
+    good: &[Vec<usize>],
+    outputs: &[&Scaled],
+) -> Vec<Option<SurrogateEstimates>> {
+    if good.iter().any(|points| points.len() < fewest_points(design)) {
+        return vec![None; outputs.len()];
+    }
+    let at_good = |output: &&Scaled| -> Vec<Vec<Vec<f64>>> {
+        let of_replicate = |(runs, good): (&Vec<Vec<f64>>, &Vec<usize>)| {
+            runs.iter().map(|run| good.iter().map(|&point| run[point]).collect()).collect()
+        };
+        output.0.iter().zip(good).map(of_replicate).collect()
+    };
+    let runs: Vec<Vec<Vec<Vec<f64>>>> = outputs.par_iter().map(at_good).collect();
+    let fits: Vec<Fit> =
+        trials(families).into_iter().map(|trial| Fit::new(design, trial, (outputs[0], &runs))).collect();
+    let (swaps, pairs) = (sorted_swaps(design), if layout.second_order { layout.pair_list() } else { Vec::new() });
+    let of_output = |number: usize| {
+        let mut best: Option<Corrected> = None;
+        for Fit { nets, expansions, ratio } in &fits {
+            let expansions: Vec<_> = expansions.iter().map(|of_net| of_net.of_output(number)).collect();
+            let of_net = |((net, runs), expansion): ((&Net, &Vec<Vec<f64>>), _)| {
+                Contributions::new(design, &net.with_outputs(runs.clone()), expansion, &swaps, &pairs)
+            };
+            let nets = nets.iter().zip(&runs[number]).zip(&expansions).map(of_net).collect();
+            best = Corrected::better(best, Corrected { nets, expansions }, *ratio);
+        }
+        Some(estimates(&best?, &[], (swaps.len(), pairs.len()), outputs[number].1))
+    };
+    (0..outputs.len()).into_par_iter().map(of_output).collect()
+}
+
+/// A trial fitted to all outputs: for every net the expansions of the others.
+struct Fit {
+    nets: Vec<Net>,
+    expansions: Vec<Expansions>,
+    ratio: f64,
+}
+
+impl Fit {
+    /// `first` is one of the outputs, all points included; `runs` has all of them at the good ones.
+    fn new(design: &Design, trial: Trial, (first, runs): (&Scaled, &[Vec<Vec<Vec<f64>>>])) -> Self {
+        let caps = Caps::new(&trial.families, trial.hermite_degree);
+        let net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
+            Net::new(design, number as u64, &trial.families, caps.degree, outputs)
+        };
+        let nets: Vec<Net> = first.0.par_iter().enumerate().map(net).collect();
+        let of_net = |number: usize| runs.iter().map(|of_output| of_output[number].as_slice()).collect();
+        let training = nets.iter().enumerate().map(|(number, net)| Training::of_outputs(net, of_net(number)));
+        let training: Vec<Training<'_>> = training.collect();
+        let expansions = fitted_to_others(&nets, &training, caps);
+        drop(training);
+        Self { nets, expansions, ratio: trial.ratio }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{DesignSettings, Rows};
+    use crate::space::Distribution;
+
+    /// Outputs of every run and point of each replicate of `design`.
+    fn kept(design: &Design, f: impl Fn(&[f64]) -> f64) -> Vec<PointOutputs> {
+        let of_replicate = |replicate: u64| {
+            let points = design.points_per_replicate();
+            let of_run = |run: u64| -> Vec<f64> {
+                let at = |point: u64| {
+                    let mut u = vec![0.0; design.factors()];
+                    design.point((replicate * points + point) * design.rows_per_point() + run, &mut u);
+                    f(&u)
+                };
+                (0..points).map(at).collect()
+            };
+            let columns: Vec<Vec<f64>> = (0..design.rows_per_point()).map(of_run).collect();
+            PointOutputs::of_block(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>())
+        };
+        (0..design.settings().replicates).map(of_replicate).collect()
+    }
+
+    #[test]
+    fn outputs_that_share_their_terms_are_as_accurate_as_alone() {
+        let settings = DesignSettings { base_samples: 96, ..DesignSettings::default() };
+        let design = Design::new(settings, 3, Rows::plain((0..3).map(|factor| vec![factor]).collect())).unwrap();
+        let layout =
+            Layout { factors: 3, groups: 0, subsets: 0, dummy: false, estimators: Vec::new(), second_order: false };
+        let uniform = Distribution::uniform(0.0, 1.0).unwrap();
+        let families = vec![Family::new(&uniform); 3];
+        let time = |k: usize| k as f64 / 40.0;
+        let outputs: Vec<Vec<PointOutputs>> = (0..40)
+            .map(|k| kept(&design, |u| (1.0 + u[0] * time(k)).exp() * (1.0 + u[1]) + u[2] * u[2] * (1.0 - time(k))))
+            .collect();
+        let refs: Vec<Vec<&PointOutputs>> = outputs.iter().map(|of| of.iter().collect()).collect();
+        let together = surrogates_together(&design, &families, &layout, &refs);
+        for (k, (of, together)) in refs.iter().zip(&together).enumerate() {
+            let alone = surrogate_estimates(&design, &families, &layout, of).unwrap();
+            let together = together.as_ref().unwrap();
+            assert!(together.explained > 1.0 - 1e-6, "{k}: {} {}", together.explained, alone.explained);
+            for (a, b) in alone.total.iter().zip(&together.total) {
+                assert!((a.estimate - b.estimate).abs() < 1e-4, "{k}: {} {}", a.estimate, b.estimate);
+            }
+        }
+        // Fewer are fitted one by one, to the same bits.
+        let few = surrogates_together(&design, &families, &layout, &refs[..3]);
+        assert_eq!(few[1], surrogate_estimates(&design, &families, &layout, &refs[1]));
+    }
+}

@@ -1,0 +1,4 @@
+//! Accuracy against time, and where accuracy ends.
+
+pub mod extremes;
+pub mod settings;

@@ -1,0 +1,135 @@
+//! What is compared: a study's settings, each at a growing number of base samples.
+
+use crate::design::{Design, DesignError, DesignSettings, Sampler};
+use crate::estimate::Estimator;
+use crate::study::{AnalysisOptions, Rung, Study, SurrogateChoice, Target};
+use crate::uncertainty::IntervalMethod;
+
+/// What varies along a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axis {
+    /// How faithful the model is, with and without surrogates.
+    Fidelity,
+    /// Where points come from.
+    Sampler,
+    /// The formulas of the indices.
+    Estimator,
+}
+
+/// Settings that stay the same while base samples grow.
+#[derive(Debug, Clone)]
+pub(super) struct Curve {
+    /// What it stands for in the comparison.
+    pub axis: Axis,
+    /// The model, as one of several of a ladder.
+    pub rung: Option<Rung>,
+    pub sampler: Sampler,
+    pub estimator: Estimator,
+    pub has_surrogate: bool,
+}
+
+impl Curve {
+    /// All curves of `study`: every rung with and without surrogates, and at its own rung, without surrogates, the other
+    /// samplers and estimators.
+    pub fn all(study: &Study) -> Vec<Self> {
+        let settings = study.design.settings();
+        let own = Self {
+            axis: Axis::Fidelity,
+            rung: None,
+            sampler: settings.sampler,
+            estimator: Estimator::Default,
+            has_surrogate: false,
+        };
+        let rungs = rungs(study);
+        let named = |name: &str| rungs.iter().find(|rung| rung.name == name).cloned();
+        let rung = named(&study.subject.rung_name());
+        let all: Vec<Option<Rung>> =
+            if rungs.is_empty() { vec![None] } else { rungs.iter().cloned().map(Some).collect() };
+        let mut curves = Vec::new();
+        for rung in all {
+            for has_surrogate in [false, true] {
+                curves.push(Self { rung: rung.clone(), has_surrogate, ..own.clone() });
+            }
+        }
+        let samplers = Sampler::ALL.into_iter().filter(|sampler| *sampler != settings.sampler);
+        curves.extend(samplers.map(|sampler| Self { axis: Axis::Sampler, rung: rung.clone(), sampler, ..own.clone() }));
+        let both = |estimator: &Estimator| matches!(estimator.formulas(), (Some(_), Some(_)));
+        let estimators = Estimator::ALL.into_iter().filter(|e| *e != Estimator::Default && both(e));
+        curves.extend(estimators.map(|estimator| Self {
+            axis: Axis::Estimator,
+            rung: rung.clone(),
+            estimator,
+            ..own.clone()
+        }));
+        curves
+    }
+
+    /// Its name beside the others.
+    pub fn name(&self) -> String {
+        let rung = self.rung.as_ref().map_or("the model", |rung| &rung.name);
+        match self.axis {
+            Axis::Fidelity if self.has_surrogate => format!("{rung}, surrogates"),
+            Axis::Fidelity => rung.to_owned(),
+            Axis::Sampler => self.sampler.name().to_owned(),
+            Axis::Estimator => self.estimator.name().to_owned(),
+        }
+    }
+
+    /// `study` with these settings.
+    pub fn study(&self, study: &Study, base_samples: u64, seed: u64) -> Result<Study, DesignError> {
+        let mut variant = study.clone();
+        if let Some(rung) = &self.rung {
+            variant.subject = rung.subject.clone();
+        }
+        let usual = IntervalMethod::default_for(self.sampler);
+        let own = study.analysis.intervals;
+        let intervals = if own.serves(self.sampler) { own } else { usual };
+        let surrogate = if self.has_surrogate { SurrogateChoice::On } else { SurrogateChoice::Off };
+        let estimators = if self.estimator == Estimator::Default { Vec::new() } else { vec![self.estimator] };
+        let analysis =
+            AnalysisOptions { intervals, surrogate, estimators, second_order: false, ..study.analysis.clone() };
+        let replicates = match self.sampler == study.design.settings().sampler {
+            true => study.design.settings().replicates,
+            false => analysis.default_replicates(self.sampler, false),
+        };
+        let settings = DesignSettings { sampler: self.sampler, base_samples, replicates, seed };
+        let rows = crate::study::rows(&analysis, &study.space, 0);
+        variant.design = Design::new(settings, study.design.factors(), rows)?;
+        variant.analysis = analysis;
+        variant.target = Target::default();
+        variant.lows = Vec::new();
+        Ok(variant)
+    }
+
+    /// The lines of a study that ask for them.
+    pub fn lines(&self, base_samples: u64) -> String {
+        let mut lines = String::new();
+        if let Some(rung) = self.rung.as_ref().filter(|rung| !rung.lines.is_empty()) {
+            lines.push_str(&rung.lines);
+        }
+        lines.push_str(&format!("[design]\nsampler = \"{}\"\nbase_samples = {base_samples}\n", self.sampler.name()));
+        let surrogate = if self.has_surrogate { SurrogateChoice::On } else { SurrogateChoice::Off };
+        lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", surrogate.name()));
+        if self.estimator != Estimator::Default {
+            lines.push_str(&format!("estimators = [\"{}\"]\n", self.estimator.name()));
+        }
+        lines
+    }
+}
+
+/// The rungs of the model, or the model and its cheaper ones, the cheapest first; none if there is one model alone.
+pub(super) fn rungs(study: &Study) -> Vec<Rung> {
+    let ladder = study.subject.rungs();
+    if !ladder.is_empty() || study.lows.is_empty() {
+        return ladder;
+    }
+    let of_low = |low: &crate::study::LowFidelity| Rung {
+        name: low.name.clone(),
+        subject: low.subject.clone(),
+        lines: format!("# the cheaper model `{}` in the place of the model\n", low.name),
+        is_finest: false,
+    };
+    let own =
+        Rung { name: study.subject.rung_name(), subject: study.subject.clone(), lines: String::new(), is_finest: true };
+    study.lows.iter().rev().map(of_low).chain([own]).collect()
+}

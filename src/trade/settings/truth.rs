@@ -1,0 +1,58 @@
+//! What errors are measured from.
+
+use std::time::Instant;
+
+use super::curve::rungs;
+use super::{SettingsJob, TruthFound};
+use crate::run::RunError;
+use crate::study::Target;
+
+/// The half width that a reference strives for.
+const FINEST: f64 = 1e-6;
+
+/// First-order and total index of every factor, of every output that has some.
+type Indices = Vec<[f64; 2]>;
+
+pub(super) struct Truth {
+    pub outputs: Vec<Option<Indices>>,
+    pub found: TruthFound,
+}
+
+impl Truth {
+    /// The exact indices if the study's function has some, else those of a run of the finest model of so many seconds.
+    pub fn new(job: &SettingsJob<'_>, seconds: f64) -> Result<Self, RunError> {
+        let study = job.study;
+        if let Some((first, total)) = study.subject.exact_indices(&study.space) {
+            let indices = first.into_iter().zip(total).map(|(first, total)| [first, total]).collect();
+            let found =
+                TruthFound { words: "the exact indices of the function".to_owned(), error: 0.0, runs: 0, seconds: 0.0 };
+            return Ok(Self { outputs: vec![Some(indices)], found });
+        }
+        let mut finest = study.clone();
+        let rung = rungs(study).into_iter().rfind(|rung| rung.is_finest);
+        let name = rung.as_ref().map_or_else(|| "the model".to_owned(), |rung| rung.name.clone());
+        if let Some(rung) = rung {
+            finest.subject = rung.subject;
+        }
+        let budget = study.target.budget.map_or(seconds, |budget| budget.min(seconds));
+        finest.target = Target::accuracy(FINEST).budget(budget);
+        finest.analysis.second_order = false;
+        finest.analysis.estimators = Vec::new();
+        let start = Instant::now();
+        let mut runner = finest.runner().threads(job.threads);
+        if let Some(stop) = job.stop {
+            runner = runner.stop(stop);
+        }
+        let analysis = runner.run()?;
+        let widths = analysis.outputs.iter().filter_map(|output| output.indices.as_ref().ok());
+        let error = widths.map(|indices| indices.largest_half_width().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
+        let of_output = |output: &crate::OutputAnalysis| {
+            let indices = output.indices.as_ref().ok()?;
+            Some(indices.factors.iter().map(|f| [f.first_order.estimate, f.total.estimate]).collect())
+        };
+        let runs = analysis.spending.as_ref().map_or(analysis.design.rows(), |spending| spending.runs);
+        let words = format!("a run of {name} with {} base samples", analysis.design.settings().base_samples);
+        let found = TruthFound { words, error, runs, seconds: start.elapsed().as_secs_f64() };
+        Ok(Self { outputs: analysis.outputs.iter().map(of_output).collect(), found })
+    }
+}

@@ -1,0 +1,231 @@
+//! Cheaper models and runs that choose: right, unbiased, the same bits again, and refused with reasons.
+
+use std::path::Path;
+
+use apportion::report::{ResultFile, read_result};
+use apportion::{Distribution, Study, Target, function_model};
+
+use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
+
+/// Ishigami's function with a = 5 and the cheaper one of Qian et al. (2018), section 4.1.
+const PAIR: &str = "model = \"expression\"\n[expression]\noutputs.y = \"sin(x1) + 5*sin(x2)^2 + 0.1*x3^4*sin(x1)\"\n\
+    [[factor]]\nname = \"x1\"\nmin = -3.141592653589793\nmax = 3.141592653589793\n\
+    [[factor]]\nname = \"x2\"\nmin = -3.141592653589793\nmax = 3.141592653589793\n\
+    [[factor]]\nname = \"x3\"\nmin = -3.141592653589793\nmax = 3.141592653589793\n\
+    [fidelity]\nlow = [{ name = \"coarse\", expression = { outputs = { y = \"sin(x1) + 3*sin(x2)^2 + 0.9*x3^2*sin(x1)\" } } }]\n\
+    base_samples = 1024\n[design]\nbase_samples = 64\n";
+
+fn study(text: &str, more: &[&str]) -> Study {
+    let overrides: Vec<String> = more.iter().map(|text| (*text).to_owned()).collect();
+    Study::parse(text, Path::new("fidelity.toml"), &overrides).unwrap()
+}
+
+/// First-order and total indices of the first output.
+fn numbers(study: &Study, threads: usize) -> Vec<f64> {
+    let result = study.runner().threads(threads).run().unwrap();
+    let indices = result.outputs[0].indices.as_ref().unwrap();
+    indices.factors.iter().flat_map(|f| [f.first_order.estimate, f.total.estimate]).collect()
+}
+
+#[test]
+fn a_cheaper_model_of_steps_takes_most_of_the_error_away_without_bias() {
+    // Products of steps, which no polynomial explains: V_i = (2/3) c^2/(1 + c)^2 of 1 + c floor(3 x).
+    let c = [0.8, 0.5, 0.3];
+    let product =
+        |c: [f64; 3]| (0..3).map(|i| format!("(1 + {}*floor(3*x{}))", c[i], i + 1)).collect::<Vec<_>>().join("*");
+    let factors: String = (1..=3).map(|i| format!("[[factor]]\nname = \"x{i}\"\nmin = 0\nmax = 1\n")).collect();
+    let base = format!("model = \"expression\"\n[expression]\noutputs.y = \"{}\"\n{factors}", product(c));
+    let low = format!(
+        "[fidelity]\nlow = [{{ name = \"low\", expression = {{ outputs = {{ y = \"{}\" }} }} }}]\nbase_samples = 4096\n",
+        product([0.75, 0.55, 0.3])
+    );
+    let parts: Vec<f64> = c.iter().map(|c: &f64| (2.0 / 3.0) * c * c / (1.0 + c).powi(2)).collect();
+    let variance: f64 = parts.iter().map(|v| 1.0 + v).product::<f64>() - 1.0;
+    let exact: Vec<f64> =
+        parts.iter().flat_map(|v| [v / variance, v / (1.0 + v) * (variance + 1.0) / variance]).collect();
+    const SEEDS: usize = 24;
+    let errors = |text: &str| -> Vec<Vec<f64>> {
+        let of_seed = |seed: usize| {
+            let found = numbers(&study(text, &[&format!("design.seed={seed}"), "design.base_samples=64"]), 1);
+            found.iter().zip(&exact).map(|(found, exact)| found - exact).collect()
+        };
+        (0..SEEDS).map(of_seed).collect()
+    };
+    let square = |errors: &[Vec<f64>]| errors.iter().flatten().map(|e| e * e).sum::<f64>();
+    let (with, without) = (errors(&format!("{base}{low}")), errors(&base));
+    assert!(10.0 * square(&with) < square(&without), "{} {}", square(&with), square(&without));
+    for place in 0..exact.len() {
+        let column: Vec<f64> = with.iter().map(|errors| errors[place]).collect();
+        let mean = column.iter().sum::<f64>() / SEEDS as f64;
+        let sd = (column.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / (SEEDS - 1) as f64).sqrt();
+        // One in 30,000 indices has its mean further away.
+        assert!(mean.abs() < 4.5 * sd / (SEEDS as f64).sqrt(), "index {place}: {mean} {sd}");
+    }
+}
+
+#[test]
+fn the_truth_lies_within_and_the_bits_are_those_of_any_threads() {
+    let (a, b, pi) = (5.0, 0.1, std::f64::consts::PI);
+    let v1 = 0.5 * (1.0 + b * pi.powi(4) / 5.0_f64).powi(2);
+    let (v2, v13) = (a * a / 8.0, b * b * pi.powi(8) * (1.0 / 18.0 - 1.0 / 50.0));
+    let v = v1 + v2 + v13;
+    let exact = [v1 / v, (v1 + v13) / v, v2 / v, v2 / v, 0.0, v13 / v];
+    let study = study(PAIR, &[]);
+    let (one, two) = (numbers(&study, 1), numbers(&study, 2));
+    assert_eq!(one, two);
+    for (found, exact) in one.iter().zip(exact) {
+        assert!((found - exact).abs() < 1e-4, "{one:?}");
+    }
+    let result = study.run().unwrap();
+    let used = result.outputs[0].indices.as_ref().unwrap().surrogate.clone().unwrap();
+    let json = ResultFile::new(&study, &result);
+    assert_eq!(json.lows.len(), 1);
+    assert_eq!((json.lows[0].shared_runs, json.lows[0].own_runs), (64 * 5, 1024 * 5));
+    assert!(used.corrects_total && used.gain_total.unwrap() > 100.0, "{used:?}");
+}
+
+#[test]
+fn a_cheaper_model_that_is_the_model_leaves_nothing_to_it() {
+    let model = || function_model("y", |x| (3.0 * x[0]).floor() * (1.0 + x[1]) + f64::from(u8::from(x[1] > 0.37)));
+    let builder = |low: bool| {
+        let builder = Study::builder("same", model())
+            .factor("a", Distribution::uniform(0.0, 1.0).unwrap())
+            .factor("b", Distribution::uniform(0.0, 1.0).unwrap())
+            .base_samples(if low { 16 } else { 1 << 14 });
+        if low { builder.low_fidelity("the same", model(), Some(1 << 14)) } else { builder }.build().unwrap()
+    };
+    // The points of the cheaper model are others, with errors of their own.
+    for (found, other) in numbers(&builder(true), 1).iter().zip(numbers(&builder(false), 1)) {
+        assert!((found - other).abs() < 2e-3, "{found} {other}");
+    }
+    let result = builder(true).run().unwrap();
+    let used = result.outputs[0].indices.as_ref().unwrap().surrogate.clone().unwrap();
+    assert!(used.low.as_ref().is_some_and(|low| (low.slope - 1.0).abs() < 1e-9 && low.explained > 1.0 - 1e-9));
+}
+
+#[test]
+fn rows_on_which_the_cheaper_model_fails_are_left_out() {
+    let low = "sin(x1) + 3*sin(x2)^2 + 0.9*x3^2*sin(x1) + 0*sqrt(x3 + 3.1)";
+    let text = PAIR.replace("sin(x1) + 3*sin(x2)^2 + 0.9*x3^2*sin(x1)", low);
+    let result = study(&text, &[]).run().unwrap();
+    let indices = result.outputs[0].indices.as_ref().unwrap();
+    assert!((indices.factors[1].total.estimate - 0.29).abs() < 0.02, "{:?}", indices.factors[1].total);
+}
+
+#[test]
+fn an_accuracy_is_kept_and_its_lines_make_the_same_run_again() {
+    let folder = Folder::new();
+    let study = study_path("lugre-environmental");
+    let out = folder.path("out");
+    let run = |more: &[&str], out: &Path| {
+        let arguments = ["run", text(&study), "--set", "afm.fidelity=dynamic", "--charts", "none", "--out", text(out)];
+        succeed(&[&arguments[..], more].concat());
+        read_result(&out.join("lugre-environmental.json")).unwrap()
+    };
+    let first = run(&["--accuracy", "0.01"], &out);
+    let spending = first.spending.clone().unwrap();
+    assert_eq!((spending.accuracy, first.stopping.as_ref().unwrap().target_met), (0.01, Some(true)));
+    assert!(spending.plain_runs.unwrap() > 10 * spending.runs, "{spending:?}");
+    for index in first.outputs[0].indices.as_ref().unwrap() {
+        let of = &index.effect.first_order;
+        assert!(of.high.unwrap() - of.low.unwrap() <= 0.02, "{index:?}");
+    }
+    let mut lines: Vec<String> = Vec::new();
+    let mut table = "";
+    for line in spending.lines.lines() {
+        match line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
+            Some(name) => table = name,
+            None => lines.extend(["--set".to_owned(), format!("{table}.{}", line.replace(' ', ""))]),
+        }
+    }
+    let lines: Vec<&str> = lines.iter().map(String::as_str).collect();
+    let again = run(&lines, &folder.path("again"));
+    assert_eq!(first.outputs[0].indices, again.outputs[0].indices);
+}
+
+#[test]
+fn an_accurate_run_of_a_program_goes_on_where_it_was() {
+    let folder = Folder::new();
+    let program = folder.with(
+        "wing.py",
+        "import sys\nnext(sys.stdin)\nfor line in sys.stdin:\n    a, b, c = (float(x) for x in line.split(','))\n    \
+         print(a * a + b * c + 1, flush=True)\n",
+    );
+    let file = folder.with(
+        "wing.toml",
+        format!(
+            "model = \"command\"\ncommand = [\"python3\", {:?}]\noutputs.y = \"1\"\naccuracy = 0.001\n[[factor]]\nname = \"a\"\n\
+             min = 0\nmax = 1\n[[factor]]\nname = \"b\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"c\"\nmin = 0\nmax = 1\n",
+            text(&program)
+        ),
+    );
+    let out = folder.path("out");
+    let run = || {
+        let said = apportion(&["run", text(&file), "--charts", "none", "--out", text(&out)]);
+        assert_eq!(said.status.code(), Some(0), "{}", stderr(&said));
+        (read_result(&out.join("wing.json")).unwrap(), stderr(&said))
+    };
+    let (first, _) = run();
+    let (second, _) = run();
+    assert_eq!(first.outputs[0].indices, second.outputs[0].indices);
+    let spending = first.spending.unwrap();
+    assert!(spending.runs <= 200, "{spending:?}");
+    assert!(out.join("wing-split.journal").is_file());
+    // a^2 has variance 4/45, b c 7/144.
+    let (own, pair) = (4.0 / 45.0, 7.0 / 144.0);
+    let found = first.outputs[0].indices.as_ref().unwrap()[0].effect.total.estimate;
+    assert!((found - own / (own + pair)).abs() < 0.001, "{found}");
+}
+
+#[test]
+fn quick_models_are_doubled_without_surrogates() {
+    let product = function_model("y", |x| x[0] * x[1]);
+    let study = Study::builder("product", product)
+        .factor("a", Distribution::uniform(1.0, 2.0).unwrap())
+        .factor("b", Distribution::uniform(1.0, 5.0).unwrap())
+        .until(Target::accuracy(0.002))
+        .build()
+        .unwrap();
+    let result = study.run().unwrap();
+    let spending = result.spending.as_ref().unwrap();
+    assert!(result.stopped.as_ref().unwrap().target_met == Some(true) && !spending.reasons.is_empty());
+    let total = result.output("y").unwrap().factor("a").unwrap().total;
+    assert!((total.estimate - (27.0 + 4.0) / 139.0).abs() < 0.002, "{total:?}");
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_its_reason() {
+    let folder = Folder::new();
+    let refused = |text_of_study: &str, more: &[&str], words: &str| {
+        let file = folder.with("refused.toml", text_of_study);
+        let said = apportion(&[&["check", text(&file)], more].concat());
+        assert_eq!(said.status.code(), Some(2), "{words}: {}", stderr(&said));
+        assert!(stderr(&said).contains(words), "{}", stderr(&said));
+    };
+    let ishigami = "model = \"ishigami\"\n";
+    refused(&format!("accuracy = -1\n{ishigami}"), &[], "a number above 0");
+    refused(&format!("accuracy = 0.1\n{ishigami}[design]\nbase_samples = 64\n"), &[], "chooses its design");
+    refused(&format!("accuracy = 0.1\n{ishigami}[design]\nsampler = \"latin-hypercube\"\n"), &[], "cannot grow");
+    refused(&format!("{ishigami}[fidelity]\nlow = [\"coarse\"]\n"), &[], "a table");
+    refused(
+        "[fidelity]\nlow = [\"closed\"]\n[afm]\nfidelity = \"dynamic\"\n[[factor]]\nname = \"length\"\nmin = 200\nmax = 700\nunit = \"um\"\n",
+        &[],
+        "closed-form",
+    );
+    refused(&PAIR.replace("{ y = \"sin(x1) + 3", "{ z = \"sin(x1) + 3"), &[], "must be those of the model");
+    refused(&PAIR.replace("name = \"coarse\", ", ""), &[], "name of a cheaper model");
+    refused(&PAIR.replace("3*sin(x2)^2 +", "3*sin(x2^2 +"), &[], "cheaper model `coarse`");
+}
+
+#[test]
+fn one_way_to_size_a_run_takes_the_place_of_another() {
+    let path = study_path("ishigami");
+    let loaded = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+        Study::load(&path, &overrides).unwrap()
+    };
+    assert!(loaded(&["accuracy=0.01"]).target().is_free);
+    assert_eq!(loaded(&["accuracy=0.01", "design.base_samples=64"]).target(), Target::default());
+    let split = loaded(&["design.budget_runs=200"]);
+    assert!(split.design().plain_rows() > 0 && split.design().rows() <= 200);
+}

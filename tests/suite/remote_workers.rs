@@ -1,0 +1,172 @@
+//! Workers elsewhere, here threads behind channels: the same bits, and an end in order.
+
+use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+use apportion::report::ResultFile;
+use apportion::study::Study;
+use apportion::{RemoteWorkers, Requests, RunContext, RunError, WorkerStudy};
+
+use crate::common::study_path;
+#[cfg(not(feature = "mpi"))]
+use crate::common::{stderr, text};
+
+type Line = (Mutex<Sender<Vec<u8>>>, Mutex<Receiver<Vec<u8>>>);
+
+struct Elsewhere {
+    lines: Vec<Line>,
+    stop: AtomicBool,
+}
+
+impl RemoteWorkers for Elsewhere {
+    fn count(&self) -> usize {
+        self.lines.len()
+    }
+
+    fn send(&self, worker: usize, request: Vec<u8>) -> io::Result<()> {
+        let line = self.lines[worker].0.lock().unwrap_or_else(PoisonError::into_inner);
+        line.send(request).map_err(|_| io::ErrorKind::BrokenPipe.into())
+    }
+
+    fn receive(&self, worker: usize, patience: Duration) -> io::Result<Option<Vec<u8>>> {
+        match self.lines[worker].1.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(patience) {
+            Ok(answer) => Ok(Some(answer)),
+            Err(RecvTimeoutError::Timeout) => Ok(None),
+            Err(RecvTimeoutError::Disconnected) => Err(io::ErrorKind::BrokenPipe.into()),
+        }
+    }
+
+    fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+}
+
+/// The requests to one worker, and how many it answers before it is lost.
+struct Queue(Receiver<Vec<u8>>, Sender<Vec<u8>>, usize);
+
+impl Requests for Queue {
+    fn next(&mut self) -> Option<Vec<u8>> {
+        self.2 = self.2.checked_sub(1)?;
+        self.0.recv().ok()
+    }
+
+    fn answer(&mut self, answer: Vec<u8>) {
+        let _ = self.1.send(answer);
+    }
+}
+
+/// What `run` returns with so many workers elsewhere, each of which answers so many requests.
+fn with_workers<R>(study: &Study, workers: usize, answers: usize, run: impl FnOnce(&Elsewhere) -> R) -> R {
+    let far = WorkerStudy::new(study.clone());
+    let stop = AtomicBool::new(false);
+    let context = RunContext::new(Some(&stop), |_| ());
+    std::thread::scope(|scope| {
+        let mut lines = Vec::new();
+        for _ in 0..workers {
+            let ((requests, queue), (sender, heard)) = (channel(), channel());
+            lines.push((Mutex::new(requests), Mutex::new(heard)));
+            let (far, context) = (&far, &context);
+            scope.spawn(move || far.serve(context, &mut Queue(queue, sender, answers)));
+        }
+        run(&Elsewhere { lines, stop: AtomicBool::new(false) })
+    })
+}
+
+fn load(name: &str, overrides: &[&str]) -> Study {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Study::load(&study_path(name), &overrides).unwrap()
+}
+
+fn json(study: &Study, analysis: &apportion::Analysis) -> serde_json::Value {
+    let mut json = serde_json::to_value(ResultFile::new(study, analysis)).unwrap();
+    ["threads", "wall_seconds"].iter().for_each(|key| drop(json["provenance"].as_object_mut().unwrap().remove(*key)));
+    json
+}
+
+#[test]
+fn workers_elsewhere_change_no_bit() {
+    let dynamic = "afm.fidelity=dynamic";
+    for (name, overrides) in [
+        ("ishigami", &["design.base_samples=70000"][..]),
+        ("ishigami", &["design.base_samples=3000", "design.replicates=3"]),
+        ("ishigami", &["design.base_samples=2048", "analysis.intervals=percentile", "design.sampler=random"]),
+        ("sobol-g-target", &[]),
+        ("flood", &["design.base_samples=4096"]),
+        ("lugre-environmental", &[dynamic, "design.base_samples=32"]),
+    ] {
+        let study = load(name, overrides);
+        let alone = json(&study, &study.run().unwrap());
+        for workers in [1, 3] {
+            let together = with_workers(&study, workers, usize::MAX, |far| {
+                study.runner().threads(1).remote_workers(far).run().unwrap()
+            });
+            assert!(json(&study, &together) == alone, "{name} {overrides:?}, {workers} workers elsewhere");
+        }
+    }
+}
+
+#[test]
+fn sums_on_record_are_gone_on_with_by_workers_elsewhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let journal = folder.path().join("sums.journal");
+    let study = load("ishigami", &["design.base_samples=4194304"]);
+    let expected = json(&study, &study.run().unwrap());
+    let stop = AtomicBool::new(false);
+    let enough = |progress: apportion::run::Progress| stop.store(progress.done > 10_000_000, Ordering::Relaxed);
+    let stopped = with_workers(&study, 2, usize::MAX, |far| {
+        let runner = study.runner().threads(1).remote_workers(far).on_progress(enough);
+        runner.stop(&stop).journal(&journal).run()
+    });
+    assert!(matches!(stopped, Err(RunError::Interrupted { .. })), "{stopped:?}");
+    let recorded = study.runner().journal(&journal).recorded_runs().unwrap();
+    assert!(recorded > 1_000_000, "{recorded} runs on record");
+    let resumed = with_workers(&study, 3, usize::MAX, |far| {
+        study.runner().threads(1).remote_workers(far).journal(&journal).run().unwrap()
+    });
+    assert!(json(&study, &resumed) == expected);
+}
+
+#[test]
+fn a_lost_worker_ends_the_run() {
+    let study = load("ishigami", &["design.base_samples=1048576"]);
+    let lost = with_workers(&study, 2, 3, |far| study.runner().threads(1).remote_workers(far).run());
+    let message = lost.unwrap_err().to_string();
+    assert!(message.starts_with("the worker number ") && message.contains("in another process is lost"), "{message}");
+}
+
+/// The exit code of a run that sees these variables, and what it said.
+#[cfg(not(feature = "mpi"))]
+fn started_with(variables: &[(&str, &str)]) -> (Option<i32>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin!("apportion"));
+    command.args(["run", text(&study_path("ishigami")), "--out", text(folder.path()), "--base-samples", "64"]);
+    let output = command.envs(variables.iter().copied()).output().unwrap();
+    let has_result = folder.path().join("ishigami.json").exists();
+    assert_eq!(has_result, output.status.success());
+    (output.status.code(), stderr(&output))
+}
+
+/// Every rank of a program without MPI would write the same files.
+#[cfg(not(feature = "mpi"))]
+#[test]
+fn a_program_without_mpi_refuses_to_run_on_ranks() {
+    let launchers = [
+        ("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"),
+        ("PMI_SIZE", "PMI_RANK"),
+        ("MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK"),
+        ("SLURM_NTASKS", "PMIX_RANK"),
+    ];
+    for (size, rank) in launchers {
+        let (code, said) = started_with(&[(size, "3"), (rank, "0")]);
+        assert_eq!(code, Some(2), "{said}");
+        assert!(said.contains("started as 3 ranks of an MPI job") && said.contains("--features mpi"), "{said}");
+        // The first rank speaks for all.
+        assert_eq!(started_with(&[(size, "3"), (rank, "2")]), (Some(2), String::new()));
+        assert_eq!(started_with(&[(size, "1"), (rank, "0")]).0, Some(0));
+        assert_eq!(started_with(&[(size, "3"), (rank, "0"), ("APPORTION_MPI", "off")]).0, Some(0));
+    }
+    assert_eq!(started_with(&[("SLURM_NTASKS", "3")]).0, Some(0));
+}

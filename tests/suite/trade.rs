@@ -1,0 +1,73 @@
+//! `apportion trade`: settings against each other.
+
+use apportion::Study;
+use apportion::trade::settings::SettingsFile;
+
+use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
+
+fn compared(study: &std::path::Path, out: &std::path::Path, more: &[&str]) -> SettingsFile {
+    let arguments = ["trade", text(study), "--seconds", "4", "--seeds", "1", "--out", text(out)];
+    succeed(&[&arguments[..], more].concat());
+    let name = study.file_stem().unwrap().to_str().unwrap();
+    serde_json::from_str(&std::fs::read_to_string(out.join(format!("{name}-trade.json"))).unwrap()).unwrap()
+}
+
+#[test]
+fn a_function_with_exact_indices_is_compared_with_these() {
+    let folder = Folder::new();
+    let out = folder.path("out");
+    let file = compared(&study_path("ishigami"), &out, &[]);
+    assert_eq!((file.truth.error, file.truth.runs), (Some(0.0), 0));
+    let curve = |name: &str| file.settings.iter().filter(|of| of.curve == name).collect::<Vec<_>>();
+    let (plain, fitted) = (curve("the model"), curve("the model, surrogates"));
+    assert!(plain.len() >= 2 && !fitted.is_empty() && !curve("random").is_empty() && !curve("jansen").is_empty());
+    // 16 base samples tell nothing of Ishigami's function, a thousand do.
+    assert!(plain[0].error.unwrap() > 0.1 && plain[0].runs == 16 * 5);
+    let cheapest = file.advice[0].setting.unwrap();
+    assert!(file.settings[cheapest].error.unwrap() <= 0.1 && file.settings[cheapest].is_on_front);
+    // The lines are those of a study.
+    let study = format!("model = \"ishigami\"\n{}", file.settings[cheapest].lines);
+    let study = Study::parse(&study, std::path::Path::new("pasted.toml"), &[]).unwrap();
+    assert_eq!(study.design().settings().base_samples, file.settings[cheapest].base_samples);
+    let files = all_files(&out);
+    for name in
+        ["ishigami-trade.html", "ishigami-trade.csv", "charts/ishigami-trade.svg", "charts/ishigami-trade-formulas.svg"]
+    {
+        assert!(files.contains(name), "{files:?}");
+    }
+}
+
+#[test]
+fn the_rungs_of_a_ladder_are_compared_with_the_finest() {
+    let folder = Folder::new();
+    let file = compared(&study_path("lugre-environmental"), &folder.path("out"), &["--charts", "none"]);
+    assert!(
+        file.truth.error.unwrap() > 0.0 && file.truth.words.contains("dynamic, tolerance 1e-9"),
+        "{:?}",
+        file.truth
+    );
+    let page = std::fs::read_to_string(folder.path("out/lugre-environmental-trade.html")).unwrap();
+    assert!(page.contains("What the rungs cost"));
+    let (march, long) = ("fixed-step, step 1e-5 s", "dynamic, tolerance 1e-3");
+    for rung in ["closed-form", "quasi-static", "fixed-step", march, long, "dynamic"] {
+        assert!(file.settings.iter().any(|of| of.curve == rung && of.error.is_some()), "{rung}");
+    }
+    let marched = file.settings.iter().find(|of| of.curve == march).unwrap();
+    assert!(marched.lines.contains("fidelity = \"fixed-step\"\nstep = \"1e-5 s\""), "{}", marched.lines);
+    let pasted = file.settings.iter().find(|of| of.curve == "dynamic, tolerance 1e-3").unwrap();
+    assert!(pasted.lines.contains("fidelity = \"dynamic\"\ntolerance = 1e-3"), "{}", pasted.lines);
+}
+
+#[test]
+fn options_that_contradict_each_other_are_refused() {
+    let study = study_path("ishigami");
+    for (more, words) in [
+        (&["--quick", "--seconds", "3"][..], "--seconds"),
+        (&["--seconds", "0"], "above 0"),
+        (&["--extremes", "--quick"], "--quick"),
+    ] {
+        let said = apportion(&[&["trade", text(&study)], more].concat());
+        assert_eq!(said.status.code(), Some(2), "{}", stderr(&said));
+        assert!(stderr(&said).contains(words), "{}", stderr(&said));
+    }
+}
