@@ -126,8 +126,10 @@ pub use model::{CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, P
 pub use quantity::{Domain, Quantity, Unit, UnitError};
 pub use run::{FailurePolicy, Progress, RemoteWorkers, Requests, RunError, Shard, ShardError};
 pub use runner::{Resume, Runner, WorkerStudy};
-pub use space::{Distribution, DistributionError, Factor, Space};
+pub use space::{CorrelationMeasure, Dependence, DependenceError, Distribution, DistributionError, Factor, Space};
 pub use study::{AnalysisOptions, BuildError, Study, StudyBuilder, SurrogateChoice, Target};
 #[cfg(feature = "study")]
 pub use study::{Diagnostic, StudyError};
-pub use uncertainty::{AggregateIndices, EffectEstimates, Estimate, Interval, IntervalMethod, OutputIndices, Stage};
+pub use uncertainty::{
+    AggregateIndices, DependentEstimates, EffectEstimates, Estimate, Interval, IntervalMethod, OutputIndices, Stage,
+};

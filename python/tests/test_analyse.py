@@ -390,3 +390,19 @@ def test_progress_and_other_threads(cube):
     thread.start()
     thread.join()
     assert found == [ap.analyse(ishigami, cube, base_samples=256).total["x1"]]
+
+
+def test_dependent_factors_have_shapley_effects():
+    factors = {"a": ap.Normal(0, 1), "b": ap.Normal(0, 2)}
+    result = ap.analyse(lambda a, b: 2 * a + b, factors, dependence={("a", "b"): 0.6}, base_samples=4096)
+    # E(Y | a) = (2 + 0.6 * 2) a, Var(Y) = 4 + 4 + 2 * 2 * 2 * 0.6.
+    assert abs(result.first_order["a"].estimate - 3.2**2 / 12.8) < 0.01
+    assert abs(result.total["a"].estimate - 4 * (1 - 0.36) / 12.8) < 0.01
+    assert abs(result.shapley["a"].estimate - 0.5) < 0.01 and abs(sum(np.asarray(result.shapley)) - 1) < 1e-12
+    tables = [{"factors": ["a", "b"], "correlation": np.array([[1, 0.6], [0.6, 1]]), "measure": "normal"}]
+    again = ap.analyse(lambda a, b: 2 * a + b, factors, dependence=tables, base_samples=4096)
+    assert np.array_equal(np.asarray(again.shapley), np.asarray(result.shapley))
+    assert "shapley" in result.tables()["study"][0]
+    with pytest.raises(ap.StudyError, match="nearest"):
+        three = factors | {"c": ap.Normal(0, 1)}
+        ap.analyse(lambda a, b, c: a, three, dependence={("a", "b"): 0.9, ("b", "c"): 0.9, ("a", "c"): -0.9})

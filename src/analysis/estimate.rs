@@ -217,5 +217,6 @@ fn aggregate(study: &Study, model: &dyn Model, replicates: &[Totals]) -> Option<
         .map(|number| replicates.iter().map(|totals| &totals.outputs[number].moments).collect())
         .collect();
     let parts: Vec<&[&MomentParts]> = parts.iter().map(Vec::as_slice).collect();
-    Some(Aggregate { scaling, indices: aggregate_indices(&parts, scaling, study.analysis.intervals) })
+    let indices = aggregate_indices(&parts, scaling, study.analysis.intervals);
+    Some(Aggregate { scaling, indices: indices.map(|indices| indices.of_effects(&study.layout())) })
 }

@@ -119,18 +119,19 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
         ));
     }
     for (name, effect) in names_of_swaps(study).iter().zip(indices.effects()) {
+        let total = effect.dependent.map_or(effect.total, |dependent| dependent.full_total).estimate;
         if effect.interaction.estimate < 0.0 && differs_clearly(effect.interaction) {
             warnings.push(format!(
                 "{name}: the first-order index {:.4} exceeds the total index {:.4} beyond the error of their difference: \
                  too few samples",
-                effect.first_order.estimate, effect.total.estimate
+                effect.first_order.estimate, total
             ));
         }
         if effect.contradictory {
             warnings.push(format!(
                 "{name}: the interval of the first-order index {:.4} lay above that of the total index {:.4}, and both were \
                  lengthened until they met: too few samples",
-                effect.first_order.estimate, effect.total.estimate
+                effect.first_order.estimate, total
             ));
         }
         if differs_clearly(effect.check_gap) {

@@ -241,6 +241,7 @@ fn asked(study: &Study) -> String {
     parts.extend(counted(analysis.subsets.len(), "subset"));
     parts.extend(analysis.dummy.then(|| "a dummy factor".to_owned()));
     parts.extend(analysis.second_order.then(|| format!("second order of {} pairs", study.layout().pair_list().len())));
+    parts.extend(analysis.has_shapley(study.space()).then(|| "Shapley effects of the factors".to_owned()));
     if analysis.aggregate && study.model().outputs().len() > 1 {
         parts.push("all outputs together".to_owned());
     }
@@ -284,8 +285,15 @@ fn rows(study: &Study) -> String {
     let (design, analysis) = (study.design(), study.analysis());
     let swaps = design.swaps().len();
     let Companions { ba, bc, cb } = design.companions();
-    let mut words =
-        vec!["A and B".to_owned(), format!("{} AB (one for each factor, group, subset and dummy)", rows_of(swaps))];
+    let asked = match (design.is_dependent(), analysis.has_shapley(study.space())) {
+        (false, false) => "one for each factor, group, subset and dummy",
+        (false, true) => "one for each factor, group, subset and dummy, and the others for Shapley effects",
+        (true, false) => "two for each factor, group and subset: the others follow it, or it is drawn given the others",
+        (true, true) => {
+            "two for each factor, group and subset: the others follow it, or it is drawn given the others; the rest for Shapley effects"
+        }
+    };
+    let mut words = vec!["A and B".to_owned(), format!("{} AB ({asked})", rows_of(swaps))];
     let askers = |needs: fn(Companions) -> bool| {
         let pairs =
             (analysis.second_order && needs(Companions { ba: true, ..Companions::NONE })).then_some("second order");

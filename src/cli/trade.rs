@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use anyhow::anyhow;
+use apportion::Study;
 use apportion::run::{RunError, threads_in_force};
 use apportion::trade::settings::{SettingsJob, build_settings, compare_settings, file_names, settings_document};
 
@@ -47,18 +49,28 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
 }
 
 pub fn trade(arguments: &Arguments) -> Result<(), Failure> {
-    if arguments.extremes { trade_extremes::trade_extremes(arguments) } else { trade_settings(arguments) }
+    let study = arguments.study.load()?;
+    if study.space().copula().is_some() {
+        return Err(Failure::Input(anyhow!(
+            "factors of this study depend on each other, and what is compared here, surrogates, cheaper models and other samplers, \
+             serves independent ones: expected a study without [[dependence]]"
+        )));
+    }
+    if arguments.extremes {
+        trade_extremes::trade_extremes(arguments, &study)
+    } else {
+        trade_settings(arguments, &study)
+    }
 }
 
 /// The settings of the study against each other.
-fn trade_settings(arguments: &Arguments) -> Result<(), Failure> {
-    let study = arguments.study.load()?;
+fn trade_settings(arguments: &Arguments, study: &Study) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let artefacts = arguments.charts.artefacts(folder);
     artefacts.check(&file_names(study.name()))?;
     let usual = if arguments.quick { QUICK_SECONDS } else { SECONDS };
     let job = SettingsJob {
-        study: &study,
+        study,
         seconds: arguments.seconds.unwrap_or(usual),
         seeds: arguments.seeds,
         threads: arguments.threads.number(),
@@ -67,5 +79,5 @@ fn trade_settings(arguments: &Arguments) -> Result<(), Failure> {
     };
     let comparison = compare_settings(&job).map_err(|error: RunError| Failure::from(error))?;
     let threads = threads_in_force(arguments.threads.number());
-    deliver(&artefacts, &settings_document(&build_settings(&study, threads, &comparison)))
+    deliver(&artefacts, &settings_document(&build_settings(study, threads, &comparison)))
 }

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use anyhow::anyhow;
+use apportion::Study;
 use apportion::trade::extremes::{
     ExtremesJob, ExtremesSettings, build_extremes, extremes, extremes_document, file_names,
 };
@@ -23,9 +24,8 @@ pub struct ExtremesArguments {
     seed: Option<u64>,
 }
 
-pub fn trade_extremes(arguments: &Arguments) -> Result<(), Failure> {
-    let study = arguments.study.load()?;
-    let own = ExtremesSettings::of(&study);
+pub fn trade_extremes(arguments: &Arguments, study: &Study) -> Result<(), Failure> {
+    let own = ExtremesSettings::of(study);
     let ExtremesArguments { cells, seed } = arguments.of_extremes;
     let settings = ExtremesSettings { points: cells.unwrap_or(own.points), seed: seed.unwrap_or(own.seed), ..own };
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
@@ -39,11 +39,11 @@ pub fn trade_extremes(arguments: &Arguments) -> Result<(), Failure> {
         stop: Some(on_signal()),
         on_message: say,
         on_progress: &|progress| meter.update(progress),
-        ..ExtremesJob::new(&study)
+        ..ExtremesJob::new(study)
     };
     let map = extremes(&job)?;
     meter.finish(map.points, start.elapsed().as_secs_f64());
-    deliver(&artefacts, &extremes_document(&map, &build_extremes(&study, settings, &map)))?;
+    deliver(&artefacts, &extremes_document(&map, &build_extremes(study, settings, &map)))?;
     match map.counts().wrong {
         0 => Ok(()),
         wrong => Err(Failure::Run(anyhow!("{wrong} numbers are wrong without a word: see the reasons"))),

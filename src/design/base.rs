@@ -1,5 +1,8 @@
 //! The base points of a replicate.
 
+use std::sync::Arc;
+
+use super::mixed::MixedColumns;
 use super::{DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 
 /// Third matrices of random and Latin hypercube points come from streams of their own, so that A and B do not depend
@@ -22,6 +25,9 @@ pub struct BasePoints {
     factors: usize,
     /// Dimensions of `points`.
     dimensions: usize,
+    /// The columns of dependent factors.
+    mixed: Option<Arc<MixedColumns>>,
+    matrices: usize,
 }
 
 #[derive(Debug, Clone)]
@@ -53,11 +59,23 @@ impl BasePoints {
             Sampler::SobolPickFreeze => Points::Sobol(SobolSequence::pick_freeze(factors, matrices, seed, replicate)),
             _ => of(dimensions, length, replicate),
         };
-        Self { points, third, plain, factors, dimensions }
+        Self { points, third, plain, factors, dimensions, mixed: None, matrices }
+    }
+
+    /// The same points with the columns of dependent factors.
+    pub(super) fn with_mixed(self, mixed: Option<Arc<MixedColumns>>) -> Self {
+        Self { mixed, ..self }
     }
 
     /// The points `first`, `first + 1`, ... into `columns`: one per dimension, all of one length; values in (0, 1).
     pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
+        self.fill_independent(first, columns);
+        if let Some(mixed) = &self.mixed {
+            mixed.fill(columns, (self.factors, self.matrices));
+        }
+    }
+
+    fn fill_independent(&self, first: u64, columns: &mut [Vec<f64>]) {
         let (own, rest) = columns.split_at_mut(self.dimensions.min(columns.len()));
         self.points.fill(first, own);
         let (third, plain) = rest.split_at_mut(if self.third.is_some() { self.factors.min(rest.len()) } else { 0 });
@@ -67,7 +85,7 @@ impl BasePoints {
         if let (Some((points, rows)), Some(length)) = (&self.plain, plain.first().map(Vec::len)) {
             let mut all = vec![vec![0.0; length * rows]; self.factors];
             points.fill(first * *rows as u64, &mut all);
-            for (number, column) in plain.iter_mut().enumerate() {
+            for (number, column) in plain.iter_mut().enumerate().take(self.factors * rows) {
                 let points = all[number % self.factors].iter().skip(number / self.factors).step_by(*rows);
                 column.iter_mut().zip(points).for_each(|(slot, u)| *slot = *u);
             }

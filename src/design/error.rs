@@ -105,4 +105,21 @@ pub enum DesignError {
         /// Number of factors with a swap of their own.
         factors: usize,
     },
+    /// Second-order indices of dependent factors.
+    #[error(
+        "second-order indices share out the variance among independent factors, and these depend on each other: Shapley effects \
+         share out all of it"
+    )]
+    PairsOfDependentFactors,
+    /// Plain rows of dependent factors.
+    #[error("plain rows serve surrogates alone, which need independent factors, and these depend on each other")]
+    PlainRowsOfDependentFactors,
+    /// A copula of another number of factors.
+    #[error("a copula of {copula} factors for a design of {factors}")]
+    OtherFactors {
+        /// Factors of the copula.
+        copula: usize,
+        /// Factors of the design.
+        factors: usize,
+    },
 }

@@ -12,6 +12,7 @@ mod base;
 mod error;
 mod joe_kuo;
 mod latin;
+mod mixed;
 mod pick_freeze;
 mod random;
 mod rows;
@@ -131,7 +132,8 @@ impl Design {
     /// # Errors
     /// [`DesignError`] if there is no factor, no replicate or more than [`MAX_REPLICATES`], fewer than two or more than
     /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for or than there are searched nets for, a swap of a column that
-    /// does not exist, or second-order indices without the rows BA or of more than [`MAX_PAIRED_FACTORS`] factors.
+    /// does not exist, second-order indices without the rows BA or of more than [`MAX_PAIRED_FACTORS`] factors, or second-order
+    /// indices or plain rows of dependent factors.
     pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
         let matrices = rows.companions.matrices();
@@ -172,6 +174,17 @@ impl Design {
         }
         if rows.second_order && single.len() > MAX_PAIRED_FACTORS {
             return Err(DesignError::TooManyPairs { factors: single.len() });
+        }
+        if let Some(copula) = &rows.copula {
+            if rows.second_order {
+                return Err(DesignError::PairsOfDependentFactors);
+            }
+            if rows.plain_rows > 0 {
+                return Err(DesignError::PlainRowsOfDependentFactors);
+            }
+            if copula.factors() != factors {
+                return Err(DesignError::OtherFactors { copula: copula.factors(), factors });
+            }
         }
         let runs = Runs::of(&rows, factors);
         let rows_per_point = runs.runs.len() as u64;
@@ -229,9 +242,31 @@ impl Design {
         if self.asked.second_order { &self.single } else { &[] }
     }
 
-    /// Columns of the base points: d for each of the matrices A, B, C if there are rows of it, and the plain ones.
+    /// Columns of the base points: d for each of the matrices A, B, C if there are rows of it, and the plain ones; then those of
+    /// dependent factors that follow others.
     pub fn columns(&self) -> usize {
-        self.factors * (self.asked.companions.matrices() + self.asked.plain_rows as usize)
+        let mixed = self.runs.mixed.as_ref().map_or(0, |mixed| mixed.columns.len());
+        self.factors * (self.asked.companions.matrices() + self.asked.plain_rows as usize) + mixed
+    }
+
+    /// The factor whose column is that number.
+    pub fn factor_of(&self, column: usize) -> usize {
+        let mixed = self.runs.mixed.as_ref().and_then(|mixed| mixed.columns.get(column.checked_sub(mixed.first)?));
+        mixed.map_or(column % self.factors, |mixed| mixed.factor)
+    }
+
+    /// The number of the column that `run` takes `factor` from.
+    pub fn column(&self, run: &Run, factor: usize) -> usize {
+        if let Some((_, column)) = run.mixed.iter().find(|(mixed, _)| *mixed == factor) {
+            return *column;
+        }
+        let matrix = if run.columns.binary_search(&factor).is_ok() { run.from } else { run.base };
+        self.first_column(matrix) + factor
+    }
+
+    /// Whether factors depend on each other.
+    pub fn is_dependent(&self) -> bool {
+        self.asked.copula.is_some()
     }
 
     /// The number of the first of the d columns of `matrix`.
@@ -286,7 +321,7 @@ impl Design {
 
     /// The base points of one replicate, in [`Design::columns`] columns.
     pub fn replicate(&self, replicate: u64) -> BasePoints {
-        BasePoints::new(&self.settings, replicate, self.factors, &self.asked)
+        BasePoints::new(&self.settings, replicate, self.factors, &self.asked).with_mixed(self.runs.mixed.clone())
     }
 
     /// Replicate, base point within it, and kind of a row, in the order in which rows are counted. A row that is
@@ -302,9 +337,8 @@ impl Design {
         let run = &self.runs.runs[(row % self.rows_per_point()) as usize];
         let mut columns = vec![vec![0.0; 1]; self.columns()];
         self.replicate(replicate).fill(point, &mut columns);
-        for (column, u) in u.iter_mut().enumerate() {
-            let matrix = if run.columns.binary_search(&column).is_ok() { run.from } else { run.base };
-            *u = columns[self.first_column(matrix) + column][0];
+        for (factor, u) in u.iter_mut().enumerate() {
+            *u = columns[self.column(run, factor)][0];
         }
     }
 }

@@ -1,6 +1,10 @@
 //! The rows of a base point: which are asked for, and which of them are the same point and so run once.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::mixed::MixedColumns;
+use crate::space::GaussianCopula;
 
 /// The columns that one row AB_s takes from B: those of one factor, or of a group of factors. An empty swap is a dummy
 /// factor: its rows repeat A, B or C but are run again, and show the noise of a model that is not deterministic.
@@ -53,6 +57,10 @@ pub struct Rows {
     pub second_order: bool,
     /// Rows of every base point at points of their own, which only surrogates learn from ([`crate::surrogate`]).
     pub plain_rows: u32,
+    /// The copula of dependent factors. A swap then takes its columns from B, and the other factors follow them.
+    pub copula: Option<Arc<GaussianCopula>>,
+    /// The swaps, by number, whose factors are drawn anew given all others instead; of independent factors that is the same.
+    pub redrawn: Vec<usize>,
 }
 
 impl Rows {
@@ -115,12 +123,21 @@ pub struct Run {
     pub base: Matrix,
     /// except these, in rising order,
     pub columns: Vec<usize>,
-    /// which come from here.
+    /// which come from here;
     pub from: Matrix,
+    /// and except the columns of dependent factors, which follow others: the factor, and the number of its column among those of
+    /// the base points; in rising order.
+    pub mixed: Vec<(usize, usize)>,
+}
+
+impl Run {
+    fn of(kind: RowKind, base: Matrix, columns: Vec<usize>, from: Matrix) -> Self {
+        Self { kind, base, columns, from, mixed: Vec::new() }
+    }
 }
 
 /// The runs of a base point, and which of them answers for each row.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Runs {
     pub runs: Vec<Run>,
     /// For each swap the number of the run that is its row AB_s.
@@ -131,67 +148,88 @@ pub(super) struct Runs {
     pub bc: Vec<usize>,
     /// Likewise CB_s.
     pub cb: Vec<usize>,
+    /// The columns of dependent factors that come from no matrix.
+    pub mixed: Option<Arc<MixedColumns>>,
 }
 
 impl Runs {
     /// The runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s, BC_s, CB_s of their first rows, the plain
     /// ones last.
     pub fn of(rows: &Rows, factors: usize) -> Self {
-        let mut unique = Unique { factors, runs: Vec::new(), numbers: BTreeMap::new() };
+        let matrices = rows.companions.matrices();
+        let first = factors * (matrices + rows.plain_rows as usize);
+        let mixed = rows.copula.clone().map(|copula| MixedColumns { copula, first, columns: Vec::new() });
+        let mut unique = Unique { factors, matrices, runs: Vec::new(), numbers: BTreeMap::new(), mixed };
         unique.number(RowKind::A, Matrix::A, &[], Matrix::B);
         unique.number(RowKind::B, Matrix::B, &[], Matrix::A);
         let mut series = |asked: bool, kind: fn(usize) -> RowKind, base, from| -> Vec<usize> {
             let swaps = rows.swaps.iter().enumerate().filter(|_| asked);
-            swaps.map(|(number, swap)| unique.swapped(kind(number), base, swap, from)).collect()
+            let redrawn = |number: usize| rows.redrawn.contains(&number);
+            swaps.map(|(number, swap)| unique.swapped(kind(number), base, (swap, redrawn(number)), from)).collect()
         };
         let Companions { ba, bc, cb } = rows.companions;
         let ab = series(true, RowKind::Ab, Matrix::A, Matrix::B);
         let ba = series(ba, RowKind::Ba, Matrix::B, Matrix::A);
         let bc = series(bc, RowKind::Bc, Matrix::B, Matrix::C);
         let cb = series(cb, RowKind::Cb, Matrix::C, Matrix::B);
-        let plain = |number| Run {
-            kind: RowKind::Plain(number),
-            base: Matrix::Plain(number),
-            columns: Vec::new(),
-            from: Matrix::Plain(number),
+        let plain = |number| {
+            let matrix = Matrix::Plain(number);
+            Run::of(RowKind::Plain(number), matrix, Vec::new(), matrix)
         };
         unique.runs.extend((0..rows.plain_rows).map(plain));
-        Self { runs: unique.runs, ab, ba, bc, cb }
+        Self { runs: unique.runs, ab, ba, bc, cb, mixed: unique.mixed.map(Arc::new) }
     }
 }
+
+/// Where the columns of a row come from.
+type Key = (Matrix, Matrix, Vec<usize>);
 
 /// Runs so far, and their numbers by what they are made of.
 struct Unique {
     factors: usize,
+    matrices: usize,
     runs: Vec<Run>,
-    numbers: BTreeMap<(Matrix, Matrix, Vec<usize>), usize>,
+    /// With the columns of dependent factors that follow others.
+    numbers: BTreeMap<(Key, Vec<(usize, usize)>), usize>,
+    mixed: Option<MixedColumns>,
 }
 
 impl Unique {
-    fn swapped(&mut self, kind: RowKind, base: Matrix, swap: &Swap, from: Matrix) -> usize {
+    fn swapped(&mut self, kind: RowKind, base: Matrix, (swap, redrawn): (&Swap, bool), from: Matrix) -> usize {
         if swap.is_empty() {
-            self.runs.push(Run { kind, base, columns: Vec::new(), from });
+            self.runs.push(Run::of(kind, base, Vec::new(), from));
             return self.runs.len() - 1;
         }
         let mut columns = swap.clone();
         columns.sort_unstable();
         columns.dedup();
-        self.number(kind, base, &columns, from)
+        let firsts = [base, from].map(|matrix| self.factors * matrix.place(self.matrices));
+        let of_row = |mixed: &mut MixedColumns| mixed.of_row(&columns, redrawn, (firsts[0], firsts[1]));
+        let mixed = self.mixed.as_mut().map(of_row).unwrap_or_default();
+        let number = self.numbered((key(self.factors, base, &columns, from), mixed.clone()));
+        if number == self.runs.len() {
+            self.runs.push(Run { mixed, ..Run::of(kind, base, columns, from) });
+        }
+        number
     }
 
     /// The number of the run that is this point; a new one if there is none yet.
     fn number(&mut self, kind: RowKind, base: Matrix, columns: &[usize], from: Matrix) -> usize {
-        let number = *self.numbers.entry(key(self.factors, base, columns, from)).or_insert(self.runs.len());
+        let number = self.numbered((key(self.factors, base, columns, from), Vec::new()));
         if number == self.runs.len() {
-            self.runs.push(Run { kind, base, columns: columns.to_vec(), from });
+            self.runs.push(Run::of(kind, base, columns.to_vec(), from));
         }
         number
+    }
+
+    fn numbered(&mut self, key: (Key, Vec<(usize, usize)>)) -> usize {
+        *self.numbers.entry(key).or_insert(self.runs.len())
     }
 }
 
 /// What a row is made of, written in one way only: the matrix of most of its columns first, A before B before C where
 /// both have half, and a row of one matrix alone with that matrix twice.
-fn key(factors: usize, base: Matrix, columns: &[usize], from: Matrix) -> (Matrix, Matrix, Vec<usize>) {
+fn key(factors: usize, base: Matrix, columns: &[usize], from: Matrix) -> Key {
     let (swapped, kept) = (columns.len(), factors - columns.len());
     if swapped == 0 {
         return (base, base, Vec::new());

@@ -16,6 +16,7 @@ mod parts;
 mod point_outputs;
 mod products;
 mod second_order;
+mod shapley;
 mod swap_moments;
 mod workspace;
 
@@ -32,6 +33,7 @@ pub use parts::{MAX_PARTS, MomentParts, merged, part_length};
 pub use point_outputs::PointOutputs;
 pub use products::{ProductWork, Products};
 pub use second_order::{PairIndex, SecondOrder};
+pub use shapley::{MAX_SHAPLEY_FACTORS, proper_subsets, shapley_effects};
 pub use swap_moments::{BaMoments, BcMoments, CbMoments, SwapMoments};
 pub use workspace::Workspace;
 

@@ -3,7 +3,7 @@
 use sha2::{Digest, Sha256};
 
 use super::rows::ColumnKind;
-use crate::design::{BasePoints, Design, Matrix};
+use crate::design::{BasePoints, Design};
 use crate::quantity::Unit;
 use crate::space::{Factor, Space};
 
@@ -60,10 +60,7 @@ impl<'a> DesignRows<'a> {
         for (number, column) in into.iter_mut().enumerate() {
             column.clear();
             for point in 0..points {
-                column.extend(design.runs().iter().map(|run| {
-                    let matrix: Matrix = if run.columns.binary_search(&number).is_ok() { run.from } else { run.base };
-                    self.values[design.first_column(matrix) + number][point]
-                }));
+                column.extend(design.runs().iter().map(|run| self.values[design.column(run, number)][point]));
             }
         }
         let block = RowBlock { replicate: self.replicate, first: self.point * runs, rows: points * runs as usize };
@@ -80,7 +77,7 @@ impl<'a> DesignRows<'a> {
         let factors = self.space.factors();
         for (number, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
             values.resize(points, 0.0);
-            let factor = &factors[number % factors.len()];
+            let factor = &factors[self.design.factor_of(number)];
             factor.fill_si(unit, values);
             for value in values {
                 *value = at_the_edge(factor.unit(), *value);

@@ -74,6 +74,9 @@ pub struct ManifestRun {
     pub columns: Vec<String>,
     /// A, B or C.
     pub from: String,
+    /// Names of dependent factors that come from neither, and follow the others.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub following: Vec<String>,
 }
 
 /// A column of a design file.
@@ -154,6 +157,7 @@ impl Manifest {
             base: matrix(run.base),
             columns: run.columns.iter().map(column).collect(),
             from: matrix(run.from),
+            following: run.mixed.iter().map(|(factor, _)| column(factor)).collect(),
         };
         let factors = study.space.factors().iter().map(|factor| ManifestFactor {
             name: factor.name.clone(),

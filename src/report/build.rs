@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde_json::Value;
 
 use super::build_output::OutputRecords;
-use super::records::estimate_record;
+use super::records::{dependence_record, estimate_record};
 use super::result::{
     AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, LowRecord, MixedModels,
     Provenance, ResultFile, RungRecord, SpendingRecord, StoppingRecord, StudyRecord, ValidityRecord,
@@ -120,6 +120,7 @@ fn study_record(study: &Study) -> StudyRecord {
         model: study.subject.name().to_owned(),
         settings: study.settings().into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
         constants: constants.collect(),
+        dependences: study.space.dependences().iter().map(dependence_record).collect(),
         overrides: study.overrides.clone(),
         source: study.source.clone(),
     }

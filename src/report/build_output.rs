@@ -5,9 +5,9 @@ use serde_json::{Map, Value};
 use super::distribution::OutputDistribution;
 use super::records::{estimate_record, input_value};
 use super::result::{
-    DistributionRecord, EffectRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord, IntervalRecord,
-    LowUseRecord, OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord, SubsetRecord,
-    SurrogateRecord, SurrogateTermRecord,
+    DependentRecord, DistributionRecord, EffectRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord,
+    IntervalRecord, LowUseRecord, OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord,
+    SubsetRecord, SurrogateRecord, SurrogateTermRecord,
 };
 use super::scatter::{FirstRows, scatter_record};
 use crate::analysis::{Analysis, FailureCount, OutputAnalysis, names_of_swaps, row_inputs};
@@ -76,8 +76,10 @@ impl<'a> OutputRecords<'a> {
 fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices) {
     let factors = study.space.factors();
     let names = |numbers: &[usize]| numbers.iter().map(|&number| factors[number].name.clone()).collect::<Vec<_>>();
-    record.sum_first_order = Some(estimate_record(indices.sum_first_order));
-    record.sum_total = Some(estimate_record(indices.sum_total));
+    if study.space.copula().is_none() {
+        record.sum_first_order = Some(estimate_record(indices.sum_first_order));
+        record.sum_total = Some(estimate_record(indices.sum_total));
+    }
     let of_factor = |(factor, effect): (&crate::space::Factor, &EffectEstimates)| IndexRecord {
         factor: factor.name.clone(),
         effect: effect_record(effect),
@@ -184,9 +186,14 @@ fn effect_record(effect: &EffectEstimates) -> EffectRecord {
         share_total: effect.share_total.map(|share| share.estimate),
         share_first_order_interval: interval(effect.share_first_order),
         share_total_interval: interval(effect.share_total),
-        interaction: Some(estimate_record(effect.interaction)),
+        interaction: effect.dependent.is_none().then(|| estimate_record(effect.interaction)),
         probability_first: effect.probability_first,
         probability_above_threshold: effect.probability_above,
+        shapley: effect.shapley.map(estimate_record),
+        dependent: effect.dependent.map(|dependent| DependentRecord {
+            independent_first_order: estimate_record(dependent.independent_first_order),
+            full_total: estimate_record(dependent.full_total),
+        }),
     }
 }
 

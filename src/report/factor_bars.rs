@@ -100,8 +100,24 @@ fn share(series: &SharesSeries<'_>, factor: &str, of: ShareOf) -> (Option<f64>, 
 pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let factors: Vec<&str> = result.factors.iter().map(|factor| factor.name.as_str()).collect();
     let title = result.study.title.as_ref().unwrap_or(&result.study.name);
+    let indices = || output.indices.iter().flatten();
+    if indices().any(|index| index.effect.shapley.is_some()) {
+        let names = indices().map(|index| label(&index.factor)).collect();
+        let effects: Vec<Option<EstimateRecord>> = indices().map(|index| index.effect.shapley).collect();
+        let keys: Vec<f64> = effects.iter().map(|effect| effect.map_or(f64::NAN, |effect| effect.estimate)).collect();
+        let series = (Series::new("Shapley effect", Colour::Series(0)), effects);
+        let panel = index_panel("Shapley effect (% of the variance)", names, [series], &keys);
+        let caption = format!("Shapley effects on {}: they sum to 100 % of the variance.", the(&output.name));
+        return Chart::new(title, caption).panels([panel]);
+    }
+    let caption = match indices().any(|index| index.effect.dependent.is_some()) {
+        true => {
+            "Indices of dependent factors share out nothing; Shapley effects would, and were not asked for.".to_owned()
+        }
+        false => caption(output),
+    };
     let series = Series::new(label(&output.name), Colour::Series(0));
-    shares_chart(title, &caption(output), &factors, &[SharesSeries { series, output, published: Vec::new() }])
+    shares_chart(title, &caption, &factors, &[SharesSeries { series, output, published: Vec::new() }])
 }
 
 /// What is seen, in one sentence.

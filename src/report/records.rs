@@ -4,8 +4,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::chart::Chart;
-use super::result::{ConstantRecord, EstimateRecord, FactorRecord, ResultFile, StudyRecord, ValidityRecord};
+use super::result::{
+    ConstantRecord, CorrelationRecord, EstimateRecord, FactorRecord, ResultFile, StudyRecord, ValidityRecord,
+};
 use crate::model::Model;
+use crate::space::Dependence;
 use crate::study::Study;
 use crate::uncertainty::Estimate;
 
@@ -24,6 +27,9 @@ pub struct StudySetup {
     pub constants: Vec<ConstantRecord>,
     /// The factors in the order of the study.
     pub factors: Vec<FactorSetup>,
+    /// Factors that depend on each other, which the files of screenings and sweeps do not tell.
+    #[serde(skip)]
+    pub dependences: Vec<CorrelationRecord>,
     /// Changes made on the command line, as given.
     pub overrides: Vec<String>,
     /// The study file, word for word.
@@ -74,9 +80,19 @@ pub(crate) fn study_setup(study: &Study) -> StudySetup {
         settings: study.settings().into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
         constants: constants.collect(),
         factors: study.space.factors().iter().map(factor).collect(),
+        dependences: study.space.dependences().iter().map(dependence_record).collect(),
         overrides: study.overrides.clone(),
         source: study.source.clone(),
         sha256: study.sha256.clone(),
+    }
+}
+
+/// A dependence as it was stated.
+pub(super) fn dependence_record(dependence: &Dependence) -> CorrelationRecord {
+    CorrelationRecord {
+        factors: dependence.factors().to_vec(),
+        correlation: dependence.correlation().to_vec(),
+        measure: dependence.measure_in_force().name().to_owned(),
     }
 }
 
@@ -90,10 +106,11 @@ impl StudySetup {
             nominal: factor.nominal,
             group: factor.group.clone(),
         };
-        let StudyRecord { name, title, model, settings, constants, overrides, source, .. } = result.study.clone();
+        let StudyRecord { name, title, model, settings, constants, dependences, overrides, source } =
+            result.study.clone();
         let sha256 = result.provenance.study_sha256.clone();
         let factors = result.factors.iter().map(factor).collect();
-        Self { name, title, model, settings, constants, factors, overrides, source, sha256 }
+        Self { name, title, model, settings, constants, factors, dependences, overrides, source, sha256 }
     }
 
     /// The headline of its charts.

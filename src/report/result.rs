@@ -68,10 +68,25 @@ pub struct StudyRecord {
     pub settings: serde_json::Map<String, serde_json::Value>,
     /// The model's inputs that are fixed in the study, with their units.
     pub constants: Vec<ConstantRecord>,
+    /// Factors that depend on each other.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub dependences: Vec<CorrelationRecord>,
     /// Changes made on the command line, as given.
     pub overrides: Vec<String>,
     /// The study file, word for word.
     pub source: String,
+}
+
+/// Factors that depend on each other, by a Gaussian copula.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
+pub struct CorrelationRecord {
+    /// The factors.
+    pub factors: Vec<String>,
+    /// Their correlations.
+    pub correlation: Vec<Vec<f64>>,
+    /// What they are correlations of, by its name in study files.
+    pub measure: String,
 }
 
 /// An input fixed in the study.

@@ -3,9 +3,9 @@
 use serde_json::{Map, Value};
 
 use super::document::{Cell, Column, Mark, Part, Section, Table};
-use super::format::{grouped, name, share_of_runs, value};
+use super::format::{grouped, name, share_of_runs, significant, value};
 use super::records::{FactorSetup, StudySetup};
-use super::result::{ConstantRecord, ValidityRecord};
+use super::result::{ConstantRecord, CorrelationRecord, ValidityRecord};
 
 /// Most factors in the table of the study.
 const FACTORS: usize = 50;
@@ -74,6 +74,25 @@ pub(crate) fn study_section(study: &StudySetup) -> Section {
     };
     let columns = Column::list(headings.len() - 1, headings);
     parts.push(Part::Table(Table::new(caption, columns).with_rows(shown.iter().map(row))));
+    if !study.dependences.is_empty() {
+        let measure = |record: &CorrelationRecord| match &*record.measure {
+            "pearson" => "of the values (Pearson)",
+            "spearman" => "of the ranks (Spearman)",
+            "kendall" => "of the ranks (Kendall)",
+            _ => "of the normal scores",
+        };
+        let pairs = study.dependences.iter().flat_map(|record| {
+            let places = (0..record.factors.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
+            places.map(move |(j, i)| {
+                let names = [j, i].map(|k| name(&record.factors[k])).join(", ");
+                let correlation = format!("{} {}", significant(record.correlation[j][i]), measure(record));
+                vec![Cell::from(names), Cell::from(correlation)]
+            })
+        });
+        let columns = Column::list(2, &["factors", "correlation"]);
+        let caption = "Factors that depend on each other, by a Gaussian copula.".to_owned();
+        parts.push(Part::Table(Table::new(caption, columns).with_rows(pairs)));
+    }
     let mut choices = vec![("model".to_owned(), format!("`{}`", study.model))];
     choices.extend(study.settings.iter().map(|(key, json)| (name(key), plain(json))));
     choices.extend(study.overrides.iter().map(|text| ("changed on the command line".to_owned(), format!("`{text}`"))));

@@ -10,7 +10,7 @@ use super::remote::{Abroad, DesignKey, Errand};
 use super::store::{Piece, Store};
 use super::{FailurePolicy, Job, PieceSink, Place, RunError};
 use crate::binary::{Binary, Reader};
-use crate::design::{BasePoints, Matrix};
+use crate::design::BasePoints;
 use crate::model::{Batch, RowFailure, Worker};
 
 /// The rows of some replicates that a store lacks.
@@ -224,17 +224,12 @@ impl RowValues {
         }
         for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
             values.resize(length, 0.0);
-            job.space.factors()[k % factors].fill_si(unit, values);
+            job.space.factors()[design.factor_of(k)].fill_si(unit, values);
         }
-        let column_of = |matrix: Matrix, factor: usize| &self.values[design.first_column(matrix) + factor];
         for (factor, input) in self.inputs.iter_mut().enumerate() {
             input.clear();
-            // Which matrix a run takes this factor from.
-            let of_run = |run: &crate::design::Run| match run.columns.binary_search(&factor) {
-                Ok(_) => run.from,
-                Err(_) => run.base,
-            };
-            let columns: Vec<&Vec<f64>> = design.runs().iter().map(|run| column_of(of_run(run), factor)).collect();
+            let column = |run| &self.values[design.column(run, factor)];
+            let columns: Vec<&Vec<f64>> = design.runs().iter().map(column).collect();
             input.extend(rows.clone().map(|row| {
                 let (point, run) = (row / per_point - points.start, row % per_point);
                 columns[run as usize][point as usize]

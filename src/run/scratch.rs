@@ -74,7 +74,7 @@ impl Scratch {
         let factors = job.design.factors();
         for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
             values.resize(unit.len(), 0.0);
-            job.space.factors()[k % factors].fill_si(unit, values);
+            job.space.factors()[job.design.factor_of(k)].fill_si(unit, values);
         }
         let values = &self.values;
         let columns_of = |matrix: Matrix| &values[job.design.first_column(matrix)..][..factors];
@@ -87,6 +87,9 @@ impl Scratch {
             inputs.extend(columns_of(run.base).iter().map(Vec::as_slice));
             for &column in &run.columns {
                 inputs[column] = &columns_of(run.from)[column];
+            }
+            for &(factor, column) in &run.mixed {
+                inputs[factor] = &values[column];
             }
             batch.reset(inputs[0].len());
             worker.run(&inputs, batch);

@@ -144,6 +144,9 @@ pub fn screen_in(
     context: &RunContext<'_>,
 ) -> Result<Screening, ScreeningError> {
     let factors = job.space.factors();
+    if job.space.copula().is_some() {
+        return Err(ScreeningError::Dependent);
+    }
     let (settings, parts) = job.settings.in_force(factors.len())?;
     let points = Trajectories::new(job.space, &settings, parts)?;
     let outcome = run::run(job, (&points, settings.trajectories), (threads, context), on_progress)?;

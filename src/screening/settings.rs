@@ -128,6 +128,12 @@ pub enum ScreeningError {
         /// Number of factors.
         factors: usize,
     },
+    /// Factors that depend on each other.
+    #[error(
+        "elementary effects are those of one factor while all others stay, and factors of this study depend on each other: a run \
+         with Shapley effects tells what matters"
+    )]
+    Dependent,
     /// The points cannot be made.
     #[error(transparent)]
     Design(#[from] DesignError),

@@ -2,8 +2,15 @@
 //!
 //! The order is part of the meaning: factor j takes coordinate j of the unit cube.
 
+mod copula;
+mod dependence;
 pub mod distribution;
 
+use std::sync::Arc;
+
+pub use copula::GaussianCopula;
+pub(crate) use copula::{from_score, normal_scores};
+pub use dependence::{CorrelationMeasure, Dependence, DependenceError};
 pub use distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
 
 use crate::quantity::Unit;
@@ -71,12 +78,42 @@ pub struct Group {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Space {
     factors: Vec<Factor>,
+    dependences: Vec<Dependence>,
+    copula: Option<Arc<GaussianCopula>>,
 }
 
 impl Space {
     /// A space of these factors. Names are expected to be distinct.
     pub fn new(factors: Vec<Factor>) -> Self {
-        Self { factors }
+        Self { factors, dependences: Vec::new(), copula: None }
+    }
+
+    /// The same factors, some of which depend on each other.
+    ///
+    /// # Errors
+    /// [`DependenceError`] if they cannot depend on each other like that, with what would be right.
+    ///
+    /// ```
+    /// use apportion::{Dependence, Factor, Space, Unit, uniform};
+    ///
+    /// let factor = |name: &str| Factor::new(name, Unit::dimensionless(), uniform(0.0, 1.0)?);
+    /// let space = Space::new(vec![factor("a")?, factor("b")?]).with_dependences(vec![Dependence::pair("a", "b", 0.6)])?;
+    /// # let _ = space;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_dependences(self, dependences: Vec<Dependence>) -> Result<Self, DependenceError> {
+        let copula = dependence::copula(&self, &dependences)?.map(Arc::new);
+        Ok(Self { dependences, copula, ..self })
+    }
+
+    /// The dependences as stated.
+    pub fn dependences(&self) -> &[Dependence] {
+        &self.dependences
+    }
+
+    /// The copula of the factors; `None` if they are independent.
+    pub fn copula(&self) -> Option<&Arc<GaussianCopula>> {
+        self.copula.as_ref()
     }
 
     /// The factors in order.

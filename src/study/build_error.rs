@@ -3,7 +3,8 @@
 use thiserror::Error;
 
 use crate::design::DesignError;
-use crate::space::DistributionError;
+use crate::estimate::MAX_SHAPLEY_FACTORS;
+use crate::space::{DependenceError, DistributionError};
 
 /// Why a study cannot be built.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -56,6 +57,21 @@ pub enum BuildError {
     Subset {
         /// The subset.
         subset: Vec<usize>,
+        /// The number of factors.
+        factors: usize,
+    },
+    /// Factors that cannot depend on each other as stated.
+    #[error(transparent)]
+    Dependence(#[from] DependenceError),
+    /// Something that needs independent factors.
+    #[error("{what}: not where factors depend on each other")]
+    Dependent {
+        /// What.
+        what: &'static str,
+    },
+    /// Shapley effects of too many factors.
+    #[error("Shapley effects of {factors} factors: at most {MAX_SHAPLEY_FACTORS}, each base sample taking 2^d runs")]
+    Shapley {
         /// The number of factors.
         factors: usize,
     },

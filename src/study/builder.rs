@@ -8,13 +8,13 @@ use sha2::{Digest, Sha256};
 
 use super::options::{rows, split_design};
 use super::subject::{CustomSubject, LowFidelity};
-use super::{AnalysisOptions, BuildError, Study, Target};
+use super::{AnalysisOptions, BuildError, Study, SurrogateChoice, Target};
 use crate::design::{Design, DesignSettings, Sampler};
-use crate::estimate::Estimator;
+use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS};
 use crate::model::Model;
 use crate::names::{names_files, refused_name, refused_output_name, refused_title, shown};
 use crate::quantity::Unit;
-use crate::space::{Distribution, Factor, Space};
+use crate::space::{Dependence, Distribution, Factor, Space};
 
 /// A study in the making; [`Study::builder`] begins one.
 pub struct StudyBuilder {
@@ -31,6 +31,7 @@ pub struct StudyBuilder {
     analysis: Option<AnalysisOptions>,
     target: Target,
     lows: Vec<LowFidelity>,
+    dependences: Vec<Dependence>,
 }
 
 impl StudyBuilder {
@@ -50,6 +51,7 @@ impl StudyBuilder {
             analysis: None,
             target: Target::default(),
             lows: Vec::new(),
+            dependences: Vec::new(),
         }
     }
 
@@ -78,6 +80,28 @@ impl StudyBuilder {
     #[must_use]
     pub fn with_factor(mut self, factor: Factor) -> Self {
         self.factors.push(Ok(factor));
+        self
+    }
+
+    /// Factors that depend on each other.
+    ///
+    /// ```
+    /// use apportion::{Dependence, Distribution, Study, function_model};
+    ///
+    /// let study = Study::builder("sum", function_model("y", |x| x[0] + x[1]))
+    ///     .factor("a", Distribution::normal(0.0, 1.0)?)
+    ///     .factor("b", Distribution::normal(0.0, 1.0)?)
+    ///     .dependence(Dependence::pair("a", "b", 0.5))
+    ///     .base_samples(1024)
+    ///     .build()?;
+    /// let analysis = study.run()?;
+    /// // E(Y | a) = 1.5 a, and the variance is 3.
+    /// assert!((analysis.output("y")?.factor("a")?.first_order.estimate - 0.75).abs() < 0.02);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn dependence(mut self, dependence: Dependence) -> Self {
+        self.dependences.push(dependence);
         self
     }
 
@@ -192,6 +216,17 @@ impl StudyBuilder {
         refuse_repeated("factor", space.factors().iter().map(|factor| factor.name.as_str()))?;
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(self.sampler));
         let analysis = checked(analysis, self.sampler, space.factors().len())?;
+        let space = space.with_dependences(self.dependences)?;
+        if space.copula().is_some() {
+            let refused = [
+                ("surrogate = \"on\"", analysis.surrogate == SurrogateChoice::On),
+                ("a target of accuracy, which chooses by surrogates (a half width does not)", self.target.is_free),
+                ("cheaper models", !self.lows.is_empty()),
+            ];
+            if let Some((what, _)) = refused.into_iter().find(|(_, asked)| *asked) {
+                return Err(BuildError::Dependent { what });
+            }
+        }
         let target = checked_target(self.target, self.sampler)?;
         let is_split = self.plain_rows > 0 || self.budget_runs.is_some();
         let replicates = self.replicates.unwrap_or(analysis.default_replicates(self.sampler, is_split));
@@ -263,6 +298,9 @@ fn checked(mut options: AnalysisOptions, sampler: Sampler, factors: usize) -> Re
             return Err(BuildError::Subset { subset: subset.clone(), factors });
         }
     }
+    if options.shapley == Some(true) && factors > MAX_SHAPLEY_FACTORS {
+        return Err(BuildError::Shapley { factors });
+    }
     // The default ones are in every result.
     options.estimators.retain(|estimator| *estimator != Estimator::Default);
     Ok(options)
@@ -302,6 +340,15 @@ fn in_words(name: &str, design: &Design, space: &Space) -> String {
         let unit = factor.unit();
         // Into a string, which takes everything.
         let _ = write!(text, "\n[[factor]]\nname = {name}\n# {law} ({unit}), nominal {}\n", factor.nominal);
+    }
+    for dependence in space.dependences() {
+        let (factors, correlation) = (dependence.factors(), dependence.correlation());
+        let measure = dependence.measure_in_force().name();
+        // Debug forms of lists of texts and numbers are TOML.
+        let _ = write!(
+            text,
+            "\n[[dependence]]\nfactors = {factors:?}\ncorrelation = {correlation:?}\nmeasure = {measure:?}\n"
+        );
     }
     text
 }

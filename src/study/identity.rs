@@ -43,6 +43,10 @@ impl Study {
         if design.plain_rows() > 0 {
             points["plain_rows"] = json!(design.plain_rows());
         }
+        if let Some(copula) = self.space.copula() {
+            points["copula"] = json!(digest(&format!("{copula:?}")));
+            points["redrawn"] = json!(design.asked().redrawn);
+        }
         if settings_of_design.sampler == Sampler::LatinHypercube {
             points["base_samples"] = json!(settings_of_design.base_samples);
         }

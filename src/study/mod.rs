@@ -184,13 +184,18 @@ impl Study {
             dummy: self.analysis.dummy,
             estimators: self.analysis.estimators.clone(),
             second_order: self.analysis.second_order,
+            dependent: self.space.copula().is_some(),
+            shapley: self.analysis.has_shapley(&self.space),
         }
     }
 
     /// Whether the indices of a run of `design`, which may be longer than that of the study, are corrected by surrogates.
     pub fn uses_surrogate(&self, design: &Design) -> bool {
         let has_points = self.target.grows() || design.points_per_replicate() >= fewest_points(design) as u64;
+        // Their polynomials are orthogonal only where factors are independent, and know nothing of the subsets of Shapley effects.
+        let is_plain = self.space.copula().is_none() && !self.analysis.has_shapley(&self.space);
         let fits = has_points
+            && is_plain
             && self.analysis.intervals == IntervalMethod::Nets
             && design.settings().replicates >= FEWEST_NETS as u64;
         fits && match self.analysis.surrogate {

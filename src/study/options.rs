@@ -1,7 +1,7 @@
 //! What is asked of the runs of a study, and when they end.
 
-use crate::design::{Companions, Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler};
-use crate::estimate::Estimator;
+use crate::design::{Companions, Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
+use crate::estimate::{Estimator, proper_subsets};
 use crate::run::FailurePolicy;
 use crate::space::Space;
 use crate::surrogate::FEWEST_NETS;
@@ -16,6 +16,9 @@ pub struct AnalysisOptions {
     pub second_order: bool,
     /// Sets of factors, by number, whose joint indices are asked for.
     pub subsets: Vec<Vec<usize>>,
+    /// Whether Shapley effects are asked for, of at most [`MAX_SHAPLEY_FACTORS`](crate::estimate::MAX_SHAPLEY_FACTORS) factors: 2^d runs for each base sample. `None` to
+    /// have them of up to four factors that depend on each other.
+    pub shapley: Option<bool>,
     /// Whether indices over all outputs together are asked for.
     pub aggregate: bool,
     /// Whether a dummy factor, which does nothing, is run along: its indices are the noise of the model.
@@ -41,6 +44,7 @@ impl AnalysisOptions {
             estimators: Vec::new(),
             second_order: false,
             subsets: Vec::new(),
+            shapley: None,
             aggregate: false,
             dummy: false,
             intervals: IntervalMethod::default_for(sampler),
@@ -54,6 +58,11 @@ impl AnalysisOptions {
 }
 
 impl AnalysisOptions {
+    /// Whether there will be Shapley effects of the factors of `space`.
+    pub fn has_shapley(&self, space: &Space) -> bool {
+        self.shapley.unwrap_or(space.copula().is_some() && space.factors().len() <= FREE_SHAPLEY_FACTORS)
+    }
+
     /// Replicates where nothing else is said: as many as the kind of interval works best with on points of `sampler`, and
     /// enough for surrogates where these are asked for, by `surrogate = "on"` or by plain rows.
     pub(crate) fn default_replicates(&self, sampler: Sampler, has_plain_rows: bool) -> u64 {
@@ -209,6 +218,9 @@ const FIRST_POINTS: u64 = 64;
 /// The same of one that chooses its design by itself.
 const FIRST_FREE_POINTS: u64 = 4;
 
+/// Dependent factors up to which Shapley effects are not asked for one by one.
+const FREE_SHAPLEY_FACTORS: usize = 4;
+
 pub(super) const DEFAULT_RESAMPLES: usize = 1000;
 pub(super) const DEFAULT_THRESHOLD: f64 = 0.05;
 pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
@@ -246,15 +258,28 @@ fn split(runs: u64, runs_per_point: u64, replicates: u64) -> Result<(u64, u32), 
     Ok((base_samples, plain.min(u64::from(MAX_PLAIN_ROWS)) as u32))
 }
 
-/// The rows for what is asked: the factors, the groups, the subsets, the dummy.
+/// The rows for what is asked: the factors, the groups, the subsets; of dependent factors these once more, redrawn; the dummy; and
+/// the subsets that Shapley effects need.
 pub(crate) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -> Rows {
-    let single = (0..space.factors().len()).map(|number| vec![number]);
+    let factors = space.factors().len();
+    let single = (0..factors).map(|number| vec![number]);
     let groups = space.groups().into_iter().map(|group| group.factors);
-    let dummy = analysis.dummy.then(Vec::new);
-    let swaps = single.chain(groups).chain(analysis.subsets.iter().cloned()).chain(dummy).collect();
+    let mut swaps: Vec<Swap> = single.chain(groups).chain(analysis.subsets.iter().cloned()).collect();
+    let mut redrawn = Vec::new();
+    if space.copula().is_some() {
+        redrawn.extend(swaps.len()..2 * swaps.len());
+        swaps.extend_from_within(..);
+    }
+    swaps.extend(analysis.dummy.then(Vec::new));
+    if analysis.has_shapley(space) {
+        let first = swaps.len();
+        swaps.extend(proper_subsets(factors));
+        redrawn.extend(first..swaps.len());
+    }
     let second_order = Companions { ba: analysis.second_order, ..Companions::NONE };
     let companions = analysis.estimators.iter().fold(second_order, |all, estimator| all.union(estimator.needs()));
-    Rows { swaps, companions, second_order: analysis.second_order, plain_rows }
+    let (second_order, copula) = (analysis.second_order, space.copula().cloned());
+    Rows { swaps, companions, second_order, plain_rows, copula, redrawn }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::Estimate;
 use super::concentration::Side;
+use super::estimates::Layout;
 use super::influence::{Influences, LeftOut};
 use super::method::IntervalMethod;
 use super::output::{Judged, agreeing};
@@ -16,6 +17,19 @@ pub struct AggregateIndices {
     pub first_order: Vec<Estimate>,
     /// Total indices.
     pub total: Vec<Estimate>,
+}
+
+impl AggregateIndices {
+    /// The indices of all effects, in the order of [`OutputIndices::effects`](super::OutputIndices::effects), from those of all
+    /// swaps: the total indices of dependent factors are those of redrawn swaps.
+    #[must_use]
+    pub fn of_effects(self, layout: &Layout) -> Self {
+        let dummy = layout.dummy.then_some(layout.swaps().wrapping_sub(1));
+        let listed = || 0..layout.listed();
+        let first_order = listed().chain(dummy).map(|swap| self.first_order[swap]);
+        let total = listed().map(|swap| layout.redrawn(swap)).chain(dummy).map(|swap| self.total[swap]);
+        Self { first_order: first_order.collect(), total: total.collect() }
+    }
 }
 
 /// Aggregated indices of `outputs`, which have the parts of their replicates, by the default estimators ([`aggregated`]).

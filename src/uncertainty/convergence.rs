@@ -1,8 +1,9 @@
 //! How estimates and intervals changed as a run grew, read from its parts once it is over.
 
 use super::corrected::SurrogateEstimates;
+use super::effects::OutputIndices;
 use super::estimates::Layout;
-use super::output::{IntervalOptions, OutputIndices, output_indices};
+use super::output::{IntervalOptions, output_indices};
 use crate::estimate::MomentParts;
 
 /// What an output's indices were when the run had fewer base points.

@@ -3,9 +3,10 @@
 //! Intervals work on lists of numbers: [`quantities`] lays the list out, [`Layout`] knows the places in it.
 
 use super::concentration::Side;
-use crate::estimate::{Estimator, Indices, Moments, SecondOrder, shares};
+use crate::estimate::{Estimator, Indices, Moments, SecondOrder, shapley_effects, shares};
 
-/// What is estimated from the swaps of a design, which come in this order.
+/// What is estimated from the swaps of a design, which come in this order. Of dependent factors the swaps of factors, groups and
+/// subsets come once more before the dummy factor, redrawn given all others, and then redrawn subsets for the Shapley effects.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Layout {
     /// Number of factors.
@@ -20,6 +21,10 @@ pub struct Layout {
     pub estimators: Vec<Estimator>,
     /// Whether there are second-order indices of the factors.
     pub second_order: bool,
+    /// Whether factors depend on each other.
+    pub dependent: bool,
+    /// Whether there are Shapley effects of the factors.
+    pub shapley: bool,
 }
 
 /// The numbers of one swap, in this order.
@@ -44,12 +49,23 @@ const PER_ESTIMATOR: usize = 4;
 impl Layout {
     /// Factors only.
     pub fn plain(factors: usize) -> Self {
-        Self { factors, groups: 0, subsets: 0, dummy: false, estimators: Vec::new(), second_order: false }
+        let (groups, subsets, dummy, second_order, dependent, shapley) = Default::default();
+        Self { factors, groups, subsets, dummy, estimators: Vec::new(), second_order, dependent, shapley }
     }
 
-    /// Number of swaps.
+    /// Number of factors, groups and subsets.
+    pub fn listed(&self) -> usize {
+        self.factors + self.groups + self.subsets
+    }
+
+    /// Number of swaps with indices of their own: but for those that serve Shapley effects alone.
     pub fn swaps(&self) -> usize {
-        self.factors + self.groups + self.subsets + usize::from(self.dummy)
+        self.redrawn(self.listed()) + usize::from(self.dummy)
+    }
+
+    /// The swap in which the factors of the listed swap `swap` are drawn given all others: itself, if factors are independent.
+    pub fn redrawn(&self, swap: usize) -> usize {
+        if self.dependent { self.listed() + swap } else { swap }
     }
 
     /// Place of the numbers of swap `swap`.
@@ -72,6 +88,11 @@ impl Layout {
         self.other(self.estimators.len(), 0)
     }
 
+    /// Place of the Shapley effect of the first factor.
+    pub(super) fn shapley(&self) -> usize {
+        self.pairs() + if self.second_order { self.factors * (self.factors - 1) / 2 } else { 0 }
+    }
+
     /// The pairs of factors, in the order of their second-order indices.
     pub fn pair_list(&self) -> Vec<(usize, usize)> {
         (0..self.factors).flat_map(|j| (j + 1..self.factors).map(move |k| (j, k))).collect()
@@ -85,7 +106,7 @@ impl Layout {
             let (first, last) = (Number::ShareFirstOrder as usize, Number::CheckGap as usize);
             (first..=last).contains(&((place - of_swaps.start) % PER_SWAP))
         } else {
-            of_others.contains(&place) && (place - of_others.start) % PER_ESTIMATOR >= 2
+            of_others.contains(&place) && (place - of_others.start) % PER_ESTIMATOR >= 2 || place >= self.shapley()
         };
         if difference { Side::Both } else { Side::Above }
     }
@@ -119,11 +140,19 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
     if layout.second_order {
         list.extend(layout.pair_list().into_iter().map(|(j, k)| SecondOrder::Difference.estimate(moments, j, k)));
     }
+    if layout.shapley {
+        let single: Vec<f64> = (0..layout.factors).map(|factor| total[layout.redrawn(factor)]).collect();
+        list.extend(shapley_effects(&single, &total[layout.swaps()..]));
+    }
     Some(list)
 }
 
-/// Shares in percent among the factors, and among the groups; NaN for subsets, which may overlap, and for the dummy.
+/// Shares in percent among the factors, and among the groups; NaN for subsets, which may overlap, for the dummy, and where
+/// factors depend on each other, so that their indices share out nothing.
 fn all_shares(layout: &Layout, indices: &[f64]) -> Vec<f64> {
+    if layout.dependent {
+        return vec![f64::NAN; indices.len()];
+    }
     let (factors, rest) = indices.split_at(layout.factors);
     let (groups, others) = rest.split_at(layout.groups);
     let of = |list: &[f64]| shares(list).unwrap_or_else(|| vec![f64::NAN; list.len()]);

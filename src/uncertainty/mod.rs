@@ -11,6 +11,7 @@ mod concentration;
 mod convergence;
 mod corrected;
 mod delta;
+mod effects;
 mod estimates;
 mod influence;
 mod jackknife;
@@ -28,16 +29,14 @@ pub use aggregate::{AggregateIndices, aggregate_indices};
 pub(crate) use by_points::quantile;
 pub use convergence::{Stage, points_of_stages, stages};
 pub use corrected::{Influenced, LowFidelityUse, SurrogateEstimates, SurrogateTerm, SurrogateUse};
+pub use effects::{DependentEstimates, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
 pub use estimates::Layout;
 pub use influence::Influences;
 pub use jackknife::jackknife;
 pub use method::IntervalMethod;
 pub use net_decay::{PartInfluences, StandardError, net_errors};
 pub use noise::{Noise, in_parts};
-pub use output::{
-    EffectEstimates, IntervalOptions, OtherEstimates, OutputIndices, OutputMoments, differs_clearly, output_indices,
-    output_moments,
-};
+pub use output::{IntervalOptions, differs_clearly, output_indices, output_moments};
 pub use points::KeptPoints;
 pub use ranks::{probability_above, probability_first};
 

@@ -3,6 +3,7 @@
 use super::by_points::{Bounds, ByPoints};
 use super::concentration::{Side, interval};
 use super::corrected::{Corrections, SurrogateEstimates, SurrogateUse};
+use super::effects::{EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
 use super::estimates::{Layout, Number, quantities};
 use super::influence::Influences;
 use super::method::IntervalMethod;
@@ -31,93 +32,6 @@ pub struct IntervalOptions<'a> {
     pub ranks: bool,
     /// What a surrogate makes of the outputs, to take the place of the plain estimates where it is more accurate.
     pub surrogate: Option<&'a SurrogateEstimates>,
-}
-
-/// Indices of one output.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OutputIndices {
-    /// Indices of the factors.
-    pub factors: Vec<EffectEstimates>,
-    /// Closed first-order and total indices of the groups.
-    pub groups: Vec<EffectEstimates>,
-    /// Likewise of the subsets that the study lists.
-    pub subsets: Vec<EffectEstimates>,
-    /// Of the dummy factor, if one was asked for.
-    pub dummy: Option<EffectEstimates>,
-    /// Sum of the first-order indices of the factors: 1 for an additive output, less where factors interact.
-    pub sum_first_order: Estimate,
-    /// Sum of the total indices of the factors: 1 for an additive output, more where factors interact.
-    pub sum_total: Estimate,
-    /// Second-order indices, in the order of [`Layout::pair_list`]; empty if not asked for.
-    pub second_order: Vec<Estimate>,
-    /// What a surrogate did to them, if there was one.
-    pub surrogate: Option<SurrogateUse>,
-}
-
-impl OutputIndices {
-    /// All effects in the order of the swaps: of factors, groups, subsets and the dummy.
-    pub fn effects(&self) -> impl Iterator<Item = &EffectEstimates> {
-        self.factors.iter().chain(&self.groups).chain(&self.subsets).chain(&self.dummy)
-    }
-
-    /// Largest half width of the first-order and total indices of factors, groups and subsets; `None` if one of them
-    /// has no interval.
-    pub fn largest_half_width(&self) -> Option<f64> {
-        let effects = self.factors.iter().chain(&self.groups).chain(&self.subsets);
-        let widths = effects.flat_map(|effect| [effect.first_order, effect.total]).map(|e| e.interval);
-        widths
-            .map(|i| i.map(|Interval { low, high }| (high - low) / 2.0))
-            .try_fold(0.0, |largest: f64, w| Some(largest.max(w?)))
-    }
-}
-
-/// The indices of one factor, group or subset.
-#[derive(Debug, Clone, PartialEq)]
-pub struct EffectEstimates {
-    /// First-order index (of several factors: closed first-order index).
-    pub first_order: Estimate,
-    /// Total index.
-    pub total: Estimate,
-    /// 100 S_i / sum S_j over the factors (of a group: over the groups); `None` where the sum is not positive.
-    pub share_first_order: Option<Estimate>,
-    /// 100 ST_i / sum ST_j, likewise.
-    pub share_total: Option<Estimate>,
-    /// First-order index minus its check by Janon and Monod's formula: 0 within the interval if all is well.
-    pub check_gap: Estimate,
-    /// Total minus first-order index: not negative, within the interval, if all is well.
-    pub interaction: Estimate,
-    /// Whether the interval of the first-order index lay wholly above that of the total index, which no pair of indices can:
-    /// both were then lengthened until they met.
-    pub contradictory: bool,
-    /// Probability that the total index is the largest of all factors'; `None` for others than factors, and where errors are
-    /// unknown or [ranks](IntervalOptions::ranks) were not asked for. Where several total indices are equal in truth, it is as likely to be any number as any other.
-    pub probability_first: Option<f64>,
-    /// Probability that the total index is above the threshold.
-    pub probability_above: Option<f64>,
-    /// The indices by each of the other estimators asked for.
-    pub others: Vec<OtherEstimates>,
-}
-
-/// Indices by another estimator than the default one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OtherEstimates {
-    /// First-order index, if it estimates one.
-    pub first_order: Option<Estimate>,
-    /// Total index, if it estimates one.
-    pub total: Option<Estimate>,
-    /// How much larger than the default first-order index.
-    pub first_order_gap: Option<Estimate>,
-    /// How much larger than the default total index.
-    pub total_gap: Option<Estimate>,
-}
-
-/// Mean and variance of one output, each with its interval.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OutputMoments {
-    /// Mean over the rows A and B.
-    pub mean: Estimate,
-    /// Variance over the rows A and B.
-    pub variance: Estimate,
 }
 
 impl<'a> IntervalOptions<'a> {
@@ -202,10 +116,18 @@ pub fn output_indices(
         })
         .collect();
     let dummy = if layout.dummy { effects.pop() } else { None };
+    if layout.dependent {
+        let redrawn = effects.split_off(layout.listed());
+        let both = effects.into_iter().zip(redrawn);
+        effects = both.map(|(with_others, alone)| with_others.of_dependent_factors(alone)).collect();
+    }
     let subsets = effects.split_off(layout.factors + layout.groups);
     let groups = effects.split_off(layout.factors);
     let [sum_first_order, sum_total, ..] = judged.estimates[..] else { return Err(Undefined::NoRuns) };
-    let second_order = judged.estimates[layout.pairs()..].to_vec();
+    for (effect, shapley) in effects.iter_mut().zip(&judged.estimates[layout.shapley()..]) {
+        effect.shapley = Some(*shapley);
+    }
+    let second_order = judged.estimates[layout.pairs()..layout.shapley()].to_vec();
     Ok(OutputIndices { factors: effects, groups, subsets, dummy, sum_first_order, sum_total, second_order, surrogate })
 }
 
@@ -296,7 +218,11 @@ impl Judged {
     }
 
     fn first(&self, layout: &Layout, seed: u64) -> Option<Vec<f64>> {
-        let places: Vec<usize> = (0..layout.factors).map(|swap| layout.place(swap, Number::Total)).collect();
+        let place = |factor: usize| match layout.shapley {
+            true => layout.shapley() + factor,
+            false => layout.place(layout.redrawn(factor), Number::Total),
+        };
+        let places: Vec<usize> = (0..layout.factors).map(place).collect();
         let estimates: Vec<f64> = places.iter().map(|&place| self.estimates[place].estimate).collect();
         let errors: Vec<StandardError> = places.iter().map(|&place| self.errors[place]).collect();
         let parts: Vec<&PartInfluences> = places.iter().map(|&place| &self.parts[place]).collect();
@@ -325,6 +251,8 @@ impl Judged {
             probability_first: None,
             probability_above: probability_above(total.estimate, self.errors[total_place], threshold),
             others: others.collect(),
+            shapley: None,
+            dependent: None,
         }
     }
 }

@@ -10,6 +10,7 @@ mod commands;
 mod common;
 mod corpus;
 mod degenerate;
+mod dependent;
 mod distributions;
 mod endless;
 mod estimators;

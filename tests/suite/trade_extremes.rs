@@ -49,6 +49,10 @@ fn no_study_has_a_fourth_colour() {
     let mut seen = 0;
     for path in studies() {
         let study = loaded(&path);
+        // The program refuses to map dependent factors.
+        if study.space().copula().is_some() {
+            continue;
+        }
         let own = ExtremesSettings::of(&study);
         let settings = ExtremesSettings { points: own.points / 3, ..own };
         let map = match extremes(&ExtremesJob { settings, ..ExtremesJob::new(&study) }) {

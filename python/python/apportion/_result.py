@@ -177,6 +177,12 @@ class OutputResult:
         return self._indices("indices", "total")
 
     @property
+    def shapley(self) -> Indices:
+        """Shapley effects of the factors, which sum to 1; empty if there are none."""
+        records = [record for record in self.record["indices"] or [] if "shapley" in record]
+        return Indices({record["factor"]: Index.of(record["shapley"]) for record in records})
+
+    @property
     def second_order(self) -> Indices:
         """Second-order indices by pairs of factors; empty if they were not asked for."""
         records = self.record["second_order"] or []
@@ -204,7 +210,8 @@ class OutputResult:
         """A row per factor, as a `pandas.DataFrame`."""
         pandas = _needed("pandas", "to_frame")
         columns: dict[str, Any] = {}
-        for kind, indices in (("first_order", self.first_order), ("total", self.total)):
+        kinds = {"first_order": self.first_order, "total": self.total, "shapley": self.shapley}
+        for kind, indices in ((kind, indices) for kind, indices in kinds.items() if len(indices) or kind != "shapley"):
             columns |= {kind: np.asarray(indices), f"{kind}_low": indices.low, f"{kind}_high": indices.high}
         return pandas.DataFrame(columns, index=pandas.Index(self.first_order.names, name="factor"))
 
@@ -241,6 +248,12 @@ class Result(Document):
     def total(self) -> Indices:
         """Total indices ST of the factors."""
         return self._only().total
+
+    @property
+    def shapley(self) -> Indices:
+        """Shapley effects of the factors: shares of the variance that sum to 1 even where factors depend on each other. There are
+        some with `shapley=True`, and by default of up to 4 factors that depend on each other."""
+        return self._only().shapley
 
     @property
     def second_order(self) -> Indices:

@@ -25,6 +25,7 @@ _ANALYSIS = (
     "estimators",
     "second_order",
     "subsets",
+    "shapley",
     "aggregate",
     "dummy",
     "intervals",
@@ -45,9 +46,11 @@ class Study:
     computed elsewhere: see `sample` and `analyse`. `factors` maps names to distributions; a pair (min, max) is uniform.
 
     Keywords are the keys of a study file: `base_samples`, `sampler`, `replicates`, `seed`, `budget_runs`, `max_runs`,
-    `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `estimators`, `intervals`, `surrogate`, `threshold`,
+    `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `estimators`, `intervals`, `surrogate`, `threshold`,
     `dummy`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
-    `expression={...}`, `fidelity={...}`.
+    `expression={...}`, `fidelity={...}`. Factors that depend on each other, by a Gaussian copula:
+    `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of tables as in a study file, as in
+    `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`.
     """
 
     def __init__(
@@ -73,6 +76,7 @@ class Study:
         design |= {"target": None if target is None else {"half_width": target}}
         design |= {"budget": None if budget is None else f"{budget} s"}
         analysis = {key: options.pop(key, None) for key in _ANALYSIS}
+        options["dependence"] = _dependence(options.get("dependence"), made)
         self._call: Call | None = None
         if callable(model):
             quantiles = {place: f.quantile for place, f in enumerate(made.values()) if f.quantile is not None}
@@ -268,6 +272,27 @@ def analyse(model: Callable[..., Any] | str | None, factors: Mapping[str, Any] |
     running = ("threads", "executor", "in_flight", "journal", "resume", "progress")
     of_run = {key: options.pop(key) for key in running if key in options}
     return Study(model, factors, **options).run(**of_run)
+
+
+def _dependence(asked: Any, factors: Mapping[str, Factor]) -> list[dict[str, Any]]:
+    """The tables of `dependence`, from these or from correlations by pairs of factors."""
+    if asked is None:
+        return []
+    if isinstance(asked, Mapping) and "factors" in asked:
+        asked = [asked]
+    elif isinstance(asked, Mapping):
+        asked = [{"factors": list(pair), "correlation": correlation} for pair, correlation in asked.items()]
+    tables = [dict(table) for table in asked]
+    for table in tables:
+        if isinstance(table.get("correlation"), np.ndarray):
+            table["correlation"] = table["correlation"].tolist()
+        by_quantile = [n for n in table.get("factors", ()) if n in factors and factors[n].quantile is not None]
+        if by_quantile and table.get("measure", "pearson") == "pearson" and "file" not in table:
+            raise StudyError(
+                f"{', '.join(by_quantile)}: Pearson's correlations of factors by their quantile functions are not known: expected "
+                'measure="spearman", "kendall" or "normal"'
+            )
+    return tables
 
 
 def _said(table: Mapping[str, Any]) -> dict[str, Any]:

@@ -74,6 +74,30 @@ pub struct EffectRecord {
     /// Probability that its total index exceeds the threshold in `provenance`.
     #[serde(default)]
     pub probability_above_threshold: Option<f64>,
+    /// Shapley effect of a factor, if asked for: its share of the variance, dependent on others or not; those of all factors sum to 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shapley: Option<EstimateRecord>,
+    /// Where factors depend on each other: what there is beside. The first-order index is then Var E(Y | X)/V with all that the
+    /// factor tells of others, the total index E Var(Y | all others)/V without what others tell of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dependent: Option<DependentRecord>,
+}
+
+/// Indices of a factor that depends on others, or has others beside it that do.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
+pub struct DependentRecord {
+    /// First-order index of what the factor has on its own, given all others.
+    pub independent_first_order: EstimateRecord,
+    /// Total index of the factor with all that it tells of others.
+    pub full_total: EstimateRecord,
+}
+
+impl EffectRecord {
+    /// What factors are ranked by: where they depend on each other the Shapley effect, if there is one; else the total index.
+    pub fn weight(&self) -> EstimateRecord {
+        self.shapley.filter(|_| self.dependent.is_some()).unwrap_or(self.total)
+    }
 }
 
 /// The joint indices of a subset of the factors that the study lists.

@@ -3,7 +3,7 @@
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Point, Series, Shape};
 use super::super::factor_bars::{INDEX, MOST, both_orders, index_panel, label, left_out};
 use super::super::format::{sentence, the};
-use super::super::leading::{Contender, decides_most, percent};
+use super::super::leading::{Contender, decides_most, may_lead, names, percent};
 use super::super::result::{IndexRecord, OutputRecord, ResultFile};
 use super::{headline, no_indices};
 use crate::text::listed;
@@ -23,8 +23,13 @@ pub fn indices_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let factors = indices.iter().map(|index| label(&index.factor)).collect();
     let first_order = indices.iter().map(|index| Some(index.effect.first_order)).collect();
     let total = indices.iter().map(|index| Some(index.effect.total)).collect();
-    let keys: Vec<f64> = indices.iter().map(|index| index.effect.total.estimate).collect();
-    let panel = index_panel(INDEX, factors, both_orders(first_order, total), &keys);
+    let keys: Vec<f64> = indices.iter().map(|index| index.effect.weight().estimate).collect();
+    let mut series = both_orders(first_order, total);
+    if indices.iter().any(|index| index.effect.dependent.is_some()) {
+        let names = ["first order: with all that it tells of others", "total: what it has on its own"];
+        series.iter_mut().zip(names).for_each(|((series, _), name)| series.name = name.to_owned());
+    }
+    let panel = index_panel(INDEX, factors, series, &keys);
     let title = format!("{}: indices of {}", headline(result), the(&output.name));
     Chart::new(title, indices_caption(output)).panels([panel])
 }
@@ -32,7 +37,9 @@ pub fn indices_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
 /// Every factor (at most 30, those with the largest total indices) by its first-order and its total index: on the dashed
 /// line it acts alone, above it together with others.
 pub fn interactions_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
-    let drawn = drawn(output);
+    let title = format!("{}: what acts on {} alone, what together", headline(result), the(&output.name));
+    let is_dependent = output.indices.iter().flatten().any(|index| index.effect.dependent.is_some());
+    let drawn = if is_dependent { Vec::new() } else { drawn(output) };
     let largest = drawn.iter().map(|index| index.effect.total.estimate).fold(0.0, f64::max);
     let series = Series::new("factor, with the 95 % intervals of both indices", Colour::Series(0));
     let point = |index: &&IndexRecord| {
@@ -49,8 +56,11 @@ pub fn interactions_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let x = Axis::new("first-order index S1: what the factor does alone", "");
     let y = Axis::new("total index ST: with all its interactions", "");
     let panel = Panel::new(x, y).with(drawn.iter().map(point)).with([Mark::slope(1.0, "ST = S1")]);
-    let title = format!("{}: what acts on {} alone, what together", headline(result), the(&output.name));
-    Chart::new(title, interactions_caption(result, output)).panels([panel])
+    let caption = match is_dependent {
+        true => "Of factors that depend on each other no interactions can be told from their dependence.".to_owned(),
+        false => interactions_caption(result, output),
+    };
+    Chart::new(title, caption).panels([panel])
 }
 
 /// The factors that are drawn.
@@ -69,10 +79,13 @@ fn indices_caption(output: &OutputRecord) -> String {
     let contender = |index: &IndexRecord| Contender {
         label: the(&index.factor),
         first_order: Some(index.effect.first_order),
-        total: index.effect.total,
+        total: index.effect.weight(),
         probability: index.effect.probability_first,
     };
     let contenders: Vec<Contender> = indices().map(contender).collect();
+    if indices().any(|index| index.effect.dependent.is_some()) {
+        return dependent_caption(&contenders, &the(&output.name)) + &left_out(indices().count());
+    }
     let Some(mut caption) = decides_most(&contenders, &the(&output.name)) else { return no_indices(output) };
     // A sum below one of its parts, or one that may be 0, says nothing but that the errors are large.
     let largest = indices().map(|index| index.effect.first_order.estimate).fold(0.0, f64::max);
@@ -81,6 +94,19 @@ fn indices_caption(output: &OutputRecord) -> String {
         caption.push_str(&format!("; all factors alone explain {}", percent(sum.estimate)));
     }
     caption + "." + &left_out(indices().count())
+}
+
+/// Who leads among factors that depend on each other: by the share of each, of the variance or of what is left without it.
+fn dependent_caption(contenders: &[Contender], output: &str) -> String {
+    let value = |contender: &Contender| percent(contender.total.estimate);
+    match may_lead(contenders)[..] {
+        [lead] => format!(
+            "{} has the largest part of the variance of {output}: {}.",
+            sentence(&contenders[lead].label),
+            value(&contenders[lead])
+        ),
+        ref tied => format!("Which has the largest part cannot be told: {}.", names(contenders, tied, &value)),
+    }
 }
 
 /// Which factors act alone, which together with others, in one sentence.

@@ -74,7 +74,7 @@ pub(super) fn answer(result: &ResultFile, output: &OutputRecord) -> String {
 /// The indices of an output with their places in the study, the largest total index first; `None` without any.
 pub(super) fn by_total(output: &OutputRecord) -> Option<Vec<(usize, &IndexRecord)>> {
     let mut order: Vec<(usize, &IndexRecord)> = output.indices.as_ref()?.iter().enumerate().collect();
-    order.sort_by(|a, b| b.1.effect.total.estimate.total_cmp(&a.1.effect.total.estimate));
+    order.sort_by(|a, b| b.1.effect.weight().estimate.total_cmp(&a.1.effect.weight().estimate));
     (!order.is_empty()).then_some(order)
 }
 
@@ -82,7 +82,7 @@ fn contenders(order: &[&IndexRecord]) -> Vec<Contender> {
     let contender = |index: &&IndexRecord| Contender {
         label: name(&index.factor),
         first_order: Some(index.effect.first_order),
-        total: index.effect.total,
+        total: index.effect.weight(),
         probability: index.effect.probability_first,
     };
     order.iter().map(contender).collect()
@@ -97,22 +97,27 @@ fn tied(order: &[&IndexRecord]) -> Vec<usize> {
 fn tie(output: &OutputRecord, order: &[&IndexRecord], tied: &[usize]) -> String {
     let total = |contender: &Contender| index(contender.total);
     let names = names(&contenders(order), tied, &total);
-    format!("What matters most for {} cannot be told apart, by the total index S_T: {names}.", the(&output.name))
+    let by = weight_name(order);
+    format!("What matters most for {} cannot be told apart, by the {by}: {names}.", the(&output.name))
 }
 
 fn leader(output: &OutputRecord, order: &[&IndexRecord]) -> String {
     let leader = order[0];
-    let total = index(leader.effect.total);
+    let (total, by) = (index(leader.effect.weight()), weight_name(order));
     let output = the(&output.name);
     if order.len() == 1 {
-        return format!("{} is the only factor of {output}: its total index S_T is {total}.", first(&leader.factor));
+        return format!("{} is the only factor of {output}: its {by} is {total}.", first(&leader.factor));
     }
     let share = leader.effect.share_total.map_or_else(String::new, |share| format!(", {share:.1} % of the sum of all"));
-    format!(
-        "{} matters most for {output}: its total index S_T is {total}{share}{}.",
-        first(&leader.factor),
-        how_sure(order)
-    )
+    format!("{} matters most for {output}: its {by} is {total}{share}{}.", first(&leader.factor), how_sure(order))
+}
+
+/// What factors are ranked by.
+fn weight_name(order: &[&IndexRecord]) -> &'static str {
+    match order.iter().any(|index| index.effect.dependent.is_some() && index.effect.shapley.is_some()) {
+        true => "Shapley effect",
+        false => "total index S_T",
+    }
 }
 
 /// How sure it is that the first is the first.
@@ -136,7 +141,7 @@ fn others(result: &ResultFile, order: &[&IndexRecord], tied: &[usize]) -> String
     if order.len() < 2 {
         return String::new();
     }
-    let next = |index: &&IndexRecord| match index.effect.total.estimate {
+    let next = |index: &&IndexRecord| match index.effect.weight().estimate {
         total if total < 0.005 => format!("{} (below 0.01)", name(&index.factor)),
         total => format!("{} ({total:.2})", name(&index.factor)),
     };
@@ -147,7 +152,9 @@ fn others(result: &ResultFile, order: &[&IndexRecord], tied: &[usize]) -> String
         1 => format!("Next comes {}", listed(&next)),
         _ => format!("Next come {}", listed(&next)),
     };
-    let above = |index: &&IndexRecord| index.effect.probability_above_threshold;
+    // Of dependent factors nothing follows from a total index alone.
+    let above =
+        |index: &&IndexRecord| index.effect.probability_above_threshold.filter(|_| index.effect.dependent.is_none());
     let chances: Vec<f64> = order.iter().filter_map(above).collect();
     if order.len() > 3 && chances.len() == order.len() {
         let yes = chances.iter().filter(|chance| **chance > SURE).count();

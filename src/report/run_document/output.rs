@@ -111,6 +111,19 @@ fn times(gain: f64) -> String {
 }
 
 fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let any = |asked: fn(&IndexRecord) -> bool| of.output.indices.iter().flatten().any(asked);
+    if any(|index| index.effect.shapley.is_some()) {
+        let text = "Shapley effects share out the variance of the output among the factors, whether or not they depend on each \
+                    other: each is the mean, over all orders of the factors, of what a factor adds to what those before it \
+                    explain. They sum to 100 %.";
+        return vec![Part::Text(text.to_owned()), figures.draw(of, SHARES)];
+    }
+    if any(|index| index.effect.dependent.is_some()) {
+        return vec![Part::Text(
+            "The indices of factors that depend on each other share out nothing. Shapley effects do: shapley = true in [analysis]."
+                .to_owned(),
+        )];
+    }
     let text = "A factor's share is its index in percent of the sum of the indices of all factors: of the first-order \
                 indices S_1, which count what a factor does alone, or of the total indices S_T, which count what it does \
                 together with others too.";
@@ -143,6 +156,16 @@ fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
 /// What the columns of the tables of indices mean, and what the intervals are.
 pub(super) fn definitions(result: &ResultFile) -> [Part; 2] {
     let threshold = result.provenance.threshold;
+    if !result.study.dependences.is_empty() {
+        let text = "Factors depend on each other. S_1 is the part of the variance of the output that goes if a factor becomes known, \
+                    with all that it tells of others; S_T is the part that stays as long as it alone is unknown, which is what \
+                    it has on its own, and may be smaller (Kucherenko, Tarantola and Annoni 2012). The other two are S_1 of what \
+                    the factor has on its own, given the others, and S_T with all that it tells of others (Mara, Tarantola and \
+                    Annoni 2015). P(largest) is the probability that its Shapley effect, or else S_T, is the largest.";
+        let intervals =
+            result.provenance.interval.as_ref().map_or_else(String::new, |words| format!("Intervals (±): {words}."));
+        return [Part::OnPage(vec![Part::Text(text.to_owned())]), Part::Text(intervals)];
+    }
     let indices = format!(
         "S_1 is the part of the variance of the output that goes if a factor becomes known; S_T is the part that stays as \
          long as it is unknown. P(largest) is the probability that a factor's total index is the largest, \
@@ -186,7 +209,8 @@ fn below_zero(output: &OutputRecord) -> Option<String> {
 
 fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let output = of.output;
-    let Some(order) = by_total(output).filter(|order| order.len() > 1) else { return Vec::new() };
+    let is_dependent = !figures.result.study.dependences.is_empty();
+    let Some(order) = by_total(output).filter(|order| order.len() > 1 && !is_dependent) else { return Vec::new() };
     let mut text = super::lead::interactions(output.sum_first_order);
     let difference = |index: &IndexRecord| index.effect.interaction.map_or(f64::NEG_INFINITY, |i| i.estimate);
     let most = order.iter().map(|(_, index)| *index).max_by(|a, b| difference(a).total_cmp(&difference(b)));

@@ -23,8 +23,8 @@ const LEAST_TERM: f64 = 0.01;
 /// Most factors in a table of estimators.
 const FACTORS_OF_ESTIMATORS: usize = 20;
 
-/// The places of the columns that a table of indices over all outputs leaves out.
-const OF_ONE_OUTPUT: std::ops::Range<usize> = 7..10;
+/// The places of the columns from the first one on that a table of indices over all outputs leaves out.
+const OF_ONE_OUTPUT: usize = 7;
 
 /// `which` of how many are shown, if not all.
 fn largest(shown: usize, all: usize, what: &str) -> String {
@@ -45,21 +45,25 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part
     let sum = |sum: Option<EstimateRecord>| sum.map_or_else(Cell::default, Cell::from);
     let mut sums: Vec<Cell> = vec![Cell::default(), Cell::default(), "sum of all factors".into()];
     sums.extend([sum(output.sum_first_order), sum(output.sum_total)]);
-    sums.resize(10, Cell::default());
+    let (what, order_of) = match output.indices.iter().flatten().any(|index| index.effect.dependent.is_some()) {
+        true => ("First-order and total indices of dependent factors", "what they are ranked by"),
+        false => ("First-order index S_1, total index S_T and their difference", "the total index"),
+    };
     let caption = format!(
-        "First-order index S_1, total index S_T and their difference, each with the half width of its 95 % interval, in \
-         the order of the total index.{}",
+        "{what}, each with the half width of its 95 % interval, in the order of {order_of}.{}",
         largest(order.len().min(FACTORS), order.len(), "factors, all in the CSV file")
     );
     let printed = places(&order, FACTORS);
-    Some(Part::Table(Table { printed, sums, ..effect_table(result, caption, "factor").with_rows(rows) }))
+    let table = effect_table(result, caption, "factor").with_rows(rows);
+    sums.resize(table.columns.len(), Cell::default());
+    Some(Part::Table(Table { printed, sums, ..table }))
 }
 
 fn effect_table(result: &ResultFile, caption: String, what: &str) -> Table {
     let above = format!("P(S_T > {})", result.provenance.threshold);
     let in_file = |name: &str| Column::in_file(Field::new(name));
     let estimate = |heading: &str, name: &str| Column::number(heading).named(Field::estimate(name));
-    let columns = [
+    let mut columns = vec![
         in_file("output"),
         in_file("kind"),
         Column::text(what).named(Field::new("name")),
@@ -71,6 +75,17 @@ fn effect_table(result: &ResultFile, caption: String, what: &str) -> Table {
         Column::number("P(largest)").named(Field::new("probability_first")),
         Column::number(above).named(Field::new("probability_above_threshold")),
     ];
+    let indices = || result.outputs.iter().filter_map(|output| output.indices.as_ref()).flatten();
+    if indices().any(|index| index.effect.dependent.is_some()) {
+        // Their difference shows no interactions, and what exceeds a threshold is not what is ranked.
+        columns[7].hide();
+        columns[9].hide();
+        columns.push(estimate("S_1 given the others", "independent_first_order"));
+        columns.push(estimate("S_T with the others", "full_total"));
+    }
+    if indices().any(|index| index.effect.shapley.is_some()) {
+        columns.push(estimate("Shapley effect", "shapley"));
+    }
     Table { file: format!("{}.csv", result.study.name), ..Table::new(caption, columns) }
 }
 
@@ -81,7 +96,8 @@ fn effect_row((output, kind): (&str, &str), (label, name): (String, &str), effec
             |estimate| EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) };
         Cell::valued("", Value::Estimate(share.map(bounds)))
     };
-    vec![
+    let dependent = effect.dependent.map(|dependent| [dependent.independent_first_order, dependent.full_total]);
+    let mut row = vec![
         output.into(),
         kind.into(),
         Cell::valued(label, name.into()),
@@ -92,7 +108,10 @@ fn effect_row((output, kind): (&str, &str), (label, name): (String, &str), effec
         effect.interaction.into(),
         chance(effect.probability_first),
         chance(effect.probability_above_threshold),
-    ]
+    ];
+    row.extend(dependent.into_iter().flatten().map(Cell::from));
+    row.extend(effect.shapley.map(Cell::from));
+    row
 }
 
 /// The indices of all outputs, as the tables of each and the aggregated ones have them.
@@ -351,7 +370,7 @@ pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indice
         largest(order.len().min(FACTORS), order.len(), "factors, all in the CSV file")
     );
     let mut table = effect_table(result, caption, "factor").with_rows(indices.iter().map(row));
-    table.columns[OF_ONE_OUTPUT].iter_mut().for_each(Column::hide);
+    table.columns[OF_ONE_OUTPUT..].iter_mut().for_each(Column::hide);
     Part::Table(Table { printed: places(&order, FACTORS), at_end: true, ..table })
 }
 

@@ -18,12 +18,12 @@ pub struct Normal {
 }
 
 /// The quantile of the standard normal distribution; relative error below 4e-16 from u = 1e-290 up.
-pub(super) fn standard_quantile(u: f64) -> f64 {
+pub(in crate::space) fn standard_quantile(u: f64) -> f64 {
     -SQRT_2 * erfc_inv(2.0 * u)
 }
 
 /// P(Z < z) of the standard normal distribution, to full relative precision in the lower tail.
-pub(super) fn standard_below(z: f64) -> f64 {
+pub(in crate::space) fn standard_below(z: f64) -> f64 {
     0.5 * erfc(-z * FRAC_1_SQRT_2)
 }
 

@@ -4,7 +4,7 @@ use super::context::{Context, Fault, choice, unknown_name, wrong};
 use super::error::Problem;
 use super::sections::{AnalysisSection, At, DesignSection};
 use crate::design::Sampler;
-use crate::estimate::Estimator;
+use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS};
 use crate::quantity::{Dimension, Quantity};
 use crate::run::FailurePolicy;
 use crate::space::Space;
@@ -29,6 +29,7 @@ pub(super) fn analysis(
         estimators: estimators(context, section)?,
         second_order: flag(&section.second_order),
         subsets: subsets(context, section, space)?,
+        shapley: shapley(context, section, space)?,
         aggregate: flag(&section.aggregate),
         dummy: flag(&section.dummy),
         intervals,
@@ -100,6 +101,16 @@ fn subsets(context: &Context<'_>, section: &AnalysisSection, space: &Space) -> R
         subsets.push(numbers);
     }
     Ok(subsets)
+}
+
+fn shapley(context: &Context<'_>, section: &AnalysisSection, space: &Space) -> Result<Option<bool>, Fault> {
+    let Some(asked) = &section.shapley else { return Ok(None) };
+    let factors = space.factors().len();
+    if *asked.get_ref() && factors > MAX_SHAPLEY_FACTORS {
+        let expected = format!("false: Shapley effects are those of at most {MAX_SHAPLEY_FACTORS} factors");
+        return Err(context.fault(asked.span(), wrong("shapley", &expected, format!("true with {factors} factors"))));
+    }
+    Ok(Some(*asked.get_ref()))
 }
 
 fn surrogate(

@@ -14,6 +14,10 @@ use crate::names::nearest;
 
 /// Brings `root`, a study file, to the form that `StudyFile` has.
 pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
+    if let Some(value) = root.get_mut("dependence").filter(|value| value.get_ref().is_table()) {
+        let one = std::mem::replace(value.get_mut(), DeValue::Boolean(false));
+        *value.get_mut() = DeValue::Array(DeArray::from_iter([Spanned::new(value.span(), one)]));
+    }
     factors(context, root)?;
     distributions(context, root)?;
     outputs_above(context, root)?;

@@ -9,6 +9,7 @@ use crate::design::Sampler;
 use crate::estimate::Estimator;
 use crate::model::{KnownAnswer, Match, ModelKind, Protocol, edge_unit};
 use crate::run::FailurePolicy;
+use crate::space::CorrelationMeasure;
 use crate::study::SurrogateChoice;
 use crate::uncertainty::IntervalMethod;
 
@@ -41,6 +42,10 @@ pub(super) fn lows(_: &mut SchemaGenerator) -> Schema {
 /// The schema of an estimator's name.
 pub(super) fn estimators() -> Value {
     json!({ "enum": names(&Estimator::ALL, Estimator::name) })
+}
+
+pub(super) fn correlation_measures() -> Vec<&'static str> {
+    names(&CorrelationMeasure::ALL, CorrelationMeasure::name)
 }
 
 pub(super) fn surrogates() -> Vec<&'static str> {

@@ -6,6 +6,7 @@ mod at;
 mod command;
 mod constants;
 mod context;
+mod dependence;
 mod design;
 mod distribution;
 mod distribution_forms;

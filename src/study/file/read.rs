@@ -64,12 +64,17 @@ fn meant_elsewhere(name: &str) -> Option<String> {
 
 /// The deserialiser's message without the names of Rust types.
 fn in_words(message: &str) -> String {
-    const WORDS: [(&str, &str); 12] = [
+    const WORDS: [(&str, &str); 14] = [
         ("expected f64", "expected a number"),
         ("expected u64", "expected a whole number from 0 to 9223372036854775807"),
         ("expected struct DesignSection", "expected a table [design]"),
         ("expected struct AnalysisSection", "expected a table [analysis]"),
         ("expected struct TargetSection", "expected a table, as in { half_width = 0.01 }"),
+        ("expected struct DependenceSection", "expected a table [[dependence]]"),
+        (
+            "data did not match any variant of untagged enum Correlation",
+            "expected a number, or a matrix as in [[1, 0.5], [0.5, 1]]",
+        ),
         ("expected struct FactorSection", "expected a table [[factor]]"),
         ("expected struct CommandSection", "expected a table [command]"),
         ("expected struct ExpressionSection", "expected a table [expression]"),

@@ -27,6 +27,7 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     refuse_tables_of_others(context, kind, &file)?;
     let (table, reading) = (table_of(kind), Reading { context, file: &file, kind });
     let space = space(context, &(table.inputs)(&reading)?, &file.factor)?;
+    let space = super::dependence::dependent(context, &file, space)?;
     let (subject, unused) = (table.subject)(&reading, &space)?;
     names::refuse_output_names(context, &*subject, &space)?;
     refuse_outputs_of_factors(context, &*subject, (&space, &file.factor))?;

@@ -49,6 +49,9 @@ pub(super) struct StudyFile {
     /// reach. The run chooses its design, surrogates and cheaper models by itself.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub accuracy: Option<At<f64>>,
+    /// Factors that depend on each other, by a Gaussian copula: tables [[dependence]].
+    #[serde(default)]
+    pub dependence: Vec<At<DependenceSection>>,
     /// Cheaper models of the same outputs, which stand in for the model where they help.
     #[serde(default)]
     pub fidelity: Option<At<FidelitySection>>,
@@ -102,6 +105,33 @@ pub(super) struct FidelitySection {
     pub base_samples: Option<At<u64>>,
 }
 
+/// Factors that depend on each other, by a Gaussian copula.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DependenceSection {
+    /// The factors: two or more.
+    pub factors: NameList,
+    /// Their correlation: one number for every pair of them, or the whole symmetric matrix with ones on its diagonal.
+    pub correlation: Option<At<Correlation>>,
+    /// What the numbers are correlations of: of the values ("pearson"), of the ranks ("spearman", "kendall"), or of the normal scores
+    /// ("normal"), which are the parameters of the copula.
+    #[schemars(extend("enum" = key_schemas::correlation_measures(), "default" = "pearson"))]
+    pub measure: Option<At<String>>,
+    /// In the place of `correlation`: a CSV file of joint measurements, relative to the study, with a column of the name of each
+    /// factor. The correlations are those of the normal scores of its ranks.
+    pub file: Option<At<String>>,
+}
+
+/// Correlations of factors.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(super) enum Correlation {
+    /// Of every pair.
+    Pairs(f64),
+    /// The whole matrix.
+    Matrix(Vec<Vec<f64>>),
+}
+
 /// The points at which the model runs.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -153,6 +183,9 @@ pub(super) struct AnalysisSection {
     pub second_order: Option<At<bool>>,
     /// Sets of factors whose joint indices are asked for.
     pub subsets: Option<At<Vec<NameList>>>,
+    /// Shapley effects: shares of the variance that sum to 1 even where factors depend on each other. Of at most 8 factors; 2^d runs
+    /// for each base sample. By default those of up to 4 factors that depend on each other.
+    pub shapley: Option<At<bool>>,
     /// Indices over all outputs together.
     pub aggregate: Option<At<bool>>,
     /// A factor that does nothing is run along: its indices are the noise of the model.

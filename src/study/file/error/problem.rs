@@ -6,7 +6,7 @@ use super::synonyms::suggestion;
 use crate::design::DesignError;
 use crate::model::{ExpressionError, ParameterError};
 use crate::quantity::UnitError;
-use crate::space::DistributionError;
+use crate::space::{DependenceError, DistributionError};
 
 /// What is wrong at a place of a study file.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -164,6 +164,9 @@ pub enum Problem {
         /// The other factor.
         other: String,
     },
+    /// Factors that cannot depend on each other as stated.
+    #[error(transparent)]
+    Dependence(DependenceError),
     /// A nominal value that the distribution does not have.
     #[error("factor `{factor}`: its nominal value is {found}, which is not one of its values")]
     NotAValue {

@@ -1,0 +1,87 @@
+//! The columns of rows of dependent factors that come from no matrix alone.
+//!
+//! Where factors are independent, a row AB_s is A with the columns s from B. Where they depend on each other by a Gaussian copula,
+//! something has to give: either the factors s come from B and the others follow them, each keeping of A what the factors s do not
+//! tell of it; or the others come from A, and the factors s are drawn anew given them. In normal scores both are linear (Kucherenko,
+//! Tarantola and Annoni 2012, Comput. Phys. Commun. 183, 937-946; Mara, Tarantola and Annoni 2015, Environ. Model. Softw. 72,
+//! 173-183): with a difference b - a of the scores of B and A, the first is z_r = a_r + R (b_s - a_s), the second
+//! z_s = b_s + R' (a_r - b_r), R and R' being the regressions.
+
+use std::sync::Arc;
+
+use crate::space::{GaussianCopula, from_score, normal_scores};
+
+/// A column that follows others.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct MixedColumn {
+    /// The factor whose column it is.
+    pub factor: usize,
+    /// The column of a matrix that it starts from.
+    pub start: usize,
+    /// What is added to its scores: (coefficient, of the scores of this column, less those of that one).
+    pub terms: Vec<(f64, usize, usize)>,
+}
+
+/// The mixed columns of a design, and the copula that its matrices follow.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct MixedColumns {
+    pub copula: Arc<GaussianCopula>,
+    /// The number of the first one among the columns of the base points.
+    pub first: usize,
+    pub columns: Vec<MixedColumn>,
+}
+
+impl MixedColumns {
+    /// The columns in which a row differs from `base` with the columns `swap` of `from`, as (factor, column), in rising order;
+    /// `redrawn` tells whether the factors of the swap are drawn given the others, or else the others follow them. `base` and
+    /// `from` are the numbers of the first columns of the two matrices.
+    pub fn of_row(&mut self, swap: &[usize], redrawn: bool, (base, from): (usize, usize)) -> Vec<(usize, usize)> {
+        let others: Vec<usize> = self.copula.dependent().iter().copied().filter(|j| !swap.contains(j)).collect();
+        let swapped: Vec<usize> = self.copula.dependent().iter().copied().filter(|j| swap.contains(j)).collect();
+        let (following, given, start, sign) =
+            if redrawn { (&swapped, &others, from, -1.0) } else { (&others, &swapped, base, 1.0) };
+        let mut row = Vec::new();
+        for &factor in following {
+            let coefficients = self.copula.regression(factor, given);
+            let terms = given.iter().zip(coefficients).filter(|(_, coefficient)| *coefficient != 0.0);
+            let terms: Vec<(f64, usize, usize)> =
+                terms.map(|(j, coefficient)| (sign * coefficient, from + j, base + j)).collect();
+            if !terms.is_empty() {
+                row.push((factor, self.number(MixedColumn { factor, start: start + factor, terms })));
+            }
+        }
+        row
+    }
+
+    fn number(&mut self, column: MixedColumn) -> usize {
+        let place = self.columns.iter().position(|other| *other == column);
+        self.first
+            + place.unwrap_or_else(|| {
+                self.columns.push(column);
+                self.columns.len() - 1
+            })
+    }
+
+    /// Makes the columns of `matrices` matrices dependent, `factors` each, and fills the mixed ones behind all others.
+    pub fn fill(&self, columns: &mut [Vec<f64>], (factors, matrices): (usize, usize)) {
+        let (own, mixed) = columns.split_at_mut(self.first.min(columns.len()));
+        own.chunks_mut(factors).take(matrices).for_each(|matrix| self.copula.correlate(matrix));
+        if mixed.is_empty() {
+            return;
+        }
+        let is_dependent = |place: usize| self.copula.dependent().contains(&(place % factors));
+        let scores = |(place, column): (usize, &Vec<f64>)| match place < factors * matrices && is_dependent(place) {
+            true => normal_scores(column),
+            false => Vec::new(),
+        };
+        let scores: Vec<Vec<f64>> = own.iter().enumerate().map(scores).collect();
+        for (MixedColumn { start, terms, .. }, column) in self.columns.iter().zip(mixed) {
+            column.copy_from_slice(&scores[*start]);
+            for (coefficient, plus, less) in terms {
+                let difference = scores[*plus].iter().zip(&scores[*less]).map(|(plus, less)| plus - less);
+                column.iter_mut().zip(difference).for_each(|(score, difference)| *score += coefficient * difference);
+            }
+            column.iter_mut().for_each(|score| *score = from_score(*score));
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! The Gaussian copula: factors whose normal scores are correlated, each with its own distribution.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::distribution::{LARGEST_U, SMALLEST_U, standard_below, standard_quantile};
+
+/// A Gaussian copula of all factors of a space: the normal scores Phi^-1(u) of the factors have a joint normal distribution.
+///
+/// Conditional distributions are linear in the scores, so that any factors can be drawn given any others (Kucherenko, Tarantola
+/// and Annoni 2012, Comput. Phys. Commun. 183, 937-946, section 4).
+#[derive(Debug, Clone, PartialEq)]
+pub struct GaussianCopula {
+    correlation: DMatrix<f64>,
+    /// The factors that are correlated with another one, in rising order.
+    dependent: Vec<usize>,
+    /// The Cholesky factor of the correlations among these.
+    lower: DMatrix<f64>,
+}
+
+// Correlations are numbers, which equal themselves.
+impl Eq for GaussianCopula {}
+
+/// The least eigenvalue of a correlation matrix: with less, a factor is almost a function of others.
+const LEAST_EIGENVALUE: f64 = 1e-9;
+
+/// The least eigenvalue of a matrix that is proposed: four digits can be written without losing it.
+const PROPOSED_EIGENVALUE: f64 = 1e-3;
+
+impl GaussianCopula {
+    /// The copula whose normal scores have this correlation matrix, symmetric with a diagonal of ones; an error with the nearest
+    /// matrix that would do, rounded to four digits, if it is not positive definite.
+    pub(super) fn new(correlation: DMatrix<f64>) -> Result<Self, DMatrix<f64>> {
+        let factors = correlation.nrows();
+        let is_dependent = |i: &usize| (0..factors).any(|j| j != *i && correlation[(*i, j)] != 0.0);
+        let dependent: Vec<usize> = (0..factors).filter(is_dependent).collect();
+        let among = part(&correlation, &dependent, &dependent);
+        if dependent.is_empty() {
+            return Ok(Self { correlation, dependent, lower: among });
+        }
+        let least = among.symmetric_eigenvalues().iter().copied().fold(1.0, f64::min);
+        let lower = among.cholesky().filter(|_| least >= LEAST_EIGENVALUE).map(|cholesky| cholesky.l());
+        match lower {
+            Some(lower) => Ok(Self { correlation, dependent, lower }),
+            None => Err(nearest_correlation(&correlation)),
+        }
+    }
+
+    /// Number of factors.
+    pub fn factors(&self) -> usize {
+        self.correlation.nrows()
+    }
+
+    /// The correlation of the normal scores of two factors.
+    pub fn correlation(&self, i: usize, j: usize) -> f64 {
+        self.correlation[(i, j)]
+    }
+
+    /// The factors that are correlated with another one, in rising order.
+    pub fn dependent(&self) -> &[usize] {
+        &self.dependent
+    }
+
+    /// Whether the factors `set` are independent of all others.
+    pub fn is_independent(&self, set: &[usize]) -> bool {
+        set.iter().all(|&i| self.dependent.iter().all(|j| set.contains(j) || self.correlation[(i, *j)] == 0.0))
+    }
+
+    /// Points of the unit cube, a column for each factor, whose coordinates are independent, become dependent: the first of
+    /// the dependent factors keeps its coordinates.
+    pub fn correlate(&self, columns: &mut [Vec<f64>]) {
+        let mut scores: Vec<Vec<f64>> = self.dependent.iter().map(|&factor| normal_scores(&columns[factor])).collect();
+        for (row, &factor) in self.dependent.iter().enumerate().skip(1).rev() {
+            let (before, own) = scores.split_at_mut(row);
+            let own = &mut own[0];
+            own.iter_mut().for_each(|score| *score *= self.lower[(row, row)]);
+            for (column, other) in before.iter().enumerate().filter(|(column, _)| self.lower[(row, *column)] != 0.0) {
+                let weight = self.lower[(row, column)];
+                own.iter_mut().zip(other).for_each(|(score, other)| *score += weight * other);
+            }
+            columns[factor].iter_mut().zip(&*own).for_each(|(u, score)| *u = from_score(*score));
+        }
+    }
+
+    /// The coefficients of E(score of `of` | scores of `given`) = sum of coefficient x score, in the order of `given`.
+    pub fn regression(&self, of: usize, given: &[usize]) -> Vec<f64> {
+        // Only those that are tied to it, be it by way of others, have a coefficient.
+        let mut tied = vec![of];
+        let mut next = 0;
+        while next < tied.len() {
+            let from = tied[next];
+            let more = given.iter().filter(|j| self.correlation[(from, **j)] != 0.0 && !tied.contains(j));
+            let more: Vec<usize> = more.copied().collect();
+            tied.extend(more);
+            next += 1;
+        }
+        let tied: Vec<usize> = given.iter().copied().filter(|j| tied[1..].contains(j)).collect();
+        let covariances = DVector::from_iterator(tied.len(), tied.iter().map(|&j| self.correlation[(of, j)]));
+        // A principal part of a positive definite matrix is one.
+        let solved = part(&self.correlation, &tied, &tied).cholesky().map(|cholesky| cholesky.solve(&covariances));
+        let coefficient = |j: &usize| {
+            let place = tied.iter().position(|other| other == j)?;
+            solved.as_ref().map(|solved| solved[place])
+        };
+        given.iter().map(|j| coefficient(j).unwrap_or(0.0)).collect()
+    }
+}
+
+/// Normal scores of coordinates of the unit cube.
+pub(crate) fn normal_scores(u: &[f64]) -> Vec<f64> {
+    u.iter().map(|&u| standard_quantile(u)).collect()
+}
+
+/// The coordinate of the unit cube with this normal score, inside the range of all coordinates.
+pub(crate) fn from_score(score: f64) -> f64 {
+    standard_below(score).clamp(SMALLEST_U, LARGEST_U)
+}
+
+fn part(matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows.len(), columns.len(), |i, j| matrix[(rows[i], columns[j])])
+}
+
+/// The correlation matrix nearest to `matrix` in the Frobenius norm, made safely positive definite and rounded to four digits, by
+/// alternating projections (Higham 2002, IMA J. Numer. Anal. 22, 329-343, algorithm 3.3).
+fn nearest_correlation(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    const STEPS: usize = 500;
+    let n = matrix.nrows();
+    let at_least = |matrix: DMatrix<f64>, least: f64| {
+        let mut eigen = matrix.symmetric_eigen();
+        eigen.eigenvalues.iter_mut().for_each(|value| *value = value.max(least));
+        eigen.recompose()
+    };
+    let mut nearest = matrix.clone();
+    let mut correction = DMatrix::zeros(n, n);
+    for _ in 0..STEPS {
+        let shifted = &nearest - &correction;
+        let positive = at_least(shifted.clone(), 0.0);
+        correction = &positive - shifted;
+        let mut next = positive;
+        next.fill_diagonal(1.0);
+        let change = (&next - &nearest).norm();
+        nearest = next;
+        if change < 1e-8 {
+            break;
+        }
+    }
+    let mut safe = at_least(nearest, PROPOSED_EIGENVALUE * n as f64);
+    let scale: Vec<f64> = (0..n).map(|i| safe[(i, i)].sqrt()).collect();
+    for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+        safe[(i, j)] = (safe[(i, j)] / (scale[i] * scale[j]) * 1e4).round() / 1e4;
+    }
+    safe
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn matrix(n: usize, upper: &[f64]) -> DMatrix<f64> {
+        let mut matrix = DMatrix::identity(n, n);
+        let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
+        for ((i, j), r) in pairs.zip(upper) {
+            (matrix[(i, j)], matrix[(j, i)]) = (*r, *r);
+        }
+        matrix
+    }
+
+    #[test]
+    fn coordinates_get_their_correlations_and_keep_their_uniform_law() {
+        let correlation = matrix(4, &[0.5, 0.0, -0.3, 0.0, 0.6, 0.0]);
+        let copula = GaussianCopula::new(correlation.clone()).unwrap();
+        assert_eq!(copula.dependent(), [0, 1, 3]);
+        let n = 1 << 14;
+        let points = crate::design::SobolSequence::scrambled(4, 1, 0);
+        let mut columns = vec![vec![0.0; n]; 4];
+        columns.iter_mut().enumerate().for_each(|(j, column)| points.fill(j, 0, column));
+        let before = columns.clone();
+        copula.correlate(&mut columns);
+        // The first one and the independent one keep their bits.
+        assert_eq!((&columns[0], &columns[2]), (&before[0], &before[2]));
+        let scores: Vec<Vec<f64>> = columns.iter().map(|column| normal_scores(column)).collect();
+        for i in 0..4 {
+            let mean: f64 = columns[i].iter().sum::<f64>() / n as f64;
+            assert!((mean - 0.5).abs() < 1e-3, "{mean}");
+            for j in 0..4 {
+                let found = scores[i].iter().zip(&scores[j]).map(|(a, b)| a * b).sum::<f64>() / n as f64;
+                assert!((found - correlation[(i, j)]).abs() < 3e-3, "{i} {j}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn regressions_are_those_of_the_normal_distribution() {
+        let copula = GaussianCopula::new(matrix(3, &[0.5, 0.2, -0.4])).unwrap();
+        // By hand: (r02 - r01 r12, r12 - r01 r02) / (1 - r01^2).
+        let found = copula.regression(2, &[0, 1]);
+        let expected = [(0.2 + 0.5 * 0.4) / 0.75, (-0.4 - 0.5 * 0.2) / 0.75];
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?}");
+        assert!(copula.regression(1, &[]).is_empty());
+        // 0 is tied to 2 by 1 alone: of no use where 1 is not given, and of use by way of it.
+        let chain = GaussianCopula::new(matrix(3, &[0.5, 0.0, 0.5])).unwrap();
+        assert_eq!(chain.regression(0, &[2]), [0.0]);
+        assert!(chain.regression(0, &[1, 2])[1] < -0.1);
+        assert!(chain.is_independent(&[0, 1, 2]) && !chain.is_independent(&[0, 2]));
+    }
+
+    #[test]
+    fn a_matrix_that_cannot_be_is_answered_by_the_nearest_that_can() {
+        // Higham's example: the nearest matrix is known to four digits.
+        let proposed = GaussianCopula::new(matrix(3, &[1.0, 0.0, 1.0])).unwrap_err();
+        assert!((proposed[(0, 1)] - 0.7607).abs() < 5e-3 && (proposed[(0, 2)] - 0.1573).abs() < 5e-3, "{proposed}");
+        assert!(GaussianCopula::new(proposed).is_ok());
+        for (n, upper) in [(2, vec![1.0]), (3, vec![0.9, -0.9, 0.9]), (4, vec![-0.9; 6])] {
+            assert!(GaussianCopula::new(GaussianCopula::new(matrix(n, &upper)).unwrap_err()).is_ok(), "{upper:?}");
+        }
+    }
+}

@@ -1,0 +1,98 @@
+use super::*;
+use crate::quantity::Unit;
+
+fn space(laws: Vec<Distribution>) -> Space {
+    let names = ["a", "b", "c", "d"];
+    let factor = |(law, name): (Distribution, &str)| Factor::new(name, Unit::dimensionless(), law).unwrap();
+    Space::new(laws.into_iter().zip(names).map(factor).collect())
+}
+
+fn uniform() -> Distribution {
+    Distribution::uniform(-1.0, 3.0).unwrap()
+}
+
+fn scores(space: &Space, dependence: Dependence) -> f64 {
+    let copula = copula(space, &[dependence]).unwrap().unwrap();
+    copula.correlation(0, 1)
+}
+
+#[test]
+fn measures_become_those_of_normal_scores() {
+    let normals = space(vec![Distribution::normal(1.0, 2.0).unwrap(); 2]);
+    let pair = |r: f64| Dependence::pair("a", "b", r);
+    for r in [-0.95, -0.3, 0.0, 0.5, 0.99] {
+        assert_eq!(scores(&normals, pair(r)), r);
+        assert_eq!(scores(&normals, pair(r).measure(CorrelationMeasure::Normal)), r);
+        let spearman = scores(&normals, pair(r).measure(CorrelationMeasure::Spearman));
+        assert!((6.0 / PI * (spearman / 2.0).asin() - r).abs() < 1e-15);
+        let kendall = scores(&normals, pair(r).measure(CorrelationMeasure::Kendall));
+        assert!((2.0 / PI * kendall.asin() - r).abs() < 1e-14);
+        // Of uniform factors Pearson's correlation is Spearman's.
+        let uniforms = space(vec![uniform(), uniform()]);
+        assert!((scores(&uniforms, pair(r)) - spearman).abs() < 2e-6, "{r}");
+    }
+}
+
+/// Of two log-normal factors (Liu and Der Kiureghian 1986, table 6, case of two log-normal variables): rho = (exp(r s1 s2) - 1)
+/// / sqrt((exp(s1^2) - 1)(exp(s2^2) - 1)).
+#[test]
+fn pearson_correlations_of_log_normal_factors_have_a_closed_form() {
+    let (s1, s2) = (0.4f64, 0.9f64);
+    let laws = [s1, s2].map(|s| Distribution::log_normal_of_logs(0.3, s).unwrap()).to_vec();
+    let space = space(laws);
+    let size = ((s1 * s1).exp_m1() * (s2 * s2).exp_m1()).sqrt();
+    for r in [-0.8, -0.2, 0.1, 0.7, 0.95] {
+        let stated = (r * s1 * s2).exp_m1() / size;
+        assert!((scores(&space, Dependence::pair("a", "b", stated)) - r).abs() < 1e-7, "{r}");
+    }
+    let error = copula(&space, &[Dependence::pair("a", "b", -0.9)]).unwrap_err();
+    let DependenceError::Unattainable { low, high, .. } = error else { panic!("{error}") };
+    assert!((low - (-s1 * s2).exp_m1() / size).abs() < 1e-9 && (high - (s1 * s2).exp_m1() / size).abs() < 1e-9);
+}
+
+#[test]
+fn discrete_factors_have_pearson_correlations_too() {
+    let laws = vec![Distribution::integer(0.0, 9.0).unwrap(), Distribution::exponential(2.0, 0.0).unwrap()];
+    let space = space(laws);
+    let r = scores(&space, Dependence::pair("a", "b", 0.5));
+    assert!((0.5..0.7).contains(&r), "{r}");
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_what_would_be_right() {
+    let space = space(vec![uniform(), uniform(), uniform(), Distribution::constant(1.0).unwrap()]);
+    let message = |dependences: &[Dependence]| copula(&space, dependences).unwrap_err().to_string();
+    let pair = |a: &str, b: &str| Dependence::pair(a, b, 0.5);
+    assert!(message(&[pair("a", "x")]).contains("`x`, which is no factor"));
+    assert!(message(&[pair("a", "a")]).contains("each named once"));
+    assert!(message(&[pair("a", "b"), pair("b", "a")]).contains("`b` and `a` is stated twice"));
+    assert!(message(&[pair("a", "d")]).contains("`d` is a constant"));
+    assert!(message(&[Dependence::pair("a", "b", 1.0)]).contains("between -1 and 1"));
+    assert!(message(&[Dependence::pair("a", "b", f64::NAN)]).contains("between -1 and 1"));
+    assert!(message(&[Dependence::new(&["a", "b"], vec![vec![1.0]])]).contains("2 rows with 2 numbers"));
+    let skewed = vec![vec![1.0, 0.5], vec![0.4, 1.0]];
+    assert!(message(&[Dependence::new(&["a", "b"], skewed)]).contains("other side of the diagonal"));
+    let error =
+        message(&[Dependence::pair("a", "b", 0.9), Dependence::pair("b", "c", 0.9), Dependence::pair("a", "c", -0.9)]);
+    assert!(error.contains("not positive definite") && error.contains("[\"a\", \"b\", \"c\"]"), "{error}");
+    // The proposal is accepted.
+    let nearest = error.split("correlation = ").nth(1).unwrap();
+    let nearest: Vec<Vec<f64>> = serde_json::from_str(nearest).unwrap();
+    let proposed = Dependence::new(&["a", "b", "c"], nearest).measure(CorrelationMeasure::Normal);
+    assert!(copula(&space, &[proposed]).is_ok());
+}
+
+#[test]
+fn joint_measurements_give_the_correlation_of_their_scores() {
+    let space = space(vec![uniform(), uniform()]);
+    let copula = GaussianCopula::new(DMatrix::from_row_slice(2, 2, &[1.0, -0.7, -0.7, 1.0])).unwrap();
+    let points = crate::design::SobolSequence::scrambled(2, 3, 0);
+    let mut columns = vec![vec![0.0; 4096]; 2];
+    columns.iter_mut().enumerate().for_each(|(j, column)| points.fill(j, 0, column));
+    copula.correlate(&mut columns);
+    // Whatever the distributions.
+    columns[0].iter_mut().for_each(|x| *x = x.powi(5));
+    columns[1].iter_mut().for_each(|x| *x = (3.0 * *x).exp());
+    let measured = Dependence::from_measurements(&["a", "b"], &columns);
+    assert!((scores(&space, measured) + 0.7).abs() < 2e-3);
+}

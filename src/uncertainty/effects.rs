@@ -1,0 +1,129 @@
+//! What is found of one output: indices of factors, groups and subsets, each with its interval.
+
+use super::corrected::SurrogateUse;
+use super::{Estimate, Interval};
+
+/// Indices of one output.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutputIndices {
+    /// Indices of the factors.
+    pub factors: Vec<EffectEstimates>,
+    /// Closed first-order and total indices of the groups.
+    pub groups: Vec<EffectEstimates>,
+    /// Likewise of the subsets that the study lists.
+    pub subsets: Vec<EffectEstimates>,
+    /// Of the dummy factor, if one was asked for.
+    pub dummy: Option<EffectEstimates>,
+    /// Sum of the first-order indices of the factors: 1 for an additive output, less where factors interact.
+    pub sum_first_order: Estimate,
+    /// Sum of the total indices of the factors: 1 for an additive output, more where factors interact.
+    pub sum_total: Estimate,
+    /// Second-order indices, in the order of [`Layout::pair_list`]; empty if not asked for.
+    pub second_order: Vec<Estimate>,
+    /// What a surrogate did to them, if there was one.
+    pub surrogate: Option<SurrogateUse>,
+}
+
+impl OutputIndices {
+    /// All effects in the order of the swaps: of factors, groups, subsets and the dummy.
+    pub fn effects(&self) -> impl Iterator<Item = &EffectEstimates> {
+        self.factors.iter().chain(&self.groups).chain(&self.subsets).chain(&self.dummy)
+    }
+
+    /// Largest half width of the first-order and total indices of factors, groups and subsets, and of the Shapley effects; `None`
+    /// if one of them has no interval.
+    pub fn largest_half_width(&self) -> Option<f64> {
+        let effects = self.factors.iter().chain(&self.groups).chain(&self.subsets);
+        let indices =
+            effects.flat_map(|effect| [Some(effect.first_order), Some(effect.total), effect.shapley]).flatten();
+        let widths = indices.map(|index| index.interval);
+        widths
+            .map(|i| i.map(|Interval { low, high }| (high - low) / 2.0))
+            .try_fold(0.0, |largest: f64, w| Some(largest.max(w?)))
+    }
+}
+
+/// The indices of one factor, group or subset.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EffectEstimates {
+    /// First-order index (of several factors: closed first-order index).
+    pub first_order: Estimate,
+    /// Total index.
+    pub total: Estimate,
+    /// 100 S_i / sum S_j over the factors (of a group: over the groups); `None` where the sum is not positive.
+    pub share_first_order: Option<Estimate>,
+    /// 100 ST_i / sum ST_j, likewise.
+    pub share_total: Option<Estimate>,
+    /// First-order index minus its check by Janon and Monod's formula: 0 within the interval if all is well.
+    pub check_gap: Estimate,
+    /// Total minus first-order index: not negative, within the interval, if all is well.
+    pub interaction: Estimate,
+    /// Whether the interval of the first-order index lay wholly above that of the total index, which no pair of indices can:
+    /// both were then lengthened until they met.
+    pub contradictory: bool,
+    /// Probability that the total index (the Shapley effect, if there is one) is the largest of all factors'; `None` for others than factors, and where errors are
+    /// unknown or [ranks](IntervalOptions::ranks) were not asked for. Where several total indices are equal in truth, it is as likely to be any number as any other.
+    pub probability_first: Option<f64>,
+    /// Probability that the total index is above the threshold.
+    pub probability_above: Option<f64>,
+    /// The indices by each of the other estimators asked for.
+    pub others: Vec<OtherEstimates>,
+    /// Shapley effect of a factor, if it was asked for: its share of the variance, dependent on others or not; those of all factors
+    /// sum to 1 (Owen 2014; Song, Nelson and Staum 2016).
+    pub shapley: Option<Estimate>,
+    /// What there is of a factor, group or subset where factors depend on each other; `None` where they are independent.
+    pub dependent: Option<DependentEstimates>,
+}
+
+/// Indices of dependent factors beside the first-order index Var E(Y | X_i)/V, which includes what X_i tells of others, and the
+/// total index E Var(Y | all but X_i)/V, which is without what others tell of X_i and so may be smaller (Kucherenko, Tarantola and
+/// Annoni 2012, Comput. Phys. Commun. 183, 937-946); the other two are those of Mara, Tarantola and Annoni (2015), Environ. Model.
+/// Softw. 72, 173-183.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DependentEstimates {
+    /// First-order index of what the factor has on its own, given all others.
+    pub independent_first_order: Estimate,
+    /// Total index of the factor with all that it tells of others.
+    pub full_total: Estimate,
+}
+
+/// Indices by another estimator than the default one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherEstimates {
+    /// First-order index, if it estimates one.
+    pub first_order: Option<Estimate>,
+    /// Total index, if it estimates one.
+    pub total: Option<Estimate>,
+    /// How much larger than the default first-order index.
+    pub first_order_gap: Option<Estimate>,
+    /// How much larger than the default total index.
+    pub total_gap: Option<Estimate>,
+}
+
+/// Mean and variance of one output, each with its interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OutputMoments {
+    /// Mean over the rows A and B.
+    pub mean: Estimate,
+    /// Variance over the rows A and B.
+    pub variance: Estimate,
+}
+
+impl EffectEstimates {
+    /// The indices of dependent factors, from those of a swap that others follow, and of one that is redrawn given all others.
+    pub(super) fn of_dependent_factors(self, alone: Self) -> Self {
+        let others = self.others.iter().zip(&alone.others).map(|(with_others, alone)| OtherEstimates {
+            total: alone.total,
+            total_gap: alone.total_gap,
+            ..*with_others
+        });
+        Self {
+            total: alone.total,
+            contradictory: self.contradictory || alone.contradictory,
+            probability_above: alone.probability_above,
+            others: others.collect(),
+            dependent: Some(DependentEstimates { independent_first_order: alone.first_order, full_total: self.total }),
+            ..self
+        }
+    }
+}
