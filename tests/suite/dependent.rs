@@ -200,9 +200,11 @@ fn independent_factors_are_a_special_case() {
     let pairs = plain.output("y").unwrap().indices.as_ref().unwrap().factors.iter();
     let zero = &zero.output("y").unwrap().indices.as_ref().unwrap().factors;
     for (plain, zero) in pairs.zip(zero) {
-        assert_eq!((plain.first_order, plain.total), (zero.first_order, zero.total));
+        // Their intervals differ by the indices that are there beside.
+        let estimates = |effect: &EffectEstimates| [effect.first_order.estimate, effect.total.estimate];
+        assert_eq!(estimates(plain), estimates(zero));
         let dependent = zero.dependent.unwrap();
-        assert_eq!((dependent.independent_first_order, dependent.full_total), (plain.first_order, plain.total));
+        assert_eq!((dependent.independent_first_order, dependent.full_total), (zero.first_order, zero.total));
     }
     // Exact Shapley effects: S1 + S13/2, S2, S13/2.
     let (s1, s2, s13) = (0.313_905, 0.442_411, 0.243_684);
@@ -234,7 +236,8 @@ fn intervals_of_dependent_factors_hold_the_truth() {
                     let effect = output.factor(&format!("x{}", i + 1)).unwrap();
                     for (k, (found, exact)) in numbers(effect).iter().zip(exact(&case, i)).enumerate() {
                         let interval = found.interval.unwrap();
-                        held[k] += usize::from(interval.low <= exact && exact <= interval.high);
+                        // An index that is 0 to rounding has an interval of that size.
+                        held[k] += usize::from(interval.low - 1e-12 <= exact && exact <= interval.high + 1e-12);
                     }
                     all += 1;
                 }

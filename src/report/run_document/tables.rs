@@ -55,7 +55,11 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part
     );
     let printed = places(&order, FACTORS);
     let table = effect_table(result, caption, "factor").with_rows(rows);
-    sums.resize(table.columns.len(), Cell::default());
+    match output.sum_first_order.is_some() || output.sum_total.is_some() {
+        true => sums.resize(table.columns.len(), Cell::default()),
+        // Indices of dependent factors sum to nothing.
+        false => sums.clear(),
+    }
     Some(Part::Table(Table { printed, sums, ..table }))
 }
 
