@@ -119,7 +119,8 @@ pub use design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler,
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
     AfmModel, AfmOutput, Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag,
-    FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, RowFailure, RunContext, Worker, function_model,
+    FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RowFailure, RunContext, SeriesAxis,
+    SeriesError, Worker, function_model,
 };
 #[cfg(feature = "study")]
 pub use model::{CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, PerRun, Program, Protocol};
