@@ -124,6 +124,7 @@ impl OutputSeries {
 }
 
 /// The list and the place in it that a name such as `infected[12]` stands for.
+#[cfg(feature = "study")]
 pub(crate) fn item_of_list(name: &str) -> Option<(&str, usize)> {
     let (list, place) = name.strip_suffix(']')?.rsplit_once('[')?;
     let is_plain = !list.is_empty() && !place.is_empty() && place.bytes().all(|byte| byte.is_ascii_digit());
@@ -133,6 +134,7 @@ pub(crate) fn item_of_list(name: &str) -> Option<(&str, usize)> {
 
 /// The names that a header such as `infected[0..365]` stands for: those of the items from the first number on up to the second,
 /// which is not among them. `None` of any other header, and of more than 10,000 items.
+#[cfg(feature = "study")]
 pub(crate) fn items_of_header(header: &str) -> Option<impl Iterator<Item = String> + use<>> {
     let (list, range) = header.strip_suffix(']')?.rsplit_once('[')?;
     let number = |digits: &str| {
@@ -178,6 +180,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg(feature = "study")]
     fn names_of_items_are_read() {
         assert_eq!(item_of_list("infected[12]"), Some(("infected", 12)));
         assert_eq!(item_of_list("a[1][2]"), Some(("a[1]", 2)));

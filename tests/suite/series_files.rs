@@ -71,11 +71,15 @@ fn a_list_of_another_length_is_no_answer() {
     let study = format!(
         "model = \"command\"\n{COMMAND}protocol = \"json-lines\"\noutputs.y = {{ length = 4 }}\n[design]\nbase_samples = 64\n{FACTORS}"
     );
-    let output = apportion(&["run", text(&folder.with("s.toml", study)), "--no-journal"]);
-    let message = stderr(&output);
-    assert_eq!(output.status.code(), Some(1), "{message}");
-    assert!(message.contains("a JSON object with id (the row's number), y (a list of 4)"), "{message}");
-    assert!(message.contains("a list of # as `y`") || message.contains("a list of 3 as `y`"), "{message}");
+    let (path, out) = (folder.with("s.toml", study), folder.path("out"));
+    let output = apportion(&["run", text(&path), "--no-journal", "--out", text(&out)]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let result = read_result(&out.join("s.json")).unwrap();
+    let reason = &result.outputs[0].failures[0].reason;
+    assert!(
+        reason.contains("a JSON object with id (the row's number), y (a list of 4), found a list of 3 as `y`"),
+        "{reason}"
+    );
 }
 
 #[test]
