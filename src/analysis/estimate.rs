@@ -25,10 +25,12 @@ pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
     let FinishedRun { model, replicates, .. } = *run;
     let mut whole = Totals::none(model);
     replicates.iter().for_each(|totals| whole.add_counts(totals));
-    let series = series(run, &whole, &output_analyses);
+    let corrected = Corrections::of(run);
+    let of_scores = |run: &FinishedRun<'_>, whole: &Totals| output_analyses(run, whole, &Corrections::of(run));
+    let series = series(run, (&whole, &corrected.whole), &of_scores);
     Analysis {
         design: run.design.clone(),
-        outputs: output_analyses(run, &whole),
+        outputs: output_analyses(run, &whole, &corrected),
         flags: model.flags().iter().cloned().zip(whole.flags).collect(),
         counts: model.counters().iter().cloned().zip(whole.counts.values()).collect(),
         aggregate: aggregate(run),
@@ -43,10 +45,9 @@ pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
 }
 
 /// The results for all outputs; `whole` holds the counts over all replicates.
-fn output_analyses(run: &FinishedRun<'_>, whole: &Totals) -> Vec<OutputAnalysis> {
-    let corrected = Corrections::of(run);
+fn output_analyses(run: &FinishedRun<'_>, whole: &Totals, corrected: &Corrections) -> Vec<OutputAnalysis> {
     let outputs = run.model.outputs().par_iter().enumerate();
-    outputs.map(|(number, output)| output_analysis(run, output, number, (whole, &corrected))).collect()
+    outputs.map(|(number, output)| output_analysis(run, output, number, (whole, corrected))).collect()
 }
 
 fn low_runs(low: &LowTotals<'_>) -> LowRuns {

@@ -5,7 +5,7 @@ use super::finished_run::FinishedRun;
 use crate::estimate::{MomentParts, Scaling, Undefined};
 use crate::model::{Model, OutputSeries};
 use crate::run::Totals;
-use crate::uncertainty::{AggregateIndices, aggregate_indices};
+use crate::uncertainty::{AggregateIndices, SurrogateEstimates, aggregate_indices};
 
 /// What a run has found about a series of outputs, beside the results of every value.
 #[derive(Debug, Clone)]
@@ -20,12 +20,26 @@ pub struct SeriesAnalysis {
     pub directions: Result<Vec<Direction>, NoDirections>,
 }
 
-/// What the run says of every series of its model; `whole` holds the counts over all replicates.
-pub(super) fn series(run: &FinishedRun<'_>, whole: &Totals, analyses: OutputAnalyses<'_>) -> Vec<SeriesAnalysis> {
-    let of_series = |series: &OutputSeries| SeriesAnalysis {
-        series: series.clone(),
-        aggregate: together(run.replicates, series.places(), (Scaling::Plain, run)),
-        directions: directions(run, series, (whole, analyses)),
+/// What the run says of every series of its model; `whole` holds the counts over all replicates, `surrogates` what these make of
+/// every output.
+pub(super) fn series(
+    run: &FinishedRun<'_>,
+    (whole, surrogates): (&Totals, &[Option<SurrogateEstimates>]),
+    analyses: OutputAnalyses<'_>,
+) -> Vec<SeriesAnalysis> {
+    let of_series = |series: &OutputSeries| {
+        let plain = together(run.replicates, series.places(), (Scaling::Plain, run));
+        let varies = |place: &usize| whole.outputs[*place].values.range().is_some_and(|(low, high)| low < high);
+        let corrected: Option<Vec<&SurrogateEstimates>> =
+            series.places().filter(varies).map(|place| surrogates.get(place)?.as_ref()).collect();
+        SeriesAnalysis {
+            series: series.clone(),
+            aggregate: match corrected {
+                Some(corrected) => plain.map(|plain| plain.corrected(&corrected)),
+                None => plain,
+            },
+            directions: directions(run, series, (whole, analyses)),
+        }
     };
     run.model.series().iter().map(of_series).collect()
 }

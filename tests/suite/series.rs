@@ -159,3 +159,29 @@ fn without_outputs_or_variance_there_are_no_directions() {
     assert!(still.series("y").unwrap().aggregate.is_err());
     assert!(still.series("z").unwrap_err().to_string().contains("no series `z`; there are: y"));
 }
+
+#[test]
+fn surrogates_of_the_values_correct_the_whole() {
+    // y(t) = t x1 + (1 - t) x1 x2: over t = 0, 1/2, 1 the variances are 5/4 of x1 alone and 5/4 of the product, with the
+    // interaction of a ninth against a third.
+    let wave = |x: &[f64], t: f64| Some(t * x[0] + (1.0 - t) * x[0] * x[1]);
+    let run = |surrogate| {
+        let mut options = apportion::AnalysisOptions::for_sampler(apportion::Sampler::Sobol);
+        options.surrogate = surrogate;
+        let study =
+            study(&["x1", "x2"], vec![0.0, 0.5, 1.0], wave).base_samples(256).analysis(options).build().unwrap();
+        study.run().unwrap()
+    };
+    let width = |analysis: &Analysis| {
+        let indices = analysis.series("y").unwrap().aggregate.clone().unwrap();
+        let all = indices.first_order.into_iter().chain(indices.total);
+        all.map(|index| index.interval.map(|interval| interval.high - interval.low).unwrap()).fold(0.0, f64::max)
+    };
+    let (off, on) = (run(SurrogateChoice::Off), run(SurrogateChoice::On));
+    // S of x1 is 3/4, and the product has the rest.
+    let (first_order, total) = whole(&on);
+    for (found, expected) in first_order.iter().chain(&total).zip([0.75, 0.0, 1.0, 0.25]) {
+        near(*found, expected, 1e-6);
+    }
+    assert!(width(&on) < 1e-3 * width(&off), "{} {}", width(&on), width(&off));
+}

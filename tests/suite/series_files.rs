@@ -57,7 +57,7 @@ fn a_program_gives_a_series_by_cells_or_as_a_list() {
     assert!((indices[0].total.estimate - 14.0 / 18.0).abs() < 0.02, "{indices:?}");
     assert!((series.directions.as_ref().unwrap()[0].share - 97.0).abs() < 3.0);
     assert!(printed.contains("a matters most for y as a whole"), "{printed}");
-    assert!(printed.contains("Along time, the largest S_T is that of b"), "{printed}");
+    assert!(printed.contains("Along the time, the largest S_T is that of b"), "{printed}");
     // The other output has its section and files, as ever.
     assert!(
         page(&folder.path("out")).contains("id=\"output-1\"") || page(&folder.path("out")).contains("Shares of sum")

@@ -80,7 +80,7 @@ pub(super) fn sections(result: &ResultFile, stems: &[[String; SERIES_SUFFIXES.le
             vec![Part::Text(text), overview::factors(&alone).into()]
         };
         figures = drawn.count();
-        let axis = format!("{} along {}", heading(&series.name, &series.unit), name(&series.axis));
+        let axis = format!("{} along the {}", heading(&series.name, &series.unit), name(&series.axis));
         sections.push(Section::new(&format!("series-{}", number + 1), &axis, parts));
     }
     (sections, figures)
@@ -116,7 +116,9 @@ fn in_full(
     }
     chart.set_title(chart.title().replace("all outputs together", &format!("{} as a whole", name(&of.series.name))));
     parts.push(figures.add(chart, "together", together));
-    parts.push(overview::factors(alone).into());
+    let caption = "Indices of the whole series, for how many of its values a factor surely matters most, and the median and \
+                   largest of its total indices.";
+    parts.push(Table { caption: caption.to_owned(), ..overview::factors(alone) }.into());
     let axis = OutputAxis {
         label: match of.series.axis_unit.as_str() {
             "" | "1" => of.series.axis.clone(),
@@ -215,7 +217,7 @@ pub(super) fn answer(result: &ResultFile, series: &SeriesRecord) -> String {
             format!("{} {range}", name(&result.factors[factor].name))
         });
         text.push_str(&format!(
-            " Along {}, the largest S_T is that of {}.",
+            " Along the {}, the largest S_T is that of {}.",
             name(&series.axis),
             listed(&words.collect::<Vec<_>>())
         ));
