@@ -168,8 +168,7 @@ fn components(centred: &Centred) -> Result<Components, NoDirections> {
     let (mut vectors, mut so_far) = (Vec::new(), 0.0);
     for place in order.into_iter().take(MOST) {
         let share = eigen.eigenvalues[place] / all;
-        // Not a number neither.
-        if so_far >= SHARE || !(share > LEAST) {
+        if so_far >= SHARE || share.is_nan() || share <= LEAST {
             break;
         }
         so_far += share;

@@ -113,6 +113,7 @@ impl OutputSeries {
     }
 
     /// Those of `all` whose values are among the places `chosen`, all of them and in order; they stand where they are chosen.
+    #[cfg(feature = "study")]
     pub(crate) fn chosen(all: &[Self], chosen: &[usize]) -> Vec<Self> {
         let place = |series: &Self| {
             let first = chosen.iter().position(|place| *place == series.first)?;
@@ -167,6 +168,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg(feature = "study")]
     fn a_series_is_chosen_whole_or_not_at_all() {
         let axis = SeriesAxis::even("t", "", 3, (0.0, 1.0)).unwrap();
         let series = OutputSeries { name: "y".to_owned(), first: 1, axis };
