@@ -40,6 +40,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         },
         form: Form::KeptAlive(KeptAlive { protocol: Protocol::Csv, row_numbers: true }),
         outputs: vec![output("deflection", millimetres()?), output("stress", Unit::parse("MPa")?)],
+        series: Vec::new(),
         asked: vec![0, 1],
         workers: Some(2),
         timeout: None,

@@ -113,13 +113,15 @@ pub mod uncertainty;
 #[doc(hidden)]
 pub use analysis::MixedModels;
 pub use analysis::{
-    Aggregate, Analysis, FailureCount, LookupError, LowRuns, NoIndices, OutputAnalysis, Spending, StopReason, Stopped,
+    Aggregate, Analysis, Direction, FailureCount, LookupError, LowRuns, NoDirections, NoIndices, OutputAnalysis,
+    SeriesAnalysis, Spending, StopReason, Stopped,
 };
 pub use design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
     AfmModel, AfmOutput, Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag,
-    FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, RowFailure, RunContext, Worker, function_model,
+    FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RowFailure, RunContext,
+    SeriesAxis, SeriesError, Worker, function_model,
 };
 #[cfg(feature = "study")]
 pub use model::{CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, PerRun, Program, Protocol};

@@ -4,34 +4,37 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::finished_run::{FinishedRun, LowTotals, row_inputs};
+use super::finished_run::{FinishedRun, LowTotals, outputs_kept, row_inputs};
 use super::result::{Aggregate, Analysis, FailureCount, LowRuns, NoIndices, OutputAnalysis, Stopped};
+use super::series::{series, single_outputs, together};
 use super::warnings;
 use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs, Scaling, merged};
-use crate::model::{MANY_OUTPUTS, Model, Output, RowFailure};
+use crate::model::{MANY_OUTPUTS, Output, RowFailure};
 use crate::run::{Tally, Totals};
 use crate::study::Study;
 use crate::surrogate::low_fidelity::{LowOutputs, low_fidelity_estimates};
 use crate::surrogate::{families, surrogates_together};
 use crate::uncertainty::{
-    Estimate, Interval, IntervalOptions, KeptPoints, OutputMoments, SurrogateEstimates, aggregate_indices,
-    output_indices, output_moments, points_of_stages, stages,
+    Estimate, Interval, IntervalOptions, KeptPoints, OutputMoments, SurrogateEstimates, output_indices, output_moments,
+    points_of_stages, stages,
 };
 
 /// The result of a run; `stopped` tells why a growing one ended.
 pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analysis {
-    let FinishedRun { study, model, replicates, .. } = *run;
+    let FinishedRun { model, replicates, .. } = *run;
     let mut whole = Totals::none(model);
     replicates.iter().for_each(|totals| whole.add_counts(totals));
     let corrected = Corrections::of(run);
-    let outputs = model.outputs().par_iter().enumerate();
+    let of_scores = |run: &FinishedRun<'_>, whole: &Totals| output_analyses(run, whole, &Corrections::of(run));
+    let series = series(run, (&whole, &corrected.whole), &of_scores);
     Analysis {
         design: run.design.clone(),
-        outputs: outputs.map(|(number, output)| output_analysis(run, output, number, (&whole, &corrected))).collect(),
+        outputs: output_analyses(run, &whole, &corrected),
         flags: model.flags().iter().cloned().zip(whole.flags).collect(),
         counts: model.counters().iter().cloned().zip(whole.counts.values()).collect(),
-        aggregate: aggregate(study, model, replicates),
+        aggregate: aggregate(run),
+        series,
         stopped,
         threads: run.threads,
         wall_seconds: run.wall_seconds,
@@ -39,6 +42,12 @@ pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
         spending: None,
         mixed_models: Vec::new(),
     }
+}
+
+/// The results for all outputs; `whole` holds the counts over all replicates.
+fn output_analyses(run: &FinishedRun<'_>, whole: &Totals, corrected: &Corrections) -> Vec<OutputAnalysis> {
+    let outputs = run.model.outputs().par_iter().enumerate();
+    outputs.map(|(number, output)| output_analysis(run, output, number, (whole, corrected))).collect()
 }
 
 fn low_runs(low: &LowTotals<'_>) -> LowRuns {
@@ -116,11 +125,6 @@ impl Corrections {
         }
         Self { whole, stages }
     }
-}
-
-/// Output number `number` of every run of each replicate.
-pub(crate) fn outputs_kept(replicates: &[Totals], number: usize) -> Vec<&PointOutputs> {
-    replicates.iter().map(|totals| &totals.outputs[number].point_outputs).collect()
 }
 
 /// The result for output number `number`; `whole` holds the counts over all replicates.
@@ -206,17 +210,16 @@ fn failure_count(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> F
     }
 }
 
-fn aggregate(study: &Study, model: &dyn Model, replicates: &[Totals]) -> Option<Aggregate> {
-    let outputs = model.outputs();
-    if outputs.len() < 2 || !study.analysis.aggregate && outputs.len() < MANY_OUTPUTS {
+/// Over all outputs if the study asks for it, else over those that belong to no series, if they are many.
+fn aggregate(run: &FinishedRun<'_>) -> Option<Aggregate> {
+    let FinishedRun { study, model, replicates, .. } = *run;
+    let (outputs, single) = (model.outputs(), single_outputs(model));
+    let places = if study.analysis.aggregate { (0..outputs.len()).collect() } else { single };
+    if places.len() < 2 || !study.analysis.aggregate && places.len() < MANY_OUTPUTS {
         return None;
     }
-    let same_unit = outputs.iter().all(|output| output.unit.compatible(&outputs[0].unit));
+    let same_unit = places.iter().all(|&place| outputs[place].unit.compatible(&outputs[places[0]].unit));
     let scaling = if same_unit { Scaling::Plain } else { Scaling::Standardised };
-    let parts: Vec<Vec<&MomentParts>> = (0..outputs.len())
-        .map(|number| replicates.iter().map(|totals| &totals.outputs[number].moments).collect())
-        .collect();
-    let parts: Vec<&[&MomentParts]> = parts.iter().map(Vec::as_slice).collect();
-    let indices = aggregate_indices(&parts, scaling, study.analysis.intervals);
-    Some(Aggregate { scaling, indices: indices.map(|indices| indices.of_effects(&study.layout())) })
+    let names = places.iter().map(|&place| outputs[place].name.to_string()).collect();
+    Some(Aggregate { outputs: names, scaling, indices: together(replicates, places.into_iter(), (scaling, run)) })
 }

@@ -1,6 +1,7 @@
 //! A run that is over, the names of what is estimated from it, and the inputs of its rows.
 
 use crate::design::Design;
+use crate::estimate::PointOutputs;
 use crate::model::Model;
 use crate::run::{Place, Totals};
 use crate::study::Study;
@@ -41,6 +42,11 @@ pub(crate) struct LowTotals<'a> {
     pub own: &'a [Totals],
     /// Every output at its rows.
     pub outputs: &'a [Option<OwnOutputs>],
+}
+
+/// Output number `number` of every run of each replicate.
+pub(crate) fn outputs_kept(replicates: &[Totals], number: usize) -> Vec<&PointOutputs> {
+    replicates.iter().map(|totals| &totals.outputs[number].point_outputs).collect()
 }
 
 /// Names of everything that has indices, in the order of the swaps: factors, groups, subsets, dummy.

@@ -1,12 +1,15 @@
 //! The result of a run as the engine knows it: from merged sums to indices with intervals, counts and reasons.
 
+mod directions;
 mod estimate;
 mod finished_run;
 mod result;
+mod series;
 mod warnings;
 
-pub(crate) use estimate::{analysis, interval_options, outputs_kept, surrogates};
-pub(crate) use finished_run::{FinishedRun, LowTotals};
+pub use directions::{Direction, NoDirections};
+pub(crate) use estimate::{analysis, interval_options, surrogates};
+pub(crate) use finished_run::{FinishedRun, LowTotals, outputs_kept};
 #[cfg(feature = "charts")]
 pub(crate) use finished_run::{names_of_swaps, row_inputs};
 #[cfg(feature = "charts")]
@@ -15,3 +18,4 @@ pub use result::{
     Aggregate, Analysis, FailureCount, LookupError, LowRuns, MixedModels, NoIndices, OutputAnalysis, Spending,
     StopReason, Stopped,
 };
+pub use series::SeriesAnalysis;

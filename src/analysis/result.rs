@@ -4,6 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
+use super::series::SeriesAnalysis;
 use crate::design::Design;
 use crate::estimate::{CentralMoments, Scaling, Undefined};
 use crate::model::{Counter, Flag};
@@ -39,8 +40,11 @@ pub struct Analysis {
     pub flags: Vec<(Flag, u64)>,
     /// What the model counted, in the order of its counters.
     pub counts: Vec<(Counter, f64)>,
-    /// Indices over all outputs together, if the study asks for them and there are two outputs or more.
+    /// Indices over all outputs together, if the study asks for them and there are two outputs or more; or over those that
+    /// belong to no series, if they are 12 or more.
     pub aggregate: Option<Aggregate>,
+    /// The outputs that are series, in the order of the model.
+    pub series: Vec<SeriesAnalysis>,
     /// Why a growing run ended; `None` for one of fixed size.
     pub stopped: Option<Stopped>,
     /// Threads that ran the model.
@@ -101,6 +105,8 @@ pub struct MixedModels {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Aggregate {
+    /// Their names.
+    pub outputs: Vec<String>,
     /// How outputs are weighed against each other.
     pub scaling: Scaling,
     /// The indices of the factors, and then of the other swaps.
@@ -289,6 +295,18 @@ impl Analysis {
         let known = || self.outputs.iter().map(|output| output.name.clone()).collect();
         let found = self.outputs.iter().find(|output| output.name == name);
         found.ok_or_else(|| LookupError::UnknownName { what: "output", name: name.to_owned(), known: known() })
+    }
+}
+
+impl Analysis {
+    /// The series called `name`.
+    ///
+    /// # Errors
+    /// [`LookupError`] with the names that there are.
+    pub fn series(&self, name: &str) -> Result<&SeriesAnalysis, LookupError> {
+        let known = || self.series.iter().map(|series| series.series.name.clone()).collect();
+        let found = self.series.iter().find(|series| series.series.name == name);
+        found.ok_or_else(|| LookupError::UnknownName { what: "series", name: name.to_owned(), known: known() })
     }
 }
 

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use apportion::design::{Companions, Design};
 use apportion::estimate::{FirstOrder, Total};
-use apportion::model::ModelKind;
-use apportion::model::RunContext;
+use apportion::model::{ModelKind, Output, RunContext};
 use apportion::report::{significant, table, with_unit};
 use apportion::run::{BLOCK, FailurePolicy, Job, Pilot};
 use apportion::space::distribution::Parameter;
@@ -93,7 +92,19 @@ fn subject(study: &Study) -> String {
         }
     }
     let model = study.model();
-    let outputs: Vec<String> = model.outputs().iter().map(|o| format!("{} [{}]", o.name, o.unit)).collect();
+    // A series stands where its first value does.
+    let output = |(place, output): (usize, &Output)| {
+        let series = model.series().iter().find(|series| series.places().contains(&place));
+        match series {
+            Some(series) if series.first == place => {
+                let (values, axis) = (series.places().len(), series.axis.label());
+                Some(format!("{} [{}] ({values} values along {axis})", series.name, output.unit))
+            }
+            Some(_) => None,
+            None => Some(format!("{} [{}]", output.name, output.unit)),
+        }
+    };
+    let outputs: Vec<String> = model.outputs().iter().enumerate().filter_map(output).collect();
     text.push_str(&format!("outputs: {}\n", outputs.join(", ")));
     let constants: Vec<String> = study
         .constants()
@@ -354,6 +365,7 @@ fn memory(study: &Study) -> String {
         let (intervals, surrogate) = (study.analysis().intervals, study.analysis().surrogate);
         let needed = match intervals.keeps_outputs() {
             true => format!("intervals = \"{}\" need", intervals.name()),
+            false if !study.uses_surrogate(study.design()) => "the main directions of a series need".to_owned(),
             false => format!("surrogate = \"{}\" needs", surrogate.name()),
         };
         text.push_str(&format!("        and {:.1} MB for the outputs of all runs, which {needed}\n", bytes / 1e6));

@@ -21,7 +21,7 @@ pub struct Arguments {
     /// Inputs that become factors, separated by commas [default: the main ones; of a function all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     factors: Vec<String>,
-    /// Outputs, separated by commas [default: the main one]
+    /// Outputs, separated by commas [default: the main one]; of a model of your own infected[0..60] is a series of 60 values
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     outputs: Vec<String>,
     /// Title of the study

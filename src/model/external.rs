@@ -1,18 +1,25 @@
 //! A model outside of this program, whose outputs come from a file.
 
-use super::{Batch, Model, Output, RowFailure, RunContext, Worker};
+use super::{Batch, Model, Output, OutputSeries, RowFailure, RunContext, Worker};
 
 /// A model that runs elsewhere: it has outputs with names and units, but every row asked of it fails by name. Its
 /// outputs are read from a file, into a [`Store`](crate::run::Store).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExternalModel {
     outputs: Vec<Output>,
+    series: Vec<OutputSeries>,
 }
 
 impl ExternalModel {
     /// A model of these outputs.
     pub fn new(outputs: Vec<Output>) -> Self {
-        Self { outputs }
+        Self { outputs, series: Vec::new() }
+    }
+
+    /// The model with those of its outputs that are series.
+    #[must_use]
+    pub fn with_series(self, series: Vec<OutputSeries>) -> Self {
+        Self { series, ..self }
     }
 
     /// Why a row of it has no value here.
@@ -24,6 +31,10 @@ impl ExternalModel {
 impl Model for ExternalModel {
     fn outputs(&self) -> &[Output] {
         &self.outputs
+    }
+
+    fn series(&self) -> &[OutputSeries] {
+        &self.series
     }
 
     fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {

@@ -1,6 +1,6 @@
 //! Functions of the program that uses the library, as models.
 
-use super::{Batch, Model, Output, RowFailure, RunContext, Worker};
+use super::{Batch, Model, Output, OutputSeries, RowFailure, RunContext, SeriesAxis, Worker};
 use crate::quantity::Unit;
 
 /// A Rust function as a model.
@@ -10,6 +10,7 @@ use crate::quantity::Unit;
 /// else results are not repeatable. A panic of it ends the run with that panic.
 pub struct FunctionModel<F> {
     outputs: Vec<Output>,
+    series: Vec<OutputSeries>,
     function: F,
 }
 
@@ -38,7 +39,31 @@ where
     /// # Ok::<(), apportion::UnitError>(())
     /// ```
     pub fn new(outputs: Vec<Output>, function: F) -> Self {
-        Self { outputs, function }
+        Self { outputs, series: Vec::new(), function }
+    }
+
+    /// The model with one more output that is a series: the function sets its values, in SI units, behind those of all
+    /// outputs before. They are called `name[0]`, `name[1]` and so on.
+    ///
+    /// ```
+    /// use apportion::{FunctionModel, Model, SeriesAxis, Unit};
+    ///
+    /// let time = SeriesAxis::even("time", "s", 100, (0.0, 0.1))?;
+    /// let positions = time.positions().to_vec();
+    /// let cooling = FunctionModel::new(Vec::new(), move |x: &[f64], y: &mut [f64]| {
+    ///     y.iter_mut().zip(&positions).for_each(|(y, t)| *y = x[0] * (-t / x[1]).exp());
+    ///     Ok(())
+    /// });
+    /// let cooling = cooling.with_series("temperature", Unit::parse("K")?, time);
+    /// assert_eq!((cooling.outputs().len(), &*cooling.outputs()[7].name), (100, "temperature[7]"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_series(mut self, name: &str, unit: Unit, axis: SeriesAxis) -> Self {
+        let series = OutputSeries { name: name.to_owned(), first: self.outputs.len(), axis };
+        self.outputs.extend(series.outputs(&unit, ""));
+        self.series.push(series);
+        self
     }
 }
 
@@ -65,6 +90,10 @@ where
 {
     fn outputs(&self) -> &[Output] {
         &self.outputs
+    }
+
+    fn series(&self) -> &[OutputSeries] {
+        &self.series
     }
 
     fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {

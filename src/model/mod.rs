@@ -17,6 +17,7 @@ mod function;
 mod known;
 #[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only subjects of study files have a second calculation"))]
 mod second;
+mod series;
 
 #[cfg(feature = "study")]
 pub(crate) use afm::AfmSecond;
@@ -41,6 +42,9 @@ pub use known::{
 #[cfg(feature = "study")]
 pub(crate) use second::InMoreDigits;
 pub use second::{Answered, Reference, SecondCalculation, Unchecked};
+pub use series::{OutputSeries, SeriesAxis, SeriesError};
+#[cfg(feature = "study")]
+pub(crate) use series::{item_of_list, items_of_header};
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -107,6 +111,11 @@ pub trait Model: Send + Sync {
     /// The outputs, in the order of the columns of a [`Batch`].
     fn outputs(&self) -> &[Output];
 
+    /// Those of the outputs that are the values of one quantity along an axis; no two have an output in common.
+    fn series(&self) -> &[OutputSeries] {
+        &[]
+    }
+
     /// The validity flags it may raise, in the order of their numbers in a [`Batch`].
     fn flags(&self) -> &[Flag] {
         &[]
@@ -130,6 +139,10 @@ pub trait Model: Send + Sync {
 impl<M: Model + ?Sized> Model for Arc<M> {
     fn outputs(&self) -> &[Output] {
         (**self).outputs()
+    }
+
+    fn series(&self) -> &[OutputSeries] {
+        (**self).series()
     }
 
     fn flags(&self) -> &[Flag] {

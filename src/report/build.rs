@@ -6,14 +6,16 @@ use serde_json::Value;
 use super::build_output::OutputRecords;
 use super::records::{dependence_record, estimate_record};
 use super::result::{
-    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, LowRecord, MixedModels,
-    Provenance, ResultFile, RungRecord, SpendingRecord, StoppingRecord, StudyRecord, ValidityRecord,
+    AggregateIndexRecord, AggregateRecord, ConstantRecord, DirectionRecord, EffortRecord, FactorRecord, LowRecord,
+    MixedModels, Provenance, ResultFile, RungRecord, SeriesRecord, SpendingRecord, StoppingRecord, StudyRecord,
+    ValidityRecord,
 };
-use crate::analysis::{Analysis, LowRuns, Spending};
+use crate::analysis::{Analysis, Direction, LowRuns, SeriesAnalysis, Spending};
 use crate::estimate::{FirstOrder, Scaling, Total};
 use crate::model::{EVALUATIONS, LARGEST_ERROR, RUNGS};
+use crate::quantity::Unit;
 use crate::study::Study;
-use crate::uncertainty::{AggregateIndices, IntervalMethod};
+use crate::uncertainty::{AggregateIndices, EffectEstimates, IntervalMethod};
 
 /// How long a run took, and on how many threads.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +48,7 @@ impl ResultFile {
             validity: validity.collect(),
             effort: effort_record(analysis),
             aggregate: aggregate_record(study, analysis),
+            series: analysis.series.iter().map(|series| series_record(study, analysis, series)).collect(),
             stopping: stopping_record(study, analysis),
             spending: spending_record(study, analysis),
             lows: analysis.lows.iter().map(low_record).collect(),
@@ -169,17 +172,54 @@ fn aggregate_record(study: &Study, analysis: &Analysis) -> Option<AggregateRecor
         Scaling::Plain => "each output counts by its variance (Gamboa et al. 2014)",
         Scaling::Standardised => "each output is divided by its standard deviation first, since their units differ",
     };
-    let record = |(number, factor): (usize, &crate::space::Factor), all: &AggregateIndices| AggregateIndexRecord {
+    let indices = aggregate.indices.as_ref();
+    Some(AggregateRecord {
+        outputs: aggregate.outputs.clone(),
+        weighting: weighting.to_owned(),
+        indices: indices.ok().map(|all| together_records(study, all)),
+        reason: indices.err().map(|undefined| undefined.to_string()),
+    })
+}
+
+fn together_records(study: &Study, all: &AggregateIndices) -> Vec<AggregateIndexRecord> {
+    let record = |(number, factor): (usize, &crate::space::Factor)| AggregateIndexRecord {
         factor: factor.name.clone(),
         first_order: estimate_record(all.first_order[number]),
         total: estimate_record(all.total[number]),
     };
-    let factors = || study.space.factors().iter().enumerate();
-    let indices = aggregate.indices.as_ref();
-    Some(AggregateRecord {
-        outputs: analysis.outputs.iter().map(|output| output.name.clone()).collect(),
-        weighting: weighting.to_owned(),
-        indices: indices.ok().map(|all| factors().map(|factor| record(factor, all)).collect()),
-        reason: indices.err().map(|undefined| undefined.to_string()),
-    })
+    study.space.factors().iter().enumerate().map(record).collect()
+}
+
+fn series_record(study: &Study, analysis: &Analysis, found: &SeriesAnalysis) -> SeriesRecord {
+    let SeriesAnalysis { series, aggregate, directions } = found;
+    let unit = &analysis.outputs[series.first].unit;
+    let directions = directions.as_ref();
+    SeriesRecord {
+        name: series.name.clone(),
+        unit: unit.to_string(),
+        axis: series.axis.label().to_owned(),
+        axis_unit: series.axis.unit().to_owned(),
+        first_output: series.first,
+        positions: series.axis.positions().to_vec(),
+        indices: aggregate.as_ref().ok().map(|all| together_records(study, all)),
+        reason: aggregate.as_ref().err().map(ToString::to_string),
+        directions: directions.ok().map(|all| all.iter().map(|one| direction_record(study, unit, one)).collect()),
+        no_directions: directions.err().map(ToString::to_string),
+    }
+}
+
+fn direction_record(study: &Study, unit: &Unit, direction: &Direction) -> DirectionRecord {
+    let indices = direction.score.indices.as_ref();
+    let record = |(factor, effect): (&crate::space::Factor, &EffectEstimates)| AggregateIndexRecord {
+        factor: factor.name.clone(),
+        first_order: estimate_record(effect.first_order),
+        total: estimate_record(effect.total),
+    };
+    DirectionRecord {
+        share: 100.0 * direction.share,
+        loadings: direction.loadings.iter().map(|y| unit.span_from_si(*y)).collect(),
+        sum_first_order: indices.ok().map(|indices| estimate_record(indices.sum_first_order)),
+        indices: indices.ok().map(|all| study.space.factors().iter().zip(&all.factors).map(record).collect()),
+        reason: indices.err().map(ToString::to_string),
+    }
 }

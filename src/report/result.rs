@@ -5,6 +5,7 @@
 
 mod indices;
 mod scatter;
+mod series;
 mod spending;
 mod surrogate;
 
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::distribution::OutputDistribution;
 pub use indices::*;
 pub use scatter::*;
+pub use series::*;
 pub use spending::{LowRecord, LowUseRecord, SpendingRecord};
 pub use surrogate::*;
 
@@ -43,6 +45,9 @@ pub struct ResultFile {
     /// Indices over all outputs together, if asked for.
     #[serde(default)]
     pub aggregate: Option<AggregateRecord>,
+    /// The outputs that are series.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub series: Vec<SeriesRecord>,
     /// Why a growing run ended; `null` for one of fixed size.
     #[serde(default)]
     pub stopping: Option<StoppingRecord>,

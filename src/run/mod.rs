@@ -38,6 +38,7 @@ pub use pilot::Pilot;
 pub(crate) use remote::{Remote, Request, refuse, serve};
 pub use remote::{RemoteWorkers, Requests};
 pub use rows::RowValues;
+pub(crate) use scratch::BlockPlace;
 pub use shard::{Shard, ShardError};
 pub use store::{Piece, Store};
 pub use table::Halt;

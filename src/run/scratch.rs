@@ -2,7 +2,7 @@
 
 use super::totals::{OutputTotals, Place, Tally, Totals};
 use super::{Job, Store};
-use crate::design::Matrix;
+use crate::design::{Design, Matrix};
 use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace};
 use crate::model::{Batch, RowFailure, RunContext, Worker};
 
@@ -103,7 +103,6 @@ impl Scratch {
     }
 
     fn totals_of(&mut self, job: Job<'_>, output: usize, place: BlockPlace) -> OutputTotals {
-        let design = job.design;
         let mut totals = OutputTotals::default();
         for (run, batch) in self.batches.iter_mut().enumerate() {
             let failures = batch.failures().iter().filter(|(o, _, _)| *o == output).map(|(_, row, why)| (*row, why));
@@ -118,9 +117,17 @@ impl Scratch {
                 batch.set(row, output, f64::NAN);
             }
         }
-        let column = |run: &usize| self.batches[*run].column(output);
-        let columns = |runs: &[usize]| runs.iter().map(column).collect::<Vec<&[f64]>>();
-        let (a, b) = (column(&0), column(&1));
+        let runs: Vec<&[f64]> = self.batches.iter().map(|batch| batch.column(output)).collect();
+        totals.set_sums(job.design, &runs, place, &mut self.workspace);
+        totals
+    }
+}
+
+impl OutputTotals {
+    /// Sets the sums to those of a block, which has an output for every one of `runs` and base point, not finite where there is none.
+    pub(crate) fn set_sums(&mut self, design: &Design, runs: &[&[f64]], place: BlockPlace, work: &mut Workspace) {
+        let columns = |of: &[usize]| of.iter().map(|run| runs[*run]).collect::<Vec<&[f64]>>();
+        let (a, b) = (runs[0], runs[1]);
         let (ab, ba) = (columns(design.ab_runs()), columns(design.ba_runs()));
         let (bc, cb) = (columns(design.bc_runs()), columns(design.cb_runs()));
         let length = place.part_length as usize;
@@ -135,23 +142,21 @@ impl Scratch {
             let [ab, ba, bc, cb] = cut.each_ref().map(Vec::as_slice);
             let outputs =
                 BlockOutputs { a: &a[part.clone()], b: &b[part.clone()], ab, ba, bc, cb, paired: design.paired() };
-            parts.push(Moments::of_block(outputs, &mut self.workspace));
+            parts.push(Moments::of_block(outputs, work));
         }
         if place.keeps_outputs {
-            let runs: Vec<&[f64]> = self.batches.iter().map(|batch| batch.column(output)).collect();
-            totals.point_outputs = PointOutputs::of_block(&runs);
+            self.point_outputs = PointOutputs::of_block(runs);
         }
-        totals.moments = MomentParts::new(place.part_length, a.len() as u64, parts);
-        totals.values = CentralMoments::of(a);
-        totals.values.merge(&CentralMoments::of(b));
-        totals.sample = a.iter().zip(b).take(place.sampled).flat_map(|(a, b)| [*a, *b]).collect();
-        totals
+        self.moments = MomentParts::new(place.part_length, a.len() as u64, parts);
+        self.values = CentralMoments::of(a);
+        self.values.merge(&CentralMoments::of(b));
+        self.sample = a.iter().zip(b).take(place.sampled).flat_map(|(a, b)| [*a, *b]).collect();
     }
 }
 
 /// Where a block lies in its design, and what is kept of it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct BlockPlace {
+pub(crate) struct BlockPlace {
     /// The first base point's A.
     pub first: Place,
     /// Base points in each part whose moments are kept apart, a power of two.

@@ -144,9 +144,7 @@ impl Totals {
     pub fn merge(&mut self, other: &Self) {
         self.add_counts(other);
         for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
-            mine.moments.append(&theirs.moments);
-            mine.sample.extend_from_slice(&theirs.sample);
-            mine.point_outputs.append(&theirs.point_outputs);
+            mine.append_sums(theirs);
         }
     }
 
@@ -166,6 +164,18 @@ impl Totals {
 }
 
 impl OutputTotals {
+    /// Adds the rows that follow in the same replicate.
+    pub(crate) fn append(&mut self, following: &Self) {
+        self.add_counts(following);
+        self.append_sums(following);
+    }
+
+    fn append_sums(&mut self, following: &Self) {
+        self.moments.append(&following.moments);
+        self.sample.extend_from_slice(&following.sample);
+        self.point_outputs.append(&following.point_outputs);
+    }
+
     fn add_counts(&mut self, other: &Self) {
         self.values.merge(&other.values);
         self.runs_failed += other.runs_failed;

@@ -25,6 +25,20 @@ pub enum BuildError {
     /// The model has no outputs.
     #[error("the model has no outputs")]
     NoOutputs,
+    /// A series of outputs that are not there, or that belong to another one.
+    #[error(
+        "series `{name}` has outputs {first} to {last}, counted from 0: expected some of the model's {outputs}, of no other series"
+    )]
+    Series {
+        /// Its name.
+        name: String,
+        /// Place of its first value.
+        first: usize,
+        /// Place of its last value.
+        last: usize,
+        /// Outputs of the model.
+        outputs: usize,
+    },
     /// A name twice.
     #[error("{what} `{name}` is there twice")]
     Repeated {

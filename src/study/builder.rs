@@ -11,7 +11,7 @@ use super::subject::{CustomSubject, LowFidelity};
 use super::{AnalysisOptions, BuildError, Study, SurrogateChoice, Target};
 use crate::design::{Design, DesignSettings, Sampler};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS};
-use crate::model::Model;
+use crate::model::{Model, OutputSeries};
 use crate::names::{names_files, refused_name, refused_output_name, refused_title, shown};
 use crate::quantity::Unit;
 use crate::space::{Dependence, Distribution, Factor, Space};
@@ -212,6 +212,7 @@ impl StudyBuilder {
             }
         }
         refuse_repeated("output", self.model.outputs().iter().map(|output| &*output.name))?;
+        refuse_overlap(&*self.model)?;
         let space = Space::new(self.factors.into_iter().collect::<Result<_, _>>()?);
         refuse_repeated("factor", space.factors().iter().map(|factor| factor.name.as_str()))?;
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(self.sampler));
@@ -278,6 +279,16 @@ fn refuse_repeated<'a>(what: &'static str, mut names: impl Iterator<Item = &'a s
     let mut seen = BTreeSet::new();
     let repeated = names.find(|name| !seen.insert(*name));
     repeated.map_or(Ok(()), |name| Err(BuildError::Repeated { what, name: name.to_owned() }))
+}
+
+/// Every series has outputs of its own.
+fn refuse_overlap(model: &dyn Model) -> Result<(), BuildError> {
+    let (outputs, mut taken) = (model.outputs().len(), BTreeSet::new());
+    let is_wrong = |series: &&OutputSeries| series.places().any(|place| place >= outputs || !taken.insert(place));
+    model.series().iter().find(is_wrong).map_or(Ok(()), |series| {
+        let (name, places) = (series.name.clone(), series.places());
+        Err(BuildError::Series { name, first: places.start, last: places.end - 1, outputs })
+    })
 }
 
 /// The options as a study file could have said them.

@@ -34,7 +34,7 @@ use crate::surrogate::{FEWEST_NETS, fewest_points};
 use crate::uncertainty::{IntervalMethod, Layout};
 #[cfg(feature = "charts")]
 pub(crate) use options::rows;
-use options::{MOST_AUTOMATIC_VALUES, MOST_AUTOMATIC_VALUES_OF_PROGRAMS};
+use options::{MOST_AUTOMATIC_VALUES, MOST_AUTOMATIC_VALUES_OF_PROGRAMS, MOST_VALUES_OF_SERIES};
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
 #[derive(Debug, Clone)]
@@ -216,7 +216,14 @@ impl Study {
 
     /// Whether the estimates need the outputs of every run, and not their sums alone.
     pub fn needs_outputs(&self) -> bool {
-        self.analysis.intervals.keeps_outputs() || self.uses_surrogate(&self.design)
+        self.analysis.intervals.keeps_outputs() || self.uses_surrogate(&self.design) || self.needs_directions()
+    }
+
+    /// Whether the outputs of every run are kept for the main directions of a series: where that takes little memory.
+    fn needs_directions(&self) -> bool {
+        let model = self.model();
+        let values = self.design.rows().saturating_mul(model.outputs().len() as u64);
+        !model.series().is_empty() && values <= MOST_VALUES_OF_SERIES && !self.target.grows()
     }
 
     /// The choices in force, such as the friction law, in the terms of the study file.

@@ -5,8 +5,10 @@ use rayon::prelude::*;
 use super::Estimate;
 use super::concentration::Side;
 use super::estimates::Layout;
+use super::corrected::{Influenced, SurrogateEstimates, hull};
 use super::influence::{Influences, LeftOut};
 use super::method::IntervalMethod;
+use super::noise::Noise;
 use super::output::{Judged, agreeing};
 use crate::estimate::{FirstOrder, Indices, MomentParts, Moments, Scaling, Total, Undefined, aggregated};
 
@@ -62,4 +64,70 @@ pub fn aggregate_indices(
     let both = first_order.into_iter().zip(total).map(|(first, total)| agreeing(first, total));
     let (first_order, total) = both.map(|(first, total, _)| (first, total)).unzip();
     Ok(AggregateIndices { first_order, total })
+}
+
+impl AggregateIndices {
+    /// These plain indices, or those that surrogates make of the same outputs where their errors are smaller: the sum of the
+    /// numerators over the sum of the variances, each with its influences. The outputs are those that vary; without a surrogate
+    /// of every one of them, the plain ones stay.
+    #[must_use]
+    pub fn corrected(self, surrogates: &[&SurrogateEstimates]) -> Self {
+        let Some((first_order, total)) = Self::by_surrogates(surrogates) else { return self };
+        let is_heavy_tailed = surrogates.iter().any(|of_output| of_output.is_heavy_tailed);
+        let better = |plain: Vec<Estimate>, numbers: &[Influenced], skewed: bool| -> Vec<Estimate> {
+            // A factor that changes no row stays what it is.
+            let settled = |plain: &Estimate| plain.interval.is_some_and(|interval| interval.low == interval.high);
+            let moving = || plain.iter().zip(numbers).filter(|(plain, _)| !settled(plain));
+            let parts: Vec<_> = moving().map(|(_, number)| &number.parts).collect();
+            let noise = Noise::new(&parts, skewed);
+            let width = |estimate: Estimate| {
+                estimate.interval.map_or(f64::INFINITY, |interval| (interval.high - interval.low).powi(2))
+            };
+            let of_plain: f64 = moving().map(|(plain, _)| width(*plain)).sum();
+            let of_corrected: f64 = moving().map(|(_, number)| width(noise.estimate(number))).sum();
+            if parts.is_empty() || of_corrected >= of_plain {
+                return plain;
+            }
+            let corrected = |(plain, number): (&Estimate, &Influenced)| {
+                if settled(plain) {
+                    return *plain;
+                }
+                let found = noise.estimate(number);
+                let interval = if is_heavy_tailed { hull(found.interval, plain.interval) } else { found.interval };
+                Estimate { interval, ..found }
+            };
+            plain.iter().zip(numbers).map(corrected).collect()
+        };
+        Self { first_order: better(self.first_order, &first_order, false), total: better(self.total, &total, true) }
+    }
+
+    /// First-order and total indices of all outputs together, each counted by its variance.
+    fn by_surrogates(surrogates: &[&SurrogateEstimates]) -> Option<(Vec<Influenced>, Vec<Influenced>)> {
+        let first = surrogates.first()?;
+        let shape = |of: &SurrogateEstimates| -> [Vec<usize>; 2] {
+            [&of.variance.parts, &of.variance.low].map(|parts| parts.iter().map(Vec::len).collect())
+        };
+        let swaps = first.total.len();
+        let fits = |of: &&SurrogateEstimates| {
+            let alike = shape(of) == shape(first) && of.first_order.len() == swaps && of.total.len() == swaps;
+            alike && of.variance.estimate > 0.0
+        };
+        if !surrogates.iter().all(fits) {
+            return None;
+        }
+        // Relative to the largest, as in `aggregated`.
+        let largest = surrogates.iter().map(|of| of.variance.estimate).fold(0.0, f64::max);
+        let all: f64 = surrogates.iter().map(|of| of.variance.estimate / largest).sum();
+        let index = |swap: usize, of: fn(&SurrogateEstimates) -> &[Influenced]| {
+            let weight = |output: &SurrogateEstimates| output.variance.estimate / largest / all;
+            let estimate: f64 = surrogates.iter().map(|output| weight(output) * of(output)[swap].estimate).sum();
+            let terms = surrogates.iter().flat_map(|output| {
+                let number = &of(output)[swap];
+                [(weight(output), number), ((number.estimate - estimate) / largest / all, &output.variance)]
+            });
+            Influenced { estimate, ..Influenced::combined(&terms.collect::<Vec<_>>()) }
+        };
+        let list = |of: fn(&SurrogateEstimates) -> &[Influenced]| (0..swaps).map(|swap| index(swap, of)).collect();
+        Some((list(|of| &of.first_order), list(|of| &of.total)))
+    }
 }

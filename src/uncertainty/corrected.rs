@@ -294,7 +294,7 @@ fn share(part: &Influenced, all: &Influenced) -> Influenced {
 }
 
 /// The interval that holds both, or nothing if one of them is unknown.
-fn hull(a: Option<Interval>, b: Option<Interval>) -> Option<Interval> {
+pub(super) fn hull(a: Option<Interval>, b: Option<Interval>) -> Option<Interval> {
     a.zip(b).map(|(a, b)| Interval { low: a.low.min(b.low), high: a.high.max(b.high) })
 }
 

@@ -42,6 +42,8 @@ mod reproduce;
 mod scenes;
 mod schema;
 mod screening;
+mod series;
+mod series_files;
 mod stopped;
 mod study_forms;
 mod surrogate;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{AnswersError, AnswersRequest};
 use crate::exchange::design_rows::factor_column;
 use crate::exchange::{ColumnKind, RowReader};
-use crate::model::Output;
+use crate::model::{Output, OutputSeries};
 use crate::names::{refused_output_name, shown};
 use crate::quantity::Unit;
 use crate::space::Space;
@@ -95,5 +95,9 @@ pub(super) fn subject(
         let unit = unit.or_else(|| stated.map(|output| output.unit.clone())).unwrap_or_else(Unit::dimensionless);
         Output::new(name.clone(), unit, "read from a file")
     };
-    Ok(Arc::new(ExternalSubject { outputs: names.map(output).collect() }))
+    // Those of the study's series that are there as a whole are series still, in other units too.
+    let place = |name: &String| own.iter().position(|output| output.name == *name).unwrap_or(usize::MAX);
+    let places: Vec<usize> = names.clone().map(place).collect();
+    let series = OutputSeries::chosen(model.series(), &places);
+    Ok(Arc::new(ExternalSubject { outputs: names.map(output).collect(), series }))
 }

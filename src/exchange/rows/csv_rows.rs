@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::io::{BufWriter, Cursor, Read, Write};
 
 use super::plain_lines::PlainLines;
-use super::{ColumnKind, RowReader, RowWriter, RowsError, check_names};
+use super::{ColumnKind, RowReader, RowWriter, RowsError, check_names, expanded};
 use crate::text::{csv_field, plain_field};
 
 /// Rows that are looked at to tell columns of text from those of numbers.
@@ -36,13 +36,15 @@ impl<R: Read> CsvRows<R> {
         let delimiter = separator(&begin);
         let text = PlainLines::new(Cursor::new(begin).chain(reader));
         let mut builder = csv::ReaderBuilder::new();
-        let mut csv = builder.trim(csv::Trim::All).delimiter(delimiter).has_headers(names.is_empty()).from_reader(text);
+        // A cell of the header may stand for several columns: how long rows must be is known when it has been read.
+        builder.trim(csv::Trim::All).delimiter(delimiter).has_headers(names.is_empty()).flexible(true);
+        let mut csv = builder.from_reader(text);
         let named = if names.is_empty() {
             let header = csv.headers().map_err(|source| wrong_record(source, 1))?;
             let name = |name: &str| plain_field(name.trim_start_matches('\u{feff}').trim()).to_owned();
-            header.iter().map(name).collect()
+            expanded(header.iter().map(name))
         } else {
-            names.to_vec()
+            expanded(names.iter().cloned())
         };
         check_names(&named)?;
         let (record, ahead, lines) = Default::default();
@@ -55,7 +57,7 @@ impl<R: Read> CsvRows<R> {
 
     /// Whether the first row of a table without a header has a cell for every name.
     fn check_width(&mut self) -> Result<(), RowsError> {
-        let Some((mut first, line)) = self.next_record()? else { return Ok(()) };
+        let Some((mut first, line)) = self.record_as_it_is()? else { return Ok(()) };
         if first.len() != self.names.len() {
             return Err(RowsError::OtherWidth { width: first.len(), names: self.names.len() });
         }
@@ -68,8 +70,19 @@ impl<R: Read> CsvRows<R> {
         Ok(())
     }
 
-    /// The next row with its line, from the text.
+    /// The next row with its line, from the text: a cell for every name.
     fn next_record(&mut self) -> Result<Option<(csv::StringRecord, u64)>, RowsError> {
+        let next = self.record_as_it_is()?;
+        let (expected, found) = (self.names.len() as u64, |record: &csv::StringRecord| record.len() as u64);
+        match next {
+            Some((record, line)) if found(&record) != expected => {
+                Err(RowsError::WrongLength { line, expected, found: found(&record) })
+            }
+            next => Ok(next),
+        }
+    }
+
+    fn record_as_it_is(&mut self) -> Result<Option<(csv::StringRecord, u64)>, RowsError> {
         let read = self.csv.read_record(&mut self.record);
         // The reader stands at the start of the next line.
         let line = self.csv.position().line().saturating_sub(1);
@@ -173,12 +186,7 @@ impl<R: Read> RowReader for CsvRows<R> {
 }
 
 fn wrong_record(source: csv::Error, line: u64) -> RowsError {
-    match source.kind() {
-        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            RowsError::WrongLength { line, expected: *expected_len, found: *len }
-        }
-        _ => RowsError::NoCsv { line, source: source.into() },
-    }
+    RowsError::NoCsv { line, source: source.into() }
 }
 
 /// Writes CSV, every number with as many digits as it takes to read the same bits back.

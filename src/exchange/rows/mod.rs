@@ -21,6 +21,7 @@ use std::path::Path;
 pub use error::RowsError;
 
 use crate::files::read_opened;
+use crate::model::items_of_header;
 use crate::names::refused_name;
 
 /// How a table is written down.
@@ -259,11 +260,12 @@ fn named(rows: Box<dyn RowReader>, names: &[String]) -> Result<Box<dyn RowReader
     if let Some(known) = rows.names() {
         return Err(RowsError::HasNames { known: known.join(", ") });
     }
+    let names = expanded(names.iter().cloned());
     if rows.width() != names.len() {
         return Err(RowsError::OtherWidth { width: rows.width(), names: names.len() });
     }
-    check_names(names)?;
-    Ok(Box::new(Named { rows, names: names.to_vec() }))
+    check_names(&names)?;
+    Ok(Box::new(Named { rows, names }))
 }
 
 /// A table of a format without names, with names from elsewhere.
@@ -322,6 +324,18 @@ pub fn row_writer<'a>(
         Format::Parquet => return Err(std::io::Error::other(RowsError::WithoutParquet)),
         Format::Npy => Box::new(npy::NpyWriter::new(out, (rows, columns.len()))?),
     })
+}
+
+/// Names of all columns: `y[0..3]` stands for the columns `y[0]`, `y[1]` and `y[2]`.
+fn expanded(names: impl Iterator<Item = String>) -> Vec<String> {
+    let mut all = Vec::new();
+    for name in names {
+        match items_of_header(&name) {
+            Some(items) => all.extend(items),
+            None => all.push(name),
+        }
+    }
+    all
 }
 
 /// Names that are all there and all different.

@@ -4,6 +4,7 @@
 //! No shell is involved. A program is the leader of a process group, which is ended with it; whatever it does wrong has a
 //! reason in the result, and never costs a row that it answered.
 
+mod json_answer;
 mod kept_alive;
 mod per_run;
 mod pick;
@@ -26,7 +27,7 @@ pub use program::Program;
 pub use protocol::{Answer, Protocol, parse_answer, parse_numbered_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 
-use super::{Flag, Messages, Model, Output, RowFailure, RunContext, Worker};
+use super::{Flag, Messages, Model, Output, OutputSeries, RowFailure, RunContext, Worker};
 use crate::quantity::Unit;
 use crate::space::Factor;
 use kept_alive::KeptAliveWorker;
@@ -71,6 +72,8 @@ pub struct CommandSettings {
     pub form: Form,
     /// All outputs that it gives, in its order.
     pub outputs: Vec<CommandOutput>,
+    /// Those of them that are series.
+    pub series: Vec<OutputSeries>,
     /// Places of those that are asked for.
     pub asked: Vec<usize>,
     /// Processes at once; as many as there are cores if not said.
@@ -98,6 +101,7 @@ pub struct CommandSettings {
 ///     program,
 ///     form: Form::KeptAlive(KeptAlive { protocol: Protocol::Csv, row_numbers: true }),
 ///     outputs: vec![CommandOutput { name: "force".to_owned(), unit: Unit::parse("nN")?, pick: None }],
+///     series: Vec::new(),
 ///     asked: vec![0],
 ///     workers: Some(2),
 ///     timeout: None,
@@ -115,6 +119,7 @@ pub struct CommandModel {
     settings: CommandSettings,
     factors: Vec<Factor>,
     outputs: Vec<Output>,
+    series: Vec<OutputSeries>,
     /// The names of all outputs of the program.
     names: Vec<String>,
     /// How long it may be silent at its first row without a hint.
@@ -204,15 +209,20 @@ impl CommandModel {
         };
         let outputs = settings.asked.iter().map(output).collect();
         let names = settings.outputs.iter().map(|output| output.name.clone()).collect();
+        let series = OutputSeries::chosen(&settings.series, &settings.asked);
         let is_numbered = !matches!(settings.form, Form::KeptAlive(KeptAlive { row_numbers: false, .. }));
         let flags = if is_numbered { Vec::new() } else { vec![alone()] };
-        Self { settings, factors, outputs, names, silence: SILENCE, flags, state: State::default() }
+        Self { settings, factors, outputs, series, names, silence: SILENCE, flags, state: State::default() }
     }
 }
 
 impl Model for CommandModel {
     fn outputs(&self) -> &[Output] {
         &self.outputs
+    }
+
+    fn series(&self) -> &[OutputSeries] {
+        &self.series
     }
 
     fn flags(&self) -> &[Flag] {

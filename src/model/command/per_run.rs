@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime};
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
-use super::pick::{MOST_BYTES, PickError, Source};
+use super::pick::{MOST_BYTES, PickError, Source, Texts};
 use super::program::{Running, status_in_words};
 use super::row::{RowWriter, ValueWriter};
 use super::shorten::{masked, seconds};
@@ -171,12 +171,14 @@ impl<'a> PerRunWorker<'a> {
     fn pick(&self, directory: &Path, row: usize, batch: &mut Batch) -> Result<(), RowFailure> {
         let settings = &self.model.settings;
         let (mut missing, mut found) = (None, false);
+        let stdout = directory.join(STDOUT);
+        let mut texts = Texts::new(directory, &stdout);
         for (column, place) in settings.asked.iter().enumerate() {
             let output = &settings.outputs[*place];
             let Some(pick) = &output.pick else { continue };
             let number = match &pick.source {
                 Source::File(name) if is_from_before(&directory.join(name)) => Err(PickError::Unchanged(name.clone())),
-                _ => pick.number(directory, &directory.join(STDOUT)),
+                _ => pick.number(&mut texts),
             };
             match number {
                 Ok(value) if value.is_finite() => {

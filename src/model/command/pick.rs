@@ -34,17 +34,37 @@ pub enum Match {
     First,
     /// The last.
     Last,
+    /// The one of that number, from 0: that of a value of a series.
+    Number(usize),
 }
 
 impl Match {
-    /// Both, the default first.
+    /// Those that a study can name, the default first.
     pub const ALL: [Self; 2] = [Self::Last, Self::First];
 
-    /// The name in study files.
+    /// The name in study files; empty for one of a series, which has none.
     pub fn name(self) -> &'static str {
         match self {
             Self::First => "first",
             Self::Last => "last",
+            Self::Number(_) => "",
+        }
+    }
+
+    /// The one that is meant.
+    fn of<T>(self, mut all: impl Iterator<Item = T>) -> Option<T> {
+        match self {
+            Self::First => all.next(),
+            Self::Last => all.last(),
+            Self::Number(number) => all.nth(number),
+        }
+    }
+
+    /// As in "its last row", "its row 12".
+    fn in_words(self, what: &str) -> String {
+        match self {
+            Self::Number(number) => format!("{what} {}", number + 1),
+            Self::First | Self::Last => format!("{} {what}", self.name()),
         }
     }
 }
@@ -91,6 +111,14 @@ pub enum PickError {
     /// The regular expression matches nothing.
     #[error("nothing in {0} matches the regex")]
     NoMatch(String),
+    /// The regular expression matches less often than a series has values.
+    #[error("the regex has no match {number} in {of}")]
+    FewMatches {
+        /// What was read.
+        of: String,
+        /// The match that is missing, from 1.
+        number: usize,
+    },
     /// The table has no such column, or no row with a cell in it.
     #[error("{of} has no {missing}")]
     NoCell {
@@ -151,9 +179,42 @@ impl Source {
 }
 
 impl Pick {
-    /// The number that a run in `directory` left; not finite where the program wrote so.
-    pub(super) fn number(&self, directory: &Path, stdout: &Path) -> Result<f64, PickError> {
-        self.way.number(&self.source.text(directory, stdout)?, self.source.in_words())
+    /// The number in what a run left, of which `texts` holds what has been read; not finite where the program wrote so.
+    pub(super) fn number(&self, texts: &mut Texts<'_>) -> Result<f64, PickError> {
+        self.way.number(texts.of(&self.source)?, self.source.in_words())
+    }
+
+    /// Where value number `number` of a series stands, from 0: the match or row of that number, or the item of a list.
+    #[must_use]
+    pub fn of_value(&self, number: usize) -> Self {
+        let way = match &self.way {
+            Way::Regex(regex, _) => Way::Regex(regex.clone(), Match::Number(number)),
+            Way::Column(column, _) => Way::Column(column.clone(), Match::Number(number)),
+            Way::Pointer(pointer) => Way::Pointer(format!("{pointer}/{number}")),
+        };
+        Self { source: self.source.clone(), way }
+    }
+}
+
+/// What a run left, each file read once.
+pub(super) struct Texts<'a> {
+    directory: &'a Path,
+    /// Where its standard output is.
+    stdout: &'a Path,
+    read: Vec<(Source, Result<String, PickError>)>,
+}
+
+impl<'a> Texts<'a> {
+    pub(super) fn new(directory: &'a Path, stdout: &'a Path) -> Self {
+        Self { directory, stdout, read: Vec::new() }
+    }
+
+    fn of(&mut self, source: &Source) -> Result<&str, PickError> {
+        let place = self.read.iter().position(|(known, _)| known == source).unwrap_or_else(|| {
+            self.read.push((source.clone(), source.text(self.directory, self.stdout)));
+            self.read.len() - 1
+        });
+        self.read[place].1.as_deref().map_err(Clone::clone)
     }
 }
 
@@ -174,10 +235,13 @@ impl Way {
     pub fn number(&self, text: &str, of: String) -> Result<f64, PickError> {
         let found = match self {
             Self::Regex(regex, which) => {
-                let mut matches = regex.captures_iter(text);
-                let groups = if *which == Match::First { matches.next() } else { matches.last() };
+                let groups = which.of(regex.captures_iter(text));
                 let found = groups.and_then(|groups| groups.get(1).or_else(|| groups.get(0)));
-                found.ok_or_else(|| PickError::NoMatch(of.clone()))?.as_str().to_owned()
+                let none = || match which {
+                    Match::Number(number) => PickError::FewMatches { of: of.clone(), number: number + 1 },
+                    Match::First | Match::Last => PickError::NoMatch(of.clone()),
+                };
+                found.ok_or_else(none)?.as_str().to_owned()
             }
             Self::Column(column, which) => cell(text, column, *which, &of)?,
             Self::Pointer(pointer) => {
@@ -200,18 +264,20 @@ fn number(text: &str) -> Option<f64> {
     text.parse().ok().or_else(|| text.replace(['D', 'd'], "e").parse().ok())
 }
 
-/// The cell of a column in the first or last row of a CSV table.
+/// The cell of a column in one row of a CSV table.
 fn cell(text: &str, column: &str, which: Match, of: &str) -> Result<String, PickError> {
     let missing = |missing: String| PickError::NoCell { of: of.to_owned(), missing };
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
     let place = reader.headers().ok().and_then(|names| names.iter().position(|name| name == column));
     let place = place.ok_or_else(|| missing(format!("column `{column}`")))?;
-    let mut rows = reader.records().map_while(Result::ok);
-    let row = if which == Match::First { rows.next() } else { rows.last() };
-    let row = row.ok_or_else(|| missing("row".to_owned()))?;
+    let row = which.of(reader.records().map_while(Result::ok));
+    let row = row.ok_or_else(|| match which {
+        Match::Number(_) => missing(which.in_words("row")),
+        Match::First | Match::Last => missing("row".to_owned()),
+    })?;
     let cell =
-        row.get(place).ok_or_else(|| missing(format!("cell of column `{column}` in its {} row", which.name())))?;
+        row.get(place).ok_or_else(|| missing(format!("cell of column `{column}` in its {}", which.in_words("row"))))?;
     Ok(cell.to_owned())
 }
 
@@ -264,10 +330,26 @@ mod tests {
     }
 
     #[test]
+    fn a_series_takes_row_after_row() {
+        let pick = |way| Pick { source: Source::Stdout, way };
+        let value = |pick: &Pick, number, text| found(pick.of_value(number).way, text);
+        let column = pick(Way::Column("y".to_owned(), Match::Last));
+        assert_eq!([0, 1].map(|number| value(&column, number, "t,y\n0,1\n1,2\n")), [Ok(1.0), Ok(2.0)]);
+        assert_eq!(value(&column, 2, "t,y\n0,1\n1,2\n").unwrap_err(), "it has no row 3");
+        assert_eq!(value(&column, 1, "t,y\n0,1\n1\n").unwrap_err(), "it has no cell of column `y` in its row 2");
+        let regex = pick(regex(r"y = (\S+)", Match::Last));
+        assert_eq!(value(&regex, 1, "y = 1\ny = 2\ny = 3\n"), Ok(2.0));
+        assert_eq!(value(&regex, 3, "y = 1\ny = 2\ny = 3\n").unwrap_err(), "the regex has no match 4 in it");
+        let pointer = pick(Way::Pointer("/y".to_owned()));
+        assert_eq!(value(&pointer, 1, "{\"y\": [1, 2]}"), Ok(2.0));
+        assert_eq!(value(&pointer, 2, "{\"y\": [1, 2]}").unwrap_err(), "it has nothing at `/y/2`");
+    }
+
+    #[test]
     fn what_is_not_there_is_named() {
         let folder = tempfile::tempdir().unwrap();
         let pick = Pick { source: Source::File("out.txt".to_owned()), way: regex("1", Match::First) };
-        let error = pick.number(folder.path(), Path::new("stdout")).unwrap_err();
+        let error = pick.number(&mut Texts::new(folder.path(), Path::new("stdout"))).unwrap_err();
         assert_eq!(error.to_string(), "the run left no file `out.txt`");
     }
 }

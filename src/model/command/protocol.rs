@@ -3,6 +3,7 @@
 
 use serde_json::Value;
 
+use super::json_answer::{json, json_answer, keys_in_words};
 use super::shorten::{masked, shortened};
 
 /// How rows and answers are written.
@@ -155,7 +156,7 @@ fn expected_numbered(protocol: Protocol, outputs: &[String]) -> String {
     match (protocol, outputs) {
         (Protocol::Csv, [_]) => "the row's number and a number, separated by a comma".to_owned(),
         (Protocol::Csv, _) => format!("the row's number and {} numbers, separated by commas", outputs.len()),
-        (Protocol::JsonLines, _) => format!("a JSON object with id (the row's number), {}", outputs.join(", ")),
+        (Protocol::JsonLines, _) => format!("a JSON object with id (the row's number), {}", keys_in_words(outputs)),
     }
 }
 
@@ -166,11 +167,11 @@ fn expected(protocol: Protocol, outputs: &[String]) -> String {
         (Protocol::Csv, [_]) => "a number".to_owned(),
         (Protocol::Csv, _) => format!("{} numbers separated by commas", outputs.len()),
         (Protocol::JsonLines, [name]) => format!("a JSON object such as {{\"{name}\": 1.5}}"),
-        (Protocol::JsonLines, _) => format!("a JSON object with {}", outputs.join(", ")),
+        (Protocol::JsonLines, _) => format!("a JSON object with {}", keys_in_words(outputs)),
     }
 }
 
-fn failed(reason: &str) -> Answer {
+pub(super) fn failed(reason: &str) -> Answer {
     let reason = shortened(reason);
     Answer::Failed(if reason.is_empty() { "the program reported an error without a reason".to_owned() } else { reason })
 }
@@ -190,77 +191,6 @@ fn csv_answer(outputs: &[String], text: &str, values: &mut Vec<f64>) -> Result<A
         return Ok(Answer::Values);
     }
     Err(format!("{cells} cell{}: `{}`", if cells == 1 { "" } else { "s" }, masked(text)))
-}
-
-fn json(text: &str) -> Result<Value, String> {
-    let parsed = serde_json::from_str(text).or_else(|_| serde_json::from_str(&without_nan(text)));
-    parsed.map_err(|_| format!("`{}`", masked(text)))
-}
-
-fn json_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f64>) -> Result<Answer, String> {
-    let number = |value: &Value, of: &str| match value {
-        Value::Null => Ok(f64::NAN),
-        Value::Number(number) => Ok(number.as_f64().unwrap_or(f64::NAN)),
-        other => Err(format!("{} as `{of}`", kind(other))),
-    };
-    match parsed {
-        Value::Object(object) => {
-            match object.get("error") {
-                Some(Value::String(reason)) => return Ok(failed(reason)),
-                None | Some(Value::Null) => (),
-                Some(_) if outputs.iter().any(|name| name == "error") => (),
-                Some(other) => return Err(format!("{} as `error`, which is a text", kind(other))),
-            }
-            for name in outputs {
-                let value = object.get(name).ok_or_else(|| format!("an object without `{name}`"))?;
-                values.push(number(value, name)?);
-            }
-        }
-        Value::Array(list) if list.len() == outputs.len() => {
-            for (value, name) in list.iter().zip(outputs) {
-                values.push(number(value, name)?);
-            }
-        }
-        Value::Array(list) => return Err(format!("a list of {}", list.len())),
-        Value::Number(_) if outputs.len() == 1 => values.push(number(parsed, &outputs[0])?),
-        other => return Err(kind(other).to_owned()),
-    }
-    Ok(Answer::Values)
-}
-
-fn kind(value: &Value) -> &'static str {
-    match value {
-        Value::Null => "null",
-        Value::Bool(_) => "true or false",
-        Value::Number(_) => "a number",
-        Value::String(_) => "a text",
-        Value::Array(_) => "a list",
-        Value::Object(_) => "an object",
-    }
-}
-
-/// The text with `NaN` and `Infinity`, which Python writes though JSON has no such thing, as null.
-fn without_nan(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let (mut rest, mut in_string) = (text, false);
-    while let Some(c) = rest.chars().next() {
-        let word = ["-Infinity", "Infinity", "NaN"].into_iter().find(|word| !in_string && rest.starts_with(word));
-        let length = match word {
-            Some(word) => {
-                out.push_str("null");
-                word.len()
-            }
-            // An escape and what it escapes.
-            None if in_string && c == '\\' => 1 + rest.chars().nth(1).map_or(0, char::len_utf8),
-            None => c.len_utf8(),
-        };
-        if word.is_none() {
-            out.push_str(&rest[..length]);
-        }
-        in_string ^= c == '"';
-        rest = &rest[length..];
-    }
-    out
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ impl Chart {
             let key = match shape {
                 Shape::Line(_) => points(series.stroke.has_line(), series.stroke.has_points()),
                 Shape::Dots(_) | Shape::Point(_) => points(false, true),
-                Shape::Bar(_) | Shape::Tile(_) | Shape::Stretches(..) => Key::Swatch(series.colour),
+                Shape::Bar(_) | Shape::Layer(_) | Shape::Tile(_) | Shape::Stretches(..) => Key::Swatch(series.colour),
                 _ => continue,
             };
             let entry = Entry { name: series.name.clone(), key };
@@ -61,7 +61,7 @@ impl Chart {
         }
         for Mark { series, shape } in &panel.marks {
             let said = match shape {
-                Shape::Line(_) => series.name.clone(),
+                Shape::Line(_) | Shape::Layer(_) => series.name.clone(),
                 Shape::Dots(dots) => format!("{}: {} points", series.name, dots.len()),
                 Shape::Point(point) => point_in_words(&series.name, point),
                 Shape::Bar(bar) => self.bar_in_words(panel, &series.name, bar),

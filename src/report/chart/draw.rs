@@ -171,8 +171,10 @@ impl<'a> Sheet<'a> {
             }
         }
         for Mark { series, shape } in marks {
-            if let Shape::Band(edges) = shape {
-                self.band(canvas, series, edges);
+            match shape {
+                Shape::Band(edges) => self.band(canvas, (series, "band", "0.18"), edges),
+                Shape::Layer(edges) => self.band(canvas, (series, "layer", "0.85"), edges),
+                _ => (),
             }
         }
         for Mark { series, shape } in marks {
@@ -201,19 +203,20 @@ impl<'a> Sheet<'a> {
     fn shows(&self, mark: &Mark) -> bool {
         match &mark.shape {
             Shape::Line(points) | Shape::Dots(points) => points.iter().any(|&point| self.at(point).is_some()),
-            Shape::Band(edges) => edges.iter().any(|edges| self.edges(edges).is_some()),
+            Shape::Band(edges) | Shape::Layer(edges) => edges.iter().any(|edges| self.edges(edges).is_some()),
             Shape::Point(point) => self.at((point.x, point.y)).is_some(),
             _ => false,
         }
     }
 
-    fn band(&self, canvas: &mut Canvas, series: &Series, edges: &[(f64, f64, f64)]) {
+    /// A band or layer of a series: its kind, and how opaque it is.
+    fn band(&self, canvas: &mut Canvas, (series, kind, opacity): (&Series, &str, &str), edges: &[(f64, f64, f64)]) {
         for run in runs(edges.iter().map(|edges| self.edges(edges))) {
             let lower: Vec<_> = run.iter().map(|edges| edges[0]).collect();
             let upper: Vec<_> = run.iter().map(|edges| edges[1]).collect();
             let d = closed(&thin(&lower), &thin(&upper));
             let fill = series.colour.hex();
-            canvas.leaf("path", &[("class", &"band"), ("d", &d), ("fill", &fill), ("fill-opacity", &"0.18")]);
+            canvas.leaf("path", &[("class", &kind), ("d", &d), ("fill", &fill), ("fill-opacity", &opacity)]);
         }
     }
 

@@ -166,7 +166,9 @@ impl Panel {
         let level = |x: f64| (x, 0.0);
         let of_mark = |mark: &Mark| match &mark.shape {
             Shape::Line(points) | Shape::Dots(points) => points.clone(),
-            Shape::Band(edges) => edges.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]).collect(),
+            Shape::Band(edges) | Shape::Layer(edges) => {
+                edges.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]).collect()
+            }
             Shape::Point(point) => {
                 let beside = point.x_interval.map(|(low, high)| [(low, point.y), (high, point.y)]);
                 let above = point.y_interval.map(|(low, high)| [(point.x, low), (point.x, high)]);

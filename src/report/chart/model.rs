@@ -117,7 +117,7 @@ pub enum Stroke {
 }
 
 /// A mark of a series. Numbers that cannot be drawn (not finite, beyond 1e300, not positive on a logarithmic axis) leave
-/// gaps in lines and bands; other marks are left out.
+/// gaps in lines, bands and layers; other marks are left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
     /// Its series.
@@ -133,6 +133,8 @@ pub enum Shape {
     Line(Vec<(f64, f64)>),
     /// A shaded band as (x, low, high).
     Band(Vec<(f64, f64, f64)>),
+    /// A filled layer of a stack as (x, low, high).
+    Layer(Vec<(f64, f64, f64)>),
     /// A cloud of small dots.
     Dots(Vec<(f64, f64)>),
     /// A point with its label and intervals.

@@ -4,8 +4,7 @@ use serde_json::Value;
 
 use crate::names::{LONGEST_NAME, LONGEST_STUDY_NAME, LONGEST_TITLE};
 use crate::report::distribution::OutputDistribution;
-use crate::report::result::ScatterRecord;
-use crate::report::result::{OutputRecord, ResultFile};
+use crate::report::result::{AggregateIndexRecord, OutputRecord, ResultFile, ScatterRecord, SeriesRecord};
 
 /// A key, and what is wrong there.
 type Fault = (String, String);
@@ -32,6 +31,31 @@ pub(super) fn check(result: &ResultFile) -> Result<(), Fault> {
         if let Some(scatter) = &output.scatter {
             of_scatter(&format!("{key}.scatter"), scatter)?;
         }
+    }
+    result.series.iter().enumerate().try_for_each(|(place, of)| series(&format!("series[{place}]"), result, of))
+}
+
+/// A series has values that are outputs, and a loading for each.
+fn series(key: &str, result: &ResultFile, series: &SeriesRecord) -> Result<(), Fault> {
+    file_name(&format!("{key}.name"), &series.name, LONGEST_NAME)?;
+    short_enough(&format!("{key}.axis"), &series.axis, LONGEST_NAME)?;
+    short_enough(&format!("{key}.axis_unit"), &series.axis_unit, LONGEST_NAME)?;
+    let end = series.first_output.checked_add(series.positions.len()).filter(|end| *end <= result.outputs.len());
+    let rise = series.positions.windows(2).all(|pair| pair[0] < pair[1]);
+    if end.is_none() || series.positions.is_empty() || !rise {
+        let problem = "expected rising numbers, one for each output from number `first_output` on";
+        return Err((format!("{key}.positions"), problem.to_owned()));
+    }
+    let factors = |of: &[AggregateIndexRecord]| {
+        of.iter().map(|index| &index.factor).eq(result.factors.iter().map(|factor| &factor.name))
+    };
+    let all = series.indices.iter().chain(series.directions.iter().flatten().filter_map(|one| one.indices.as_ref()));
+    if !all.into_iter().all(|indices| factors(indices)) {
+        let problem = "expected one entry for each of the factors, in their order, or null";
+        return Err((format!("{key}.indices"), problem.to_owned()));
+    }
+    for (place, direction) in series.directions.iter().flatten().enumerate() {
+        same(&format!("{key}.directions[{place}].loadings"), &[direction.loadings.len(), series.positions.len()])?;
     }
     Ok(())
 }

@@ -1,5 +1,5 @@
 //! Charts of a run besides that of the shares, all from the result alone: the indices, what acts together, the output
-//! over its factors, how it is distributed, how the indices settled, and many outputs at a glance.
+//! over its factors, how it is distributed, how the indices settled, and many outputs or a series at a glance.
 
 mod categories;
 mod convergence;
@@ -7,6 +7,7 @@ mod distribution;
 mod indices;
 mod map;
 mod scatter;
+mod series;
 mod slice_means;
 
 pub use convergence::convergence_chart;
@@ -14,6 +15,7 @@ pub use distribution::distribution_chart;
 pub use indices::{indices_chart, interactions_chart};
 pub(super) use map::{map_chart, together_chart};
 pub use scatter::scatter_chart;
+pub(super) use series::{SeriesOf, along_chart, directions_chart, layers_chart};
 
 use super::format::the;
 use super::result::{OutputRecord, ResultFile};

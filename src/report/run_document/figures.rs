@@ -1,5 +1,7 @@
 //! The charts of a run as figures, numbered through.
 
+use std::ops::Range;
+
 use crate::model::MANY_OUTPUTS;
 use crate::report::chart::Chart;
 use crate::report::document::{Figure, Part};
@@ -51,12 +53,79 @@ pub(super) fn overview_stems(study: &str, axes: usize) -> Vec<String> {
     std::iter::once(format!("{study}-together")).chain(maps).collect()
 }
 
-/// The names of all charts of a study with these outputs.
-pub(super) fn all_stems(study: &str, outputs: &[&str]) -> Vec<String> {
-    if outputs.len() >= MANY_OUTPUTS {
-        return overview_stems(study, OutputAxis::all(outputs).len());
+/// What the names of the charts of a series end in: its indices along the axis, the shares of its variance, the indices of
+/// the whole, the map, and its main directions.
+pub(super) const SERIES_SUFFIXES: [&str; 5] = ["-along", "-layers", "-together", "-map", "-directions"];
+
+/// Series whose charts are files; those of more are on the page alone.
+const SERIES_WITH_FILES: usize = 3;
+
+/// The names of the outputs of a study, as its files are named after them.
+#[derive(Clone, Debug)]
+pub struct OutputNames<'a> {
+    /// Of those that belong to no series.
+    pub single: Vec<&'a str>,
+    /// Of the series.
+    pub series: Vec<&'a str>,
+}
+
+impl<'a> OutputNames<'a> {
+    /// Names of outputs in order, and of the series with the places of their values.
+    pub fn new(outputs: &[&'a str], series: &[(&'a str, Range<usize>)]) -> Self {
+        let is_single = |place: usize| !series.iter().any(|(_, places)| places.contains(&place));
+        let single = outputs.iter().enumerate().filter(|(place, _)| is_single(*place)).map(|(_, name)| *name);
+        Self { single: single.collect(), series: series.iter().map(|(name, _)| *name).collect() }
     }
-    chart_stems(study, outputs).into_iter().flatten().collect()
+
+    pub(super) fn of(result: &'a ResultFile) -> Self {
+        let outputs: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
+        let series: Vec<_> = result.series.iter().map(|series| (series.name.as_str(), series.places())).collect();
+        Self::new(&outputs, &series)
+    }
+}
+
+/// The names of the charts of a study.
+pub(super) struct Stems {
+    /// Of each output that belongs to no series, if they are few.
+    single: Vec<[String; KINDS.len()]>,
+    /// Of each series; empty for those without files.
+    pub series: Vec<[String; SERIES_SUFFIXES.len()]>,
+}
+
+impl Stems {
+    pub fn new(study: &str, names: &OutputNames<'_>) -> Self {
+        let OutputNames { single, series } = names;
+        let is_many = single.len() >= MANY_OUTPUTS;
+        if series.is_empty() {
+            return Self { single: if is_many { Vec::new() } else { chart_stems(study, single) }, series: Vec::new() };
+        }
+        // Charts of all of many outputs together have names like those of an only series.
+        let of_single = if is_many { &["outputs"][..] } else { single };
+        let all: Vec<&str> = of_single.iter().chain(series).copied().collect();
+        let kinds = KINDS.map(|kind| kind.suffix);
+        let stems = file_stems(study, &all, &[&kinds[..], &SERIES_SUFFIXES[..]].concat());
+        let (of_outputs, of_series) = stems.split_at(of_single.len());
+        let own = |(number, stem): (usize, &String)| match number {
+            ..SERIES_WITH_FILES => SERIES_SUFFIXES.map(|suffix| format!("{stem}{suffix}")),
+            _ => SERIES_SUFFIXES.map(|_| String::new()),
+        };
+        let of_outputs = of_outputs.iter().filter(|_| !is_many);
+        Self {
+            single: of_outputs.map(|stem| kinds.map(|suffix| format!("{stem}{suffix}"))).collect(),
+            series: of_series.iter().enumerate().map(own).collect(),
+        }
+    }
+}
+
+/// The names of all charts of a study with these outputs.
+pub(super) fn all_stems(study: &str, names: &OutputNames<'_>) -> Vec<String> {
+    let Stems { single, series } = Stems::new(study, names);
+    let mut all: Vec<String> = series.into_iter().flatten().filter(|stem| !stem.is_empty()).collect();
+    if names.single.len() >= MANY_OUTPUTS {
+        all.extend(overview_stems(study, OutputAxis::all(&names.single).len()));
+    }
+    all.extend(single.into_iter().flatten());
+    all
 }
 
 /// Draws the figures of one output after the other.
@@ -64,7 +133,9 @@ pub(super) struct Figures<'a> {
     pub result: &'a ResultFile,
     /// Of the charts of each output; none where these are on the page alone.
     stems: Vec<[String; KINDS.len()]>,
-    /// Figures of several outputs.
+    /// What the anchors of its figures begin with.
+    prefix: String,
+    /// Figures of several outputs, and those before.
     others: usize,
     /// The figures so far, by output and kind.
     drawn: Vec<(usize, usize)>,
@@ -85,11 +156,20 @@ impl Numbered<'_> {
 }
 
 impl<'a> Figures<'a> {
-    pub fn new(result: &'a ResultFile) -> Self {
-        let outputs: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
-        let is_many = outputs.len() >= MANY_OUTPUTS;
-        let stems = if is_many { Vec::new() } else { chart_stems(&result.study.name, &outputs) };
-        Self { result, stems, others: 0, drawn: Vec::new() }
+    /// Of the outputs of `result`, behind so many figures.
+    pub fn new(result: &'a ResultFile, stems: Stems, before: usize) -> Self {
+        Self { result, stems: stems.single, prefix: String::new(), others: before, drawn: Vec::new() }
+    }
+
+    /// Of the values of series number `number`, from 1.
+    pub fn of_series(result: &'a ResultFile, number: usize, before: usize) -> Self {
+        let prefix = format!("series-{number}-");
+        Self { result, stems: Vec::new(), prefix, others: before, drawn: Vec::new() }
+    }
+
+    /// Figures so far, with those before.
+    pub fn count(&self) -> usize {
+        self.others + self.drawn.len()
     }
 
     /// A figure of several outputs, with the anchor `name` and its files called `stem`.
@@ -97,7 +177,7 @@ impl<'a> Figures<'a> {
         self.others += 1;
         let study = &self.result.study;
         let figure = Figure::new(self.others + self.drawn.len(), chart, stem, format!("{}.csv", study.name));
-        let figure = Figure { id: format!("figure-{name}"), ..figure };
+        let figure = Figure { id: format!("figure-{}{name}", self.prefix), ..figure };
         figure.below(study.title.as_ref().unwrap_or(&study.name)).into()
     }
 
@@ -124,7 +204,7 @@ impl<'a> Figures<'a> {
         let Kind { name, draw, data, .. } = &KINDS[kind];
         let data = if data.is_empty() { String::new() } else { format!("{}{data}", study.name) };
         let figure = Figure::new(self.others + self.drawn.len(), draw(self.result, of.output), stem, data);
-        let figure = Figure { id: format!("figure-{}-{name}", of.number), ..figure };
+        let figure = Figure { id: format!("figure-{}{}-{name}", self.prefix, of.number), ..figure };
         match kind {
             SHARES => Figure { title: Some(format!("Shares of {}", the(&of.output.name))), ..figure },
             _ => figure.below(study.title.as_ref().unwrap_or(&study.name)),

@@ -14,20 +14,25 @@ use crate::report::{capitalised, listed};
 /// Outputs with a paragraph of their own at the top.
 const OUTPUTS: usize = 6;
 
-/// The paragraphs at the top of the page.
-pub(super) fn lead(result: &ResultFile) -> Vec<String> {
-    let mut lead: Vec<String> = result.outputs.iter().take(OUTPUTS).map(|output| answer(result, output)).collect();
-    let more = result.outputs.len().saturating_sub(OUTPUTS);
-    if more > 0 {
-        lead.push(format!("{} below.", count(more as u64, "more output has its section", "more outputs have theirs")));
+/// The paragraphs at the top of the page: on every series, then on the `single` outputs, which belong to none.
+pub(super) fn lead(result: &ResultFile, single: &ResultFile) -> Vec<String> {
+    let mut lead: Vec<String> =
+        result.series.iter().take(OUTPUTS).map(|series| super::series::answer(result, series)).collect();
+    let more = |more: usize, one: &str, several: &str| {
+        (more > 0).then(|| format!("{} below.", count(more as u64, one, several)))
+    };
+    lead.extend(more(
+        result.series.len().saturating_sub(OUTPUTS),
+        "more series has its section",
+        "more series have theirs",
+    ));
+    if single.outputs.len() >= MANY_OUTPUTS {
+        lead.extend(super::overview::answers(single));
+    } else {
+        lead.extend(single.outputs.iter().take(OUTPUTS).map(|output| answer(single, output)));
+        let others = single.outputs.len().saturating_sub(OUTPUTS);
+        lead.extend(more(others, "more output has its section", "more outputs have theirs"));
     }
-    lead.push(trust(result));
-    lead
-}
-
-/// The paragraphs at the top of the page of many outputs.
-pub(super) fn lead_of_many(result: &ResultFile) -> Vec<String> {
-    let mut lead = super::overview::answers(result);
     lead.push(trust(result));
     lead
 }

@@ -4,9 +4,11 @@ mod figures;
 mod lead;
 mod output;
 mod overview;
+mod series;
 mod tables;
 
-use figures::{Figures, Numbered, all_stems};
+pub use figures::OutputNames;
+use figures::{Figures, Numbered, Stems, all_stems};
 use output::Topic;
 
 use crate::model::MANY_OUTPUTS;
@@ -21,7 +23,7 @@ use super::{capitalised, listed, result_json};
 
 /// The document of a result. Everything in it comes from the result, so that it can be made again from the JSON file.
 /// With one output every topic is a section; with several every output is; with 12 or more there is an overview, and what
-/// is said of single outputs is folded.
+/// is said of single outputs is folded. Series stand before all other outputs, with a section each.
 ///
 /// # Example
 /// ```
@@ -38,9 +40,14 @@ use super::{capitalised, listed, result_json};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run_document(result: &ResultFile) -> Document {
-    let mut figures = Figures::new(result);
-    let is_many = result.outputs.len() >= MANY_OUTPUTS;
-    let mut sections = if is_many { overview::sections(&mut figures) } else { of_outputs(&mut figures) };
+    let stems = Stems::new(&result.study.name, &OutputNames::of(result));
+    let (mut sections, drawn) = series::sections(result, &stems.series);
+    // Series are told apart from all other outputs.
+    let others = (!result.series.is_empty()).then(|| series::single_outputs(result));
+    let single = others.as_ref().unwrap_or(result);
+    let mut figures = Figures::new(single, stems, drawn);
+    let is_many = single.outputs.len() >= MANY_OUTPUTS;
+    sections.extend(if is_many { overview::sections(&mut figures) } else { of_outputs(&mut figures) });
     sections.extend(validity_section(&result.validity));
     sections.push(Section::new("cost", "Cost", cost(result)));
     sections.push(study_section(&StudySetup::from_result(result)));
@@ -50,7 +57,7 @@ pub fn run_document(result: &ResultFile) -> Document {
         name: study.name.clone(),
         kicker: "Result of a study".to_owned(),
         title: study.title.clone().unwrap_or_else(|| study.name.clone()),
-        lead: if is_many { lead::lead_of_many(result) } else { lead::lead(result) },
+        lead: lead::lead(result, single),
         sections,
         footer: format!("Made by apportion {}.", result.provenance.apportion_version),
         charts: figures.others(),
@@ -60,7 +67,7 @@ pub fn run_document(result: &ResultFile) -> Document {
     let mut put = |ending: &str, text: String| {
         document.files.push(DataFile::new(format!("{}{ending}", study.name), text));
     };
-    if is_many {
+    if is_many || !result.series.is_empty() {
         put(".csv", tables::indices_csv(result));
         if result.outputs.iter().any(|output| output.second_order.is_some()) {
             put("-second-order.csv", tables::pairs_csv(result));
@@ -80,7 +87,7 @@ pub fn run_document(result: &ResultFile) -> Document {
 fn of_outputs(figures: &mut Figures<'_>) -> Vec<Section> {
     let result = figures.result;
     let mut sections = Vec::new();
-    let single = result.outputs.len() == 1;
+    let single = result.outputs.len() == 1 && figures.count() == 0;
     for (place, output) in result.outputs.iter().enumerate() {
         let topics = output::topics(figures, Numbered { output, number: place + 1 });
         if single {
@@ -105,7 +112,7 @@ fn under_headings(topics: Vec<Topic>) -> Vec<Part> {
 }
 
 /// The names of the files of a run of the study called `name` with these `outputs`.
-pub fn run_file_names(name: &str, outputs: &[&str], second_order: bool, estimators: bool) -> FileNames {
+pub fn run_file_names(name: &str, outputs: &OutputNames<'_>, second_order: bool, estimators: bool) -> FileNames {
     let mut data = vec![format!("{name}.json"), format!("{name}.csv")];
     data.extend(second_order.then(|| format!("{name}-second-order.csv")));
     data.extend(estimators.then(|| format!("{name}-estimators.csv")));

@@ -36,7 +36,7 @@ pub(super) fn sections(figures: &mut Figures<'_>) -> Vec<Section> {
         Section::new("overview", "All outputs at a glance", overview(figures)),
         Section::new("mind", "What to mind", mind(result)),
         Section::new("in-full", "Some outputs in full", in_full(figures)),
-        Section::new("outputs", "Every output", every_output(result)),
+        Section::new("outputs", "Every output", every_output(result, BYTES)),
     ];
     sections.retain(|section| !section.parts.is_empty());
     sections
@@ -77,7 +77,7 @@ fn by_mean_total(result: &ResultFile) -> Vec<usize> {
 }
 
 /// What each factor does to all outputs.
-fn factors(result: &ResultFile) -> Table {
+pub(super) fn factors(result: &ResultFile) -> Table {
     let leads = Leads::of(result);
     let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
     let row = |&factor: &usize| -> Vec<Cell> {
@@ -147,7 +147,7 @@ fn grouped_by<K: PartialEq, T>(said: impl Iterator<Item = (K, T)>) -> Vec<(K, Ve
 }
 
 /// Which outputs have no indices, what the run warns of, and which runs failed: each once.
-fn mind(result: &ResultFile) -> Vec<Part> {
+pub(super) fn mind(result: &ResultFile) -> Vec<Part> {
     let outputs = || result.outputs.iter();
     let without = outputs().filter(|output| output.indices.is_none());
     let without = without.filter_map(|output| Some((output.reason.as_deref()?, output.name.as_str())));
@@ -208,7 +208,7 @@ fn different(result: &ResultFile) -> Vec<usize> {
     chosen.into_iter().map(|place| known[place].0).collect()
 }
 
-fn in_full(figures: &mut Figures<'_>) -> Vec<Part> {
+pub(super) fn in_full(figures: &mut Figures<'_>) -> Vec<Part> {
     let result = figures.result;
     let places = different(result);
     if places.is_empty() {
@@ -225,15 +225,15 @@ fn in_full(figures: &mut Figures<'_>) -> Vec<Part> {
     vec![Part::OnPage(parts)]
 }
 
-/// The indices of every output as numbers, as many as the page has room for.
-fn every_output(result: &ResultFile) -> Vec<Part> {
+/// The indices of every output as numbers, as many as have room in about so many bytes.
+pub(super) fn every_output(result: &ResultFile, bytes: usize) -> Vec<Part> {
     let mut factors = by_mean_total(result);
     factors.truncate(COLUMNS);
     let of_row: usize = factors.iter().map(|&factor| BYTES_OF_CELL + result.factors[factor].name.len()).sum();
     let names: usize = result.outputs.iter().map(|output| output.name.len()).sum();
     let all = result.outputs.len();
     let of_output = 2 * (of_row + 2 * BYTES_OF_CELL + names / all.max(1));
-    let step = (all * of_output).div_ceil(BYTES).max(1);
+    let step = (all * of_output).div_ceil(bytes).max(1);
     let shown: Vec<&OutputRecord> = result.outputs.iter().step_by(step).collect();
     let mut text =
         "First the total indices of every output with its mean and standard deviation, then its first-order \
@@ -285,7 +285,7 @@ fn of_outputs(result: &ResultFile, outputs: &[&OutputRecord], (factors, is_total
 }
 
 /// An index and half of its interval, `0.337 ± 0.002`: one below the last decimal is left out.
-fn three_decimals(record: EstimateRecord) -> String {
+pub(super) fn three_decimals(record: EstimateRecord) -> String {
     let half_width = record.low.zip(record.high).map(|(low, high)| (high - low) / 2.0);
     match half_width.filter(|half| *half >= 0.0005) {
         Some(half) => format!("{} ± {}", fixed(record.estimate, 3), fixed(half, 3)),

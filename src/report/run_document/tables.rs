@@ -129,8 +129,14 @@ pub(super) fn indices_csv(result: &ResultFile) -> String {
     let pass = |at_end: bool| result.outputs.iter().flat_map(move |output| of_output(output, at_end));
     let aggregate = result.aggregate.iter().filter_map(|record| Some((record, record.indices.as_ref()?)));
     let aggregate = aggregate.filter_map(|(record, indices)| table(aggregate_of(result, record, indices)));
+    let series = result.series.iter().filter_map(|series| {
+        let indices = series.indices.as_ref()?;
+        let (outputs, weighting) = (vec![series.name.clone()], String::new());
+        let record = AggregateRecord { outputs, weighting, indices: None, reason: None };
+        table(aggregate_of(result, &record, indices))
+    });
     let header = std::iter::once(effect_table(result, String::new(), ""));
-    csv(header.chain(pass(false)).chain(pass(true)).chain(aggregate))
+    csv(header.chain(pass(false)).chain(pass(true)).chain(aggregate).chain(series))
 }
 
 /// The second-order indices of all outputs.
@@ -360,7 +366,8 @@ pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indice
     // The names of hundreds, in every line, would be most of the file.
     let outputs = match record.outputs.len() {
         ..MANY_OUTPUTS => record.outputs.join(" + "),
-        _ => "all outputs".to_owned(),
+        all if all == result.outputs.len() => "all outputs".to_owned(),
+        _ => "all outputs that are no series".to_owned(),
     };
     let row = |index: &AggregateIndexRecord| {
         let nothing = || Cell::valued("", Value::Empty);

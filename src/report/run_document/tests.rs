@@ -42,7 +42,10 @@ fn the_leading_factor_stands_at_the_top() {
         names.charts.sort();
         names
     };
-    assert_eq!(sorted(page.file_names()), sorted(run_file_names("small", &["y"], false, false)));
+    assert_eq!(
+        sorted(page.file_names()),
+        sorted(run_file_names("small", &OutputNames::new(&["y"], &[]), false, false))
+    );
 }
 
 #[test]

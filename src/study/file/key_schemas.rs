@@ -132,9 +132,26 @@ pub(super) fn expression_constants(_: &mut SchemaGenerator) -> Schema {
     schemars::json_schema!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } })
 }
 
-/// `[external] outputs`: units by the names of the outputs.
+/// What makes an output a series.
+fn series_properties() -> Map<String, Value> {
+    let number = json!({ "type": "number" });
+    let properties = json!({
+        "length": { "type": "integer", "minimum": 2, "maximum": 10000,
+            "description": "The output is a series of so many values along an axis." },
+        "axis": { "type": "string", "default": "index", "description": "What the axis is called." },
+        "axis_unit": { "type": "string", "description": "Unit of the positions." },
+        "positions": { "type": "array", "items": number,
+            "description": "The first position and the step, or the position of every value; 0, 1, 2, ... if not said." }
+    });
+    properties.as_object().cloned().unwrap_or_default()
+}
+
+/// `[external] outputs`: units by the names of the outputs, or tables of series.
 pub(super) fn external_outputs(_: &mut SchemaGenerator) -> Schema {
-    schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "string" } })
+    let mut properties = series_properties();
+    properties.insert("unit".to_owned(), json!({ "type": "string" }));
+    let table = json!({ "type": "object", "properties": properties, "additionalProperties": false });
+    schemars::json_schema!({ "type": "object", "additionalProperties": { "anyOf": [{ "type": "string" }, table] } })
 }
 
 /// `quantiles`: values by the probabilities below them.
@@ -145,9 +162,7 @@ pub(super) fn quantiles(_: &mut SchemaGenerator) -> Schema {
 /// `[command] outputs`: units, or tables that say where a number stands.
 pub(super) fn program_outputs(_: &mut SchemaGenerator) -> Schema {
     let text = |description: &str| json!({ "type": "string", "description": description });
-    let table = json!({
-        "type": "object",
-        "properties": {
+    let own = json!({
             "unit": text("Unit of the program's numbers."),
             "file": text("File that a run leaves in its directory; its standard output if not said."),
             "regex": text("Regular expression, whose first group is the number."),
@@ -156,11 +171,12 @@ pub(super) fn program_outputs(_: &mut SchemaGenerator) -> Schema {
             "match": {
                 "enum": names(&Match::ALL, Match::name),
                 "default": "last",
-                "description": "Which match of the regex, or row of the table, is taken."
+                "description": "Which match of the regex, or row of the table, is taken; of a series every one."
             }
-        },
-        "additionalProperties": false
     });
+    let mut properties = series_properties();
+    properties.extend(own.as_object().cloned().unwrap_or_default());
+    let table = json!({ "type": "object", "properties": properties, "additionalProperties": false });
     schemars::json_schema!({ "type": "object", "additionalProperties": { "anyOf": [{ "type": "string" }, table] } })
 }
 

@@ -27,6 +27,7 @@ mod read;
 mod resolve;
 mod schema;
 mod sections;
+mod series;
 mod subjects;
 mod template;
 mod units;

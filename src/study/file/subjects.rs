@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use crate::afm::{Fidelity, Options, Parameter, Scene};
 use crate::model::{
     AfmModel, AfmOutput, AfmSecond, CommandModel, CommandSettings, Expression, ExpressionModel, ExternalModel, Form,
-    InMoreDigits, Input, KnownFunction, KnownModel, Model, ModelKind, Output, ParameterValue, SecondCalculation,
-    edge_unit, known_inputs,
+    InMoreDigits, Input, KnownFunction, KnownModel, Model, ModelKind, Output, OutputSeries, ParameterValue,
+    SecondCalculation, edge_unit, known_inputs,
 };
 use crate::quantity::{Quantity, Unit};
 use crate::space::{Distribution, Factor, Space};
@@ -76,6 +76,8 @@ pub struct ExpressionConstant {
 pub struct ExternalSubject {
     /// What it computes.
     pub outputs: Vec<Output>,
+    /// Those of the outputs that are series.
+    pub series: Vec<OutputSeries>,
 }
 
 fn is_factor(space: &Space, name: &str) -> bool {
@@ -233,7 +235,7 @@ impl Subject for ExternalSubject {
     }
 
     fn model(&self, _space: &Space) -> Box<dyn Model> {
-        Box::new(ExternalModel::new(self.outputs.clone()))
+        Box::new(ExternalModel::new(self.outputs.clone()).with_series(self.series.clone()))
     }
 
     fn is_external(&self) -> bool {

@@ -22,6 +22,7 @@ fn model(script: &str) -> CommandModel {
         },
         form: Form::KeptAlive(KeptAlive { protocol: Protocol::Csv, row_numbers: false }),
         outputs: vec![CommandOutput { name: "y".to_owned(), unit: Unit::dimensionless(), pick: None }],
+        series: Vec::new(),
         asked: vec![0],
         workers: Some(1),
         timeout: None,

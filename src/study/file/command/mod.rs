@@ -68,17 +68,18 @@ pub(super) fn subject(
         let problem = wrong("env", "variables whose names are without \"=\"", format!("{name:?}"));
         return Err(context.fault(key.span(), problem));
     }
-    let (outputs, picks) = outputs::outputs(context, key, section, asked)?;
-    let asked = outputs::places(context, section, &outputs, asked)?;
+    let all = outputs::outputs(context, key, section, asked)?;
+    let asked = outputs::places(context, section, &all, asked)?;
+    let outputs = &all.outputs;
     let (form, notes) = match &section.template {
         None => {
-            let form = KeptAlive { protocol: protocol(context, section, &picks)?, row_numbers: numbers(section) };
-            refuse_number(context, section, form, (space, &outputs))?;
+            let form = KeptAlive { protocol: protocol(context, section, &all.picks)?, row_numbers: numbers(section) };
+            refuse_number(context, section, form, (space, outputs))?;
             (Form::KeptAlive(form), Vec::new())
         }
         Some(template) => {
             let (form, notes) = runs::form(context, section, template, space)?;
-            outputs::refuse_without_pick(context, key, &outputs)?;
+            outputs::refuse_without_pick(context, key, outputs)?;
             (Form::PerRun(form), notes)
         }
     };
@@ -105,11 +106,12 @@ pub(super) fn subject(
             }
         }
     }
-    stated.push(("outputs", outputs::stated(&outputs)));
+    stated.push(("outputs", outputs::stated(&all)));
     let settings = CommandSettings {
         program: Program { arguments, directory, environment },
         form,
-        outputs,
+        outputs: all.outputs,
+        series: all.series,
         asked,
         workers: workers(context, section)?,
         timeout: timeout(context, section)?,

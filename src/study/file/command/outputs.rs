@@ -5,25 +5,49 @@ use serde_json::{Value as Json, json};
 use toml::Value;
 
 use super::file::{CommandKey, CommandSection};
-use crate::model::{CommandOutput, Match, Pick, Source, Way};
+use crate::model::{CommandOutput, Match, OutputSeries, Pick, SeriesAxis, Source, Way};
 use crate::names::nearest;
 use crate::quantity::Unit;
 use crate::study::file::at::At;
 use crate::study::file::context::wrong;
-use crate::study::file::context::{Context, Fault, chosen};
+use crate::study::file::context::{Context, Fault};
 use crate::study::file::error::Problem;
+use crate::study::file::series::{self, SERIES_KEYS, refuse_repeated};
 use crate::study::file::units::output_unit;
 
 const KEYS: [&str; 6] = ["unit", "file", "regex", "column", "pointer", "match"];
 
-/// The outputs in the order of the program, and those that say where they stand: by `[command] outputs`, else by the names
-/// asked for.
+/// What a program gives.
+#[derive(Default)]
+pub(super) struct Outputs<'a> {
+    /// In the order of the program.
+    pub outputs: Vec<CommandOutput>,
+    /// Those of them that are series.
+    pub series: Vec<OutputSeries>,
+    /// The values of those that say where they stand.
+    pub picks: Vec<&'a At<Value>>,
+}
+
+impl Outputs<'_> {
+    /// Adds the values of `output` along `axis`.
+    fn add_series(&mut self, output: CommandOutput, axis: SeriesAxis) {
+        let names = OutputSeries::value_names(&output.name, axis.positions().len()).enumerate();
+        let first = self.outputs.len();
+        self.outputs.extend(names.map(|(number, name)| {
+            let pick = output.pick.as_ref().map(|pick| pick.of_value(number));
+            CommandOutput { name, unit: output.unit.clone(), pick }
+        }));
+        self.series.push(OutputSeries { name: output.name, first, axis });
+    }
+}
+
+/// The outputs by `[command] outputs`, else by the names asked for.
 pub(super) fn outputs<'a>(
     context: &Context<'_>,
     key: &At<CommandKey>,
     section: &'a CommandSection,
     asked: Option<&At<Vec<At<String>>>>,
-) -> Result<(Vec<CommandOutput>, Vec<&'a At<Value>>), Fault> {
+) -> Result<Outputs<'a>, Fault> {
     let mut entries: Vec<(&At<String>, &At<Value>)> = section.outputs.iter().collect();
     if entries.is_empty() {
         let Some(asked) = asked else { return Err(context.fault(key.span(), Problem::NoProgramOutputs)) };
@@ -31,20 +55,29 @@ pub(super) fn outputs<'a>(
             refuse_name(context, name)?;
             Ok(CommandOutput { name: name.get_ref().clone(), unit: Unit::dimensionless(), pick: None })
         };
-        return Ok((asked.get_ref().iter().map(output).collect::<Result<_, Fault>>()?, Vec::new()));
+        let outputs = asked.get_ref().iter().map(output).collect::<Result<_, Fault>>()?;
+        return Ok(Outputs { outputs, ..Outputs::default() });
     }
     // In the order of the file.
     entries.sort_by_key(|(name, _)| name.span().start);
-    let (mut outputs, mut picks) = (Vec::with_capacity(entries.len()), Vec::new());
+    let mut all = Outputs::default();
     for (name, value) in entries {
         refuse_name(context, name)?;
-        let output = output(context, name, value)?;
+        let (output, axis) = output(context, name, value)?;
         if output.pick.is_some() {
-            picks.push(value);
+            all.picks.push(value);
         }
-        outputs.push(output);
+        match axis {
+            None => all.outputs.push(output),
+            Some(axis) => all.add_series(output, axis),
+        }
+        if all.series.is_empty() {
+            continue;
+        }
+        let names: Vec<&str> = all.outputs.iter().map(|output| output.name.as_str()).collect();
+        refuse_repeated(&names, &all.series).map_err(|problem| context.fault(name.span(), problem))?;
     }
-    Ok((outputs, picks))
+    Ok(all)
 }
 
 fn refuse_name(context: &Context<'_>, name: &At<String>) -> Result<(), Fault> {
@@ -59,7 +92,7 @@ fn refuse_name(context: &Context<'_>, name: &At<String>) -> Result<(), Fault> {
 pub(super) fn places(
     context: &Context<'_>,
     section: &CommandSection,
-    outputs: &[CommandOutput],
+    Outputs { outputs, series, .. }: &Outputs<'_>,
     asked: Option<&At<Vec<At<String>>>>,
 ) -> Result<Vec<usize>, Fault> {
     let Some(asked) = asked else { return Ok((0..outputs.len()).collect()) };
@@ -68,7 +101,7 @@ pub(super) fn places(
         // They are what was asked for, apart from repetitions.
         names.dedup();
     }
-    chosen(context, &names, asked)
+    series::places(context, (&names, series), asked)
 }
 
 /// Of a program that runs once for each row, every output says where it stands.
@@ -84,26 +117,39 @@ pub(super) fn refuse_without_pick(
     Err(context.fault(key.span(), problem))
 }
 
-fn output(context: &Context<'_>, name: &At<String>, value: &At<Value>) -> Result<CommandOutput, Fault> {
+/// An output, and the axis of one that is a series.
+fn output(
+    context: &Context<'_>,
+    name: &At<String>,
+    value: &At<Value>,
+) -> Result<(CommandOutput, Option<SeriesAxis>), Fault> {
     let key = format!("outputs.{}", name.get_ref());
-    let (unit, pick) = match value.get_ref() {
-        Value::String(unit) => (unit.as_str(), None),
+    let (unit, pick, axis) = match value.get_ref() {
+        Value::String(unit) => (unit.as_str(), None, None),
         Value::Table(table) => {
-            if let Some(unknown) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
+            let known = || KEYS.into_iter().chain(SERIES_KEYS);
+            if let Some(unknown) = table.keys().find(|key| !known().any(|known| known == key.as_str())) {
                 let problem = Problem::UnknownKey {
                     name: unknown.clone(),
-                    nearest: nearest(unknown, KEYS),
-                    expected: KEYS.map(str::to_owned).to_vec(),
+                    nearest: nearest(unknown, known()),
+                    expected: known().map(str::to_owned).collect(),
                 };
                 return Err(context.fault(value.span(), problem));
             }
-            if let Some((name, other)) = table.iter().find(|(_, value)| !value.is_str()) {
+            let axis = series::axis(&key, table).map_err(|problem| context.fault(value.span(), problem))?;
+            let texts = || table.iter().filter(|(name, _)| KEYS.contains(&name.as_str()));
+            if let Some((name, other)) = texts().find(|(_, value)| !value.is_str()) {
                 let problem = wrong(&format!("{key}.{name}"), "a text", other.type_str().to_owned());
                 return Err(context.fault(value.span(), problem));
             }
             let text = |key: &str| table.get(key).and_then(Value::as_str);
             let pick = pick(&key, &text).map_err(|problem| context.fault(value.span(), problem))?;
-            (text("unit").unwrap_or_default(), pick)
+            if axis.is_some() && table.contains_key("match") {
+                let expected = "only of a single number: a series takes every match or row, from the first on";
+                let problem = wrong(&format!("{key}.match"), expected, "beside `length`".to_owned());
+                return Err(context.fault(value.span(), problem));
+            }
+            (text("unit").unwrap_or_default(), pick, axis)
         }
         other => {
             let expected = "a unit, or a table such as { unit = \"nN\" }";
@@ -111,7 +157,7 @@ fn output(context: &Context<'_>, name: &At<String>, value: &At<Value>) -> Result
         }
     };
     let unit = output_unit(context, value, unit)?;
-    Ok(CommandOutput { name: name.get_ref().clone(), unit, pick })
+    Ok((CommandOutput { name: name.get_ref().clone(), unit, pick }, axis))
 }
 
 fn pick<'a>(key: &str, text: &dyn Fn(&str) -> Option<&'a str>) -> Result<Option<Pick>, Problem> {
@@ -157,11 +203,19 @@ fn pick<'a>(key: &str, text: &dyn Fn(&str) -> Option<&'a str>) -> Result<Option<
     Ok(Some(Pick { source, way }))
 }
 
-/// The outputs as settings in results.
-pub(super) fn stated(outputs: &[CommandOutput]) -> Json {
-    let entry = |output: &CommandOutput| {
+/// The outputs as settings in results: what their numbers depend on, so of a series its length and not its axis.
+pub(super) fn stated(Outputs { outputs, series, .. }: &Outputs<'_>) -> Json {
+    let entry = |(place, output): (usize, &CommandOutput)| {
+        let series = series.iter().find(|series| series.places().contains(&place));
+        // The first value stands for all.
+        if series.is_some_and(|series| series.first != place) {
+            return None;
+        }
         let mut entry = serde_json::Map::new();
         entry.insert("unit".to_owned(), json!(output.unit.symbol()));
+        if let Some(series) = series {
+            entry.insert("length".to_owned(), json!(series.places().len()));
+        }
         if let Some(Pick { source, way }) = &output.pick {
             if let Source::File(file) = source {
                 entry.insert("file".to_owned(), json!(file));
@@ -171,12 +225,13 @@ pub(super) fn stated(outputs: &[CommandOutput]) -> Json {
                 Way::Column(column, which) => ("column", column.as_str(), Some(which)),
                 Way::Pointer(pointer) => ("pointer", pointer.as_str(), None),
             };
+            let text = if series.is_some() { text.strip_suffix("/0").unwrap_or(text) } else { text };
             entry.insert(key.to_owned(), json!(text));
-            if let Some(which) = which {
+            if let Some(which) = which.filter(|_| series.is_none()) {
                 entry.insert("match".to_owned(), json!(which.name()));
             }
         }
-        (output.name.clone(), Json::Object(entry))
+        Some((series.map_or(&output.name, |series| &series.name).clone(), Json::Object(entry)))
     };
-    Json::Object(outputs.iter().map(entry).collect())
+    Json::Object(outputs.iter().enumerate().filter_map(entry).collect())
 }

@@ -1,6 +1,7 @@
 //! Studies whose factors and outputs are the user's own: of formulas, and of a model outside.
 
 use super::{GROUPS, LAWS, TemplateRequest, design_table, heading, refuse_repeated};
+use crate::model::SeriesAxis;
 use crate::study::file::error::Problem;
 
 /// A study of formulas to be replaced: each output is the sum of the factors.
@@ -31,11 +32,29 @@ pub(in crate::study::file) fn external_template(request: &TemplateRequest) -> Re
          # outputs there, `apportion analyze outputs.csv --design design.csv` reads them. The unit of each output:\n\
          [external]\n",
     );
-    outputs.iter().for_each(|output| text.push_str(&format!("outputs.{} = \"1\"\n", bare_or_quoted(output))));
+    outputs.iter().for_each(|output| text.push_str(&output_line(output)));
     text.push_str(&design_table(factors.len()));
     text.push_str(&format!("\n# The inputs of the model.\n{GROUPS}"));
     text.push_str(&own_factors(&factors));
     Ok(text)
+}
+
+/// Name and length of a series, which is asked for as `infected[0..60]`; `None` of a single output.
+pub(super) fn series_of(output: &str) -> Option<(&str, usize)> {
+    let (name, length) = output.strip_suffix(']')?.rsplit_once("[0..")?;
+    let length = length.parse().ok().filter(|length| SeriesAxis::even("", "", *length, (0.0, 1.0)).is_ok())?;
+    (!name.is_empty()).then_some((name, length))
+}
+
+/// An output in the table of a model.
+pub(super) fn output_line(output: &str) -> String {
+    match series_of(output) {
+        Some((name, length)) => format!(
+            "outputs.{} = {{ length = {length}, axis = \"index\" }}    # a series; also unit, axis_unit, positions\n",
+            bare_or_quoted(name)
+        ),
+        None => format!("outputs.{} = \"1\"\n", bare_or_quoted(output)),
+    }
 }
 
 /// Names of factors and outputs of a model that has none of its own.

@@ -1,6 +1,6 @@
 //! A study of a program, and the program to begin with.
 
-use super::own::{bare_or_quoted, own_factors, own_names};
+use super::own::{bare_or_quoted, output_line, own_factors, own_names, series_of};
 use super::{GROUPS, TemplateRequest, design_table, heading};
 use crate::model::ModelKind;
 use crate::study::file::error::Problem;
@@ -13,27 +13,34 @@ pub(in crate::study::file) fn program_template(request: &TemplateRequest) -> Res
     let (factors, outputs) = own_names(request)?;
     let mut text = heading(request);
     let names: Vec<String> = outputs.iter().map(|output| toml::Value::String(output.clone()).to_string()).collect();
+    let has_series = outputs.iter().any(|output| series_of(output).is_some());
+    if !has_series {
+        let names = names.join(", ");
+        text.push_str(&format!("outputs = [{names}]    # the columns that the program prints, in its order\n"));
+    }
     text.push_str(&format!(
-        "outputs = [{}]    # the columns that the program prints, in its order\n\n\
+        "\n\
          # The program is started once for each core and kept alive. It reads a header and then a line for each row on its\n\
          # standard input, the row's number and the factor values, and prints a line for each, the number and the outputs;\n\
          # docs/worker-protocol.md has it in full. This one is {NEW_PROGRAM}:\n\
-         #\n",
-        names.join(", ")
+         #\n"
     ));
     for line in python_program(&factors, &outputs).lines() {
         text.push_str(format!("#     {line}").trim_end());
         text.push('\n');
     }
+    let stated = match has_series {
+        true => outputs.iter().map(|output| output_line(output)).collect(),
+        false => format!("# outputs.{} = \"nN\"    # or here, each with its unit\n", bare_or_quoted(&outputs[0])),
+    };
     text.push_str(&format!(
         "#\n[command]\nprogram = [\"python3\", \"{NEW_PROGRAM}\"]    # relative to this file; no shell reads it\n\
          row_numbers = true    # the column `id`, which goes back with the answer: none can be taken for another row's\n\
-         # outputs.{} = \"nN\"    # or here, each with its unit\n\
+         {stated}\
          # protocol = \"json-lines\"    # an object for each row instead of a line of CSV\n\
          # workers = 4    # processes at once [default: one for each core]\n\
          # timeout = \"60 s\"    # for a row, after which the program is started anew [default: none]\n\
-         # retries = 1    # of a row on which the program died or hung, before it counts as failed\n",
-        bare_or_quoted(&outputs[0])
+         # retries = 1    # of a row on which the program died or hung, before it counts as failed\n"
     ));
     text.push_str(&design_table(factors.len()));
     text.push_str(&format!("\n# What the program gets, in this order and in these units.\n{GROUPS}"));
@@ -58,7 +65,11 @@ fn python_program(factors: &[String], outputs: &[String]) -> String {
     // JSON's texts are Python's too.
     let value = |name: &String| format!("x[{}]", serde_json::Value::from(name.as_str()));
     let sum = factors.iter().map(value).collect::<Vec<_>>().join(" + ");
-    let values = vec!["y"; outputs.len()].join(", ");
+    let value = |output: &String| match series_of(output) {
+        Some((_, length)) => format!("*[y for index in range({length})]"),
+        None => "y".to_owned(),
+    };
+    let values = outputs.iter().map(value).collect::<Vec<_>>().join(", ");
     format!(
         "import csv\nimport sys\n\n\
          # One line in for each row: its number and the factor values. One line out: the number and the outputs.\n\

@@ -88,3 +88,17 @@ fn names_are_written_as_toml_has_them() {
     let titled = TemplateRequest { title: Some("A \"title\"".to_owned()), ..request(ModelKind::COMMAND) };
     assert_eq!(studied(&titled).title.as_deref(), Some("A \"title\""));
 }
+
+#[test]
+fn a_range_behind_a_name_asks_for_a_series() {
+    for model in [ModelKind::COMMAND, ModelKind::EXTERNAL] {
+        let outputs = ["peak", "infected[0..60]"].map(str::to_owned).to_vec();
+        let request = TemplateRequest { outputs, ..request(model) };
+        let study = studied(&request);
+        let model = study.model();
+        let series = model.series();
+        assert_eq!((series.len(), series[0].name.as_str(), series[0].places()), (1, "infected", 1..61));
+        let program = new_program(&request).unwrap();
+        assert!(program.is_none_or(|program| program.contains("print(number, y, *[y for index in range(60)], sep")));
+    }
+}

@@ -1,0 +1,198 @@
+//! Outputs that are a series: the values of one quantity along an axis, such as time.
+
+use std::ops::Range;
+
+use thiserror::Error;
+
+use super::Output;
+use crate::quantity::Unit;
+
+/// Most values of a series: each is an output, with sums of its own.
+pub const MOST_VALUES: usize = 10_000;
+
+/// What is wrong with an axis.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SeriesError {
+    /// Too few values, or too many.
+    #[error("a series has 2 to {MOST_VALUES} values, not {found}")]
+    Length {
+        /// How many it has.
+        found: usize,
+    },
+    /// A position that is no number, or not above the one before.
+    #[error("the positions of a series are finite numbers in rising order; position {place} is {found}")]
+    Position {
+        /// Which one, from 0.
+        place: usize,
+        /// The position.
+        found: f64,
+    },
+}
+
+/// The axis of a series: what it is called, its unit, and where the values stand on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeriesAxis {
+    label: String,
+    unit: String,
+    positions: Vec<f64>,
+}
+
+impl SeriesAxis {
+    /// An axis called `label`; `positions` are in `unit`, which may be any text, or empty.
+    ///
+    /// # Errors
+    /// [`SeriesError`] unless there are 2 to 10,000 positions, finite and in rising order.
+    pub fn new(label: &str, unit: &str, positions: Vec<f64>) -> Result<Self, SeriesError> {
+        let found = positions.len();
+        if !(2..=MOST_VALUES).contains(&found) {
+            return Err(SeriesError::Length { found });
+        }
+        let rises = |place: &usize| {
+            let before = if *place == 0 { f64::NEG_INFINITY } else { positions[place - 1] };
+            positions[*place].is_finite() && positions[*place] > before
+        };
+        if let Some(place) = (0..found).find(|place| !rises(place)) {
+            return Err(SeriesError::Position { place, found: positions[place] });
+        }
+        Ok(Self { label: label.to_owned(), unit: unit.to_owned(), positions })
+    }
+
+    /// An axis of `length` positions from `start` on, `step` apart.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn even(label: &str, unit: &str, length: usize, (start, step): (f64, f64)) -> Result<Self, SeriesError> {
+        if length > MOST_VALUES {
+            return Err(SeriesError::Length { found: length });
+        }
+        Self::new(label, unit, (0..length).map(|place| start + step * place as f64).collect())
+    }
+
+    /// What it is called.
+    pub fn label(&self) -> &str {
+        &self.label
+    }
+
+    /// The unit of the positions; empty for none.
+    pub fn unit(&self) -> &str {
+        &self.unit
+    }
+
+    /// Where the values stand, in rising order.
+    pub fn positions(&self) -> &[f64] {
+        &self.positions
+    }
+}
+
+/// Consecutive outputs of a model that are the values of one quantity along an axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutputSeries {
+    /// Its name.
+    pub name: String,
+    /// Place of its first value among the outputs.
+    pub first: usize,
+    /// Where the values stand.
+    pub axis: SeriesAxis,
+}
+
+impl OutputSeries {
+    /// Places of its values among the outputs.
+    pub fn places(&self) -> Range<usize> {
+        self.first..self.first + self.axis.positions.len()
+    }
+
+    /// The names of the values of the series called `name`: `name[0]`, `name[1]` and so on.
+    pub fn value_names(name: &str, length: usize) -> impl Iterator<Item = String> {
+        (0..length).map(move |place| format!("{name}[{place}]"))
+    }
+
+    /// Its values as outputs in `unit`.
+    pub(crate) fn outputs(&self, unit: &Unit, description: &'static str) -> impl Iterator<Item = Output> {
+        let names = Self::value_names(&self.name, self.axis.positions.len());
+        names.map(move |name| Output::new(name, unit.clone(), description))
+    }
+
+    /// Those of `all` whose values are among the places `chosen`, all of them and in order; they stand where they are chosen.
+    #[cfg(feature = "study")]
+    pub(crate) fn chosen(all: &[Self], chosen: &[usize]) -> Vec<Self> {
+        let place = |series: &Self| {
+            let first = chosen.iter().position(|place| *place == series.first)?;
+            let values = chosen.get(first..first + series.axis.positions.len())?;
+            series.places().eq(values.iter().copied()).then(|| Self { first, ..series.clone() })
+        };
+        all.iter().filter_map(place).collect()
+    }
+}
+
+/// The list and the place in it that a name such as `infected[12]` stands for.
+#[cfg(feature = "study")]
+pub(crate) fn item_of_list(name: &str) -> Option<(&str, usize)> {
+    let (list, place) = name.strip_suffix(']')?.rsplit_once('[')?;
+    let is_plain = !list.is_empty() && !place.is_empty() && place.bytes().all(|byte| byte.is_ascii_digit());
+    let place: usize = place.parse().ok().filter(|_| is_plain)?;
+    Some((list, place))
+}
+
+/// The names that a header such as `infected[0..365]` stands for: those of the items from the first number on up to the second,
+/// which is not among them. `None` of any other header, and of more than 10,000 items.
+#[cfg(feature = "study")]
+pub(crate) fn items_of_header(header: &str) -> Option<impl Iterator<Item = String> + use<>> {
+    let (list, range) = header.strip_suffix(']')?.rsplit_once('[')?;
+    let number = |digits: &str| {
+        let is_plain = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+        digits.parse::<usize>().ok().filter(|_| is_plain)
+    };
+    let (first, end) = range.split_once("..")?;
+    let (first, end) = (number(first)?, number(end)?);
+    let items = end.checked_sub(first)?;
+    let is_list = !list.is_empty() && (1..=MOST_VALUES).contains(&items);
+    let list = list.to_owned();
+    is_list.then(|| (first..end).map(move |place| format!("{list}[{place}]")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_are_finite_and_rise() {
+        let axis = SeriesAxis::even("time", "ms", 3, (1.0, 0.5)).unwrap();
+        assert_eq!(axis.positions(), [1.0, 1.5, 2.0]);
+        let refused = |positions: &[f64]| SeriesAxis::new("t", "", positions.to_vec()).unwrap_err().to_string();
+        assert_eq!(refused(&[1.0]), "a series has 2 to 10000 values, not 1");
+        assert!(refused(&[0.0, 1.0, 1.0]).ends_with("position 2 is 1"));
+        assert!(refused(&[f64::NEG_INFINITY, 1.0]).ends_with("position 0 is -inf"));
+        assert!(refused(&[0.0, f64::NAN]).ends_with("position 1 is NaN"));
+        assert!(SeriesAxis::even("t", "", usize::MAX, (0.0, 1.0)).is_err());
+        assert!(SeriesAxis::even("t", "", 3, (0.0, -1.0)).is_err());
+    }
+
+    #[test]
+    #[cfg(feature = "study")]
+    fn a_series_is_chosen_whole_or_not_at_all() {
+        let axis = SeriesAxis::even("t", "", 3, (0.0, 1.0)).unwrap();
+        let series = OutputSeries { name: "y".to_owned(), first: 1, axis };
+        let first =
+            |chosen: &[usize]| OutputSeries::chosen(std::slice::from_ref(&series), chosen).first().map(|s| s.first);
+        assert_eq!(first(&[0, 1, 2, 3]), Some(1));
+        assert_eq!(first(&[4, 5, 1, 2, 3]), Some(2));
+        assert_eq!(first(&[1, 2]), None);
+        assert_eq!(first(&[1, 3, 2]), None);
+        assert_eq!(first(&[0]), None);
+    }
+
+    #[test]
+    #[cfg(feature = "study")]
+    fn names_of_items_are_read() {
+        assert_eq!(item_of_list("infected[12]"), Some(("infected", 12)));
+        assert_eq!(item_of_list("a[1][2]"), Some(("a[1]", 2)));
+        for name in ["y", "y[]", "[1]", "y[-1]", "y[1", "y[1]x", "y[99999999999999999999999]"] {
+            assert_eq!(item_of_list(name), None, "{name}");
+        }
+        let items = |header: &str| items_of_header(header).map(Iterator::collect::<Vec<String>>);
+        assert_eq!(items("y[2..4]"), Some(vec!["y[2]".to_owned(), "y[3]".to_owned()]));
+        for header in ["y[2]", "y[4..2]", "y[2..2]", "[0..2]", "y[0..-2]", "y[0...2]", "y[0..99999999]", "y[..2]"] {
+            assert_eq!(items(header), None, "{header}");
+        }
+    }
+}

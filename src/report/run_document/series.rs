@@ -1,0 +1,240 @@
+//! What the document says of a series: its indices along the axis, as a whole, and in its main directions.
+
+use super::figures::{Figures, SERIES_SUFFIXES};
+use super::output::definitions;
+use super::overview;
+use crate::report::document::{Cell, Column, Mark, Part, Section, Table};
+use crate::report::format::{first as first_word, fixed, heading, index, name, significant};
+use crate::report::listed;
+use crate::report::output_axis::OutputAxis;
+use crate::report::result::{AggregateIndexRecord, AggregateRecord, DirectionRecord, ResultFile, SeriesRecord};
+use crate::report::run_charts::{SeriesOf, along_chart, directions_chart, layers_chart, map_chart, together_chart};
+
+/// Series that are told with all their charts, and whose single values are told too.
+const IN_FULL: usize = 4;
+/// Factors beside each direction.
+const COLUMNS: usize = 8;
+/// Bytes of the page that may be tables of single values, of all series together.
+const BYTES: usize = 800_000;
+/// Most stretches of the axis in a sentence.
+const STRETCHES: usize = 5;
+
+/// How values are weighed against each other.
+const WEIGHTING: &str = "each value counts by its variance (Gamboa et al. 2014)";
+
+/// The values of `series` alone, as a result of its own.
+fn values_alone(of: SeriesOf<'_>) -> ResultFile {
+    let SeriesOf { result, series } = of;
+    let outputs = of.values().to_vec();
+    let aggregate = AggregateRecord {
+        outputs: outputs.iter().map(|output| output.name.clone()).collect(),
+        weighting: WEIGHTING.to_owned(),
+        indices: series.indices.clone(),
+        reason: series.reason.clone(),
+    };
+    with_outputs(result, outputs, Some(aggregate))
+}
+
+/// The outputs of `result` that belong to no series, as a result of its own.
+pub(super) fn single_outputs(result: &ResultFile) -> ResultFile {
+    let single = |place: usize| !result.series.iter().any(|series| series.places().contains(&place));
+    let outputs = result.outputs.iter().enumerate().filter(|(place, _)| single(*place));
+    with_outputs(result, outputs.map(|(_, output)| output.clone()).collect(), result.aggregate.clone())
+}
+
+/// The same with other outputs, none of which is a series.
+fn with_outputs(
+    result: &ResultFile,
+    outputs: Vec<crate::report::result::OutputRecord>,
+    aggregate: Option<AggregateRecord>,
+) -> ResultFile {
+    ResultFile {
+        format: result.format.clone(),
+        version: result.version,
+        study: result.study.clone(),
+        provenance: result.provenance.clone(),
+        factors: result.factors.clone(),
+        outputs,
+        validity: result.validity.clone(),
+        effort: result.effort.clone(),
+        aggregate,
+        series: Vec::new(),
+        stopping: result.stopping.clone(),
+        spending: result.spending.clone(),
+        lows: result.lows.clone(),
+    }
+}
+
+/// The sections of all series of `result`, and how many figures they have.
+pub(super) fn sections(result: &ResultFile, stems: &[[String; SERIES_SUFFIXES.len()]]) -> (Vec<Section>, usize) {
+    let (mut sections, mut figures) = (Vec::new(), 0);
+    for (number, series) in result.series.iter().enumerate() {
+        let of = SeriesOf { result, series };
+        let alone = values_alone(of);
+        let mut drawn = Figures::of_series(&alone, number + 1, figures);
+        let parts = if number < IN_FULL {
+            let few = result.series.len().min(IN_FULL);
+            in_full(of, &mut drawn, &stems[number], (number == 0, BYTES / few))
+        } else {
+            let text = format!("Its single values are in `{}.csv`, and all else in the JSON file.", result.study.name);
+            vec![Part::Text(text), overview::factors(&alone).into()]
+        };
+        figures = drawn.count();
+        let axis = format!("{} along the {}", heading(&series.name, &series.unit), name(&series.axis));
+        sections.push(Section::new(&format!("series-{}", number + 1), &axis, parts));
+    }
+    (sections, figures)
+}
+
+fn in_full(
+    of: SeriesOf<'_>,
+    figures: &mut Figures<'_>,
+    stems: &[String; SERIES_SUFFIXES.len()],
+    (is_first, bytes): (bool, usize),
+) -> Vec<Part> {
+    let (alone, study) = (figures.result, &of.result.study.name);
+    let [along, layers, together, map, directions] = stems;
+    let mut parts = overview::mind(alone);
+    if is_first {
+        parts.extend(definitions(of.result));
+        parts.push(Part::Text(format!(
+            "The indices of every value are in `{study}.csv`, and whatever else is known of them in `{study}.json`."
+        )));
+    }
+    parts.push(figures.add(along_chart(of), "along", along));
+    parts.push(figures.add(layers_chart(of), "layers", layers));
+    parts.push(Part::Heading("As a whole".to_owned()));
+    parts.extend(
+        of.series
+            .reason
+            .as_ref()
+            .map(|reason| Part::no_indices(format!("There are no indices of the whole series: {reason}."))),
+    );
+    let mut chart = together_chart(alone);
+    if of.series.indices.is_some() {
+        chart.set_caption(format!("All {} values together: {WEIGHTING}.", of.series.positions.len()));
+    }
+    chart.set_title(chart.title().replace("all outputs together", &format!("{} as a whole", name(&of.series.name))));
+    parts.push(figures.add(chart, "together", together));
+    let caption = "Indices of the whole series, for how many of its values a factor surely matters most, and the median and \
+                   largest of its total indices.";
+    parts.push(Table { caption: caption.to_owned(), ..overview::factors(alone) }.into());
+    let axis = OutputAxis {
+        label: match of.series.axis_unit.as_str() {
+            "" | "1" => of.series.axis.clone(),
+            unit => format!("{} ({unit})", of.series.axis),
+        },
+        outputs: (0..of.series.positions.len()).collect(),
+        numbers: Some(of.series.positions.clone()),
+    };
+    parts.push(figures.add(map_chart(alone, &axis), "map", map));
+    parts.push(Part::Heading("Main directions".to_owned()));
+    parts.extend(main_directions(of, figures, directions));
+    for (title, told) in
+        [("Some values in full", overview::in_full(figures)), ("Every value", overview::every_output(alone, bytes))]
+    {
+        if !told.is_empty() {
+            let heading = Part::Heading(title.to_owned());
+            parts.push(Part::OnPage(std::iter::once(heading).chain(told).collect()));
+        }
+    }
+    parts
+}
+
+/// The principal components of the series, and what decides how far a run goes in each.
+fn main_directions(of: SeriesOf<'_>, figures: &mut Figures<'_>, stem: &str) -> Vec<Part> {
+    let figure = figures.add(directions_chart(of), "directions", stem);
+    let Some(directions) = &of.series.directions else {
+        let reason = of.series.no_directions.as_deref().unwrap_or("the result holds none");
+        let text = format!("There are no main directions: {reason}.");
+        // The chart says the same.
+        return vec![
+            Part::Notice { mark: Mark::Plain, kind: "Not known".to_owned(), texts: vec![text] },
+            Part::OnPage(vec![figure]),
+        ];
+    };
+    let shares: f64 = directions.iter().map(|direction| direction.share).sum();
+    let text = format!(
+        "The principal components of the values over the rows A and B, until they have 95 % of the variance and at most five: \
+         {} {} % of it together. The score of a run, how far it goes in a direction, is an output with indices like any other; \
+         a direction that one factor decides alone is what that factor does to the series.",
+        if directions.len() == 1 { "this one has" } else { "these have" },
+        fixed(shares, 1)
+    );
+    let order: Vec<usize> = of.order().into_iter().take(COLUMNS).collect();
+    let table = |caption: &str, read: fn(&AggregateIndexRecord) -> crate::report::result::EstimateRecord| {
+        let row = |(number, direction): (usize, &DirectionRecord)| -> Vec<Cell> {
+            let of_factor = |factor: &usize| -> Cell {
+                let index = direction.indices.as_ref().and_then(|indices| indices.get(*factor));
+                index.map_or_else(|| "–".to_owned(), |index| overview::three_decimals(read(index))).into()
+            };
+            let mut row: Vec<Cell> = vec![format!("direction {}", number + 1).into(), fixed(direction.share, 1).into()];
+            row.extend(order.iter().map(of_factor));
+            row
+        };
+        let mut columns = vec![Column::text("score"), Column::number("% of the variance")];
+        columns.extend(order.iter().map(|&factor| Column::number(name(&of.result.factors[factor].name))));
+        Table::new(caption, columns).with_rows(directions.iter().enumerate().map(row))
+    };
+    vec![
+        Part::OnPage(vec![Part::Text(text)]),
+        figure,
+        table("Total indices S_T of the scores.", |index| index.total).into(),
+        table("First-order indices S_1 of the scores.", |index| index.first_order).into(),
+    ]
+}
+
+/// The paragraph at the top on a series: who leads over all of it, and where along its axis.
+pub(super) fn answer(result: &ResultFile, series: &SeriesRecord) -> String {
+    let of = SeriesOf { result, series };
+    let Some(indices) = &series.indices else {
+        let reason = series.reason.as_deref().unwrap_or("the result holds none");
+        return format!("There are no indices of {} as a whole: {reason}.", name(&series.name));
+    };
+    let mut order: Vec<&AggregateIndexRecord> = indices.iter().collect();
+    order.sort_by(|a, b| b.total.estimate.total_cmp(&a.total.estimate));
+    let Some(leader) = order.first() else { return String::new() };
+    let reaches = |low: f64| order[1..].iter().any(|other| other.total.high.is_some_and(|high| high >= low));
+    let tied = leader.total.low.is_some_and(reaches);
+    let most = if tied { "comes first, though not surely," } else { "matters most" };
+    let mut text = format!(
+        "{} {most} for {} as a whole: its S_T over all {} values is {}.",
+        first_word(&leader.factor),
+        name(&series.name),
+        series.positions.len(),
+        index(leader.total)
+    );
+    let stretches = stretches(of);
+    if (2..=STRETCHES).contains(&stretches.len()) {
+        let unit = match series.axis_unit.as_str() {
+            "" | "1" => String::new(),
+            unit => format!(" {unit}"),
+        };
+        let words = stretches.iter().map(|&(factor, first, last)| {
+            let [first, last] = [first, last].map(|place| significant(series.positions[place]));
+            let range =
+                if first == last { format!("at {first}{unit}") } else { format!("from {first} to {last}{unit}") };
+            format!("{} {range}", name(&result.factors[factor].name))
+        });
+        text.push_str(&format!(
+            " Along the {}, the largest S_T is that of {}.",
+            name(&series.axis),
+            listed(&words.collect::<Vec<_>>())
+        ));
+    }
+    text
+}
+
+/// Where along the axis each factor has the largest total index: the factor, and the first and the last value.
+fn stretches(of: SeriesOf<'_>) -> Vec<(usize, usize, usize)> {
+    let mut found: Vec<(usize, usize, usize)> = Vec::new();
+    for (place, value) in of.values().iter().enumerate() {
+        let totals = value.indices.iter().flatten().map(|index| index.effect.total.estimate).enumerate();
+        let Some((leader, _)) = totals.reduce(|best, next| if next.1 > best.1 { next } else { best }) else { continue };
+        match found.last_mut().filter(|(factor, ..)| *factor == leader) {
+            Some((_, _, last)) => *last = place,
+            None => found.push((leader, place, place)),
+        }
+    }
+    found
+}

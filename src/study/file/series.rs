@@ -1,0 +1,140 @@
+//! Outputs that are series: how long they are, and where their values stand.
+
+use toml::Value;
+
+use super::at::At;
+use super::context::{Context, Fault, chosen, wrong};
+use super::error::Problem;
+use crate::model::{OutputSeries, SeriesAxis, SeriesError};
+
+/// The keys of a table that make an output a series.
+pub(super) const SERIES_KEYS: [&str; 4] = ["length", "axis", "axis_unit", "positions"];
+
+/// The axis of the output `key`, of which `table` tells; `None` if it is no series.
+pub(super) fn axis(key: &str, table: &toml::Table) -> Result<Option<SeriesAxis>, Problem> {
+    let Some(first) = SERIES_KEYS.into_iter().find(|name| table.contains_key(*name)) else { return Ok(None) };
+    let text = |name: &str| match table.get(name) {
+        None => Ok(None),
+        Some(Value::String(text)) if text.chars().count() <= 60 && !text.contains(char::is_control) => {
+            Ok(Some(text.as_str()))
+        }
+        Some(other) => {
+            let expected = "a text of up to 60 characters, without control characters";
+            Err(wrong(&format!("{key}.{name}"), expected, other.to_string()))
+        }
+    };
+    let (label, unit) = (text("axis")?.unwrap_or("index"), text("axis_unit")?.unwrap_or_default());
+    let length = match table.get("length") {
+        None => None,
+        Some(Value::Integer(length)) if *length >= 0 => Some(usize::try_from(*length).unwrap_or(usize::MAX)),
+        Some(other) => {
+            let expected = "how many values the series has, as in 365";
+            return Err(wrong(&format!("{key}.length"), expected, other.to_string()));
+        }
+    };
+    let refused = |error: SeriesError| {
+        let (name, expected) = match error {
+            SeriesError::Length { .. } => ("length", "2 to 10000 values"),
+            SeriesError::Position { .. } => ("positions", "finite numbers in rising order"),
+        };
+        let found = match error {
+            SeriesError::Length { found } => found.to_string(),
+            SeriesError::Position { place, found } => format!("{found} at place {place}"),
+        };
+        wrong(&format!("{key}.{name}"), expected, found)
+    };
+    let axis = match (positions(key, table)?, length) {
+        (None, Some(length)) => SeriesAxis::even(label, unit, length, (0.0, 1.0)),
+        (Some(pair), Some(length)) if pair.len() == 2 => SeriesAxis::even(label, unit, length, (pair[0], pair[1])),
+        (Some(list), length) if list.len() != 2 && length.is_none_or(|length| length == list.len()) => {
+            SeriesAxis::new(label, unit, list)
+        }
+        (Some(list), Some(length)) => {
+            let expected = format!("a list of {length} numbers, or of two: the first position and the step");
+            return Err(wrong(&format!("{key}.positions"), &expected, format!("a list of {}", list.len())));
+        }
+        (_, None) => {
+            let found = format!("`{first}` without one");
+            return Err(wrong(&format!("{key}.length"), "how many values the series has, as in length = 365", found));
+        }
+    };
+    axis.map(Some).map_err(refused)
+}
+
+/// The list of numbers `positions`, if there is one.
+fn positions(key: &str, table: &toml::Table) -> Result<Option<Vec<f64>>, Problem> {
+    let Some(typed) = table.get("positions") else { return Ok(None) };
+    let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
+    let list = typed.as_array().and_then(|list| list.iter().map(number).collect::<Option<Vec<f64>>>());
+    list.map(Some).ok_or_else(|| {
+        let expected = "a list of numbers: the first position and the step, or every position";
+        wrong(&format!("{key}.positions"), expected, typed.type_str().to_owned())
+    })
+}
+
+/// Places of the outputs asked for among those called `names`, in the order asked for: the name of a series stands for all of
+/// its values.
+pub(super) fn places(
+    context: &Context<'_>,
+    (names, series): (&[&str], &[OutputSeries]),
+    asked: &At<Vec<At<String>>>,
+) -> Result<Vec<usize>, Fault> {
+    let single = |place: &usize| !series.iter().any(|series| series.places().contains(place));
+    let singles: Vec<usize> = (0..names.len()).filter(single).collect();
+    let known: Vec<&str> =
+        singles.iter().map(|&place| names[place]).chain(series.iter().map(|series| series.name.as_str())).collect();
+    let places = chosen(context, &known, asked)?.into_iter().flat_map(|place| match singles.get(place) {
+        Some(&single) => single..single + 1,
+        None => series[place - singles.len()].places(),
+    });
+    Ok(places.collect())
+}
+
+/// Outputs of one name, be it that of a value of a series, or a series and an output.
+pub(super) fn refuse_repeated(names: &[&str], series: &[OutputSeries]) -> Result<(), Problem> {
+    let mut seen = std::collections::BTreeSet::new();
+    let all = names.iter().copied().chain(series.iter().map(|series| series.name.as_str()));
+    let repeated = all.into_iter().find(|name| !seen.insert(*name));
+    repeated.map_or(Ok(()), |name| Err(Problem::Repeated { what: "output", name: name.to_owned() }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Option<SeriesAxis>, String> {
+        axis("outputs.y", &toml::from_str(text).unwrap()).map_err(|problem| problem.to_string())
+    }
+
+    #[test]
+    fn positions_are_counted_stepped_or_listed() {
+        let positions = |text: &str| read(text).unwrap().unwrap().positions().to_vec();
+        assert_eq!(read("unit = \"nN\"").unwrap(), None);
+        assert_eq!(positions("length = 3"), [0.0, 1.0, 2.0]);
+        assert_eq!(positions("length = 3\npositions = [1, 0.5]"), [1.0, 1.5, 2.0]);
+        assert_eq!(positions("positions = [1, 2.5, 7]"), [1.0, 2.5, 7.0]);
+        assert_eq!(positions("length = 3\npositions = [1, 2.5, 7]"), [1.0, 2.5, 7.0]);
+        let axis = read("length = 2\naxis = \"time\"\naxis_unit = \"ms\"").unwrap().unwrap();
+        assert_eq!((axis.label(), axis.unit()), ("time", "ms"));
+    }
+
+    #[test]
+    fn what_is_no_series_is_refused_with_what_would_be() {
+        for (text, expected) in [
+            ("length = 1", "2 to 10000 values"),
+            ("length = -3", "how many values"),
+            ("length = 10000000", "2 to 10000 values"),
+            ("axis = \"day\"", "`axis` without one"),
+            ("positions = [0, 1]", "`positions` without one"),
+            ("length = 3\npositions = [0, 1, 1]", "finite numbers in rising order"),
+            ("length = 3\npositions = [0, -1]", "finite numbers in rising order"),
+            ("length = 4\npositions = [0, 1, 2]", "a list of 4 numbers, or of two"),
+            ("length = 3\npositions = \"day\"", "a list of numbers"),
+            ("length = 3\naxis = 7", "a text"),
+            ("length = \"3\"", "how many values"),
+        ] {
+            let message = read(text).unwrap_err();
+            assert!(message.contains(expected), "{text:?}: {message}");
+        }
+    }
+}

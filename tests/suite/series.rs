@@ -1,0 +1,187 @@
+//! Outputs that are series: indices of single values, of the whole, and of the main directions, where they are known.
+
+use std::f64::consts::TAU;
+
+use apportion::{
+    Analysis, Distribution, FunctionModel, NoDirections, RowFailure, SeriesAxis, Study, StudyBuilder, SurrogateChoice,
+    Target, Unit,
+};
+
+/// A study of a series of `f` at `positions`, of factors between -1 and 1.
+fn study(
+    factors: &[&str],
+    positions: Vec<f64>,
+    f: impl Fn(&[f64], f64) -> Option<f64> + Send + Sync + 'static,
+) -> StudyBuilder {
+    let axis = SeriesAxis::new("t", "s", positions.clone()).unwrap();
+    let model = FunctionModel::new(Vec::new(), move |x: &[f64], y: &mut [f64]| {
+        for (y, t) in y.iter_mut().zip(&positions) {
+            *y = f(x, *t).ok_or_else(|| RowFailure::new("none"))?;
+        }
+        Ok(())
+    });
+    let model = model.with_series("y", Unit::dimensionless(), axis);
+    let uniform = || Distribution::uniform(-1.0, 1.0).unwrap();
+    factors.iter().fold(Study::builder("series", model), |study, name| study.factor(name, uniform()))
+}
+
+/// Even positions of a whole turn: there the sine and the cosine are orthogonal, and the sum of squares of each is half their
+/// number.
+fn turn(count: usize) -> Vec<f64> {
+    (0..count).map(|k| TAU * k as f64 / count as f64).collect()
+}
+
+#[track_caller]
+fn near(found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() < tolerance, "{found} is not {expected}");
+}
+
+/// First-order and total indices of the whole series.
+fn whole(analysis: &Analysis) -> (Vec<f64>, Vec<f64>) {
+    let indices = analysis.series("y").unwrap().aggregate.as_ref().unwrap();
+    let estimates = |of: &[apportion::Estimate]| of.iter().map(|index| index.estimate).collect();
+    (estimates(&indices.first_order), estimates(&indices.total))
+}
+
+#[test]
+fn two_factors_with_a_direction_each() {
+    // y(t) = 2 x1 sin t + x2 cos t, where V(x) = 1/3: variances 4/3 sin^2 t and 1/3 cos^2 t.
+    for (count, base_samples) in [(16, 4096), (600, 64)] {
+        let wave = |x: &[f64], t: f64| Some(2.0 * x[0] * t.sin() + x[1] * t.cos());
+        let analysis =
+            study(&["x1", "x2"], turn(count), wave).base_samples(base_samples).build().unwrap().run().unwrap();
+        let exact = base_samples == 4096;
+        let tolerance = if exact { 2e-3 } else { 0.12 };
+        for (k, t) in turn(count).into_iter().enumerate().step_by(count / 16) {
+            let (a, b) = (4.0 * t.sin().powi(2), t.cos().powi(2));
+            let index = analysis.output(&format!("y[{k}]")).unwrap().factor("x1").unwrap();
+            near(index.first_order.estimate, a / (a + b), tolerance);
+            near(index.total.estimate, a / (a + b), tolerance);
+        }
+        // Over a whole turn both squares have the mean 1/2.
+        let (first_order, total) = whole(&analysis);
+        for (found, expected) in first_order.iter().chain(&total).zip([0.8, 0.2, 0.8, 0.2]) {
+            near(*found, expected, tolerance);
+        }
+        let series = analysis.series("y").unwrap();
+        assert!(series.aggregate.as_ref().unwrap().total.iter().all(|index| index.interval.is_some()));
+        let directions = series.directions.as_ref().unwrap();
+        assert_eq!(directions.len(), 2);
+        for (number, (direction, share)) in directions.iter().zip([0.8, 0.2]).enumerate() {
+            near(direction.share, share, tolerance);
+            for (place, index) in direction.score.indices.as_ref().unwrap().factors.iter().enumerate() {
+                let expected = f64::from(u8::from(place == number));
+                near(index.first_order.estimate, expected, tolerance);
+                near(index.total.estimate, expected, tolerance);
+            }
+        }
+        // One standard deviation of x1 is 1/sqrt(3); which end of it is the positive one, the largest loading says.
+        let sign = directions[0].loadings[count / 4].signum();
+        for (t, loading) in turn(count).into_iter().zip(&directions[0].loadings) {
+            near(*loading, sign * 2.0 * t.sin() / 3.0_f64.sqrt(), 2.0 * tolerance);
+        }
+    }
+}
+
+#[test]
+fn interactions_along_a_series() {
+    // y(t) = 2 x1 sin t + sqrt(3) x1 x2 cos t: V(x1 x2) = 1/9, so the interaction has a fifth of the variance.
+    let wave = |x: &[f64], t: f64| Some(2.0 * x[0] * t.sin() + 3.0_f64.sqrt() * x[0] * x[1] * t.cos());
+    let analysis = study(&["x1", "x2"], turn(16), wave).base_samples(4096).build().unwrap().run().unwrap();
+    let (first_order, total) = whole(&analysis);
+    for (found, expected) in first_order.iter().chain(&total).zip([0.8, 0.0, 1.0, 0.2]) {
+        near(*found, expected, 0.01);
+    }
+    let directions = analysis.series("y").unwrap().directions.as_ref().unwrap();
+    let second = &directions[1].score;
+    near(directions[1].share, 0.2, 3e-3);
+    for name in ["x1", "x2"] {
+        near(second.factor(name).unwrap().first_order.estimate, 0.0, 0.01);
+        near(second.factor(name).unwrap().total.estimate, 1.0, 0.01);
+    }
+}
+
+#[test]
+fn the_whole_is_the_mean_of_values_and_of_directions() {
+    // The generalised index is the same in any orthogonal directions: sum of shares times indices.
+    let wave = |x: &[f64], t: f64| Some((x[0] * t).sin() + x[1] * x[2] * t + x[2].exp() * t.cos());
+    let positions: Vec<f64> = (0..5).map(f64::from).collect();
+    let mut options = apportion::AnalysisOptions::for_sampler(apportion::Sampler::Sobol);
+    options.surrogate = SurrogateChoice::Off;
+    let study = study(&["a", "b", "c"], positions, wave).base_samples(1024).analysis(options).build().unwrap();
+    let analysis = study.run().unwrap();
+    let (_, total) = whole(&analysis);
+    let variances: Vec<f64> = analysis.outputs.iter().map(|output| output.values.variance().unwrap()).collect();
+    let all: f64 = variances.iter().sum();
+    let directions = analysis.series("y").unwrap().directions.as_ref().unwrap();
+    let share: f64 = directions.iter().map(|direction| direction.share).sum();
+    assert!(share > 0.95 && share < 1.0 + 1e-12 && directions.is_sorted_by(|a, b| a.share >= b.share));
+    for (place, name) in ["a", "b", "c"].into_iter().enumerate() {
+        let of_value = |(output, variance): (&apportion::OutputAnalysis, &f64)| {
+            variance / all * output.factor(name).unwrap().total.estimate
+        };
+        let by_values: f64 = analysis.outputs.iter().zip(&variances).map(of_value).sum();
+        near(total[place], by_values, 1e-12);
+        let of_direction = |one: &apportion::Direction| one.share * one.score.factor(name).unwrap().total.estimate;
+        let by_directions: f64 = directions.iter().map(of_direction).sum();
+        // What the last directions leave is at most their share.
+        assert!(by_directions < total[place] + 1e-3 && by_directions > total[place] - (1.0 - share) - 1e-3);
+    }
+}
+
+#[test]
+fn runs_that_fail_have_no_score_and_threads_do_not_matter() {
+    let wave = |x: &[f64], t: f64| (x[0] < 0.9).then(|| x[0] * t.sin() + 0.3 * x[1] * t.cos());
+    let study = |threads| {
+        let mut options = apportion::AnalysisOptions::for_sampler(apportion::Sampler::Sobol);
+        options.max_failed = 0.2;
+        let study = study(&["x1", "x2"], turn(7), wave).base_samples(2048).analysis(options).build().unwrap();
+        study.runner().threads(threads).run().unwrap()
+    };
+    let (one, two) = (study(1), study(2));
+    assert_eq!(format!("{:?}", one.series), format!("{:?}", two.series));
+    let directions = one.series("y").unwrap().directions.as_ref().unwrap();
+    assert_eq!(directions[0].score.runs_failed, one.outputs[0].runs_failed);
+    assert!(one.outputs[0].runs_failed > 0);
+    near(directions[0].score.factor("x1").unwrap().first_order.estimate, 1.0, 0.02);
+}
+
+#[test]
+fn without_outputs_or_variance_there_are_no_directions() {
+    let wave = |x: &[f64], t: f64| Some(x[0] * t.sin());
+    let growing = study(&["x1"], turn(4), wave).until(Target::half_width(0.5)).build().unwrap();
+    let analysis = growing.run().unwrap();
+    let series = analysis.series("y").unwrap();
+    assert!(series.aggregate.is_ok());
+    assert_eq!(series.directions.as_ref().unwrap_err(), &NoDirections::NotKept);
+    let still = study(&["x1"], turn(4), |_, _| Some(1.0)).base_samples(64).build().unwrap().run().unwrap();
+    assert_eq!(still.series("y").unwrap().directions.as_ref().unwrap_err(), &NoDirections::NoVariance);
+    assert!(still.series("y").unwrap().aggregate.is_err());
+    assert!(still.series("z").unwrap_err().to_string().contains("no series `z`; there are: y"));
+}
+
+#[test]
+fn surrogates_of_the_values_correct_the_whole() {
+    // y(t) = t x1 + (1 - t) x1 x2: over t = 0, 1/2, 1 the variances are 5/4 of x1 alone and 5/4 of the product, with the
+    // interaction of a ninth against a third.
+    let wave = |x: &[f64], t: f64| Some(t * x[0] + (1.0 - t) * x[0] * x[1]);
+    let run = |surrogate| {
+        let mut options = apportion::AnalysisOptions::for_sampler(apportion::Sampler::Sobol);
+        options.surrogate = surrogate;
+        let study =
+            study(&["x1", "x2"], vec![0.0, 0.5, 1.0], wave).base_samples(256).analysis(options).build().unwrap();
+        study.run().unwrap()
+    };
+    let width = |analysis: &Analysis| {
+        let indices = analysis.series("y").unwrap().aggregate.clone().unwrap();
+        let all = indices.first_order.into_iter().chain(indices.total);
+        all.map(|index| index.interval.map(|interval| interval.high - interval.low).unwrap()).fold(0.0, f64::max)
+    };
+    let (off, on) = (run(SurrogateChoice::Off), run(SurrogateChoice::On));
+    // S of x1 is 3/4, and the product has the rest.
+    let (first_order, total) = whole(&on);
+    for (found, expected) in first_order.iter().chain(&total).zip([0.75, 0.0, 1.0, 0.25]) {
+        near(*found, expected, 1e-6);
+    }
+    assert!(width(&on) < 1e-3 * width(&off), "{} {}", width(&on), width(&off));
+}
