@@ -119,7 +119,8 @@ pub use design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler,
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
     AfmModel, AfmOutput, Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag,
-    FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, RowFailure, RunContext, Worker, function_model,
+    FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, RepeatedModel, RowFailure, RunContext, Worker,
+    function_model,
 };
 #[cfg(feature = "study")]
 pub use model::{CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, PerRun, Program, Protocol};
@@ -130,4 +131,7 @@ pub use space::{Distribution, DistributionError, Factor, Space};
 pub use study::{AnalysisOptions, BuildError, Study, StudyBuilder, SurrogateChoice, Target};
 #[cfg(feature = "study")]
 pub use study::{Diagnostic, StudyError};
-pub use uncertainty::{AggregateIndices, EffectEstimates, Estimate, Interval, IntervalMethod, OutputIndices, Stage};
+pub use uncertainty::{
+    AggregateIndices, EffectEstimates, Estimate, Interval, IntervalMethod, MeanEstimates, NoiseIndices, OutputIndices,
+    Stage,
+};

@@ -31,7 +31,7 @@ use crate::design::Design;
 use crate::model::Model;
 use crate::space::Space;
 use crate::surrogate::{FEWEST_NETS, fewest_points};
-use crate::uncertainty::{IntervalMethod, Layout};
+use crate::uncertainty::{IntervalMethod, Layout, NoiseLayout};
 #[cfg(feature = "charts")]
 pub(crate) use options::rows;
 use options::{MOST_AUTOMATIC_VALUES, MOST_AUTOMATIC_VALUES_OF_PROGRAMS};
@@ -184,6 +184,7 @@ impl Study {
             dummy: self.analysis.dummy,
             estimators: self.analysis.estimators.clone(),
             second_order: self.analysis.second_order,
+            noise: self.space.noise().map(|noise| NoiseLayout::new(noise, self.design.swaps())),
         }
     }
 

@@ -153,8 +153,7 @@ mod tests {
     fn outputs_that_share_their_terms_are_as_accurate_as_alone() {
         let settings = DesignSettings { base_samples: 96, ..DesignSettings::default() };
         let design = Design::new(settings, 3, Rows::plain((0..3).map(|factor| vec![factor]).collect())).unwrap();
-        let layout =
-            Layout { factors: 3, groups: 0, subsets: 0, dummy: false, estimators: Vec::new(), second_order: false };
+        let layout = Layout::plain(3);
         let uniform = Distribution::uniform(0.0, 1.0).unwrap();
         let families = vec![Family::new(&uniform); 3];
         let time = |k: usize| k as f64 / 40.0;

@@ -34,6 +34,7 @@ mod metamorphic;
 #[cfg(feature = "mpi")]
 mod mpi;
 mod names;
+mod noise;
 mod page;
 mod points;
 mod remote_workers;

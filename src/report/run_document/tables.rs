@@ -1,6 +1,7 @@
 //! The tables of one output, and the files of CSV that hold more than they show.
 
 use super::lead::by_total;
+use super::noise::label;
 use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, Field, fields};
 use crate::report::document::{Cell, Column, Part, Table, Value, csv};
@@ -11,7 +12,7 @@ use crate::report::result::{
 };
 
 /// Most factors in a table; the files have all of them.
-const FACTORS: usize = 50;
+pub(super) const FACTORS: usize = 50;
 /// Most pairs of factors.
 const PAIRS: usize = 20;
 /// Quantiles in the table, in percent; the JSON file has more.
@@ -27,7 +28,7 @@ const FACTORS_OF_ESTIMATORS: usize = 20;
 const OF_ONE_OUTPUT: std::ops::Range<usize> = 7..10;
 
 /// `which` of how many are shown, if not all.
-fn largest(shown: usize, all: usize, what: &str) -> String {
+pub(super) fn largest(shown: usize, all: usize, what: &str) -> String {
     if shown < all { format!(" The {shown} largest of {all} {what}.") } else { String::new() }
 }
 
@@ -42,8 +43,11 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part
     let indices = output.indices.iter().flatten();
     let rows =
         indices.map(|index| effect_row((&output.name, "factor"), (name(&index.factor), &index.factor), &index.effect));
+    let noise = output.noise.as_ref();
+    let of_noise = noise.map(|noise| effect_row((&output.name, "noise"), (label(noise), &noise.name), &noise.effect));
     let sum = |sum: Option<EstimateRecord>| sum.map_or_else(Cell::default, Cell::from);
-    let mut sums: Vec<Cell> = vec![Cell::default(), Cell::default(), "sum of all factors".into()];
+    let all = if noise.is_some() { "sum of all factors and the noise" } else { "sum of all factors" };
+    let mut sums: Vec<Cell> = vec![Cell::default(), Cell::default(), all.into()];
     sums.extend([sum(output.sum_first_order), sum(output.sum_total)]);
     sums.resize(10, Cell::default());
     let caption = format!(
@@ -51,8 +55,15 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part
          the order of the total index.{}",
         largest(order.len().min(FACTORS), order.len(), "factors, all in the CSV file")
     );
-    let printed = places(&order, FACTORS);
-    Some(Part::Table(Table { printed, sums, ..effect_table(result, caption, "factor").with_rows(rows) }))
+    let mut printed = places(&order, FACTORS);
+    if let (Some(printed), Some(_)) = (&mut printed, noise) {
+        printed.push(order.len());
+    }
+    Some(Part::Table(Table {
+        printed,
+        sums,
+        ..effect_table(result, caption, "factor").with_rows(rows.chain(of_noise))
+    }))
 }
 
 fn effect_table(result: &ResultFile, caption: String, what: &str) -> Table {
