@@ -67,7 +67,8 @@ pub(super) fn answer(result: &ResultFile, output: &OutputRecord) -> String {
     let order: Vec<&IndexRecord> = order.into_iter().map(|(_, index)| index).collect();
     let tied = tied(&order);
     let first = if tied.len() > 1 { tie(output, &order, &tied) } else { leader(output, &order) };
-    let sentences = [first, others(result, &order, &tied), super::noise::sentence(output), interactions(output)];
+    let sentences =
+        [first, others(result, &order, &tied), super::noise::sentence(result, output), interactions(output)];
     sentences.into_iter().filter(|sentence| !sentence.is_empty()).collect::<Vec<_>>().join(" ")
 }
 

@@ -7,24 +7,30 @@ use crate::report::format::{name, percent};
 use crate::report::result::{IndexRecord, NoiseRecord, OutputRecord, ResultFile};
 
 /// How much of the variance of a single run no factor explains, of a stochastic model.
-pub(super) fn sentence(output: &OutputRecord) -> String {
+pub(super) fn sentence(result: &ResultFile, output: &OutputRecord) -> String {
     let Some(noise) = &output.noise else { return String::new() };
-    format!("Of the variance of a single run, {} is noise that no factor explains.", percent(noise.effect.total))
+    let of =
+        repetitions(result).map_or_else(|| "a single run".to_owned(), |number| format!("a value of {number} runs"));
+    format!("Of the variance of {of}, {} is noise that no factor explains.", percent(noise.effect.total))
+}
+
+/// How many runs a row is made of, if it is more than one.
+fn repetitions(result: &ResultFile) -> Option<u64> {
+    result.study.settings.get("repetitions").and_then(serde_json::Value::as_u64)
 }
 
 /// What the noise of a stochastic model is of a single run, and which indices the mean over it has.
 pub(super) fn noise(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
     let Some(noise) = &output.noise else { return Vec::new() };
-    let repetitions = result.study.settings.get("repetitions").and_then(serde_json::Value::as_u64);
-    let left = repetitions.map_or_else(String::new, |number| {
-        format!(
-            " Each value is made of {number} runs with seeds of their own: its noise is what so few leave. The mean over it is \
-             the mean, or the variance, of endless many."
-        )
-    });
+    let left = if repetitions(result).is_some() {
+        " The seeds of these runs are their own, and the noise is what so few leave. The mean over it is the mean, or the \
+         variance, of endless many."
+    } else {
+        ""
+    };
     let single = format!(
         "{}{left} If the factors were unknown and the noise known, {} of it would go.",
-        sentence(output),
+        sentence(result, output),
         percent(noise.effect.first_order)
     );
     let exists = noise.mean_share.estimate > 0.0;
@@ -60,7 +66,7 @@ pub(super) fn label(noise: &NoiseRecord) -> String {
     format!("noise ({})", name(&noise.name))
 }
 
-/// First-order indices of a single run beside the indices of the mean over the noise.
+/// First-order indices of the values beside the indices of the mean over the noise.
 fn table(output: &OutputRecord, noise: &NoiseRecord) -> Table {
     let order = by_total(output).unwrap_or_default();
     let shown = &order[..order.len().min(FACTORS)];
@@ -76,9 +82,9 @@ fn table(output: &OutputRecord, noise: &NoiseRecord) -> Table {
     let last = ["of the noise".into(), Cell::from(Some(noise.effect.first_order)), Cell::default(), Cell::default()];
     let last = (shown.len() == order.len()).then(|| last.to_vec());
     let caption = format!(
-        "Indices of a single run and of the mean over the noise, each of its own variance.{}",
+        "Indices of the values and of the mean over the noise, each of its own variance.{}",
         largest(shown.len(), order.len(), "factors, all in the JSON file")
     );
-    let columns = Column::list(1, &["factor", "S_1 of a run", "S_1 of the mean", "S_T of the mean"]);
+    let columns = Column::list(1, &["factor", "S_1 of a value", "S_1 of the mean", "S_T of the mean"]);
     Table::new(caption, columns).with_rows(shown.iter().map(row).chain(last))
 }
