@@ -120,8 +120,8 @@ pub use design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler,
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
     AfmModel, AfmOutput, Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag,
-    FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RowFailure, RunContext,
-    SeriesAxis, SeriesError, Worker, function_model,
+    FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure,
+    RunContext, SeriesAxis, SeriesError, Worker, function_model,
 };
 #[cfg(feature = "study")]
 pub use model::{CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, PerRun, Program, Protocol};
@@ -133,5 +133,6 @@ pub use study::{AnalysisOptions, BuildError, Study, StudyBuilder, SurrogateChoic
 #[cfg(feature = "study")]
 pub use study::{Diagnostic, StudyError};
 pub use uncertainty::{
-    AggregateIndices, DependentEstimates, EffectEstimates, Estimate, Interval, IntervalMethod, OutputIndices, Stage,
+    AggregateIndices, DependentEstimates, EffectEstimates, Estimate, Interval, IntervalMethod, MeanEstimates,
+    NoiseIndices, OutputIndices, Stage,
 };

@@ -6,7 +6,9 @@ use crate::estimate::CentralMoments;
 use crate::model::Model;
 use crate::run::Totals;
 use crate::study::Study;
-use crate::uncertainty::{EffectEstimates, Estimate, IntervalMethod, OutputIndices, differs_clearly};
+use crate::uncertainty::{
+    EffectEstimates, Estimate, Interval, IntervalMethod, NoiseIndices, OutputIndices, differs_clearly,
+};
 
 /// Warnings about the runs behind an output.
 pub(super) fn of_runs(run: &FinishedRun<'_>, runs_failed: u64, base_points_used: u64) -> Vec<String> {
@@ -118,6 +120,7 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
             (100.0 * used.explained).max(0.0)
         ));
     }
+    warnings.extend(indices.noise.as_ref().and_then(|noise| of_noise(study, indices, noise)));
     for (name, effect) in names_of_swaps(study).iter().zip(indices.effects()) {
         let total = effect.dependent.map_or(effect.total, |dependent| dependent.full_total).estimate;
         if effect.interaction.estimate < 0.0 && differs_clearly(effect.interaction) {
@@ -165,6 +168,23 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
     warnings
 }
 
+/// A noise that does nothing, or all.
+fn of_noise(study: &Study, indices: &OutputIndices, noise: &NoiseIndices) -> Option<String> {
+    let (name, of_noise) = (&study.space.factors()[noise.factor].name, &indices.factors[noise.factor]);
+    let none = |interval: Interval| interval.low == 0.0 && interval.high == 0.0;
+    if of_noise.total.estimate == 0.0 && of_noise.total.interval.is_none_or(none) {
+        return Some(format!(
+            "{name}: no run changed with its seed: the model is not stochastic, or draws its random numbers without it"
+        ));
+    }
+    noise.mean_share.interval.is_some_and(|share| share.low <= 0.0).then(|| {
+        format!(
+            "{name}: all variance may be noise, so that the indices of the mean over it may be anything: more base samples are \
+             needed, or several runs of each row (repetitions in [noise])"
+        )
+    })
+}
+
 /// Estimators asked for whose indices differ from the default ones by more than chance.
 fn disagreements(study: &Study, name: &str, effect: &EffectEstimates) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -194,7 +214,6 @@ fn clearly_above(estimate: Estimate, bound: Option<f64>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::uncertainty::Interval;
 
     fn estimate(low: f64, high: f64) -> Estimate {
         Estimate { estimate: (low + high) / 2.0, interval: Some(Interval { low, high }) }

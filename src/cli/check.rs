@@ -138,10 +138,10 @@ fn factors(study: &Study) -> String {
     let mut below = String::new();
     for factor in study.space().factors() {
         let law = factor.distribution();
-        let quantile = |u| factor.in_words(law.quantile(u), significant);
+        let quantile = |u| if law.is_noise() { "-".to_owned() } else { factor.in_words(law.quantile(u), significant) };
         // The places of categories in their list have no mean.
         let is_place = matches!(law, Distribution::Categorical(c) if law.name() == "categorical" && c.are_places());
-        let moment = |value| if is_place { "-".to_owned() } else { significant(value) };
+        let moment = |value| if is_place || law.is_noise() { "-".to_owned() } else { significant(value) };
         if let Distribution::Categorical(categories) = law {
             let shares: Vec<String> = categories
                 .categories()
@@ -198,6 +198,7 @@ fn design(study: &Study, pilot: Option<&Pilot>) -> String {
                      every row by a process of its own, and take much longer\n",
                 );
             }
+            failures.push_str(random(study, pilot));
             match pilot.failed == pilot.runs {
                 true => "in a time that cannot be told".to_owned(),
                 false => format!(
@@ -232,6 +233,21 @@ fn design(study: &Study, pilot: Option<&Pilot>) -> String {
     text
 }
 
+/// What to do where the same row has two answers.
+fn random(study: &Study, pilot: &Pilot) -> &'static str {
+    match (pilot.is_random, study.space().noise()) {
+        (false, _) => "",
+        (true, None) => {
+            "warning: the same row had two different answers: the program is random; give it a seed with every row by `noise = \
+             \"seed\"` (docs/stochastic-models.md)\n"
+        }
+        (true, Some(_)) => {
+            "warning: the same row with the same seed had two different answers: the program draws random numbers without its \
+             seed, and a resumed run is not repeatable\n"
+        }
+    }
+}
+
 /// What the start of the program takes, where it is worth a word.
 fn start(pilot: &Pilot) -> String {
     const LEAST: f64 = 0.1;
@@ -253,6 +269,9 @@ fn asked(study: &Study) -> String {
     parts.extend(analysis.dummy.then(|| "a dummy factor".to_owned()));
     parts.extend(analysis.second_order.then(|| format!("second order of {} pairs", study.layout().pair_list().len())));
     parts.extend(analysis.has_shapley(study.space()).then(|| "Shapley effects of the factors".to_owned()));
+    if let Some(noise) = study.space().noise() {
+        parts.push(format!("the noise ({}) and the mean over it", study.space().factors()[noise].name));
+    }
     if analysis.aggregate && study.model().outputs().len() > 1 {
         parts.push("all outputs together".to_owned());
     }

@@ -15,6 +15,7 @@ mod expression;
 mod external;
 mod function;
 mod known;
+mod repeated;
 #[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only subjects of study files have a second calculation"))]
 mod second;
 mod series;
@@ -39,6 +40,7 @@ pub use known::{
     ParameterInfo, ParameterValue, SecondOrder,
 };
 
+pub use repeated::RepeatedModel;
 #[cfg(feature = "study")]
 pub(crate) use second::InMoreDigits;
 pub use second::{Answered, Reference, SecondCalculation, Unchecked};

@@ -163,7 +163,7 @@ fn factor_records(study: &Study) -> Vec<FactorRecord> {
         distribution: serde_json::to_value(factor.distribution()).unwrap_or(Value::Null),
         nominal: factor.nominal,
     };
-    study.space.factors().iter().map(record).collect()
+    study.space.factors().iter().filter(|factor| !factor.distribution().is_noise()).map(record).collect()
 }
 
 fn aggregate_record(study: &Study, analysis: &Analysis) -> Option<AggregateRecord> {

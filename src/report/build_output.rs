@@ -6,8 +6,8 @@ use super::distribution::OutputDistribution;
 use super::records::{estimate_record, input_value};
 use super::result::{
     DependentRecord, DistributionRecord, EffectRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord,
-    IntervalRecord, LowUseRecord, OtherIndexRecord, OutputRecord, PairRecord, StageIndexRecord, StageRecord,
-    SubsetRecord, SurrogateRecord, SurrogateTermRecord,
+    IntervalRecord, LowUseRecord, MeanIndexRecord, NoiseRecord, OtherIndexRecord, OutputRecord, PairRecord,
+    StageIndexRecord, StageRecord, SubsetRecord, SurrogateRecord, SurrogateTermRecord,
 };
 use super::scatter::{FirstRows, scatter_record};
 use crate::analysis::{Analysis, FailureCount, OutputAnalysis, names_of_swaps, row_inputs};
@@ -15,7 +15,8 @@ use crate::estimate::{FirstOrder, Total};
 use crate::run::Place;
 use crate::study::Study;
 use crate::uncertainty::{
-    EffectEstimates, Estimate, Interval, OtherEstimates, OutputIndices, Stage, SurrogateTerm, SurrogateUse,
+    EffectEstimates, Estimate, Interval, MeanEstimates, NoiseIndices, OtherEstimates, OutputIndices, Stage,
+    SurrogateTerm, SurrogateUse,
 };
 
 /// What the records of all outputs are made from.
@@ -55,6 +56,7 @@ impl<'a> OutputRecords<'a> {
             groups: None,
             subsets: None,
             dummy: None,
+            noise: None,
             second_order: None,
             estimators: Vec::new(),
             surrogate: None,
@@ -84,7 +86,9 @@ fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices
         factor: factor.name.clone(),
         effect: effect_record(effect),
     };
-    record.indices = Some(factors.iter().zip(&indices.factors).map(of_factor).collect());
+    let known = factors.iter().zip(&indices.factors).filter(|(factor, _)| !factor.distribution().is_noise());
+    record.indices = Some(known.map(of_factor).collect());
+    record.noise = indices.noise.as_ref().map(|noise| noise_record(study, indices, noise));
     let of_group = |(group, effect): (crate::space::Group, &EffectEstimates)| GroupRecord {
         factors: names(&group.factors),
         group: group.name,
@@ -110,6 +114,27 @@ fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices
     record.surrogate = indices.surrogate.as_ref().map(|used| surrogate_record(study, used));
 }
 
+fn noise_record(study: &Study, indices: &OutputIndices, noise: &NoiseIndices) -> NoiseRecord {
+    let names = names_of_swaps(study).into_iter().zip(&noise.of_mean).take(indices.effects().count());
+    let real = names.take(study.layout().swaps() - usize::from(study.analysis.dummy));
+    let of_mean = real.filter_map(|(name, of)| {
+        let MeanEstimates { first_order, total } = of.as_ref().copied()?;
+        Some(MeanIndexRecord { name, first_order: first_order.map(estimate_record), total: total.map(estimate_record) })
+    });
+    NoiseRecord {
+        name: study.space.factors()[noise.factor].name.clone(),
+        effect: effect_record(&indices.factors[noise.factor]),
+        mean_share: estimate_record(noise.mean_share),
+        of_mean: of_mean.collect(),
+    }
+}
+
+/// What is told of all swaps without the noise, which is told of by itself.
+fn without_noise<T>(study: &Study, of_swaps: impl Iterator<Item = T>) -> Vec<T> {
+    let noise = study.space.noise();
+    of_swaps.enumerate().filter(|(swap, _)| Some(*swap) != noise).map(|(_, of)| of).collect()
+}
+
 fn surrogate_record(study: &Study, used: &SurrogateUse) -> SurrogateRecord {
     let factors = study.space.factors();
     let term = |term: &SurrogateTerm| SurrogateTermRecord {
@@ -130,7 +155,7 @@ fn surrogate_record(study: &Study, used: &SurrogateUse) -> SurrogateRecord {
         gain_first_order: used.gain_first_order,
         gain_total: used.gain_total,
         leading_terms: used.terms.iter().map(term).collect(),
-        plain: names_of_swaps(study).into_iter().zip(plain).map(of_swap).collect(),
+        plain: without_noise(study, names_of_swaps(study).into_iter().zip(plain).map(of_swap)),
         low: used.low.as_ref().map(|low| LowUseRecord {
             name: low.name.clone(),
             slope: low.slope,
@@ -156,7 +181,7 @@ fn estimator_records(study: &Study, indices: &OutputIndices) -> Vec<EstimatorRec
             estimator: estimator.name().to_owned(),
             first_order_source: first_order.map(FirstOrder::source).map(str::to_owned),
             total_source: total.map(Total::source).map(str::to_owned),
-            indices: names.iter().zip(indices.effects()).map(of_swap).collect(),
+            indices: without_noise(study, names.iter().zip(indices.effects()).map(of_swap)),
         }
     };
     estimators.map(record).collect()
@@ -172,7 +197,7 @@ fn stage_record(study: &Study, stage: &Stage, runs_per_point: u64) -> StageRecor
         base_samples: stage.base_samples,
         model_runs: stage.base_samples * runs_per_point,
         largest_half_width: stage.indices.largest_half_width(),
-        indices: study.space.factors().iter().zip(&stage.indices.factors).map(of_factor).collect(),
+        indices: without_noise(study, study.space.factors().iter().zip(&stage.indices.factors).map(of_factor)),
     }
 }
 

@@ -4,6 +4,7 @@
 //! only add keys. Numbers are in the unit that stands beside them; a number that does not exist is `null`.
 
 mod indices;
+mod noise;
 mod scatter;
 mod series;
 mod spending;
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::distribution::OutputDistribution;
 pub use indices::*;
+pub use noise::{MeanIndexRecord, NoiseRecord};
 pub use scatter::*;
 pub use series::*;
 pub use spending::{LowRecord, LowUseRecord, SpendingRecord};
@@ -212,6 +214,9 @@ pub struct OutputRecord {
     /// Indices of a factor that does nothing, if one was run along: the noise of the model.
     #[serde(default)]
     pub dummy: Option<EffectRecord>,
+    /// The noise of a stochastic model, which is none of the factors, and what is known of the mean over it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<NoiseRecord>,
     /// Second-order indices of all pairs of factors, if asked for.
     #[serde(default)]
     pub second_order: Option<Vec<PairRecord>>,

@@ -94,7 +94,8 @@ pub(super) fn scatter_record(
 ) -> Option<ScatterRecord> {
     let outputs: Vec<&[f64]> = output.samples.iter().map(Vec::as_slice).collect();
     let (factors, unit) = (space.factors(), &output.unit);
-    let chosen = largest(indices);
+    let known: Vec<usize> = (0..factors.len()).filter(|number| Some(*number) != space.noise()).collect();
+    let chosen: Vec<usize> = largest(indices).into_iter().map(|place| known[place]).collect();
     let points = rows.first(&outputs).into_iter().map(|(u, y)| {
         let x = chosen.iter().map(|&factor| factors[factor].distribution().quantile(u[factor]));
         x.chain([unit.from_si(y)]).collect::<Vec<_>>()

@@ -18,6 +18,8 @@ pub struct Pilot {
     pub startup: f64,
     /// Whether what it answered was not known to be in step with its rows in the end.
     pub is_out_of_step: bool,
+    /// Whether the first row had other outputs when it was run once more: known of models that take their time.
+    pub is_random: bool,
     /// Runs that failed in some output.
     pub failed: u64,
     /// Why the first of them did.
@@ -55,6 +57,7 @@ impl Pilot {
                     seconds: seconds * share,
                     startup: 0.0,
                     is_out_of_step: false,
+                    is_random: false,
                     failed: totals.iter().map(|totals| totals.failed_runs).sum(),
                     reason: first.map(|(reason, _)| reason.to_string()),
                 });
@@ -70,7 +73,8 @@ impl Pilot {
         const MOST: u64 = 4096;
         let Job { design, model, .. } = job;
         let (mut worker, mut batch, mut values) = (model.worker(context), Batch::new(model), RowValues::default());
-        let (mut failed, mut reason, mut is_out_of_step) = (0, None, false);
+        let (mut failed, mut reason, mut is_out_of_step, mut is_random) = (0, None, false, false);
+        let mut before: Option<Vec<u64>> = None;
         let mut timed = |rows: u64| {
             let columns = values.values(job, 0, 0..rows);
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
@@ -81,7 +85,10 @@ impl Pilot {
                 batch.reset(rows as usize);
             }
             let seconds = start.elapsed().as_secs_f64();
-            // Every piece begins with the first row, so that the last one has them all.
+            // Every piece begins with the first row, which a model that draws from nothing but its inputs answers alike.
+            let outputs: Vec<u64> = (0..batch.outputs()).map(|output| batch.column(output)[0].to_bits()).collect();
+            is_random |= before.replace(outputs.clone()).is_some_and(|before| before != outputs);
+            // So that the last one has them all.
             let rows: BTreeSet<usize> = batch.failures().iter().map(|(_, row, _)| *row).collect();
             failed = rows.len() as u64;
             reason = batch.failures().first().map(|(.., reason)| reason.to_string());
@@ -97,6 +104,6 @@ impl Pilot {
         }
         is_out_of_step |= worker.confirm() == Standing::Revoked;
         let whole = seconds * design.rows() as f64 / runs as f64 / workers as f64;
-        Ok(Self { runs, seconds: whole + startup, startup, is_out_of_step, failed, reason })
+        Ok(Self { runs, seconds: whole + startup, startup, is_out_of_step, is_random, failed, reason })
     }
 }

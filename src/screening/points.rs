@@ -45,6 +45,8 @@ enum Grid {
     Continuous,
     /// At given coordinates, of equal distance as far as effects are concerned.
     Levels(Vec<f64>),
+    /// Anywhere, of seeds: these have no distance, and every step is one.
+    Seeds,
 }
 
 impl Trajectories {
@@ -101,6 +103,7 @@ impl Trajectories {
                     let b = if (b - a).abs() < MIN_STEP { half_way_round(b) } else { b };
                     ([a, b], b - a)
                 }
+                Grid::Seeds => ([a, b], 1.0),
                 Grid::Levels(levels) => {
                     let count = levels.len();
                     let level = |u: f64| ((u * count as f64) as usize).min(count - 1);
@@ -128,6 +131,7 @@ impl Trajectories {
             let (u, step) = match grid {
                 // A factor that cannot move: its coordinate is of no account.
                 Grid::Continuous => ([0.5, 0.5], 1.0),
+                Grid::Seeds => ([0; 2].map(|_| rng.random_range(SMALLEST_U..=LARGEST_U)), 1.0),
                 Grid::Levels(levels) => {
                     let (count, stride) = (levels.len(), levels.len() / 2);
                     let from = rng.random_range(0..count);
@@ -154,6 +158,9 @@ fn half_way_round(u: f64) -> f64 {
 
 impl Grid {
     fn of(factor: &Factor, design: ScreeningDesign) -> Self {
+        if factor.distribution().is_noise() {
+            return Self::Seeds;
+        }
         if let Some(levels) = factor.distribution().levels() {
             let levels: Vec<f64> = levels.iter().map(|(_, u)| *u).collect();
             return if levels.len() < 2 { Self::Continuous } else { Self::Levels(levels) };

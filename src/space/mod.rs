@@ -121,6 +121,11 @@ impl Space {
         &self.factors
     }
 
+    /// The number of the factor that is the noise of a stochastic model, if there is one: that of its seeds.
+    pub fn noise(&self) -> Option<usize> {
+        self.factors.iter().position(|factor| factor.distribution.is_noise())
+    }
+
     /// The groups in order of first appearance.
     pub fn groups(&self) -> Vec<Group> {
         let mut groups: Vec<Group> = Vec::new();

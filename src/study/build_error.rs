@@ -78,7 +78,7 @@ pub enum BuildError {
     #[error(transparent)]
     Dependence(#[from] DependenceError),
     /// Something that needs independent factors.
-    #[error("{what}: not where factors depend on each other")]
+    #[error("{what}: not where factors depend on each other, or share the variance with a noise")]
     Dependent {
         /// What.
         what: &'static str,

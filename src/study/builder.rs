@@ -218,8 +218,12 @@ impl StudyBuilder {
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(self.sampler));
         let analysis = checked(analysis, self.sampler, space.factors().len())?;
         let space = space.with_dependences(self.dependences)?;
+        if space.noise().is_some() && analysis.shapley == Some(true) {
+            return Err(BuildError::Dependent { what: "Shapley effects beside the noise of a stochastic model" });
+        }
         if space.copula().is_some() {
             let refused = [
+                ("the noise of a stochastic model", space.noise().is_some()),
                 ("surrogate = \"on\"", analysis.surrogate == SurrogateChoice::On),
                 ("a target of accuracy, which chooses by surrogates (a half width does not)", self.target.is_free),
                 ("cheaper models", !self.lows.is_empty()),

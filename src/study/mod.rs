@@ -31,7 +31,7 @@ use crate::design::Design;
 use crate::model::Model;
 use crate::space::Space;
 use crate::surrogate::{FEWEST_NETS, fewest_points};
-use crate::uncertainty::{IntervalMethod, Layout};
+use crate::uncertainty::{IntervalMethod, Layout, NoiseLayout};
 #[cfg(feature = "charts")]
 pub(crate) use options::rows;
 use options::{MOST_AUTOMATIC_VALUES, MOST_AUTOMATIC_VALUES_OF_PROGRAMS, MOST_VALUES_OF_SERIES};
@@ -186,6 +186,7 @@ impl Study {
             second_order: self.analysis.second_order,
             dependent: self.space.copula().is_some(),
             shapley: self.analysis.has_shapley(&self.space),
+            noise: self.space.noise().map(|noise| NoiseLayout::new(noise, self.design.swaps())),
         }
     }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use crate::model::{Model, SecondCalculation};
+use crate::model::{Model, RepeatedModel, SecondCalculation};
 use crate::space::{Factor, Space};
 
 /// A model with its choices made, ready to be run on the factors of any space.
@@ -119,6 +119,48 @@ impl dyn Subject {
     /// The subject as a `T`, if it is one.
     pub fn downcast_ref<T: Subject>(&self) -> Option<&T> {
         (self as &dyn Any).downcast_ref()
+    }
+}
+
+/// A stochastic model, several runs of which make a row: see [`RepeatedModel`].
+#[derive(Debug)]
+#[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only study files ask for repetitions"))]
+pub(super) struct RepeatedSubject {
+    subject: Arc<dyn Subject>,
+    seed: usize,
+    repetitions: usize,
+}
+
+#[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only study files ask for repetitions"))]
+impl RepeatedSubject {
+    /// Of `subject`, whose factor number `seed` is its seed.
+    pub(super) fn new(subject: Arc<dyn Subject>, seed: usize, repetitions: usize) -> Self {
+        Self { subject, seed, repetitions }
+    }
+}
+
+impl Subject for RepeatedSubject {
+    fn name(&self) -> &'static str {
+        self.subject.name()
+    }
+
+    fn model(&self, space: &Space) -> Box<dyn Model> {
+        let model = Arc::from(self.subject.model(space));
+        Box::new(RepeatedModel::new(model, self.seed, self.repetitions))
+    }
+
+    fn settings(&self) -> Vec<(&'static str, Value)> {
+        let mut settings = self.subject.settings();
+        settings.push(("repetitions", Value::from(self.repetitions)));
+        settings
+    }
+
+    fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
+        self.subject.constants(space)
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        self.subject.files()
     }
 }
 

@@ -37,6 +37,8 @@ impl Family {
     /// That of a factor with this distribution.
     pub fn new(distribution: &Distribution) -> Self {
         match distribution {
+            // Nothing is smooth in a seed: no polynomials at all.
+            Distribution::Seed(_) => Self::Column(Box::default()),
             // Smooth in the logarithm, which is uniform.
             Distribution::Uniform(_) | Distribution::LogUniform(_) | Distribution::Empirical(_) => Self::Legendre,
             Distribution::Normal(_)

@@ -58,6 +58,7 @@ pub(super) fn local(
         | Distribution::Integer(_)
         | Distribution::Poisson(_)
         | Distribution::Categorical(_)
+        | Distribution::Seed(_)
         | Distribution::Constant(_) => None,
         _ => Some(Points::of(x, distribution)),
     };

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::Estimate;
 use super::concentration::Side;
-use super::estimates::Layout;
 use super::corrected::{Influenced, SurrogateEstimates, hull};
+use super::estimates::Layout;
 use super::influence::{Influences, LeftOut};
 use super::method::IntervalMethod;
 use super::noise::Noise;

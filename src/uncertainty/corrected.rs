@@ -1,6 +1,7 @@
 //! Indices corrected by a surrogate in the place of the plain ones, where their errors are smaller.
 
 use super::estimates::{Layout, Number};
+use super::mean;
 use super::net_decay::{PartInfluences, StandardError};
 use super::noise::Noise;
 use super::{Estimate, Interval};
@@ -213,6 +214,12 @@ impl SurrogateEstimates {
                 (false, false) => (),
             }
         }
+        let kinds = mean::Corrected {
+            first_order: corrects_first_order.then_some((&first_order, first)),
+            total: corrects_total.then_some((&all_total, total)),
+        };
+        let plain_first = |swap| plain[layout.place(swap, Number::FirstOrder)];
+        mean::corrected(layout, &kinds, (plain, errors), &plain_first, &mut |place, of| replacements.push((place, of)));
         if self.is_heavy_tailed {
             for (place, (estimate, error, parts)) in &mut replacements {
                 estimate.interval = hull(estimate.interval, plain[*place].interval);
@@ -268,15 +275,18 @@ fn indices(
         put(layout.place(swap, index), false, of);
     }
     for range in [factors, layout.factors..layout.factors + layout.groups] {
-        let all = sum(&list[range.clone()]);
+        // The noise of a stochastic model is no factor that has a share.
+        let noise = layout.noise.as_ref().map(|noise| noise.factor);
+        let sharing = range.filter(|swap| Some(*swap) != noise);
+        let all = Influenced::combined(&sharing.clone().map(|swap| (1.0, &list[swap])).collect::<Vec<_>>());
         if all.estimate > 0.0 {
-            let moving = range.filter(|swap| !settled[*swap]);
+            let moving = sharing.filter(|swap| !settled[*swap]);
             moving.for_each(|swap| put(layout.place(swap, share_of), true, &share(&list[swap], &all)));
         }
     }
 }
 
-fn replacement(noise: Noise, of: &Influenced) -> Replacement {
+pub(super) fn replacement(noise: Noise, of: &Influenced) -> Replacement {
     (noise.estimate(of), noise.error(of), of.parts.clone())
 }
 

@@ -1,6 +1,7 @@
 //! What is found of one output: indices of factors, groups and subsets, each with its interval.
 
 use super::corrected::SurrogateUse;
+use super::mean::NoiseIndices;
 use super::{Estimate, Interval};
 
 /// Indices of one output.
@@ -22,6 +23,8 @@ pub struct OutputIndices {
     pub second_order: Vec<Estimate>,
     /// What a surrogate did to them, if there was one.
     pub surrogate: Option<SurrogateUse>,
+    /// What is known of the mean over the noise, of a stochastic model.
+    pub noise: Option<NoiseIndices>,
 }
 
 impl OutputIndices {

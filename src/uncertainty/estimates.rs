@@ -25,6 +25,45 @@ pub struct Layout {
     pub dependent: bool,
     /// Whether there are Shapley effects of the factors.
     pub shapley: bool,
+    /// The noise of a stochastic model, if it has one; there are no Shapley effects then, nor dependent factors.
+    pub noise: Option<NoiseLayout>,
+}
+
+/// Which swaps say something of the mean of a stochastic model over its noise.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NoiseLayout {
+    /// The factor that is the noise.
+    pub factor: usize,
+    /// What each swap has to do with it.
+    pub swaps: Vec<BesideNoise>,
+}
+
+/// What a swap has to do with the noise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BesideNoise {
+    /// It holds the noise: the mean has no such index.
+    Holds,
+    /// It does not, and no other swap is the same with the noise: the mean has its first-order index alone.
+    Alone,
+    /// The swap of that number is the same with the noise: the mean has its total index too.
+    With(usize),
+}
+
+impl NoiseLayout {
+    /// That of swaps of these factors, each list ascending, where `factor` is the noise.
+    pub fn new(factor: usize, swaps: &[Vec<usize>]) -> Self {
+        let beside = |swap: &Vec<usize>| {
+            if swap.contains(&factor) {
+                return BesideNoise::Holds;
+            }
+            let mut joined = swap.clone();
+            joined.push(factor);
+            joined.sort_unstable();
+            let with = swaps.iter().position(|other| *other == joined).filter(|_| !swap.is_empty());
+            with.map_or(BesideNoise::Alone, BesideNoise::With)
+        };
+        Self { factor, swaps: swaps.iter().map(beside).collect() }
+    }
 }
 
 /// The numbers of one swap, in this order.
@@ -50,7 +89,7 @@ impl Layout {
     /// Factors only.
     pub fn plain(factors: usize) -> Self {
         let (groups, subsets, dummy, second_order, dependent, shapley) = Default::default();
-        Self { factors, groups, subsets, dummy, estimators: Vec::new(), second_order, dependent, shapley }
+        Self { factors, groups, subsets, dummy, estimators: Vec::new(), second_order, dependent, shapley, noise: None }
     }
 
     /// Number of factors, groups and subsets.
@@ -88,9 +127,21 @@ impl Layout {
         self.other(self.estimators.len(), 0)
     }
 
+    /// Place of the share of the variance that the mean over the noise has; of the mean's indices after it see
+    /// [`of_mean`](Self::of_mean).
+    pub(super) fn mean_share(&self) -> usize {
+        let pairs = self.factors * self.factors.saturating_sub(1) / 2;
+        self.pairs() + if self.second_order { pairs } else { 0 }
+    }
+
+    /// Place of the first-order index of swap `swap` of the mean over the noise; its total index comes next.
+    pub(super) fn of_mean(&self, swap: usize) -> usize {
+        self.mean_share() + 1 + 2 * swap
+    }
+
     /// Place of the Shapley effect of the first factor.
     pub(super) fn shapley(&self) -> usize {
-        self.pairs() + if self.second_order { self.factors * (self.factors - 1) / 2 } else { 0 }
+        self.mean_share() + self.noise.as_ref().map_or(0, |noise| 1 + 2 * noise.swaps.len())
     }
 
     /// The pairs of factors, in the order of their second-order indices.
@@ -106,7 +157,7 @@ impl Layout {
             let (first, last) = (Number::ShareFirstOrder as usize, Number::CheckGap as usize);
             (first..=last).contains(&((place - of_swaps.start) % PER_SWAP))
         } else {
-            of_others.contains(&place) && (place - of_others.start) % PER_ESTIMATOR >= 2 || place >= self.shapley()
+            of_others.contains(&place) && (place - of_others.start) % PER_ESTIMATOR >= 2 || place >= self.mean_share()
         };
         if difference { Side::Both } else { Side::Above }
     }
@@ -144,11 +195,24 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
         let single: Vec<f64> = (0..layout.factors).map(|factor| total[layout.redrawn(factor)]).collect();
         list.extend(shapley_effects(&single, &total[layout.swaps()..]));
     }
+    if let Some(noise) = &layout.noise {
+        // The mean has the variance V(E[y|x]) = V (1 - ST_noise), and all that the factors do without the noise.
+        let share = 1.0 - total[noise.factor];
+        let index = |part: f64| if share > 0.0 { part / share } else { f64::NAN };
+        list.push(share);
+        for (s, beside) in noise.swaps.iter().enumerate() {
+            list.extend(match *beside {
+                BesideNoise::Holds => [f64::NAN; 2],
+                BesideNoise::Alone => [index(first_order[s]), f64::NAN],
+                BesideNoise::With(joined) => [index(first_order[s]), index(total[joined] - total[noise.factor])],
+            });
+        }
+    }
     Some(list)
 }
 
-/// Shares in percent among the factors, and among the groups; NaN for subsets, which may overlap, for the dummy, and where
-/// factors depend on each other, so that their indices share out nothing.
+/// Shares in percent among the factors, and among the groups; NaN for subsets, which may overlap, for the dummy, for the noise, which
+/// is none of the factors, and where factors depend on each other, so that their indices share out nothing.
 fn all_shares(layout: &Layout, indices: &[f64]) -> Vec<f64> {
     if layout.dependent {
         return vec![f64::NAN; indices.len()];
@@ -156,5 +220,13 @@ fn all_shares(layout: &Layout, indices: &[f64]) -> Vec<f64> {
     let (factors, rest) = indices.split_at(layout.factors);
     let (groups, others) = rest.split_at(layout.groups);
     let of = |list: &[f64]| shares(list).unwrap_or_else(|| vec![f64::NAN; list.len()]);
-    [of(factors), of(groups), vec![f64::NAN; others.len()]].concat()
+    let mut known = factors.to_vec();
+    if let Some(noise) = &layout.noise {
+        known.remove(noise.factor);
+    }
+    let mut of_factors = of(&known);
+    if let Some(noise) = &layout.noise {
+        of_factors.insert(noise.factor, f64::NAN);
+    }
+    [of_factors, of(groups), vec![f64::NAN; others.len()]].concat()
 }

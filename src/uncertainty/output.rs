@@ -4,8 +4,9 @@ use super::by_points::{Bounds, ByPoints};
 use super::concentration::{Side, interval};
 use super::corrected::{Corrections, SurrogateEstimates, SurrogateUse};
 use super::effects::{EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
-use super::estimates::{Layout, Number, quantities};
+use super::estimates::{BesideNoise, Layout, Number, quantities};
 use super::influence::Influences;
+use super::mean::{MeanEstimates, NoiseIndices};
 use super::method::IntervalMethod;
 use super::net_decay::{PartInfluences, StandardError};
 use super::points::KeptPoints;
@@ -111,7 +112,10 @@ pub fn output_indices(
     let mut effects: Vec<EffectEstimates> = (0..layout.swaps())
         .map(|swap| {
             let mut effect = judged.effect(layout, swap, options.threshold);
-            effect.probability_first = first.as_ref().and_then(|first| first.get(swap).copied());
+            let noise = layout.noise.as_ref().map(|noise| noise.factor);
+            let place = if noise.is_some_and(|noise| noise < swap) { swap - 1 } else { swap };
+            let known = first.as_ref().filter(|_| noise != Some(swap) && swap < layout.factors);
+            effect.probability_first = known.and_then(|first| first.get(place).copied());
             effect
         })
         .collect();
@@ -127,8 +131,9 @@ pub fn output_indices(
     for (effect, shapley) in effects.iter_mut().zip(&judged.estimates[layout.shapley()..]) {
         effect.shapley = Some(*shapley);
     }
-    let second_order = judged.estimates[layout.pairs()..layout.shapley()].to_vec();
-    Ok(OutputIndices { factors: effects, groups, subsets, dummy, sum_first_order, sum_total, second_order, surrogate })
+    let second_order = judged.estimates[layout.pairs()..layout.mean_share()].to_vec();
+    let (factors, noise) = (effects, judged.noise(layout));
+    Ok(OutputIndices { factors, groups, subsets, dummy, sum_first_order, sum_total, second_order, surrogate, noise })
 }
 
 /// A list of quantities with all that is known of their errors.
@@ -218,15 +223,29 @@ impl Judged {
     }
 
     fn first(&self, layout: &Layout, seed: u64) -> Option<Vec<f64>> {
+        // The noise is no factor that could be the first.
+        let noise = layout.noise.as_ref().map(|noise| noise.factor);
+        let factors = (0..layout.factors).filter(|factor| Some(*factor) != noise);
         let place = |factor: usize| match layout.shapley {
             true => layout.shapley() + factor,
             false => layout.place(layout.redrawn(factor), Number::Total),
         };
-        let places: Vec<usize> = (0..layout.factors).map(place).collect();
+        let places: Vec<usize> = factors.map(place).collect();
         let estimates: Vec<f64> = places.iter().map(|&place| self.estimates[place].estimate).collect();
         let errors: Vec<StandardError> = places.iter().map(|&place| self.errors[place]).collect();
         let parts: Vec<&PartInfluences> = places.iter().map(|&place| &self.parts[place]).collect();
         probability_first(&estimates, &errors, &parts, seed)
+    }
+
+    fn noise(&self, layout: &Layout) -> Option<NoiseIndices> {
+        let noise = layout.noise.as_ref()?;
+        let of_mean = |(swap, beside): (usize, &BesideNoise)| {
+            let place = layout.of_mean(swap);
+            let [first_order, total] = [place, place + 1].map(|place| defined(self.estimates[place]));
+            (*beside != BesideNoise::Holds).then_some(MeanEstimates { first_order, total })
+        };
+        let of_mean = noise.swaps.iter().enumerate().map(of_mean).collect();
+        Some(NoiseIndices { factor: noise.factor, mean_share: self.estimates[layout.mean_share()], of_mean })
     }
 
     fn effect(&self, layout: &Layout, swap: usize, threshold: f64) -> EffectEstimates {

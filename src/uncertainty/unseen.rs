@@ -7,7 +7,7 @@
 //! moves the index by more than the range of the output allows. Only a factor that leaves the output unchanged in
 //! every row keeps an error of 0.
 
-use super::estimates::{Layout, Number};
+use super::estimates::{BesideNoise, Layout, Number};
 use super::net_decay::PartInfluences;
 use crate::estimate::Moments;
 
@@ -94,6 +94,20 @@ pub(super) fn unseen(layout: &Layout, moments: &Moments, values: &[f64]) -> Vec<
             let n = moments.swap(j).base.n.min(moments.swap(k).base.n);
             let rounding = ROUNDING * (total(j) * total(k)).sqrt();
             list[layout.pairs() + pair] = Unseen { half_width: bound(n, 1.0), rounding };
+        }
+    }
+    if let Some(noise) = &layout.noise {
+        let place = |swap: usize, number: Number| layout.place(swap, number);
+        let share = values[layout.mean_share()];
+        let over_share = |of: Unseen| Unseen { half_width: of.half_width / share, rounding: of.rounding / share };
+        list[layout.mean_share()] = list[place(noise.factor, Number::Total)];
+        for (swap, beside) in noise.swaps.iter().enumerate().filter(|_| share > 0.0) {
+            if *beside != BesideNoise::Holds {
+                list[layout.of_mean(swap)] = over_share(list[place(swap, Number::FirstOrder)]);
+            }
+            if let BesideNoise::With(joined) = *beside {
+                list[layout.of_mean(swap) + 1] = over_share(list[place(joined, Number::Total)]);
+            }
         }
     }
     list

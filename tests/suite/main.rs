@@ -35,6 +35,7 @@ mod metamorphic;
 #[cfg(feature = "mpi")]
 mod mpi;
 mod names;
+mod noise;
 mod page;
 mod points;
 mod remote_workers;

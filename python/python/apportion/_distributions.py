@@ -31,6 +31,7 @@ __all__ = [
     "Normal",
     "Pareto",
     "Poisson",
+    "Seed",
     "StudentT",
     "Triangular",
     "TruncatedGumbel",
@@ -199,6 +200,11 @@ def Exponential(
 def Poisson(mean: float, *, unit: str | None = None, group: str | None = None, nominal: Any = None) -> Factor:
     """A number of events: 0, 1, 2 and so on, with this mean."""
     return _factor("poisson", {"mean": mean}, unit, group, nominal)
+
+
+def Seed(*, nominal: Any = None) -> Factor:
+    """The seed of a stochastic model, a whole number from 0 to 2**31 - 1: the noise, which is none of the factors."""
+    return _factor("seed", {}, None, None, nominal)
 
 
 def StudentT(

@@ -196,6 +196,21 @@ class OutputResult:
         """Joint indices of the subsets asked for; first-order ones are closed indices."""
         return self._indices("subsets", kind)
 
+    @property
+    def noise(self) -> Mapping[str, Index] | None:
+        """Of a stochastic model the `first_order` and `total` index of its noise, and the `mean_share` of the variance that the
+        mean over the noise has."""
+        record = self.record.get("noise")
+        return record and {key: Index.of(record[key]) for key in ("first_order", "total", "mean_share")}
+
+    def of_mean(self, kind: str = "first_order") -> Indices:
+        """Indices of the mean over the noise, of its own variance; total ones where the joint index with the noise was asked for
+        (`subsets=[["x1", "seed"], ...]`)."""
+        if kind not in ("first_order", "total"):
+            raise ValueError(f'kind={kind!r}: expected "first_order" or "total"')
+        records = (self.record.get("noise") or {}).get("of_mean", [])
+        return Indices({record["name"]: Index.of(record[kind]) for record in records if record[kind] is not None})
+
     def _indices(self, of: str, kind: str) -> Indices:
         if kind not in ("first_order", "total"):
             raise ValueError(f'kind={kind!r}: expected "first_order" or "total"')

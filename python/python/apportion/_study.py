@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from . import _engine, _toml
-from ._distributions import Factor
+from ._distributions import Factor, Seed
 from ._engine import RunError, StudyError
 from ._executors import called_elsewhere
 from ._functions import Call
@@ -45,6 +45,8 @@ class Study:
     `model` is a function of Python, the name of a model of the engine ("ishigami", "afm", ...), or None if the outputs are
     computed elsewhere: see `sample` and `analyse`. `factors` maps names to distributions; a pair (min, max) is uniform.
 
+    `noise="seed"` gives a stochastic model a seed with every row, as its last argument or by that name.
+
     Keywords are the keys of a study file: `base_samples`, `sampler`, `replicates`, `seed`, `budget_runs`, `max_runs`,
     `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `estimators`, `intervals`, `surrogate`, `threshold`,
     `dummy`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
@@ -66,11 +68,14 @@ class Study:
         accuracy: float | None = None,
         target: float | None = None,
         budget: float | None = None,
+        noise: str | None = None,
         **options: Any,
     ):
         if isinstance(outputs, str):
             outputs = [outputs]
         made = {key: Factor.of(value) for key, value in (factors or {}).items()}
+        if noise is not None:
+            made[noise] = Seed()
         table: dict[str, Any] = {"name": name, "title": title, "accuracy": accuracy}
         design = {key: options.pop(key, None) for key in _DESIGN}
         design |= {"target": None if target is None else {"half_width": target}}

@@ -20,10 +20,12 @@ const VISIBLE: f64 = 0.02;
 /// total index on top. Of more than 30 factors, the first 30.
 pub fn indices_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let indices: Vec<&IndexRecord> = output.indices.iter().flatten().collect();
-    let factors = indices.iter().map(|index| label(&index.factor)).collect();
-    let first_order = indices.iter().map(|index| Some(index.effect.first_order)).collect();
-    let total = indices.iter().map(|index| Some(index.effect.total)).collect();
-    let keys: Vec<f64> = indices.iter().map(|index| index.effect.weight().estimate).collect();
+    let names = indices.iter().map(|index| label(&index.factor));
+    let names = names.chain(output.noise.iter().map(|noise| format!("noise ({})", label(&noise.name))));
+    let effects = || indices.iter().map(|index| &index.effect).chain(output.noise.iter().map(|noise| &noise.effect));
+    let (factors, first_order) = (names.collect(), effects().map(|effect| Some(effect.first_order)).collect());
+    let total = effects().map(|effect| Some(effect.total)).collect();
+    let keys: Vec<f64> = effects().map(|effect| effect.weight().estimate).collect();
     let mut series = both_orders(first_order, total);
     if indices.iter().any(|index| index.effect.dependent.is_some()) {
         let names = ["first order: with all that it tells of others", "total: what it has on its own"];
@@ -89,7 +91,8 @@ fn indices_caption(output: &OutputRecord) -> String {
     let Some(mut caption) = decides_most(&contenders, &the(&output.name)) else { return no_indices(output) };
     // A sum below one of its parts, or one that may be 0, says nothing but that the errors are large.
     let largest = indices().map(|index| index.effect.first_order.estimate).fold(0.0, f64::max);
-    let sum = output.sum_first_order.filter(|sum| sum.estimate >= largest && sum.low.is_none_or(|low| low > 0.0));
+    let sum = output.sum_first_order.filter(|_| output.noise.is_none());
+    let sum = sum.filter(|sum| sum.estimate >= largest && sum.low.is_none_or(|low| low > 0.0));
     if let Some(sum) = sum {
         caption.push_str(&format!("; all factors alone explain {}", percent(sum.estimate)));
     }

@@ -72,7 +72,8 @@ pub(super) fn answer(result: &ResultFile, output: &OutputRecord) -> String {
     let order: Vec<&IndexRecord> = order.into_iter().map(|(_, index)| index).collect();
     let tied = tied(&order);
     let first = if tied.len() > 1 { tie(output, &order, &tied) } else { leader(output, &order) };
-    let sentences = [first, others(result, &order, &tied), interactions(output.sum_first_order)];
+    let sentences =
+        [first, others(result, &order, &tied), super::noise::sentence(result, output), interactions(output)];
     sentences.into_iter().filter(|sentence| !sentence.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
@@ -183,8 +184,21 @@ fn others(result: &ResultFile, order: &[&IndexRecord], tied: &[usize]) -> String
 /// A share of the variance that an interval must exclude before interactions count as absent.
 const VISIBLE: f64 = 0.1;
 
-/// How much of the variance no factor accounts for alone.
-pub(super) fn interactions(sum_first_order: Option<EstimateRecord>) -> String {
+/// How much of the variance no factor, nor the noise, accounts for alone.
+pub(super) fn interactions(output: &OutputRecord) -> String {
+    let text = of_interactions(output.sum_first_order);
+    match &output.noise {
+        None => text,
+        Some(_) => text
+            .replace(
+                "Interactions of the factors account",
+                "Interactions of the factors with each other or the noise account",
+            )
+            .replace("first-order indices sum", "first-order indices, that of the noise among them, sum"),
+    }
+}
+
+fn of_interactions(sum_first_order: Option<EstimateRecord>) -> String {
     let Some(sum) = sum_first_order else { return String::new() };
     let rest = EstimateRecord {
         estimate: 1.0 - sum.estimate,
@@ -274,16 +288,16 @@ mod tests {
     #[test]
     fn interactions_are_what_the_factors_alone_leave() {
         assert_eq!(
-            interactions(sum(0.60, 0.62)),
+            of_interactions(sum(0.60, 0.62)),
             "Interactions of the factors account for 39 % (38 to 40 %) of the variance."
         );
-        assert!(interactions(sum(0.99, 1.01)).starts_with("No interactions are seen"));
-        assert!(interactions(sum(1.01, 1.03)).contains("beyond 1"));
-        assert!(interactions(sum(0.01, 1.0)).starts_with("How much of the variance is interaction is open"));
+        assert!(of_interactions(sum(0.99, 1.01)).starts_with("No interactions are seen"));
+        assert!(of_interactions(sum(1.01, 1.03)).contains("beyond 1"));
+        assert!(of_interactions(sum(0.01, 1.0)).starts_with("How much of the variance is interaction is open"));
         let alone = Some(EstimateRecord { estimate: 0.6, low: None, high: None });
-        assert!(interactions(alone).contains("some 40.0 % of the variance"));
+        assert!(of_interactions(alone).contains("some 40.0 % of the variance"));
         let beyond = Some(EstimateRecord { estimate: 1.127, low: None, high: None });
-        assert!(interactions(beyond).starts_with("No interactions are seen: the first-order indices sum to 1.127;"));
-        assert_eq!(interactions(None), "");
+        assert!(of_interactions(beyond).starts_with("No interactions are seen: the first-order indices sum to 1.127;"));
+        assert_eq!(of_interactions(None), "");
     }
 }

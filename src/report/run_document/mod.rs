@@ -2,6 +2,7 @@
 
 mod figures;
 mod lead;
+mod noise;
 mod output;
 mod overview;
 mod series;

@@ -2,6 +2,7 @@
 
 use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, Numbered, SCATTER, SHARES};
 use super::lead::{by_total, widest};
+use super::noise::noise;
 use super::tables;
 use crate::report::document::Part;
 use crate::report::format::{
@@ -29,6 +30,7 @@ pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> 
     if of.output.indices.is_some() {
         topics.push(topic("shares", "Shares", shares(figures, of)));
         topics.push(topic("indices", "Indices", indices(figures, of)));
+        topics.push(topic("noise", "The noise", noise(figures.result, of.output)));
         topics.push(topic("interactions", "Interactions", interactions(figures, of)));
         topics.push(topic("convergence", "How the indices settled", convergence(figures, of)));
     }
@@ -211,7 +213,7 @@ fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let output = of.output;
     let is_dependent = !figures.result.study.dependences.is_empty();
     let Some(order) = by_total(output).filter(|order| order.len() > 1 && !is_dependent) else { return Vec::new() };
-    let mut text = super::lead::interactions(output.sum_first_order);
+    let mut text = super::lead::interactions(output);
     let difference = |index: &IndexRecord| index.effect.interaction.map_or(f64::NEG_INFINITY, |i| i.estimate);
     let most = order.iter().map(|(_, index)| *index).max_by(|a, b| difference(a).total_cmp(&difference(b)));
     if let Some((most, gap)) = most.and_then(|most| Some((most, most.effect.interaction?)))

@@ -1,6 +1,7 @@
 //! The tables of one output, and the files of CSV that hold more than they show.
 
 use super::lead::by_total;
+use super::noise::label;
 use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, Field, fields};
 use crate::report::document::{Cell, Column, Part, Table, Value, csv};
@@ -11,7 +12,7 @@ use crate::report::result::{
 };
 
 /// Most factors in a table; the files have all of them.
-const FACTORS: usize = 50;
+pub(super) const FACTORS: usize = 50;
 /// Most pairs of factors.
 const PAIRS: usize = 20;
 /// Quantiles in the table, in percent; the JSON file has more.
@@ -27,7 +28,7 @@ const FACTORS_OF_ESTIMATORS: usize = 20;
 const OF_ONE_OUTPUT: usize = 7;
 
 /// `which` of how many are shown, if not all.
-fn largest(shown: usize, all: usize, what: &str) -> String {
+pub(super) fn largest(shown: usize, all: usize, what: &str) -> String {
     if shown < all { format!(" The {shown} largest of {all} {what}.") } else { String::new() }
 }
 
@@ -42,8 +43,11 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part
     let indices = output.indices.iter().flatten();
     let rows =
         indices.map(|index| effect_row((&output.name, "factor"), (name(&index.factor), &index.factor), &index.effect));
+    let noise = output.noise.as_ref();
+    let of_noise = noise.map(|noise| effect_row((&output.name, "noise"), (label(noise), &noise.name), &noise.effect));
     let sum = |sum: Option<EstimateRecord>| sum.map_or_else(Cell::default, Cell::from);
-    let mut sums: Vec<Cell> = vec![Cell::default(), Cell::default(), "sum of all factors".into()];
+    let all = if noise.is_some() { "sum of all factors and the noise" } else { "sum of all factors" };
+    let mut sums: Vec<Cell> = vec![Cell::default(), Cell::default(), all.into()];
     sums.extend([sum(output.sum_first_order), sum(output.sum_total)]);
     let (what, order_of) = match output.indices.iter().flatten().any(|index| index.effect.dependent.is_some()) {
         true => ("First-order and total indices of dependent factors", "what they are ranked by"),
@@ -53,8 +57,11 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part
         "{what}, each with the half width of its 95 % interval, in the order of {order_of}.{}",
         largest(order.len().min(FACTORS), order.len(), "factors, all in the CSV file")
     );
-    let printed = places(&order, FACTORS);
-    let table = effect_table(result, caption, "factor").with_rows(rows);
+    let mut printed = places(&order, FACTORS);
+    if let (Some(printed), Some(_)) = (&mut printed, noise) {
+        printed.push(order.len());
+    }
+    let table = effect_table(result, caption, "factor").with_rows(rows.chain(of_noise));
     match output.sum_first_order.is_some() || output.sum_total.is_some() {
         true => sums.resize(table.columns.len(), Cell::default()),
         // Indices of dependent factors sum to nothing.

@@ -223,6 +223,7 @@ fn notes(study: &Study) -> Vec<String> {
                 | Distribution::Integer(_)
                 | Distribution::Poisson(_)
                 | Distribution::Categorical(_)
+                | Distribution::Seed(_)
                 | Distribution::Constant(_)
         )
     });

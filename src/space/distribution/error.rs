@@ -253,8 +253,8 @@ pub enum DistributionError {
         /// How many weights.
         weights: usize,
     },
-    /// Labels, which have no order, cannot be truncated, nor be a part of a mixture.
-    #[error("{} distribution has labels, which have no order: it cannot be {what}", named(.distribution))]
+    /// Labels and seeds, which have no order, cannot be truncated, nor be a part of a mixture.
+    #[error("{} distribution has {}, which have no order: it cannot be {what}", named(.distribution), unordered(.distribution))]
     NoOrder {
         /// The name of the family.
         distribution: &'static str,
@@ -289,6 +289,12 @@ pub enum DistributionError {
         /// What is wrong.
         found: String,
     },
+    /// Seeds of a stochastic model are pure numbers.
+    #[error("a seed is a pure number, and cannot be in {unit}: leave the unit out")]
+    UnitOfSeed {
+        /// The unit.
+        unit: String,
+    },
     /// Ratios of values have no meaning in a unit whose zero is not that of SI.
     #[error("{} distribution cannot be in {unit}, whose 0 is not that of SI: state it in {absolute}", named(.distribution))]
     OffsetUnit {
@@ -305,6 +311,11 @@ pub enum DistributionError {
 fn named(distribution: &str) -> String {
     let article = if distribution.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
     format!("{article} {distribution}")
+}
+
+/// What a family without an order has for values.
+fn unordered(distribution: &str) -> &'static str {
+    if distribution == "seed" { "seeds" } else { "labels" }
 }
 
 /// Refuses a unit with an offset, such as `degC`, to a family that is made of ratios.

@@ -53,7 +53,7 @@ impl Distribution {
         if let Some((index, &value)) = weights.iter().enumerate().find(|(_, weight)| **weight < 0.0) {
             return Err(DistributionError::NegativeWeight { index, value });
         }
-        if let Some(labelled) = components.iter().find(|component| component.labels().is_some()) {
+        if let Some(labelled) = components.iter().find(|component| component.has_no_order()) {
             return Err(DistributionError::NoOrder { distribution: labelled.name(), what: "a part of a mixture" });
         }
         let total: f64 = weights.iter().sum();

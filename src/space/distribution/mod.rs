@@ -28,6 +28,7 @@ mod normal;
 mod pareto;
 mod poisson;
 mod quadrature;
+mod seed;
 mod solve;
 mod stated;
 mod student_t;
@@ -64,6 +65,8 @@ pub use normal::Normal;
 pub(super) use normal::{standard_below, standard_quantile};
 pub use pareto::Pareto;
 pub use poisson::Poisson;
+pub use seed::Seed;
+pub(crate) use seed::{mixed, seed_of};
 pub use stated::{Law, Statistic};
 pub use student_t::StudentT;
 pub use triangular::Triangular;
@@ -145,6 +148,8 @@ pub enum Distribution {
     Categorical(Categorical),
     /// See [`Distribution::empirical`].
     Empirical(Empirical),
+    /// See [`Distribution::seed`].
+    Seed(Seed),
     /// See [`Distribution::constant`].
     Constant(Constant),
 }
@@ -177,6 +182,7 @@ macro_rules! each {
             Distribution::Integer($family) => $body,
             Distribution::Categorical($family) => $body,
             Distribution::Empirical($family) => $body,
+            Distribution::Seed($family) => $body,
             Distribution::Constant($family) => $body,
         }
     };
@@ -187,7 +193,8 @@ impl Distribution {
     ///
     /// Finite from [`SMALLEST_U`] to [`LARGEST_U`], inside [`support`](Self::support), and non-decreasing: exactly
     /// so for the uniform, triangular, discrete, integer, Poisson, categorical, empirical and constant distributions, else up
-    /// to the last few bits of the result. Outside (0, 1) it means nothing, but does not panic.
+    /// to the last few bits of the result; the [`seed`](Self::seed)s of a stochastic model have no order. Outside (0, 1) it
+    /// means nothing, but does not panic.
     pub fn quantile(&self, u: f64) -> f64 {
         each!(self, family => family.quantile(u))
     }
@@ -236,9 +243,14 @@ impl Distribution {
         }
     }
 
-    /// Whether its values are whole numbers, one by one: of an integer or a Poisson distribution.
+    /// Whether its values are whole numbers, one by one: of an integer or a Poisson distribution, and of seeds.
     pub fn is_whole(&self) -> bool {
-        matches!(self, Self::Integer(_) | Self::Poisson(_))
+        matches!(self, Self::Integer(_) | Self::Poisson(_) | Self::Seed(_))
+    }
+
+    /// Whether its values are the seeds of a stochastic model: the factor is the noise, and no input that anybody knows.
+    pub fn is_noise(&self) -> bool {
+        matches!(self, Self::Seed(_))
     }
 
     /// Whether values come close to the lower end of the support without reaching it.
@@ -264,6 +276,11 @@ impl Distribution {
             Self::Categorical(categorical) => Some(categorical.labels()),
             _ => None,
         }
+    }
+
+    /// Whether one value is no more than another: of labels and seeds.
+    fn has_no_order(&self) -> bool {
+        self.labels().is_some() || self.is_noise()
     }
 
     /// The label that `value` stands for, in a categorical or boolean distribution.

@@ -59,7 +59,7 @@ impl Distribution {
         if min.is_nan() || max.is_nan() || min > max {
             return Err(DistributionError::TruncationBounds { min, max });
         }
-        if self.labels().is_some() {
+        if self.has_no_order() {
             return Err(DistributionError::NoOrder { distribution, what: "truncated" });
         }
         let (low, high) = self.support();

@@ -110,6 +110,10 @@ fn shapley(context: &Context<'_>, section: &AnalysisSection, space: &Space) -> R
         let expected = format!("false: Shapley effects are those of at most {MAX_SHAPLEY_FACTORS} factors");
         return Err(context.fault(asked.span(), wrong("shapley", &expected, format!("true with {factors} factors"))));
     }
+    if *asked.get_ref() && space.noise().is_some() {
+        let expected = "false: the noise of a stochastic model is no factor that could have a share";
+        return Err(context.fault(asked.span(), wrong("shapley", expected, "true".to_owned())));
+    }
     Ok(Some(*asked.get_ref()))
 }
 

@@ -27,6 +27,10 @@ pub(super) fn dependent(context: &Context<'_>, file: &StudyFile, space: Space) -
         );
         return Err(context.fault(span, wrong(key, &expected, format!("`{key}`"))));
     }
+    if space.noise().is_some() {
+        let expected = "nothing beside the noise of a stochastic model: what is known of the mean over it holds for independent factors";
+        return Err(context.fault(first.span(), wrong("dependence", expected, "a dependence".to_owned())));
+    }
     let surrogate = file.analysis.surrogate.as_ref();
     if let Some(asked) = surrogate.filter(|asked| asked.get_ref() == SurrogateChoice::On.name()) {
         let expected = "\"off\" where factors depend on each other: the polynomials need independent ones";

@@ -3,7 +3,7 @@
 use super::context::{Context, Fault};
 use super::error::Problem;
 use super::sections::{At, DesignSection, StudyFile};
-use super::{analysis, context::choice, fidelity};
+use super::{analysis, context::choice, fidelity, noise};
 use crate::design::{Design, DesignError, DesignSettings, Sampler};
 use crate::space::Space;
 use crate::study::options::{rows, split_design};
@@ -26,7 +26,12 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
         None => defaults.sampler,
         Some(name) => choice(context, name, "sampler", &Sampler::ALL, Sampler::name)?,
     };
-    let analysis = analysis::analysis(context, &file.analysis, sampler, space)?;
+    let mut analysis = analysis::analysis(context, &file.analysis, sampler, space)?;
+    for subset in noise::subsets_of_mean(file, space) {
+        if !analysis.subsets.contains(&subset) {
+            analysis.subsets.push(subset);
+        }
+    }
     let target = analysis::target(context, section, sampler)?;
     let target = fidelity::accuracy(context, file, (target, sampler))?;
     let or = |value: &Option<At<u64>>, default| value.as_ref().map_or(default, |value| *value.get_ref());

@@ -182,6 +182,7 @@ impl Keys<'_> {
                 }
                 None => Distribution::empirical(&self.list("values")?, None),
             },
+            "seed" => Ok(Distribution::seed()),
             _ => Distribution::constant(self.number("value")?),
         })
     }
@@ -332,6 +333,7 @@ fn blamed_key(error: &DistributionError) -> Option<&'static str> {
         | DistributionError::ZeroWeights => Some("weights"),
         DistributionError::Overflow { .. }
         | DistributionError::Determined { .. }
+        | DistributionError::UnitOfSeed { .. }
         | DistributionError::OffsetUnit { .. } => None,
     }
 }

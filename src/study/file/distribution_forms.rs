@@ -3,7 +3,7 @@
 use crate::space::distribution::Law;
 
 /// How each distribution is written, the default first.
-pub(super) const FORMS: [Form; 25] = [
+pub(super) const FORMS: [Form; 26] = [
     Form { name: "uniform", own: &["min", "max"], takes: Takes::Law(Law::Uniform) },
     Form { name: "log-uniform", own: &["min", "max"], takes: Takes::Law(Law::LogUniform) },
     Form { name: "normal", own: &["mean", "sd"], takes: Takes::Law(Law::Normal) },
@@ -52,6 +52,7 @@ pub(super) const FORMS: [Form; 25] = [
         own: &[],
         takes: Takes::Keys("values, or file, a table in CSV, and its column (where it has several)"),
     },
+    Form { name: "seed", own: &[], takes: Takes::Keys("nothing: it is the noise of a stochastic model") },
     Form { name: "constant", own: &[], takes: Takes::Keys("value") },
 ];
 

@@ -19,6 +19,7 @@ pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result
         *value.get_mut() = DeValue::Array(DeArray::from_iter([Spanned::new(value.span(), one)]));
     }
     factors(context, root)?;
+    noise(context, root)?;
     distributions(context, root)?;
     outputs_above(context, root)?;
     outputs_below(context, root)?;
@@ -81,6 +82,47 @@ fn by_order<'a>(context: &Context<'_>, table: DeTable<'a>) -> Result<Vec<Spanned
         factors.push(value);
     }
     Ok(factors)
+}
+
+/// `noise = "seed"`, or a table: one more factor, the last one, of the distribution `seed`.
+fn noise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
+    const NAME: &str = "seed";
+    let Some(value) = root.get_mut("noise") else { return Ok(()) };
+    let span = value.span();
+    let name = match value.get_mut() {
+        DeValue::String(_) => {
+            let name = std::mem::replace(value.get_mut(), DeValue::Table(DeTable::new()));
+            Spanned::new(span, name)
+        }
+        DeValue::Table(table) => match table.get("name") {
+            Some(name) if name.get_ref().is_str() => Spanned::new(
+                name.span(),
+                DeValue::String(Cow::Owned(name.get_ref().as_str().unwrap_or(NAME).to_owned())),
+            ),
+            // What is no text is told of by the reader.
+            Some(_) => return Ok(()),
+            None => Spanned::new(span, DeValue::String(Cow::Borrowed(NAME))),
+        },
+        other => {
+            let expected = "the name under which the model gets its seed, as in noise = \"seed\", or a table [noise]";
+            return Err(context.fault(span, wrong("noise", expected, type_of(other))));
+        }
+    };
+    let place = name.span();
+    let law = Spanned::new(place.clone(), DeValue::String(Cow::Borrowed("seed")));
+    let table = DeTable::from_iter([(key("name", place.clone()), name), (key("distribution", place.clone()), law)]);
+    let factor = Spanned::new(place.clone(), DeValue::Table(table));
+    match root.get_mut("factor").map(Spanned::get_mut) {
+        Some(DeValue::Array(factors)) => factors.push(factor),
+        Some(_) => (),
+        None => {
+            root.insert(
+                key("factor", place.clone()),
+                Spanned::new(place, DeValue::Array(DeArray::from_iter([factor]))),
+            );
+        }
+    }
+    Ok(())
 }
 
 /// Components of mixtures get the name of their factor, after which messages are told; what is another factor where a number

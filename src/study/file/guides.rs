@@ -50,6 +50,8 @@ pub(super) fn command() -> String {
          outputs.force = { file = \"beam.out\", regex = 'force = (\\S+)', unit = \"nN\" }\n  \
          outputs.time = { file = \"history.csv\", column = \"t\", match = \"last\" }\n  \
          outputs.mass = { file = \"result.json\", pointer = \"/beam/mass\" }\n\n\
+         A program that draws random numbers gets a seed with every row, like a factor, by a line above the first table\n\
+         (docs/stochastic-models.md):\n\n  noise = \"seed\"\n\n\
          docs/worker-protocol.md has it in full, with what happens when a program dies, hangs, or prints rubbish.\n"
         .to_owned()
 }

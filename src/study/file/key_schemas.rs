@@ -4,6 +4,7 @@ use schemars::{Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
 use super::distribution_forms::FORMS;
+use super::sections::NoiseSection;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
 use crate::design::Sampler;
 use crate::estimate::Estimator;
@@ -96,6 +97,12 @@ pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
         properties.insert(parameter.name.to_owned(), json!({ "type": kinds, "description": description }));
     }
     object(properties)
+}
+
+/// `noise`: the name of the seed, or a table.
+pub(super) fn noise(generator: &mut SchemaGenerator) -> Schema {
+    let table = generator.subschema_for::<NoiseSection>();
+    schemars::json_schema!({ "anyOf": [{ "type": "string" }, table] })
 }
 
 /// `[function]`: the parameters of all functions.

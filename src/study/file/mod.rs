@@ -21,6 +21,7 @@ mod key_schemas;
 mod measured;
 mod models;
 mod names;
+mod noise;
 mod nominal;
 mod overrides;
 mod read;

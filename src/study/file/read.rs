@@ -64,7 +64,8 @@ fn meant_elsewhere(name: &str) -> Option<String> {
 
 /// The deserialiser's message without the names of Rust types.
 fn in_words(message: &str) -> String {
-    const WORDS: [(&str, &str); 14] = [
+    const WORDS: [(&str, &str); 15] = [
+        ("expected struct NoiseSection", "expected a table [noise]"),
         ("expected f64", "expected a number"),
         ("expected u64", "expected a whole number from 0 to 9223372036854775807"),
         ("expected struct DesignSection", "expected a table [design]"),

@@ -6,7 +6,7 @@ use super::error::Problem;
 use super::models::{ModelTable, Reading, TABLES, table_of};
 use super::sections::{At, FactorSection, StudyFile};
 use super::units::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_unit};
-use super::{distribution, names, nominal, read};
+use super::{distribution, names, noise, nominal, read};
 use crate::design::{DesignError, MAX_FACTORS};
 use crate::model::{Input, ModelKind};
 use crate::names::{NAME_RULE, file_part, names_files, shown};
@@ -29,6 +29,7 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let space = space(context, &(table.inputs)(&reading)?, &file.factor)?;
     let space = super::dependence::dependent(context, &file, space)?;
     let (subject, unused) = (table.subject)(&reading, &space)?;
+    let subject = noise::repeated(context, &file, subject, &space)?;
     names::refuse_output_names(context, &*subject, &space)?;
     refuse_outputs_of_factors(context, &*subject, (&space, &file.factor))?;
     let Plan { design, analysis, target, mut notes } =
@@ -116,6 +117,7 @@ fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]
         }
         factors.push(factor(context, section, input)?);
     }
+    noise::refuse(context, &factors, sections)?;
     Ok(Space::new(factors))
 }
 

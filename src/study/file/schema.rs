@@ -36,6 +36,7 @@ pub(super) fn table_of(key: &str) -> Option<&'static str> {
         ("DesignSection", "in the table [design]"),
         ("AnalysisSection", "in the table [analysis]"),
         ("FactorSection", "in the table [[factor]] of a factor"),
+        ("NoiseSection", "in the table [noise]"),
         ("CommandSection", "in the table [command]"),
         ("ExpressionSection", "in the table [expression]"),
     ];

@@ -45,6 +45,10 @@ pub(super) struct StudyFile {
     /// The program that is the model: itself with its arguments, or a table of these and more.
     #[serde(default)]
     pub command: Option<At<CommandKey>>,
+    /// The noise of a stochastic model: the name under which it gets a seed with every row, or a table.
+    #[serde(default)]
+    #[schemars(schema_with = "key_schemas::noise")]
+    pub noise: Option<At<NoiseSection>>,
     /// How well the indices must be known: the half width that the 95 % interval of every first-order and total index must
     /// reach. The run chooses its design, surrogates and cheaper models by itself.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -130,6 +134,21 @@ pub(super) enum Correlation {
     Pairs(f64),
     /// The whole matrix.
     Matrix(Vec<Vec<f64>>),
+}
+
+/// The noise of a stochastic model.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct NoiseSection {
+    /// The name under which the model gets its seed, a whole number from 0 to 2^31 - 1; "seed" by default.
+    #[serde(rename = "name")]
+    pub _name: Option<At<String>>,
+    /// Runs of each row with seeds of their own: the outputs are then the mean and the variance over them.
+    #[schemars(range(min = 1, max = 1000), extend("default" = 1))]
+    pub repetitions: Option<At<u64>>,
+    /// Whether total indices of the mean over the noise are asked for: one more run for each factor.
+    #[schemars(extend("default" = false))]
+    pub mean_totals: Option<At<bool>>,
 }
 
 /// The points at which the model runs.

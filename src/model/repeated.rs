@@ -1,0 +1,234 @@
+//! A stochastic model run several times at every row: mean and variance over its noise.
+
+use std::sync::Arc;
+
+use super::{Batch, Counter, Flag, Model, Output, RunContext, Standing, Worker};
+use crate::quantity::Unit;
+use crate::space::distribution::{mixed, seed_of};
+
+/// The mean and the variance of the outputs of a stochastic model over a few runs of each row, with seeds of their own.
+///
+/// In the place of every output `y` there are `y_mean` and `y_variance` (with the divisor n - 1, hence without bias), in this
+/// order. Both still vary with the noise, the less the more runs there are; as the noise is a factor, its indices say how
+/// much.
+///
+/// ```
+/// use std::sync::Arc;
+/// use apportion::{Distribution, Model, RepeatedModel, Study, function_model};
+///
+/// let die = |seed: f64| (seed % 6.0) + 1.0;
+/// let model = Arc::new(function_model("y", move |x| x[0] + die(x[1])));
+/// let study = Study::builder("dice", RepeatedModel::new(model, 1, 8))
+///     .factor("x", Distribution::uniform(0.0, 1.0)?)
+///     .factor("seed", Distribution::seed())
+///     .base_samples(256)
+///     .build()?;
+/// assert_eq!(study.model().outputs()[1].name, "y_variance");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct RepeatedModel {
+    model: Arc<dyn Model>,
+    outputs: Vec<Output>,
+    seed: usize,
+    repetitions: usize,
+}
+
+impl RepeatedModel {
+    /// Of `model`, whose input number `seed` is its seed, so many runs for each row; fewer than 2 are 2.
+    pub fn new(model: Arc<dyn Model>, seed: usize, repetitions: usize) -> Self {
+        let of_output = |output: &Output| {
+            let mean = Output::new(format!("{}_mean", output.name), output.unit.clone(), "mean over the noise");
+            let variance = format!("{}_variance", output.name);
+            [mean, Output::new(variance, square(&output.unit), "variance over the noise")]
+        };
+        let outputs = model.outputs().iter().flat_map(of_output).collect();
+        Self { model, outputs, seed, repetitions: repetitions.max(2) }
+    }
+}
+
+/// The square of a unit, for variances; of one that is only a label, a label.
+fn square(unit: &Unit) -> Unit {
+    let symbol = unit.symbol();
+    match symbol {
+        "1" => Unit::dimensionless(),
+        _ if unit.has_offset() => Unit::label("K^2"),
+        _ => {
+            let one = symbol.chars().all(char::is_alphabetic).then(|| format!("{symbol}^2"));
+            // A product has no place below "/".
+            let mut parts = symbol.split('/').map(str::trim);
+            let above = parts.next().map(|part| format!("{part}*{part}"));
+            let below: String = parts.map(|part| format!("/{part}/{part}")).collect();
+            let texts = one.into_iter().chain(above.map(|above| above + &below));
+            let (zero, step) = (unit.to_si(0.0), unit.to_si(1.0));
+            let is_square = |square: &Unit| square.to_si(0.0) == zero && same(square.to_si(1.0), step * step);
+            let known = texts.filter_map(|text| Unit::parse(&text).ok()).find(is_square);
+            known.unwrap_or_else(|| Unit::label(&format!("({symbol})^2")))
+        }
+    }
+}
+
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-12 * b.abs()
+}
+
+/// The seed of repetition `number` of a row with this seed: of the first the row's own.
+fn seed_of_repetition(seed: f64, number: u64) -> f64 {
+    const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+    if number == 0 { seed } else { seed_of(mixed((seed as u64).wrapping_add(number.wrapping_mul(GOLDEN)))) }
+}
+
+impl Model for RepeatedModel {
+    fn outputs(&self) -> &[Output] {
+        &self.outputs
+    }
+
+    fn flags(&self) -> &[Flag] {
+        self.model.flags()
+    }
+
+    fn counters(&self) -> &[Counter] {
+        self.model.counters()
+    }
+
+    fn concurrency(&self) -> Option<usize> {
+        self.model.concurrency()
+    }
+
+    fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
+        let batch = Batch::new(&*self.model);
+        Box::new(RepeatedWorker { of: self, worker: self.model.worker(context), batch, columns: Vec::new() })
+    }
+}
+
+struct RepeatedWorker<'a> {
+    of: &'a RepeatedModel,
+    worker: Box<dyn Worker + 'a>,
+    /// The outputs of all repetitions of a block: its rows, then its rows once more, and so on.
+    batch: Batch,
+    columns: Vec<Vec<f64>>,
+}
+
+impl RepeatedWorker<'_> {
+    /// Runs all repetitions of a block by `run`, and makes mean and variance of them unless it is to be run again.
+    fn repeat(
+        &mut self,
+        inputs: &[&[f64]],
+        batch: &mut Batch,
+        run: impl FnOnce(&mut dyn Worker, &[&[f64]], &mut Batch) -> Standing,
+    ) -> Standing {
+        let repetitions = self.of.repetitions;
+        self.columns.resize_with(inputs.len(), Vec::new);
+        for (number, (column, input)) in self.columns.iter_mut().zip(inputs).enumerate() {
+            column.clear();
+            for repetition in 0..repetitions as u64 {
+                if number == self.of.seed {
+                    column.extend(input.iter().map(|seed| seed_of_repetition(*seed, repetition)));
+                } else {
+                    column.extend_from_slice(input);
+                }
+            }
+        }
+        let columns: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
+        self.batch.reset(batch.rows() * repetitions);
+        let standing = run(&mut *self.worker, &columns, &mut self.batch);
+        if standing != Standing::Revoked {
+            self.gather(batch);
+        }
+        standing
+    }
+
+    fn gather(&self, batch: &mut Batch) {
+        let (rows, repetitions) = (batch.rows(), self.of.repetitions);
+        let outputs = self.batch.outputs();
+        for output in 0..outputs {
+            let values = self.batch.column(output);
+            for row in 0..rows {
+                // One by one (Welford 1962, Technometrics 4, 419-420), so that large values lose no digits.
+                let (mut mean, mut squares) = (0.0, 0.0);
+                for repetition in 0..repetitions {
+                    let off = values[repetition * rows + row] - mean;
+                    mean += off / (repetition + 1) as f64;
+                    squares += off * (values[repetition * rows + row] - mean);
+                }
+                batch.set(row, 2 * output, mean);
+                batch.set(row, 2 * output + 1, squares / (repetitions - 1) as f64);
+            }
+        }
+        // A row without one of its repetitions has no mean.
+        let mut named = vec![false; outputs * rows];
+        for (output, place, reason) in self.batch.failures() {
+            let row = place % rows;
+            if !std::mem::replace(&mut named[output * rows + row], true) {
+                batch.fail(row, 2 * output, reason.clone());
+                batch.fail(row, 2 * output + 1, reason.clone());
+            }
+        }
+        batch.add_counts(self.batch.flags(), self.batch.counts());
+        if let Some(reason) = self.batch.given_up() {
+            batch.give_up(reason.clone());
+        }
+    }
+}
+
+impl Worker for RepeatedWorker<'_> {
+    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
+        self.repeat(inputs, batch, |worker, inputs, batch| {
+            worker.run(inputs, batch);
+            Standing::Final
+        });
+    }
+
+    fn run_ahead(&mut self, inputs: &[&[f64]], batch: &mut Batch) -> Standing {
+        self.repeat(inputs, batch, |worker, inputs, batch| worker.run_ahead(inputs, batch))
+    }
+
+    fn confirm(&mut self) -> Standing {
+        self.worker.confirm()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{FunctionModel, RowFailure};
+
+    #[test]
+    fn mean_and_variance_are_those_of_the_repetitions() {
+        let output = Output::new("y", Unit::parse("nN").unwrap(), "");
+        let model = FunctionModel::new(vec![output], |x: &[f64], y: &mut [f64]| {
+            if x[0] < 0.0 {
+                return Err(RowFailure::new("below 0"));
+            }
+            y[0] = x[0] + x[1];
+            Ok(())
+        });
+        let repeated = RepeatedModel::new(Arc::new(model), 1, 3);
+        let units: Vec<String> = repeated.outputs().iter().map(|output| output.unit.to_string()).collect();
+        assert_eq!(units, ["nN", "nN^2"]);
+        let context = RunContext::default();
+        let (mut worker, mut batch) = (repeated.worker(&context), Batch::new(&repeated));
+        batch.reset(2);
+        worker.run(&[&[5.0, -1.0], &[7.0, 7.0]], &mut batch);
+        batch.settle();
+        let seeds: Vec<f64> = (0..3).map(|number| seed_of_repetition(7.0, number)).collect();
+        assert!(seeds[0] == 7.0 && seeds[1] != seeds[2] && seeds.iter().all(|seed| seed.fract() == 0.0));
+        let mean = seeds.iter().sum::<f64>() / 3.0;
+        let variance = seeds.iter().map(|seed| (seed - mean).powi(2)).sum::<f64>() / 2.0;
+        assert!((batch.column(0)[0] - 5.0 - mean).abs() < 1e-6);
+        assert!((batch.column(1)[0] / variance - 1.0).abs() < 1e-12);
+        let reason = RowFailure::new("below 0");
+        assert_eq!(batch.failures(), [(0, 1, reason.clone()), (1, 1, reason)]);
+    }
+
+    #[test]
+    fn squares_of_units_scale_as_squares() {
+        let of = |text: &str| square(&Unit::label(text));
+        assert_eq!(
+            (of("um").to_string(), of("1").to_string(), of("degC").to_string()),
+            ("um^2".into(), "1".into(), "K^2".into())
+        );
+        let compound = of("nN/m");
+        assert!(same(compound.to_si(1.0), 1e-18), "{compound}");
+        assert_eq!(of("cars per hour").to_string(), "(cars per hour)^2");
+    }
+}

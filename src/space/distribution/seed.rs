@@ -1,0 +1,109 @@
+//! The seeds of a stochastic model.
+
+use super::family::{Family, Parameter};
+use super::{Distribution, DistributionError};
+use crate::quantity::Unit;
+
+/// The largest seed, 2^31 - 1: the largest whole number that the generators of C, R, Fortran and NumPy all take.
+const LARGEST: f64 = ((1u64 << 31) - 1) as f64;
+
+/// Whole numbers from 0 to 2^31 - 1, equally likely, in no order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Seed;
+
+impl Distribution {
+    /// The seed of a stochastic model: a whole number from 0 to 2^31 - 1 that is a function of the coordinate, mixed so that
+    /// near coordinates have seeds that look independent. The factor of this distribution is the *noise* of a study.
+    ///
+    /// # Formula
+    ///
+    /// The upper 31 bits of the finaliser of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, fig. 17) of the bits of `u`. As
+    /// the only one it is no rising function of `u`: the values of a random `u` are uniform, but there is no inverse.
+    ///
+    /// ```
+    /// use apportion::Distribution;
+    ///
+    /// let seed = Distribution::seed();
+    /// assert_eq!(seed.quantile(0.25), seed.quantile(0.25));
+    /// assert_ne!(seed.quantile(0.25), seed.quantile(0.25000001));
+    /// assert_eq!(seed.support(), (0.0, 2147483647.0));
+    /// ```
+    pub fn seed() -> Self {
+        Self::Seed(Seed)
+    }
+}
+
+/// The finaliser of SplitMix64: every bit of the result depends on every bit of `x`.
+pub(crate) fn mixed(x: u64) -> u64 {
+    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
+/// The seed that a mixed number stands for.
+pub(crate) fn seed_of(mixed: u64) -> f64 {
+    (mixed >> 33) as f64
+}
+
+impl Family for Seed {
+    fn name(&self) -> &'static str {
+        "seed"
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        seed_of(mixed(u.to_bits()))
+    }
+
+    fn tails(&self, x: f64) -> (f64, f64) {
+        let below = ((x.floor() + 1.0) / (LARGEST + 1.0)).clamp(0.0, 1.0);
+        (below, 1.0 - below)
+    }
+
+    fn mean(&self) -> f64 {
+        LARGEST / 2.0
+    }
+
+    fn sd(&self) -> f64 {
+        (LARGEST * (LARGEST + 2.0) / 12.0).sqrt()
+    }
+
+    fn support(&self) -> (f64, f64) {
+        (0.0, LARGEST)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        Vec::new()
+    }
+
+    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+        if [0.0, 1.0].iter().any(|&x| unit.to_si(x) != x) {
+            return Err(DistributionError::UnitOfSeed { unit: unit.to_string() });
+        }
+        Ok(Distribution::Seed(Self))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seeds_of_near_coordinates_are_spread_evenly_and_differ() {
+        let seed = Distribution::seed();
+        let n = 4096;
+        let seeds: Vec<f64> = (0..n).map(|i| seed.quantile(0.3 + 1e-9 * f64::from(i))).collect();
+        let (low, high) = seed.support();
+        assert!(seeds.iter().all(|seed| seed.fract() == 0.0 && (low..=high).contains(seed)));
+        let distinct: std::collections::BTreeSet<u64> = seeds.iter().map(|seed| *seed as u64).collect();
+        assert_eq!(distinct.len(), seeds.len());
+        // Both ends of the bits: some generators take the lower ones alone.
+        for part in [|seed: f64| seed / 2f64.powi(31), |seed: f64| (seed % 1024.0) / 1024.0] {
+            let mean = seeds.iter().map(|seed| part(*seed)).sum::<f64>() / f64::from(n);
+            assert!((mean - 0.5).abs() < 4.0 * (1.0 / 12.0 / f64::from(n)).sqrt(), "{mean}");
+        }
+        assert_eq!(seed.tails(high), (1.0, 0.0));
+        assert_eq!(seed.tails(2f64.powi(30) - 1.0), (0.5, 0.5));
+        let lengths = Unit::parse("um").map(|unit| seed.to_si(&unit));
+        assert!(matches!(lengths, Ok(Err(DistributionError::UnitOfSeed { .. }))));
+    }
+}

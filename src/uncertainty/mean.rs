@@ -1,0 +1,134 @@
+//! Corrected indices of the mean of a stochastic model over its noise.
+//!
+//! The mean has the variance V(E[y|x]) = V (1 - ST_n), n the noise. Its closed first-order indices are S/(1 - ST_n), since the
+//! noise adds nothing to the variance of E[y|x_s]; its total indices (ST_sn - ST_n)/(1 - ST_n), since all that the other
+//! factors do without s and the noise is V (1 - ST_sn).
+
+use super::corrected::{Influenced, Replacement, replacement};
+use super::estimates::{BesideNoise, Layout};
+use super::noise::Noise;
+use super::{Estimate, Interval, StandardError};
+
+/// What the runs of a stochastic model say of its mean over the noise, E[y|x]. First-order and total index of the noise
+/// itself, which are of the variance of a single run, stand among those of the factors.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct NoiseIndices {
+    /// The number of the factor that is the noise.
+    pub factor: usize,
+    /// V(E[y|x])/V(y) = 1 - ST of the noise: the share of the variance of a single run that its mean has.
+    pub mean_share: Estimate,
+    /// The indices of the mean, in the order of the swaps: of factors, groups, subsets and the dummy; `None` of those that
+    /// hold the noise.
+    pub of_mean: Vec<Option<MeanEstimates>>,
+}
+
+/// The indices of a factor, group or subset of the mean over the noise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct MeanEstimates {
+    /// (Closed) first-order index: S/(1 - ST of the noise). `None` where the runs show no variance of the mean.
+    pub first_order: Option<Estimate>,
+    /// Total index; `None` without the joint index with the noise, from which it follows.
+    pub total: Option<Estimate>,
+}
+
+/// The indices that are corrected: all of them, and the noise of those of their kind; `None` of a kind of which the plain ones
+/// stay.
+pub(super) struct Corrected<'a> {
+    pub first_order: Option<(&'a [Influenced], Noise)>,
+    pub total: Option<(&'a [Influenced], Noise)>,
+}
+
+/// Gives `put` what replaces the indices of the mean among the `plain` numbers of `layout`; `plain_first` tells the plain
+/// first-order index of a swap.
+pub(super) fn corrected(
+    layout: &Layout,
+    corrected: &Corrected<'_>,
+    (plain, errors): (&[Estimate], &[StandardError]),
+    plain_first: &dyn Fn(usize) -> Estimate,
+    put: &mut dyn FnMut(usize, Replacement),
+) {
+    let Some(noise) = &layout.noise else { return };
+    let share_place = layout.mean_share();
+    let of_noise = corrected.total.as_ref().map(|(list, of_kind)| (&list[noise.factor], of_kind.even()));
+    let share = match &of_noise {
+        None => plain[share_place],
+        Some((of_noise, of_kind)) => {
+            let share = Influenced { estimate: 1.0 - of_noise.estimate, ..Influenced::combined(&[(-1.0, *of_noise)]) };
+            let new = replacement(*of_kind, &share);
+            let estimate = new.0;
+            put(share_place, new);
+            estimate
+        }
+    };
+    let exists = share.estimate > 0.0;
+    for (swap, beside) in noise.swaps.iter().enumerate().filter(|(_, beside)| **beside != BesideNoise::Holds) {
+        let place = layout.of_mean(swap);
+        let nothing = || (Estimate { estimate: f64::NAN, interval: None }, errors[place], Vec::new());
+        // Errors of which nothing is known together may be larger than those of the plain index, which are.
+        let width = |of: Estimate| of.interval.map_or(f64::INFINITY, |interval| interval.high - interval.low);
+        let mut put_narrower = |index: Estimate| {
+            if width(index) < width(plain[place]) {
+                put(place, (index, errors[place], Vec::new()));
+            }
+        };
+        match (&corrected.first_order, &of_noise) {
+            (None, None) => (),
+            _ if !exists => put(place, nothing()),
+            (Some((first, _)), Some((of_noise, of_kind))) => {
+                let of = &first[swap];
+                let index = of.estimate / share.estimate;
+                let terms = [(1.0 / share.estimate, of), (index / share.estimate, *of_noise)];
+                put(place, replacement(*of_kind, &Influenced { estimate: index, ..Influenced::combined(&terms) }));
+            }
+            (Some((first, of_kind)), None) => {
+                put_narrower(quotient(of_kind.estimate(&first[swap]), share));
+            }
+            (None, Some(_)) => put_narrower(quotient(plain_first(swap), share)),
+        }
+        let (BesideNoise::With(joined), Some((of_noise, of_kind)), Some((total, _))) =
+            (*beside, &of_noise, &corrected.total)
+        else {
+            continue;
+        };
+        if !exists {
+            put(place + 1, nothing());
+            continue;
+        }
+        let index = (total[joined].estimate - of_noise.estimate) / share.estimate;
+        let terms = [(1.0 / share.estimate, &total[joined]), ((index - 1.0) / share.estimate, *of_noise)];
+        put(place + 1, replacement(*of_kind, &Influenced { estimate: index, ..Influenced::combined(&terms) }));
+    }
+}
+
+/// The quotient of two numbers of which nothing is known together but that their errors are of independent kinds.
+fn quotient(a: Estimate, b: Estimate) -> Estimate {
+    let estimate = a.estimate / b.estimate;
+    let interval = a.interval.zip(b.interval).map(|(of_a, of_b)| {
+        let reach = |of_a: f64, of_b: f64| (of_a / b.estimate).hypot(estimate * of_b / b.estimate);
+        Interval {
+            low: estimate - reach(a.estimate - of_a.low, of_b.high - b.estimate),
+            high: estimate + reach(of_a.high - a.estimate, b.estimate - of_b.low),
+        }
+    });
+    Estimate { estimate, interval }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn relative_errors_of_a_quotient_add_up_as_squares() {
+        let of = |estimate: f64, half: f64| {
+            let interval = Interval { low: estimate - half, high: estimate + half };
+            Estimate { estimate, interval: Some(interval) }
+        };
+        let found = quotient(of(0.3, 0.03), of(0.6, 0.06));
+        let interval = found.interval.unwrap();
+        assert_eq!(found.estimate, 0.5);
+        assert!((interval.high - 0.5 - 0.05 * 2f64.sqrt()).abs() < 1e-12, "{interval:?}");
+        assert_eq!(quotient(of(0.3, 0.03), Estimate { estimate: 0.6, interval: None }).interval, None);
+    }
+}
