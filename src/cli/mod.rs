@@ -2,6 +2,7 @@
 
 mod analyze;
 mod check;
+mod check_plan;
 mod compare;
 mod completions;
 mod evaluate;

@@ -187,7 +187,8 @@ fn together_records(study: &Study, all: &AggregateIndices) -> Vec<AggregateIndex
         first_order: estimate_record(all.first_order[number]),
         total: estimate_record(all.total[number]),
     };
-    study.space.factors().iter().enumerate().map(record).collect()
+    let known = |(_, factor): &(usize, &crate::space::Factor)| !factor.distribution().is_noise();
+    study.space.factors().iter().enumerate().filter(known).map(record).collect()
 }
 
 fn series_record(study: &Study, analysis: &Analysis, found: &SeriesAnalysis) -> SeriesRecord {
@@ -210,6 +211,8 @@ fn series_record(study: &Study, analysis: &Analysis, found: &SeriesAnalysis) -> 
 
 fn direction_record(study: &Study, unit: &Unit, direction: &Direction) -> DirectionRecord {
     let indices = direction.score.indices.as_ref();
+    let factors = || study.space.factors().iter();
+    let known = |(factor, _): &(&crate::space::Factor, &EffectEstimates)| !factor.distribution().is_noise();
     let record = |(factor, effect): (&crate::space::Factor, &EffectEstimates)| AggregateIndexRecord {
         factor: factor.name.clone(),
         first_order: estimate_record(effect.first_order),
@@ -218,8 +221,12 @@ fn direction_record(study: &Study, unit: &Unit, direction: &Direction) -> Direct
     DirectionRecord {
         share: 100.0 * direction.share,
         loadings: direction.loadings.iter().map(|y| unit.span_from_si(*y)).collect(),
-        sum_first_order: indices.ok().map(|indices| estimate_record(indices.sum_first_order)),
-        indices: indices.ok().map(|all| study.space.factors().iter().zip(&all.factors).map(record).collect()),
+        // Indices of dependent factors sum to nothing.
+        sum_first_order: indices
+            .ok()
+            .filter(|_| study.space.copula().is_none())
+            .map(|indices| estimate_record(indices.sum_first_order)),
+        indices: indices.ok().map(|all| factors().zip(&all.factors).filter(known).map(record).collect()),
         reason: indices.err().map(ToString::to_string),
     }
 }

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use apportion::report::{ResultFile, run_document};
 use apportion::{
-    Analysis, Distribution, FunctionModel, NoDirections, RowFailure, SeriesAxis, Study, StudyBuilder, SurrogateChoice,
-    Target, Unit,
+    Analysis, CorrelationMeasure, Dependence, Distribution, FunctionModel, NoDirections, RowFailure, SeriesAxis, Study,
+    StudyBuilder, SurrogateChoice, Target, Unit,
 };
 
 /// A study of a series of `f` at `positions`, of factors between -1 and 1.
@@ -184,4 +185,42 @@ fn surrogates_of_the_values_correct_the_whole() {
         near(*found, expected, 1e-6);
     }
     assert!(width(&on) < 1e-3 * width(&off), "{} {}", width(&on), width(&off));
+}
+
+/// The noise of a stochastic model stands first here, and is none of the factors of the result.
+#[test]
+fn a_series_beside_noise_names_its_factors_right() {
+    let wave = |x: &[f64], t: f64| Some(2.0 * x[1] * t.sin() + x[2] * t.cos() + 1e-12 * x[0]);
+    let mut builder = study(&[], turn(8), wave).factor("seed", Distribution::seed()).base_samples(256);
+    for name in ["x1", "x2"] {
+        builder = builder.factor(name, Distribution::uniform(-1.0, 1.0).unwrap());
+    }
+    let study = builder.build().unwrap();
+    let result = ResultFile::new(&study, &study.run().unwrap());
+    let indices = result.series[0].indices.as_ref().unwrap();
+    assert_eq!(indices.iter().map(|index| index.factor.as_str()).collect::<Vec<_>>(), ["x1", "x2"]);
+    near(indices[0].total.estimate, 0.8, 0.02);
+    let first = &result.series[0].directions.as_ref().unwrap()[0];
+    near(first.indices.as_ref().unwrap()[0].total.estimate, 1.0, 0.02);
+    assert!(run_document(&result).html().unwrap().contains("noise (seed)"));
+}
+
+/// Var(2 a sin t + b cos t) = (4 sin^2 t + cos^2 t + 4 r sin t cos t)/3, whose last term a whole turn takes away.
+#[test]
+fn a_series_of_dependent_factors_has_their_indices() {
+    let (wave, r) = (|x: &[f64], t: f64| Some(2.0 * x[0] * t.sin() + x[1] * t.cos()), 0.6);
+    let dependence = Dependence::pair("a", "b", r).measure(CorrelationMeasure::Normal);
+    let mut builder = study(&[], turn(8), wave).dependence(dependence).base_samples(4096);
+    for name in ["a", "b"] {
+        builder = builder.factor(name, Distribution::normal(0.0, 1.0).unwrap());
+    }
+    let study = builder.build().unwrap();
+    let result = ResultFile::new(&study, &study.run().unwrap());
+    let indices = result.series[0].indices.as_ref().unwrap();
+    // E(y | a) = a (2 sin t + r cos t); a given b varies by 1 - r^2.
+    for (index, (first, total)) in indices.iter().zip([(4.0 + r * r, 4.0), (1.0 + 4.0 * r * r, 1.0)]) {
+        near(index.first_order.estimate, first / 5.0, 0.02);
+        near(index.total.estimate, total * (1.0 - r * r) / 5.0, 0.02);
+    }
+    assert!(run_document(&result).html().unwrap().contains("Shapley"));
 }

@@ -11,6 +11,8 @@ const COLOURS: [usize; 8] = [0, 1, 2, 3, 4, 5, 7, 8];
 /// The colour of all other factors together, and of interactions.
 const OTHERS: Colour = Colour::Series(9);
 const INTERACTIONS: Colour = Colour::Series(10);
+/// That of the noise of a stochastic model.
+const NOISE: Colour = Colour::Series(6);
 /// What is drawn of an index, in percent: intervals of values that hardly vary reach far.
 const DRAWN: (f64, f64) = (-10.0, 110.0);
 
@@ -108,13 +110,16 @@ pub(in crate::report) fn along_chart(of: SeriesOf<'_>) -> Chart {
     Chart::new(of.title("along its axis"), caption).panels(panels)
 }
 
-/// The variance of every value as a stack: what each factor does alone, and in grey what they do together.
+/// The variance of every value as a stack: what each factor does alone, and in grey what they do together; of dependent factors their
+/// Shapley effects, which are all of it.
 pub(in crate::report) fn layers_chart(of: SeriesOf<'_>) -> Chart {
     let order = of.order();
+    let is_dependent = !of.result.study.dependences.is_empty();
     let alone = |value: &OutputRecord, factor: usize| {
-        let index = value.indices.as_ref()?.get(factor)?;
+        let effect = &value.indices.as_ref()?.get(factor)?.effect;
+        let part = if is_dependent { effect.shapley? } else { effect.first_order };
         // A layer has no negative thickness.
-        Some(100.0 * index.effect.first_order.estimate.max(0.0))
+        Some(100.0 * part.estimate.max(0.0))
     };
     let mut floor: Vec<f64> = vec![0.0; of.series.positions.len()];
     let mut layer = |series: Series, thickness: &dyn Fn(&OutputRecord, f64) -> Option<f64>| {
@@ -136,11 +141,24 @@ pub(in crate::report) fn layers_chart(of: SeriesOf<'_>) -> Chart {
         let sum = |value: &OutputRecord| others.iter().map(|&factor| alone(value, factor)).sum::<Option<f64>>();
         marks.push(layer(Series::new("all other factors", OTHERS), &|value, _| sum(value)));
     }
+    if let Some(noise) = of.values().iter().find_map(|value| value.noise.as_ref()) {
+        let part = |value: &OutputRecord| Some(100.0 * value.noise.as_ref()?.effect.first_order.estimate.max(0.0));
+        marks.push(layer(Series::new(format!("noise ({})", label(&noise.name)), NOISE), &|value, _| part(value)));
+    }
     let rest = |value: &OutputRecord, floor: f64| value.indices.as_ref().map(|_| (100.0 - floor).max(0.0));
-    marks.push(layer(Series::new("interactions", INTERACTIONS), &rest));
+    if !is_dependent {
+        marks.push(layer(Series::new("interactions", INTERACTIONS), &rest));
+    }
     let panel = Panel::new(of.axis(), Axis::new("share of the variance (%)", "")).with(marks);
-    let caption = "What each factor does alone (first-order indices, those below 0 as 0), and in grey what is left: what factors \
-                   do together.";
+    let caption = match is_dependent {
+        true => {
+            "Shapley effects of factors that depend on each other, if they were asked for: they share out all of the variance."
+        }
+        false => {
+            "What each factor does alone (first-order indices, those below 0 as 0), and in grey what is left: what factors do \
+                  together."
+        }
+    };
     Chart::new(of.title("by shares of its variance"), caption).panels([panel])
 }
 

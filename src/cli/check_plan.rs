@@ -1,0 +1,278 @@
+//! What `apportion check` says of a run before it: its rows, their cost, and when it ends.
+
+use apportion::design::{Companions, Design};
+use apportion::estimate::{FirstOrder, Total};
+use apportion::report::significant;
+use apportion::run::{BLOCK, FailurePolicy, Pilot};
+use apportion::study::{Study, Target};
+use apportion::uncertainty::IntervalMethod;
+
+/// The rows of the design, what is asked of them, and what they cost by the first runs.
+pub(super) fn plan(study: &Study, pilot: Option<&Pilot>) -> String {
+    let design = study.design();
+    let settings = design.settings();
+    let stopping = stopping(study);
+    let size = if study.target().grows() { "begins with " } else { "" };
+    let mut failures = String::new();
+    let time = match pilot {
+        None => "outside of this program".to_owned(),
+        Some(pilot) => {
+            if let Some(reason) = &pilot.reason {
+                failures = format!("warning: {} of {} failed: {reason}\n", pilot.failed, runs(pilot.runs));
+            }
+            if pilot.is_out_of_step {
+                failures.push_str(
+                    "warning: the program is out of step: it printed more or fewer answers than it had rows; a run will ask \
+                     every row by a process of its own, and take much longer\n",
+                );
+            }
+            failures.push_str(random(study, pilot));
+            match pilot.failed == pilot.runs {
+                true => "in a time that cannot be told".to_owned(),
+                false => format!(
+                    "about {} on this machine (by {} of it{})",
+                    duration(pilot.seconds),
+                    runs(pilot.runs),
+                    start(pilot)
+                ),
+            }
+        }
+    };
+    let mut text = format!(
+        "\ndesign: {} points, {size}{} base samples in {} replicate{} of {}, seed {}\n{}{}\
+         cost: {size}{} base samples x {} = {} model runs, {time}\n{stopping}",
+        settings.sampler.name(),
+        settings.base_samples,
+        settings.replicates,
+        if settings.replicates == 1 { "" } else { "s" },
+        design.points_per_replicate(),
+        settings.seed,
+        asked(study),
+        rows(study),
+        settings.base_samples,
+        design.rows_per_point(),
+        design.rows()
+    );
+    text.push_str(&memory(study));
+    text.push_str(&failures);
+    for warning in warnings(study) {
+        text.push_str(&format!("warning: {warning}\n"));
+    }
+    text
+}
+
+/// What to do where the same row has two answers.
+fn random(study: &Study, pilot: &Pilot) -> &'static str {
+    match (pilot.is_random, study.space().noise()) {
+        (false, _) => "",
+        (true, None) => {
+            "warning: the same row had two different answers: the program is random; give it a seed with every row by `noise = \
+             \"seed\"` (docs/stochastic-models.md)\n"
+        }
+        (true, Some(_)) => {
+            "warning: the same row with the same seed had two different answers: the program draws random numbers without its \
+             seed, and a resumed run is not repeatable\n"
+        }
+    }
+}
+
+/// What the start of the program takes, where it is worth a word.
+fn start(pilot: &Pilot) -> String {
+    const LEAST: f64 = 0.1;
+    if pilot.startup < LEAST {
+        String::new()
+    } else {
+        format!("; {} of that to start the program", duration(pilot.startup))
+    }
+}
+
+/// What is estimated, and what the intervals are.
+fn asked(study: &Study) -> String {
+    let analysis = study.analysis();
+    let counted =
+        |n: usize, what: &str| (n > 0).then(|| if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") });
+    let mut parts = vec!["first-order and total indices of the factors".to_owned()];
+    parts.extend(counted(study.space().groups().len(), "group"));
+    parts.extend(counted(analysis.subsets.len(), "subset"));
+    parts.extend(analysis.dummy.then(|| "a dummy factor".to_owned()));
+    parts.extend(analysis.second_order.then(|| format!("second order of {} pairs", study.layout().pair_list().len())));
+    parts.extend(analysis.has_shapley(study.space()).then(|| "Shapley effects of the factors".to_owned()));
+    if let Some(noise) = study.space().noise() {
+        parts.push(format!("the noise ({}) and the mean over it", study.space().factors()[noise].name));
+    }
+    if analysis.aggregate && study.model().outputs().len() > 1 {
+        parts.push("all outputs together".to_owned());
+    }
+    if !analysis.estimators.is_empty() {
+        let names: Vec<&str> = analysis.estimators.iter().map(|estimator| estimator.name()).collect();
+        parts.push(format!("other estimators {}", names.join(", ")));
+    }
+    if study.uses_surrogate(study.design()) {
+        parts.push("correction by surrogates".to_owned());
+    }
+    let lows: Vec<&str> = study.low_fidelities().iter().map(|low| low.name.as_str()).collect();
+    if !lows.is_empty() {
+        parts.push(format!("cheaper models {}", lows.join(", ")));
+    }
+    let companions = study.design().companions();
+    let (first, total) = (FirstOrder::of_rows(companions), Total::of_rows(companions));
+    let none = "none: a single replicate says nothing about its error".to_owned();
+    let intervals = if alone(study) {
+        none
+    } else {
+        analysis.intervals.words(study.design().settings().replicates, analysis.resamples)
+    };
+    format!(
+        "asked: {}\nestimators: first order {}, total {}\nintervals: {intervals}\n\
+         failed runs: {}\n",
+        parts.join(", "),
+        first.name(),
+        total.name(),
+        match analysis.failures {
+            FailurePolicy::Fail => "the first one ends the run".to_owned(),
+            FailurePolicy::DropBlock => format!(
+                "left out, up to {} % of all; beyond that there are no indices",
+                significant(100.0 * analysis.max_failed)
+            ),
+        }
+    )
+}
+
+/// Which rows every base sample has, and why.
+fn rows(study: &Study) -> String {
+    let (design, analysis) = (study.design(), study.analysis());
+    let swaps = design.swaps().len();
+    let Companions { ba, bc, cb } = design.companions();
+    let asked = match (design.is_dependent(), analysis.has_shapley(study.space())) {
+        (false, false) => "one for each factor, group, subset and dummy",
+        (false, true) => "one for each factor, group, subset and dummy, and the others for Shapley effects",
+        (true, false) => "two for each factor, group and subset: the others follow it, or it is drawn given the others",
+        (true, true) => {
+            "two for each factor, group and subset: the others follow it, or it is drawn given the others; the rest for Shapley effects"
+        }
+    };
+    let mut words = vec!["A and B".to_owned(), format!("{} AB ({asked})", rows_of(swaps))];
+    let askers = |needs: fn(Companions) -> bool| {
+        let pairs =
+            (analysis.second_order && needs(Companions { ba: true, ..Companions::NONE })).then_some("second order");
+        let estimators = analysis.estimators.iter().filter(|estimator| needs(estimator.needs()));
+        pairs.into_iter().chain(estimators.map(|estimator| estimator.name())).collect::<Vec<_>>().join(", ")
+    };
+    words.extend(ba.then(|| format!("{} BA ({})", rows_of(swaps), askers(|rows| rows.ba))));
+    words.extend(bc.then(|| format!("{} BC ({})", rows_of(swaps), askers(|rows| rows.bc))));
+    words.extend(cb.then(|| format!("{} CB ({})", rows_of(swaps), askers(|rows| rows.cb))));
+    let plain = design.plain_rows();
+    words.extend((plain > 0).then(|| format!("{plain} plain, for surrogates alone")));
+    let all = 2 + swaps as u64 * (1 + design.companions().count()) + u64::from(plain);
+    let saved = all - design.rows_per_point();
+    let once = if saved > 0 {
+        format!("; {saved} of them the same point as another, which is run once")
+    } else {
+        String::new()
+    };
+    format!("rows of a base sample: {}{once}\n", words.join(" + "))
+}
+
+fn rows_of(swaps: usize) -> String {
+    if swaps == 1 { "1 row".to_owned() } else { format!("{swaps} rows") }
+}
+
+pub(super) fn runs(number: u64) -> String {
+    if number == 1 { "1 run".to_owned() } else { format!("{number} runs") }
+}
+
+/// How a growing run goes on and when it ends.
+fn stopping(study: &Study) -> String {
+    let Target { half_width, budget, max_runs, is_free } = study.target();
+    let ends = [
+        half_width.map(|width| format!("every first-order and total index is known to {width} (half its interval)")),
+        budget.map(|seconds| format!("twice the runs would take longer than {}", duration(seconds))),
+        max_runs.map(|runs| format!("twice the runs would be more than {runs}")),
+    ];
+    let ends: Vec<String> = ends.into_iter().flatten().collect();
+    if ends.is_empty() {
+        return String::new();
+    }
+    if is_free {
+        return format!(
+            "accuracy: trials decide base samples, plain rows, surrogates and cheaper models; runs are added until {}\n",
+            ends.join(", or ")
+        );
+    }
+    format!("growth: the runs are doubled, none of them lost, until {}\n", ends.join(", or "))
+}
+
+fn memory(study: &Study) -> String {
+    let kilobytes = kilobytes_per_thread(study);
+    let mut text = format!(
+        "memory: about {kilobytes:.0} kB a thread for the columns of a block, whatever the number of samples\n"
+    );
+    if study.needs_outputs() {
+        let bytes = study.design().rows() as f64 * study.model().outputs().len() as f64 * 8.0;
+        let (intervals, surrogate) = (study.analysis().intervals, study.analysis().surrogate);
+        let needed = match intervals.keeps_outputs() {
+            true => format!("intervals = \"{}\" need", intervals.name()),
+            false if !study.uses_surrogate(study.design()) => "the main directions of a series need".to_owned(),
+            false => format!("surrogate = \"{}\" needs", surrogate.name()),
+        };
+        text.push_str(&format!("        and {:.1} MB for the outputs of all runs, which {needed}\n", bytes / 1e6));
+    }
+    text
+}
+
+/// A single replicate, and intervals that need several.
+fn alone(study: &Study) -> bool {
+    study.design().settings().replicates == 1 && study.analysis().intervals == IntervalMethod::Replicates
+}
+
+/// Columns of the factors (unit cube and SI, A and B) and of every output of every row kind.
+fn kilobytes_per_thread(study: &Study) -> f64 {
+    let outputs = study.model().outputs().len() as u64;
+    let columns = 2 * study.design().columns() as u64 + study.design().rows_per_point() * (outputs + 1);
+    (columns * BLOCK * 8) as f64 / 1e3
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.1 => "0.1 s or less".to_owned(),
+        s if s < 120.0 => format!("{s:.1} s"),
+        s if s < 7200.0 => format!("{:.0} minutes", s / 60.0),
+        s => format!("{:.1} hours", s / 3600.0),
+    }
+}
+
+fn warnings(study: &Study) -> Vec<String> {
+    let design = study.design();
+    let mut warnings = Vec::new();
+    if !design.balanced() {
+        warnings.push(
+            "the points of a replicate are not a power of two: Sobol' points lose much of their accuracy".to_owned(),
+        );
+    }
+    if alone(study) {
+        warnings.push("a single replicate says nothing about its error: there will be no intervals".to_owned());
+    } else if design.settings().replicates == 1 && study.analysis().intervals == IntervalMethod::Nets {
+        warnings.push(
+            "a single net cannot tell whether it is a lucky one: intervals will rest on how its parts differ; 4 replicates are safer"
+                .to_owned(),
+        );
+    }
+    warnings.extend(correlated_pairs(design));
+    warnings
+}
+
+/// Sobol' points of many factors have pairs of dimensions that are correlated until there are points enough
+/// (see `SobolSequence`).
+fn correlated_pairs(design: &Design) -> Option<String> {
+    /// More factors than the first number need as many points a replicate as the second.
+    const NEEDED: [(usize, u64); 3] = [(100, 1 << 14), (50, 1 << 12), (30, 1 << 11)];
+    let points = design.points_per_replicate();
+    let (_, needed) = *NEEDED.iter().find(|(factors, _)| design.factors() > *factors)?;
+    (design.settings().sampler.is_digital() && points < needed).then(|| {
+        format!(
+            "{} factors at {points} points a replicate: some pairs of dimensions of Sobol' points are still correlated, \
+             which widens the errors; use {needed} points a replicate or more",
+            design.factors()
+        )
+    })
+}
