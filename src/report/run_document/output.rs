@@ -163,7 +163,7 @@ pub(super) fn definitions(result: &ResultFile) -> [Part; 2] {
                     with all that it tells of others; S_T is the part that stays as long as it alone is unknown, which is what \
                     it has on its own, and may be smaller (Kucherenko, Tarantola and Annoni 2012). The other two are S_1 of what \
                     the factor has on its own, given the others, and S_T with all that it tells of others (Mara, Tarantola and \
-                    Annoni 2015). P(largest) is the probability that its Shapley effect, or else S_T, is the largest.";
+                    Annoni 2015).";
         let intervals =
             result.provenance.interval.as_ref().map_or_else(String::new, |words| format!("Intervals (±): {words}."));
         return [Part::OnPage(vec![Part::Text(text.to_owned())]), Part::Text(intervals)];

@@ -88,9 +88,8 @@ fn effect_table(result: &ResultFile, caption: String, what: &str) -> Table {
     ];
     let indices = || result.outputs.iter().filter_map(|output| output.indices.as_ref()).flatten();
     if indices().any(|index| index.effect.dependent.is_some()) {
-        // Their difference shows no interactions, and what exceeds a threshold is not what is ranked.
-        columns[7].hide();
-        columns[9].hide();
+        // Their difference shows no interactions, what exceeds a threshold is not what is ranked, and the page has room for five.
+        columns[7..10].iter_mut().for_each(Column::hide);
         columns.push(estimate("S_1 given the others", "independent_first_order"));
         columns.push(estimate("S_T with the others", "full_total"));
     }
