@@ -19,7 +19,7 @@ pub struct OutputIndices {
     pub sum_first_order: Estimate,
     /// Sum of the total indices of the factors: 1 for an additive output, more where factors interact.
     pub sum_total: Estimate,
-    /// Second-order indices, in the order of [`Layout::pair_list`]; empty if not asked for.
+    /// Second-order indices, in the order of [`Layout::pair_list`](super::Layout::pair_list); empty if not asked for.
     pub second_order: Vec<Estimate>,
     /// What a surrogate did to them, if there was one.
     pub surrogate: Option<SurrogateUse>,
@@ -65,7 +65,7 @@ pub struct EffectEstimates {
     /// both were then lengthened until they met.
     pub contradictory: bool,
     /// Probability that the total index (the Shapley effect, if there is one) is the largest of all factors'; `None` for others than factors, and where errors are
-    /// unknown or [ranks](IntervalOptions::ranks) were not asked for. Where several total indices are equal in truth, it is as likely to be any number as any other.
+    /// unknown or [ranks](super::IntervalOptions::ranks) were not asked for. Where several total indices are equal in truth, it is as likely to be any number as any other.
     pub probability_first: Option<f64>,
     /// Probability that the total index is above the threshold.
     pub probability_above: Option<f64>,
