@@ -345,3 +345,33 @@ fn joint_measurements_and_matrices_state_the_same() {
     let told = succeed(&["run", text(&study), "--out", text(&folder.path("out"))]);
     assert!(told.contains("Shapley effect"), "{told}");
 }
+
+/// Groups, subsets, a dummy factor and all outputs together have no Shapley effects, and their lines are as long as the others.
+#[test]
+fn whatever_else_is_asked_of_dependent_factors_has_its_lines() {
+    let folder = Folder::new();
+    let factor = |name: &str, group: &str| format!("[[factor]]\nname = \"{name}\"\nmin = 0\nmax = 1\n{group}\n");
+    let factors = [factor("a", "group = \"g\""), factor("b", "group = \"g\""), factor("c", "")].concat();
+    let asked = "subsets = [[\"a\", \"c\"]]\ndummy = true\naggregate = true\nestimators = [\"jansen\", \"azzini\"]\n";
+    let study = format!(
+        "model = \"expression\"\n[expression.outputs]\ny = \"a + b*c\"\nz = \"c\"\n[design]\nbase_samples = 256\n\
+         [analysis]\n{asked}{factors}[dependence]\nfactors = [\"a\", \"b\"]\ncorrelation = 0.5\n"
+    );
+    for shapley in ["true", "false"] {
+        let out = folder.path(shapley);
+        let path = folder.with("study.toml", &study);
+        succeed(&["run", text(&path), "--set", &format!("analysis.shapley={shapley}"), "--out", text(&out)]);
+        let lines = std::fs::read_to_string(out.join("study.csv")).unwrap();
+        let commas = |line: &str| line.matches(',').count();
+        let first = commas(lines.lines().next().unwrap());
+        assert!(lines.lines().all(|line| commas(line) == first), "{lines}");
+        for kind in [",factor,", ",group,", ",subset,", ",dummy,", ",aggregate,"] {
+            assert!(lines.contains(kind), "{kind}: {lines}");
+        }
+        // From the result alone, the same page.
+        let again = folder.path(&format!("again-{shapley}"));
+        succeed(&["report", text(&out.join("study.json")), "--out", text(&again)]);
+        let page = |of: &std::path::Path| std::fs::read_to_string(of.join("study.html")).unwrap();
+        assert_eq!(page(&out), page(&again));
+    }
+}

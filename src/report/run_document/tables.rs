@@ -61,7 +61,7 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part
     if let (Some(printed), Some(_)) = (&mut printed, noise) {
         printed.push(order.len());
     }
-    let table = effect_table(result, caption, "factor").with_rows(rows.chain(of_noise));
+    let table = with_effects(effect_table(result, caption, "factor"), rows.chain(of_noise));
     match output.sum_first_order.is_some() || output.sum_total.is_some() {
         true => sums.resize(table.columns.len(), Cell::default()),
         // Indices of dependent factors sum to nothing.
@@ -86,17 +86,27 @@ fn effect_table(result: &ResultFile, caption: String, what: &str) -> Table {
         Column::number("P(largest)").named(Field::new("probability_first")),
         Column::number(above).named(Field::new("probability_above_threshold")),
     ];
-    let indices = || result.outputs.iter().filter_map(|output| output.indices.as_ref()).flatten();
-    if indices().any(|index| index.effect.dependent.is_some()) {
+    // All outputs are alike.
+    let index = result.outputs.iter().find_map(|output| output.indices.as_ref()?.first());
+    if index.is_some_and(|index| index.effect.dependent.is_some()) {
         // Their difference shows no interactions, what exceeds a threshold is not what is ranked, and the page has room for five.
         columns[7..10].iter_mut().for_each(Column::hide);
         columns.push(estimate("S_1 given the others", "independent_first_order"));
         columns.push(estimate("S_T with the others", "full_total"));
     }
-    if indices().any(|index| index.effect.shapley.is_some()) {
+    if index.is_some_and(|index| index.effect.shapley.is_some()) {
         columns.push(estimate("Shapley effect", "shapley"));
     }
     Table { file: format!("{}.csv", result.study.name), ..Table::new(caption, columns) }
+}
+
+/// `table` with these rows, each of which may lack indices at its end: groups have no Shapley effects.
+fn with_effects(table: Table, rows: impl IntoIterator<Item = Vec<Cell>>) -> Table {
+    let length = table.columns.len();
+    table.with_rows(rows.into_iter().map(|mut row| {
+        row.resize_with(length, || None::<EstimateRecord>.into());
+        row
+    }))
 }
 
 fn effect_row((output, kind): (&str, &str), (label, name): (String, &str), effect: &EffectRecord) -> Vec<Cell> {
@@ -198,7 +208,7 @@ pub(super) fn joint(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
     };
     let table = |caption: &str, rows: Vec<Vec<Cell>>| {
         let printed = Some((0..rows.len().min(FACTORS)).collect());
-        Table { printed, rows, ..effect_table(result, caption.to_owned(), "factors") }
+        Table { printed, ..with_effects(effect_table(result, caption.to_owned(), "factors"), rows) }
     };
     let of_groups = "Joint indices of groups of the factors: S_1 includes the interactions inside them.";
     let groups = table(of_groups, groups.collect());
@@ -386,7 +396,7 @@ pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indice
         "Aggregated indices of all outputs.{}",
         largest(order.len().min(FACTORS), order.len(), "factors, all in the CSV file")
     );
-    let mut table = effect_table(result, caption, "factor").with_rows(indices.iter().map(row));
+    let mut table = with_effects(effect_table(result, caption, "factor"), indices.iter().map(row));
     table.columns[OF_ONE_OUTPUT..].iter_mut().for_each(Column::hide);
     Part::Table(Table { printed: places(&order, FACTORS), at_end: true, ..table })
 }
