@@ -94,9 +94,9 @@ impl Space {
     /// [`DependenceError`] if they cannot depend on each other like that, with what would be right.
     ///
     /// ```
-    /// use apportion::{Dependence, Factor, Space, Unit, uniform};
+    /// use apportion::{Dependence, Distribution, Factor, Space, Unit};
     ///
-    /// let factor = |name: &str| Factor::new(name, Unit::dimensionless(), uniform(0.0, 1.0)?);
+    /// let factor = |name: &str| Factor::new(name, Unit::dimensionless(), Distribution::uniform(0.0, 1.0)?);
     /// let space = Space::new(vec![factor("a")?, factor("b")?]).with_dependences(vec![Dependence::pair("a", "b", 0.6)])?;
     /// # let _ = space;
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -139,12 +139,12 @@ impl StudyBuilder {
     /// [`plain_rows`](Self::plain_rows): an eighth to a third of the runs at base samples, the others at plain rows.
     ///
     /// ```
-    /// use apportion::{Study, model::function_model, uniform};
+    /// use apportion::{Distribution, Study, function_model};
     ///
     /// let model = function_model("y", |x| x[0] + x[1] * x[1]);
     /// let study = Study::builder("dear", model)
-    ///     .factor("a", uniform(0.0, 1.0)?)
-    ///     .factor("b", uniform(0.0, 1.0)?)
+    ///     .factor("a", Distribution::uniform(0.0, 1.0)?)
+    ///     .factor("b", Distribution::uniform(0.0, 1.0)?)
     ///     .budget_runs(100)
     ///     .build()?;
     /// assert!(study.design().rows() <= 100);
