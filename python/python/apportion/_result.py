@@ -89,7 +89,11 @@ class Document:
     def _repr_html_(self) -> str:
         lead = "".join(f"<p>{html.escape(line)}</p>" for line in self._document.lead)
         charts = self._document.charts()
-        return f"<div>{lead}{charts[0][1] if charts else ''}</div>"
+        return f"<div>{lead}{self._table_html()}{charts[0][1] if charts else ''}</div>"
+
+    def _table_html(self) -> str:
+        """The indices as a table; only results of runs have one."""
+        return ""
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         return {"text/plain": repr(self), "text/html": self._repr_html_()}
@@ -125,6 +129,15 @@ class Document:
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Writes the page, JSON, CSV and charts to `folder`, and returns the path of the page."""
         return Path(self._document.save(os.fspath(folder)))
+
+
+# Tables, and rows of each, that stand in a notebook.
+_TABLES, _ROWS = 4, 30
+
+
+def _words(index: Index) -> str:
+    bounds = "" if np.isnan(index.low) else f" [{index.low:.4f}, {index.high:.4f}]"
+    return f"{index.estimate:.4f}{bounds}"
 
 
 class OutputResult:
@@ -247,6 +260,23 @@ class Result(Document):
         if output not in outputs:
             raise KeyError(f"{output!r}: the outputs are {', '.join(outputs)}")
         return outputs[output]
+
+    def _table_html(self) -> str:
+        columns = {"first-order": "first_order", "total": "total", "Shapley effect": "shapley"}
+        tables = []
+        for output in list(self.outputs.values())[:_TABLES]:
+            shown = {label: getattr(output, kind) for label, kind in columns.items() if len(getattr(output, kind))}
+            if not shown:
+                continue
+            names = sorted(output.total, key=lambda name: -output.total[name].estimate)[:_ROWS]
+            head = "".join(f"<th>{label}</th>" for label in shown)
+            rows = (
+                f"<tr><th>{html.escape(name)}</th>{''.join(f'<td>{_words(of[name])}</td>' for of in shown.values())}</tr>"
+                for name in names
+            )
+            caption = f"<caption>{html.escape(output.name)}, with 95 % intervals</caption>"
+            tables.append(f"<table>{caption}<tr><th></th>{head}</tr>{''.join(rows)}</table>")
+        return "".join(tables)
 
     def _only(self) -> OutputResult:
         outputs = self.outputs
