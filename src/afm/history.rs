@@ -108,6 +108,44 @@ pub fn history(scene: &Scene, options: &Options, duration: f64) -> Result<Histor
     Ok(History { samples, critical })
 }
 
+/// The scene at `times` (s, from 0 on, in any order), by the same rules, exactly; `take` is handed each with its place. A
+/// substrate that stands still keeps the scene as it was at the start.
+///
+/// # Errors
+/// Those of [`history`], but for [`Failure::VelocityZero`]; some of the samples may have been taken by then.
+pub fn at_times(
+    scene: &Scene,
+    options: &Options,
+    times: &[f64],
+    mut take: impl FnMut(usize, &Sample),
+) -> Result<(), Failure> {
+    let options = Options { fidelity: Fidelity::QuasiStatic, ..*options };
+    let critical = critical_force(scene, &options)?;
+    let slip_time = match critical.critical_time {
+        Ok(time) => time,
+        Err(Failure::VelocityZero) => f64::INFINITY,
+        Err(failure) => return Err(failure),
+    };
+    let probe = Probe::new(scene, options.torsion);
+    let stage = Stage { scene, options: &options, statics: Statics::new(scene, &probe)? };
+    let mut held = None;
+    for (place, &time) in times.iter().enumerate() {
+        let travel = scene.velocity * time;
+        let sample = if time >= slip_time {
+            let at_slip = match held {
+                Some(sample) => sample,
+                None => *held.insert(Sample { time: slip_time, ..stage.sticking(critical.twist)? }),
+            };
+            stage.slipping(&at_slip, time)
+        } else {
+            let twist = if travel == 0.0 { 0.0 } else { stage.twist_at(travel, &critical)? };
+            Sample { time, ..stage.sticking(twist)? }
+        };
+        take(place, &sample);
+    }
+    Ok(())
+}
+
 struct Stage<'a> {
     scene: &'a Scene,
     options: &'a Options,
@@ -287,6 +325,42 @@ mod tests {
         let smooth = Scene { static_friction: 0.0, shear_strength: 0.0, ..Scene::default() };
         let history = history(&smooth, &Options::default(), 0.4).unwrap();
         assert!((history.samples[history.samples.len() - 1].relative + 40e-9).abs() < 1e-20);
+    }
+
+    /// The same as the samples of a history, where these are.
+    #[test]
+    fn times_are_those_of_the_history() {
+        for &friction in FrictionLaw::ALL {
+            let options = Options { friction, ..Options::default() };
+            let samples = history(&Scene::default(), &options, 0.4).unwrap().samples;
+            let slip = samples.iter().position(|sample| !sample.sticking).unwrap();
+            // The last that sticks is at the same time as the first that slips.
+            let samples: Vec<Sample> = samples[..slip - 1].iter().chain(&samples[slip..]).copied().collect();
+            let times: Vec<f64> = samples.iter().map(|sample| sample.time).collect();
+            let mut taken = 0;
+            let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
+            at_times(&Scene::default(), &options, &times, |place, sample| {
+                let other = &samples[place];
+                assert!(close(sample.tip_force, other.tip_force) && close(sample.particle, other.particle));
+                assert!(close(sample.substrate_contact.radius, other.substrate_contact.radius));
+                assert_eq!((sample.time, sample.sticking), (other.time, other.sticking));
+                taken += 1;
+            })
+            .unwrap();
+            assert_eq!(taken, times.len());
+        }
+    }
+
+    #[test]
+    fn a_substrate_at_rest_moves_nothing() {
+        let resting = Scene { velocity: 0.0, ..Scene::default() };
+        let mut forces = Vec::new();
+        at_times(&resting, &Options::default(), &[0.0, 1.0, 1e9], |_, sample| {
+            assert!(sample.sticking && sample.particle == 0.0);
+            forces.push(sample.tip_force);
+        })
+        .unwrap();
+        assert!(forces.len() == 3 && forces[0] == forces[1] && forces[1] == forces[2] && forces[0] > 0.0);
     }
 
     #[test]

@@ -1,125 +1,29 @@
 //! The critical pushing force of a nanoparticle as a model: the adapter between factors and [`crate::afm`].
 
+mod history;
+mod output;
 #[cfg(feature = "study")]
 mod second;
 
+pub use history::{AfmHistory, AfmMoments};
+pub use output::AfmOutput;
 #[cfg(feature = "study")]
 pub(crate) use second::AfmSecond;
 
-use super::{Batch, Choice, Counter, CounterKind, Flag, Input, Model, Output, RowFailure, RunContext, Worker};
+use std::ops::Range;
+
+use history::Histories;
+use output::edge;
+
+use super::{
+    Batch, Choice, Counter, CounterKind, Flag, Input, Model, Output, OutputSeries, RowFailure, RunContext, Worker,
+};
 use crate::afm::{
     self, ContactTheory, Critical, Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion,
     critical_force,
-    force::{AT_ONCE, ClosedForms, Column, Slips},
+    force::{AT_ONCE, ClosedForms},
 };
-use std::ops::Range;
-
 use crate::quantity::Unit;
-
-/// An output of the critical-force computation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AfmOutput {
-    /// F_cr, the tip force at which the particle slips.
-    CriticalForce,
-    /// F_Y, the lateral part of it.
-    LateralForce,
-    /// F_Z, the normal part of it.
-    NormalForce,
-    /// t_cr, the time until it is reached.
-    CriticalTime,
-    /// ln F_cr, F_cr in newtons.
-    LogCriticalForce,
-    /// psi, the angle of the tip force from the vertical.
-    ForceAngle,
-    /// a, radius of the contact between particle and substrate.
-    ContactRadius,
-    /// d_s, indentation of that contact.
-    Indentation,
-}
-
-impl AfmOutput {
-    /// All outputs, the default one first.
-    pub const ALL: [Self; 8] = [
-        Self::CriticalForce,
-        Self::LateralForce,
-        Self::NormalForce,
-        Self::CriticalTime,
-        Self::LogCriticalForce,
-        Self::ForceAngle,
-        Self::ContactRadius,
-        Self::Indentation,
-    ];
-
-    /// The name in study files and results.
-    pub fn name(self) -> &'static str {
-        self.row().0
-    }
-
-    /// The unit in which it is reported.
-    pub fn unit(self) -> Unit {
-        edge(self.row().1)
-    }
-
-    /// One line for people.
-    pub fn description(self) -> &'static str {
-        self.row().2
-    }
-
-    /// The same for a [`Model`].
-    pub fn info(self) -> Output {
-        Output::new(self.name(), self.unit(), self.description())
-    }
-
-    fn row(self) -> (&'static str, &'static str, &'static str) {
-        match self {
-            Self::CriticalForce => ("critical_force", "nN", "tip force F_cr at which the particle slips"),
-            Self::LateralForce => ("lateral_force", "nN", "lateral part F_Y of the critical force"),
-            Self::NormalForce => ("normal_force", "nN", "normal part F_Z of the critical force"),
-            Self::CriticalTime => ("critical_time", "s", "time t_cr until the particle slips; none at velocity 0"),
-            Self::LogCriticalForce => ("log_critical_force", "1", "natural logarithm of the critical force in newtons"),
-            Self::ForceAngle => ("force_angle", "rad", "angle psi of the critical force from the vertical"),
-            Self::ContactRadius => ("contact_radius", "nm", "radius a of the contact between particle and substrate"),
-            Self::Indentation => ("indentation", "nm", "indentation d_s of the contact between particle and substrate"),
-        }
-    }
-
-    /// The values of scenes solved at once in SI units, where they are at hand.
-    fn column(self, slips: &Slips) -> Option<&Column> {
-        match self {
-            Self::CriticalForce => Some(&slips.critical_force),
-            Self::LateralForce => Some(&slips.lateral_force),
-            Self::NormalForce => Some(&slips.normal_force),
-            Self::ContactRadius => Some(&slips.contact_radius),
-            Self::CriticalTime | Self::LogCriticalForce | Self::ForceAngle | Self::Indentation => None,
-        }
-    }
-
-    /// The value of scene number `i` of those solved at once.
-    fn of_many(self, i: usize, forms: &ClosedForms) -> Result<f64, Failure> {
-        let slips = forms.slips();
-        match self {
-            Self::CriticalTime => forms.critical_time(i),
-            Self::LogCriticalForce => Ok(slips.critical_force[i].ln()),
-            Self::ForceAngle => Ok(slips.lateral_force[i].atan2(slips.normal_force[i])),
-            Self::Indentation => forms.indentation(i),
-            other => Ok(other.column(slips).map_or(f64::NAN, |column| column[i])),
-        }
-    }
-
-    /// The value in SI units.
-    fn of(self, critical: &Critical) -> Result<f64, Failure> {
-        Ok(match self {
-            Self::CriticalForce => critical.critical_force,
-            Self::LateralForce => critical.lateral_force,
-            Self::NormalForce => critical.normal_force,
-            Self::CriticalTime => critical.critical_time?,
-            Self::LogCriticalForce => critical.critical_force.ln(),
-            Self::ForceAngle => critical.force_angle(),
-            Self::ContactRadius => critical.contact_radius,
-            Self::Indentation => critical.indentation,
-        })
-    }
-}
 
 /// The unit in which people give a parameter of the scene.
 pub fn edge_unit(parameter: &Parameter) -> Unit {
@@ -153,9 +57,13 @@ fn afm_input(parameter: &Parameter) -> Input {
     }
 }
 
-/// Every output.
+/// Every output, then every history.
 pub(super) fn afm_outputs() -> Vec<Output> {
-    AfmOutput::ALL.iter().map(|output| output.info()).collect()
+    AfmOutput::ALL
+        .iter()
+        .map(|output| output.info())
+        .chain(AfmHistory::ALL.iter().map(|history| history.info()))
+        .collect()
 }
 
 /// The choices of `[afm]`.
@@ -173,12 +81,8 @@ pub(super) fn afm_choices() -> Vec<Choice> {
         ("tolerance (quasi-static and above)", vec!["a number, 1e-6"]),
         ("step (fixed-step)", vec!["a time, \"10 ms\""]),
         ("step_budget (marched rungs)", vec!["a whole number, 1000000"]),
+        ("history (of the outputs NAME_history)", vec!["a table, { duration = \"0.4 s\", points = 40 }"]),
     ]
-}
-
-/// A unit written in this file, all of which are known: a test goes through them.
-fn edge(symbol: &str) -> Unit {
-    Unit::parse(symbol).unwrap_or_else(|_| Unit::dimensionless())
 }
 
 /// Beginning of the names of counters of rows that a rung of the ladder of fidelities answered.
@@ -199,6 +103,8 @@ pub struct AfmModel {
     factors: Vec<&'static Parameter>,
     outputs: Vec<Output>,
     which: Vec<AfmOutput>,
+    /// Series, whose values stand after the outputs in `which`.
+    histories: Histories,
     flags: Vec<Flag>,
     /// Rows by rung, in the order of [`Fidelity::ALL`]; then [`EVALUATIONS`] and [`LARGEST_ERROR`].
     counters: Vec<Counter>,
@@ -216,13 +122,26 @@ impl AfmModel {
         let rungs = Fidelity::ALL.iter().map(|rung| counter(format!("{RUNGS}{}", rung.name()), CounterKind::Sum));
         let cost = [(EVALUATIONS, CounterKind::Sum), (LARGEST_ERROR, CounterKind::Maximum)];
         let counters = rungs.chain(cost.map(|(name, kind)| counter(name.to_owned(), kind))).collect();
-        Self { scene, options, factors, outputs, which, flags, counters }
+        Self { scene, options, factors, outputs, which, histories: Histories::none(), flags, counters }
+    }
+
+    /// The model with these histories after its outputs, each a series of values at `moments`.
+    #[must_use]
+    pub fn with_histories(self, which: &[AfmHistory], moments: &AfmMoments) -> Self {
+        let first = self.outputs.len();
+        let histories = Histories::new(which, moments, first);
+        let outputs = self.outputs.into_iter().chain(histories.outputs()).collect();
+        Self { outputs, histories, ..self }
     }
 }
 
 impl Model for AfmModel {
     fn outputs(&self) -> &[Output] {
         &self.outputs
+    }
+
+    fn series(&self) -> &[OutputSeries] {
+        self.histories.series()
     }
 
     fn flags(&self) -> &[Flag] {
@@ -262,7 +181,8 @@ struct Spent {
 impl Worker for AfmWorker<'_> {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
         self.spent = Spent::default();
-        let step = if self.forms.is_some() { AT_ONCE } else { ROWS_BETWEEN_LOOKS };
+        let is_quick = self.forms.is_some() && self.model.histories.is_empty();
+        let step = if is_quick { AT_ONCE } else { ROWS_BETWEEN_LOOKS };
         for first in (0..batch.rows()).step_by(step) {
             if self.context.is_stopped() {
                 batch.give_up(RowFailure::interrupted());
@@ -270,8 +190,11 @@ impl Worker for AfmWorker<'_> {
             }
             let rows = first..batch.rows().min(first + step);
             match self.forms.take() {
-                Some(forms) => self.forms = Some(self.run_at_once(forms, inputs, rows, batch)),
-                None => rows.for_each(|row| self.run_row(inputs, row, batch)),
+                Some(forms) => self.forms = Some(self.run_at_once(forms, inputs, rows.clone(), batch)),
+                None => rows.clone().for_each(|row| self.run_row(inputs, row, batch)),
+            }
+            if !self.model.histories.is_empty() {
+                rows.for_each(|row| self.run_histories(inputs, row, batch));
             }
         }
         let Spent { rungs, evaluations, largest_error } = &self.spent;
@@ -283,13 +206,29 @@ impl Worker for AfmWorker<'_> {
 }
 
 impl AfmWorker<'_> {
-    fn run_row(&mut self, inputs: &[&[f64]], row: usize, batch: &mut Batch) {
+    fn set_scene(&mut self, inputs: &[&[f64]], row: usize) {
         for (parameter, column) in self.model.factors.iter().zip(inputs) {
             (parameter.set)(&mut self.scene, column[row]);
         }
+    }
+
+    fn run_row(&mut self, inputs: &[&[f64]], row: usize, batch: &mut Batch) {
+        self.set_scene(inputs, row);
         match critical_force(&self.scene, &self.model.options) {
-            Err(failure) => batch.fail_row(row, &self.reason(failure)),
+            Err(failure) => {
+                let reason = self.reason(failure);
+                (0..self.model.which.len()).for_each(|column| batch.fail(row, column, reason.clone()));
+            }
             Ok(critical) => self.write(row, &critical, batch),
+        }
+    }
+
+    fn run_histories(&mut self, inputs: &[&[f64]], row: usize, batch: &mut Batch) {
+        self.set_scene(inputs, row);
+        let model = self.model;
+        if let Err(failure) = model.histories.write((&self.scene, &model.options), row, batch) {
+            let reason = self.reason(failure);
+            model.histories.columns().for_each(|column| batch.fail(row, column, reason.clone()));
         }
     }
 
@@ -368,9 +307,6 @@ mod tests {
         for parameter in Parameter::ALL {
             let si = Unit::parse(parameter.unit).unwrap();
             assert!(edge_unit(parameter).compatible(&si), "{}", parameter.name);
-        }
-        for output in AfmOutput::ALL {
-            assert!(Unit::parse(output.row().1).is_ok());
         }
     }
 

@@ -22,7 +22,7 @@ mod series;
 
 #[cfg(feature = "study")]
 pub(crate) use afm::AfmSecond;
-pub use afm::{AfmModel, AfmOutput, EVALUATIONS, LARGEST_ERROR, RUNGS, edge_unit};
+pub use afm::{AfmHistory, AfmModel, AfmMoments, AfmOutput, EVALUATIONS, LARGEST_ERROR, RUNGS, edge_unit};
 pub use batch::{Batch, RowFailure};
 pub use catalogue::{ModelKind, known_inputs};
 #[cfg(feature = "study")]
@@ -44,6 +44,8 @@ pub use repeated::RepeatedModel;
 #[cfg(feature = "study")]
 pub(crate) use second::InMoreDigits;
 pub use second::{Answered, Reference, SecondCalculation, Unchecked};
+#[cfg(feature = "study")]
+pub(crate) use series::MOST_VALUES;
 pub use series::{OutputSeries, SeriesAxis, SeriesError};
 #[cfg(feature = "study")]
 pub(crate) use series::{item_of_list, items_of_header};

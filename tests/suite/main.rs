@@ -32,8 +32,6 @@ mod journal;
 mod known;
 mod many_outputs;
 mod metamorphic;
-#[cfg(feature = "mpi")]
-mod mpi;
 mod names;
 mod noise;
 mod page;

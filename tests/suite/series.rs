@@ -224,3 +224,39 @@ fn a_series_of_dependent_factors_has_their_indices() {
     }
     assert!(run_document(&result).html().unwrap().contains("Shapley"));
 }
+
+/// Histories of the nanoparticle: as long as all particles stick their position is V t, which the velocity alone decides; when all
+/// have slipped the force is the critical force.
+#[test]
+fn the_push_against_time() {
+    let text = "model = \"afm\"\noutputs = [\"position_history\", \"critical_force\", \"force_history\"]\n\
+                afm = { fidelity = \"quasi-static\", history = { duration = \"2 s\", points = 100 } }\n\
+                design = { base_samples = 1024 }\nanalysis = { surrogate = \"off\" }\n\
+                [factor.velocity]\nmin = 80\nmax = 120\nunit = \"nm/s\"\n[factor.thickness]\nmin = 0.9\nmax = 1.1\nunit = \"um\"\n";
+    let study = Study::parse(text, "push.toml".as_ref(), &[]).unwrap();
+    let analysis = study.run().unwrap();
+    let position = analysis.series("position_history").unwrap();
+    assert_eq!((position.series.axis.label(), position.series.axis.unit()), ("time", "s"));
+    near(position.series.axis.positions()[99], 2.0, 1e-12);
+    let index = |output: &str, factor: &str| analysis.output(output).unwrap().factor(factor).unwrap().clone();
+    near(index("position_history[0]", "velocity").first_order.estimate, 1.0, 1e-6);
+    near(index("position_history[0]", "thickness").total.estimate, 0.0, 1e-9);
+    for factor in ["velocity", "thickness"] {
+        let (at_end, critical) = (index("force_history[99]", factor), index("critical_force", factor));
+        near(at_end.total.estimate, critical.total.estimate, 1e-6);
+        near(at_end.first_order.estimate, critical.first_order.estimate, 1e-6);
+    }
+    let document = run_document(&ResultFile::new(&study, &analysis)).text();
+    assert!(document.contains("force_history") || document.contains("force history"), "{document}");
+    let refused = |history: &str| {
+        let text = text.replace("{ duration = \"2 s\", points = 100 }", history);
+        Study::parse(&text, "push.toml".as_ref(), &[]).unwrap_err().to_string()
+    };
+    assert!(refused("{ duration = \"2 um\" }").contains("history.duration"));
+    assert!(refused("{ points = 1 }").contains("history.points"));
+    assert!(refused("{ point = 10 }").contains("points"));
+    assert!(refused("0.4").contains("a table such as"));
+    let idle = text.replace("\"position_history\", \"critical_force\", \"force_history\"", "\"critical_force\"");
+    let notes = Study::parse(&idle, "push.toml".as_ref(), &[]).unwrap();
+    assert!(notes.notes().iter().any(|note| note.contains("`history` has no effect")), "{:?}", notes.notes());
+}

@@ -4,10 +4,10 @@ use apportion::report::given::GivenFile;
 
 use crate::common::{Folder, apportion, stderr, succeed, text};
 
-const STUDY: &str = "model = \"expression\"\nexpression.outputs.y = \"a + 2 * b / 1 m + a * b / 1 m\"\n[factor.a]\nmin = -1\nmax = 1\n\
+const STUDY: &str = "model = \"expression\"\nexpression.outputs.y = \"a + 2 * b + a * b\"\n[factor.a]\nmin = -1\nmax = 1\n\
                      [factor.b]\nmin = -100\nmax = 100\nunit = \"cm\"\n";
 
-/// The y above has the variances 1/3, 4/3 and 1/9.
+/// Formulas are in SI, so b is between -1 and 1: the parts of y have the variances 1/3, 4/3 and 1/9.
 #[test]
 fn random_points_of_a_study_tell_its_indices() {
     let folder = Folder::new();
@@ -81,7 +81,7 @@ fn check_says_which_method_serves_for_slow_models() {
     let program = folder.with("slow.sh", "while read -r row; do sleep 0.01; echo \"$row\"; done\n");
     let factors: String = ["a", "b"].iter().map(|name| format!("[factor.{name}]\nmin = 0\nmax = 1\n")).collect();
     let slow = format!(
-        "model = \"command\"\n[command]\nprogram = [\"sh\", {:?}]\noutputs = [\"y\", \"z\"]\n[design]\nbase_samples = 64\n{factors}",
+        "model = \"command\"\noutputs = [\"y\", \"z\"]\n[command]\nprogram = [\"sh\", {:?}]\n[design]\nbase_samples = 64\n{factors}",
         text(&program)
     );
     let slow = folder.with("slow.toml", slow);

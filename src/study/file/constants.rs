@@ -10,7 +10,7 @@ use super::key_schemas::CHOICES;
 use super::sections::At;
 use super::units::{in_words_of_units, with_unit};
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion};
-use crate::model::edge_unit;
+use crate::model::{AfmMoments, MOST_VALUES, edge_unit};
 use crate::names::nearest;
 use crate::quantity::{Dimension, Quantity, Unit};
 
@@ -35,8 +35,8 @@ pub(super) fn afm(
             "lugre_parameters" => {
                 options.lugre = choice(value, name, LuGreParameters::ALL, LuGreParameters::name).map_err(fault)?;
             }
-            "tolerance" => options.tolerance = positive(name, "1e-6", value).map_err(fault)?,
-            "step" => options.step = positive(name, "\"10 ms\"", value).map_err(fault)?,
+            "tolerance" => options.tolerance = positive(name, "1e-6", value.get_ref()).map_err(fault)?,
+            "step" => options.step = positive(name, "\"10 ms\"", value.get_ref()).map_err(fault)?,
             "step_budget" => {
                 let budget = value.get_ref().as_integer().and_then(|steps| u64::try_from(steps).ok());
                 let budget = budget.filter(|&steps| steps > 0);
@@ -46,6 +46,8 @@ pub(super) fn afm(
                 options.adhesion_in_load =
                     value.get_ref().as_bool().ok_or_else(|| fault(wrong_type(name, "true or false", value)))?;
             }
+            // See `moments`.
+            "history" => (),
             _ => {
                 let Some(parameter) = Parameter::from_name(name) else {
                     return Err(context.fault(key.span(), unknown_key(name)));
@@ -60,8 +62,45 @@ pub(super) fn afm(
     Ok((scene, options))
 }
 
+/// Seconds of a history, and moments in them, where nothing is said: those of the papers' scene in time.
+const DURATION: f64 = 0.4;
+const POINTS: usize = 40;
+
+/// The moments of the outputs that are histories, by the key `history`.
+pub(super) fn moments(context: &Context<'_>, table: &BTreeMap<At<String>, At<Value>>) -> Result<AfmMoments, Fault> {
+    let entry = table.iter().find(|(key, _)| key.get_ref() == "history").map(|(_, value)| value);
+    let (mut duration, mut points) = (DURATION, POINTS);
+    let fault = |problem| context.fault(entry.map_or(0..0, At::span), problem);
+    if let Some(value) = entry {
+        let example = "a table such as { duration = \"0.4 s\", points = 40 }";
+        let known = ["duration", "points"];
+        for (key, value_of) in value.get_ref().as_table().ok_or_else(|| fault(wrong_type("history", example, value)))? {
+            match key.as_str() {
+                "duration" => duration = positive("history.duration", "\"0.4 s\"", value_of).map_err(fault)?,
+                "points" => {
+                    let number = value_of.as_integer().and_then(|points| usize::try_from(points).ok());
+                    let wrong = || Problem::WrongType {
+                        key: "history.points".to_owned(),
+                        expected: "a whole number from 2 to 10000".to_owned(),
+                        found: value_of.to_string(),
+                    };
+                    points =
+                        number.filter(|points| (2..=MOST_VALUES).contains(points)).ok_or_else(|| fault(wrong()))?;
+                }
+                other => {
+                    let expected = known.map(str::to_owned).to_vec();
+                    let problem =
+                        Problem::UnknownKey { name: other.to_owned(), nearest: nearest(other, known), expected };
+                    return Err(fault(problem));
+                }
+            }
+        }
+    }
+    AfmMoments::new(duration, points).map_err(|error| fault(Problem::Syntax(format!("`history`: {error}"))))
+}
+
 /// Notes on keys of the table that are understood but cannot act under `options`.
-pub(super) fn idle(table: &BTreeMap<At<String>, At<Value>>, options: &Options) -> Vec<String> {
+pub(super) fn idle(table: &BTreeMap<At<String>, At<Value>>, options: &Options, has_histories: bool) -> Vec<String> {
     let marched = !matches!(options.fidelity, Fidelity::ClosedForm);
     let acts = |name: &str| match name {
         "step" => options.fidelity == Fidelity::FixedStep,
@@ -72,8 +111,12 @@ pub(super) fn idle(table: &BTreeMap<At<String>, At<Value>>, options: &Options) -
     };
     let (friction, fidelity) = (options.friction.name(), options.fidelity.name());
     let idle = table.keys().map(|key| key.get_ref().as_str()).filter(|name| !acts(name));
-    idle.map(|name| format!("`{name}` has no effect with friction = \"{friction}\" and fidelity = \"{fidelity}\""))
-        .collect()
+    let notes =
+        idle.map(|name| format!("`{name}` has no effect with friction = \"{friction}\" and fidelity = \"{fidelity}\""));
+    let without = !has_histories && table.keys().any(|key| key.get_ref() == "history");
+    let of_history =
+        without.then(|| "`history` has no effect without an output that is one, such as force_history".to_owned());
+    notes.chain(of_history).collect()
 }
 
 fn unknown_key(name: &str) -> Problem {
@@ -141,9 +184,9 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
 }
 
 /// A number greater than 0: bare where it has no dimension, as `example` shows, or a time with its unit.
-fn positive(key: &str, example: &str, value: &At<Value>) -> Result<f64, Problem> {
+fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
     let is_time = example.starts_with('"');
-    let number = match value.get_ref() {
+    let number = match value {
         Value::String(text) if is_time => {
             let quantity = Quantity::parse(text)?;
             (quantity.unit.dimension() == Dimension::TIME).then(|| quantity.to_si())
@@ -156,7 +199,7 @@ fn positive(key: &str, example: &str, value: &At<Value>) -> Result<f64, Problem>
     number.filter(|number| *number > 0.0 && number.is_finite()).ok_or_else(|| Problem::WrongType {
         key: key.to_owned(),
         expected: expected(),
-        found: value.get_ref().to_string(),
+        found: value.to_string(),
     })
 }
 

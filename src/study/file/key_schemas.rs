@@ -14,7 +14,7 @@ use crate::space::CorrelationMeasure;
 use crate::study::SurrogateChoice;
 use crate::uncertainty::IntervalMethod;
 
-pub(super) const CHOICES: [&str; 9] = [
+pub(super) const CHOICES: [&str; 10] = [
     "friction",
     "contact",
     "fidelity",
@@ -24,6 +24,7 @@ pub(super) const CHOICES: [&str; 9] = [
     "tolerance",
     "step",
     "step_budget",
+    "history",
 ];
 
 pub(super) fn models() -> Vec<&'static str> {
@@ -84,6 +85,12 @@ pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
         "adhesion_in_load" => json!({ "type": "boolean" }),
         "step" => json!({ "type": "string", "description": "A time, as in \"10 ms\"." }),
         "step_budget" => json!({ "type": "integer", "minimum": 1 }),
+        "history" => json!({
+            "type": "object",
+            "description": "Over which time the outputs that are histories are told, and at how many moments.",
+            "properties": { "duration": { "type": "string" }, "points": { "type": "integer", "minimum": 2 } },
+            "additionalProperties": false,
+        }),
         _ => json!({ "type": "number", "exclusiveMinimum": 0 }),
     };
     let mut properties: Map<String, Value> = CHOICES.iter().map(|key| ((*key).to_owned(), choice(key))).collect();

@@ -12,7 +12,7 @@ use super::template::{
     TemplateRequest, afm_table, external_template, formula_template, function_table, model_template, program_template,
 };
 use super::{command, constants, expression, external, function, guides};
-use crate::model::{AfmOutput, Input, KnownFunction, ModelKind, known_inputs};
+use crate::model::{AfmHistory, AfmOutput, Input, KnownFunction, ModelKind, known_inputs};
 use crate::space::Space;
 use crate::study::Subject;
 
@@ -139,12 +139,18 @@ fn known(reading: &Reading<'_>) -> Result<Option<KnownFunction>, Fault> {
 
 fn afm(reading: &Reading<'_>, space: &Space) -> Subjects {
     let is_factor = |name: &str| space.factors().iter().any(|factor| factor.name == name);
-    let outputs = outputs(reading)?.into_iter().map(|number| AfmOutput::ALL[number]).collect();
+    // Histories stand after the others in the catalogue.
+    let (places, histories): (Vec<usize>, Vec<usize>) =
+        outputs(reading)?.into_iter().partition(|place| *place < AfmOutput::ALL.len());
+    let outputs = places.into_iter().map(|place| AfmOutput::ALL[place]).collect();
+    let histories: Vec<AfmHistory> =
+        histories.into_iter().map(|place| AfmHistory::ALL[place - AfmOutput::ALL.len()]).collect();
     let none = Default::default();
     let table = reading.file.afm.as_ref().map_or(&none, At::get_ref);
     let (scene, options) = constants::afm(reading.context, table, &is_factor)?;
-    let notes = constants::idle(table, &options);
-    Ok((Arc::new(AfmSubject { scene, options, outputs }), notes))
+    let moments = constants::moments(reading.context, table)?;
+    let notes = constants::idle(table, &options, !histories.is_empty());
+    Ok((Arc::new(AfmSubject { scene, options, outputs, histories, moments }), notes))
 }
 
 /// Numbers of the outputs in the catalogue, in the order asked for; the first one if nothing is asked.

@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 
 use crate::afm::{Fidelity, Options, Parameter, Scene};
 use crate::model::{
-    AfmModel, AfmOutput, AfmSecond, CommandModel, CommandSettings, Expression, ExpressionModel, ExternalModel, Form,
-    InMoreDigits, Input, KnownFunction, KnownModel, Model, ModelKind, Output, OutputSeries, ParameterValue,
-    SecondCalculation, edge_unit, known_inputs,
+    AfmHistory, AfmModel, AfmMoments, AfmOutput, AfmSecond, CommandModel, CommandSettings, Expression, ExpressionModel,
+    ExternalModel, Form, InMoreDigits, Input, KnownFunction, KnownModel, Model, ModelKind, Output, OutputSeries,
+    ParameterValue, SecondCalculation, edge_unit, known_inputs,
 };
 use crate::quantity::{Quantity, Unit};
 use crate::space::{Distribution, Factor, Space};
@@ -24,6 +24,9 @@ pub struct AfmSubject {
     pub options: Options,
     /// The outputs asked for.
     pub outputs: Vec<AfmOutput>,
+    /// The histories asked for, and the moments at which they are told.
+    pub histories: Vec<AfmHistory>,
+    pub moments: AfmMoments,
 }
 
 /// A function with known indices and its parameters.
@@ -97,12 +100,13 @@ impl Subject for AfmSubject {
 
     fn model(&self, space: &Space) -> Box<dyn Model> {
         let factors = space.factors().iter().filter_map(|factor| Parameter::from_name(&factor.name)).collect();
-        Box::new(AfmModel::new(self.scene, self.options, factors, self.outputs.clone()))
+        let model = AfmModel::new(self.scene, self.options, factors, self.outputs.clone());
+        Box::new(model.with_histories(&self.histories, &self.moments))
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {
         let options = &self.options;
-        vec![
+        let mut settings = vec![
             ("friction", json!(options.friction.name())),
             ("contact", json!(options.contact.name())),
             ("fidelity", json!(options.fidelity.name())),
@@ -112,7 +116,12 @@ impl Subject for AfmSubject {
             ("tolerance", json!(options.tolerance)),
             ("step", json!(format!("{} s", options.step))),
             ("step_budget", json!(options.step_budget)),
-        ]
+        ];
+        if !self.histories.is_empty() {
+            let (duration, points) = (self.moments.duration(), self.moments.times().len());
+            settings.push(("history", json!({ "duration": format!("{duration} s"), "points": points })));
+        }
+        settings
     }
 
     fn rung_name(&self) -> String {
@@ -184,6 +193,9 @@ impl Subject for AfmSubject {
     }
 
     fn second_calculation(&self, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
+        if !self.histories.is_empty() {
+            return Err("there is no second calculation of a history");
+        }
         let factors = space.factors().iter().filter_map(|factor| Parameter::from_name(&factor.name)).collect();
         Ok(Box::new(AfmSecond::new(self.scene, self.options, factors, self.outputs.clone())))
     }

@@ -1,11 +1,15 @@
 //! The program on the ranks of an MPI job. Without `mpirun` there is nothing to test.
 
+#[path = "suite/common.rs"]
+#[expect(dead_code, reason = "shared with the other tests of the program")]
+mod common;
+
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
-use crate::common::{Folder, stderr, study_path, succeed, text};
+use common::{Folder, stderr, study_path, succeed, text};
 
 /// Answers slowly, and keeps a list of the rows that it was asked.
 const PROGRAM: &str = "import csv, sys, time\n\
