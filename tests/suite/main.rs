@@ -45,6 +45,7 @@ mod schema;
 mod screening;
 mod series;
 mod series_files;
+mod shapley;
 mod stopped;
 mod study_forms;
 mod surrogate;

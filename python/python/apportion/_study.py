@@ -26,6 +26,7 @@ _ANALYSIS = (
     "second_order",
     "subsets",
     "shapley",
+    "shapley_method",
     "aggregate",
     "dummy",
     "intervals",
@@ -48,8 +49,8 @@ class Study:
     `noise="seed"` gives a stochastic model a seed with every row, as its last argument or by that name.
 
     Keywords are the keys of a study file: `base_samples`, `sampler`, `replicates`, `seed`, `budget_runs`, `max_runs`,
-    `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `estimators`, `intervals`, `surrogate`, `threshold`,
-    `dummy`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
+    `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `shapley_method`, `estimators`, `intervals`, `surrogate`,
+    `threshold`, `dummy`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
     `expression={...}`, `fidelity={...}`. Factors that depend on each other, by a Gaussian copula:
     `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of tables as in a study file, as in
     `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`.
