@@ -111,9 +111,13 @@ impl Redrawn {
         Self { factors: factors.into_iter().map(|factor| (factor, places[factor])).collect(), lower, innovations }
     }
 
-    /// The score of every factor that is swapped in step `step`.
+    /// The score of every factor that is swapped in step `step` and drawn given others.
     fn each(&self, step: usize, mut of_factor: impl FnMut(usize, f64)) {
         let kept = self.factors.partition_point(|(_, place)| *place > step);
+        if kept == 0 {
+            // Given nothing they are those of B, to the last bit.
+            return;
+        }
         for row in kept..self.factors.len() {
             let matrix = |other: usize| usize::from(other >= kept);
             let score = (0..=row).map(|other| self.lower[row][other] * self.innovations[other][matrix(other)]).sum();

@@ -50,8 +50,11 @@ impl ShapleyMoments {
 /// the mean of both is (y_k - y_(k-1)) (y_d - y_0)/2, of about half the variance. The sum over the players is (y_d - y_0)^2/2 in both.
 pub fn contributions(design: &Design, (replicate, first): (u64, u64), runs: &[&[f64]]) -> Vec<Vec<f64>> {
     let players = design.asked().players.len();
-    let points = if players > 0 { runs[0].len() } else { 0 };
-    let (a, b) = (runs[0], runs[1]);
+    let [a, b, ..] = runs else { return Vec::new() };
+    if players == 0 {
+        return Vec::new();
+    }
+    let points = a.len();
     let mut columns = vec![vec![0.0; points]; players];
     for (point, order) in design.orders(replicate, first, points).into_iter().enumerate() {
         let (start, end) = (a[point], b[point]);

@@ -219,7 +219,7 @@ impl StudyBuilder {
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(self.sampler));
         let analysis = checked(analysis, self.sampler, space.factors().len())?;
         let space = space.with_dependences(self.dependences)?;
-        if space.noise().is_some() && analysis.has_shapley(&space) {
+        if space.noise().is_some() && analysis.asks_for_shapley() {
             return Err(BuildError::Dependent { what: "Shapley effects beside the noise of a stochastic model" });
         }
         if space.copula().is_some() {
@@ -318,8 +318,7 @@ fn checked(mut options: AnalysisOptions, sampler: Sampler, factors: usize) -> Re
         Some(ShapleyMethod::Subsets) => MAX_SHAPLEY_FACTORS,
         Some(ShapleyMethod::Permutations) | None => MAX_ORDERED_FACTORS,
     };
-    let is_asked = options.shapley.unwrap_or(options.shapley_method.is_some());
-    if is_asked && factors > most {
+    if options.asks_for_shapley() && factors > most {
         return Err(BuildError::Shapley { factors, most });
     }
     if let (Some(false), Some(method)) = (options.shapley, options.shapley_method) {

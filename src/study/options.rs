@@ -64,7 +64,12 @@ impl AnalysisOptions {
     /// Whether there will be Shapley effects of the factors of `space`.
     pub fn has_shapley(&self, space: &Space) -> bool {
         let is_free = space.copula().is_some() && space.factors().len() <= FREE_SHAPLEY_FACTORS;
-        self.shapley.unwrap_or(is_free || self.shapley_method.is_some())
+        self.asks_for_shapley() || is_free && self.shapley.is_none()
+    }
+
+    /// Whether they are asked for in words.
+    pub(super) fn asks_for_shapley(&self) -> bool {
+        self.shapley.unwrap_or(self.shapley_method.is_some())
     }
 
     /// How they will be found, if there will be some.

@@ -221,14 +221,30 @@ class Study:
         return Result(result)
 
     def screen(
-        self, trajectories: int = 32, *, levels: int | None = None, seed: int | None = None, threads: int = 0
+        self,
+        trajectories: int = 32,
+        *,
+        levels: int | None = None,
+        derivatives: bool = False,
+        seed: int | None = None,
+        threads: int = 0,
     ) -> Document:
         """Elementary effects: which of many factors matter, for a few runs each. Radial (Campolongo et al. 2011), or with
-        `levels` the trajectories of Morris (1991) on a grid."""
+        `levels` the trajectories of Morris (1991) on a grid; with `derivatives` short steps, for the mean squares of derivatives and
+        what total indices are at most (Sobol' and Kucherenko 2009)."""
+        if derivatives and levels is not None:
+            raise StudyError("levels are of no account to derivatives: leave out one of them")
         stop = _engine.Stop()
         function = self._function(stop, None, None)
         document = self._study.screen(
-            function, stop, trajectories=trajectories, levels=levels, seed=seed, threads=threads, progress=None
+            function,
+            stop,
+            trajectories=trajectories,
+            levels=levels,
+            derivatives=derivatives,
+            seed=seed,
+            threads=threads,
+            progress=None,
         )
         return Document(document)
 
