@@ -330,7 +330,7 @@ fn tables(names: &[&str], cells: &BTreeMap<(usize, usize, u32), Cell>, seeds: u6
          **Coverage** of the nominal 95 % interval; **width** over the ideal, 2 x 1.96 x the true standard error of one net of the same \
          number of base samples N; **error**: true standard error of the estimate over that of one net. A share of {seeds} seeds has \
          a standard error of its own: {:.3} for one index, less for the mean over several.\n\nOutputs with rare, large values, on which \
-         every interval is harder to get right, have [a page of their own](coverage-skewed.md).\n\n## All methods\n\nOver all functions and N = 2^8 .. 2^14: \
+         every interval is harder to get right, have [a page of their own](coverage-skewed.md), and so have [Shapley effects and measures of given data](coverage-measures.md).\n\n## All methods\n\nOver all functions and N = 2^8 .. 2^14: \
          mean, least and largest coverage of a cell (a function at an N), share of the cells within 92-98 %, geometric means of width and error.\n\n\
          | method | coverage | least | largest | within 92-98 % | width | error |\n|---|---|---|---|---|---|---|\n",
         (0.95f64 * 0.05 / seeds as f64).sqrt()

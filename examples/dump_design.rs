@@ -2,10 +2,14 @@
 //!
 //! `cargo run --release --example dump_design -- FOLDER` writes, for each case, the inputs at A and B and the outputs of
 //! all rows (`CASE.csv`, doubles in full), the indices by every estimator (`indices.json`), and points of the Sobol'
-//! sequence without scrambling (`sobol-FIRST.csv`). `tests/peers/check.py` reads them.
+//! sequence without scrambling (`sobol-FIRST.csv`); and tables with the measures made of them (`given.csv`, `shapley.csv`,
+//! `derivatives.csv`, `measures.json`). `tests/peers/check.py` reads them.
 
 #[path = "../benches/outputs/mod.rs"]
 mod outputs;
+
+#[path = "dump_design/measures.rs"]
+mod measures;
 
 use std::path::Path;
 
@@ -91,6 +95,7 @@ fn main() -> anyhow::Result<()> {
         all.insert(case.name.to_owned(), dump(case, folder)?);
     }
     write_atomically(&folder.join("indices.json"), serde_json::to_string_pretty(&all)?.as_bytes())?;
+    measures::dump(folder)?;
     for (first, points, dimensions) in STRETCHES {
         let sequence = SobolSequence::plain(dimensions);
         let mut columns = vec![vec![0.0; points]; dimensions];

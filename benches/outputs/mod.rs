@@ -71,6 +71,7 @@ impl<'a> Outputs<'a> {
             bc: &of(design.bc_runs()),
             cb: &of(design.cb_runs()),
             paired: design.paired(),
+            ..BlockOutputs::default()
         };
         Moments::of_block(outputs, work)
     }

@@ -319,6 +319,8 @@ def test_models_of_the_engine_and_everything_that_can_be_asked(cube):
 def test_screening_sweeps_and_given_data(cube):
     study = ap.Study(ishigami, cube)
     assert study.screen(16).to_dict()["format"] == "apportion-screening"
+    derivatives = study.screen(16, derivatives=True).to_dict()
+    assert all(factor["total_bound"]["estimate"] > 0 for factor in derivatives["outputs"][0]["factors"])
     assert study.sweep("x1", points=5).to_dict()["format"] == "apportion-sweep"
     random = np.random.default_rng(1)
     x = random.uniform(-np.pi, np.pi, (2000, 3))
@@ -404,6 +406,14 @@ def test_dependent_factors_have_shapley_effects():
     again = ap.analyse(lambda a, b: 2 * a + b, factors, dependence=tables, base_samples=4096)
     assert np.array_equal(np.asarray(again.shapley), np.asarray(result.shapley))
     assert "shapley" in result.tables()["study"][0]
+    walked = ap.analyse(
+        lambda a, b: 2 * a + b,
+        factors,
+        dependence={("a", "b"): 0.6},
+        base_samples=4096,
+        shapley_method="permutations",
+    )
+    assert abs(walked.shapley["a"].estimate - 0.5) < 0.03 and abs(sum(np.asarray(walked.shapley)) - 1) < 1e-12
     with pytest.raises(ap.StudyError, match="nearest"):
         three = factors | {"c": ap.Normal(0, 1)}
         ap.analyse(lambda a, b, c: a, three, dependence={("a", "b"): 0.9, ("b", "c"): 0.9, ("a", "c"): -0.9})

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use apportion::design::{Companions, Design};
-use apportion::estimate::{FirstOrder, Total};
+use apportion::estimate::{FirstOrder, ShapleyMethod, Total};
 use apportion::report::significant;
 use apportion::run::{BLOCK, FailurePolicy, Pilot};
 use apportion::study::{Study, Target};
@@ -192,7 +192,8 @@ fn rows(study: &Study) -> String {
     let (design, analysis) = (study.design(), study.analysis());
     let swaps = design.swaps().len();
     let Companions { ba, bc, cb } = design.companions();
-    let asked = match (design.is_dependent(), analysis.has_shapley(study.space())) {
+    let has_subsets = analysis.shapley_of(study.space()) == Some(ShapleyMethod::Subsets);
+    let asked = match (design.is_dependent(), has_subsets) {
         (false, false) => "one for each factor, group, subset and dummy",
         (false, true) => "one for each factor, group, subset and dummy, and the others for Shapley effects",
         (true, false) => "two for each factor, group and subset: the others follow it, or it is drawn given the others",
@@ -212,7 +213,11 @@ fn rows(study: &Study) -> String {
     words.extend(cb.then(|| format!("{} CB ({})", rows_of(swaps), askers(|rows| rows.cb))));
     let plain = design.plain_rows();
     words.extend((plain > 0).then(|| format!("{plain} plain, for surrogates alone")));
-    let all = 2 + swaps as u64 * (1 + design.companions().count()) + u64::from(plain);
+    let steps = design.step_runs().len();
+    words.extend(
+        (steps > 0).then(|| format!("{} along a random order of the factors, for Shapley effects", rows_of(steps))),
+    );
+    let all = 2 + swaps as u64 * (1 + design.companions().count()) + u64::from(plain) + steps as u64;
     let saved = all - design.rows_per_point();
     let once = if saved > 0 {
         format!("; {saved} of them the same point as another, which is run once")

@@ -24,7 +24,8 @@ pub struct Arguments {
     /// Trajectories; each costs one run more than there are factors
     #[arg(long, value_name = "R", default_value_t = 32, value_parser = clap::value_parser!(u64).range(MIN_TRAJECTORIES..))]
     trajectories: u64,
-    /// How the points are laid out: radial (Campolongo et al. 2011, by the study's sampler) or trajectory (Morris 1991)
+    /// How the points are laid out: radial (Campolongo et al. 2011, by the study's sampler), trajectory (Morris 1991), or derivative
+    /// (Sobol' and Kucherenko 2009: short steps, with bounds on total indices)
     #[arg(long, value_enum, default_value_t = Layout::Radial)]
     design: Layout,
     /// Levels of the trajectory design's grid, an even number [default: 4]
@@ -46,6 +47,7 @@ pub struct Arguments {
 enum Layout {
     Radial,
     Trajectory,
+    Derivative,
 }
 
 impl From<ScreeningError> for Failure {
@@ -62,8 +64,10 @@ impl Arguments {
         let in_study = study.design().settings();
         let design = match (self.design, self.levels) {
             (Layout::Radial, None) => ScreeningDesign::Radial { sampler: in_study.sampler },
-            (Layout::Radial, Some(levels)) => {
-                let message = "--levels is of no account to the radial design: add --design trajectory";
+            (Layout::Derivative, None) => ScreeningDesign::Derivative { sampler: in_study.sampler },
+            (Layout::Radial | Layout::Derivative, Some(levels)) => {
+                let name = if self.design == Layout::Radial { "radial" } else { "derivative" };
+                let message = format!("--levels is of no account to the {name} design: add --design trajectory");
                 return Err(Failure::Input(anyhow!("--levels {levels}: {message}")));
             }
             (Layout::Trajectory, levels) => ScreeningDesign::Trajectory { levels: levels.unwrap_or(4) },

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::mixed::MixedColumns;
+use super::orders::{OrderColumns, Orders};
 use super::{DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 
 /// Third matrices of random and Latin hypercube points come from streams of their own, so that A and B do not depend
@@ -27,6 +28,8 @@ pub struct BasePoints {
     dimensions: usize,
     /// The columns of dependent factors.
     mixed: Option<Arc<MixedColumns>>,
+    /// Those of steps along random orders of the factors, and the orders.
+    steps: Option<(Arc<OrderColumns>, Orders)>,
     matrices: usize,
 }
 
@@ -59,7 +62,7 @@ impl BasePoints {
             Sampler::SobolPickFreeze => Points::Sobol(SobolSequence::pick_freeze(factors, matrices, seed, replicate)),
             _ => of(dimensions, length, replicate),
         };
-        Self { points, third, plain, factors, dimensions, mixed: None, matrices }
+        Self { points, third, plain, factors, dimensions, mixed: None, steps: None, matrices }
     }
 
     /// The same points with the columns of dependent factors.
@@ -67,11 +70,19 @@ impl BasePoints {
         Self { mixed, ..self }
     }
 
+    /// The same points with the columns of steps along random orders.
+    pub(super) fn with_steps(self, steps: Option<(Arc<OrderColumns>, Orders)>) -> Self {
+        Self { steps, ..self }
+    }
+
     /// The points `first`, `first + 1`, ... into `columns`: one per dimension, all of one length; values in (0, 1).
     pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
         self.fill_independent(first, columns);
         if let Some(mixed) = &self.mixed {
             mixed.fill(columns, (self.factors, self.matrices));
+        }
+        if let Some((steps, orders)) = &self.steps {
+            steps.fill(orders, first, columns);
         }
     }
 

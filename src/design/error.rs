@@ -3,7 +3,8 @@
 use thiserror::Error;
 
 use super::{
-    MAX_DIMENSIONS, MAX_FACTORS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_POINTS, MAX_REPLICATES, MAX_SEARCHED_FACTORS,
+    MAX_DIMENSIONS, MAX_FACTORS, MAX_ORDERED_FACTORS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_POINTS, MAX_REPLICATES,
+    MAX_SEARCHED_FACTORS,
 };
 
 /// Why a design cannot be made.
@@ -114,6 +115,21 @@ pub enum DesignError {
     /// Plain rows of dependent factors.
     #[error("plain rows serve surrogates alone, which need independent factors, and these depend on each other")]
     PlainRowsOfDependentFactors,
+    /// Random orders of more factors than the memory of a block of base points is for.
+    #[error(
+        "{factors} factors are too many for Shapley effects along random orders: at most {MAX_ORDERED_FACTORS} are possible; leave \
+         out those that hardly act, which their total indices tell"
+    )]
+    TooManyOrderedFactors {
+        /// The number asked for.
+        factors: usize,
+    },
+    /// Players that are not the factors.
+    #[error("the players of random orders are to be disjoint sets of factors that are all {factors} factors together")]
+    NotPlayers {
+        /// Number of factors.
+        factors: usize,
+    },
     /// A copula of another number of factors.
     #[error("a copula of {copula} factors for a design of {factors}")]
     OtherFactors {

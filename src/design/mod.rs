@@ -13,6 +13,7 @@ mod error;
 mod joe_kuo;
 mod latin;
 mod mixed;
+mod orders;
 mod pick_freeze;
 mod random;
 mod rows;
@@ -29,6 +30,7 @@ pub use random::RandomPoints;
 pub use rows::{Companions, Matrix, RowKind, Rows, Run, Swap};
 pub use sobol::SobolSequence;
 
+use orders::Orders;
 use rows::Runs;
 
 /// Most base points one replicate can hold: the length of the 32-bit Sobol' sequence.
@@ -39,6 +41,9 @@ pub const MAX_REPLICATES: u64 = 4096;
 
 /// Most factors of a design with second-order indices: their sums take d (d - 1) numbers for every output.
 pub const MAX_PAIRED_FACTORS: usize = 256;
+
+/// Most factors of a design with rows along random orders: its base points have a column for each factor in each of these rows.
+pub const MAX_ORDERED_FACTORS: usize = 100;
 
 /// Most plain rows of a base point.
 pub const MAX_PLAIN_ROWS: u32 = 1000;
@@ -186,6 +191,16 @@ impl Design {
                 return Err(DesignError::OtherFactors { copula: copula.factors(), factors });
             }
         }
+        if !rows.players.is_empty() {
+            if factors > MAX_ORDERED_FACTORS {
+                return Err(DesignError::TooManyOrderedFactors { factors });
+            }
+            let mut players = rows.players.concat();
+            players.sort_unstable();
+            if rows.players.iter().any(Vec::is_empty) || players.into_iter().ne(0..factors) {
+                return Err(DesignError::NotPlayers { factors });
+            }
+        }
         let runs = Runs::of(&rows, factors);
         let rows_per_point = runs.runs.len() as u64;
         let all = u128::from(points) * u128::from(replicates);
@@ -243,14 +258,19 @@ impl Design {
     }
 
     /// Columns of the base points: d for each of the matrices A, B, C if there are rows of it, and the plain ones; then those of
-    /// dependent factors that follow others.
+    /// dependent factors that follow others, and those of the steps along random orders.
     pub fn columns(&self) -> usize {
         let mixed = self.runs.mixed.as_ref().map_or(0, |mixed| mixed.columns.len());
-        self.factors * (self.asked.companions.matrices() + self.asked.plain_rows as usize) + mixed
+        let steps = self.runs.orders.as_ref().map_or(0, |orders| orders.count());
+        self.factors * (self.asked.companions.matrices() + self.asked.plain_rows as usize) + mixed + steps
     }
 
     /// The factor whose column is that number.
     pub fn factor_of(&self, column: usize) -> usize {
+        let step = self.runs.orders.as_ref().and_then(|orders| column.checked_sub(orders.first));
+        if let Some(column) = step {
+            return column % self.factors;
+        }
         let mixed = self.runs.mixed.as_ref().and_then(|mixed| mixed.columns.get(column.checked_sub(mixed.first)?));
         mixed.map_or(column % self.factors, |mixed| mixed.factor)
     }
@@ -304,6 +324,22 @@ impl Design {
         &self.runs.cb
     }
 
+    /// Which of [`Design::runs`] are the steps along random orders of the [players](Rows::players), in the order of the steps.
+    pub fn step_runs(&self) -> &[usize] {
+        &self.runs.steps
+    }
+
+    /// The players in their order at each of `count` base points of `replicate`, from number `first` on: number `k` of an order
+    /// comes from B in step `k` and those that follow.
+    pub fn orders(&self, replicate: u64, first: u64, count: usize) -> Vec<Vec<usize>> {
+        let mut orders = self.orders_of(replicate).at(first);
+        (0..count).map(|_| orders.next_order()).collect()
+    }
+
+    fn orders_of(&self, replicate: u64) -> Orders {
+        Orders::new(self.asked.players.len(), self.settings.seed, replicate)
+    }
+
     /// Rows of one base point: A, B and those asked for, each point once.
     pub fn rows_per_point(&self) -> u64 {
         self.runs.runs.len() as u64
@@ -321,7 +357,9 @@ impl Design {
 
     /// The base points of one replicate, in [`Design::columns`] columns.
     pub fn replicate(&self, replicate: u64) -> BasePoints {
-        BasePoints::new(&self.settings, replicate, self.factors, &self.asked).with_mixed(self.runs.mixed.clone())
+        let steps = self.runs.orders.clone().map(|orders| (orders, self.orders_of(replicate)));
+        let points = BasePoints::new(&self.settings, replicate, self.factors, &self.asked);
+        points.with_mixed(self.runs.mixed.clone()).with_steps(steps)
     }
 
     /// Replicate, base point within it, and kind of a row, in the order in which rows are counted. A row that is

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::mixed::MixedColumns;
+use super::orders::OrderColumns;
 use crate::space::GaussianCopula;
 
 /// The columns that one row AB_s takes from B: those of one factor, or of a group of factors. An empty swap is a dummy
@@ -61,6 +62,9 @@ pub struct Rows {
     pub copula: Option<Arc<GaussianCopula>>,
     /// The swaps, by number, whose factors are drawn anew given all others instead; of independent factors that is the same.
     pub redrawn: Vec<usize>,
+    /// The players whose Shapley effects are found along random orders: disjoint sets of factors, in rising order, that are all
+    /// factors together. Beside A and B they take a row for each of them but one. None for none.
+    pub players: Vec<Swap>,
 }
 
 impl Rows {
@@ -87,6 +91,8 @@ pub enum RowKind {
     Cb(usize),
     /// A point that no other row of the design shares a column with; the number counts those of a base point.
     Plain(u32),
+    /// A with the columns of the first players of the order of its base point from B: of one player in step 0, and so on.
+    Step(usize),
 }
 
 /// One of the independent matrices of a design.
@@ -148,13 +154,17 @@ pub(super) struct Runs {
     pub bc: Vec<usize>,
     /// Likewise CB_s.
     pub cb: Vec<usize>,
+    /// The steps along random orders, in their order.
+    pub steps: Vec<usize>,
     /// The columns of dependent factors that come from no matrix.
     pub mixed: Option<Arc<MixedColumns>>,
+    /// The columns of the steps.
+    pub orders: Option<Arc<OrderColumns>>,
 }
 
 impl Runs {
-    /// The runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s, BC_s, CB_s of their first rows, the plain
-    /// ones last.
+    /// The runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s, BC_s, CB_s of their first rows, then the
+    /// plain ones and the steps along random orders.
     pub fn of(rows: &Rows, factors: usize) -> Self {
         let matrices = rows.companions.matrices();
         let first = factors * (matrices + rows.plain_rows as usize);
@@ -177,7 +187,17 @@ impl Runs {
             Run::of(RowKind::Plain(number), matrix, Vec::new(), matrix)
         };
         unique.runs.extend((0..rows.plain_rows).map(plain));
-        Self { runs: unique.runs, ab, ba, bc, cb, mixed: unique.mixed.map(Arc::new) }
+        let Unique { mut runs, mixed, .. } = unique;
+        let orders = (!rows.players.is_empty()).then(|| {
+            let first = first + mixed.as_ref().map_or(0, |mixed| mixed.columns.len());
+            OrderColumns { players: rows.players.clone(), first, factors, copula: rows.copula.clone() }
+        });
+        let of_orders = orders.iter().flat_map(|orders| (0..orders.steps()).map(|step| (step, orders.of_step(step))));
+        let step = |(step, mixed)| Run { mixed, ..Run::of(RowKind::Step(step), Matrix::A, Vec::new(), Matrix::B) };
+        let before = runs.len();
+        runs.extend(of_orders.map(step));
+        let steps = (before..runs.len()).collect();
+        Self { runs, ab, ba, bc, cb, steps, mixed: mixed.map(Arc::new), orders: orders.map(Arc::new) }
     }
 }
 
@@ -269,6 +289,7 @@ mod tests {
             RowKind::Bc(s) => mixed(B, s, C),
             RowKind::Cb(s) => mixed(C, s, B),
             RowKind::Plain(number) => vec![Matrix::Plain(number); factors],
+            RowKind::Step(_) => unreachable!("steps answer for no row of a swap"),
         }
     }
 

@@ -17,6 +17,7 @@ mod point_outputs;
 mod products;
 mod second_order;
 mod shapley;
+mod shapley_moments;
 mod swap_moments;
 mod workspace;
 
@@ -33,7 +34,8 @@ pub use parts::{MAX_PARTS, MomentParts, merged, part_length};
 pub use point_outputs::PointOutputs;
 pub use products::{ProductWork, Products};
 pub use second_order::{PairIndex, SecondOrder};
-pub use shapley::{MAX_SHAPLEY_FACTORS, proper_subsets, shapley_effects};
+pub use shapley::{MAX_SHAPLEY_FACTORS, ShapleyMethod, proper_subsets, shapley_effects};
+pub use shapley_moments::{ShapleyMoments, contributions};
 pub use swap_moments::{BaMoments, BcMoments, CbMoments, SwapMoments};
 pub use workspace::Workspace;
 

@@ -2,9 +2,10 @@
 
 use super::base_moments::BaseMoments;
 use super::pair_moments::PairMoments;
+use super::shapley_moments::ShapleyMoments;
 use super::swap_moments::{Columns, SwapMoments};
 use super::workspace::Workspace;
-use crate::binary::binary_fields;
+use crate::binary::{Binary, Reader};
 use crate::design::{Companions, Design};
 use crate::sum;
 
@@ -19,9 +20,32 @@ pub struct Moments {
     range: Option<(f64, f64)>,
     swaps: Vec<SwapMoments>,
     pairs: Option<PairMoments>,
+    shapley: Option<ShapleyMoments>,
 }
 
-binary_fields!(Moments { base, range, swaps, pairs });
+/// Which sums there are beside those of the swaps is one byte: 1 for pairs, 2 for Shapley effects, 3 for both.
+impl Binary for Moments {
+    fn write(&self, out: &mut Vec<u8>) {
+        let Self { base, range, swaps, pairs, shapley } = self;
+        base.write(out);
+        range.write(out);
+        swaps.write(out);
+        out.push(u8::from(pairs.is_some()) | u8::from(shapley.is_some()) << 1);
+        pairs.iter().for_each(|pairs| pairs.write(out));
+        shapley.iter().for_each(|shapley| shapley.write(out));
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        let (base, range, swaps) = (BaseMoments::read(from)?, Option::read(from)?, Vec::read(from)?);
+        let [kinds] = *from.take(1)? else { return None };
+        if kinds > 3 {
+            return None;
+        }
+        let pairs = if kinds & 1 == 1 { Some(PairMoments::read(from)?) } else { None };
+        let shapley = if kinds & 2 == 2 { Some(ShapleyMoments::read(from)?) } else { None };
+        Some(Self { base, range, swaps, pairs, shapley })
+    }
+}
 
 /// The outputs of a block of base points, columns of one length. An output that is not finite is a failed run.
 #[derive(Debug, Clone, Copy, Default)]
@@ -40,6 +64,8 @@ pub struct BlockOutputs<'a> {
     pub cb: &'a [&'a [f64]],
     /// The swaps whose pairs are counted for second-order indices, in rising order; none without `ba`.
     pub paired: &'a [usize],
+    /// What every player adds, one slice for each ([`contributions`](super::contributions)); none without rows along random orders.
+    pub shapley: &'a [&'a [f64]],
 }
 
 impl Moments {
@@ -61,7 +87,7 @@ impl Moments {
     /// # Ok::<(), apportion::Undefined>(())
     /// ```
     pub fn of_block(outputs: BlockOutputs<'_>, work: &mut Workspace) -> Self {
-        let BlockOutputs { a, b, ab, ba, bc, cb, paired } = outputs;
+        let BlockOutputs { a, b, ab, ba, bc, cb, paired, shapley } = outputs;
         let all = BaseMoments::of(a, b);
         let complete = Some(all).filter(|all| all.mean_a.is_finite() && all.mean_b.is_finite());
         let swaps = (0..ab.len())
@@ -78,21 +104,27 @@ impl Moments {
             })
             .collect();
         let pairs = (!paired.is_empty()).then(|| PairMoments::of(paired, (a, b), (ab, ba), work));
+        let shapley = (!shapley.is_empty()).then(|| ShapleyMoments::of(shapley));
         match complete {
-            Some(base) => Self { base, range: range(a, b), swaps, pairs },
+            Some(base) => Self { base, range: range(a, b), swaps, pairs, shapley },
             None => {
                 let (a, b) = work.without_failures(a, b);
-                Self { base: BaseMoments::of(a, b), range: range(a, b), swaps, pairs }
+                Self { base: BaseMoments::of(a, b), range: range(a, b), swaps, pairs, shapley }
             }
         }
     }
 
     /// Moments of weighted base points, whose sums are known but whose smallest and largest output is not.
-    pub(super) fn from_sums(base: BaseMoments, swaps: Vec<SwapMoments>, pairs: Option<PairMoments>) -> Self {
+    pub(super) fn from_sums(
+        base: BaseMoments,
+        swaps: Vec<SwapMoments>,
+        pairs: Option<PairMoments>,
+        shapley: Option<ShapleyMoments>,
+    ) -> Self {
         let constant = base.aa == 0.0 && base.bb == 0.0 && base.mean_a == base.mean_b;
         let spread = if constant { 0.0 } else { base.half_gap().abs() + (base.aa + base.bb).sqrt() };
         let range = (base.n > 0).then(|| (base.mean() - spread, base.mean() + spread));
-        Self { base, range, swaps, pairs }
+        Self { base, range, swaps, pairs, shapley }
     }
 
     /// Adds the base points of `other`, which has the same swaps.
@@ -115,12 +147,15 @@ impl Moments {
         if let (Some(mine), Some(theirs)) = (&mut self.pairs, &other.pairs) {
             mine.merge(theirs);
         }
+        if let (Some(mine), Some(theirs)) = (&mut self.shapley, &other.shapley) {
+            mine.merge(theirs);
+        }
     }
 
     /// The sums of y_A and y_B alone.
     #[must_use]
     pub fn without_swaps(self) -> Self {
-        Self { swaps: Vec::new(), pairs: None, ..self }
+        Self { swaps: Vec::new(), pairs: None, shapley: None, ..self }
     }
 
     /// Base points at which A and B have an output.
@@ -130,13 +165,16 @@ impl Moments {
 
     /// Base points from which the index with the fewest of them is estimated.
     pub fn fewest(&self) -> u64 {
-        self.swaps.iter().map(|swap| swap.base.n).fold(self.base.n, u64::min)
+        let shapley = self.shapley.iter().map(|shapley| shapley.n);
+        self.swaps.iter().map(|swap| swap.base.n).chain(shapley).fold(self.base.n, u64::min)
     }
 
     /// About how many numbers are held.
     pub(super) fn numbers(&self) -> usize {
         let pairs = self.pairs.as_ref().map_or(0, |pairs| 2 * pairs.swaps().len().pow(2));
-        self.swaps.len() * (size_of::<SwapMoments>() / size_of::<f64>()) + pairs
+        self.swaps.len() * (size_of::<SwapMoments>() / size_of::<f64>())
+            + pairs
+            + self.shapley.as_ref().map_or(0, |shapley| shapley.sums.len())
     }
 
     /// Number of rows AB_s.
@@ -162,7 +200,9 @@ impl Moments {
     pub(crate) fn fits(&self, design: &Design) -> bool {
         let swaps = self.swaps.len() == design.swaps().len();
         let pairs = self.pairs.as_ref().is_none_or(|pairs| pairs.fits(design.paired()));
-        swaps && pairs && (self.swaps.is_empty() || self.companions() == design.companions())
+        let players = design.asked().players.len();
+        let shapley = self.shapley.as_ref().is_none_or(|shapley| shapley.sums.len() == players);
+        swaps && pairs && shapley && (self.swaps.is_empty() || self.companions() == design.companions())
     }
 
     /// The sums of y_A and y_B.
@@ -173,6 +213,11 @@ impl Moments {
     /// What second-order indices are read from, if it was asked for.
     pub fn pairs(&self) -> Option<&PairMoments> {
         self.pairs.as_ref()
+    }
+
+    /// What Shapley effects are read from, if they are found along random orders.
+    pub fn shapley(&self) -> Option<&ShapleyMoments> {
+        self.shapley.as_ref()
     }
 
     /// Smallest and largest output among the rows A and B; `None` without any.

@@ -4,6 +4,7 @@
 //! as a bootstrap does, weights the sums: moments of a resample are a matrix product away from the products.
 
 use super::pair_moments::PairMoments;
+use super::shapley_moments::ShapleyMoments;
 use super::swap_moments::{BaMoments, BcMoments, CbMoments};
 use super::{BaseMoments, BlockOutputs, Moments, SwapMoments};
 
@@ -42,6 +43,8 @@ pub struct Products {
     of_swap: Vec<Product>,
     /// Ordered pairs of swaps of which sums are kept, and which of them count points of their own.
     pairs: Vec<(usize, usize, bool)>,
+    /// Players of which what they add is kept, after a count of their base points.
+    players: usize,
     columns: usize,
 }
 
@@ -71,7 +74,9 @@ impl Products {
         let columns = BASE.len()
             + own.iter().map(|own| of_swap.len() + if *own { BASE.len() } else { 0 }).sum::<usize>()
             + pairs.iter().map(|(_, _, own)| 1 + usize::from(*own)).sum::<usize>();
-        Self { whole, own, of_swap, pairs, columns }
+        let players = whole.shapley().map_or(0, |shapley| shapley.sums.len());
+        let columns = columns + if players > 0 { 1 + players } else { 0 };
+        Self { whole, own, of_swap, pairs, players, columns }
     }
 
     /// Number of products at each base point.
@@ -91,6 +96,7 @@ impl Products {
             let first = counts.len();
             counts.extend(if *own { vec![first; 2] } else { vec![0] });
         }
+        counts.resize(self.columns, counts.len());
         counts
     }
 
@@ -142,6 +148,24 @@ impl Products {
             }
             put(letters, &self.of_swap);
         }
+        self.fill_pairs(block, (&letters[ONE], differences), &mut columns);
+        // Whether a base point counts is the same for all players.
+        let adds = |player: usize, i: usize| Some(block.shapley[player][i]).filter(|added| added.is_finite());
+        if let Some(column) = columns.next().filter(|_| self.players > 0) {
+            column.iter_mut().enumerate().for_each(|(i, out)| *out = f64::from(u8::from(adds(0, i).is_some())));
+        }
+        for (player, column) in columns.enumerate().take(self.players) {
+            column.iter_mut().enumerate().for_each(|(i, out)| *out = adds(player, i).unwrap_or(0.0));
+        }
+    }
+
+    /// The products of pairs into the next columns.
+    fn fill_pairs<'c>(
+        &self,
+        block: &BlockOutputs<'_>,
+        (mask, differences): (&[f64], &mut Vec<[Vec<f64>; 2]>),
+        columns: &mut impl Iterator<Item = &'c mut [f64]>,
+    ) {
         if self.pairs.is_empty() {
             return;
         }
@@ -154,7 +178,7 @@ impl Products {
         }
         for (j, k, own) in &self.pairs {
             let product = |i: usize| differences[*j][1][i] * differences[*k][0][i];
-            let counts = |i: usize| if *own { product(i).is_finite() } else { letters[ONE][i] > 0.0 };
+            let counts = |i: usize| if *own { product(i).is_finite() } else { mask[i] > 0.0 };
             if *own && let Some(column) = columns.next() {
                 column.iter_mut().enumerate().for_each(|(i, out)| *out = f64::from(u8::from(counts(i))));
             }
@@ -166,7 +190,8 @@ impl Products {
 
     /// The moments of weighted base points from the weighted sums of their products.
     pub fn moments(&self, sums: &[f64]) -> Moments {
-        let mut sums = sums.iter().copied();
+        let (of_rows, of_players) = sums.split_at(self.columns - if self.players > 0 { 1 + self.players } else { 0 });
+        let mut sums = of_rows.iter().copied();
         let mut next = move || sums.next().unwrap_or(f64::NAN);
         let base = base_moments(&mut next, self.whole.base());
         let swaps = self.own.iter().enumerate().map(|(swap, own)| {
@@ -182,7 +207,10 @@ impl Products {
             };
             PairMoments::from_means(whole.swaps(), self.pairs.iter().map(of_pair))
         });
-        Moments::from_sums(base.0, swaps, pairs)
+        let shapley = of_players
+            .split_first()
+            .map(|(points, sums)| ShapleyMoments { n: points.round().max(0.0) as u64, sums: sums.to_vec() });
+        Moments::from_sums(base.0, swaps, pairs, shapley)
     }
 }
 

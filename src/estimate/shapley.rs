@@ -3,6 +3,28 @@
 /// Most factors whose Shapley effects are found from all of their subsets: every base point costs 2^d runs.
 pub const MAX_SHAPLEY_FACTORS: usize = 8;
 
+/// How Shapley effects are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ShapleyMethod {
+    /// From all subsets of the factors, at most [`MAX_SHAPLEY_FACTORS`]: 2^d runs for each base sample, and the smaller errors.
+    Subsets,
+    /// Along a random order of the factors at each base sample: d - 1 more runs for each.
+    Permutations,
+}
+
+impl ShapleyMethod {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Subsets, Self::Permutations];
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Subsets => "subsets",
+            Self::Permutations => "permutations",
+        }
+    }
+}
+
 /// The subsets of `factors` factors with two of them or more, but not all: in rising order of the number whose bits they are.
 pub fn proper_subsets(factors: usize) -> Vec<Vec<usize>> {
     let all = 1usize << factors;

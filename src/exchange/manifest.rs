@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::design_rows::{DesignRows, RowsDigest};
-use crate::design::{Design, Matrix, Run};
+use crate::design::{Design, Matrix, RowKind, Run};
 use crate::space::Space;
 use crate::study::{Study, StudyError, Target};
 
@@ -77,6 +77,10 @@ pub struct ManifestRun {
     /// Names of dependent factors that come from neither, and follow the others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub following: Vec<String>,
+    /// Of a row along a random order: how many players before the last one that comes from `from`; the order is that of the base
+    /// point, and no factor is in `columns`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step: Option<usize>,
 }
 
 /// A column of a design file.
@@ -157,7 +161,11 @@ impl Manifest {
             base: matrix(run.base),
             columns: run.columns.iter().map(column).collect(),
             from: matrix(run.from),
-            following: run.mixed.iter().map(|(factor, _)| column(factor)).collect(),
+            following: match run.kind {
+                RowKind::Step(_) => Vec::new(),
+                _ => run.mixed.iter().map(|(factor, _)| column(factor)).collect(),
+            },
+            step: if let RowKind::Step(step) = run.kind { Some(step) } else { None },
         };
         let factors = study.space.factors().iter().map(|factor| ManifestFactor {
             name: factor.name.clone(),

@@ -148,6 +148,7 @@ fn provenance(study: &Study, analysis: &Analysis) -> Provenance {
         study_sha256: study.sha256.clone(),
         first_order_estimator: FirstOrder::of_rows(design.companions()).source().to_owned(),
         total_estimator: Total::of_rows(design.companions()).source().to_owned(),
+        shapley_method: options.shapley_of(&study.space).map(|method| method.name().to_owned()),
         interval: (!alone).then(|| options.intervals.words(settings.replicates, options.resamples)),
         interval_method: options.intervals.name().to_owned(),
         threshold: options.threshold,

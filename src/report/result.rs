@@ -137,6 +137,9 @@ pub struct Provenance {
     pub first_order_estimator: String,
     /// Formula of the total indices.
     pub total_estimator: String,
+    /// How Shapley effects were found, as in study files; absent where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shapley_method: Option<String>,
     /// What the intervals are, in words; `null` if there are none.
     pub interval: Option<String>,
     /// The kind of interval by its name in study files.

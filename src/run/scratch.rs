@@ -3,7 +3,7 @@
 use super::totals::{OutputTotals, Place, Tally, Totals};
 use super::{Job, Store};
 use crate::design::{Design, Matrix};
-use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace};
+use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace, contributions};
 use crate::model::{Batch, RowFailure, RunContext, Worker};
 
 /// What a thread needs to evaluate blocks, kept from block to block.
@@ -130,18 +130,20 @@ impl OutputTotals {
         let (a, b) = (runs[0], runs[1]);
         let (ab, ba) = (columns(design.ab_runs()), columns(design.ba_runs()));
         let (bc, cb) = (columns(design.bc_runs()), columns(design.cb_runs()));
+        let shapley = contributions(design, (place.first.replicate, place.first.point), runs);
+        let shapley: Vec<&[f64]> = shapley.iter().map(Vec::as_slice).collect();
         let length = place.part_length as usize;
         let mut parts = Vec::with_capacity(a.len().div_ceil(length));
-        let mut cut: [Vec<&[f64]>; 4] = Default::default();
+        let mut cut: [Vec<&[f64]>; 5] = Default::default();
         for first in (0..a.len()).step_by(length) {
             let part = first..(first + length).min(a.len());
-            for (cut, whole) in cut.iter_mut().zip([&ab, &ba, &bc, &cb]) {
+            for (cut, whole) in cut.iter_mut().zip([&ab, &ba, &bc, &cb, &shapley]) {
                 cut.clear();
                 cut.extend(whole.iter().map(|column| &column[part.clone()]));
             }
-            let [ab, ba, bc, cb] = cut.each_ref().map(Vec::as_slice);
-            let outputs =
-                BlockOutputs { a: &a[part.clone()], b: &b[part.clone()], ab, ba, bc, cb, paired: design.paired() };
+            let [ab, ba, bc, cb, shapley] = cut.each_ref().map(Vec::as_slice);
+            let (a, b, paired) = (&a[part.clone()], &b[part.clone()], design.paired());
+            let outputs = BlockOutputs { a, b, ab, ba, bc, cb, paired, shapley };
             parts.push(Moments::of_block(outputs, work));
         }
         if place.keeps_outputs {

@@ -7,12 +7,16 @@
 //! even where the model is linear in it. A discrete factor steps by its rank among its values, all of them equally
 //! likely: one step apart is 1 / (number of values - 1) of its range, and every step changes the value.
 //!
+//! In the derivative design the steps are short, and effects are derivatives times the range of the factor: beside the other measures
+//! stands the mean square of the derivative, and the bound on the total index that follows from it ([`DerivativeMeasures`]).
+//!
 //! r trajectories of d + 1 runs give r effects of each of d factors; [`Measures`] sums them up, [`Reading`] says what
 //! they mean, and a factor whose mu* with its error stays below [`FIXABLE`] times the largest mu* could be fixed.
 //!
 //! In the radial design a step shorter than [`MIN_STEP`] is replaced by one to the auxiliary coordinate half a range
 //! further on, round the ends: tiny steps would divide the noise and the jumps of the output by next to nothing.
 
+mod derivative;
 mod measures;
 mod points;
 mod run;
@@ -21,18 +25,20 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
+pub use derivative::{DerivativeMeasures, poincare_constant};
 #[doc(hidden)]
 pub use measures::FIXABLE;
 pub use measures::{Measures, Reading};
 #[doc(hidden)]
 pub use points::TAIL;
 #[doc(hidden)]
-pub use settings::{MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES};
+pub use settings::{DERIVATIVE_STEP, MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES};
 pub use settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
 
 use crate::model::{Model, Output, RowFailure, RunContext};
 use crate::run::Progress;
-use crate::space::Space;
+use crate::space::{Factor, Space};
+use derivative::{derivative_measures, range};
 use points::Trajectories;
 
 /// What is screened.
@@ -91,6 +97,8 @@ pub struct ScreenedFactor {
     /// Whether the upper bound of mu* is below [`FIXABLE`] times the largest mu*, by at least half of the effects.
     /// `None` where nothing can be said: without measures or an interval, or where no factor has any effect.
     pub could_be_fixed: Option<bool>,
+    /// What its derivatives say; `None` in other designs than that of derivatives, with fewer than two effects, or if they overflow.
+    pub derivative: Option<DerivativeMeasures>,
 }
 
 /// Runs of a screening that failed for one reason.
@@ -147,6 +155,11 @@ pub fn screen_in(
     if job.space.copula().is_some() {
         return Err(ScreeningError::Dependent);
     }
+    let is_derivative = matches!(job.settings.design, ScreeningDesign::Derivative { .. });
+    let separate = |factor: &&Factor| factor.distribution().levels().is_some() || factor.distribution().is_noise();
+    if let Some(factor) = factors.iter().find(separate).filter(|_| is_derivative) {
+        return Err(ScreeningError::Separate { factor: factor.name.clone() });
+    }
     let (settings, parts) = job.settings.in_force(factors.len())?;
     let points = Trajectories::new(job.space, &settings, parts)?;
     let outcome = run::run(job, (&points, settings.trajectories), (threads, context), on_progress)?;
@@ -164,7 +177,7 @@ pub fn screen_in(
     };
     let outputs = job.model.outputs().iter().zip(&outcome.effects).enumerate();
     let outputs = outputs.map(|(number, (output, effects))| ScreenedOutput {
-        factors: screened(output, effects, (factors.len(), parts as usize)),
+        factors: screened(output, (effects, &outcome.base[number]), (factors, parts as usize)),
         failures: failures(number),
     });
     Ok(Screening {
@@ -179,7 +192,13 @@ pub fn screen_in(
 }
 
 /// The factors of one output, from its effects in SI units, factor by factor within each trajectory.
-fn screened(output: &Output, effects: &[f64], (factors, parts): (usize, usize)) -> Vec<ScreenedFactor> {
+fn screened(
+    output: &Output,
+    (effects, base): (&[f64], &[f64]),
+    (space, parts): (&[Factor], usize),
+) -> Vec<ScreenedFactor> {
+    let factors = space.len();
+    let base: Vec<f64> = base.iter().map(|y| output.unit.span_from_si(*y)).collect();
     let of_factor = |j: usize| -> Vec<f64> {
         effects.iter().skip(j).step_by(factors).map(|effect| output.unit.span_from_si(*effect)).collect()
     };
@@ -190,7 +209,13 @@ fn screened(output: &Output, effects: &[f64], (factors, parts): (usize, usize)) 
             let measures = measures::measures(&own, parts);
             let reading = measures.and_then(|m| m.ratio).map(|ratio| Reading::of(ratio.estimate));
             let dropped = own.len() as u64 - effects;
-            ScreenedFactor { effects, dropped, measures, reading, rank: 0, could_be_fixed: None }
+            let distribution = space[j].distribution();
+            let derivative = (!base.is_empty())
+                .then(|| {
+                    derivative_measures((&own, &base), parts, (range(distribution), poincare_constant(distribution)))
+                })
+                .flatten();
+            ScreenedFactor { effects, dropped, measures, reading, rank: 0, could_be_fixed: None, derivative }
         })
         .collect();
     let size = |factor: &ScreenedFactor| factor.measures.map_or(f64::NEG_INFINITY, |m| m.mu_star.estimate);

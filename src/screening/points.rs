@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::settings::{MIN_STEP, ScreeningDesign, ScreeningError, ScreeningSettings};
+use super::settings::{DERIVATIVE_STEP, MIN_STEP, ScreeningDesign, ScreeningError, ScreeningSettings};
 use crate::design::{BasePoints, Design, DesignSettings, Rows, Sampler};
 use crate::space::distribution::{LARGEST_U, SMALLEST_U};
 use crate::space::{Distribution, Factor, Space};
@@ -45,6 +45,8 @@ enum Grid {
     Continuous,
     /// At given coordinates, of equal distance as far as effects are concerned.
     Levels(Vec<f64>),
+    /// Anywhere in the unit interval, with short steps towards its middle.
+    Derivative,
     /// Anywhere, of seeds: these have no distance, and every step is one.
     Seeds,
 }
@@ -54,7 +56,7 @@ impl Trajectories {
     pub fn new(space: &Space, settings: &ScreeningSettings, parts: u64) -> Result<Self, ScreeningError> {
         let ScreeningSettings { design, trajectories, seed } = *settings;
         let shape = match design {
-            ScreeningDesign::Radial { sampler } => {
+            ScreeningDesign::Radial { sampler } | ScreeningDesign::Derivative { sampler } => {
                 let replicates = if sampler == Sampler::Random { 1 } else { parts };
                 let settings = DesignSettings { sampler, base_samples: trajectories, replicates, seed };
                 let design = Design::new(settings, space.factors().len(), Rows::default())?;
@@ -103,6 +105,10 @@ impl Trajectories {
                     let b = if (b - a).abs() < MIN_STEP { half_way_round(b) } else { b };
                     ([a, b], b - a)
                 }
+                Grid::Derivative => {
+                    let step = if a < 0.5 { DERIVATIVE_STEP } else { -DERIVATIVE_STEP };
+                    ([a, a + step], step)
+                }
                 Grid::Seeds => ([a, b], 1.0),
                 Grid::Levels(levels) => {
                     let count = levels.len();
@@ -130,7 +136,7 @@ impl Trajectories {
         let place = |(grid, row): (&Grid, usize)| {
             let (u, step) = match grid {
                 // A factor that cannot move: its coordinate is of no account.
-                Grid::Continuous => ([0.5, 0.5], 1.0),
+                Grid::Continuous | Grid::Derivative => ([0.5, 0.5], 1.0),
                 Grid::Seeds => ([0; 2].map(|_| rng.random_range(SMALLEST_U..=LARGEST_U)), 1.0),
                 Grid::Levels(levels) => {
                     let (count, stride) = (levels.len(), levels.len() / 2);
@@ -167,6 +173,7 @@ impl Grid {
         }
         match (factor.distribution(), design) {
             (Distribution::Constant(_), _) | (_, ScreeningDesign::Radial { .. }) => Self::Continuous,
+            (_, ScreeningDesign::Derivative { .. }) => Self::Derivative,
             (distribution, ScreeningDesign::Trajectory { levels }) => {
                 let (low, high) = distribution.support();
                 let from = if low.is_finite() { 0.0 } else { TAIL };

@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
+use super::derivative::range;
 use super::points::{Move, Trajectories};
-use super::{ScreeningError, ScreeningJob};
+use super::settings::DERIVATIVE_STEP;
+use super::{ScreeningDesign, ScreeningError, ScreeningJob};
 use crate::model::{Batch, RowFailure, RunContext};
 use crate::run::{Executor, Halt, Progress, RunError};
 use crate::space::Factor;
@@ -14,6 +16,8 @@ use crate::space::Factor;
 pub(super) struct Outcome {
     /// For each output, factor by factor within each trajectory: the effect in SI units, NaN where there is none.
     pub effects: Vec<Vec<f64>>,
+    /// For each output: that of the first row of each trajectory in SI units, of a derivative design.
+    pub base: Vec<Vec<f64>>,
     /// For each factor: steps that did not change its value.
     pub idle: Vec<u64>,
     /// For each output and reason: the failed runs, and the first one's factor values in SI units.
@@ -70,12 +74,17 @@ impl Bench<'_> {
         numbers: std::ops::Range<u64>,
     ) -> Result<Outcome, Halt> {
         let mut outcome = Outcome::new(job);
-        let moves: Vec<Vec<Move>> = numbers.map(|number| points.moves(number)).collect();
+        let mut moves: Vec<Vec<Move>> = numbers.map(|number| points.moves(number)).collect();
         let rows = self.rows * moves.len();
+        let is_derivative = matches!(job.settings.design, ScreeningDesign::Derivative { .. });
         for (j, (column, factor)) in self.columns.iter_mut().zip(job.space.factors()).enumerate() {
             column.resize(rows, 0.0);
-            for (moves, column) in moves.iter().zip(column.chunks_exact_mut(self.rows)) {
-                let values = values_at(factor, &moves[j].u);
+            let range = is_derivative.then(|| factor.unit().span_to_si(range(factor.distribution())));
+            for (moves, column) in moves.iter_mut().zip(column.chunks_exact_mut(self.rows)) {
+                let mut values = values_at(factor, &moves[j].u);
+                if let Some(range) = range.filter(|range| *range > 0.0) {
+                    shorten(&mut moves[j], &mut values, range);
+                }
                 outcome.idle[j] += u64::from(values[0] == values[1]);
                 points.fill(&moves[j], values, column);
             }
@@ -88,6 +97,9 @@ impl Bench<'_> {
             for (moves, values) in moves.iter().zip(values) {
                 effects.extend(moves.iter().map(|a_move| effect(a_move, values)));
             }
+        }
+        for (output, base) in outcome.base.iter_mut().enumerate().filter(|_| is_derivative) {
+            base.extend(self.batch.column(output).iter().step_by(self.rows));
         }
         outcome.note(&self.batch, &inputs);
         Ok(outcome)
@@ -109,6 +121,13 @@ fn values_at(factor: &Factor, u: &[f64; 2]) -> [f64; 2] {
     values
 }
 
+/// Makes the step between two values no longer than [`DERIVATIVE_STEP`] of `range`, and tells the move how long it is.
+fn shorten(step: &mut Move, values: &mut [f64; 2], range: f64) {
+    let longest = DERIVATIVE_STEP * range;
+    values[1] = values[0] + (values[1] - values[0]).clamp(-longest, longest);
+    step.step = (values[1] - values[0]) / range;
+}
+
 /// The difference of the output by the step; NaN where a run failed or the quotient overflows.
 fn effect(Move { step, rows: [before, after], .. }: &Move, values: &[f64]) -> f64 {
     let effect = (values[*after] - values[*before]) / step;
@@ -119,6 +138,7 @@ impl Outcome {
     fn new(job: ScreeningJob<'_>) -> Self {
         Self {
             effects: vec![Vec::new(); job.model.outputs().len()],
+            base: vec![Vec::new(); job.model.outputs().len()],
             idle: vec![0; job.space.factors().len()],
             flags: vec![0; job.model.flags().len()],
             ..Self::default()
@@ -142,6 +162,9 @@ impl Outcome {
     /// Adds what became of the next trajectories.
     fn append(&mut self, next: Self) {
         for (mine, theirs) in self.effects.iter_mut().zip(next.effects) {
+            mine.extend(theirs);
+        }
+        for (mine, theirs) in self.base.iter_mut().zip(next.base) {
             mine.extend(theirs);
         }
         for (key, (count, first)) in next.failures {

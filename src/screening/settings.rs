@@ -19,6 +19,10 @@ pub const MAX_LEVELS: u32 = 1000;
 /// integral of 1/s diverges. The price is a small shift of sigma: for x^2, -3 %.
 pub const MIN_STEP: f64 = 0.02;
 
+/// Step of the finite differences of the derivative design, as a part of the factor's range, and of the unit interval: short enough
+/// for the derivative of a smooth model, and a thousand times the noise of an output with six digits or more.
+pub const DERIVATIVE_STEP: f64 = 1e-3;
+
 /// Independent randomisations of quasi-random points, whose spread gives the intervals.
 const REPLICATES: u64 = 8;
 /// Most parts into which independent trajectories are divided for their intervals.
@@ -40,6 +44,13 @@ pub enum ScreeningDesign {
         /// Levels p of the grid, even; 4 is usual.
         levels: u32,
     },
+    /// Derivatives by finite differences (Kucherenko, Rodriguez-Fernandez, Pantelides and Shah 2009, Reliab. Eng. Syst. Saf. 94,
+    /// 1135-1148): from a base point every factor by itself makes a step of [`DERIVATIVE_STEP`] of its range, or less where its
+    /// distribution is dense. The effects are then derivatives, times the range of the factor.
+    Derivative {
+        /// Where the base points come from.
+        sampler: Sampler,
+    },
 }
 
 impl ScreeningDesign {
@@ -48,6 +59,15 @@ impl ScreeningDesign {
         match self {
             Self::Radial { .. } => "radial",
             Self::Trajectory { .. } => "trajectory",
+            Self::Derivative { .. } => "derivative",
+        }
+    }
+
+    /// Where its points come from, if it has a sampler.
+    pub fn sampler(self) -> Option<Sampler> {
+        match self {
+            Self::Radial { sampler } | Self::Derivative { sampler } => Some(sampler),
+            Self::Trajectory { .. } => None,
         }
     }
 }
@@ -87,11 +107,9 @@ impl ScreeningSettings {
         {
             return Err(ScreeningError::Levels { levels });
         }
-        let parts = match self.design {
-            ScreeningDesign::Radial { sampler: Sampler::Random } | ScreeningDesign::Trajectory { .. } => {
-                self.trajectories.min(PARTS)
-            }
-            ScreeningDesign::Radial { .. } => (self.trajectories / 2).min(REPLICATES),
+        let parts = match self.design.sampler() {
+            Some(Sampler::Random) | None => self.trajectories.min(PARTS),
+            Some(_) => (self.trajectories / 2).min(REPLICATES),
         };
         let runs = u128::from(self.trajectories) * (factors as u128 + 1);
         if runs > u128::from(MAX_RUNS) {
@@ -134,6 +152,14 @@ pub enum ScreeningError {
          with Shapley effects tells what matters"
     )]
     Dependent,
+    /// A factor without derivatives.
+    #[error(
+        "factor `{factor}` takes separate values, so that there is no derivative by it: screen by the radial design, or fix the factor at one of them"
+    )]
+    Separate {
+        /// Its name.
+        factor: String,
+    },
     /// The points cannot be made.
     #[error(transparent)]
     Design(#[from] DesignError),

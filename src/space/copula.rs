@@ -29,7 +29,7 @@ const PROPOSED_EIGENVALUE: f64 = 1e-3;
 impl GaussianCopula {
     /// The copula whose normal scores have this correlation matrix, symmetric with a diagonal of ones; an error with the nearest
     /// matrix that would do, rounded to four digits, if it is not positive definite.
-    pub(super) fn new(correlation: DMatrix<f64>) -> Result<Self, DMatrix<f64>> {
+    pub(crate) fn new(correlation: DMatrix<f64>) -> Result<Self, DMatrix<f64>> {
         let factors = correlation.nrows();
         let is_dependent = |i: &usize| (0..factors).any(|j| j != *i && correlation[(*i, j)] != 0.0);
         let dependent: Vec<usize> = (0..factors).filter(is_dependent).collect();

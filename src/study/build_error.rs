@@ -84,10 +84,23 @@ pub enum BuildError {
         what: &'static str,
     },
     /// Shapley effects of too many factors.
-    #[error("Shapley effects of {factors} factors: at most {MAX_SHAPLEY_FACTORS}, each base sample taking 2^d runs")]
+    #[error(
+        "Shapley effects of {factors} factors: at most {most}, {}",
+        if *most == MAX_SHAPLEY_FACTORS { "each base sample taking 2^d runs; by random permutations there may be more" } else {
+            "each base sample taking a run for each"
+        }
+    )]
     Shapley {
         /// The number of factors.
         factors: usize,
+        /// Most that the method serves.
+        most: usize,
+    },
+    /// A method for Shapley effects that are not wanted.
+    #[error("shapley_method = \"{method}\" beside shapley = false: leave out one of them")]
+    ShapleyMethod {
+        /// Its name.
+        method: &'static str,
     },
     /// A target that no run can reach.
     #[error("{what} = {value}: expected a finite number above 0")]

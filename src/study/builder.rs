@@ -9,8 +9,9 @@ use sha2::{Digest, Sha256};
 use super::options::{rows, split_design};
 use super::subject::{CustomSubject, LowFidelity};
 use super::{AnalysisOptions, BuildError, Study, SurrogateChoice, Target};
+use crate::design::MAX_ORDERED_FACTORS;
 use crate::design::{Design, DesignSettings, Sampler};
-use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS};
+use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod};
 use crate::model::{Model, OutputSeries};
 use crate::names::{names_files, refused_name, refused_output_name, refused_title, shown};
 use crate::quantity::Unit;
@@ -218,7 +219,7 @@ impl StudyBuilder {
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(self.sampler));
         let analysis = checked(analysis, self.sampler, space.factors().len())?;
         let space = space.with_dependences(self.dependences)?;
-        if space.noise().is_some() && analysis.shapley == Some(true) {
+        if space.noise().is_some() && analysis.asks_for_shapley() {
             return Err(BuildError::Dependent { what: "Shapley effects beside the noise of a stochastic model" });
         }
         if space.copula().is_some() {
@@ -313,8 +314,15 @@ fn checked(mut options: AnalysisOptions, sampler: Sampler, factors: usize) -> Re
             return Err(BuildError::Subset { subset: subset.clone(), factors });
         }
     }
-    if options.shapley == Some(true) && factors > MAX_SHAPLEY_FACTORS {
-        return Err(BuildError::Shapley { factors });
+    let most = match options.shapley_method {
+        Some(ShapleyMethod::Subsets) => MAX_SHAPLEY_FACTORS,
+        Some(ShapleyMethod::Permutations) | None => MAX_ORDERED_FACTORS,
+    };
+    if options.asks_for_shapley() && factors > most {
+        return Err(BuildError::Shapley { factors, most });
+    }
+    if let (Some(false), Some(method)) = (options.shapley, options.shapley_method) {
+        return Err(BuildError::ShapleyMethod { method: method.name() });
     }
     // The default ones are in every result.
     options.estimators.retain(|estimator| *estimator != Estimator::Default);

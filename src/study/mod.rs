@@ -185,7 +185,7 @@ impl Study {
             estimators: self.analysis.estimators.clone(),
             second_order: self.analysis.second_order,
             dependent: self.space.copula().is_some(),
-            shapley: self.analysis.has_shapley(&self.space),
+            shapley: self.analysis.shapley_of(&self.space),
             noise: self.space.noise().map(|noise| NoiseLayout::new(noise, self.design.swaps())),
         }
     }

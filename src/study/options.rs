@@ -1,7 +1,7 @@
 //! What is asked of the runs of a study, and when they end.
 
 use crate::design::{Companions, Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
-use crate::estimate::{Estimator, proper_subsets};
+use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, proper_subsets};
 use crate::run::FailurePolicy;
 use crate::space::Space;
 use crate::surrogate::FEWEST_NETS;
@@ -16,9 +16,11 @@ pub struct AnalysisOptions {
     pub second_order: bool,
     /// Sets of factors, by number, whose joint indices are asked for.
     pub subsets: Vec<Vec<usize>>,
-    /// Whether Shapley effects are asked for, of at most [`MAX_SHAPLEY_FACTORS`](crate::estimate::MAX_SHAPLEY_FACTORS) factors: 2^d runs for each base sample. `None` to
-    /// have them of up to four factors that depend on each other.
+    /// Whether Shapley effects are asked for, of at most a hundred factors. `None` to have them of up to four factors
+    /// that depend on each other, and where `shapley_method` says how.
     pub shapley: Option<bool>,
+    /// How they are found. `None` for all subsets of up to [`MAX_SHAPLEY_FACTORS`] factors, and random permutations of more.
+    pub shapley_method: Option<ShapleyMethod>,
     /// Whether indices over all outputs together are asked for.
     pub aggregate: bool,
     /// Whether a dummy factor, which does nothing, is run along: its indices are the noise of the model.
@@ -45,6 +47,7 @@ impl AnalysisOptions {
             second_order: false,
             subsets: Vec::new(),
             shapley: None,
+            shapley_method: None,
             aggregate: false,
             dummy: false,
             intervals: IntervalMethod::default_for(sampler),
@@ -60,7 +63,22 @@ impl AnalysisOptions {
 impl AnalysisOptions {
     /// Whether there will be Shapley effects of the factors of `space`.
     pub fn has_shapley(&self, space: &Space) -> bool {
-        self.shapley.unwrap_or(space.copula().is_some() && space.factors().len() <= FREE_SHAPLEY_FACTORS)
+        let is_free = space.copula().is_some() && space.factors().len() <= FREE_SHAPLEY_FACTORS;
+        self.asks_for_shapley() || is_free && self.shapley.is_none()
+    }
+
+    /// Whether they are asked for in words.
+    pub(super) fn asks_for_shapley(&self) -> bool {
+        self.shapley.unwrap_or(self.shapley_method.is_some())
+    }
+
+    /// How they will be found, if there will be some.
+    pub fn shapley_of(&self, space: &Space) -> Option<ShapleyMethod> {
+        let by_number = match space.factors().len() <= MAX_SHAPLEY_FACTORS {
+            true => ShapleyMethod::Subsets,
+            false => ShapleyMethod::Permutations,
+        };
+        self.has_shapley(space).then(|| self.shapley_method.unwrap_or(by_number))
     }
 
     /// Replicates where nothing else is said: as many as the kind of interval works best with on points of `sampler`, and
@@ -262,7 +280,7 @@ fn split(runs: u64, runs_per_point: u64, replicates: u64) -> Result<(u64, u32), 
 }
 
 /// The rows for what is asked: the factors, the groups, the subsets; of dependent factors these once more, redrawn; the dummy; and
-/// the subsets that Shapley effects need.
+/// the subsets or the random orders that Shapley effects need.
 pub(crate) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -> Rows {
     let factors = space.factors().len();
     let single = (0..factors).map(|number| vec![number]);
@@ -274,7 +292,8 @@ pub(crate) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
         swaps.extend_from_within(..);
     }
     swaps.extend(analysis.dummy.then(Vec::new));
-    if analysis.has_shapley(space) {
+    let shapley = analysis.shapley_of(space);
+    if shapley == Some(ShapleyMethod::Subsets) {
         let first = swaps.len();
         swaps.extend(proper_subsets(factors));
         redrawn.extend(first..swaps.len());
@@ -282,7 +301,11 @@ pub(crate) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
     let second_order = Companions { ba: analysis.second_order, ..Companions::NONE };
     let companions = analysis.estimators.iter().fold(second_order, |all, estimator| all.union(estimator.needs()));
     let (second_order, copula) = (analysis.second_order, space.copula().cloned());
-    Rows { swaps, companions, second_order, plain_rows, copula, redrawn }
+    let players = match shapley {
+        Some(ShapleyMethod::Permutations) => (0..factors).map(|factor| vec![factor]).collect(),
+        _ => Vec::new(),
+    };
+    Rows { swaps, companions, second_order, plain_rows, copula, redrawn, players }
 }
 
 #[cfg(test)]

@@ -3,7 +3,9 @@
 //! Intervals work on lists of numbers: [`quantities`] lays the list out, [`Layout`] knows the places in it.
 
 use super::concentration::Side;
-use crate::estimate::{Estimator, Indices, Moments, SecondOrder, shapley_effects, shares};
+use crate::estimate::{
+    Estimator, Indices, Moments, SecondOrder, ShapleyMethod, ShapleyMoments, shapley_effects, shares,
+};
 
 /// What is estimated from the swaps of a design, which come in this order. Of dependent factors the swaps of factors, groups and
 /// subsets come once more before the dummy factor, redrawn given all others, and then redrawn subsets for the Shapley effects.
@@ -23,8 +25,8 @@ pub struct Layout {
     pub second_order: bool,
     /// Whether factors depend on each other.
     pub dependent: bool,
-    /// Whether there are Shapley effects of the factors.
-    pub shapley: bool,
+    /// How the Shapley effects of the factors are found, if there are any.
+    pub shapley: Option<ShapleyMethod>,
     /// The noise of a stochastic model, if it has one; there are no Shapley effects then, nor dependent factors.
     pub noise: Option<NoiseLayout>,
 }
@@ -162,6 +164,13 @@ impl Layout {
         if difference { Side::Both } else { Side::Above }
     }
 
+    /// The places of the quantities whose errors decay at a rate of their own: orders are random, and what hangs on them falls no
+    /// faster with the number of points than random points do.
+    pub(super) fn random(&self) -> std::ops::Range<usize> {
+        let is_random = self.shapley == Some(ShapleyMethod::Permutations);
+        self.shapley()..self.shapley() + if is_random { self.factors } else { 0 }
+    }
+
     /// Which quantities tell how errors decay: the default first-order and total indices of everything but the dummy.
     pub(super) fn pooled(&self, length: usize) -> Vec<bool> {
         let real = self.swap(self.swaps() - usize::from(self.dummy));
@@ -191,9 +200,15 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
     if layout.second_order {
         list.extend(layout.pair_list().into_iter().map(|(j, k)| SecondOrder::Difference.estimate(moments, j, k)));
     }
-    if layout.shapley {
-        let single: Vec<f64> = (0..layout.factors).map(|factor| total[layout.redrawn(factor)]).collect();
-        list.extend(shapley_effects(&single, &total[layout.swaps()..]));
+    match layout.shapley {
+        None => (),
+        Some(ShapleyMethod::Subsets) => {
+            let single: Vec<f64> = (0..layout.factors).map(|factor| total[layout.redrawn(factor)]).collect();
+            list.extend(shapley_effects(&single, &total[layout.swaps()..]));
+        }
+        Some(ShapleyMethod::Permutations) => {
+            list.extend(moments.shapley().map_or(vec![f64::NAN; layout.factors], ShapleyMoments::effects));
+        }
     }
     if let Some(noise) = &layout.noise {
         // The mean has the variance V(E[y|x]) = V (1 - ST_noise), and all that the factors do without the noise.

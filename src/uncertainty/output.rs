@@ -1,5 +1,7 @@
 //! Indices of one output with their intervals, probabilities and checks.
 
+use std::ops::Range;
+
 use super::by_points::{Bounds, ByPoints};
 use super::concentration::{Side, interval};
 use super::corrected::{Corrections, SurrogateEstimates, SurrogateUse};
@@ -55,7 +57,7 @@ pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>)
         // The mean may be missed on both sides, the variance above.
         None => {
             let sides = |place| if place == 0 { Side::Both } else { Side::Above };
-            Judged::of(influences, options.method, &[true, true], &sides)
+            Judged::of(influences, options.method, (&[true, true], 0..0), &sides)
         }
     };
     let mut estimates = [judged.estimates[0], judged.estimates[1]];
@@ -95,7 +97,7 @@ pub fn output_indices(
         None => {
             // Rounding says nothing of how errors decay.
             let pooled: Vec<bool> = pooled.iter().zip(&still).map(|(pooled, still)| *pooled && !still).collect();
-            Judged::of(influences, options.method, &pooled, &|place| layout.side(place))
+            Judged::of(influences, options.method, (&pooled, layout.random()), &|place| layout.side(place))
         }
     };
     let allowed = judged.allow_for_unseen(&unseen, &still);
@@ -145,9 +147,17 @@ pub(super) struct Judged {
 
 impl Judged {
     /// `side` tells for the number of a quantity where its interval must reach further if few rows carry it.
-    pub fn of(influences: Influences, method: IntervalMethod, pooled: &[bool], side: &dyn Fn(usize) -> Side) -> Self {
+    /// The errors of those in the range of places `random` decay at a rate of their own.
+    pub fn of(
+        influences: Influences,
+        method: IntervalMethod,
+        (pooled, random): (&[bool], Range<usize>),
+        side: &dyn Fn(usize) -> Side,
+    ) -> Self {
         let Influences { whole, parts } = influences;
-        let errors = method.errors(&parts, pooled);
+        let mut errors = method.errors(&parts, pooled);
+        let of_random = method.errors(&parts[random.clone()], &vec![true; random.len()]);
+        errors.splice(random, of_random);
         let of_quantity = |(place, &estimate): (usize, &f64)| {
             let interval = interval(estimate, errors[place], &parts[place], side(place));
             Estimate { estimate, interval }
@@ -227,8 +237,8 @@ impl Judged {
         let noise = layout.noise.as_ref().map(|noise| noise.factor);
         let factors = (0..layout.factors).filter(|factor| Some(*factor) != noise);
         let place = |factor: usize| match layout.shapley {
-            true => layout.shapley() + factor,
-            false => layout.place(layout.redrawn(factor), Number::Total),
+            Some(_) => layout.shapley() + factor,
+            None => layout.place(layout.redrawn(factor), Number::Total),
         };
         let places: Vec<usize> = factors.map(place).collect();
         let estimates: Vec<f64> = places.iter().map(|&place| self.estimates[place].estimate).collect();

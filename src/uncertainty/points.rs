@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use crate::design::Design;
-use crate::estimate::{BlockOutputs, PointOutputs, ProductWork, Products};
+use crate::estimate::{BlockOutputs, PointOutputs, ProductWork, Products, contributions};
 
 /// Base points whose products are held at a time, at most: some megabytes.
 const CHUNK: usize = 1 << 13;
@@ -41,17 +41,24 @@ impl<'a> KeptPoints<'a> {
 
     /// The points in chunks of blocks, in order; their sizes depend on the number of points alone.
     pub(super) fn chunks(&self) -> Vec<Chunk<'a>> {
-        let blocks = self.replicates.iter().flat_map(|kept| kept.blocks(self.per_replicate));
+        let blocks = self.replicates.iter().zip(0..).flat_map(|(kept, replicate)| {
+            let mut first = 0;
+            kept.blocks(self.per_replicate).map(move |columns| {
+                let place = (replicate, first);
+                first += columns.first().map_or(0, |column| column.len() as u64);
+                (place, columns)
+            })
+        });
         let mut chunks: Vec<Chunk<'a>> = Vec::new();
         let mut first = 0;
-        for columns in blocks {
+        for (place, columns) in blocks {
             let points = columns.first().map_or(0, |column| column.len());
             match chunks.last_mut() {
                 Some(chunk) if chunk.points.len() + points <= CHUNK => {
                     chunk.points.end += points;
-                    chunk.blocks.push(columns);
+                    chunk.blocks.push((place, columns));
                 }
-                _ => chunks.push(Chunk { points: first..first + points, blocks: vec![columns] }),
+                _ => chunks.push(Chunk { points: first..first + points, blocks: vec![(place, columns)] }),
             }
             first += points;
         }
@@ -63,8 +70,8 @@ impl<'a> KeptPoints<'a> {
 pub(super) struct Chunk<'a> {
     /// Their numbers.
     pub points: Range<usize>,
-    /// Columns of their runs.
-    blocks: Vec<Vec<&'a [f64]>>,
+    /// Columns of their runs, and the replicate and the first base point of each block.
+    blocks: Vec<((u64, u64), Vec<&'a [f64]>)>,
 }
 
 impl Chunk<'_> {
@@ -74,10 +81,12 @@ impl Chunk<'_> {
         let mut matrix = DMatrix::zeros(points, products.columns());
         let mut work = ProductWork::default();
         let mut first = 0;
-        for columns in &self.blocks {
+        for (place, columns) in &self.blocks {
             let rows = |runs: &[usize]| runs.iter().map(|run| columns[*run]).collect::<Vec<&[f64]>>();
             let (ab, ba) = (rows(design.ab_runs()), rows(design.ba_runs()));
             let (bc, cb) = (rows(design.bc_runs()), rows(design.cb_runs()));
+            let shapley = contributions(design, *place, columns);
+            let shapley: Vec<&[f64]> = shapley.iter().map(Vec::as_slice).collect();
             let block = BlockOutputs {
                 a: columns[0],
                 b: columns[1],
@@ -86,6 +95,7 @@ impl Chunk<'_> {
                 bc: &bc,
                 cb: &cb,
                 paired: design.paired(),
+                shapley: &shapley,
             };
             products.fill(&block, (&mut matrix.as_mut_slice()[first..], points), &mut work);
             first += columns[0].len();

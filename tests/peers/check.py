@@ -3,7 +3,7 @@
     cargo run --release --example dump_design -- FOLDER
     python tests/peers/check.py FOLDER
 
-The first command writes designs, their outputs and our indices; this script gives the same outputs to the estimators of
+The first command writes designs, their outputs and our indices, and tables with our measures (`measures.py`); this script gives the same outputs to the estimators of
 SALib and SciPy, and to formulas written here from the papers, in extended precision and without our rearrangements. It
 ends with code 1 if anything differs by more than its tolerance.
 """
@@ -14,6 +14,7 @@ import sys
 import warnings
 from pathlib import Path
 
+import measures
 import numpy as np
 from SALib.analyze import sobol as salib
 from SALib.test_functions import Ishigami, Sobol_G
@@ -318,6 +319,8 @@ def main():
         check_rows(checks, name, case, table)
         check_peers(checks, name, case, y)
         check_formulas(checks, name, case, y)
+    ours = json.loads((folder / "measures.json").read_text())
+    measures.check(checks, ours, lambda name: read(folder / f"{name}.csv"))
     print(f"{checks.count} comparisons, {checks.failed} failed")
     sys.exit(1 if checks.failed else 0)
 

@@ -6,14 +6,14 @@ use ::apportion::{
 };
 
 /// Normal factors with standard deviations `sd` and correlations `r`, and the output sum b x.
-struct Linear {
-    b: Vec<f64>,
-    sd: Vec<f64>,
-    r: Vec<Vec<f64>>,
+pub struct Linear {
+    pub b: Vec<f64>,
+    pub sd: Vec<f64>,
+    pub r: Vec<Vec<f64>>,
 }
 
 /// A correlation matrix from the numbers above its diagonal.
-fn correlations(n: usize, upper: &[f64]) -> Vec<Vec<f64>> {
+pub fn correlations(n: usize, upper: &[f64]) -> Vec<Vec<f64>> {
     let mut matrix = vec![vec![1.0; n]; n];
     let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
     for ((i, j), r) in pairs.zip(upper) {
@@ -45,7 +45,7 @@ impl Linear {
         of.iter().flat_map(|&i| of.iter().map(move |&j| (i, j))).map(|(i, j)| self.b[i] * self.b[j] * s[i][j]).sum()
     }
 
-    fn all(&self) -> Vec<usize> {
+    pub fn all(&self) -> Vec<usize> {
         (0..self.b.len()).collect()
     }
 
@@ -63,7 +63,7 @@ impl Linear {
     }
 
     /// E Var(Y | all but X_u)/V.
-    fn total(&self, u: &[usize]) -> f64 {
+    pub fn total(&self, u: &[usize]) -> f64 {
         self.variance_given(u, &self.without(u)) / self.variance()
     }
 
@@ -90,6 +90,12 @@ impl Linear {
     }
 
     fn study(&self, base_samples: u64, seed: u64) -> Study {
+        let options =
+            AnalysisOptions { shapley: Some(true), ..AnalysisOptions::for_sampler(::apportion::Sampler::Sobol) };
+        self.study_with(base_samples, seed, options)
+    }
+
+    pub fn study_with(&self, base_samples: u64, seed: u64, options: AnalysisOptions) -> Study {
         let b = self.b.clone();
         let names: Vec<String> = self.all().into_iter().map(|j| format!("x{}", j + 1)).collect();
         let model = function_model("y", move |x: &[f64]| x.iter().zip(&b).map(|(x, b)| b * x).sum());
@@ -98,13 +104,11 @@ impl Linear {
             builder = builder.factor(name, Distribution::normal(3.0, *sd).unwrap());
         }
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        let options =
-            AnalysisOptions { shapley: Some(true), ..AnalysisOptions::for_sampler(::apportion::Sampler::Sobol) };
         builder.dependence(Dependence::new(&names, self.r.clone())).analysis(options).build().unwrap()
     }
 }
 
-fn cases() -> [Linear; 3] {
+pub fn cases() -> [Linear; 3] {
     [
         Linear { b: vec![2.0, 1.0], sd: vec![1.0, 2.0], r: correlations(2, &[0.6]) },
         // Iooss and Prieur (2019), Int. J. Uncertain. Quantif. 9, 493-514, section 3: only two of the three are correlated.
@@ -251,7 +255,7 @@ fn intervals_of_dependent_factors_hold_the_truth() {
 
 /// E Var(value | all but u)/V of the portfolio for each factor and for the proper subsets {1,2}, {1,3}, {2,3}, {1,2,3}, {1,4}, {2,4},
 /// {1,2,4}, {3,4}, {1,3,4}, {2,3,4}, by the moments of two independent pairs of normal factors.
-fn portfolio_costs() -> ([f64; 4], [f64; 10]) {
+pub fn portfolio_costs() -> ([f64; 4], [f64; 10]) {
     const V: f64 = 3_033_600.0;
     let single = [1_492_400.0, 910_000.0, 582_400.0, 327_600.0];
     let proper = [V, 1_544_816.0, 1_492_400.0, V, 1_820_000.0, 939_484.0, V, 913_600.0, 1_823_600.0, 1_496_000.0];

@@ -43,6 +43,7 @@ mod schema;
 mod screening;
 mod series;
 mod series_files;
+mod shapley;
 mod small_budgets;
 mod stopped;
 mod study_forms;

@@ -70,6 +70,32 @@ fn ishigami_is_read_as_what_it_is() {
 }
 
 #[test]
+fn derivatives_bound_total_indices() {
+    let (folder, file, table) = screened("ishigami", &["--design", "derivative", "--trajectories", "2048"]);
+    assert_eq!((file.provenance.design.as_str(), file.provenance.derivative_step), ("derivative", Some(1e-3)));
+    assert_eq!((file.provenance.sampler.as_deref(), file.provenance.shortest_step), (Some("sobol"), None));
+    // Sobol' and Kucherenko (2009): E of the squared derivative by x2 is 24.5, and 4 nu/V bounds its total index of 0.4424.
+    let x2 = &file.outputs[0].factors[1];
+    let (nu, bound) = (x2.nu.unwrap(), x2.total_bound.unwrap());
+    assert!(
+        (nu.estimate - 24.5).abs() < 0.5 && (bound.estimate - 4.0 * 24.5 / 13.8446).abs() < 0.3,
+        "{nu:?} {bound:?}"
+    );
+    assert!(bound.low.unwrap() < bound.estimate && bound.estimate < bound.high.unwrap());
+    assert!(table.contains("S_T at most") && table.contains("Derivatives of y"), "{table}");
+    let csv = read(folder.path(), "ishigami-screen.csv");
+    assert!(
+        csv.lines().next().unwrap().contains(",ratio_high,nu,nu_low,nu_high,total_bound,total_bound_low,"),
+        "{csv}"
+    );
+    // The bend of a distribution has no part in derivatives; what has no bound is said.
+    let (_folder, file, _) = screened("soft-cantilever", &["--design", "derivative"]);
+    assert!(file.notes[0].contains("no bound on the total index by derivatives is known for the distribution of"));
+    assert!(file.notes[0].contains("velocity (log-uniform)"));
+    assert!(screened("soft-cantilever", &[]).1.outputs[0].factors.iter().all(|factor| factor.nu.is_none()));
+}
+
+#[test]
 fn designs_seeds_and_threads_do_what_they_say() {
     let csv = |more: &[&str]| read(screened("soft-cantilever", more).0.path(), "soft-cantilever-screen.csv");
     let plain = csv(&["--threads", "1"]);
@@ -164,7 +190,8 @@ fn bad_requests_are_refused_before_anything_is_written() {
         "5 levels: the trajectory design needs an even number",
     );
     refused("screen", &["--levels", "4"], "--levels is of no account to the radial design");
-    refused("screen", &["--design", "star"], "radial, trajectory");
+    refused("screen", &["--design", "star"], "radial, trajectory, derivative");
+    refused("screen", &["--design", "derivative", "--levels", "4"], "of no account to the derivative design");
     refused("screen", &["--seed", "-1"], "-1");
     refused("screen", &["--set", "factor.length.max=100"], "must be below");
     refused(

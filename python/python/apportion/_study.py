@@ -26,6 +26,7 @@ _ANALYSIS = (
     "second_order",
     "subsets",
     "shapley",
+    "shapley_method",
     "aggregate",
     "dummy",
     "intervals",
@@ -54,8 +55,8 @@ class Study:
     `noise={"mean_totals": True}` adds the total indices of the mean over it, one more run of each base sample for each factor.
 
     Keywords are the keys of a study file: `base_samples`, `sampler`, `replicates`, `seed`, `budget_runs`, `max_runs`,
-    `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `estimators`, `intervals`, `surrogate`, `threshold`,
-    `dummy`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
+    `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `shapley_method`, `estimators`, `intervals`, `surrogate`,
+    `threshold`, `dummy`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
     `expression={...}`, `fidelity={...}`. Factors that depend on each other, by a Gaussian copula:
     `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of tables as in a study file, as in
     `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`.
@@ -236,14 +237,30 @@ class Study:
         return Result(result)
 
     def screen(
-        self, trajectories: int = 32, *, levels: int | None = None, seed: int | None = None, threads: int = 0
+        self,
+        trajectories: int = 32,
+        *,
+        levels: int | None = None,
+        derivatives: bool = False,
+        seed: int | None = None,
+        threads: int = 0,
     ) -> Document:
         """Elementary effects: which of many factors matter, for a few runs each. Radial (Campolongo et al. 2011), or with
-        `levels` the trajectories of Morris (1991) on a grid."""
+        `levels` the trajectories of Morris (1991) on a grid; with `derivatives` short steps, for the mean squares of derivatives and
+        what total indices are at most (Sobol' and Kucherenko 2009)."""
+        if derivatives and levels is not None:
+            raise StudyError("levels are of no account to derivatives: leave out one of them")
         stop = _engine.Stop()
         function = self._function(stop, None, None)
         document = self._study.screen(
-            function, stop, trajectories=trajectories, levels=levels, seed=seed, threads=threads, progress=None
+            function,
+            stop,
+            trajectories=trajectories,
+            levels=levels,
+            derivatives=derivatives,
+            seed=seed,
+            threads=threads,
+            progress=None,
         )
         return Document(document)
 

@@ -54,7 +54,16 @@ impl Sample {
 
     fn moments(&self) -> Moments {
         let [ab, ba, bc, cb] = [&self.ab, &self.ba, &self.bc, &self.cb].map(|s| [&s[0][..], &s[1][..]]);
-        let block = BlockOutputs { a: &self.a, b: &self.b, ab: &ab, ba: &ba, bc: &bc, cb: &cb, paired: &[0, 1] };
+        let block = BlockOutputs {
+            a: &self.a,
+            b: &self.b,
+            ab: &ab,
+            ba: &ba,
+            bc: &bc,
+            cb: &cb,
+            paired: &[0, 1],
+            ..BlockOutputs::default()
+        };
         Moments::of_block(block, &mut Workspace::default())
     }
 }
@@ -132,7 +141,8 @@ fn an_estimator_gives_an_index_exactly_if_it_has_the_rows_that_it_needs() {
             .map(|(on, columns)| series(on, columns));
         let [ba, bc, cb] = owned.each_ref().map(|s| s.iter().map(Vec::as_slice).collect::<Vec<_>>());
         let ab = [&sample.ab[0][..], &sample.ab[1][..]];
-        let block = BlockOutputs { a: &sample.a, b: &sample.b, ab: &ab, ba: &ba, bc: &bc, cb: &cb, paired: &[] };
+        let block =
+            BlockOutputs { a: &sample.a, b: &sample.b, ab: &ab, ba: &ba, bc: &bc, cb: &cb, ..BlockOutputs::default() };
         let moments = Moments::of_block(block, &mut Workspace::default());
         assert_eq!(moments.companions(), companions);
         for first_order in FirstOrder::ALL {

@@ -4,6 +4,7 @@ use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, 
 use super::lead::{by_total, widest};
 use super::noise::noise;
 use super::tables;
+use crate::estimate::ShapleyMethod;
 use crate::report::document::Part;
 use crate::report::format::{
     count, grouped, index, name, share_of_runs, significant, the, two_digits as half_width, with_unit,
@@ -115,10 +116,17 @@ fn times(gain: f64) -> String {
 fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let any = |asked: fn(&IndexRecord) -> bool| of.output.indices.iter().flatten().any(asked);
     if any(|index| index.effect.shapley.is_some()) {
-        let text = "Shapley effects share out the variance of the output among the factors, whether or not they depend on each \
-                    other: each is the mean, over all orders of the factors, of what a factor adds to what those before it \
-                    explain. They sum to 100 %.";
-        return vec![Part::Text(text.to_owned()), figures.draw(of, SHARES)];
+        let is_random = figures.result.provenance.shapley_method.as_deref() == Some(ShapleyMethod::Permutations.name());
+        let orders = if is_random {
+            "over a random order of the factors at each base sample"
+        } else {
+            "over all orders of the factors"
+        };
+        let text = format!(
+            "Shapley effects share out the variance of the output among the factors, whether or not they depend on each other: \
+             each is the mean, {orders}, of what a factor adds to what those before it explain. They sum to 100 %."
+        );
+        return vec![Part::Text(text), figures.draw(of, SHARES)];
     }
     if any(|index| index.effect.dependent.is_some()) {
         return vec![Part::Text(

@@ -65,7 +65,8 @@ pub fn file_names(name: &str, outputs: &[&str]) -> FileNames {
 fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
     let estimate = |heading: &str, name: &str| Column::number(heading).named(Field::estimate(name));
     let in_file = |name: &str| Column::in_file(Field::new(name));
-    let columns = [
+    let is_derivative = file.provenance.derivative_step.is_some();
+    let mut columns = vec![
         in_file("output"),
         in_file("unit"),
         Column::text("factor").named(Field::new("factor")),
@@ -79,6 +80,10 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
         in_file("effects"),
         in_file("dropped"),
     ];
+    if is_derivative {
+        let own = [estimate("nu", "nu"), estimate("S_T at most", "total_bound")];
+        columns.splice(COLUMNS_BEFORE_NU..COLUMNS_BEFORE_NU, own);
+    }
     let plain = |estimate: Option<EstimateRecord>| {
         Cell::valued(estimate.map_or_else(|| "–".to_owned(), |e| short(e.estimate)), Value::Estimate(estimate))
     };
@@ -86,7 +91,7 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
         let reading = factor.reading.map(|reading| reading.words());
         let fixed = factor.could_be_fixed.map_or("–", |fixed| if fixed { "yes" } else { "no" });
         let mu_star = factor.mu_star.map_or_else(|| "–".to_owned(), with_interval);
-        vec![
+        let mut row = vec![
             Cell::from(&output.name),
             Cell::from(&output.unit),
             Cell::valued(name(&factor.factor), (&factor.factor).into()),
@@ -99,21 +104,38 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
             Cell::valued(fixed, factor.could_be_fixed.into()),
             Cell::valued("", factor.effects.into()),
             Cell::valued("", factor.dropped.into()),
-        ]
+        ];
+        if is_derivative {
+            let bound = factor.total_bound.map_or_else(|| "–".to_owned(), with_interval);
+            let bound = Cell::valued(bound, Value::Estimate(factor.total_bound));
+            row.splice(COLUMNS_BEFORE_NU..COLUMNS_BEFORE_NU, [plain(factor.nu), bound]);
+        }
+        row
     };
     let mut ranked: Vec<usize> = (0..output.factors.len()).collect();
     ranked.sort_by_key(|&place| output.factors[place].rank);
-    let caption = format!(
-        "Elementary effects on {} per full range of each factor: mean size mu* with its 95 % interval, mean mu, standard \
-         deviation sigma.",
-        the(&output.name)
-    );
+    let output_name = the(&output.name);
+    let caption = if is_derivative {
+        format!(
+            "Derivatives of {output_name}, times the range of each factor: mean size mu* with its 95 % interval, mean mu, standard \
+             deviation sigma; nu, the mean square of the derivative per unit of the factor, and what the total index S_T is at most \
+             by Poincaré's inequality."
+        )
+    } else {
+        format!(
+            "Elementary effects on {output_name} per full range of each factor: mean size mu* with its 95 % interval, mean mu, \
+             standard deviation sigma."
+        )
+    };
     Table {
         printed: Some(ranked),
         file: format!("{}-screen.csv", file.study.name),
         ..Table::new(caption, columns).with_rows(output.factors.iter().map(row))
     }
 }
+
+/// The columns before those of derivatives: up to sigma/mu*.
+const COLUMNS_BEFORE_NU: usize = 8;
 
 /// `40.12 [38.9, 41.3]`, or the estimate alone where there is no interval.
 fn with_interval(record: EstimateRecord) -> String {
@@ -146,6 +168,9 @@ fn provenance(file: &ScreeningFile) -> Part {
     let mut rows =
         vec![("program", format!("apportion {}", provenance.apportion_version)), ("design", provenance.design.clone())];
     rows.extend(provenance.sampler.iter().map(|sampler| ("sampler", sampler.clone())));
+    rows.extend(
+        provenance.derivative_step.iter().map(|step| ("step", format!("{} of the range, or less", short(*step)))),
+    );
     rows.extend(provenance.levels.iter().map(|levels| ("levels", levels.to_string())));
     rows.extend([
         ("trajectories", grouped(provenance.trajectories)),

@@ -12,7 +12,8 @@ use super::super::{RunFacts, with_unit};
 use crate::design::Sampler;
 use crate::model::{Model, Output};
 use crate::screening::{
-    FIXABLE, MIN_STEP, Reading, ScreenedFactor, ScreenedOutput, Screening, ScreeningDesign, ScreeningFailure,
+    DERIVATIVE_STEP, FIXABLE, MIN_STEP, Reading, ScreenedFactor, ScreenedOutput, Screening, ScreeningDesign,
+    ScreeningFailure, poincare_constant,
 };
 use crate::space::Distribution;
 use crate::study::Study;
@@ -41,14 +42,17 @@ pub struct ScreeningFile {
 pub struct ScreeningProvenance {
     /// Version of the program.
     pub apportion_version: String,
-    /// `radial` or `trajectory`.
+    /// `radial`, `trajectory` or `derivative`.
     pub design: String,
-    /// Where the points of a radial design come from; `null` for trajectories.
+    /// Where the points of a radial or derivative design come from; `null` for trajectories.
     pub sampler: Option<String>,
-    /// Levels of the grid of a trajectory design; `null` for a radial one.
+    /// Levels of the grid of a trajectory design; `null` for others.
     pub levels: Option<u32>,
-    /// Shortest step of a radial design, as a part of the range; `null` for trajectories.
+    /// Shortest step of a radial design, as a part of the range; `null` for others.
     pub shortest_step: Option<f64>,
+    /// Longest step of a derivative design, as a part of the range; absent for others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub derivative_step: Option<f64>,
     /// Trajectories r.
     pub trajectories: u64,
     /// Independent parts that the intervals rest on.
@@ -103,6 +107,12 @@ pub struct FactorScreeningRecord {
     pub reading: Option<Reading>,
     /// Whether the factor could be fixed; `null` where nothing can be said.
     pub could_be_fixed: Option<bool>,
+    /// Mean square of the derivative, in the square of the output's unit per unit of the factor; only of a derivative design.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nu: Option<EstimateRecord>,
+    /// What the total index does not exceed; only of a derivative design and a factor whose distribution has a constant for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub total_bound: Option<EstimateRecord>,
     /// Effects that the measures rest on.
     pub effects: u64,
     /// Effects dropped because a run failed.
@@ -132,16 +142,14 @@ pub fn build_screening(study: &Study, model: &dyn Model, screening: &Screening, 
         provenance: provenance(screening, facts),
         outputs: outputs.map(|(output, screened)| output_record(study, output, (screening, screened))).collect(),
         validity: validity(model, &screening.flags, screening.runs),
-        notes: notes(study),
+        notes: notes(study, screening.settings.design),
     }
 }
 
 fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
     let Screening { settings, parts, .. } = *screening;
-    let (sampler, levels) = match settings.design {
-        ScreeningDesign::Radial { sampler } => (Some(sampler), None),
-        ScreeningDesign::Trajectory { levels } => (None, Some(levels)),
-    };
+    let (sampler, is_radial) = (settings.design.sampler(), matches!(settings.design, ScreeningDesign::Radial { .. }));
+    let levels = if let ScreeningDesign::Trajectory { levels } = settings.design { Some(levels) } else { None };
     let what = match sampler {
         Some(Sampler::Sobol | Sampler::SobolPickFreeze | Sampler::LatinHypercube) => "randomisations of the design",
         _ if parts == settings.trajectories => "trajectories",
@@ -152,7 +160,8 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
         design: settings.design.name().to_owned(),
         sampler: sampler.map(|sampler| sampler.name().to_owned()),
         levels,
-        shortest_step: sampler.map(|_| MIN_STEP),
+        shortest_step: is_radial.then_some(MIN_STEP),
+        derivative_step: (sampler.is_some() && !is_radial).then_some(DERIVATIVE_STEP),
         trajectories: settings.trajectories,
         parts,
         seed: settings.seed,
@@ -198,6 +207,8 @@ fn factor_record(factor: String, screened: &ScreenedFactor, idle_steps: u64) -> 
         ratio: measures.and_then(|m| m.ratio).map(estimate_record),
         reading: screened.reading,
         could_be_fixed: screened.could_be_fixed,
+        nu: screened.derivative.map(|d| estimate_record(d.nu)),
+        total_bound: screened.derivative.and_then(|d| d.total_bound).map(estimate_record),
         effects: screened.effects,
         dropped: screened.dropped,
         idle_steps,
@@ -213,7 +224,8 @@ fn failure_record(study: &Study, failure: &ScreeningFailure) -> ScreeningFailure
     }
 }
 
-fn notes(study: &Study) -> Vec<String> {
+fn notes(study: &Study, design: ScreeningDesign) -> Vec<String> {
+    let is_derivative = matches!(design, ScreeningDesign::Derivative { .. });
     let factors = study.space.factors();
     let bent = factors.iter().filter(|factor| {
         !matches!(
@@ -233,7 +245,17 @@ fn notes(study: &Study) -> Vec<String> {
         .map(|factor| format!("{} = {}", factor.name, with_unit(factor.nominal, factor.unit().symbol())))
         .collect();
     let mut notes = Vec::new();
-    if !bent.is_empty() {
+    if is_derivative {
+        let unknown = factors.iter().filter(|factor| poincare_constant(factor.distribution()).is_none());
+        let unknown: Vec<String> =
+            unknown.map(|factor| format!("{} ({})", factor.name, factor.distribution().name())).collect();
+        if !unknown.is_empty() {
+            notes.push(format!(
+                "no bound on the total index by derivatives is known for the distribution of {}",
+                unknown.join(", ")
+            ));
+        }
+    } else if !bent.is_empty() {
         notes.push(format!(
             "effects are per step in probability, so that sigma of factors that are not uniform holds the bend of their \
              distribution too: {}",

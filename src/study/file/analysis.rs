@@ -3,8 +3,9 @@
 use super::context::{Context, Fault, choice, unknown_name, wrong};
 use super::error::Problem;
 use super::sections::{AnalysisSection, At, DesignSection};
+use crate::design::MAX_ORDERED_FACTORS;
 use crate::design::Sampler;
-use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS};
+use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod};
 use crate::quantity::{Dimension, Quantity};
 use crate::run::FailurePolicy;
 use crate::space::Space;
@@ -25,11 +26,13 @@ pub(super) fn analysis(
         None => FailurePolicy::DropBlock,
         Some(name) => choice(context, name, "failure policy", &FailurePolicy::ALL, FailurePolicy::name)?,
     };
+    let (shapley, shapley_method) = shapley(context, section, space)?;
     Ok(AnalysisOptions {
         estimators: estimators(context, section)?,
         second_order: flag(&section.second_order),
         subsets: subsets(context, section, space)?,
-        shapley: shapley(context, section, space)?,
+        shapley,
+        shapley_method,
         aggregate: flag(&section.aggregate),
         dummy: flag(&section.dummy),
         intervals,
@@ -103,18 +106,39 @@ fn subsets(context: &Context<'_>, section: &AnalysisSection, space: &Space) -> R
     Ok(subsets)
 }
 
-fn shapley(context: &Context<'_>, section: &AnalysisSection, space: &Space) -> Result<Option<bool>, Fault> {
-    let Some(asked) = &section.shapley else { return Ok(None) };
+fn shapley(
+    context: &Context<'_>,
+    section: &AnalysisSection,
+    space: &Space,
+) -> Result<(Option<bool>, Option<ShapleyMethod>), Fault> {
     let factors = space.factors().len();
-    if *asked.get_ref() && factors > MAX_SHAPLEY_FACTORS {
-        let expected = format!("false: Shapley effects are those of at most {MAX_SHAPLEY_FACTORS} factors");
-        return Err(context.fault(asked.span(), wrong("shapley", &expected, format!("true with {factors} factors"))));
+    let mut method = None;
+    if let Some(name) = &section.shapley_method {
+        let found = choice(context, name, "method for Shapley effects", &ShapleyMethod::ALL, ShapleyMethod::name)?;
+        let fault =
+            |expected: &str, found: String| Err(context.fault(name.span(), wrong("shapley_method", expected, found)));
+        if found == ShapleyMethod::Subsets && factors > MAX_SHAPLEY_FACTORS {
+            let expected = format!("\"permutations\": all subsets are those of at most {MAX_SHAPLEY_FACTORS} factors");
+            return fault(&expected, format!("\"subsets\" with {factors} factors"));
+        }
+        if section.shapley.as_ref().is_some_and(|asked| !asked.get_ref()) {
+            return fault("nothing beside shapley = false", format!("\"{}\"", found.name()));
+        }
+        method = Some(found);
     }
-    if *asked.get_ref() && space.noise().is_some() {
-        let expected = "false: the noise of a stochastic model is no factor that could have a share";
-        return Err(context.fault(asked.span(), wrong("shapley", expected, "true".to_owned())));
+    let asked = section.shapley.as_ref().map(|asked| (*asked.get_ref(), asked.span(), "shapley"));
+    let how = section.shapley_method.as_ref().map(|name| (true, name.span(), "shapley_method"));
+    if let Some((true, span, key)) = asked.clone().or(how) {
+        if factors > MAX_ORDERED_FACTORS {
+            let expected = format!("no Shapley effects, which are those of at most {MAX_ORDERED_FACTORS} factors");
+            return Err(context.fault(span, wrong(key, &expected, format!("them with {factors} factors"))));
+        }
+        if space.noise().is_some() {
+            let expected = "no Shapley effects: the noise of a stochastic model is no factor that could have a share";
+            return Err(context.fault(span, wrong(key, expected, "them".to_owned())));
+        }
     }
-    Ok(Some(*asked.get_ref()))
+    Ok((asked.map(|(asked, ..)| asked), method))
 }
 
 fn surrogate(

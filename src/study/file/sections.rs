@@ -202,9 +202,13 @@ pub(super) struct AnalysisSection {
     pub second_order: Option<At<bool>>,
     /// Sets of factors whose joint indices are asked for.
     pub subsets: Option<At<Vec<NameList>>>,
-    /// Shapley effects: shares of the variance that sum to 1 even where factors depend on each other. Of at most 8 factors; 2^d runs
-    /// for each base sample. By default those of up to 4 factors that depend on each other.
+    /// Shapley effects: shares of the variance that sum to 1 even where factors depend on each other. 2^d runs for each base sample
+    /// of up to 8 factors, d - 1 more of up to 100. By default those of up to 4 factors that depend on each other.
     pub shapley: Option<At<bool>>,
+    /// How Shapley effects are found: from all subsets of up to 8 factors, or along random permutations, with fewer runs for each
+    /// base sample and larger errors.
+    #[schemars(extend("enum" = key_schemas::shapley_methods()))]
+    pub shapley_method: Option<At<String>>,
     /// Indices over all outputs together.
     pub aggregate: Option<At<bool>>,
     /// A factor that does nothing is run along: its indices are the noise of the model.

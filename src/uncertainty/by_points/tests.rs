@@ -1,6 +1,6 @@
 use super::*;
 use crate::design::{Companions, Design, DesignSettings, Rows, Sampler};
-use crate::estimate::{BlockOutputs, Estimator, PointOutputs, Workspace};
+use crate::estimate::{BlockOutputs, Estimator, PointOutputs, ShapleyMethod, Workspace, contributions};
 use crate::uncertainty::bootstrap::counts_of;
 use crate::uncertainty::estimates::{Layout, quantities};
 
@@ -17,10 +17,19 @@ const ALL_ROWS: Companions = Companions { ba: true, bc: true, cb: true };
 impl Sample {
     /// x0 + 2 x1 + 3 x0 x1 + `offset`: the last factor does nothing.
     fn new(points: u64, companions: Companions, offset: f64) -> Self {
-        let second_order = companions.ba;
-        let swaps = vec![vec![0], vec![1], vec![2]];
+        Self::of(points, Rows { companions, second_order: companions.ba, ..Rows::default() }, offset)
+    }
+
+    /// The same along random orders of the factors.
+    fn with_orders(points: u64) -> Self {
+        Self::of(points, Rows { players: vec![vec![0], vec![1], vec![2]], ..Rows::default() }, 0.0)
+    }
+
+    fn of(points: u64, rows: Rows, offset: f64) -> Self {
+        let (companions, second_order) = (rows.companions, rows.second_order);
+        let shapley = (!rows.players.is_empty()).then_some(ShapleyMethod::Permutations);
         let settings = DesignSettings { sampler: Sampler::Random, base_samples: points, replicates: 1, seed: 5 };
-        let design = Design::new(settings, 3, Rows { swaps, companions, second_order, ..Rows::default() }).unwrap();
+        let design = Design::new(settings, 3, Rows { swaps: vec![vec![0], vec![1], vec![2]], ..rows }).unwrap();
         let runs = design.rows_per_point();
         let mut u = [0.0; 3];
         let mut output = |point: u64, run: u64| {
@@ -29,7 +38,7 @@ impl Sample {
         };
         let columns = (0..runs).map(|run| (0..points).map(|point| output(point, run)).collect()).collect();
         let estimators = Estimator::ALL.into_iter().filter(|estimator| companions.serve(estimator.needs())).collect();
-        let layout = Layout { estimators, second_order, ..Layout::plain(3) };
+        let layout = Layout { estimators, second_order, shapley, ..Layout::plain(3) };
         Self { design, columns, layout }
     }
 
@@ -63,7 +72,10 @@ impl Sample {
         let (ab, ba, bc, cb) =
             (rows(design.ab_runs()), rows(design.ba_runs()), rows(design.bc_runs()), rows(design.cb_runs()));
         let (a, b) = (&columns[0], &columns[1]);
-        let block = BlockOutputs { a, b, ab: &ab, ba: &ba, bc: &bc, cb: &cb, paired: design.paired() };
+        let whole: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
+        let added: Vec<Vec<f64>> = contributions(design, (0, 0), &whole).iter().map(repeated).collect();
+        let added: Vec<&[f64]> = added.iter().map(Vec::as_slice).collect();
+        let block = BlockOutputs { a, b, ab: &ab, ba: &ba, bc: &bc, cb: &cb, paired: design.paired(), shapley: &added };
         Moments::of_block(block, &mut Workspace::default())
     }
 
@@ -100,6 +112,8 @@ fn resampled_moments_are_those_of_resampled_rows() {
         (Sample::new(700, ALL_ROWS, 0.0), 1e-11),
         (Sample::new(700, ALL_ROWS, 0.0).with_failures(), 1e-11),
         (Sample::new(10_000, Companions::NONE, 0.0).with_failures(), 1e-11),
+        (Sample::with_orders(700), 1e-11),
+        (Sample::with_orders(10_000).with_failures(), 1e-11),
         (Sample::new(700, Companions { ba: true, ..Companions::NONE }, 0.0), 1e-11),
     ];
     for (sample, tolerance) in samples {
@@ -123,7 +137,8 @@ fn resampled_moments_are_those_of_resampled_rows() {
 fn influences_are_what_another_copy_of_the_point_does() {
     // The influence of a point is the slope of the estimate in its weight: power sums against those from the jackknife,
     // which agree to first order in 1/n.
-    for sample in [Sample::new(2000, ALL_ROWS, 0.0), Sample::new(2000, ALL_ROWS, 0.0).with_failures()] {
+    let plain = || Sample::new(2000, ALL_ROWS, 0.0);
+    for sample in [plain(), plain().with_failures(), Sample::with_orders(2000)] {
         let kept = sample.kept();
         let replicates = [&kept];
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();

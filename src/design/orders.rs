@@ -1,0 +1,251 @@
+//! Rows along random orders of the factors, from which Shapley effects are found where all subsets would be too many.
+//!
+//! Every base point has an order of its own of the players (single factors, or groups of them): a function of the seed, the
+//! replicate and the number of the point. Its step k is the row A in which the first k + 1 players of that order come from B (Goda
+//! 2021, Reliab. Eng. Syst. Saf. 213, 107702). Where factors depend on each other these are drawn anew given all others (Song,
+//! Nelson and Staum 2016, SIAM/ASA J. Uncertain. Quantif. 4, 1060-1083). In normal scores that is linear: with the correlations of
+//! the players from the last to the first as L L', and the innovations e_A = L^-1 a and e_B = L^-1 b, the scores are L e, where e
+//! comes from B for the players that are swapped, and from A for the others, which come before them.
+
+use std::sync::Arc;
+
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::space::{GaussianCopula, from_score, normal_scores};
+
+/// Orders have a stream of their own, of every sampler.
+const ORDER_STREAM: u64 = 1 << 60;
+
+/// The columns of the steps of a design: those of every factor in the first step, in the second one, and so on.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct OrderColumns {
+    /// Disjoint sets of factors that are all of them together.
+    pub players: Vec<Vec<usize>>,
+    /// The number of the first of the columns among those of the base points.
+    pub first: usize,
+    pub factors: usize,
+    pub copula: Option<Arc<GaussianCopula>>,
+}
+
+impl OrderColumns {
+    /// Rows between A and B: of one player fewer than there are.
+    pub fn steps(&self) -> usize {
+        self.players.len() - 1
+    }
+
+    /// How many columns there are.
+    pub fn count(&self) -> usize {
+        self.steps() * self.factors
+    }
+
+    /// The columns of step `step`, as (factor, column).
+    pub fn of_step(&self, step: usize) -> Vec<(usize, usize)> {
+        (0..self.factors).map(|factor| (factor, self.first + step * self.factors + factor)).collect()
+    }
+
+    /// Fills the columns behind all others with the steps of the base points from number `first_point` on, whose orders are `orders`.
+    pub fn fill(&self, orders: &Orders, first_point: u64, columns: &mut [Vec<f64>]) {
+        let (own, steps) = columns.split_at_mut(self.first.min(columns.len()));
+        let Some(points) = steps.first().map(Vec::len) else { return };
+        let dependent = self.copula.as_ref().map_or(&[][..], |copula| copula.dependent());
+        let scores = |matrix: usize| dependent.iter().map(|j| normal_scores(&own[matrix + j])).collect::<Vec<_>>();
+        let (a, b) = (scores(0), scores(self.factors));
+        let mut stream = orders.at(first_point);
+        let mut places = vec![0; self.factors];
+        for point in 0..points {
+            for (place, player) in stream.next_order().into_iter().enumerate() {
+                self.players[player].iter().for_each(|&factor| places[factor] = place);
+            }
+            for (step, columns) in steps.chunks_mut(self.factors).enumerate() {
+                for (factor, column) in columns.iter_mut().enumerate() {
+                    let is_swapped = places[factor] <= step;
+                    column[point] = own[if is_swapped { self.factors + factor } else { factor }][point];
+                }
+            }
+            if let Some(copula) = &self.copula {
+                let at_point = |scores: &[Vec<f64>]| scores.iter().map(|column| column[point]).collect::<Vec<f64>>();
+                let redrawn = Redrawn::new(copula, &places, &at_point(&a), &at_point(&b));
+                for (step, columns) in steps.chunks_mut(self.factors).enumerate() {
+                    redrawn.each(step, |factor, score| columns[factor][point] = from_score(score));
+                }
+            }
+        }
+    }
+}
+
+/// The dependent factors of one base point.
+struct Redrawn {
+    /// Those of the last player first, and the place of its player in the order.
+    factors: Vec<(usize, usize)>,
+    /// Lower triangle, row by row.
+    lower: Vec<Vec<f64>>,
+    /// Innovations of A and of B.
+    innovations: Vec<[f64; 2]>,
+}
+
+impl Redrawn {
+    /// `places` has the place of the player of every factor in the order; `a` and `b` are the scores of the dependent factors.
+    fn new(copula: &GaussianCopula, places: &[usize], a: &[f64], b: &[f64]) -> Self {
+        let mut numbers: Vec<usize> = (0..a.len()).collect();
+        numbers.sort_by_key(|number| std::cmp::Reverse(places[copula.dependent()[*number]]));
+        let factors: Vec<usize> = numbers.iter().map(|number| copula.dependent()[*number]).collect();
+        let mut lower: Vec<Vec<f64>> = Vec::with_capacity(factors.len());
+        let mut innovations: Vec<[f64; 2]> = Vec::with_capacity(factors.len());
+        for (row, &factor) in factors.iter().enumerate() {
+            let mut of_row: Vec<f64> = Vec::with_capacity(row + 1);
+            for column in 0..row {
+                let known: f64 = (0..column).map(|k| of_row[k] * lower[column][k]).sum();
+                of_row.push((copula.correlation(factor, factors[column]) - known) / lower[column][column]);
+            }
+            // Above 0: the least eigenvalue of the matrix is.
+            let diagonal = (1.0 - of_row.iter().map(|l| l * l).sum::<f64>()).max(f64::MIN_POSITIVE).sqrt();
+            let rest = |scores: &[f64], matrix: usize| {
+                let known: f64 = of_row.iter().zip(&innovations).map(|(l, e)| l * e[matrix]).sum();
+                (scores[numbers[row]] - known) / diagonal
+            };
+            innovations.push([rest(a, 0), rest(b, 1)]);
+            of_row.push(diagonal);
+            lower.push(of_row);
+        }
+        Self { factors: factors.into_iter().map(|factor| (factor, places[factor])).collect(), lower, innovations }
+    }
+
+    /// The score of every factor that is swapped in step `step` and drawn given others.
+    fn each(&self, step: usize, mut of_factor: impl FnMut(usize, f64)) {
+        let kept = self.factors.partition_point(|(_, place)| *place > step);
+        if kept == 0 {
+            // Given nothing they are those of B, to the last bit.
+            return;
+        }
+        for row in kept..self.factors.len() {
+            let matrix = |other: usize| usize::from(other >= kept);
+            let score = (0..=row).map(|other| self.lower[row][other] * self.innovations[other][matrix(other)]).sum();
+            of_factor(self.factors[row].0, score);
+        }
+    }
+}
+
+/// The orders of the players at the base points of one replicate.
+#[derive(Debug, Clone)]
+pub(super) struct Orders {
+    stream: ChaCha8Rng,
+    players: usize,
+}
+
+impl Orders {
+    pub fn new(players: usize, seed: u64, replicate: u64) -> Self {
+        let mut stream = ChaCha8Rng::seed_from_u64(seed);
+        stream.set_stream(replicate | ORDER_STREAM);
+        Self { stream, players }
+    }
+
+    /// The orders from base point `first` on.
+    pub fn at(&self, first: u64) -> Self {
+        let mut orders = self.clone();
+        orders.stream.set_word_pos(u128::from(first) * self.players as u128);
+        orders
+    }
+
+    /// The players in the order of the next base point (Fisher and Yates), any order as likely as any other but for some 1e-8: one
+    /// word of the stream for each player.
+    pub fn next_order(&mut self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.players).collect();
+        for left in (1..=self.players).rev() {
+            let place = u64::from(self.stream.next_u32()) * left as u64 >> 32;
+            order.swap(left - 1, place as usize);
+        }
+        order
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{Design, DesignSettings, RowKind, Rows, Sampler};
+    use nalgebra::DMatrix;
+
+    fn design(sampler: Sampler, players: Vec<Vec<usize>>, copula: Option<GaussianCopula>) -> Design {
+        let settings = DesignSettings { sampler, base_samples: 64, replicates: 4, seed: 3 };
+        let swaps = (0..4).map(|factor| vec![factor]).collect();
+        let redrawn = if copula.is_some() { (0..4).collect() } else { Vec::new() };
+        Design::new(settings, 4, Rows { swaps, redrawn, players, copula: copula.map(Arc::new), ..Rows::default() })
+            .unwrap()
+    }
+
+    fn single() -> Vec<Vec<usize>> {
+        (0..4).map(|factor| vec![factor]).collect()
+    }
+
+    fn point(design: &Design, row: u64) -> [f64; 4] {
+        let mut u = [0.0; 4];
+        design.point(row, &mut u);
+        u
+    }
+
+    #[test]
+    fn steps_take_one_player_after_another_from_b() {
+        for sampler in Sampler::ALL {
+            for players in [single(), vec![vec![1, 3], vec![0], vec![2]], vec![vec![0, 1, 2, 3]]] {
+                let design = design(sampler, players.clone(), None);
+                let (rows, steps) = (design.rows_per_point(), design.step_runs());
+                assert_eq!((rows, steps.len()), (6 + players.len() as u64 - 1, players.len() - 1));
+                for base in [0, 5, 17, 63] {
+                    let order = design.orders(base / 16, base % 16, 1).remove(0);
+                    let (mut row, b) = (point(&design, base * rows), point(&design, base * rows + 1));
+                    for (step, player) in order[..players.len() - 1].iter().enumerate() {
+                        players[*player].iter().for_each(|factor| row[*factor] = b[*factor]);
+                        let number = base * rows + steps[step] as u64;
+                        assert_eq!(point(&design, number), row, "{sampler:?}");
+                        assert_eq!(design.locate(number).2, RowKind::Step(step));
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_player_is_drawn_given_all_that_come_after_it() {
+        let mut r = DMatrix::identity(4, 4);
+        for (i, j, value) in [(0, 1, 0.6), (0, 3, -0.3), (1, 3, 0.2)] {
+            (r[(i, j)], r[(j, i)]) = (value, value);
+        }
+        let copula = GaussianCopula::new(r).unwrap();
+        let design = design(Sampler::Sobol, single(), Some(copula.clone()));
+        let rows = design.rows_per_point();
+        for base in 0..64 {
+            let order = design.orders(base / 16, base % 16, 1).remove(0);
+            let row = |run: usize| point(&design, base * rows + run as u64);
+            let (a, b) = (row(0), row(1));
+            let close = |one: [f64; 4], other: [f64; 4]| one.iter().zip(other).all(|(x, y)| (x - y).abs() < 1e-12);
+            // The first player alone is the row in which it is redrawn.
+            assert!(close(row(design.step_runs()[0]), row(design.ab_runs()[order[0]])));
+            // All others: drawn given the last one, z = b + r (a - b) of the last.
+            let last = order[3];
+            let score = |u: f64| normal_scores(&[u])[0];
+            let moved = std::array::from_fn(|j| match j == last {
+                true => a[j],
+                false => from_score(score(b[j]) + copula.correlation(j, last) * (score(a[last]) - score(b[last]))),
+            });
+            assert!(close(row(design.step_runs()[2]), moved), "{base}");
+        }
+    }
+
+    #[test]
+    fn orders_are_all_as_likely_and_the_same_from_anywhere() {
+        let orders = Orders::new(3, 1, 2);
+        let mut all = orders.at(0);
+        let all: Vec<Vec<usize>> = (0..6000).map(|_| all.next_order()).collect();
+        let mut later = orders.at(4321);
+        assert_eq!(later.next_order(), all[4321]);
+        let mut kinds = std::collections::BTreeMap::new();
+        all.iter().for_each(|order| *kinds.entry(order.clone()).or_insert(0) += 1);
+        assert_eq!(kinds.len(), 6);
+        assert!(kinds.values().all(|count| (850..1150).contains(count)), "{kinds:?}");
+        let start = |seed, replicate| {
+            let mut orders = Orders::new(30, seed, replicate).at(0);
+            orders.next_order()
+        };
+        assert!(start(1, 2) != start(1, 3) && start(1, 2) != start(2, 2));
+    }
+}

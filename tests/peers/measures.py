@@ -1,0 +1,121 @@
+"""Our measures of a table, Shapley effects along random orders and measures of derivatives against SALib, OpenTURNS and formulas.
+
+OpenTURNS is asked where it is installed; all of its measures that are compared have a formula here too.
+"""
+
+import numpy as np
+from SALib.analyze import delta, dgsm, pawn, rbd_fast
+from scipy import stats
+
+try:
+    from SALib.analyze import shapley
+except ImportError:  # before SALib 1.6
+    shapley = None
+try:
+    import openturns
+except ImportError:
+    openturns = None
+
+PROBLEM = {"num_vars": 3, "names": ["x1", "x2", "x3"], "bounds": [[-np.pi, np.pi]] * 3}
+
+
+def columns(table):
+    """Inputs as a matrix, and the output."""
+    return np.column_stack([table[f"x_{j + 1}"] for j in range(3)]), table["y"]
+
+
+def distances(x, y, classes):
+    """Largest distances of the distribution functions of y above and below that of all, for classes of equal numbers of x, by number."""
+    rank = np.empty(len(x), dtype=int)
+    rank[np.argsort(x)] = np.arange(len(x))
+    label = rank * classes // len(x)
+    ends = []
+    for own in (y[label == k] for k in range(classes)):
+        above, below = (stats.ks_2samp(own, y, alternative=side).statistic for side in ("greater", "less"))
+        ends.append((len(own), above, below))
+    return np.array(ends)
+
+
+def classes_for(rows):
+    """Plischke, Borgonovo and Smith (2013), as in SALib."""
+    return min(int(np.ceil(rows ** (2 / (7 + np.tanh((1500 - rows) / 500))))), 48)
+
+
+def r2_hsic(x, y):
+    """HSIC(x, y)/sqrt(HSIC(x, x) HSIC(y, y)), with Gaussian kernels of the width of the standard deviation: traces of centred matrices."""
+
+    def centred(z):
+        kernel = np.exp(-(((z[:, None] - z[None, :]) / np.std(z, ddof=1)) ** 2) / 2)
+        return kernel - kernel.mean(0) - kernel.mean(1)[:, None] + kernel.mean()
+
+    k, m = centred(x), centred(y)
+    return np.sum(k * m) / np.sqrt(np.sum(k * k) * np.sum(m * m))
+
+
+def check_given(checks, ours, table):
+    x, y = columns(table)
+    values = {name: np.array(measure["values"]) for name, measure in ours.items()}
+    theirs = rbd_fast.analyze(PROBLEM, x, y, M=10, num_resamples=2)["S1"]
+    checks.close("given data: Fourier, SALib's rbd_fast", values["fourier"], theirs)
+    # Each of both takes off the bias by resamples of its own.
+    analysed = delta.analyze(PROBLEM, x, y, method="delta", num_resamples=100, seed=1)
+    theirs = analysed["delta_raw"] if "delta_raw" in analysed else analysed["delta"]
+    checks.close("given data: delta, SALib", values["delta"], theirs, 0.02)
+    # SALib leaves the largest row out of the last class of 100.
+    theirs = pawn.analyze(PROBLEM, x, y, S=10)
+    checks.close("given data: PAWN median, SALib", values["pawn_median"], theirs["median"], 0.01)
+    checks.close("given data: PAWN max, SALib", values["pawn_max"], theirs["maximum"], 0.01)
+    slides = [np.max(distances(x[:, j], y, 10)[:, 1:], axis=1) for j in range(3)]
+    checks.close("given data: PAWN median, SciPy's distances", values["pawn_median"], np.median(slides, axis=1))
+    checks.close("given data: PAWN max, SciPy's distances", values["pawn_max"], np.max(slides, axis=1))
+    fine = [distances(x[:, j], y, classes_for(len(y))) for j in range(3)]
+    mean = [np.average(np.max(ends[:, 1:], axis=1), weights=ends[:, 0]) for ends in fine]
+    checks.close("given data: Kolmogorov, SciPy's distances", values["kolmogorov"], mean)
+    mean = [np.average(np.sum(ends[:, 1:], axis=1), weights=ends[:, 0]) for ends in fine]
+    checks.close("given data: Kuiper, SciPy's distances", values["kuiper"], mean)
+    checks.close("given data: R2-HSIC, formula", values["r2_hsic"], [r2_hsic(x[:, j], y) for j in range(3)])
+    if openturns is None:
+        print("OpenTURNS is not installed: nothing compared with it")
+        return
+    kernels = [openturns.SquaredExponential([np.std(column, ddof=1)], [1.0]) for column in [*x.T, y]]
+    hsic = openturns.HSICEstimatorGlobalSensitivity(kernels, x, y[:, None], openturns.HSICVStat())
+    checks.close("given data: R2-HSIC, OpenTURNS", values["r2_hsic"], np.array(hsic.getR2HSICIndices()))
+    checks.close("given data: p of HSIC, OpenTURNS", ours["r2_hsic"]["p"], np.array(hsic.getPValuesAsymptotic()), 1e-8)
+
+
+def check_shapley(checks, ours, table):
+    """The mean of a walk from A to B and of the same walk back, over their common sum."""
+    x, y = columns(table)
+    rows = 4
+    steps, outputs = x.reshape(-1, rows, 3), y.reshape(-1, rows)
+    before, after = outputs[:, :-1], outputs[:, 1:]
+    factor = np.argmax(steps[:, 1:] != steps[:, :-1], axis=2)
+    sums = [
+        np.sum((factor == j) * ((after - outputs[:, :1]) ** 2 - (before - outputs[:, :1]) ** 2)) for j in range(3)
+    ]
+    back = [
+        np.sum((factor == j) * ((before - outputs[:, -1:]) ** 2 - (after - outputs[:, -1:]) ** 2)) for j in range(3)
+    ]
+    both = np.array(sums) + np.array(back)
+    checks.close("Shapley effects, Goda's formula both ways", ours, both / np.sum(both))
+    if shapley is None:
+        print("this SALib has no Shapley effects: nothing compared with it")
+        return
+    reverse = steps[:, ::-1].reshape(-1, 3), outputs[:, ::-1].ravel()
+    theirs = sum(shapley.analyze(PROBLEM, *walk)["shapley"] for walk in ((x, y), reverse))
+    checks.close("Shapley effects, SALib's both ways", ours, theirs / np.sum(theirs))
+
+
+def check_derivatives(checks, ours, table):
+    x, y = columns(table)
+    theirs = dgsm.analyze(PROBLEM, x, y, num_resamples=2)
+    # Differences of outputs of size 10 over steps of 0.006: the size of nu is 10.
+    checks.close("derivatives: nu, SALib", ours["nu"], theirs["vi"], 1e-9)
+    checks.close("derivatives: bound, SALib", ours["total_bound"], theirs["dgsm"], 1e-9)
+
+
+def check(checks, ours, read):
+    """`read` gives the table of a name."""
+    check_given(checks, ours["given"], read("given"))
+    check_shapley(checks, ours["shapley"], read("shapley"))
+    check_derivatives(checks, ours["derivatives"], read("derivatives"))
