@@ -22,10 +22,12 @@
 //! | `<!-- setup: COMMAND -->` | by itself: runs, and no reader sees it |
 //!
 //! Code by indentation alone would pass unseen and is refused, but for the two commands of the README. `BOOK_PAGE=first`
-//! in the environment tries the pages with `first` in their names alone.
+//! in the environment tries the pages with `first` in their names alone. Where the program says something else than it did,
+//! `BOOK=update` writes it into the pages, elisions kept, to be looked at.
 
-mod play;
 mod page;
+mod play;
+mod update;
 mod words;
 
 use std::path::{Path, PathBuf};

@@ -53,7 +53,8 @@ impl Page {
                         is_closed = true;
                         break;
                     }
-                    content.push_str(inner.get(indent.min(inner.len() - inner.trim_start().len())..).unwrap_or_default());
+                    content
+                        .push_str(inner.get(indent.min(inner.len() - inner.trim_start().len())..).unwrap_or_default());
                     content.push('\n');
                 }
                 if !is_closed {

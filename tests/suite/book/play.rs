@@ -8,10 +8,13 @@ use jsonschema::Validator;
 use serde_json::Value;
 
 use super::page::{Block, Page, Role};
+use super::update;
 use crate::common::{Folder, succeed, text};
 
-/// What is wrong with a page, each with its place.
+/// What is wrong with a page, each with its place. `BOOK=update` in the environment puts outputs that differ into the page.
 pub fn faults(page: &Page) -> Vec<String> {
+    let is_update = std::env::var("BOOK").is_ok_and(|wish| wish == "update");
+    let mut corrections = Vec::new();
     let mut faults = page.faults.clone();
     let folder = Folder::new();
     let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies");
@@ -22,7 +25,13 @@ pub fn faults(page: &Page) -> Vec<String> {
             (Role::NotRun, _) => None,
             (Role::File(name), _) => write(&folder, name, &block.text),
             (Role::Output, "text") => match &printed {
-                Some(printed) => compare(&block.text, printed),
+                Some(printed) => {
+                    let fault = compare(&block.text, printed);
+                    if is_update && fault.is_some() {
+                        corrections.push((block, update::corrected(&block.text, printed)));
+                    }
+                    fault
+                }
                 // Of a block of Python.
                 None => None,
             },
@@ -38,6 +47,9 @@ pub fn faults(page: &Page) -> Vec<String> {
             (role, language) => Some(format!("nobody knows what to do with {role:?} in `{language}`")),
         };
         faults.extend(fault.map(|fault| format!("{}:{}: {fault}", page.name, block.line)));
+    }
+    if !corrections.is_empty() {
+        update::write(page, &corrections);
     }
     faults
 }
@@ -92,7 +104,7 @@ fn are_alike(shown: &[String], printed: &[String], left: &mut usize) -> bool {
     }
 }
 
-fn is_alike(shown: &str, printed: &str) -> bool {
+pub fn is_alike(shown: &str, printed: &str) -> bool {
     let mut parts = shown.split("[..]");
     let Some(mut left) = printed.strip_prefix(parts.next().unwrap_or_default()) else { return false };
     let mut is_open = false;

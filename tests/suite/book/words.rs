@@ -24,7 +24,8 @@ impl Known {
     pub fn faults(&mut self, page: &Page) -> Vec<String> {
         let spans = page.prose.split('`').skip(1).step_by(2).map(|span| span.replace('\n', " "));
         let scripts = page.blocks.iter().filter(|block| block.language == "sh" || block.role == Role::NotRun);
-        let lines = scripts.flat_map(|block| block.text.replace("\\\n", " ").lines().map(str::to_owned).collect::<Vec<_>>());
+        let lines =
+            scripts.flat_map(|block| block.text.replace("\\\n", " ").lines().map(str::to_owned).collect::<Vec<_>>());
         let told: Vec<String> = spans.chain(lines).collect();
         told.iter().filter_map(|line| Some(format!("{}: {}", page.name, self.fault(line)?))).collect()
     }
@@ -32,7 +33,8 @@ impl Known {
     fn fault(&mut self, line: &str) -> Option<String> {
         let code = line.split(" #").next().unwrap_or_default();
         let is_name = |word: &str| {
-            word.chars().all(|letter| letter.is_ascii_lowercase() || letter == '-') && word.starts_with(char::is_alphabetic)
+            word.chars().all(|letter| letter.is_ascii_lowercase() || letter == '-')
+                && word.starts_with(char::is_alphabetic)
         };
         let mut words = code.split_whitespace().map(|word| word.trim_matches(['\'', '"', ')', ';', ',']));
         // Not what Python calls the package, nor the first bytes of a journal.
@@ -49,7 +51,8 @@ impl Known {
         }
         let help = self.help.entry(command.to_owned()).or_insert_with(|| succeed(&[command, "--help"]));
         let options = words.take_while(|word| !["|", "&&", ">"].contains(word)).filter(|word| word.starts_with("--"));
-        let mut names = options.map(|option| option.split('=').next().unwrap_or_default()).filter(|name| name.len() > 2);
+        let mut names =
+            options.map(|option| option.split('=').next().unwrap_or_default()).filter(|name| name.len() > 2);
         names
             .find(|name| !help.split(|letter: char| letter.is_whitespace() || letter == ',').any(|word| word == *name))
             .map(|name| format!("`apportion {command}` has no option `{name}` ({line})"))
