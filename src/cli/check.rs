@@ -35,7 +35,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let pilot = if study.subject().is_external() { None } else { Some(pilot(&study)?) };
     let mut text = subject(&study);
     text.push_str(&factors(&study));
-    text.push_str(&plan(&study, pilot.as_ref()));
+    text.push_str(&plan(&study, &arguments.study.study, pilot.as_ref()));
     text.push_str(&past_runs(&study, &folder)?);
     text.push_str(&format!("\nwill be written to {}:\n", folder.display()));
     text.push_str(&files(&study));

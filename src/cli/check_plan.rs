@@ -1,5 +1,7 @@
 //! What `apportion check` says of a run before it: its rows, their cost, and when it ends.
 
+use std::path::Path;
+
 use apportion::design::{Companions, Design};
 use apportion::estimate::{FirstOrder, Total};
 use apportion::report::significant;
@@ -8,7 +10,7 @@ use apportion::study::{Study, Target};
 use apportion::uncertainty::IntervalMethod;
 
 /// The rows of the design, what is asked of them, and what they cost by the first runs.
-pub(super) fn plan(study: &Study, pilot: Option<&Pilot>) -> String {
+pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
     let design = study.design();
     let settings = design.settings();
     let stopping = stopping(study);
@@ -54,6 +56,7 @@ pub(super) fn plan(study: &Study, pilot: Option<&Pilot>) -> String {
         design.rows()
     );
     text.push_str(&memory(study));
+    text.push_str(&methods(study, file, pilot));
     text.push_str(&failures);
     for warning in warnings(study) {
         text.push_str(&format!("warning: {warning}\n"));
@@ -84,6 +87,52 @@ fn start(pilot: &Pilot) -> String {
     } else {
         format!("; {} of that to start the program", duration(pilot.startup))
     }
+}
+
+/// Which method serves at how many runs, for a model whose runs take their time; measured on independent factors
+/// (`docs/small-budgets.md`).
+fn methods(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
+    /// Seconds of a run below which nobody counts runs.
+    const QUICK: f64 = 1e-3;
+    /// Runs a factor from which surrogates of random points served on smooth functions, and on rough ones.
+    const SMOOTH: u64 = 5;
+    const ROUGH: u64 = 16;
+    let is_quick = |pilot: &Pilot| pilot.seconds < QUICK * study.design().rows() as f64;
+    let space = study.space();
+    if pilot.is_some_and(is_quick) || study.design().is_dependent() || space.noise().is_some() {
+        return String::new();
+    }
+    let (file, factors, model) = (file.display(), space.factors().len() as u64, study.model());
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
+    let outputs = if outputs.len() > 3 { "NAMES".to_owned() } else { outputs.join(",") };
+    let (few, many) = (SMOOTH * factors, ROUGH * (factors + 2));
+    let given = format!("apportion given-data table.csv --outputs {outputs} --study {file} --surrogate");
+    let [random, rough, accurate] = match study.subject().is_external() {
+        true => [
+            format!("apportion sample {file} --random N -o table.csv; the outputs as further columns; {given}"),
+            format!("apportion sample {file} --budget-runs N; apportion analyze OUTPUTS --design FILE"),
+            String::new(),
+        ],
+        false => [
+            format!(
+                "apportion sample {file} --random N -o rows.csv; apportion evaluate {file} rows.csv --with-points -o table.csv; {given}"
+            ),
+            format!("apportion run {file} --budget-runs N"),
+            format!("  as many as it takes: apportion run {file} --accuracy 0.02\n"),
+        ],
+    };
+    let screen = match study.subject().is_external() {
+        true => String::new(),
+        false => format!(
+            "  fewer than {few}: which factors matter, not how much: apportion screen {file} --trajectories R, each of {} runs\n",
+            factors + 1
+        ),
+    };
+    format!(
+        "which method, by the runs that there is time for (the errors of each: docs/small-budgets.md):\n{screen}  \
+         from {few}: indices of smooth models: {random}\n  \
+         from {many}: indices of rough models too: {rough}\n{accurate}"
+    )
 }
 
 /// What is estimated, and what the intervals are.

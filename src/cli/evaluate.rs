@@ -20,6 +20,9 @@ pub struct Arguments {
     /// Names of the columns, separated by commas, of a file that has none: NPY, or text without a header
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     names: Vec<String>,
+    /// The points too, before their outputs: a table for `apportion given-data`
+    #[arg(long)]
+    with_points: bool,
     /// The CSV file for the outputs
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -35,7 +38,7 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     let context = RunContext::new(Some(on_signal()), say);
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
-        let result = evaluate_in(&study, rows.as_mut(), &mut Stoppable::new(out), &context);
+        let result = evaluate_in(&study, rows.as_mut(), &mut Stoppable::new(out), arguments.with_points, &context);
         let complete = result.is_ok();
         outcome = Some(result);
         // Whatever went wrong, half a file must not take the target's place.

@@ -3,11 +3,14 @@
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use apportion::exchange::{Format, Manifest, sample as write_sample};
+use apportion::exchange::{Format, Manifest, random_points, sample as write_sample};
 use apportion::report::{prepare_file, stream_atomically, write_atomically};
 
 use super::stop::Stoppable;
 use super::{DesignChanges, Failure, StudyArguments, say, say_notes};
+
+/// Most random points.
+const MAX_RANDOM: u64 = 2 * apportion::design::MAX_POINTS;
 
 #[derive(clap::Args)]
 #[command(
@@ -19,7 +22,10 @@ pub struct Arguments {
     study: StudyArguments,
     #[command(flatten)]
     design: DesignChanges,
-    /// The file for the points, .csv, .parquet or .npy [default: NAME-design.csv]
+    /// Random points instead of those of the design, so many: for few runs, whose table `apportion given-data` reads
+    #[arg(long, value_name = "N", conflicts_with_all = ["base_samples", "accuracy", "budget_runs"], value_parser = clap::value_parser!(u64).range(1..=MAX_RANDOM))]
+    random: Option<u64>,
+    /// The file for the points, .csv, .parquet or .npy [default: NAME-design.csv, or NAME-random.csv]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -27,13 +33,14 @@ pub struct Arguments {
 pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
     say_notes(&study);
-    let default = || PathBuf::from(format!("{}-design.csv", study.name()));
+    let kind = if arguments.random.is_some() { "random" } else { "design" };
+    let default = || PathBuf::from(format!("{}-{kind}.csv", study.name()));
     let path = arguments.output.clone().unwrap_or_else(default);
     let format = Format::of(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
     let beside = Manifest::path_beside(&path);
     prepare_file(&path)?;
     prepare_file(&beside)?;
-    if study.target().grows() {
+    if arguments.random.is_none() && study.target().grows() {
         say("note: the study grows until it knows enough, but a file does not: these are the points it begins with");
     }
     // A manifest of other points must not outlive them.
@@ -43,6 +50,23 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
         }
         _ => (),
     }
+    let factors = study.space().factors().len();
+    let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
+    if let Some(rows) = arguments.random {
+        let mut refused = None;
+        let written = stream_atomically(&path, |out| {
+            random_points(&study, rows, format, &mut Stoppable::new(out)).unwrap_or_else(|error| {
+                refused = Some(error);
+                Err(std::io::Error::other("no points"))
+            })
+        });
+        if let Some(error) = refused {
+            return Err(Failure::Input(error.into()));
+        }
+        written?;
+        say(&format!("wrote {rows} random points of {factors} to {}", path.display()));
+        return Ok(());
+    }
     let mut manifest = None;
     stream_atomically(&path, |out| {
         manifest = Some(write_sample(&study, &arguments.study.study, format, &mut Stoppable::new(out))?);
@@ -51,8 +75,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(manifest) = &manifest {
         write_atomically(&beside, manifest.json().as_bytes())?;
     }
-    let (rows, factors) = (study.design().rows(), study.space().factors().len());
-    let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
+    let rows = study.design().rows();
     say(&format!("wrote {rows} points of {factors} to {}", path.display()));
     say(&format!("wrote {}", beside.display()));
     Ok(())

@@ -9,6 +9,7 @@ use super::points::{PointsError, PointsReader};
 use super::rows::RowReader;
 use crate::model::{Batch, Output, RowFailure, RunContext};
 use crate::run::{Executor, Halt};
+use crate::space::Factor;
 use crate::study::Study;
 use crate::text::csv_field;
 
@@ -57,10 +58,11 @@ pub fn evaluate(
     points: &mut dyn RowReader,
     outputs: &mut dyn Write,
 ) -> Result<Evaluated, EvaluateError> {
-    evaluate_in(study, points, outputs, &RunContext::default())
+    evaluate_in(study, points, outputs, false, &RunContext::default())
 }
 
-/// The same as the run of `context`, which may end it.
+/// The same as the run of `context`, which may end it, and with the points before their outputs in every line if
+/// `with_points`: a column for each factor, in its unit.
 ///
 /// # Errors
 /// As for [`evaluate`], and [`Halt::Interrupted`] if the run is to end.
@@ -68,6 +70,7 @@ pub fn evaluate_in(
     study: &Study,
     points: &mut dyn RowReader,
     outputs: &mut dyn Write,
+    with_points: bool,
     context: &RunContext<'_>,
 ) -> Result<Evaluated, EvaluateError> {
     let mut reader = PointsReader::new(points, &study.space)?;
@@ -79,13 +82,16 @@ pub fn evaluate_in(
     let mut columns = vec![Vec::with_capacity(most); factors.len()];
     let mut evaluated = Evaluated { skipped: reader.skipped().to_vec(), ..Evaluated::default() };
     let mut out = std::io::BufWriter::new(outputs);
-    let names: Vec<String> = model.outputs().iter().map(|output| csv_field(&output.name)).collect();
+    let copied: &[Factor] = if with_points { factors } else { &[] };
+    let names = copied.iter().map(|factor| csv_field(&factor.name));
+    let names: Vec<_> = names.chain(model.outputs().iter().map(|output| csv_field(&output.name))).collect();
     writeln!(out, "{}", names.join(","))?;
     loop {
         let rows = reader.read(factors, most, &mut columns)?;
         if rows == 0 {
             break;
         }
+        let typed = if with_points { columns.clone() } else { Vec::new() };
         for (column, factor) in columns.iter_mut().zip(factors) {
             for value in column {
                 *value = factor.unit().to_si(*value);
@@ -96,7 +102,7 @@ pub fn evaluate_in(
         let points = evaluated.points;
         executor.run_table(&inputs, &mut batch).map_err(|halt| EvaluateError::Halted { points, halt })?;
         evaluated.count(model.outputs(), &batch);
-        write_rows(&mut out, model.outputs(), &batch)?;
+        write_rows(&mut out, (copied, &typed), model.outputs(), &batch)?;
     }
     out.flush()?;
     context.messages().finish();
@@ -104,8 +110,16 @@ pub fn evaluate_in(
     Ok(evaluated)
 }
 
-fn write_rows(out: &mut impl Write, outputs: &[Output], batch: &Batch) -> std::io::Result<()> {
+fn write_rows(
+    out: &mut impl Write,
+    (factors, points): (&[Factor], &[Vec<f64>]),
+    outputs: &[Output],
+    batch: &Batch,
+) -> std::io::Result<()> {
     for row in 0..batch.rows() {
+        for (factor, column) in factors.iter().zip(points) {
+            write!(out, "{},", csv_field(&factor.in_words(column[row], |number| number.to_string())))?;
+        }
         for (number, output) in outputs.iter().enumerate() {
             if number > 0 {
                 write!(out, ",")?;
@@ -113,7 +127,7 @@ fn write_rows(out: &mut impl Write, outputs: &[Output], batch: &Batch) -> std::i
             let value = batch.column(number)[row];
             if value.is_finite() {
                 write!(out, "{}", output.unit.from_si(value))?;
-            } else if outputs.len() == 1 {
+            } else if outputs.len() == 1 && factors.is_empty() {
                 // An empty cell by itself would be an empty line, which readers skip.
                 write!(out, "\"\"")?;
             }

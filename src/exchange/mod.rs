@@ -18,7 +18,7 @@ pub use answers::{AnswersError, AnswersRequest, MissingOutputs, read_answers};
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::{Manifest, ManifestError};
 pub use rows::{Format, RowReader, RowsError, open_rows};
-pub use sample::sample;
+pub use sample::{random_points, sample};
 pub use save::{SaveError, save_outputs};
 pub use table::{Missing, Selection, Table, TableError, read_table};
 

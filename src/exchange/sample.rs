@@ -6,6 +6,7 @@ use std::path::Path;
 use super::design_rows::{DesignRows, RowsDigest, factor_column};
 use super::manifest::Manifest;
 use super::rows::{Format, row_writer};
+use crate::design::{Design, DesignError, DesignSettings, Rows, Sampler};
 use crate::study::Study;
 
 /// Writes the rows of the design of `study` (read from `study_file`) to `out`, a column for each factor in its unit, and
@@ -19,17 +20,56 @@ pub fn sample(
     format: Format,
     out: &mut (dyn Write + Send),
 ) -> std::io::Result<Manifest> {
-    let (space, design) = (&study.space, &study.design);
+    let digest = write(study, &study.design, study.design.rows(), format, out)?;
+    Ok(Manifest::new(study, study_file, digest))
+}
+
+/// Writes `rows` random points of the factors of `study` to `out`, independent of each other, a column for each factor in its
+/// unit: a table for [`crate::given`], not a design of the study. They follow from the seed of the study.
+///
+/// # Errors
+/// [`DesignError`] if that is no row, or more than 2^33, and whatever the file's system says.
+pub fn random_points(
+    study: &Study,
+    rows: u64,
+    format: Format,
+    out: &mut (dyn Write + Send),
+) -> Result<std::io::Result<()>, DesignError> {
+    // The rows A and B of a design without any other.
+    let settings = DesignSettings {
+        sampler: Sampler::Random,
+        base_samples: rows.div_ceil(2).max(2),
+        replicates: 1,
+        seed: study.design.settings().seed,
+    };
+    let of_design = Rows { copula: study.design.asked().copula.clone(), ..Rows::default() };
+    let design = Design::new(settings, study.design.factors(), of_design)?;
+    Ok(write(study, &design, rows, format, out).map(|_| ()))
+}
+
+/// Writes the first `most` rows of `design`, and returns their digest.
+fn write(
+    study: &Study,
+    design: &Design,
+    most: u64,
+    format: Format,
+    out: &mut (dyn Write + Send),
+) -> std::io::Result<String> {
+    let space = &study.space;
     let kinds = space.factors().iter().map(factor_column).collect();
-    let mut writer = row_writer(format, out, kinds, design.rows())?;
+    let mut writer = row_writer(format, out, kinds, most)?;
     let mut rows = DesignRows::new(space, design);
     let mut columns = vec![Vec::new(); design.factors()];
-    let mut digest = RowsDigest::default();
-    while rows.next_block(&mut columns).is_some() {
+    let (mut digest, mut left) = (RowsDigest::default(), most);
+    while let Some(block) = rows.next_block(&mut columns) {
+        if left < block.rows as u64 {
+            columns.iter_mut().for_each(|column| column.truncate(left as usize));
+        }
+        left = left.saturating_sub(block.rows as u64);
         digest.add(&columns);
         let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         writer.write(&slices)?;
     }
     writer.finish()?;
-    Ok(Manifest::new(study, study_file, digest.finish()))
+    Ok(digest.finish())
 }

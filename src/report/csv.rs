@@ -51,12 +51,15 @@ pub fn fields(names: &[&str], estimates: &[&str]) -> Vec<Field> {
 /// Lines of CSV under a header.
 pub struct Csv {
     writer: ::csv::Writer<Vec<u8>>,
+    /// Cells of the header, and of the line so far.
+    width: usize,
+    cells: usize,
 }
 
 impl Csv {
     /// A table with a header alone.
     pub fn new(fields: impl IntoIterator<Item = Field>) -> Self {
-        let mut csv = Self { writer: ::csv::Writer::from_writer(Vec::new()) };
+        let mut csv = Self { writer: ::csv::Writer::from_writer(Vec::new()), width: 0, cells: 0 };
         for Field { name, is_estimate } in fields {
             csv.cell(&inert(name.clone()));
             if is_estimate {
@@ -64,11 +67,12 @@ impl Csv {
                 csv.cell(&inert(format!("{name}_high")));
             }
         }
+        csv.width = csv.cells;
         csv.end();
         csv
     }
 
-    /// Adds a line, which must have as many cells as the header.
+    /// Adds a line, which has at most as many cells as the header; those that lack are empty.
     pub fn row<V: Into<Value>>(&mut self, values: impl IntoIterator<Item = V>) {
         for value in values {
             match value.into() {
@@ -93,10 +97,15 @@ impl Csv {
 
     fn cell(&mut self, text: &str) {
         self.writer.write_field(text).expect("into memory");
+        self.cells += 1;
     }
 
     fn end(&mut self) {
-        self.writer.write_record(None::<&[u8]>).expect("lines of one length, into memory");
+        while self.cells < self.width {
+            self.cell("");
+        }
+        self.cells = 0;
+        self.writer.write_record(None::<&[u8]>).expect("no longer than the header, into memory");
     }
 }
 
@@ -175,6 +184,7 @@ mod tests {
         let known = EstimateRecord { estimate: 0.1, low: None, high: Some(1e-300) };
         csv.row([Value::from("=1+1"), Value::from(7), known.into()]);
         csv.row([Value::Flag(true), Value::from(f64::NAN), Value::Estimate(None)]);
-        assert_eq!(csv.text(), format!("\"a,b\",n,S,S_low,S_high\n'=1+1,7,0.1,,{}\ntrue,,,,\n", 1e-300));
+        csv.row([Value::Flag(false)]);
+        assert_eq!(csv.text(), format!("\"a,b\",n,S,S_low,S_high\n'=1+1,7,0.1,,{}\ntrue,,,,\nfalse,,,,\n", 1e-300));
     }
 }

@@ -46,6 +46,7 @@ mod schema;
 mod screening;
 mod series;
 mod series_files;
+mod small_budgets;
 mod stopped;
 mod study_forms;
 mod surrogate;

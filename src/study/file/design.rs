@@ -132,7 +132,11 @@ fn sizes_within_budget(
     // What is wrong with the rows is told of when the design is made.
     let split = split_design(*runs.get_ref(), (analysis, space), (sampler, replicates)).transpose();
     split.map_err(|least| {
-        let expected = format!("{least} or more, the runs of 2 base samples in each of {replicates} replicates");
+        let expected = format!(
+            "{least} or more, the runs of 2 base samples in each of {replicates} replicates (fewer runs tell most as random \
+             points: `apportion sample STUDY --random {}`, then `apportion given-data`)",
+            runs.get_ref().max(&10)
+        );
         context.fault(runs.span(), wrong(key, &expected, runs.get_ref().to_string()))
     })
 }

@@ -1,0 +1,98 @@
+//! Few runs: random points as a table for `given-data`, and what `check` advises.
+
+use apportion::report::given::GivenFile;
+
+use crate::common::{Folder, apportion, stderr, succeed, text};
+
+const STUDY: &str = "model = \"expression\"\nexpression.outputs.y = \"a + 2 * b / 1 m + a * b / 1 m\"\n[factor.a]\nmin = -1\nmax = 1\n\
+                     [factor.b]\nmin = -100\nmax = 100\nunit = \"cm\"\n";
+
+/// The y above has the variances 1/3, 4/3 and 1/9.
+#[test]
+fn random_points_of_a_study_tell_its_indices() {
+    let folder = Folder::new();
+    let study = folder.with("s.toml", STUDY);
+    let (rows, table) = (folder.path("rows.csv"), folder.path("table.csv"));
+    succeed(&["sample", text(&study), "--random", "61", "-o", text(&rows)]);
+    succeed(&["evaluate", text(&study), text(&rows), "--with-points", "-o", text(&table)]);
+    let (points, both) = (std::fs::read_to_string(&rows).unwrap(), std::fs::read_to_string(&table).unwrap());
+    assert_eq!((points.lines().count(), both.lines().next()), (62, Some("a,b,y")));
+    for (point, line) in points.lines().zip(both.lines()) {
+        assert!(line.starts_with(&format!("{point},")), "{point} in {line}");
+    }
+    let out = folder.path("out");
+    let study = text(&study);
+    succeed(&["given-data", text(&table), "--outputs", "y", "--study", study, "--surrogate", "--out", text(&out)]);
+    let result: GivenFile = serde_json::from_slice(&std::fs::read(out.join("table.json")).unwrap()).unwrap();
+    let found = result.outputs[0].surrogate.as_ref().unwrap();
+    let all = 1.0 / 3.0 + 4.0 / 3.0 + 1.0 / 9.0;
+    for (index, [first, total]) in found.indices.iter().zip([[1.0 / 3.0, 4.0 / 9.0], [4.0 / 3.0, 13.0 / 9.0]]) {
+        // The surrogate has these polynomials.
+        assert!((index.first_order.estimate - first / all).abs() < 1e-9, "{index:?}");
+        assert!((index.total.estimate - total / all).abs() < 1e-9, "{index:?}");
+    }
+}
+
+#[test]
+fn random_points_follow_from_the_seed_and_are_no_design() {
+    let folder = Folder::new();
+    let study = folder.with("s.toml", STUDY);
+    let written = |name: &str, more: &[&str]| {
+        let path = folder.path(name);
+        succeed(&[&["sample", text(&study), "-o", text(&path)], more].concat());
+        std::fs::read(path).unwrap()
+    };
+    let design = written("a.csv", &[]);
+    assert!(folder.path("a.csv.manifest.json").exists());
+    let random = written("a.csv", &["--random", "100"]);
+    assert!(!folder.path("a.csv.manifest.json").exists(), "the manifest of points that are gone");
+    assert_ne!(design, random);
+    assert_eq!(random, written("b.csv", &["--random", "100"]));
+    let longer = written("c.csv", &["--random", "101"]);
+    assert!(longer.starts_with(&random) && longer.len() > random.len());
+    assert_ne!(random, written("d.csv", &["--random", "100", "--seed", "1"]));
+    assert_eq!(written("e.csv", &["--random", "1"]).split(|byte| *byte == b'\n').count(), 3);
+    for wrong in [&["--random", "0"][..], &["--random", "5", "--base-samples", "64"], &["--random", "-1"]] {
+        assert_eq!(apportion(&[&["sample", text(&study)], wrong].concat()).status.code(), Some(2));
+    }
+    let refused = apportion(&["run", text(&study), "--budget-runs", "20"]);
+    assert!(stderr(&refused).contains("`apportion sample STUDY --random 20`"), "{}", stderr(&refused));
+}
+
+/// Dependent factors are drawn together.
+#[test]
+fn random_points_of_dependent_factors_depend() {
+    let folder = Folder::new();
+    let dependence = "[[dependence]]\nfactors = [\"a\", \"b\"]\ncorrelation = 0.9\n";
+    let study = folder.with("s.toml", format!("{STUDY}{dependence}"));
+    let rows = folder.path("rows.csv");
+    succeed(&["sample", text(&study), "--random", "2000", "-o", text(&rows)]);
+    let content = std::fs::read_to_string(rows).unwrap();
+    let pairs = content.lines().skip(1).map(|line| line.split_once(',').unwrap());
+    let pairs: Vec<(f64, f64)> = pairs.map(|(a, b)| (a.parse().unwrap(), b.parse::<f64>().unwrap() / 100.0)).collect();
+    // Of uniform factors on (-1, 1), whose variance is 1/3; the standard error is .005.
+    let product: f64 = pairs.iter().map(|(a, b)| 3.0 * a * b).sum::<f64>() / 2000.0;
+    assert!((product - 0.9).abs() < 0.03, "{product}");
+}
+
+#[test]
+fn check_says_which_method_serves_for_slow_models() {
+    let folder = Folder::new();
+    let program = folder.with("slow.sh", "while read -r row; do sleep 0.01; echo \"$row\"; done\n");
+    let factors: String = ["a", "b"].iter().map(|name| format!("[factor.{name}]\nmin = 0\nmax = 1\n")).collect();
+    let slow = format!(
+        "model = \"command\"\n[command]\nprogram = [\"sh\", {:?}]\noutputs = [\"y\", \"z\"]\n[design]\nbase_samples = 64\n{factors}",
+        text(&program)
+    );
+    let slow = folder.with("slow.toml", slow);
+    let said = succeed(&["check", text(&slow)]);
+    for part in ["fewer than 10", "from 10:", "from 64:", "--outputs y,z --study", "--budget-runs N", "--accuracy 0.02"]
+    {
+        assert!(said.contains(part), "no {part:?} in {said}");
+    }
+    let outside = folder.with("out.toml", format!("model = \"external\"\nexternal.outputs = [\"y\"]\n{factors}"));
+    let said = succeed(&["check", text(&outside)]);
+    assert!(said.contains("apportion analyze OUTPUTS") && !said.contains("apportion run "), "{said}");
+    let quick = folder.with("quick.toml", STUDY);
+    assert!(!succeed(&["check", text(&quick)]).contains("which method"));
+}
