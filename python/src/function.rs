@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use apportion::{Batch, Model, Output, RowFailure, RunContext, Space, Unit, Worker};
+use apportion::{Batch, Model, Output, OutputSeries, RowFailure, RunContext, Space, Unit, Worker};
 use numpy::{PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 
@@ -68,6 +68,7 @@ pub enum Caller {
 pub struct PythonModel {
     pub function: Py<PyAny>,
     pub outputs: Vec<Output>,
+    pub series: Vec<OutputSeries>,
     pub factor_units: Vec<Unit>,
     pub caller: Caller,
     pub takes_its_time: bool,
@@ -120,6 +121,10 @@ fn assert_shape(found: (usize, usize), expected: (usize, usize)) -> PyResult<()>
 impl Model for PythonModel {
     fn outputs(&self) -> &[Output] {
         &self.outputs
+    }
+
+    fn series(&self) -> &[OutputSeries] {
+        &self.series
     }
 
     fn concurrency(&self) -> Option<usize> {

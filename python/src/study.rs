@@ -340,6 +340,7 @@ impl Study {
                 let model = Arc::new(PythonModel {
                     function: call,
                     outputs: self.study.model().outputs().to_vec(),
+                    series: self.study.model().series().to_vec(),
                     factor_units: PythonModel::units(self.study.space()),
                     caller,
                     takes_its_time,

@@ -14,7 +14,7 @@ from ._distributions import __all__ as _distributions
 from ._engine import RunError, StudyError, __version__
 from ._functions import AnswerError
 from ._given import given_data
-from ._result import Document, Index, Indices, OutputResult, Result, load_result
+from ._result import Document, Index, Indices, OutputResult, Result, SeriesResult, load_result
 from ._study import Study, analyse
 from .salib import from_problem as from_salib
 
@@ -26,6 +26,7 @@ __all__ = [
     "OutputResult",
     "Result",
     "RunError",
+    "SeriesResult",
     "Study",
     "StudyError",
     "__version__",

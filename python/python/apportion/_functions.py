@@ -7,7 +7,7 @@ import inspect
 import keyword
 import traceback
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,6 +35,7 @@ class Call:
         vectorised: bool,
         style: str | None,
         outputs: Sequence[str] | None,
+        lengths: Mapping[str, int | None] | None = None,
         quantiles: Mapping[int, Callable[[np.ndarray], np.ndarray]],
     ):
         if not callable(function):
@@ -45,7 +46,9 @@ class Call:
         self.names = list(names)
         self.vectorised = vectorised
         self.style = style or _style(function, self.names)
+        # Names of the outputs, and of those that are series how many values they have (None as long as that is not known).
         self.outputs = list(outputs) if outputs is not None else None
+        self.lengths = dict(lengths or {})
         self.quantiles = dict(quantiles)
 
     def rows(self, x: np.ndarray) -> np.ndarray:
@@ -58,11 +61,39 @@ class Call:
 
     def probe(self, x: np.ndarray) -> np.ndarray:
         """The outputs of the rows `x`, which must answer and show the names of the outputs."""
-        values, names = self._answer(self.rows(x))
+        answer = self._answer(self.rows(x))
         if self.outputs is None:
-            self.outputs = names or (["y"] if values.shape[1] == 1 else [f"y{k + 1}" for k in range(values.shape[1])])
-        self._check(values, names)
-        return values
+            self.outputs = answer.names or ["y"] * (answer.width == 1) or [f"y{k + 1}" for k in range(answer.width)]
+        if self.lengths or answer.lengths or len(self.outputs) == 1 < answer.width:
+            self._learn_lengths(answer)
+        self._check(answer)
+        return answer.values
+
+    def _learn_lengths(self, answer: "_Answer") -> None:
+        """Which outputs are series, and of how many values: those of several columns, where that can be told."""
+        outputs = self.outputs or []
+        found = answer.lengths
+        if found is None:
+            # One array: of what is left the only series whose length is not declared takes all.
+            open_ones = [name for name in outputs if self.lengths.get(name, 1) is None]
+            open_ones = outputs if len(outputs) == 1 and not self.lengths else open_ones
+            known = sum(self.lengths.get(name, 1) or 0 for name in outputs if name not in open_ones)
+            left = answer.width - known
+            if len(open_ones) == 1:
+                self.lengths[open_ones[0]] = left
+            elif open_ones:
+                raise AnswerError(f"it cannot be told how many values {' and '.join(open_ones)} have: say their `length`")
+            return
+        for name, length in zip(outputs, found):
+            if length is not None or name in self.lengths:
+                self.lengths.setdefault(name, length)
+                if self.lengths[name] is None:
+                    self.lengths[name] = length
+
+    @property
+    def columns(self) -> list[str]:
+        """Names of all values, as the engine has them: those of a series are `name[0]`, `name[1]` and so on."""
+        return expanded(self.outputs or [], self.lengths)
 
     def evaluate(self, x: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
         """Outputs of the rows `x`, NaN where there are none, and (row, reason) where the function raised an exception.
@@ -70,13 +101,13 @@ class Call:
         A block that raises is divided until the rows are found that do.
         """
         rows = self.rows(x)
-        values = np.full((len(x), len(self.outputs or ())), np.nan)
+        values = np.full((len(x), len(self.columns)), np.nan)
         failures: list[tuple[int, str]] = []
         blocks = [(0, len(x))] if self.vectorised else [(row, row + 1) for row in range(len(x))]
         while blocks:
             first, last = blocks.pop()
             try:
-                answer, names = self._answer(rows[first:last])
+                answer = self._answer(rows[first:last])
             except AnswerError:
                 raise
             except Exception as error:
@@ -86,11 +117,11 @@ class Call:
                     middle = (first + last) // 2
                     blocks += [(middle, last), (first, middle)]
             else:
-                self._check(answer, names)
-                values[first:last] = answer
+                self._check(answer)
+                values[first:last] = answer.values
         return values, sorted(failures)
 
-    def _answer(self, rows: np.ndarray) -> tuple[np.ndarray, list[str] | None]:
+    def _answer(self, rows: np.ndarray) -> "_Answer":
         arguments = rows if self.vectorised else rows[0]
         if self.style == "matrix":
             answer = self.function(arguments)
@@ -105,12 +136,18 @@ class Call:
             return self.function(**dict(zip(self.names, arguments)))
         return self.function(*arguments)
 
-    def _check(self, values: np.ndarray, names: list[str] | None) -> None:
+    def _check(self, answer: "_Answer") -> None:
         expected = self.outputs or []
-        if names is not None and names != expected:
-            raise AnswerError(f"the function returned the outputs {names}, and {expected} were expected")
-        if values.shape[1] != len(expected):
-            raise AnswerError(f"the function returned {values.shape[1]} outputs, and {expected} were expected")
+        if answer.names is not None and answer.names != expected:
+            raise AnswerError(f"the function returned the outputs {answer.names}, and {expected} were expected")
+        lengths = [self.lengths.get(name) for name in expected]
+        if answer.lengths is not None and len(answer.lengths) == len(expected) and answer.lengths != lengths:
+            found = [f"{name} with {_values(length)}" for name, length in zip(expected, answer.lengths)]
+            wanted = [_values(length) for length in lengths]
+            raise AnswerError(f"the function returned {', '.join(found)}, and {', '.join(wanted)} were expected")
+        if answer.width != len(self.columns):
+            what = "values" if self.lengths else "outputs"
+            raise AnswerError(f"the function returned {answer.width} {what}, and {len(self.columns)} were expected: {expected}")
 
     def fingerprint(self) -> str:
         """Tells this function from an edited one: its name, code, constants and defaults; not what it calls."""
@@ -178,24 +215,50 @@ def _style(function: Callable[..., Any], names: list[str]) -> str:
     )
 
 
-def _columns(answer: Any, rows: int, vectorised: bool) -> tuple[np.ndarray, list[str] | None]:
-    """What a function returned, as (rows, outputs), and the names of the outputs if it said them."""
+class _Answer(NamedTuple):
+    """What a function returned: (rows, values), the names of the outputs if it said them, and if it returned them one by one
+    how many values each has, None for a single number."""
+
+    values: np.ndarray
+    names: list[str] | None
+    lengths: list[int | None] | None
+
+    @property
+    def width(self) -> int:
+        return self.values.shape[1]
+
+
+def expanded(names: Sequence[str], lengths: Mapping[str, int | None]) -> list[str]:
+    """The names of all values: those of a series are `name[0]`, `name[1]` and so on."""
+    columns: list[str] = []
+    for name in names:
+        length = lengths.get(name)
+        columns += [name] if length is None else [f"{name}[{place}]" for place in range(length)]
+    return columns
+
+
+def _values(length: int | None) -> str:
+    return "one value" if length is None else f"{length} values"
+
+
+def _columns(answer: Any, rows: int, vectorised: bool) -> _Answer:
+    """What a function returned, as (rows, values)."""
     if isinstance(answer, Mapping) or hasattr(answer, "columns") and hasattr(answer, "to_numpy"):
         names = [str(name) for name in answer]
         parts = [_numbers(answer[name]) for name in answer]
-        return _stacked(parts, names, rows, vectorised), names
+        return _stacked(parts, names, rows, vectorised)._replace(names=names)
     if isinstance(answer, tuple):
         parts = [_numbers(part) for part in answer]
-        return _stacked(parts, [str(place) for place in range(len(parts))], rows, vectorised), None
+        return _stacked(parts, [str(place) for place in range(len(parts))], rows, vectorised)
     values = _numbers(answer)
     if not vectorised:
         if values.ndim > 1:
             raise AnswerError(f"the function returned an array of shape {values.shape} for one row")
-        return values.reshape(1, -1), None
+        return _Answer(values.reshape(1, -1), None, None)
     if values.ndim == 1 and len(values) == rows:
-        return values.reshape(rows, 1), None
+        return _Answer(values.reshape(rows, 1), None, None)
     if values.ndim == 2 and len(values) == rows:
-        return values, None
+        return _Answer(values, None, None)
     hint = ": if it is a function of one row, say vectorised=False" if values.ndim == 0 else ""
     shapes = f"({rows},) or ({rows}, outputs)"
     raise AnswerError(
@@ -210,11 +273,17 @@ def _numbers(part: Any) -> np.ndarray:
     return values.astype(float)
 
 
-def _stacked(parts: list[np.ndarray], names: list[str], rows: int, vectorised: bool) -> np.ndarray:
+def _stacked(parts: list[np.ndarray], names: list[str], rows: int, vectorised: bool) -> _Answer:
+    """Outputs one by one, each a number a row or a series: (rows,) or (rows, values), and of one row () or (values,)."""
     shape = (rows,) if vectorised else ()
+    columns, lengths = [], []
     for name, part in zip(names, parts):
-        if part.shape != shape and part.shape != (rows,):
-            raise AnswerError(f"output {name} has the shape {part.shape}, and {shape} was expected")
+        is_series = part.ndim == len(shape) + 1 and part.shape[: len(shape)] == shape and (vectorised or part.shape != (1,))
+        if not is_series and part.shape != shape and part.shape != (rows,):
+            expected = f"{shape}, or {shape[:1] + ('values',)} of a series," if vectorised else "() or (values,)"
+            raise AnswerError(f"output {name} has the shape {part.shape}, and {expected} was expected")
+        columns.append(part.reshape(rows, -1))
+        lengths.append(part.shape[-1] if is_series else None)
     if not parts:
         raise AnswerError("the function returned no outputs")
-    return np.column_stack([part.reshape(rows) for part in parts])
+    return _Answer(np.column_stack(columns), None, lengths)

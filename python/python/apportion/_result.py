@@ -217,8 +217,8 @@ class OutputResult:
         return record and {key: Index.of(record[key]) for key in ("first_order", "total", "mean_share")}
 
     def of_mean(self, kind: str = "first_order") -> Indices:
-        """Indices of the mean over the noise, of its own variance; total ones where the joint index with the noise was asked for
-        (`subsets=[["x1", "seed"], ...]`)."""
+        """Indices of the mean over the noise, of its own variance; total ones where they were asked for (`noise={"mean_totals": True}`), or the
+        joint index with the noise (`subsets=[["x1", "seed"], ...]`)."""
         if kind not in ("first_order", "total"):
             raise ValueError(f'kind={kind!r}: expected "first_order" or "total"')
         records = (self.record.get("noise") or {}).get("of_mean", [])
@@ -244,6 +244,77 @@ class OutputResult:
         return pandas.DataFrame(columns, index=pandas.Index(self.first_order.names, name="factor"))
 
 
+class SeriesResult:
+    """The indices of an output that is a series of values along an axis."""
+
+    def __init__(self, record: Mapping[str, Any], values: list[OutputResult]):
+        self.record = record
+        self.values = values
+
+    def __repr__(self) -> str:
+        return f"<series {self.name}: {len(self.values)} values along {self.axis}; total\n{self.total_of_all}>"
+
+    @property
+    def name(self) -> str:
+        return self.record["name"]
+
+    @property
+    def axis(self) -> str:
+        """What the axis is called."""
+        return self.record["axis"]
+
+    @property
+    def positions(self) -> np.ndarray:
+        """Where the values stand on the axis, in `axis_unit`."""
+        return np.array(self.record["positions"])
+
+    @property
+    def axis_unit(self) -> str:
+        return self.record["axis_unit"]
+
+    @property
+    def first_order(self) -> dict[str, np.ndarray]:
+        """First-order indices against the axis: for each factor an array of (values, 3), estimate and ends of its interval;
+        NaN where a value has none."""
+        return self._against("first_order")
+
+    @property
+    def total(self) -> dict[str, np.ndarray]:
+        """Total indices against the axis, as `first_order`."""
+        return self._against("total")
+
+    @property
+    def first_order_of_all(self) -> Indices:
+        """First-order indices of the whole series, each value counted by its variance (Gamboa et al. 2014)."""
+        return _of_factors(self.record["indices"], "first_order")
+
+    @property
+    def total_of_all(self) -> Indices:
+        """Total indices of the whole series."""
+        return _of_factors(self.record["indices"], "total")
+
+    @property
+    def directions(self) -> list[dict[str, Any]]:
+        """Main directions: the `share` of the variance of all values in percent, the `loadings`, what a standard deviation of the
+        score adds to every value, and the indices of the score, `first_order` and `total`."""
+        records = self.record["directions"] or []
+        kinds = ("first_order", "total")
+        return [
+            {"share": of["share"], "loadings": np.array(of["loadings"])} | {k: _of_factors(of["indices"], k) for k in kinds}
+            for of in records
+        ]
+
+    def _against(self, kind: str) -> dict[str, np.ndarray]:
+        indices = [getattr(value, kind) for value in self.values]
+        names = next((list(of) for of in indices if len(of)), [])
+        none = Index.of(None)
+        return {name: np.array([of.get(name, none) for of in indices], dtype=float) for name in names}
+
+
+def _of_factors(records: Any, kind: str) -> Indices:
+    return Indices({record["factor"]: Index.of(record[kind]) for record in records or []})
+
+
 class Result(Document):
     """The indices of a study, and how well they are known.
 
@@ -254,6 +325,14 @@ class Result(Document):
     def outputs(self) -> dict[str, OutputResult]:
         """Every output, by name."""
         return {record["name"]: OutputResult(record) for record in self.to_dict()["outputs"]}
+
+    @property
+    def series(self) -> dict[str, SeriesResult]:
+        """The outputs that are series, by name; their values are `outputs` as well."""
+        outputs = list(self.outputs.values())
+        records = self.to_dict().get("series", [])
+        ends = [(record["first_output"], record["first_output"] + len(record["positions"])) for record in records]
+        return {of["name"]: SeriesResult(of, outputs[first:end]) for of, (first, end) in zip(records, ends)}
 
     def __getitem__(self, output: str) -> OutputResult:
         outputs = self.outputs

@@ -16,7 +16,7 @@ from . import _engine, _toml
 from ._distributions import Factor, Seed
 from ._engine import RunError, StudyError
 from ._executors import called_elsewhere
-from ._functions import Call
+from ._functions import Call, expanded
 from ._result import Document, Result
 
 # Keys of `Study` by the table of the study file that they belong to.
@@ -45,7 +45,13 @@ class Study:
     `model` is a function of Python, the name of a model of the engine ("ishigami", "afm", ...), or None if the outputs are
     computed elsewhere: see `sample` and `analyse`. `factors` maps names to distributions; a pair (min, max) is uniform.
 
-    `noise="seed"` gives a stochastic model a seed with every row, as its last argument or by that name.
+    `outputs` are names, or a mapping from names to units. An output may be a series, with several values a row: an array of
+    (rows, values), or of (values,) where `vectorised=False`, in a dict or tuple of outputs or as the only one that `outputs`
+    names. The mapping says of its axis what is to be known: `outputs={"infected": {"axis": "day", "unit": "%"}}`, with
+    `axis_unit`, and `positions` (all, or the first one and the step).
+
+    `noise="seed"` gives a stochastic model a seed with every row, as its last argument or by that name;
+    `noise={"mean_totals": True}` adds the total indices of the mean over it, one more run of each base sample for each factor.
 
     Keywords are the keys of a study file: `base_samples`, `sampler`, `replicates`, `seed`, `budget_runs`, `max_runs`,
     `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `estimators`, `intervals`, `surrogate`, `threshold`,
@@ -68,14 +74,19 @@ class Study:
         accuracy: float | None = None,
         target: float | None = None,
         budget: float | None = None,
-        noise: str | None = None,
+        noise: str | Mapping[str, Any] | None = None,
         **options: Any,
     ):
         if isinstance(outputs, str):
             outputs = [outputs]
         made = {key: Factor.of(value) for key, value in (factors or {}).items()}
-        if noise is not None:
-            made[noise] = Seed()
+        if isinstance(noise, Mapping):
+            # The engine makes a factor of it, behind all others.
+            options["noise"] = noise = {"name": "seed", **noise}
+            stated, made = dict(made), {**made, noise["name"]: Seed()}
+        else:
+            made |= {} if noise is None else {noise: Seed()}
+            stated = made
         table: dict[str, Any] = {"name": name, "title": title, "accuracy": accuracy}
         design = {key: options.pop(key, None) for key in _DESIGN}
         design |= {"target": None if target is None else {"half_width": target}}
@@ -86,19 +97,22 @@ class Study:
         if callable(model):
             quantiles = {place: f.quantile for place, f in enumerate(made.values()) if f.quantile is not None}
             names = list(outputs) if outputs is not None else None
-            self._call = Call(model, list(made), vectorised=vectorised, style=call, outputs=names, quantiles=quantiles)
+            lengths = _lengths(outputs) if isinstance(outputs, Mapping) else None
+            self._call = Call(
+                model, list(made), vectorised=vectorised, style=call, outputs=names, lengths=lengths, quantiles=quantiles
+            )
         elif any(factor.quantile is not None for factor in made.values()):
             raise StudyError("factors by their quantile functions serve functions of Python alone")
         table["model"] = "external" if callable(model) or model is None else model
         if isinstance(outputs, Mapping):
-            options["external"] = {"outputs": dict(outputs)}
+            options["external"] = {"outputs": _stated(outputs, {})}
         elif outputs is not None:
             table["outputs"] = list(outputs)
         elif table["model"] == "external":
             table["outputs"] = ["y"]
         tables = {"design": _said(design), "analysis": _said(analysis), **options}
         tables = {key: value for key, value in tables.items() if value}
-        tables["factor"] = [{"name": key, **factor.keys} for key, factor in made.items()]
+        tables["factor"] = [{"name": key, **factor.keys} for key, factor in stated.items()]
         self._table = {**_said(table), **tables}
         self._study = self._parsed()
         # Rows that the function was tried with, and its answer.
@@ -160,11 +174,13 @@ class Study:
 
     def analyse(self, outputs: Any) -> Result:
         """The result from outputs at the points of `sample`, in their order: (rows,) or (rows, outputs), or a mapping from
-        names to (rows,). NaN says that a run failed."""
+        names to (rows,), or to (rows, values) of a series. NaN says that a run failed."""
         if self._study.grows:
             raise StudyError("a study with an accuracy or a target chooses its runs as they go on: give it base_samples")
         if isinstance(outputs, Mapping):
-            names, outputs = list(outputs), np.column_stack([np.asarray(y, dtype=float) for y in outputs.values()])
+            parts = {name: np.asarray(y, dtype=float) for name, y in outputs.items()}
+            names = expanded(list(parts), {name: y.shape[1] for name, y in parts.items() if y.ndim == 2})
+            outputs = np.column_stack(list(parts.values()))
         else:
             outputs = np.asarray(outputs, dtype=float)
             outputs = outputs.reshape(len(outputs), -1)
@@ -267,9 +283,16 @@ class Study:
             return
         x = self._study.sample(0, _PROBED if call.vectorised else 1)
         self._first = (x, call.probe(x))
-        if call.outputs != self.outputs:
+        if call.columns == self.outputs:
+            return
+        if call.lengths:
+            stated = self._table.pop("external", {"outputs": {}})["outputs"]
+            stated = {name: stated.get(name, "1") for name in call.outputs or []}
+            self._table.pop("outputs", None)
+            self._table["external"] = {"outputs": _stated(stated, call.lengths)}
+        else:
             self._table["outputs"] = call.outputs
-            self._study = self._parsed()
+        self._study = self._parsed()
 
 
 def analyse(model: Callable[..., Any] | str | None, factors: Mapping[str, Any] | None = None, **options: Any) -> Result:
@@ -277,6 +300,31 @@ def analyse(model: Callable[..., Any] | str | None, factors: Mapping[str, Any] |
     running = ("threads", "executor", "in_flight", "journal", "resume", "progress")
     of_run = {key: options.pop(key) for key in running if key in options}
     return Study(model, factors, **options).run(**of_run)
+
+
+def _lengths(outputs: Mapping[str, Any]) -> dict[str, int | None]:
+    """Of the outputs that are series how many values they have, as far as that is said."""
+    lengths: dict[str, int | None] = {}
+    for name, of in outputs.items():
+        if isinstance(of, Mapping) and set(of) - {"unit"}:
+            positions = np.atleast_1d(of.get("positions", ()))
+            lengths[name] = of.get("length", len(positions) if len(positions) > 2 else None)
+    return lengths
+
+
+def _stated(outputs: Mapping[str, Any], lengths: Mapping[str, int | None]) -> dict[str, Any]:
+    """The outputs of the study file; a series whose length is not known yet has two values."""
+    lengths = {**{name: length or 2 for name, length in _lengths(outputs).items()}, **lengths}
+    stated: dict[str, Any] = {}
+    for name, of in outputs.items():
+        if name not in lengths:
+            stated[name] = of
+            continue
+        of = {"unit": of} if isinstance(of, str) else dict(of)
+        positions = of.pop("positions", None)
+        of |= {} if positions is None else {"positions": np.asarray(positions, dtype=float).tolist()}
+        stated[name] = {**of, "length": lengths[name]}
+    return stated
 
 
 def _dependence(asked: Any, factors: Mapping[str, Factor]) -> list[dict[str, Any]]:
