@@ -60,6 +60,8 @@
 //! | example | what it shows |
 //! |---|---|
 //! | `function_model` | a Rust function as a model |
+//! | `pendulum` | the same in few lines |
+//! | `study_file` | a study file run from Rust, with progress |
 //! | `units_and_failures` | units, several outputs, runs without an answer, second-order indices |
 //! | `interrupted` | a journal: interrupted, gone on with to the same bits, and made longer |
 //! | `own_program` | a program in any language as a model, asked from Rust ([`CommandModel`]) |

@@ -168,7 +168,7 @@ fn the_scripts_of_the_page_run() {
     const SRUN: &str = "#!/bin/sh\nshift\nexec mpirun -n 3 \"$@\"\n";
     let page = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/clusters.md")).unwrap();
     let lines: Vec<&str> =
-        page.lines().filter(|line| line.starts_with("    srun --mpi") || line.starts_with("    mpirun")).collect();
+        page.lines().filter(|line| line.starts_with("srun --mpi") || line.starts_with("mpirun ")).collect();
     assert_eq!(lines.len(), 2, "{lines:?}");
     let folder = Folder::new();
     let srun = folder.with("srun", SRUN);

@@ -108,7 +108,9 @@ pub struct ConstantRecord {
     pub unit: String,
 }
 
-/// How the answer came about.
+/// How the answer came about. A result is cited by `apportion_version`, `seed` and `study_sha256`, and by the `overrides` of its
+/// study if it has some: they give the same numbers again. `CITATION.cff` in the sources of the program says how to cite
+/// the program itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[doc(hidden)]
 pub struct Provenance {

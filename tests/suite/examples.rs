@@ -6,6 +6,10 @@ mod function_model;
 mod interrupted;
 #[path = "../../examples/own_program.rs"]
 mod own_program;
+#[path = "../../examples/pendulum.rs"]
+mod pendulum;
+#[path = "../../examples/study_file.rs"]
+mod study_file;
 #[path = "../../examples/three_steps.rs"]
 mod three_steps;
 #[path = "../../examples/units_and_failures.rs"]
@@ -14,6 +18,8 @@ mod units_and_failures;
 #[test]
 fn examples_run() {
     function_model::main().unwrap();
+    pendulum::main().unwrap();
+    study_file::main().unwrap();
     units_and_failures::main().unwrap();
 }
 

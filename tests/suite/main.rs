@@ -4,6 +4,8 @@ mod accuracy;
 mod afm_contact_oracle;
 mod afm_slip_oracle;
 mod analytic;
+#[cfg(unix)]
+mod book;
 mod builder;
 mod command;
 mod commands;

@@ -229,7 +229,8 @@ fn provenance(result: &ResultFile) -> Vec<Part> {
         ("another version of the model", format!("answered {runs} ({})", mixed.files))
     });
     let rows = rows.into_iter().chain(mixed);
-    let text = "The same study file, seed and version give the same numbers, on any number of threads.";
+    let text = "The same study file, seed and version give the same numbers, on any number of threads. Cite the result by these three, \
+                with the digest (SHA-256) for the study file; CITATION.cff in the sources of the program says how to cite the program.";
     vec![Part::Text(text.to_owned()), Table::pairs("How the answer came about.", rows).into()]
 }
 
