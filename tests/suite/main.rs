@@ -22,6 +22,7 @@ mod factor_kinds;
 mod factors;
 mod failures;
 mod fidelity;
+mod first_paragraph;
 mod frozen;
 mod fuzz;
 mod given;
