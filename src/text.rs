@@ -23,6 +23,55 @@ pub fn capitalised(word: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
+/// Most letters and digits of a subscript; what is longer is a name, unless it is that of a Greek letter.
+#[cfg(feature = "charts")]
+const LONGEST_SUBSCRIPT: usize = 4;
+
+/// Names that stand for a letter in a subscript.
+#[cfg(feature = "charts")]
+const GREEK: [(&str, &str); 12] = [
+    ("theta", "θ"),
+    ("phi", "φ"),
+    ("psi", "ψ"),
+    ("alpha", "α"),
+    ("beta", "β"),
+    ("gamma", "γ"),
+    ("delta", "δ"),
+    ("sigma", "σ"),
+    ("omega", "ω"),
+    ("lambda", "λ"),
+    ("mu", "μ"),
+    ("tau", "τ"),
+];
+
+/// The subscript as it is set, if it may be one: at most four letters or digits, or the name of a Greek letter.
+#[cfg(feature = "charts")]
+pub(crate) fn subscript(text: &str) -> Option<&str> {
+    let greek = GREEK.iter().find(|(name, _)| *name == text).map(|(_, letter)| *letter);
+    let fits = (1..=LONGEST_SUBSCRIPT).contains(&text.chars().count());
+    greek.or((fits && text.chars().all(is_of_symbol)).then_some(text))
+}
+
+/// Whether a symbol may begin with the letter.
+#[cfg(feature = "charts")]
+pub(crate) fn is_letter(c: char) -> bool {
+    c.is_ascii_alphabetic() || matches!(c, 'Α'..='Ω' | 'α'..='ω' | 'ϕ' | 'ϑ' | 'µ')
+}
+
+#[cfg(feature = "charts")]
+fn is_of_symbol(c: char) -> bool {
+    is_letter(c) || c.is_ascii_digit()
+}
+
+/// The letter and the subscript of a word such as `F_cr`; `None` if it is no symbol.
+#[cfg(feature = "charts")]
+pub(crate) fn symbol(word: &str) -> Option<(&str, &str)> {
+    let (letter, below) = word.split_once('_')?;
+    let mut letters = letter.chars();
+    let single = letters.next().is_some_and(is_letter) && letters.next().is_none();
+    Some((letter, subscript(below).filter(|_| single)?))
+}
+
 /// A text as a CSV field, quoted where it must be (RFC 4180).
 pub fn csv_field(text: &str) -> String {
     let text = inert(text.to_owned());

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use apportion::report::chart::{ChartWidth, PaperWidth};
 use apportion::report::document::Document;
 use apportion::report::{ArtefactError, Artefacts, ChartFormat};
 
@@ -12,6 +13,10 @@ pub struct ChartArguments {
     /// Formats of the charts in the folder `charts`, separated by commas: svg, png; or none. The page has its charts inside
     #[arg(long, value_name = "FORMATS", default_value = "svg,png", value_parser = formats)]
     charts: Formats,
+    /// Width of the charts in the folder `charts` on paper, such as 88mm or 180mm: without title and caption, which the text of
+    /// a paper has, letters of 7 to 9 pt at that width, PNG with 600 dpi [default: a page column, with title and caption]
+    #[arg(long, value_name = "WIDTH")]
+    chart_width: Option<PaperWidth>,
 }
 
 #[derive(Clone)]
@@ -40,7 +45,8 @@ fn formats(text: &str) -> Result<Formats, String> {
 impl ChartArguments {
     /// The files of a document in `folder`.
     pub fn artefacts(&self, folder: impl Into<PathBuf>) -> Artefacts {
-        Artefacts::new(folder).with_charts(&self.charts.0)
+        let width = self.chart_width.map_or(ChartWidth::Wide, ChartWidth::Paper);
+        Artefacts::new(folder).with_charts(&self.charts.0).with_width(width)
     }
 }
 

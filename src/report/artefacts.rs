@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::atomic_write::{WriteError, prepare_folder, prepare_in, write_in};
-use super::chart::ChartError;
+use super::chart::{ChartError, ChartWidth};
 #[cfg(feature = "png")]
 use super::chart::{PngError, png};
 use super::document::{Document, DocumentError};
@@ -82,6 +82,7 @@ pub enum ArtefactError {
 pub struct Artefacts {
     folder: PathBuf,
     formats: Vec<ChartFormat>,
+    width: ChartWidth,
     input: Option<PathBuf>,
 }
 
@@ -99,12 +100,17 @@ pub struct Written {
 impl Artefacts {
     /// Files in `folder`, charts as SVG and PNG.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: folder.into(), formats: ChartFormat::ALL.to_vec(), input: None }
+        Self { folder: folder.into(), formats: ChartFormat::ALL.to_vec(), width: ChartWidth::Wide, input: None }
     }
 
     /// The same with charts in these formats; none for no charts.
     pub fn with_charts(self, formats: &[ChartFormat]) -> Self {
         Self { formats: formats.to_vec(), ..self }
+    }
+
+    /// The same with the files of charts for this width; the charts of the page stay as they are.
+    pub fn with_width(self, width: ChartWidth) -> Self {
+        Self { width, ..self }
     }
 
     /// The same, which never takes the place of the file `input`.
@@ -174,8 +180,10 @@ impl Artefacts {
             if self.formats.is_empty() || stop.load(Ordering::SeqCst) {
                 return Ok(());
             }
-            let svg =
-                figure.chart.svg().map_err(|source| ArtefactError::Chart { file: figure.stem.clone(), source })?;
+            let svg = figure
+                .chart
+                .svg_at(self.width)
+                .map_err(|source| ArtefactError::Chart { file: figure.stem.clone(), source })?;
             self.formats.iter().try_for_each(|format| {
                 let bytes = || match format {
                     ChartFormat::Svg => Ok(Cow::Borrowed(svg.as_bytes())),

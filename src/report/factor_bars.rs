@@ -1,13 +1,22 @@
 //! Charts of factors: sorted level bars of indices, and the chart of percentages.
 
 use super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape};
-use super::format::the;
+use super::format::{fixed, index as of_error, minus, name};
 use super::result::{EffectRecord, EstimateRecord, IntervalRecord, OutputRecord, ResultFile};
 
-/// Most factors in a chart; the caption counts the rest.
-pub(super) const MOST: usize = 30;
+/// Most factors in a chart; the rest are summed in a last row.
+pub(super) const MOST: usize = 20;
 /// The axis of indices.
-pub(super) const INDEX: &str = "Sobol' index (% of the variance)";
+pub(super) const INDEX: &str = "Sobol' index: part of the variance";
+/// Estimates beyond these bounds, and intervals longer than `LONGEST`, say nothing of an index, which is between 0 and 1.
+const POSSIBLE: std::ops::RangeInclusive<f64> = -0.1..=1.1;
+const LONGEST: f64 = 1.0;
+/// What stands in the place of such a bar.
+const UNKNOWN: &str = "unknown: too few samples";
+/// As far as intervals are drawn.
+const DRAWN: (f64, f64) = (-0.2, 1.2);
+/// Most decimals of a label.
+const DECIMALS: usize = 4;
 
 /// A series with its value for each factor; `None` is marked as missing.
 pub(super) type IndexSeries = (Series, Vec<Option<EstimateRecord>>);
@@ -18,36 +27,128 @@ pub(super) fn both_orders(
     total: Vec<Option<EstimateRecord>>,
 ) -> [IndexSeries; 2] {
     [
-        (Series::new("first order: alone", Colour::Series(5)), first_order),
-        (Series::new("total: with all interactions", Colour::Series(1)), total),
+        (Series::new("S_1, first order: alone", Colour::Series(0)), first_order),
+        (Series::new("S_T, total: with all interactions", Colour::Series(4)), total),
     ]
 }
 
-/// A panel with a row for each factor, those with the largest keys on top, and bars of their indices in percent.
+/// A panel with a row for each factor, those with the largest keys on top, and a pair of bars in each: the first-order index,
+/// and below it the total index, whose part beyond the first-order index is what the factor does together with others.
+pub(super) fn pair_panel(
+    factors: Vec<String>,
+    first_order: Vec<Option<EstimateRecord>>,
+    total: Vec<Option<EstimateRecord>>,
+    keys: &[f64],
+) -> Panel {
+    let with_others = Series::new("S_T − S_1: only together with others", Colour::Series(5));
+    let alone: Vec<Option<f64>> = first_order.iter().map(|index| index.map(|index| index.estimate)).collect();
+    let panel = bars(INDEX, factors, both_orders(first_order, total), keys, &|bar, (number, rows)| {
+        // That of the last row is of the sums.
+        let split: f64 = rows.iter().filter_map(|&factor| alone[factor]).sum();
+        (number == 1).then(|| (split.max(0.0).min(bar.to.max(0.0)), with_others.clone()))
+    });
+    panel
+}
+
+/// A panel with a row for each factor, those with the largest keys on top, and bars of their indices. What the indices of the
+/// least ones sum to is a row of its own.
 pub(super) fn index_panel(
     label: &str,
     factors: Vec<String>,
     series: impl IntoIterator<Item = IndexSeries>,
     keys: &[f64],
 ) -> Panel {
-    let bars = |(series, values): IndexSeries| -> Vec<Mark> {
-        let bar = |(row, value): (usize, Option<EstimateRecord>)| {
-            let interval = value.and_then(|index| index.low.zip(index.high));
-            let interval = interval.map(|(low, high)| (100.0 * low, 100.0 * high));
-            series.mark(Shape::Bar(Bar::percent(row, value.map(|index| 100.0 * index.estimate), interval)))
-        };
-        values.into_iter().enumerate().map(bar).collect()
-    };
-    let rows = Axis::from_names("", factors);
-    Panel::new(Axis::new(label, ""), rows).with(series.into_iter().flat_map(bars)).ranked(keys, MOST)
+    bars(label, factors, series, keys, &|_, _| None)
+}
+
+/// What a bar is of: the number of its series, and the factors that it sums.
+type Of<'a> = (usize, &'a [usize]);
+
+fn bars(
+    label: &str,
+    factors: Vec<String>,
+    series: impl IntoIterator<Item = IndexSeries>,
+    keys: &[f64],
+    beyond: &dyn Fn(&Bar, Of<'_>) -> Option<(f64, Series)>,
+) -> Panel {
+    let rows = rows(keys, factors.len());
+    let names = rows.iter().map(|row| match row[..] {
+        [one] => factors[one].clone(),
+        ref rest => others(rest.len()),
+    });
+    let names = names.collect();
+    let mut marks: Vec<Mark> = Vec::new();
+    for (number, (series, values)) in series.into_iter().enumerate() {
+        for (place, row) in rows.iter().enumerate() {
+            let mut bar = index_bar(place, sum(row.iter().map(|&factor| values.get(factor).copied().flatten())));
+            bar.beyond = beyond(&bar, (number, row));
+            marks.push(series.mark(Shape::Bar(bar)));
+        }
+    }
+    Panel::new(Axis::new(label, ""), Axis::from_names("", names)).with(marks)
+}
+
+/// The name of a row that is the sum of so many factors.
+fn others(count: usize) -> String {
+    format!("{count} others, summed")
+}
+
+/// The factors of each row: one, those with the largest keys first; then all that have no row of their own.
+fn rows(keys: &[f64], all: usize) -> Vec<Vec<usize>> {
+    let key = |factor: usize| keys.get(factor).copied().filter(|key| !key.is_nan()).unwrap_or(f64::NEG_INFINITY);
+    let mut order: Vec<usize> = (0..all).collect();
+    order.sort_by(|&a, &b| key(b).total_cmp(&key(a)));
+    let rest = order.split_off(order.len().min(if all == MOST + 1 { all } else { MOST }));
+    order.into_iter().map(|factor| vec![factor]).chain((!rest.is_empty()).then_some(rest)).collect()
+}
+
+/// One value as it is; of several the sum, whose error is not known.
+fn sum(values: impl ExactSizeIterator<Item = Option<EstimateRecord>>) -> Option<EstimateRecord> {
+    let (count, mut known) = (values.len(), values.flatten());
+    let first = known.next()?;
+    match count {
+        1 => Some(first),
+        _ => {
+            let estimate = first.estimate + known.map(|value| value.estimate).sum::<f64>();
+            Some(EstimateRecord { estimate, low: None, high: None })
+        }
+    }
+}
+
+/// The bar of an index. One of which nothing is known says so: its bar would be read all the same.
+fn index_bar(row: usize, value: Option<EstimateRecord>) -> Bar {
+    let Some(index) = value else { return Bar { row, to: f64::NAN, ..Bar::default() } };
+    let length = index.low.zip(index.high).map(|(low, high)| high - low);
+    if !POSSIBLE.contains(&index.estimate) && !(index.low.is_none() && index.estimate > 0.0)
+        || length.is_some_and(|length| length > LONGEST)
+    {
+        return Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() };
+    }
+    let said = of_error(index);
+    let printed = said.split(' ').next().unwrap_or_default();
+    let decimals = printed.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let label = if decimals > DECIMALS { minus(&fixed(index.estimate, DECIMALS)) } else { printed.to_owned() };
+    let interval = index.low.zip(index.high).map(|(low, high)| (low.max(DRAWN.0), high.min(DRAWN.1)));
+    Bar { row, to: index.estimate, interval, label, said, ..Bar::default() }
 }
 
 /// What a caption says of the factors that are not drawn.
 pub(super) fn left_out(all: usize) -> String {
-    if all <= MOST {
+    if all <= MOST + 1 {
         return String::new();
     }
-    format!(" Of {all} factors, the {MOST} with the largest total indices are drawn.")
+    format!(
+        " Of {all} factors, the {MOST} with the largest total indices have bars, and the {} others one of their sums.",
+        all - MOST
+    )
+}
+
+/// What a caption says where only the `most` largest factors are drawn.
+pub(super) fn not_drawn(all: usize, most: usize) -> String {
+    match all > most {
+        true => format!(" Of {all} factors, the {most} with the largest total indices are drawn."),
+        false => String::new(),
+    }
 }
 
 /// One study in a chart of shares.
@@ -62,7 +163,7 @@ pub struct SharesSeries<'a> {
 }
 
 /// The shares of `factors` in each of `series`: first order on the left, total on the right, the factor with the largest
-/// total share on top. Of more than 30 factors, the first 30.
+/// total share on top. Of more than 21 factors, the first 20, and the sums of the others.
 pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[SharesSeries<'_>]) -> Chart {
     let total: ShareOf = |e| (e.share_total, e.share_total_interval);
     let largest = |factor: &&str| {
@@ -70,23 +171,48 @@ pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[Shar
         shares.fold(f64::NEG_INFINITY, f64::max)
     };
     let keys: Vec<f64> = factors.iter().map(largest).collect();
+    let rows = rows(&keys, factors.len());
     let panel = |title: &str, of: ShareOf| {
-        let rows = Axis::from_names("", factors.iter().map(|factor| label(factor)).collect());
+        let names = rows.iter().map(|row| match row[..] {
+            [one] => name(factors[one]),
+            ref rest => others(rest.len()),
+        });
+        let names = Axis::from_names("", names.collect());
         let bars = series.iter().flat_map(|series| {
-            factors.iter().enumerate().map(move |(row, factor)| {
-                let (value, interval) = share(series, factor, of);
-                let published = series.published.iter().find(|(name, _)| name == factor).map(|(_, share)| *share);
-                let bar = Bar::percent(row, value, interval.map(|i| (i.low, i.high)));
-                series.series.mark(Shape::Bar(Bar { published, ..bar }))
+            rows.iter().enumerate().map(move |(place, row)| {
+                let shares: Vec<_> = row.iter().map(|&factor| share(series, factors[factor], of)).collect();
+                let published = |factor: usize| series.published.iter().find(|(name, _)| *name == factors[factor]);
+                let bar = match (&row[..], &shares[..]) {
+                    ([factor], [(value, interval)]) => {
+                        let published = published(*factor).map(|(_, share)| *share);
+                        Bar { published, ..share_bar(place, *value, *interval) }
+                    }
+                    _ => share_bar(place, shares.iter().map(|(value, _)| *value).sum(), None),
+                };
+                series.series.mark(Shape::Bar(bar))
             })
         });
-        Panel::new(Axis::new("share of the sum of indices (%)", ""), rows).titled(title).with(bars).ranked(&keys, MOST)
+        Panel::new(Axis::new("share of the sum of indices (%)", ""), names).titled(title).with(bars)
     };
     let panels = [
         panel("First-order indices", |e| (e.share_first_order, e.share_first_order_interval)),
         panel("Total indices", total),
     ];
     Chart::new(title, format!("{caption}{}", left_out(factors.len()))).side_by_side().panels(panels)
+}
+
+/// Shares beyond these bounds, in percent, and intervals longer than this mean nothing.
+const POSSIBLE_SHARE: std::ops::RangeInclusive<f64> = -10.0..=110.0;
+const LONGEST_SHARE: f64 = 100.0;
+
+/// The bar of a share in percent; of one that means nothing, only that.
+fn share_bar(row: usize, share: Option<f64>, interval: Option<IntervalRecord>) -> Bar {
+    let means =
+        |share: f64| POSSIBLE_SHARE.contains(&share) && interval.is_none_or(|i| i.high - i.low <= LONGEST_SHARE);
+    match share {
+        Some(share) if !means(share) => Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() },
+        _ => Bar::percent(row, share, interval.map(|i| (i.low, i.high))),
+    }
 }
 
 type ShareOf = fn(&EffectRecord) -> (Option<f64>, Option<IntervalRecord>);
@@ -102,12 +228,12 @@ pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let title = result.study.title.as_ref().unwrap_or(&result.study.name);
     let indices = || output.indices.iter().flatten();
     if indices().any(|index| index.effect.shapley.is_some()) {
-        let names = indices().map(|index| label(&index.factor)).collect();
+        let names = indices().map(|index| name(&index.factor)).collect();
         let effects: Vec<Option<EstimateRecord>> = indices().map(|index| index.effect.shapley).collect();
         let keys: Vec<f64> = effects.iter().map(|effect| effect.map_or(f64::NAN, |effect| effect.estimate)).collect();
         let series = (Series::new("Shapley effect", Colour::Series(0)), effects);
-        let panel = index_panel("Shapley effect (% of the variance)", names, [series], &keys);
-        let caption = format!("Shapley effects on {}: they sum to 100 % of the variance.", the(&output.name));
+        let panel = index_panel("Shapley effect: part of the variance", names, [series], &keys);
+        let caption = format!("Shapley effects on {}: they sum to 100 % of the variance.", name(&output.name));
         return Chart::new(title, caption).panels([panel]);
     }
     let caption = match indices().any(|index| index.effect.dependent.is_some()) {
@@ -116,27 +242,22 @@ pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
         }
         false => caption(output),
     };
-    let series = Series::new(label(&output.name), Colour::Series(0));
+    let series = Series::new(name(&output.name), Colour::Series(0));
     shares_chart(title, &caption, &factors, &[SharesSeries { series, output, published: Vec::new() }])
 }
 
 /// What is seen, in one sentence.
 fn caption(output: &OutputRecord) -> String {
-    let name = the(&output.name);
+    let output_name = name(&output.name);
     let largest =
         output.indices.iter().flatten().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate));
     match (largest, &output.reason) {
         (Some(index), _) => format!(
-            "Of all factors, {} has the largest total effect on {name}: its total index is {:.3}.",
-            label(&index.factor),
-            index.effect.total.estimate
+            "Of all factors, {} has the largest total effect on {output_name}: its S_T is {}.",
+            name(&index.factor),
+            of_error(index.effect.total)
         ),
-        (None, Some(reason)) => format!("No shares of {name}: {reason}."),
-        (None, None) => format!("No shares of {name}."),
+        (None, Some(reason)) => format!("No shares of {output_name}: {reason}."),
+        (None, None) => format!("No shares of {output_name}."),
     }
-}
-
-/// A factor's name as words.
-pub(super) fn label(factor: &str) -> String {
-    factor.replace('_', " ")
 }

@@ -1,5 +1,6 @@
 //! Sentences about who leads: they follow the intervals, name no winner of a tie, and state no share that none can be.
 
+use super::format::index;
 use super::listed;
 use super::result::EstimateRecord;
 
@@ -64,32 +65,22 @@ pub(super) fn decides_most(contenders: &[Contender], output: &str) -> Option<Str
         return Some(format!("No total index of {output} is above 0"));
     }
     if leaders.len() > 1 {
-        let total = |contender: &Contender| percent(contender.total.estimate);
-        return Some(format!(
-            "What decides most of {output} cannot be told apart: {} of the variance, each with all its interactions",
-            names(contenders, &leaders, &total)
-        ));
+        let total = |contender: &Contender| index(contender.total);
+        let names = names(contenders, &leaders, &total);
+        return Some(format!("What decides most of {output} cannot be told apart, by S_T: {names}"));
     }
-    let (label, all) = (super::format::sentence(&lead.label), percent(lead.total.estimate));
+    let (label, total) = (&lead.label, index(lead.total));
     Some(match lead.first_order {
         Some(first) if first.estimate <= 0.0 || first.low.is_some_and(|low| low <= 0.0) => format!(
-            "{label} decides most: with all its interactions it explains {all} of the variance of {output}, alone nothing \
-             that can be told from 0"
+            "For {output}, {label} decides most: with all its interactions S_T is {total}, alone it explains nothing that can \
+             be told from 0"
         ),
         Some(first) if first.estimate < lead.total.estimate => format!(
-            "{label} decides most: alone it explains {} of the variance of {output}, with all its interactions {all}",
-            percent(first.estimate)
+            "For {output}, {label} decides most: alone S_1 is {}, with all its interactions S_T is {total}",
+            index(first)
         ),
-        _ => format!(
-            "{label} decides most: it explains {all} of the variance of {output}, and no interactions of it are seen"
-        ),
+        _ => format!("For {output}, {label} decides most: S_T is {total}, and no interactions of it are seen"),
     })
-}
-
-/// A part of the variance as a sentence states it: none is below 0 or beyond 100 %, where errors may carry an estimate. Tables have
-/// the estimates as they are.
-pub(super) fn percent(part: f64) -> String {
-    format!("{:.1} %", 100.0 * part.clamp(0.0, 1.0))
 }
 
 #[cfg(test)]
@@ -114,11 +105,7 @@ mod tests {
         ];
         assert_eq!(may_lead(&tie), [1, 0]);
         let said = decides_most(&tie, "y").unwrap();
-        assert_eq!(
-            said,
-            "What decides most of y cannot be told apart: b (51.0 %) and a (50.0 %) of the variance, each with all its \
-             interactions"
-        );
+        assert_eq!(said, "What decides most of y cannot be told apart, by S_T: b (0.51 ± 0.09) and a (0.50 ± 0.10)");
         let mut unknown = tie.to_vec();
         unknown.iter_mut().for_each(|contender| contender.probability = None);
         assert_eq!(may_lead(&unknown), [1, 0]);
@@ -136,18 +123,17 @@ mod tests {
         let lead = |first, total| decides_most(&[contender("a", first, total, Some(1.0))], "y").unwrap();
         assert_eq!(
             lead((-0.3, 0.05), (0.6, 0.7)),
-            "a decides most: with all its interactions it explains 65.0 % of the variance of y, alone nothing that can be \
-             told from 0"
+            "For y, a decides most: with all its interactions S_T is 0.65 ± 0.05, alone it explains nothing that can be told from \
+             0"
         );
         assert_eq!(
             lead((0.675, 0.695), (0.666, 0.686)),
-            "a decides most: it explains 67.6 % of the variance of y, and no interactions of it are seen"
+            "For y, a decides most: S_T is 0.676 ± 0.010, and no interactions of it are seen"
         );
         assert_eq!(
             lead((0.2, 0.3), (0.5, 0.6)),
-            "a decides most: alone it explains 25.0 % of the variance of y, with all its interactions 55.0 %"
+            "For y, a decides most: alone S_1 is 0.25 ± 0.05, with all its interactions S_T is 0.55 ± 0.05"
         );
-        assert!(lead((0.9, 1.1), (0.95, 1.15)).contains("with all its interactions 100.0 %"));
         assert_eq!(lead((0.0, 0.0), (0.0, 0.0)), "No total index of y is above 0");
     }
 }

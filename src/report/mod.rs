@@ -40,6 +40,7 @@ mod study_sections;
 #[doc(hidden)]
 pub mod sweep;
 mod text_table;
+mod validity;
 
 #[cfg(feature = "page")]
 pub use artefacts::{ArtefactError, Artefacts};
@@ -73,7 +74,7 @@ pub use {
     build_output::inputs_in_words,
     factor_bars::SharesSeries,
     file_names::{FileNames, file_stems},
-    format::{estimate, fixed, share, share_of_runs, significant, two_digits, with_unit},
+    format::{fixed, give_or_take, share, share_of_runs, significant, two_digits, with_unit},
     interval_widths::{widest_interval, width_after_doubling},
     read::ReadProblem,
     records::{Drawing, FactorSetup, StudySetup},

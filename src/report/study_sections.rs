@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::document::{Cell, Column, Mark, Part, Section, Table};
-use super::format::{grouped, name, share_of_runs, significant, value};
+use super::format::{grouped, name, share_of_runs, significant, unit, value};
 use super::records::{FactorSetup, StudySetup};
 use super::result::{ConstantRecord, CorrelationRecord, ValidityRecord};
 
@@ -108,7 +108,7 @@ pub(crate) fn study_section(study: &StudySetup) -> Section {
 }
 
 /// A distribution in words: its name, then its parameters with the unit.
-fn distribution(distribution: &Value, unit: &str) -> String {
+fn distribution(distribution: &Value, symbol: &str) -> String {
     let Value::Object(keys) = distribution else { return "unknown".to_owned() };
     let family = keys.get("name").and_then(Value::as_str).unwrap_or("unknown");
     let parameters = keys.iter().filter(|(key, _)| *key != "name");
@@ -121,9 +121,9 @@ fn distribution(distribution: &Value, unit: &str) -> String {
         format!("{} {}", key.replace('_', " "), inner(json).unwrap_or_else(|| plain(json)))
     };
     let parameters: Vec<String> = parameters.map(parameter).collect();
-    let unit = match unit {
+    let unit = match symbol {
         "" | "1" => String::new(),
-        unit => format!(" ({unit})"),
+        symbol => format!(" ({})", unit(symbol)),
     };
     if parameters.is_empty() { family.to_owned() } else { format!("{family}, {}{unit}", parameters.join(", ")) }
 }
@@ -154,13 +154,13 @@ mod tests {
     #[test]
     fn distributions_are_said_with_their_units() {
         let uniform = serde_json::json!({"name": "uniform", "min": 0.25, "max": 2.5});
-        assert_eq!(distribution(&uniform, "um"), "uniform, min 0.25, max 2.5 (um)");
+        assert_eq!(distribution(&uniform, "um"), "uniform, min 0.25, max 2.5 (µm)");
         assert_eq!(distribution(&uniform, "1"), "uniform, min 0.25, max 2.5");
         let many = serde_json::json!({"name": "discrete", "values": [1, 2, 3, 4, 5, 6, 7, 8, 9]});
         assert_eq!(distribution(&many, "1"), "discrete, values 1; 2; 3; 4; 5; 6; 7; 8; … (9 in all)");
         assert_eq!(distribution(&Value::Null, "1"), "unknown");
         let mixture = serde_json::json!({"name": "mixture", "components": [uniform, {"name": "gamma", "shape": 2, "truncate": [1, "inf"]}]});
-        let words = "mixture, components (uniform, min 0.25, max 2.5), (gamma, shape 2, truncate 1; inf) (um)";
+        let words = "mixture, components (uniform, min 0.25, max 2.5), (gamma, shape 2, truncate 1; inf) (µm)";
         assert_eq!(distribution(&mixture, "um"), words);
     }
 }

@@ -6,7 +6,7 @@ use super::{GROUPS, Published, Reproduced, published};
 use apportion::report::csv::{Csv, Field, fields};
 use apportion::report::document::Value;
 use apportion::report::{EffectRecord, EstimateRecord, IndexRecord, IntervalRecord, TextTable};
-use apportion::report::{capitalised, estimate, fixed, share, share_of_runs, table};
+use apportion::report::{capitalised, fixed, give_or_take, share, share_of_runs, table};
 
 /// The table that `reproduce` prints: for each group of studies the shares of every factor under every friction model,
 /// then the order of the factors, ours and the published one, and whether they agree.
@@ -130,7 +130,7 @@ fn printed_against_ours(member: &Reproduced, print: &Published) -> String {
 /// Claim 20: whether the dimensions outweigh the environment, by the groups of the general study.
 fn weights(member: &Reproduced) -> Option<String> {
     let (dimensional, environmental, standing) = outweighing(member)?;
-    let totals = format!("total indices {} against {}", estimate(dimensional, 4), estimate(environmental, 4));
+    let totals = format!("total indices {} against {}", give_or_take(dimensional), give_or_take(environmental));
     let outweigh = match standing {
         Standing::Kept => "the dimensions outweigh the environment, as published",
         Standing::Broken => "the dimensions do NOT outweigh the environment, against what is published",

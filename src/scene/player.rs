@@ -97,7 +97,7 @@ mod tests {
         }
         assert!(page.contains("The particle slips after 0.131\u{a0}s, at a tip force of 631\u{a0}nN."));
         assert!(page.contains("exaggerated 200 times"));
-        assert!(page.contains("--push:#0072b2"));
+        assert!(page.contains("--push:#00527f"));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-"""Opens pages in a headless Chromium, at three sizes and on paper, and names what is wrong with them.
+"""Opens pages in a headless Chromium, at three sizes, in light and dark, and on paper, and names what is wrong with them.
 
     python tests/browser/check.py PAGE.html ... [--shots DIR] [--browser PATH] [--expect-faults]
 
@@ -158,10 +158,33 @@ def look(page, path):
     return found
 
 
-def open_page(browser, path, size, shots):
-    """Everything wrong with one page at one size."""
+def sort(page):
+    """Whether tables can be sorted by their columns, and come back as they were."""
+    return page.evaluate(
+        """
+        () => {
+          const found = [];
+          for (const table of document.querySelectorAll("main table:has(thead button)")) {
+            const body = table.tBodies[0];
+            const before = body.innerText;
+            const button = table.querySelector("thead .number button") || table.querySelector("thead button");
+            const heading = button.closest("th");
+            button.click();
+            if (!heading.hasAttribute("aria-sort")) found.push(`a heading that does not say that it sorts: ${heading.textContent}`);
+            button.click();
+            button.click();
+            if (body.innerText !== before) found.push(`a table that does not come back: ${heading.textContent}`);
+          }
+          return found;
+        }
+        """
+    )
+
+
+def open_page(browser, path, size, shots, scheme="light"):
+    """Everything wrong with one page at one size, for eyes that want light or dark pages."""
     found = []
-    page = browser.new_page(viewport={"width": size[0], "height": size[1]})
+    page = browser.new_page(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
     page.on("console", lambda message: message.type in ("error", "warning") and found.append(f"console: {message.text}"))
     page.on("pageerror", lambda error: found.append(f"script: {error}"))
     page.on("requestfailed", lambda request: found.append(f"request failed: {request.url[:90]}"))
@@ -174,11 +197,12 @@ def open_page(browser, path, size, shots):
     page.goto(path.as_uri(), wait_until="load")
     page.wait_for_timeout(150)
     found += look(page, path)
-    name = f"{path.parent.name}-{path.stem}-{size[0]}"
+    name = f"{path.parent.name}-{path.stem}-{size[0]}{'' if scheme == 'light' else '-dark'}"
     if shots:
         page.screenshot(path=shots / f"{name}-view.png")
         page.screenshot(path=shots / f"{name}.png", full_page=True)
-    if size == SIZES[0]:
+    if size == SIZES[0] and scheme == "light":
+        found += [f"sorted: {finding}" for finding in sort(page)]
         # What is folded must be sound too.
         page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
         found += [f"unfolded: {finding}" for finding in look(page, path) if finding not in found]
@@ -209,10 +233,11 @@ def main():
         for page in arguments.pages:
             path = page.resolve()
             for size in SIZES:
-                for finding in open_page(browser, path, size, arguments.shots):
-                    findings.append(finding)
-                    if not arguments.expect_faults:
-                        print(f"{page} at {size[0]}: {finding}")
+                for scheme in ("light", "dark") if size == SIZES[0] else ("light",):
+                    for finding in open_page(browser, path, size, arguments.shots, scheme):
+                        findings.append(finding)
+                        if not arguments.expect_faults:
+                            print(f"{page} at {size[0]}, {scheme}: {finding}")
         browser.close()
     if arguments.expect_faults:
         unseen = [fault for fault in FAULTS if not any(finding.startswith(fault) for finding in findings)]

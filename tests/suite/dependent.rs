@@ -287,7 +287,7 @@ fn the_program_tells_of_dependent_factors() {
     let out = folder.path("out");
     let told = succeed(&["run", text(&study), "--base-samples", "1024", "--out", text(&out)]);
     assert!(told.contains("Shapley effect") && told.contains("S_1 given the others"), "{told}");
-    assert!(told.contains("x1 matters most for the value: its Shapley effect is"), "{told}");
+    assert!(told.contains("For value, x1 matters most: its Shapley effect is"), "{told}");
     let json: serde_json::Value = serde_json::from_slice(&std::fs::read(out.join("portfolio.json")).unwrap()).unwrap();
     assert_eq!(json["study"]["dependences"][1]["correlation"][0][1], -0.3);
     let x1 = &json["outputs"][0]["indices"][0];

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::report::{OutputRecord, ResultFile, indices_chart, run_document};
+use apportion::report::{EstimateRecord, OutputRecord, ResultFile, give_or_take, indices_chart, run_document};
 use apportion::study::Study;
 
 const UNIFORM: &str = "distribution = \"uniform\"\nmin = 0\nmax = 1";
@@ -113,9 +113,10 @@ fn mean_and_variance_are_those_of_all_rows_that_succeeded() {
     assert!(((interval.low + interval.high) / 2.0 - mean).abs() < 1e-12, "{interval:?} about {mean}");
     let interval = output.variance_interval.unwrap();
     assert!(interval.low < variance && variance < interval.high);
-    let said = |number: f64| apportion::report::significant(number);
+    let bounds = output.mean_interval.unwrap();
+    let mean = EstimateRecord { estimate: mean, low: Some(bounds.low), high: Some(bounds.high) };
     let text = run_document(&result).text();
-    let heading = format!("Mean {}, standard deviation {}", said(mean), said(distribution.sample.sd.unwrap()));
+    let heading = format!("Mean {}, standard deviation {:.2}", give_or_take(mean), distribution.sample.sd.unwrap());
     assert!(text.contains(&heading), "{heading} in {text}");
 }
 
@@ -126,7 +127,7 @@ fn no_sentence_names_a_winner_of_a_tie_or_a_negative_share() {
     let leads = output(&result).indices.as_ref().unwrap().iter().filter_map(|index| index.effect.probability_first);
     assert!(leads.fold(0.0, f64::max) < 0.95, "a seed in which the tie is one");
     let caption = indices_chart(&result, output(&result)).caption().to_owned();
-    assert!(caption.contains("cannot be told apart: ") && !caption.contains("decides most:"), "{caption}");
+    assert!(caption.contains("cannot be told apart, by S_T: ") && !caption.contains("decides most:"), "{caption}");
     let lead = &run_document(&result).lead[0];
     assert!(lead.starts_with("What matters most for y cannot be told apart"), "{lead}");
     assert!(!lead.contains("matters most for y:"), "{lead}");

@@ -24,6 +24,7 @@ mod factor_kinds;
 mod factors;
 mod failures;
 mod fidelity;
+mod first_paragraph;
 mod frozen;
 mod fuzz;
 mod given;

@@ -23,7 +23,7 @@ fn links(page: &str) -> Vec<&str> {
 #[test]
 fn a_run_writes_a_page_that_needs_nothing_else() {
     let (page, folder) = page_of(&study_path("coulomb-general"), &["--base-samples", "8192"]);
-    assert!(page.contains("<p class=\"lead\">Thickness matters most for the critical force"), "the answer comes first");
+    assert!(page.contains("<p class=\"lead\">For critical force, thickness matters most"), "the answer comes first");
     let own = page.replace("http://www.w3.org/2000/svg", "");
     for outside in ["http:", "https:", " src=", "@import", "url(", "//cdn", "fetch("] {
         assert!(!own.contains(outside), "{outside}");

@@ -58,8 +58,8 @@ fn a_program_gives_a_series_by_cells_or_as_a_list() {
     // The covariances are (k k' + 1)/12, of which the eigenvalues are those of the products 14, 6, 6, 4.
     let share = series.directions.as_ref().unwrap()[0].share;
     assert!((share - 100.0 * (9.0 + 61.0_f64.sqrt()) / 18.0).abs() < 2.0, "{share}");
-    assert!(printed.contains("a matters most for y as a whole"), "{printed}");
-    assert!(printed.contains("Along the time, the largest S_T is that of b"), "{printed}");
+    assert!(printed.contains("a matters most: its S_T is"), "{printed}");
+    assert!(printed.contains("Along time, the largest S_T is that of b"), "{printed}");
     // The other output has its section and files, as ever.
     assert!(
         page(&folder.path("out")).contains("id=\"output-1\"") || page(&folder.path("out")).contains("Shares of sum")

@@ -16,9 +16,15 @@ impl Chart {
                 Shape::Bar(_) | Shape::Layer(_) | Shape::Tile(_) | Shape::Stretches(..) => Key::Swatch(series.colour),
                 _ => continue,
             };
-            let entry = Entry { name: series.name.clone(), key };
-            if !series.name.trim().is_empty() && !entries.contains(&entry) {
-                entries.push(entry);
+            let other = match shape {
+                Shape::Bar(bar) => bar.of_other().map(|(.., series)| (series, Key::Swatch(series.colour))),
+                _ => None,
+            };
+            for (series, key) in std::iter::once((series, key)).chain(other) {
+                let entry = Entry { name: series.name.clone(), key };
+                if !series.name.trim().is_empty() && !entries.contains(&entry) {
+                    entries.push(entry);
+                }
             }
         }
         let any = |test: fn(&Shape) -> bool| self.marks().any(|mark| test(&mark.shape));
@@ -97,7 +103,9 @@ impl Chart {
     pub(super) fn bar_in_words(&self, panel: &Panel, series: &str, bar: &Bar) -> String {
         let number = |value: f64| if bar.label.is_empty() { value.to_string() } else { percent(value) };
         let value = match bar.drawn() {
-            None => "no value".to_owned(),
+            None if bar.label.is_empty() => "no value".to_owned(),
+            None => bar.label.clone(),
+            Some(_) if !bar.said.is_empty() => bar.said.clone(),
             Some(drawn) => {
                 let interval = drawn.interval.map(|(low, high)| format!(" ({} to {})", number(low), number(high)));
                 let from = if bar.from == 0.0 { String::new() } else { format!("{} to ", number(bar.from)) };

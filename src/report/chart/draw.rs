@@ -8,8 +8,8 @@ use super::model::{Body, Chart, Mark, Point, Series, Shape};
 use super::path::{closed, open, runs, thin};
 use super::plot::Plot;
 use super::scale::Scale;
-use super::style::{ChartWidth, MUTED, Medium, PANEL_TITLE, TICK};
-use super::svg::{Anchor, Canvas, Text};
+use super::style::{ChartWidth, MUTED, Medium, PANEL_TITLE, PAPER, PaperWidth, TICK};
+use super::svg::{Anchor, Attributes, Canvas, Text};
 use super::symbols::Ends;
 use super::text::shorten;
 use super::{Arrangement, ChartError};
@@ -65,7 +65,11 @@ impl Chart {
         match &self.body {
             Body::Picture(picture) => {
                 let drawing = medium.width.choose(&picture.wide, &picture.narrow);
-                Ok(if medium.inline { drawing.inline.clone() } else { drawing.document.clone() })
+                Ok(match medium.width.paper() {
+                    Some(width) => on_paper(&drawing.inline, width),
+                    None if medium.inline => drawing.inline.clone(),
+                    None => drawing.document.clone(),
+                })
             }
             Body::Panels(panels) if panels.is_empty() => Err(ChartError::NoPanels { chart: self.title.clone() }),
             Body::Panels(_) => {
@@ -96,6 +100,14 @@ impl Chart {
             top = bottom + HEAD;
         }
         bottom
+    }
+}
+
+/// An element of a page as a document of its own, so wide on paper.
+fn on_paper(inline: &str, width: PaperWidth) -> String {
+    match inline.strip_prefix("<svg") {
+        Some(rest) => format!("<svg width=\"{}mm\"{rest}", width.millimetres()),
+        None => inline.to_owned(),
     }
 }
 
@@ -172,8 +184,9 @@ impl<'a> Sheet<'a> {
         }
         for Mark { series, shape } in marks {
             match shape {
-                Shape::Band(edges) => self.band(canvas, (series, "band", "0.18"), edges),
-                Shape::Layer(edges) => self.band(canvas, (series, "layer", "0.85"), edges),
+                // The rim of a band has the contrast that its light filling lacks; a white one parts layers of like lightness.
+                Shape::Band(edges) => self.band(canvas, (series, "band", "0.18", series.colour.hex()), edges),
+                Shape::Layer(edges) => self.band(canvas, (series, "layer", "1", PAPER), edges),
                 _ => (),
             }
         }
@@ -209,14 +222,20 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// A band or layer of a series: its kind, and how opaque it is.
-    fn band(&self, canvas: &mut Canvas, (series, kind, opacity): (&Series, &str, &str), edges: &[(f64, f64, f64)]) {
+    /// A band or layer of a series: its kind, how opaque it is, and the colour of its rim.
+    fn band(
+        &self,
+        canvas: &mut Canvas,
+        (series, kind, opacity, rim): (&Series, &str, &str, &str),
+        edges: &[(f64, f64, f64)],
+    ) {
         for run in runs(edges.iter().map(|edges| self.edges(edges))) {
             let lower: Vec<_> = run.iter().map(|edges| edges[0]).collect();
             let upper: Vec<_> = run.iter().map(|edges| edges[1]).collect();
             let d = closed(&thin(&lower), &thin(&upper));
             let fill = series.colour.hex();
-            canvas.leaf("path", &[("class", &kind), ("d", &d), ("fill", &fill), ("fill-opacity", &opacity)]);
+            let filling: Attributes = &[("class", &kind), ("d", &d), ("fill", &fill), ("fill-opacity", &opacity)];
+            canvas.leaf("path", &[filling, &[("stroke", &rim), ("stroke-width", &"0.7")]].concat());
         }
     }
 

@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use super::font::FAMILIES;
 use super::palette::Colour;
-use super::style::{BODY, INK, MARGIN, MUTED, Medium, PAPER, TITLE};
+use super::style::{BODY, INK, MARGIN, MUTED, Medium, PAPER, PaperWidth, TITLE};
 use super::svg::{Canvas, Px, Text};
 use super::text::{wrap, wrap_within};
 
@@ -62,9 +62,9 @@ pub(super) struct Figure<'a> {
 impl<'a> Figure<'a> {
     /// Draws title and legend.
     pub fn begin(medium: Medium, words: Words<'a>, legend: &[Entry]) -> Self {
-        let top = if medium.inline { 0.0 } else { MARGIN };
+        let top = if medium.has_words() { MARGIN } else { 0.0 };
         let mut figure = Self { canvas: Canvas::default(), top, width: medium.width.px(), medium, words };
-        if !medium.inline {
+        if medium.has_words() {
             figure.title();
         }
         if !legend.is_empty() {
@@ -86,11 +86,16 @@ impl<'a> Figure<'a> {
     /// The caption under `bottom`, then the whole as an SVG document. `description` is read out by screen
     /// readers after the caption.
     pub fn finish(mut self, bottom: f64, description: &str) -> String {
-        let bottom = if self.medium.inline { bottom } else { self.caption(bottom) + MARGIN };
+        let bottom = if self.medium.has_words() { self.caption(bottom) + MARGIN } else { bottom };
         let (width, height) = (self.width, bottom.ceil());
         let view = format!("0 0 {width} {height}");
         let mut page = Canvas::default();
-        let size: &[(&str, &dyn Display)] = &[("width", &width), ("height", &height)];
+        let paper = self.medium.width.paper().map(PaperWidth::millimetres);
+        let sizes = [width, height].map(|length| match paper {
+            Some(millimetres) => format!("{}mm", Px(length * millimetres / width)),
+            None => length.to_string(),
+        });
+        let size: &[(&str, &dyn Display)] = &[("width", &sizes[0]), ("height", &sizes[1])];
         let label: &[(&str, &dyn Display)] = &[("aria-label", &self.words.title)];
         let mut attributes: Vec<(&str, &dyn Display)> = vec![("xmlns", &"http://www.w3.org/2000/svg")];
         attributes.extend_from_slice(if self.medium.inline { &[] } else { size });

@@ -41,4 +41,4 @@ pub use palette::Colour;
 #[cfg(feature = "png")]
 pub use png::{PNG_SCALE, Png, PngError, png};
 pub use scale::Spacing;
-pub use style::ChartWidth;
+pub use style::{ChartWidth, PaperWidth};

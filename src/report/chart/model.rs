@@ -196,8 +196,12 @@ pub struct Bar {
     pub interval: Option<(f64, f64)>,
     /// The value from elsewhere, drawn as a hollow diamond.
     pub published: Option<f64>,
-    /// Written after it.
+    /// Written after it; in the place of a bar that cannot be drawn, why.
     pub label: String,
+    /// Its value in words, with its error; empty for the plain numbers.
+    pub said: String,
+    /// The part from a value on, which is that of another series.
+    pub beyond: Option<(f64, Series)>,
 }
 
 impl Chart {
@@ -412,6 +416,13 @@ impl Bar {
         drawable(self.from).and(drawable(self.to))?;
         let interval = self.interval.and_then(drawable_pair);
         Some(Self { interval, ..self.clone() })
+    }
+
+    /// The part that is of another series, if there is something of it: from where to the end.
+    pub(super) fn of_other(&self) -> Option<(f64, f64, &Series)> {
+        let (split, series) = self.beyond.as_ref()?;
+        let split = drawable(*split)?.clamp(self.from.min(self.to), self.from.max(self.to));
+        (split != self.to).then_some((split, self.to, series))
     }
 
     /// The diamond, if it can be drawn.

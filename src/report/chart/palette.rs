@@ -2,19 +2,20 @@
 
 use super::style::INK;
 
-/// The colours of Okabe and Ito (2008) that people with the usual colour vision deficiencies tell apart, then their like,
-/// darker or lighter. Their lightness differs too, for print in grey.
+/// Hues of Okabe and Ito (2008), which people with the usual colour vision deficiencies tell apart, dark enough for marks on
+/// white (contrast 3 or more, WCAG 2.2, 1.4.11). Their lightness differs too, most of all that of the first four, for print in
+/// grey.
 const COLOURS: [&str; 11] = [
-    "#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#7f7f7f", "#6f3000", "#6b2c53", "#f0e442",
-    "#c4c4c4",
+    "#00527f", "#e8710a", "#00785a", "#571a48", "#5b85b0", "#a03f00", "#757575", "#3b2a00", "#c2588f", "#4c6a00",
+    "#929292",
 ];
 
 /// The shades of maps from little to much, ever darker, so that they are told apart in grey too (ColorBrewer's YlGnBu).
 const SHADES: [&str; 9] =
     ["#ffffd9", "#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58"];
 
-/// The first shade on which dark letters cannot be read.
-const FIRST_DARK: usize = 6;
+/// How opaque the dots of a cloud are.
+pub(super) const DOTS_OPACITY: &str = "0.6";
 
 /// Outlines of points as path data about the origin, of about equal area.
 const SYMBOLS: [&str; 4] = [
@@ -27,8 +28,8 @@ const SYMBOLS: [&str; 4] = [
 /// A colour of the palette, and the symbol of points that goes with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Colour {
-    /// That of a series by its number: blue, vermilion, green, orange, purple, sky blue, grey, and four more; then again
-    /// from the first. Those that are told apart best come first.
+    /// That of a series by its number: dark blue, orange, green, plum, blue, rust, grey, and four more; then again from the
+    /// first. Those that are told apart best come first.
     Series(usize),
     /// References and exact values: nearly black.
     Reference,
@@ -47,7 +48,7 @@ impl Colour {
     ///
     /// ```
     /// use apportion::report::chart::Colour;
-    /// assert_eq!(Colour::Series(0).hex(), "#0072b2");
+    /// assert_eq!(Colour::Series(0).hex(), "#00527f");
     /// assert_ne!(Colour::Series(0).hex(), Colour::Series(1).hex());
     /// ```
     pub fn hex(self) -> &'static str {
@@ -58,9 +59,10 @@ impl Colour {
         }
     }
 
-    /// Whether letters on it must be light.
+    /// Whether letters on it must be light: where these have more contrast than dark ones.
     pub(super) fn is_dark(self) -> bool {
-        matches!(self, Self::Reference | Self::Shade(FIRST_DARK..))
+        let own = luminance(self.hex(), 1.0) + 0.05;
+        1.05 / own > own / (luminance(INK, 1.0) + 0.05)
     }
 
     /// The outline of a point as path data about its middle.
@@ -72,9 +74,20 @@ impl Colour {
     }
 }
 
+/// Relative luminance on white of a colour that is so opaque (WCAG 2.2).
+fn luminance(hex: &str, opacity: f64) -> f64 {
+    let channel = |at: usize| {
+        let part = f64::from(u8::from_str_radix(&hex[at..at + 2], 16).unwrap_or(0)) / 255.0;
+        let part = opacity * part + 1.0 - opacity;
+        if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
+    };
+    0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::chart::style::MUTED;
 
     #[test]
     fn series_have_distinct_colours() {
@@ -86,13 +99,39 @@ mod tests {
         assert!(colours.contains(&Colour::Series(usize::MAX).hex()));
     }
 
+    /// Lightness (CIE 1976), 0 to 100.
+    fn lightness(hex: &str) -> f64 {
+        116.0 * luminance(hex, 1.0).cbrt() - 16.0
+    }
+
+    #[test]
+    fn marks_stand_out_from_the_paper() {
+        let contrast = |hex: &str, opacity| 1.05 / (luminance(hex, opacity) + 0.05);
+        let marks = COLOURS.iter().chain([&INK, &MUTED]);
+        for hex in marks {
+            assert!(contrast(hex, 1.0) >= 3.0, "{hex}: {}", contrast(hex, 1.0));
+        }
+        // Clouds of dots are of the first series.
+        let opacity: f64 = DOTS_OPACITY.parse().expect("a number");
+        assert!(contrast(COLOURS[0], opacity) >= 3.0, "{}", contrast(COLOURS[0], opacity));
+    }
+
+    #[test]
+    fn series_differ_in_grey() {
+        let of: Vec<f64> = COLOURS.iter().map(|hex| lightness(hex)).collect();
+        for (place, a) in of.iter().enumerate() {
+            for (other, b) in of.iter().enumerate().take(place) {
+                let least = if place < 4 { 10.0 } else { 0.1 };
+                assert!((a - b).abs() >= least, "{other} and {place}: {b} and {a}");
+            }
+        }
+        // Those that stand side by side in a bar.
+        assert!((of[4] - of[5]).abs() > 10.0);
+    }
+
     #[test]
     fn shades_grow_darker() {
-        let lightness = |shade: usize| {
-            let hex = Colour::Shade(shade).hex();
-            let part = |at: usize| f64::from(u8::from_str_radix(&hex[at..at + 2], 16).expect("hexadecimal"));
-            0.2126 * part(1) + 0.7152 * part(3) + 0.0722 * part(5)
-        };
+        let lightness = |shade: usize| lightness(Colour::Shade(shade).hex());
         assert!((1..SHADES.len()).all(|shade| lightness(shade) < lightness(shade - 1)));
         assert_eq!(Colour::Shade(usize::MAX).hex(), SHADES[8]);
     }

@@ -62,7 +62,13 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// Draws an SVG chart of this crate as a PNG picture on white, [`PNG_SCALE`] pixels per px.
+/// Pixels per inch of a picture for paper, as journals want them of lines and letters.
+const PAPER_DPI: f64 = 600.0;
+/// Pixels per inch of 1 px of an SVG (CSS).
+const CSS_DPI: f64 = 96.0;
+
+/// Draws an SVG chart of this crate as a PNG picture on white: [`PNG_SCALE`] pixels per px, or 600 per inch where the width of
+/// the chart is that on paper. The file says which, so that it is set in its size.
 ///
 /// # Errors
 /// [`PngError`] if the text is no SVG or the picture would be too large.
@@ -79,7 +85,8 @@ pub fn png(svg: &str) -> Result<Png, PngError> {
     let missing = missing(&document);
     let options = Options { font_family: FAMILY.to_owned(), fontdb: FONTS.clone(), ..Options::default() };
     let tree = Tree::from_xmltree(&document, &options).map_err(|error| PngError::Svg(error.to_string()))?;
-    let scale = f64::from(PNG_SCALE);
+    let is_paper = document.root_element().attribute("width").is_some_and(|width| width.ends_with("mm"));
+    let scale = if is_paper { PAPER_DPI / CSS_DPI } else { f64::from(PNG_SCALE) };
     let width = (f64::from(tree.size().width()) * scale).ceil();
     let height = (f64::from(tree.size().height()) * scale).ceil();
     let too_large = || PngError::TooLarge { width, height };
@@ -88,9 +95,24 @@ pub fn png(svg: &str) -> Result<Png, PngError> {
     }
     let mut pixels = Pixmap::new(width as u32, height as u32).ok_or_else(too_large)?;
     pixels.fill(Color::WHITE);
-    resvg::render(&tree, Transform::from_scale(PNG_SCALE as f32, PNG_SCALE as f32), &mut pixels.as_mut());
+    resvg::render(&tree, Transform::from_scale(scale as f32, scale as f32), &mut pixels.as_mut());
     let bytes = pixels.encode_png().map_err(|error| PngError::Encode(error.to_string()))?;
+    let bytes = with_density(bytes, scale * CSS_DPI);
     Ok(Png { bytes, width: pixels.width(), height: pixels.height(), missing })
+}
+
+/// The file with its pixels per inch, in a chunk pHYs behind the first one, IHDR (PNG, third edition, 11.3.4.3).
+fn with_density(mut png: Vec<u8>, dpi: f64) -> Vec<u8> {
+    // Signature of 8 bytes; length, name, 13 bytes and checksum of IHDR.
+    const BEFORE: usize = 8 + 4 + 4 + 13 + 4;
+    const METRE: f64 = 39.370_078_740_157_48;
+    let per_metre = ((dpi * METRE).round() as u32).to_be_bytes();
+    let named = [&b"pHYs"[..], &per_metre, &per_metre, &[1]].concat();
+    let chunk = [&9_u32.to_be_bytes()[..], &named, &crc32fast::hash(&named).to_be_bytes()].concat();
+    if png.len() >= BEFORE {
+        png.splice(BEFORE..BEFORE, chunk);
+    }
+    png
 }
 
 /// The smallest rectangle that holds every mark and letter, as (left, top, right, bottom), px, and the size of the view.
@@ -107,8 +129,10 @@ pub(super) fn extent(svg: &str) -> ([f32; 4], [f32; 2]) {
 /// Characters of drawn text without a glyph.
 fn missing(document: &roxmltree::Document) -> Vec<char> {
     let mut missing = Vec::new();
-    for node in document.descendants().filter(|node| node.has_tag_name("text")) {
-        for c in node.text().unwrap_or_default().chars() {
+    // Subscripts are parts of a text.
+    let drawn = |node: &roxmltree::Node| node.has_tag_name("text") || node.has_tag_name("tspan");
+    for node in document.descendants().filter(drawn) {
+        for c in node.children().filter_map(|child| child.text().filter(|_| child.is_text())).flat_map(str::chars) {
             if !covers(c) && !c.is_whitespace() && !missing.contains(&c) {
                 missing.push(c);
             }
@@ -151,6 +175,18 @@ mod tests {
         assert!(counts[0] > 300 && counts.iter().all(|count| *count == counts[0]), "{counts:?}");
         let bold = dark(&picture(r#"<text x="5" y="25" font-size="20" font-weight="bold">Standard</text>"#));
         assert!(bold > counts[0] * 6 / 5, "{bold} of {}", counts[0]);
+    }
+
+    #[test]
+    fn files_say_how_large_they_are_on_paper() {
+        let density = |svg: &str| {
+            let png = png(svg).expect("a valid SVG");
+            assert!(dark(&png) == 0 && &png.bytes[37..41] == b"pHYs", "{:?}", &png.bytes[..60]);
+            (u32::from_be_bytes([png.bytes[41], png.bytes[42], png.bytes[43], png.bytes[44]]), png.width)
+        };
+        let svg = |size: &str| format!(r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 5" {size}/>"#);
+        assert_eq!(density(&svg(r#"width="25.4mm" height="12.7mm""#)), (23_622, 600));
+        assert_eq!(density(&svg(r#"width="100" height="50""#)), (7559, 200));
     }
 
     #[test]

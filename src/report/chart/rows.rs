@@ -3,7 +3,7 @@
 use super::draw::Sheet;
 use super::layout::{ROW_GAP, TEXT_GAP, row_name, row_note};
 use super::model::{Bar, Mark, Panel, Series, Shape, drawable_pair};
-use super::style::{ChartWidth, INK, MARGIN, MUTED, PAPER, TICK, VALUE};
+use super::style::{INK, MARGIN, MUTED, PAPER, TICK, VALUE};
 use super::svg::{Anchor, Canvas, Px, Text};
 use super::text::shorten;
 
@@ -81,18 +81,22 @@ impl<'a> Sheet<'a> {
         canvas.open("g", &[("class", &"bars")]);
         for lane in lanes {
             let Some(bar) = lane.bar.drawn() else { continue };
-            let Some((from, to)) = self.x(bar.from).zip(self.x(bar.to)) else { continue };
-            canvas.tipped(
-                "rect",
-                &[
-                    ("x", &Px(from.min(to))),
-                    ("y", &Px(lane.top)),
-                    ("width", &Px((to - from).abs())),
-                    ("height", &Px(lane.height)),
-                    ("fill", &lane.series.colour.hex()),
-                ],
-                &self.chart.bar_in_words(self.cell.panel, &lane.series.name, &bar),
-            );
+            let other = bar.of_other();
+            let own = (bar.from, other.map_or(bar.to, |(split, ..)| split), lane.series);
+            for (from, to, series) in std::iter::once(own).chain(other) {
+                let Some((left, right)) = self.x(from).zip(self.x(to)) else { continue };
+                canvas.tipped(
+                    "rect",
+                    &[
+                        ("x", &Px(left.min(right))),
+                        ("y", &Px(lane.top)),
+                        ("width", &Px((right - left).abs())),
+                        ("height", &Px(lane.height)),
+                        ("fill", &series.colour.hex()),
+                    ],
+                    &self.chart.bar_in_words(self.cell.panel, &lane.series.name, &bar),
+                );
+            }
         }
         canvas.close("g");
     }
@@ -119,6 +123,9 @@ impl<'a> Sheet<'a> {
                     ("width", &Px((right - left - TILE_GAP).max(1.0))),
                     ("height", &Px(self.layout.rows.bars)),
                     ("fill", &colour.hex()),
+                    // The lightest shades are told from the paper by it.
+                    ("stroke", &MUTED),
+                    ("stroke-width", &"0.6"),
                 ],
                 tip.trim_end(),
             );
@@ -190,7 +197,8 @@ impl<'a> Sheet<'a> {
             let baseline = lane.upper() + VALUE.cap_height() / 2.0;
             let (end, label, fill) = match lane.bar.drawn() {
                 Some(bar) => (bar.right(), lane.bar.label.as_str(), INK),
-                None => (self.cell.panel.base(), "no value", MUTED),
+                None if lane.bar.label.is_empty() => (self.cell.panel.base(), "no value", MUTED),
+                None => (self.cell.panel.base(), lane.bar.label.as_str(), MUTED),
             };
             if let Some(x) = self.x(end).filter(|_| !label.is_empty()) {
                 canvas.text(&Text::new(label, (x + TEXT_GAP, baseline), VALUE).fill(fill).halo());
@@ -220,9 +228,9 @@ impl<'a> Sheet<'a> {
         if is_empty {
             canvas.text(&Text::new("no value", (self.plot.left + TEXT_GAP, baseline), VALUE).fill(MUTED));
         }
-        if self.layout.page == ChartWidth::Narrow {
+        if self.layout.page.is_narrow() {
             // Each as long as the other leaves room; with a white rim, since a rule may run through them.
-            let page = ChartWidth::Narrow.px();
+            let page = self.layout.page.px();
             let room = page - 2.0 * MARGIN - 2.0 * TEXT_GAP;
             let name_line = shorten(name, room - VALUE.width(note).min(room / 2.0), TICK);
             let note_line = shorten(note, room - TICK.width(&name_line), VALUE);

@@ -4,6 +4,11 @@ use std::fmt::{Display, Formatter, Result, Write};
 
 use super::font::{Face, Weight};
 use super::style::{INK, PAPER};
+use crate::text::symbol;
+
+/// Size of a subscript, and how far it is lowered, in sizes of the text.
+const SUBSCRIPT: f64 = 0.75;
+const LOWERED: f64 = 0.22;
 
 /// A coordinate in px, written with at most two decimals.
 pub(super) struct Px(pub f64);
@@ -143,11 +148,39 @@ impl Canvas {
             attributes.push(("stroke-linejoin", &"round"));
         }
         self.start("text", &attributes);
-        self.push(format_args!(">{}", Escaped(text.content)));
+        self.out.push('>');
+        self.words(text);
         if let Some(whole) = text.whole {
             self.push(format_args!("<title>{}</title>", Escaped(whole)));
         }
         self.out.push_str("</text>\n");
+    }
+
+    /// The content of a text, where symbols such as `F_cr` have a lowered subscript.
+    fn words(&mut self, text: &Text) {
+        let is_word = |c: char| c.is_alphanumeric() || c == '_';
+        let (size, drop) = (SUBSCRIPT * text.face.size, LOWERED * text.face.size);
+        let (mut rest, mut is_lowered) = (text.content, false);
+        while !rest.is_empty() {
+            let end = match rest.find(is_word) {
+                Some(0) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
+                Some(start) => start,
+                None => rest.len(),
+            };
+            let (word, after) = rest.split_at(end);
+            let (letter, below) = symbol(word).unwrap_or((word, ""));
+            if is_lowered {
+                self.push(format_args!("<tspan dy=\"-{}\">{}</tspan>", Px(drop), Escaped(letter)));
+            } else {
+                self.push(format_args!("{}", Escaped(letter)));
+            }
+            is_lowered = !below.is_empty();
+            if is_lowered {
+                let (drop, size) = (Px(drop), Px(size));
+                self.push(format_args!("<tspan dy=\"{drop}\" font-size=\"{size}\">{}</tspan>", Escaped(below)));
+            }
+            rest = after;
+        }
     }
 
     fn start(&mut self, name: &str, attributes: Attributes) {
@@ -192,6 +225,23 @@ mod tests {
     use resvg::usvg::roxmltree::Document;
 
     #[test]
+    fn symbols_have_lowered_subscripts() {
+        let said = |text: &str| {
+            let mut canvas = Canvas::default();
+            canvas.text(&Text::new(text, (0.0, 0.0), Face::regular(10.0)));
+            canvas.into_string().split_once('>').map(|(_, rest)| rest.to_owned()).unwrap_or_default()
+        };
+        let lowered = |text: &str| format!("<tspan dy=\"2.2\" font-size=\"7.5\">{text}</tspan>");
+        let raised = |text: &str| format!("<tspan dy=\"-2.2\">{text}</tspan>");
+        assert_eq!(said("F_cr"), format!("F{}</text>\n", lowered("cr")));
+        assert_eq!(
+            said("(S_T, K_theta)"),
+            format!("(S{}{}K{}{}</text>\n", lowered("T"), raised(", "), lowered("θ"), raised(")"))
+        );
+        assert_eq!(said("my_file < 2"), "my_file &lt; 2</text>\n");
+    }
+
+    #[test]
     fn coordinates_are_short() {
         let written: Vec<_> = [1.0, -0.001, 2.50, 1.006, 100.0, -3.25].iter().map(|&v| Px(v).to_string()).collect();
         assert_eq!(written, ["1", "0", "2.5", "1.01", "100", "-3.25"]);
@@ -200,6 +250,8 @@ mod tests {
     proptest! {
         #[test]
         fn any_text_survives_as_text(text in any::<String>()) {
+            // Symbols are in parts.
+            let text = text.replace('_', " ");
             let mut canvas = Canvas::default();
             canvas.open("g", &[("class", &text)]);
             canvas.text(&Text::new(&text, (0.0, 1.0), Face::bold(9.0)).turn(-90.0).halo().whole("all"));

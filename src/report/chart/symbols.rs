@@ -1,6 +1,6 @@
 //! The small symbols of data, the same in a plot and in its legend.
 
-use super::palette::Colour;
+use super::palette::{Colour, DOTS_OPACITY};
 use super::style::{INK, PAPER};
 use super::svg::{Canvas, Px};
 
@@ -40,9 +40,9 @@ impl Canvas {
                 ("d", &d),
                 ("fill", &"none"),
                 ("stroke", &colour.hex()),
-                ("stroke-width", &"2.8"),
+                ("stroke-width", &"2.4"),
                 ("stroke-linecap", &"round"),
-                ("stroke-opacity", &"0.4"),
+                ("stroke-opacity", &DOTS_OPACITY),
             ],
         );
     }

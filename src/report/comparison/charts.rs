@@ -4,11 +4,12 @@ use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparisonFile};
 use crate::report::Drawing;
 use crate::report::chart::{Chart, Colour, Panel, Series};
-use crate::report::factor_bars::{INDEX, IndexSeries, both_orders, index_panel, label, left_out};
+use crate::report::factor_bars::{INDEX, IndexSeries, both_orders, index_panel, left_out};
 use crate::report::file_stems;
-use crate::report::format::{sentence, the};
+use crate::report::format::{index, name};
+use crate::report::result::EstimateRecord;
 
-/// For every output its indices side by side, then the differences. Of more than 30 factors, those with the largest total
+/// For every output its indices side by side, then the differences. Of more than 21 factors, those with the largest total
 /// indices in either result.
 pub fn comparison_charts(file: &ComparisonFile) -> Vec<Drawing> {
     let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
@@ -30,7 +31,7 @@ fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
             [(Series::new(&file.a.label, Colour::Series(1)), a), (Series::new(&file.b.label, Colour::Series(0)), b)];
         ranked(&factors, INDEX, series).titled(title)
     };
-    let title = format!("Indices of {}: {} and {}", the(&output.name), file.a.label, file.b.label);
+    let title = format!("Indices of {}: {} and {}", name(&output.name), file.a.label, file.b.label);
     let panels =
         [panel("First-order indices", |factor| &factor.first_order), panel("Total indices", |factor| &factor.total)];
     Chart::new(title, caption(output)).side_by_side().panels(panels)
@@ -41,8 +42,8 @@ fn differences(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
     let shared = if file.shared_points { " Both use the same points: the intervals are rather too wide." } else { "" };
     let first_order = factors.iter().map(|factor| factor.first_order.difference).collect();
     let total = factors.iter().map(|factor| factor.total.difference).collect();
-    let label = "difference (percentage points of the variance)";
-    let title = format!("Indices of {}: {} minus {}", the(&output.name), file.b.label, file.a.label);
+    let label = "difference: parts of the variance";
+    let title = format!("Indices of {}: {} minus {}", name(&output.name), file.b.label, file.a.label);
     Chart::new(title, caption(output) + shared).panels([ranked(&factors, label, both_orders(first_order, total))])
 }
 
@@ -54,7 +55,7 @@ fn single_factors(output: &ComparedOutput) -> Vec<&ComparedFactor> {
 /// A panel in the order of the larger total indices, the same in both charts.
 fn ranked(factors: &[&ComparedFactor], label_of_axis: &str, series: [IndexSeries; 2]) -> Panel {
     let keys: Vec<f64> = factors.iter().map(|factor| larger_total(factor)).collect();
-    index_panel(label_of_axis, factors.iter().map(|factor| label(&factor.name)).collect(), series, &keys)
+    index_panel(label_of_axis, factors.iter().map(|factor| name(&factor.name)).collect(), series, &keys)
 }
 
 fn larger_total(factor: &ComparedFactor) -> f64 {
@@ -69,7 +70,7 @@ fn caption(output: &ComparedOutput) -> String {
     let mut caption = match largest {
         None => {
             let reason = output.reasons.iter().flatten().next().map_or("no factor is in both", String::as_str);
-            return format!("No differences of {}: {reason}.", the(&output.name));
+            return format!("No differences of {}: {reason}.", name(&output.name));
         }
         Some((_, change)) if change.estimate == 0.0 => "No total index differs".to_owned(),
         Some((factor, change)) => {
@@ -80,12 +81,24 @@ fn caption(output: &ComparedOutput) -> String {
                 None => "",
             };
             format!(
-                "The total index of {} differs most: it {verb} by {:.1} percentage points{certain}",
-                the(&factor.name),
-                100.0 * change.estimate.abs()
+                "The total index of {} differs most: it {verb} by {}{certain}",
+                name(&factor.name),
+                index(size(change))
             )
         }
     };
     caption.push('.');
-    sentence(&(caption + &left_out(singles.len())))
+    caption + &left_out(singles.len())
+}
+
+/// How much a change is, whatever its sign.
+fn size(change: EstimateRecord) -> EstimateRecord {
+    match change.estimate < 0.0 {
+        true => EstimateRecord {
+            estimate: -change.estimate,
+            low: change.high.map(|high| -high),
+            high: change.low.map(|low| -low),
+        },
+        false => change,
+    }
 }

@@ -5,7 +5,7 @@ use super::record::{ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile
 use super::{comparison_charts, comparison_json};
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table, Value};
-use crate::report::format::{give_or_take, heading, name, significant, the};
+use crate::report::format::{give_or_take, heading, name, significant};
 use crate::report::leading::{Contender, may_lead};
 use crate::report::listed;
 use crate::report::result::EstimateRecord;
@@ -103,11 +103,11 @@ fn leaders(output: &ComparedOutput) -> String {
         let names: Vec<&str> = may_lead(&known).into_iter().map(|place| known[place].label.as_str()).collect();
         match &names[..] {
             [] => None,
-            [one] => Some(format!("{} has the largest total index", the(one))),
+            [one] => Some(format!("{one} has the largest total index")),
             several => Some(format!("{} cannot be told apart by their total indices", listed(several))),
         }
     };
-    let output_name = the(&output.name);
+    let output_name = name(&output.name);
     match (leaders(|f| f.total.a), leaders(|f| f.total.b)) {
         (Some(a), Some(b)) if a == b => format!("For {output_name}, {a} in both."),
         (Some(a), Some(b)) => format!("For {output_name}, {a} in A; {b} in B."),

@@ -2,22 +2,19 @@
 
 use super::OutputDistribution;
 use crate::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
-use crate::report::format::the;
+use crate::report::format::{axis_unit, minus, name};
 use crate::report::significant;
 
 /// The distribution of an output: the histogram as a light area of steps, the kernel density as a line, and marks at the
 /// mean and at the 2.5, 50 and 97.5 % quantiles. A constant output has its mark alone.
 pub fn density_chart(distribution: &OutputDistribution, title: &str, output: &str) -> Chart {
-    let symbol = match distribution.unit.symbol() {
-        "1" => "",
-        symbol => symbol,
-    };
-    let per_unit = match symbol {
+    let symbol = &axis_unit(distribution.unit.symbol());
+    let per_unit = match symbol.as_str() {
         "" => String::new(),
         simple if simple.chars().all(char::is_alphabetic) => format!("1/{simple}"),
         product => format!("1/({product})"),
     };
-    let panel = Panel::new(Axis::new(output, symbol), Axis::new("probability density", per_unit));
+    let panel = Panel::new(Axis::new(output, symbol.as_str()), Axis::new("probability density", per_unit));
     let panel = panel.with(curves(distribution)).with(rules(distribution));
     Chart::new(title, caption(distribution, output, symbol)).panels([panel])
 }
@@ -73,14 +70,14 @@ fn inside(x: f64, edges: &[f64]) -> bool {
 /// Four significant digits, with a true minus sign.
 fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    significant(rounded).replace('-', "\u{2212}")
+    minus(&significant(rounded))
 }
 
 /// What is seen, in one sentence.
 fn caption(distribution: &OutputDistribution, output: &str, symbol: &str) -> String {
     let unit = if symbol.is_empty() { String::new() } else { format!(" {symbol}") };
     let n = distribution.count;
-    let output = the(output);
+    let output = name(output);
     let (Some(histogram), Some(low), Some(high)) =
         (&distribution.histogram, distribution.quantile(2.5), distribution.quantile(97.5))
     else {

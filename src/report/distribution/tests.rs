@@ -136,8 +136,7 @@ fn charts_draw_every_kind_of_sample() {
         assert!(png(&svg).is_ok());
     }
     let svg = density_chart(&of(&normal(500)), "Distribution", "force").svg().unwrap();
-    for text in ["2.5 % \u{2212}1.9", "median", "mean", "97.5 % 1.9", "95 % of the 500 values of the force lie between"]
-    {
+    for text in ["2.5 % \u{2212}1.9", "median", "mean", "97.5 % 1.9", "95 % of the 500 values of force lie between"] {
         assert!(svg.contains(text), "{text}");
     }
 }

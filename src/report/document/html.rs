@@ -84,6 +84,8 @@ struct TableView {
     label: String,
     header: Vec<(String, bool)>,
     rows: Vec<Vec<CellView>>,
+    /// Whether the last row is that of the sums, which stays where it is.
+    has_sum: bool,
     stack: &'static str,
 }
 
@@ -238,6 +240,7 @@ fn table_view(table: &Table) -> TableView {
         label: clean(&table.caption),
         header: header.collect(),
         rows: table.printed_rows().into_iter().map(row).collect(),
+        has_sum: !table.sums.is_empty(),
         stack: match table.on_phone {
             OnPhone::Scroll => "",
             OnPhone::Stack => " stack",
@@ -249,7 +252,7 @@ fn table_view(table: &Table) -> TableView {
 fn cell_view(cell: &Cell, numeric: bool) -> CellView {
     CellView {
         heading: String::new(),
-        html: if numeric { number(&cell.text) } else { symbols(&cell.text) },
+        html: if numeric { symbols(&minus(&cell.text)) } else { symbols(&cell.text) },
         numeric,
         mark: cell.mark.class(),
         symbol: cell.mark.symbol(),
@@ -257,40 +260,6 @@ fn cell_view(cell: &Cell, numeric: bool) -> CellView {
         note: symbols(&cell.note),
         links: link_views(&cell.links),
     }
-}
-
-/// A text of numbers with true minus signs and powers of ten.
-fn number(text: &str) -> String {
-    let mut html = String::with_capacity(text.len());
-    for (place, word) in text.split(' ').enumerate() {
-        if place > 0 {
-            html.push(' ');
-        }
-        let digits = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
-        let core = word.trim_start_matches(['[', '(', '-', '<']).trim_end_matches([']', ')', ',']);
-        match core.split_once('e').filter(|(mantissa, power)| {
-            mantissa.starts_with(|c: char| c.is_ascii_digit()) && digits(power.trim_start_matches('-'))
-        }) {
-            Some((mantissa, power)) => {
-                let (before, after) = word.split_once(core).unwrap_or_default();
-                html.push_str(&format!("{before}{mantissa}\u{a0}×\u{a0}10^{power}{after}"));
-            }
-            None => html.push_str(word),
-        }
-    }
-    let html = symbols(&minus(&html));
-    raised(&html)
-}
-
-/// Powers of ten as superscripts.
-fn raised(html: &str) -> String {
-    let mut parts = html.split("10^");
-    let mut raised = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let end = part.find(|c: char| !(c.is_ascii_digit() || c == '−')).unwrap_or(part.len());
-        raised.push_str(&format!("10<sup>{}</sup>{}", &part[..end], &part[end..]));
-    }
-    raised
 }
 
 impl Mark {

@@ -255,7 +255,7 @@ impl Section {
 impl Part {
     /// Warnings, each a sentence that begins with a small letter and has no full stop.
     pub(crate) fn warnings(warnings: &[String]) -> Option<Self> {
-        let texts = warnings.iter().map(|warning| format!("{}.", crate::report::capitalised(warning))).collect();
+        let texts = warnings.iter().map(|warning| format!("{}.", of_sentence(warning))).collect();
         let kind = "Warning".to_owned();
         (!warnings.is_empty()).then_some(Self::Notice { mark: Mark::Mixed, kind, texts })
     }
@@ -263,6 +263,16 @@ impl Part {
     /// A sentence that says why there are no indices.
     pub(crate) fn no_indices(text: String) -> Self {
         Self::Notice { mark: Mark::Bad, kind: "No indices".to_owned(), texts: vec![text] }
+    }
+}
+
+/// A text as a sentence: names before a colon, as of a factor or a flag, have no capital.
+fn of_sentence(text: &str) -> String {
+    match text.split_once(": ") {
+        Some((name, _)) if !name.contains(' ') || name.ends_with(" runs)") || name.ends_with("(1 run)") => {
+            text.to_owned()
+        }
+        _ => crate::report::capitalised(text),
     }
 }
 

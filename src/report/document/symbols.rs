@@ -1,25 +1,7 @@
 //! Plain text as HTML: symbols with subscripts, numbers that stay with their units, and nothing that could break out.
 
 use crate::quantity::Unit;
-
-/// Most letters and digits of a subscript; what is longer is a name, unless it is that of a Greek letter.
-const LONGEST_SUBSCRIPT: usize = 4;
-
-/// Names that stand for a letter in a subscript.
-const GREEK: [(&str, &str); 12] = [
-    ("theta", "θ"),
-    ("phi", "φ"),
-    ("psi", "ψ"),
-    ("alpha", "α"),
-    ("beta", "β"),
-    ("gamma", "γ"),
-    ("delta", "δ"),
-    ("sigma", "σ"),
-    ("omega", "ω"),
-    ("lambda", "λ"),
-    ("mu", "μ"),
-    ("tau", "τ"),
-];
+use crate::text::{is_letter as letter, subscript};
 
 /// `text` as HTML that may stand in an element or in a quoted attribute's place of text.
 ///
@@ -60,10 +42,8 @@ fn prose(text: &str) -> String {
     while at < letters.len() {
         match symbol(&letters, at) {
             Some(end) => {
-                let subscript: String = letters[at + 2..end].iter().collect();
-                let greek = GREEK.iter().find(|(name, _)| *name == subscript);
-                let subscript = greek.map_or(subscript.as_str(), |(_, letter)| letter);
-                html.push_str(&format!("<var>{}</var><sub>{subscript}</sub>", letters[at]));
+                let below: String = letters[at + 2..end].iter().collect();
+                html.push_str(&format!("<var>{}</var><sub>{}</sub>", letters[at], subscript(&below).unwrap_or(&below)));
                 at = end;
             }
             None => {
@@ -86,8 +66,8 @@ fn symbol(letters: &[char], at: usize) -> Option<usize> {
     }
     let length = letters[at + 2..].iter().take_while(|c| letter(**c) || c.is_ascii_digit()).count();
     let end = at + 2 + length;
-    let subscript: String = letters[at + 2..end].iter().collect();
-    let short = (1..=LONGEST_SUBSCRIPT).contains(&length) || GREEK.iter().any(|(name, _)| *name == subscript);
+    let below: String = letters[at + 2..end].iter().collect();
+    let short = subscript(&below).is_some();
     let continued = match letters.get(end) {
         None => false,
         Some('.' | '-' | '/' | '\\') => {
@@ -101,10 +81,6 @@ fn symbol(letters: &[char], at: usize) -> Option<usize> {
 /// Whether a slash at `at` divides by another symbol, as in `S_1/S_T`.
 fn slash_symbol(letters: &[char], at: usize) -> bool {
     letters[at] == '/' && letters.get(at + 2) == Some(&'_')
-}
-
-fn letter(c: char) -> bool {
-    c.is_ascii_alphabetic() || matches!(c, 'Α'..='Ω' | 'α'..='ω' | 'ϕ' | 'ϑ' | 'µ')
 }
 
 /// Numbers joined to their units by no-break spaces, and what stands about `±` to it.
@@ -130,7 +106,22 @@ fn starts_with_unit(text: &str) -> bool {
     let word = text.split([' ', ',', ';', ':', ')', ']']).next().unwrap_or_default().trim_end_matches('.');
     let word = word.trim_end_matches(['?', '!']);
     // A unit that begins with a digit is none in a sentence.
-    word.starts_with(|c: char| !c.is_ascii_digit()) && Unit::parse(word).is_ok_and(|unit| !unit.symbol().is_empty())
+    word.starts_with(|c: char| !c.is_ascii_digit())
+        && Unit::parse(&typed(word)).is_ok_and(|unit| !unit.symbol().is_empty())
+}
+
+/// A unit with raised digits as it is typed.
+fn typed(unit: &str) -> String {
+    let digit = |c: char| match c {
+        '⁻' => '-',
+        '·' => '*',
+        '¹' => '1',
+        '²' => '2',
+        '³' => '3',
+        '⁴'..='⁹' => char::from(b'4' + (u32::from(c) - u32::from('⁴')) as u8),
+        _ => c,
+    };
+    unit.chars().map(digit).collect()
 }
 
 /// Text without control characters (line ends and tabs stay) and without those that turn the direction of writing.
@@ -213,6 +204,7 @@ mod tests {
     #[test]
     fn numbers_keep_their_units() {
         let cases = [
+            ("5 µm, 2 J/m²", "5\u{a0}µm, 2\u{a0}J/m²"),
             ("631 nN, 5 J/m2", "631\u{a0}nN, 5\u{a0}J/m2"),
             ("-0.5 um (2 %)", "-0.5\u{a0}um (2\u{a0}%)"),
             ("0.5 ± 0.2", "0.5\u{a0}±\u{a0}0.2"),

@@ -2,10 +2,11 @@
 
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord};
 use crate::report::chart::{Chart, Colour, Series};
-use crate::report::factor_bars::{INDEX, MOST, index_panel};
-use crate::report::leading::{Contender, may_lead, names, percent};
+use crate::report::factor_bars::{INDEX, index_panel, left_out};
+use crate::report::format::percent;
+use crate::report::leading::{Contender, may_lead, names};
 
-/// The indices of one output in percent of its variance, one bar per input and method, with their intervals; the input of
+/// The indices of one output as parts of its variance, one bar per input and method, with their intervals; the input of
 /// the largest index on top, of the largest total index where there are any.
 pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
     let indices = output.indices.as_deref().unwrap_or_default();
@@ -24,13 +25,10 @@ pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
     ];
     let used = series.into_iter().filter(|(_, values)| values.iter().any(Option::is_some));
     let inputs: Vec<String> = indices.iter().map(|index| index.input.clone()).collect();
-    let beyond = match inputs.len().saturating_sub(MOST) {
-        0 => String::new(),
-        more => format!(" {more} inputs of smaller index are not shown."),
-    };
+    let beyond = left_out(inputs.len());
     let (axis, title) = match served {
         Some(_) => (INDEX, "Indices"),
-        None => ("first-order index (% of the variance)", "First-order indices"),
+        None => ("first-order index: part of the variance", "First-order indices"),
     };
     let panel = index_panel(axis, inputs, used, &keys);
     Chart::new(format!("{title} of {}", output.name), caption(result, output) + &beyond).panels([panel])
@@ -47,14 +45,14 @@ fn caption(result: &GivenFile, output: &GivenOutputRecord) -> String {
     let from = format!("From {} given rows", result.table.rows);
     match (&may_lead(&known)[..], &output.reason) {
         ([lead], _) if known[*lead].total.estimate > 0.0 => {
-            let (input, share) = (&known[*lead].label, percent(known[*lead].total.estimate));
+            let (input, share) = (&known[*lead].label, percent(known[*lead].total));
             format!("{from}: of all inputs, {input} alone explains most of {}, {share} of its variance.", output.name)
         }
         ([lead, ..], _) if known[*lead].total.estimate <= 0.0 => {
             format!("{from}: no input alone explains a part of {} that can be told from 0.", output.name)
         }
         (leaders @ [_, ..], _) => {
-            let share = |contender: &Contender| percent(contender.total.estimate);
+            let share = |contender: &Contender| percent(contender.total);
             let names = names(&known, leaders, &share);
             format!(
                 "{from}: which input alone explains most of {} cannot be told apart: {names} of its variance.",

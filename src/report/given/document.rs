@@ -8,7 +8,7 @@ use crate::report::csv::Field;
 use crate::report::distribution::OutputDistribution;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::file_stems;
-use crate::report::format::{estimate, first, fixed, significant};
+use crate::report::format::{index, name as words, significant};
 use crate::report::records::json;
 use crate::report::result::EstimateRecord;
 
@@ -22,11 +22,11 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
     let mut lead = Vec::new();
     for (place, (output, stem)) in result.outputs.iter().zip(stems).enumerate() {
         let chart = given_chart(result, output);
-        lead.push(chart.caption().to_owned());
+        lead.push(format!("{}{}", chart.caption(), left(output)));
         let figure = Figure::new(place + 1, chart, stem, data_name(name));
         let mut parts = output_parts(output, index_table(result, output, name));
         parts.push(figure.into());
-        sections.push(Section::new(&format!("output-{}", place + 1), &first(&output.name), parts));
+        sections.push(Section::new(&format!("output-{}", place + 1), &words(&output.name), parts));
     }
     sections.extend(measures::section(result, name, result.outputs.len()));
     let notes = result.notes.iter().map(|note| format!("{}.", crate::report::capitalised(note))).collect();
@@ -48,6 +48,19 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
         files,
         ..Document::default()
     }
+}
+
+/// What the first-order indices leave of the variance, of which given data cannot say what it is.
+fn left(output: &GivenOutputRecord) -> String {
+    let sum = output.served().map(|of| of.sum_first_order).or(output.sum_first_order);
+    sum.map_or_else(String::new, |sum| {
+        let missing = if sum < 1.0 {
+            "what is missing to 1 may be interactions, noise, or inputs that are not there"
+        } else {
+            "beyond 1 by error, or by inputs that go together"
+        };
+        format!(" The first-order indices sum to {}: {missing}.", three(sum))
+    })
 }
 
 fn data_name(name: &str) -> String {
@@ -83,6 +96,11 @@ pub(in crate::report) fn moments(distribution: &OutputDistribution) -> String {
     }
 }
 
+/// Three digits of a number without an error.
+fn three(estimate: f64) -> String {
+    index(EstimateRecord { estimate, low: None, high: None })
+}
+
 fn index_table(result: &GivenFile, output: &GivenOutputRecord, name: &str) -> Table {
     let all = || result.outputs.iter().flat_map(|output| output.indices.iter().flatten());
     let (ranks, bins) = (all().any(|index| index.rank.is_some()), all().any(|index| index.binned.is_some()));
@@ -107,7 +125,7 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord, name: &str) -> Ta
         ]);
     }
     let cell = |record: Option<EstimateRecord>| {
-        Cell::valued(record.map_or_else(String::new, |record| estimate(record, 3)), Value::Estimate(record))
+        Cell::valued(record.map_or_else(String::new, |record| index(record)), Value::Estimate(record))
     };
     let row = |(number, index): (usize, &GivenIndexRecord)| {
         let bins = index.binned.map_or(Value::Empty, |binned| binned.bins.into());
@@ -130,12 +148,12 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord, name: &str) -> Ta
         row
     };
     // The sum is that of the leading estimates, by ranks where there are any.
-    let sum: Cell = output.sum_first_order.map_or_else(String::new, |sum| fixed(sum, 3)).into();
+    let sum: Cell = output.sum_first_order.map_or_else(String::new, |sum| three(sum)).into();
     let of_method = if ranks { [sum, Cell::default()] } else { [Cell::default(), sum] };
     let names: [Cell; 2] = [Cell::default(), "sum".into()];
     let mut sums: Vec<Cell> = names.into_iter().chain(of_method).chain([Cell::default()]).collect();
     if asked {
-        let sum = output.served().map_or_else(String::new, |of| fixed(of.sum_first_order, 3));
+        let sum = output.served().map_or_else(String::new, |of| three(of.sum_first_order));
         sums.extend([sum.into(), Cell::default(), Cell::default()]);
     }
     let rows = output.indices.iter().flatten().enumerate().map(row);
@@ -160,8 +178,8 @@ fn table_parts(result: &GivenFile) -> Vec<Part> {
         let (a, b) = &dependence.inputs;
         text.push_str(&format!(
             " Largest rank correlation between inputs: {} (`{a}`, `{b}`); chance reaches {}.",
-            fixed(dependence.spearman, 3),
-            fixed(dependence.noise, 3)
+            three(dependence.spearman),
+            three(dependence.noise)
         ));
     }
     let mut rows = vec![

@@ -10,7 +10,7 @@ use crate::report::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, Figure, Part, Section, Table, Value};
 use crate::report::factor_bars::MOST;
-use crate::report::format::{estimate, fixed};
+use crate::report::format::{fixed, index as of_error};
 use crate::report::records::estimate_record;
 use crate::report::result::EstimateRecord;
 
@@ -133,7 +133,7 @@ fn table(output: &GivenOutputRecord, inputs: &[GivenMeasuresRecord], name: &str)
         for measure in Measure::ALL {
             let found = of.get(measure);
             let said = found.map_or_else(String::new, |found| match found.estimate.low {
-                Some(_) => estimate(found.estimate, 3),
+                Some(_) => of_error(found.estimate),
                 None => fixed(found.estimate.estimate, 3),
             });
             let said = if of.may_be_chance(measure) { format!("({said})") } else { said };

@@ -1,10 +1,9 @@
 //! How the indices settled.
 
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
-use super::super::factor_bars::label;
-use super::super::format::the;
+use super::super::format::name as label;
+use super::super::format::{name, two_digits};
 use super::super::result::{EstimateRecord, OutputRecord, ResultFile, StageIndexRecord, StageRecord};
-use super::super::significant;
 use super::headline;
 
 /// Factors with a line of their own.
@@ -24,18 +23,17 @@ pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let totals = panel("Total indices with their 95 % intervals", axis("total index", Spacing::Linear)).with(totals);
     let widths = panel("Half widths of the intervals of the total indices", axis("half width", Spacing::Logarithmic))
         .with(widths);
-    let title = format!("{}: how the indices of {} settled", headline(result), the(&output.name));
+    let title = format!("{}: how the indices of {} settled", headline(result), name(&output.name));
     Chart::new(title, caption(result, output, factors.len()))
         .panels([totals, widths.with(references.into_iter().flatten())])
 }
 
-/// Numbers of the factors with the largest total indices, in the order of the study.
+/// Numbers of the factors with the largest total indices, these first.
 fn largest(output: &OutputRecord) -> Vec<usize> {
     let Some(indices) = &output.indices else { return Vec::new() };
     let mut order: Vec<usize> = (0..indices.len()).collect();
     order.sort_by(|&a, &b| indices[b].effect.total.estimate.total_cmp(&indices[a].effect.total.estimate));
     order.truncate(LINES);
-    order.sort_unstable();
     order
 }
 
@@ -86,9 +84,9 @@ fn caption(result: &ResultFile, output: &OutputRecord, lines: usize) -> String {
     };
     let mut caption = match last.largest_half_width {
         Some(width) => format!(
-            "After {} model runs every first-order and total index is known to {} or better",
+            "After {} model runs every first-order and total index is known to ± {} or better",
             last.model_runs,
-            significant(format!("{width:.1e}").parse().unwrap_or(width))
+            two_digits(width)
         ),
         None => format!("After {} model runs there are indices without an interval", last.model_runs),
     };

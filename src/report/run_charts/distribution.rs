@@ -2,18 +2,18 @@
 
 use super::super::chart::{Axis, Chart, Panel};
 use super::super::distribution::density_chart;
-use super::super::format::{the, words};
+use super::super::format::{name, words};
 use super::super::result::{OutputRecord, ResultFile};
 use super::headline;
 
 /// The distribution of an output; without values, the reason.
 pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
-    let title = format!("{}: distribution of {}", headline(result), the(&output.name));
+    let title = format!("{}: distribution of {}", headline(result), name(&output.name));
     let output_words = words(&output.name);
     if let Some(distribution) = &output.distribution {
         return density_chart(&distribution.sample, &title, &output_words);
     }
     let reason = output.reason.as_deref().unwrap_or("its values are beyond double precision in this unit");
     let panel = Panel::new(Axis::new(output_words, ""), Axis::new("probability density", ""));
-    Chart::new(title, format!("No distribution of {}: {reason}.", the(&output.name))).panels([panel])
+    Chart::new(title, format!("No distribution of {}: {reason}.", name(&output.name))).panels([panel])
 }

@@ -1,9 +1,9 @@
 //! The indices themselves: first order beside total, and total against first order.
 
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Point, Series, Shape};
-use super::super::factor_bars::{INDEX, MOST, both_orders, index_panel, label, left_out};
-use super::super::format::{sentence, the};
-use super::super::leading::{Contender, decides_most, may_lead, names, percent};
+use super::super::factor_bars::{INDEX, MOST, both_orders, index_panel, left_out, not_drawn, pair_panel};
+use super::super::format::{index, name};
+use super::super::leading::{Contender, decides_most, may_lead, names};
 use super::super::result::{IndexRecord, OutputRecord, ResultFile};
 use super::{headline, no_indices};
 use crate::text::listed;
@@ -16,30 +16,33 @@ const TOGETHER: f64 = 0.5;
 /// Points with a total index below this part of the largest are not told apart from the origin.
 const VISIBLE: f64 = 0.02;
 
-/// First-order and total index of every factor, in percent of the output's variance, with their intervals; the largest
-/// total index on top. Of more than 30 factors, the first 30.
+/// First-order and total index of every factor, as parts of the output's variance, with their intervals; the largest total
+/// index on top. Of more than 21 factors, the first 20, and the sums of the others.
 pub fn indices_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let indices: Vec<&IndexRecord> = output.indices.iter().flatten().collect();
-    let names = indices.iter().map(|index| label(&index.factor));
-    let names = names.chain(output.noise.iter().map(|noise| format!("noise ({})", label(&noise.name))));
+    let names = indices.iter().map(|index| name(&index.factor));
+    let names = names.chain(output.noise.iter().map(|noise| format!("noise ({})", name(&noise.name))));
     let effects = || indices.iter().map(|index| &index.effect).chain(output.noise.iter().map(|noise| &noise.effect));
     let (factors, first_order) = (names.collect(), effects().map(|effect| Some(effect.first_order)).collect());
     let total = effects().map(|effect| Some(effect.total)).collect();
     let keys: Vec<f64> = effects().map(|effect| effect.weight().estimate).collect();
-    let mut series = both_orders(first_order, total);
-    if indices.iter().any(|index| index.effect.dependent.is_some()) {
-        let names = ["first order: with all that it tells of others", "total: what it has on its own"];
-        series.iter_mut().zip(names).for_each(|((series, _), name)| series.name = name.to_owned());
-    }
-    let panel = index_panel(INDEX, factors, series, &keys);
-    let title = format!("{}: indices of {}", headline(result), the(&output.name));
+    let panel = match indices.iter().any(|index| index.effect.dependent.is_some()) {
+        true => {
+            let mut series = both_orders(first_order, total);
+            let names = ["S_1, first order: with all that it tells of others", "S_T, total: what it has on its own"];
+            series.iter_mut().zip(names).for_each(|((series, _), name)| series.name = name.to_owned());
+            index_panel(INDEX, factors, series, &keys)
+        }
+        false => pair_panel(factors, first_order, total, &keys),
+    };
+    let title = format!("{}: indices of {}", headline(result), name(&output.name));
     Chart::new(title, indices_caption(output)).panels([panel])
 }
 
-/// Every factor (at most 30, those with the largest total indices) by its first-order and its total index: on the dashed
+/// Every factor (at most 20, those with the largest total indices) by its first-order and its total index: on the dashed
 /// line it acts alone, above it together with others.
 pub fn interactions_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
-    let title = format!("{}: what acts on {} alone, what together", headline(result), the(&output.name));
+    let title = format!("{}: what acts on {} alone, what together", headline(result), name(&output.name));
     let is_dependent = output.indices.iter().flatten().any(|index| index.effect.dependent.is_some());
     let drawn = if is_dependent { Vec::new() } else { drawn(output) };
     let largest = drawn.iter().map(|index| index.effect.total.estimate).fold(0.0, f64::max);
@@ -50,14 +53,14 @@ pub fn interactions_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
             x: x.estimate,
             y: y.estimate,
             // At the origin points lie on one another: a label would stand for any of them. The caption names them.
-            label: if y.estimate > VISIBLE * largest { label(&index.factor) } else { String::new() },
+            label: if y.estimate > VISIBLE * largest { name(&index.factor) } else { String::new() },
             x_interval: x.low.zip(x.high),
             y_interval: y.low.zip(y.high),
         }))
     };
-    let x = Axis::new("first-order index S1: what the factor does alone", "");
-    let y = Axis::new("total index ST: with all its interactions", "");
-    let panel = Panel::new(x, y).with(drawn.iter().map(point)).with([Mark::slope(1.0, "ST = S1")]);
+    let x = Axis::new("first-order index S_1: what the factor does alone", "");
+    let y = Axis::new("total index S_T: with all its interactions", "");
+    let panel = Panel::new(x, y).with(drawn.iter().map(point)).with([Mark::slope(1.0, "S_T = S_1")]);
     let caption = match is_dependent {
         true => "Of factors that depend on each other no interactions can be told from their dependence.".to_owned(),
         false => interactions_caption(result, output),
@@ -79,33 +82,33 @@ fn drawn(output: &OutputRecord) -> Vec<&IndexRecord> {
 fn indices_caption(output: &OutputRecord) -> String {
     let indices = || output.indices.iter().flatten();
     let contender = |index: &IndexRecord| Contender {
-        label: the(&index.factor),
+        label: name(&index.factor),
         first_order: Some(index.effect.first_order),
         total: index.effect.weight(),
         probability: index.effect.probability_first,
     };
     let contenders: Vec<Contender> = indices().map(contender).collect();
     if indices().any(|index| index.effect.dependent.is_some()) {
-        return dependent_caption(&contenders, &the(&output.name)) + &left_out(indices().count());
+        return dependent_caption(&contenders, &name(&output.name)) + &left_out(indices().count());
     }
-    let Some(mut caption) = decides_most(&contenders, &the(&output.name)) else { return no_indices(output) };
+    let Some(mut caption) = decides_most(&contenders, &name(&output.name)) else { return no_indices(output) };
     // A sum below one of its parts, or one that may be 0, says nothing but that the errors are large.
     let largest = indices().map(|index| index.effect.first_order.estimate).fold(0.0, f64::max);
     let sum = output.sum_first_order.filter(|_| output.noise.is_none());
     let sum = sum.filter(|sum| sum.estimate >= largest && sum.low.is_none_or(|low| low > 0.0));
     if let Some(sum) = sum {
-        caption.push_str(&format!("; all factors alone explain {}", percent(sum.estimate)));
+        caption.push_str(&format!("; the first-order indices sum to {}", index(sum)));
     }
     caption + "." + &left_out(indices().count())
 }
 
 /// Who leads among factors that depend on each other: by the share of each, of the variance or of what is left without it.
 fn dependent_caption(contenders: &[Contender], output: &str) -> String {
-    let value = |contender: &Contender| percent(contender.total.estimate);
+    let value = |contender: &Contender| index(contender.total);
     match may_lead(contenders)[..] {
         [lead] => format!(
-            "{} has the largest part of the variance of {output}: {}.",
-            sentence(&contenders[lead].label),
+            "For {output}, {} has the largest part of the variance: {}.",
+            contenders[lead].label,
             value(&contenders[lead])
         ),
         ref tied => format!("Which has the largest part cannot be told: {}.", names(contenders, tied, &value)),
@@ -149,17 +152,14 @@ fn interactions_caption(result: &ResultFile, output: &OutputRecord) -> String {
         _ => said.push(format!("{} have a total index of at most {threshold}", named(&idle))),
     }
     let text = said.join("; ");
-    // A symbol at the beginning keeps its letter.
-    let symbol = kinds.iter().flatten().next().is_some_and(|name| text.starts_with(name) && sentence(name) == **name);
-    let text = if symbol { text } else { sentence(&text) };
-    text + "." + &left_out(indices.len())
+    format!("For {}, {text}.{}", name(&output.name), not_drawn(indices.len(), MOST))
 }
 
 /// Factors as words; their number, if they are many.
 fn named(names: &[&str]) -> String {
     match names {
         _ if names.len() > MOST_NAMES => format!("{} factors", names.len()),
-        [only] => the(&label(only)),
-        _ => listed(&names.iter().map(|name| label(name)).collect::<Vec<_>>()),
+        [only] => name(only),
+        _ => listed(&names.iter().map(|own| name(own)).collect::<Vec<_>>()),
     }
 }

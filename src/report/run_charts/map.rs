@@ -1,7 +1,7 @@
 //! Many outputs at a glance: a map of factors and outputs, and the bars of all outputs together.
 
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Tile};
-use super::super::factor_bars::{INDEX, MOST, both_orders, index_panel, label, left_out};
+use super::super::factor_bars::{left_out, not_drawn, pair_panel};
 use super::super::format::{fixed, index, name};
 use super::super::output_axis::OutputAxis;
 use super::super::result::{AggregateIndexRecord, EstimateRecord, IndexRecord, ResultFile};
@@ -9,6 +9,8 @@ use super::headline;
 
 /// Most outputs that have rows with their names; more stand side by side.
 const ROWS: usize = 40;
+/// Most factors of a map.
+const MOST: usize = 30;
 /// Most factors beside such rows.
 const COLUMNS: usize = 12;
 /// Most cells of a row of a map: neighbours of more outputs share one.
@@ -25,16 +27,14 @@ struct Order {
 
 /// The total indices stand above: they say whether a factor matters at all.
 const ORDERS: [Order; 2] = [
-    Order { title: "Total indices ST: with all interactions", of: |index| index.effect.total },
-    Order { title: "First-order indices S1: alone", of: |index| index.effect.first_order },
+    Order { title: "Total indices S_T: with all interactions", of: |index| index.effect.total },
+    Order { title: "First-order indices S_1: alone", of: |index| index.effect.first_order },
 ];
 
 /// Total and first-order indices of every factor for every output of `axis`, as shades. Factors stand in the order of their
-/// mean total indices; of more than 30 (12 beside outputs that have names alone), the first ones.
+/// total indices over all outputs; of more than 30 (12 beside outputs that have names alone), the first ones.
 pub(in crate::report) fn map_chart(result: &ResultFile, axis: &OutputAxis) -> Chart {
-    let means: Vec<f64> = (0..result.factors.len()).map(|factor| mean_total(result, axis, factor)).collect();
-    let mut factors: Vec<usize> = (0..means.len()).collect();
-    factors.sort_by(|&a, &b| means[b].total_cmp(&means[a]));
+    let mut factors = overall_order(result);
     let is_table = axis.numbers.is_none() && axis.outputs.len() <= ROWS;
     factors.truncate(if is_table { COLUMNS } else { MOST });
     let map = Map { result, axis, factors };
@@ -47,11 +47,20 @@ pub(in crate::report) fn map_chart(result: &ResultFile, axis: &OutputAxis) -> Ch
     Chart::new(format!("{}: {of} at a glance", headline(result)), words).panels(panels)
 }
 
-/// Mean total index of factor number `factor` over the outputs of `axis` that have indices.
-fn mean_total(result: &ResultFile, axis: &OutputAxis, factor: usize) -> f64 {
-    let of = |&output: &usize| Some(result.outputs[output].indices.as_ref()?.get(factor)?.effect.total.estimate);
-    let totals: Vec<f64> = axis.outputs.iter().filter_map(of).collect();
-    totals.iter().sum::<f64>() / totals.len().max(1) as f64
+/// The places of the factors by falling total index over all outputs together, or by their sum where there is none: the
+/// order of everything that is told of many outputs.
+pub(in crate::report) fn overall_order(result: &ResultFile) -> Vec<usize> {
+    let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
+    let known = result.outputs.iter().filter_map(|output| output.indices.as_ref());
+    let sum = |factor: usize| known.clone().filter_map(|all| Some(all.get(factor)?.effect.total.estimate)).sum::<f64>();
+    let key = |factor: usize| {
+        let own = together.iter().find(|index| index.factor == result.factors[factor].name);
+        own.map_or_else(|| sum(factor), |index| index.total.estimate)
+    };
+    let keys: Vec<f64> = (0..result.factors.len()).map(key).collect();
+    let mut order: Vec<usize> = (0..keys.len()).collect();
+    order.sort_by(|&a, &b| keys[b].total_cmp(&keys[a]));
+    order
 }
 
 struct Map<'a> {
@@ -68,13 +77,13 @@ impl Map<'_> {
     }
 
     fn names(&self) -> Vec<String> {
-        self.factors.iter().map(|&factor| label(&self.result.factors[factor].name)).collect()
+        self.factors.iter().map(|&factor| name(&self.result.factors[factor].name)).collect()
     }
 
     /// A row for each output, a column for each factor.
     fn as_table(&self) -> (Vec<Panel>, String) {
         let rows: Vec<String> =
-            self.axis.outputs.iter().map(|&output| label(&self.result.outputs[output].name)).collect();
+            self.axis.outputs.iter().map(|&output| name(&self.result.outputs[output].name)).collect();
         let panel = |order: Order| {
             let mut tiles: Vec<(Option<usize>, Tile)> = Vec::new();
             for (row, &output) in self.axis.outputs.iter().enumerate() {
@@ -137,7 +146,7 @@ impl Map<'_> {
             1 => String::new(),
             _ => format!(" A cell is the mean of {of_cell} outputs side by side."),
         };
-        (ORDERS.map(panel).to_vec(), format!("{}{shared}{}", self.words(), left_out(self.result.factors.len())))
+        (ORDERS.map(panel).to_vec(), format!("{}{shared}{}", self.words(), not_drawn(self.result.factors.len(), MOST)))
     }
 
     fn axis_label(&self) -> String {
@@ -214,18 +223,18 @@ fn edges(places: &[f64]) -> Vec<f64> {
     [vec![first], halfway, vec![last]].concat()
 }
 
-/// First-order and total indices of all outputs together, the largest total index on top; of more than 30 factors, the
-/// first 30.
+/// First-order and total indices of all outputs together, the largest total index on top; of more than 21 factors, the
+/// first 20 and the sums of the others.
 pub(in crate::report) fn together_chart(result: &ResultFile) -> Chart {
     let indices = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
-    let factors: Vec<String> = result.factors.iter().map(|factor| label(&factor.name)).collect();
+    let factors: Vec<String> = result.factors.iter().map(|factor| name(&factor.name)).collect();
     let of = |which: fn(&AggregateIndexRecord) -> EstimateRecord| -> Vec<Option<EstimateRecord>> {
         let find = |name: &str| indices.iter().find(|index| index.factor == name).map(which);
         result.factors.iter().map(|factor| find(&factor.name)).collect()
     };
     let (first_order, total) = (of(|index| index.first_order), of(|index| index.total));
     let keys: Vec<f64> = total.iter().map(|total| total.map_or(f64::NEG_INFINITY, |total| total.estimate)).collect();
-    let panel = index_panel(INDEX, factors, both_orders(first_order, total), &keys);
+    let panel = pair_panel(factors, first_order, total, &keys);
     let caption = match &result.aggregate {
         Some(aggregate) if aggregate.indices.is_some() => {
             format!(

@@ -13,11 +13,11 @@ mod slice_means;
 pub use convergence::convergence_chart;
 pub use distribution::distribution_chart;
 pub use indices::{indices_chart, interactions_chart};
-pub(super) use map::{map_chart, together_chart};
+pub(super) use map::{map_chart, overall_order, together_chart};
 pub use scatter::scatter_chart;
 pub(super) use series::{SeriesOf, along_chart, directions_chart, layers_chart};
 
-use super::format::the;
+use super::format::name;
 use super::result::{OutputRecord, ResultFile};
 
 fn headline(result: &ResultFile) -> &str {
@@ -27,7 +27,7 @@ fn headline(result: &ResultFile) -> &str {
 /// The caption of a chart that has nothing to show.
 fn no_indices(output: &OutputRecord) -> String {
     let reason = output.reason.as_deref().unwrap_or("the result holds none");
-    format!("No indices of {}: {reason}.", the(&output.name))
+    format!("No indices of {}: {reason}.", name(&output.name))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The output over its most influential factors.
 
 use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Spacing};
-use super::super::format::{axis_unit, printed, the, words};
+use super::super::format::{axis_unit, name, printed, words};
 use super::super::result::{FactorRecord, OutputRecord, ResultFile, ScatterRecord};
 
 use super::categories::Categories;
@@ -20,7 +20,7 @@ pub fn scatter_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     if panels.is_empty() {
         panels.push(Panel::new(Axis::default(), y));
     }
-    let title = format!("{}: {} over its factors", headline(result), the(&output.name));
+    let title = format!("{}: {} over its factors", headline(result), name(&output.name));
     let caption = scatter.map_or_else(|| nothing(output), |scatter| caption(result, output, scatter));
     Chart::new(title, caption).side_by_side().panels(panels)
 }
@@ -29,7 +29,7 @@ pub fn scatter_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
 fn nothing(output: &OutputRecord) -> String {
     match output.indices {
         None => no_indices(output),
-        Some(_) => format!("No scatter of {}: the result holds none.", the(&output.name)),
+        Some(_) => format!("No scatter of {}: the result holds none.", name(&output.name)),
     }
 }
 
@@ -40,7 +40,7 @@ fn panels(result: &ResultFile, output: &OutputRecord, scatter: &ScatterRecord, y
         let index = output.indices.iter().flatten().find(|index| index.factor == *name);
         let title = index.map_or_else(String::new, |index| {
             let [first_order, total] = [index.effect.first_order, index.effect.total].map(|i| two(i.estimate));
-            format!("S1 {first_order}, ST {total}")
+            format!("S_1 {first_order}, S_T {total}")
         });
         let dots = scatter.points.iter().filter_map(|point| Some((*point.get(place)?, *point.last()?)));
         let means = scatter.conditional_means.iter().find(|means| means.factor == *name);
@@ -96,8 +96,8 @@ fn caption(result: &ResultFile, output: &OutputRecord, scatter: &ScatterRecord) 
         let (low, high) = (known().reduce(f64::min)?, known().reduce(f64::max)?);
         Some(format!(
             "Over the range of {} the mean of {} lies between {} and {}{space}{unit}. ",
-            the(&means.factor),
-            the(&output.name),
+            name(&means.factor),
+            name(&output.name),
             printed(low),
             printed(high)
         ))
@@ -105,7 +105,7 @@ fn caption(result: &ResultFile, output: &OutputRecord, scatter: &ScatterRecord) 
     let mut caption = moved.unwrap_or_default();
     caption.push_str(&format!(
         "Dots: {} of the model runs; line: mean over a slice of the factor, with 1.96 standard errors to both sides. The \
-         more of the dots' spread the line follows, the larger is the first-order index S1.",
+         more of the dots' spread the line follows, the larger is the first-order index S_1.",
         scatter.points.len()
     ));
     if spacing(scatter) == Spacing::Logarithmic {

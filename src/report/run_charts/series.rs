@@ -1,8 +1,8 @@
 //! Charts of a series: its indices against its axis, its variance as a stack of shares, and its main directions.
 
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape};
-use super::super::factor_bars::{INDEX, label};
-use super::super::format::{axis_unit, fixed};
+use super::super::factor_bars::INDEX;
+use super::super::format::{axis_unit, fixed, name};
 use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile, SeriesRecord};
 use super::headline;
 
@@ -52,11 +52,11 @@ impl<'a> SeriesOf<'a> {
 
     /// The axis with its unit.
     pub fn axis(self) -> Axis {
-        Axis::new(label(&self.series.axis), axis_unit(&self.series.axis_unit))
+        Axis::new(name(&self.series.axis), axis_unit(&self.series.axis_unit))
     }
 
     fn title(self, what: &str) -> String {
-        format!("{}: {} {what}", headline(self.result), label(&self.series.name))
+        format!("{}: {} {what}", headline(self.result), name(&self.series.name))
     }
 
     /// Position and index of a factor at every value; `None` where there are no indices.
@@ -84,7 +84,7 @@ pub(in crate::report) fn along_chart(of: SeriesOf<'_>) -> Chart {
     let mut panel = |title: &str, read: fn(&IndexRecord) -> EstimateRecord| {
         let mut marks: Vec<Mark> = Vec::new();
         for (&factor, colour) in order.iter().zip(COLOURS) {
-            let series = Series::new(label(&of.result.factors[factor].name), Colour::Series(colour));
+            let series = Series::new(name(&of.result.factors[factor].name), Colour::Series(colour));
             let curve = of.curve(factor, read);
             let mut drawn = |x: f64| {
                 let percent = 100.0 * x;
@@ -102,8 +102,8 @@ pub(in crate::report) fn along_chart(of: SeriesOf<'_>) -> Chart {
         Panel::new(of.axis(), Axis::new(INDEX, "")).titled(title).with(marks)
     };
     let panels = [
-        panel("Total indices ST: with all interactions", |index| index.effect.total),
-        panel("First-order indices S1: alone", |index| index.effect.first_order),
+        panel("Total indices S_T: with all interactions", |index| index.effect.total),
+        panel("First-order indices S_1: alone", |index| index.effect.first_order),
     ];
     let cut = if is_cut { " What reaches beyond −10 and 110 % is cut there." } else { "" };
     let caption = format!("Bands are the 95 % intervals of each value by itself.{cut}{}", of.left_out());
@@ -134,7 +134,7 @@ pub(in crate::report) fn layers_chart(of: SeriesOf<'_>) -> Chart {
     };
     let mut marks: Vec<Mark> = Vec::new();
     for (&factor, colour) in order.iter().zip(COLOURS) {
-        let series = Series::new(label(&of.result.factors[factor].name), Colour::Series(colour));
+        let series = Series::new(name(&of.result.factors[factor].name), Colour::Series(colour));
         marks.push(layer(series, &|value, _| alone(value, factor)));
     }
     if let Some(others) = order.get(COLOURS.len()..).filter(|others| !others.is_empty()) {
@@ -143,7 +143,7 @@ pub(in crate::report) fn layers_chart(of: SeriesOf<'_>) -> Chart {
     }
     if let Some(noise) = of.values().iter().find_map(|value| value.noise.as_ref()) {
         let part = |value: &OutputRecord| Some(100.0 * value.noise.as_ref()?.effect.first_order.estimate.max(0.0));
-        marks.push(layer(Series::new(format!("noise ({})", label(&noise.name)), NOISE), &|value, _| part(value)));
+        marks.push(layer(Series::new(format!("noise ({})", name(&noise.name)), NOISE), &|value, _| part(value)));
     }
     let rest = |value: &OutputRecord, floor: f64| value.indices.as_ref().map(|_| (100.0 - floor).max(0.0));
     if !is_dependent {
@@ -170,7 +170,7 @@ pub(in crate::report) fn directions_chart(of: SeriesOf<'_>) -> Chart {
         Series::new(name, Colour::Series(COLOURS[number % COLOURS.len()])).line(points.collect())
     };
     let lines = of.series.directions.iter().flatten().enumerate().map(line);
-    let y = Axis::new(format!("change of {}", label(&of.series.name)), axis_unit(&of.series.unit));
+    let y = Axis::new(format!("change of {}", name(&of.series.name)), axis_unit(&of.series.unit));
     let panel = Panel::new(of.axis(), y).with(lines);
     let caption = match &of.series.no_directions {
         Some(reason) => format!("No main directions: {reason}."),

@@ -64,21 +64,20 @@ fn captions_say_who_acts_alone_and_who_together() {
     let interactions = interactions_chart(&result, output);
     assert_eq!(
         interactions.caption(),
-        "x2 acts almost only alone; x1 acts partly alone, partly together with others; x3 acts mostly together with \
+        "For y, x2 acts almost only alone; x1 acts partly alone, partly together with others; x3 acts mostly together with \
          others."
     );
     let indices = indices_chart(&result, output);
-    assert!(indices.caption().starts_with("x1 decides most: alone it explains 31."), "{}", indices.caption());
-    assert!(indices.caption().contains("all its interactions 55."), "{}", indices.caption());
+    assert!(indices.caption().starts_with("For y, x1 decides most: alone S_1 is 0.31"), "{}", indices.caption());
+    assert!(indices.caption().contains("all its interactions S_T is 0.55"), "{}", indices.caption());
     let scatter = scatter_chart(&result, output);
     assert!(scatter.caption().starts_with("Over the range of x1 the mean of "), "{}", scatter.caption());
     let result = analysed("model = \"sobol-g\"\n[function]\ndimension = 100\n[design]\nbase_samples = 1024");
     let output = &result.outputs[0];
     let all = [indices_chart, interactions_chart].map(|draw: Draw| draw(&result, output).caption().to_owned());
-    assert!(
-        all.iter().all(|caption| caption.ends_with("Of 100 factors, the 30 with the largest total indices are drawn.")),
-        "{all:?}"
-    );
+    let left_out = "Of 100 factors, the 20 with the largest total indices";
+    assert!(all[0].ends_with(&format!("{left_out} have bars, and the 80 others one of their sums.")), "{all:?}");
+    assert!(all[1].ends_with(&format!("{left_out} are drawn.")), "{all:?}");
     assert!(all[1].contains("98 others have a total index of at most 0.05"), "{}", all[1]);
     assert!(scatter_chart(&result, output).caption().contains("Of 100 factors, the 6 with the largest"));
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::model::MANY_OUTPUTS;
 use crate::report::chart::Chart;
 use crate::report::document::{Figure, Part};
-use crate::report::format::the;
+use crate::report::format::name as words;
 use crate::report::output_axis::OutputAxis;
 use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::{
@@ -206,7 +206,7 @@ impl<'a> Figures<'a> {
         let figure = Figure::new(self.others + self.drawn.len(), draw(self.result, of.output), stem, data);
         let figure = Figure { id: format!("figure-{}{}-{name}", self.prefix, of.number), ..figure };
         match kind {
-            SHARES => Figure { title: Some(format!("Shares of {}", the(&of.output.name))), ..figure },
+            SHARES => Figure { title: Some(format!("Shares of {}", words(&of.output.name))), ..figure },
             _ => figure.below(study.title.as_ref().unwrap_or(&study.name)),
         }
     }

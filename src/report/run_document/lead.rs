@@ -1,15 +1,15 @@
 //! What a hurried reader should take along: which factor matters most, how sure that is, and what to mind.
 
-use std::collections::BTreeSet;
-
 use crate::model::MANY_OUTPUTS;
-use crate::report::format::{
-    count, first, grouped, index, name, percent, share_of_runs, the, two_digits as half_width,
-};
+use crate::report::format::{chance, count, grouped, index, name, two_digits as half_width};
 use crate::report::interval_widths::{widest_interval, width_after_doubling};
 use crate::report::leading::{Contender, SURE, may_lead, names};
-use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
-use crate::report::{capitalised, listed};
+use crate::report::listed;
+use crate::report::result::{IndexRecord, OutputRecord, ResultFile};
+use crate::report::validity;
+
+use super::interactions::interactions;
+use super::warnings::folded;
 
 /// Outputs with a paragraph of their own at the top.
 const OUTPUTS: usize = 6;
@@ -33,7 +33,15 @@ pub(super) fn lead(result: &ResultFile, single: &ResultFile) -> Vec<String> {
         let others = single.outputs.len().saturating_sub(OUTPUTS);
         lead.extend(more(others, "more output has its section", "more outputs have theirs"));
     }
-    lead.push(trust(result));
+    let validity = validity::sentence(&result.validity);
+    match &mut lead[..] {
+        // Of one output all is one paragraph.
+        [only] => only.push_str(&format!(" {validity}")),
+        _ => lead.push(validity),
+    }
+    let series = result.series.iter().map(|series| &result.outputs[series.places()]);
+    let warned: Vec<&[OutputRecord]> = series.chain([&single.outputs[..]]).collect();
+    lead.push(trust(result, &warned));
     lead
 }
 
@@ -67,13 +75,13 @@ impl Leads {
 pub(super) fn answer(result: &ResultFile, output: &OutputRecord) -> String {
     let Some(order) = by_total(output) else {
         let reason = output.reason.as_deref().unwrap_or("nothing to compare");
-        return format!("There are no indices of {}: {reason}.", the(&output.name));
+        return format!("There are no indices of {}: {reason}.", name(&output.name));
     };
     let order: Vec<&IndexRecord> = order.into_iter().map(|(_, index)| index).collect();
     let tied = tied(&order);
     let first = if tied.len() > 1 { tie(output, &order, &tied) } else { leader(output, &order) };
     let sentences =
-        [first, others(result, &order, &tied), super::noise::sentence(result, output), interactions(output)];
+        [first, others(result, &order, &tied), super::noise::sentence(result, output), interactions(result, output)];
     sentences.into_iter().filter(|sentence| !sentence.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
@@ -104,18 +112,17 @@ fn tie(output: &OutputRecord, order: &[&IndexRecord], tied: &[usize]) -> String 
     let total = |contender: &Contender| index(contender.total);
     let names = names(&contenders(order), tied, &total);
     let by = weight_name(order);
-    format!("What matters most for {} cannot be told apart, by the {by}: {names}.", the(&output.name))
+    format!("What matters most for {} cannot be told apart, by the {by}: {names}.", name(&output.name))
 }
 
 fn leader(output: &OutputRecord, order: &[&IndexRecord]) -> String {
     let leader = order[0];
     let (total, by) = (index(leader.effect.weight()), weight_name(order));
-    let output = the(&output.name);
+    let (factor, output) = (name(&leader.factor), name(&output.name));
     if order.len() == 1 {
-        return format!("{} is the only factor of {output}: its {by} is {total}.", first(&leader.factor));
+        return format!("For {output}, {factor} is the only factor: its {by} is {total}.");
     }
-    let share = leader.effect.share_total.map_or_else(String::new, |share| format!(", {share:.1} % of the sum of all"));
-    format!("{} matters most for {output}: its {by} is {total}{share}{}.", first(&leader.factor), how_sure(order))
+    format!("For {output}, {factor} matters most: its {by} is {total}{}.", how_sure(order))
 }
 
 /// What factors are ranked by.
@@ -128,18 +135,12 @@ fn weight_name(order: &[&IndexRecord]) -> &'static str {
 
 /// How sure it is that the first is the first.
 fn how_sure(order: &[&IndexRecord]) -> String {
-    let Some(probability) = order[0].effect.probability_first else { return String::new() };
-    if probability > 0.999 {
-        return "; that it is the largest is beyond doubt, as far as the error goes".to_owned();
+    match order[0].effect.probability_first {
+        None => "; how sure it is that no other is larger, is unknown without intervals".to_owned(),
+        Some(probability) => {
+            format!(", the largest with a probability of {}", chance(Some(probability)).replace('>', "more than "))
+        }
     }
-    let rival = order[1..].iter().max_by(|a, b| chance(a).total_cmp(&chance(b)));
-    let rival =
-        rival.map_or_else(String::new, |rival| format!(", that of {} with {:.2}", name(&rival.factor), chance(rival)));
-    format!("; it is the largest with a probability of {probability:.2}{rival}")
-}
-
-fn chance(index: &IndexRecord) -> f64 {
-    index.effect.probability_first.unwrap_or(0.0)
 }
 
 /// Who comes next, and how many factors matter at all.
@@ -147,16 +148,15 @@ fn others(result: &ResultFile, order: &[&IndexRecord], tied: &[usize]) -> String
     if order.len() < 2 {
         return String::new();
     }
-    let next = |index: &&IndexRecord| match index.effect.weight().estimate {
-        total if total < 0.005 => format!("{} (below 0.01)", name(&index.factor)),
-        total => format!("{} ({total:.2})", name(&index.factor)),
-    };
-    let rest = order.iter().enumerate().filter(|(place, _)| !tied.contains(place)).map(|(_, index)| index);
-    let next: Vec<String> = rest.take(2).map(next).collect();
-    let mut sentence = match next.len() {
+    let next = |other: &&IndexRecord| format!("{} ({})", name(&other.factor), index(other.effect.weight()));
+    let rest: Vec<&IndexRecord> =
+        order.iter().enumerate().filter(|(place, _)| !tied.contains(place)).map(|(_, index)| *index).collect();
+    let named: Vec<String> = rest.iter().take(2).map(next).collect();
+    let mut sentence = match named.len() {
         0 => String::new(),
-        1 => format!("Next comes {}", listed(&next)),
-        _ => format!("Next come {}", listed(&next)),
+        1 => format!("Next comes {}", listed(&named)),
+        _ if overlap(rest[0], rest[1]) => format!("Next come {}, which cannot be told apart", listed(&named)),
+        _ => format!("Next come {}", listed(&named)),
     };
     // Of dependent factors nothing follows from a total index alone.
     let above =
@@ -181,76 +181,26 @@ fn others(result: &ResultFile, order: &[&IndexRecord], tied: &[usize]) -> String
     if sentence.is_empty() { sentence } else { sentence + "." }
 }
 
-/// A share of the variance that an interval must exclude before interactions count as absent.
-const VISIBLE: f64 = 0.1;
-
-/// How much of the variance no factor, nor the noise, accounts for alone.
-pub(super) fn interactions(output: &OutputRecord) -> String {
-    let text = of_interactions(output.sum_first_order);
-    match &output.noise {
-        None => text,
-        Some(_) => text
-            .replace(
-                "Interactions of the factors account",
-                "Interactions of the factors with each other or the noise account",
-            )
-            .replace("first-order indices sum", "first-order indices, that of the noise among them, sum"),
-    }
+/// Whether the intervals of two factors have values in common.
+fn overlap(larger: &IndexRecord, smaller: &IndexRecord) -> bool {
+    let (a, b) = (larger.effect.weight(), smaller.effect.weight());
+    a.low.zip(b.high).is_some_and(|(low, high)| high >= low && (a.estimate, low) != (b.estimate, high))
 }
 
-fn of_interactions(sum_first_order: Option<EstimateRecord>) -> String {
-    let Some(sum) = sum_first_order else { return String::new() };
-    let rest = EstimateRecord {
-        estimate: 1.0 - sum.estimate,
-        low: sum.high.map(|high| 1.0 - high),
-        high: sum.low.map(|low| 1.0 - low),
-    };
-    match (rest.low, rest.high) {
-        (Some(low), _) if low > 0.0 => {
-            format!("Interactions of the factors account for {} of the variance.", percent(rest))
-        }
-        (_, Some(high)) if high < 0.0 => {
-            format!("The first-order indices sum to {}, beyond 1 by more than their error.", index(sum))
-        }
-        (Some(_), Some(high)) if high > VISIBLE => {
-            format!("How much of the variance is interaction is open: the first-order indices sum to {}.", index(sum))
-        }
-        (Some(_), Some(_)) => format!(
-            "No interactions are seen: the first-order indices sum to {}, which is 1 to within the error.",
-            index(sum)
-        ),
-        _ if rest.estimate <= 0.0 => format!(
-            "No interactions are seen: the first-order indices sum to {}; without intervals, how sure that is, is unknown.",
-            index(sum)
-        ),
-        _ => format!(
-            "Interactions account for some {} of the variance; without intervals, how sure that is, is unknown.",
-            percent(rest)
-        ),
-    }
-}
-
-/// How settled the numbers are, and what to mind.
-fn trust(result: &ResultFile) -> String {
+/// How settled the numbers are, and what to mind: outputs are `warned` of in these parts.
+fn trust(result: &ResultFile, warned: &[&[OutputRecord]]) -> String {
     let mut sentences = vec![settled(result)];
     let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);
-    if failed > 0 {
-        let share = share_of_runs(failed as f64 / result.provenance.model_runs.max(1) as f64);
-        sentences.push(format!("{} failed ({share} of all).", capitalised(&count(failed, "run", "runs"))));
-    }
-    let warnings = result.outputs.iter().flat_map(|output| &output.warnings);
-    // Of many outputs each is said once.
-    let warnings = match result.outputs.len() {
-        ..MANY_OUTPUTS => warnings.count(),
-        _ => warnings.collect::<BTreeSet<_>>().len(),
-    };
+    sentences.extend(validity::of_failures(failed, result.provenance.model_runs));
+    let warnings: usize = warned.iter().map(|outputs| folded(outputs).len()).sum();
     sentences.push(match warnings {
         0 => "There are no warnings.".to_owned(),
-        _ => format!(
-            "Mind the {} below.",
-            if warnings == 1 { "warning".to_owned() } else { format!("{warnings} warnings") }
-        ),
+        1 => "Mind the warning below.".to_owned(),
+        _ => format!("Mind the {warnings} warnings below."),
     });
+    if warnings == 0 && (failed > 0 || result.validity.iter().any(|flag| flag.runs > 0)) {
+        sentences.pop();
+    }
     sentences.join(" ")
 }
 
@@ -275,29 +225,4 @@ fn settled(result: &ResultFile) -> String {
 /// Largest half width of an output's indices at the end.
 pub(super) fn widest(output: &OutputRecord) -> Option<f64> {
     output.convergence.last()?.largest_half_width
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn sum(low: f64, high: f64) -> Option<EstimateRecord> {
-        Some(EstimateRecord { estimate: (low + high) / 2.0, low: Some(low), high: Some(high) })
-    }
-
-    #[test]
-    fn interactions_are_what_the_factors_alone_leave() {
-        assert_eq!(
-            of_interactions(sum(0.60, 0.62)),
-            "Interactions of the factors account for 39 % (38 to 40 %) of the variance."
-        );
-        assert!(of_interactions(sum(0.99, 1.01)).starts_with("No interactions are seen"));
-        assert!(of_interactions(sum(1.01, 1.03)).contains("beyond 1"));
-        assert!(of_interactions(sum(0.01, 1.0)).starts_with("How much of the variance is interaction is open"));
-        let alone = Some(EstimateRecord { estimate: 0.6, low: None, high: None });
-        assert!(of_interactions(alone).contains("some 40.0 % of the variance"));
-        let beyond = Some(EstimateRecord { estimate: 1.127, low: None, high: None });
-        assert!(of_interactions(beyond).starts_with("No interactions are seen: the first-order indices sum to 1.127;"));
-        assert_eq!(of_interactions(None), "");
-    }
 }

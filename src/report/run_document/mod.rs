@@ -1,16 +1,19 @@
 //! The document of one run: what came out, how sure that is, and how it was found.
 
 mod figures;
+mod interactions;
 mod lead;
 mod noise;
 mod output;
 mod overview;
 mod series;
 mod tables;
+mod warnings;
 
 pub use figures::OutputNames;
 use figures::{Figures, Numbered, Stems, all_stems};
 use output::Topic;
+use warnings::folded;
 
 use crate::model::MANY_OUTPUTS;
 
@@ -35,7 +38,7 @@ use super::{capitalised, listed, result_json};
 /// let study = Study::parse(include_str!("../../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
 /// let result = ResultFile::new(&study, &study.run()?);
 /// let document = run_document(&result);
-/// assert!(document.lead[0].starts_with("x1 matters most for y"));
+/// assert!(document.lead[0].starts_with("For y, x1 matters most"));
 /// assert!(document.text().contains("S_T"));
 /// assert!(document.html()?.contains("<svg"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -89,6 +92,10 @@ fn of_outputs(figures: &mut Figures<'_>) -> Vec<Section> {
     let result = figures.result;
     let mut sections = Vec::new();
     let single = result.outputs.len() == 1 && figures.count() == 0;
+    if !single {
+        let warnings: Vec<Part> = Part::warnings(&folded(&result.outputs)).into_iter().collect();
+        sections.extend((!warnings.is_empty()).then(|| Section::new("mind", "What to mind", warnings)));
+    }
     for (place, output) in result.outputs.iter().enumerate() {
         let topics = output::topics(figures, Numbered { output, number: place + 1 });
         if single {

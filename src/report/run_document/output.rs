@@ -7,7 +7,7 @@ use super::tables;
 use crate::estimate::ShapleyMethod;
 use crate::report::document::Part;
 use crate::report::format::{
-    count, grouped, index, name, share_of_runs, significant, the, two_digits as half_width, with_unit,
+    count, grouped, index, name, share_of_runs, short_with_unit, significant, two_digits as half_width,
 };
 use crate::report::interval_widths::width_after_doubling;
 use crate::report::listed;
@@ -27,10 +27,11 @@ pub(super) struct Topic {
 /// All topics of an output; those of which there is nothing to say are left out.
 pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> {
     let topic = |id, title, parts| Topic { id, title, parts };
-    let mut topics = vec![topic("mind", "What to mind", warnings(of.output))];
+    let mut topics =
+        vec![topic("mind", "What to mind", mind(of.output, figures.result.outputs.len() == 1 && figures.count() == 0))];
     if of.output.indices.is_some() {
-        topics.push(topic("shares", "Shares", shares(figures, of)));
         topics.push(topic("indices", "Indices", indices(figures, of)));
+        topics.push(topic("shares", "Shares", shares(figures, of)));
         topics.push(topic("noise", "The noise", noise(figures.result, of.output)));
         topics.push(topic("interactions", "Interactions", interactions(figures, of)));
         topics.push(topic("convergence", "How the indices settled", convergence(figures, of)));
@@ -46,13 +47,13 @@ pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> 
     topics
 }
 
-/// Why there are no indices, what the run warns of, and which runs failed.
-fn warnings(output: &OutputRecord) -> Vec<Part> {
+/// Why there are no indices, what the run warns of (of one of several outputs it is said before), and which runs failed.
+fn mind(output: &OutputRecord, is_only: bool) -> Vec<Part> {
     let mut parts = Vec::new();
     if let (None, Some(reason)) = (&output.indices, &output.reason) {
-        parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", the(&output.name))));
+        parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", name(&output.name))));
     }
-    parts.extend(Part::warnings(&output.warnings));
+    parts.extend(Part::warnings(&output.warnings).filter(|_| is_only));
     if output.runs_failed > 0 {
         let all = output.runs_ok + output.runs_failed;
         let share = share_of_runs(output.runs_failed as f64 / all as f64);
@@ -221,7 +222,7 @@ fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let output = of.output;
     let is_dependent = !figures.result.study.dependences.is_empty();
     let Some(order) = by_total(output).filter(|order| order.len() > 1 && !is_dependent) else { return Vec::new() };
-    let mut text = super::lead::interactions(output);
+    let mut text = super::interactions::interactions(figures.result, output);
     let difference = |index: &IndexRecord| index.effect.interaction.map_or(f64::NEG_INFINITY, |i| i.estimate);
     let most = order.iter().map(|(_, index)| *index).max_by(|a, b| difference(a).total_cmp(&difference(b)));
     if let Some((most, gap)) = most.and_then(|most| Some((most, most.effect.interaction?)))
@@ -266,7 +267,7 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
 
 fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let Some(table) = tables::moments(of.output) else {
-        let text = format!("There are no values of {} to show.", the(&of.output.name));
+        let text = format!("There are no values of {} to show.", name(&of.output.name));
         return vec![Part::Text(text)];
     };
     vec![Part::Text(range(of.output)), figures.draw(of, DISTRIBUTION), Part::OnPage(vec![table])]
@@ -274,14 +275,12 @@ fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
 
 /// Mean, standard deviation, and the range of most values.
 fn range(output: &OutputRecord) -> String {
-    let value = |x: f64| with_unit(x, &output.unit);
+    let value = |x: f64| short_with_unit(x, &output.unit);
     let sample = output.distribution.as_ref().map(|distribution| &distribution.sample);
-    // By the divisor n - 1, as in the file.
-    let sd = sample.and_then(|sample| sample.sd).or(output.variance.map(f64::sqrt));
-    let mut text = match (output.mean, sd) {
-        (Some(mean), Some(sd)) => format!("Mean {}, standard deviation {}", value(mean), value(sd)),
-        (Some(mean), None) => format!("Mean {}", value(mean)),
-        _ => return format!("There is no mean of {}.", the(&output.name)),
+    let mut text = match (tables::mean(output), tables::sd(output)) {
+        (Some(mean), Some(sd)) => format!("Mean {mean}, standard deviation {sd}"),
+        (Some(mean), None) => format!("Mean {mean}"),
+        _ => return format!("There is no mean of {}.", name(&output.name)),
     };
     let quantile = |percent| sample.and_then(|sample| sample.quantile(percent)).map(value);
     if let (Some(low), Some(median), Some(high)) = (quantile(2.5), quantile(50.0), quantile(97.5)) {

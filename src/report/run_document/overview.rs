@@ -4,12 +4,14 @@ use super::figures::{Figures, Numbered, overview_stems};
 use super::lead::Leads;
 use super::output::{definitions, topics};
 use super::under_headings;
+use super::warnings::{folded, of_which};
 use crate::report::document::{Cell, Column, Mark, Part, Section, Table};
-use crate::report::format::{count, first as first_word, fixed, grouped, heading, index, name, value};
+use crate::report::format::{give_or_take, grouped, heading, index, name, short, value};
+use crate::report::leading::{Contender, may_lead, names};
 use crate::report::listed;
 use crate::report::output_axis::OutputAxis;
-use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
-use crate::report::run_charts::{map_chart, together_chart};
+use crate::report::result::{AggregateIndexRecord, EstimateRecord, IndexRecord, OutputRecord, ResultFile};
+use crate::report::run_charts::{map_chart, overall_order, together_chart};
 use crate::report::study_sections::{failures, inputs};
 
 /// Most outputs that are told in full.
@@ -65,17 +67,6 @@ fn overview(figures: &mut Figures<'_>) -> Vec<Part> {
     parts
 }
 
-/// The places of the factors by falling mean total index over all outputs.
-fn by_mean_total(result: &ResultFile) -> Vec<usize> {
-    let mut sums = vec![0.0; result.factors.len()];
-    for indices in result.outputs.iter().filter_map(|output| output.indices.as_ref()) {
-        sums.iter_mut().zip(indices).for_each(|(sum, index)| *sum += index.effect.total.estimate);
-    }
-    let mut order: Vec<usize> = (0..sums.len()).collect();
-    order.sort_by(|&a, &b| sums[b].total_cmp(&sums[a]));
-    order
-}
-
 /// What each factor does to all outputs.
 pub(super) fn factors(result: &ResultFile) -> Table {
     let leads = Leads::of(result);
@@ -92,19 +83,19 @@ pub(super) fn factors(result: &ResultFile) -> Table {
         let own = &result.factors[factor].name;
         let all = together.iter().find(|index| index.factor == *own);
         let dash = || Cell::from("–");
-        let median = totals.get(totals.len() / 2).map_or_else(dash, |(median, _)| fixed(*median, 3).into());
+        let median = totals.get(totals.len() / 2).map_or_else(dash, |(median, _)| short(*median).into());
         let largest = totals.last().and_then(|&(_, place)| Some((of_factor(&result.outputs[place])?, place)));
         vec![
             name(own).into(),
-            all.map_or_else(dash, |all| three_decimals(all.first_order).into()),
-            all.map_or_else(dash, |all| three_decimals(all.total).into()),
+            all.map_or_else(dash, |all| give_or_take(all.first_order).into()),
+            all.map_or_else(dash, |all| give_or_take(all.total).into()),
             leads.first[factor].to_string().into(),
             median,
-            largest.map_or_else(dash, |(total, _)| three_decimals(total).into()),
+            largest.map_or_else(dash, |(total, _)| give_or_take(total).into()),
             largest.map_or_else(dash, |(_, place)| name(&result.outputs[place].name).into()),
         ]
     };
-    let order = by_mean_total(result);
+    let order = overall_order(result);
     let mut caption =
         "Indices of all outputs together, for how many outputs a factor surely matters most, and the median \
                        and largest of its total indices."
@@ -125,15 +116,6 @@ pub(super) fn factors(result: &ResultFile) -> Table {
     Table::new(caption, headings.map(column)).with_rows(order.iter().take(FACTORS).map(row))
 }
 
-/// Names in a sentence, the first ones of many.
-fn few(names: &[&str]) -> String {
-    let mut some: Vec<String> = names.iter().take(NAMES).map(|of| name(of)).collect();
-    if names.len() > NAMES {
-        some.push(format!("{} more", names.len() - NAMES));
-    }
-    listed(&some)
-}
-
 /// What is said several times, with of what: in the order of the first time.
 fn grouped_by<K: PartialEq, T>(said: impl Iterator<Item = (K, T)>) -> Vec<(K, Vec<T>)> {
     let mut groups: Vec<(K, Vec<T>)> = Vec::new();
@@ -149,23 +131,15 @@ fn grouped_by<K: PartialEq, T>(said: impl Iterator<Item = (K, T)>) -> Vec<(K, Ve
 /// Which outputs have no indices, what the run warns of, and which runs failed: each once.
 pub(super) fn mind(result: &ResultFile) -> Vec<Part> {
     let outputs = || result.outputs.iter();
-    let without = outputs().filter(|output| output.indices.is_none());
-    let without = without.filter_map(|output| Some((output.reason.as_deref()?, output.name.as_str())));
+    let without = outputs().enumerate().filter(|(_, output)| output.indices.is_none());
+    let without = without.filter_map(|(place, output)| Some((output.reason.as_deref()?, place)));
     let mut parts: Vec<Part> = Vec::new();
-    for (reason, names) in grouped_by(without).into_iter().take(WARNINGS) {
-        let outputs = count(names.len() as u64, "output", "outputs");
-        parts.push(Part::no_indices(format!("There are no indices of {outputs} ({}): {reason}.", few(&names))));
+    for (reason, places) in grouped_by(without).into_iter().take(WARNINGS) {
+        let text = format!("There are no indices of {}: {reason}.", of_which(&result.outputs, &places));
+        parts.push(Part::no_indices(text));
     }
-    let warned =
-        outputs().flat_map(|output| output.warnings.iter().map(|warning| (warning.as_str(), output.name.as_str())));
-    let warned = grouped_by(warned);
-    let all = result.outputs.len();
-    let warning = |(warning, names): &(&str, Vec<&str>)| match names.len() {
-        several if several == all => format!("{warning} (all {all} outputs)"),
-        1 => format!("{}: {warning}", names[0]),
-        several => format!("{warning} ({several} outputs: {})", few(names)),
-    };
-    let mut warnings: Vec<String> = warned.iter().take(WARNINGS).map(warning).collect();
+    let warned = folded(&result.outputs);
+    let mut warnings: Vec<String> = warned.iter().take(WARNINGS).cloned().collect();
     if warned.len() > WARNINGS {
         warnings.push(format!("{} more warnings are in the JSON file", warned.len() - WARNINGS));
     }
@@ -227,7 +201,7 @@ pub(super) fn in_full(figures: &mut Figures<'_>) -> Vec<Part> {
 
 /// The indices of every output as numbers, as many as have room in about so many bytes.
 pub(super) fn every_output(result: &ResultFile, bytes: usize) -> Vec<Part> {
-    let mut factors = by_mean_total(result);
+    let mut factors = overall_order(result);
     factors.truncate(COLUMNS);
     let of_row: usize = factors.iter().map(|&factor| BYTES_OF_CELL + result.factors[factor].name.len()).sum();
     let names: usize = result.outputs.iter().map(|output| output.name.len()).sum();
@@ -271,7 +245,7 @@ fn of_outputs(result: &ResultFile, outputs: &[&OutputRecord], (factors, is_total
         row.extend(factors.iter().map(|&factor| {
             let index = output.indices.as_ref().and_then(|indices| indices.get(factor)).map(of);
             let mark = if index.is_some_and(|index| index.estimate == largest) { Mark::Strong } else { Mark::Plain };
-            Cell::marked(index.map_or_else(|| "–".to_owned(), three_decimals), mark)
+            Cell::marked(index.map_or_else(|| "–".to_owned(), give_or_take), mark)
         }));
         row
     };
@@ -282,15 +256,6 @@ fn of_outputs(result: &ResultFile, outputs: &[&OutputRecord], (factors, is_total
     columns.extend(factors.iter().map(|&factor| Column::number(name(&result.factors[factor].name))));
     let caption = if is_total { "Total indices S_T." } else { "First-order indices S_1." };
     Table::new(caption, columns).with_rows(outputs.iter().map(row))
-}
-
-/// An index and half of its interval, `0.337 ± 0.002`: one below the last decimal is left out.
-pub(super) fn three_decimals(record: EstimateRecord) -> String {
-    let half_width = record.low.zip(record.high).map(|(low, high)| (high - low) / 2.0);
-    match half_width.filter(|half| *half >= 0.0005) {
-        Some(half) => format!("{} ± {}", fixed(record.estimate, 3), fixed(half, 3)),
-        None => fixed(record.estimate, 3),
-    }
 }
 
 /// The paragraphs at the top: who leads, output by output and over all together.
@@ -322,18 +287,33 @@ pub(super) fn answers(result: &ResultFile) -> Vec<String> {
         sentence.push_str(&format!("; {} {have} no indices", leads.without));
     }
     let mut answers = vec![sentence + "."];
+    answers[0].extend(super::interactions::of_many(&result.outputs).map(|text| format!(" {text}")));
     if let Some(aggregate) = result.aggregate.as_ref() {
-        let mut indices: Vec<_> = aggregate.indices.iter().flatten().collect();
-        indices.sort_by(|a, b| b.total.estimate.total_cmp(&a.total.estimate));
-        if let Some(first) = indices.first() {
-            let reaches = |low: f64| indices[1..].iter().any(|other| other.total.high.is_some_and(|high| high >= low));
-            let tied = first.total.low.is_some_and(reaches);
-            let most = if tied { "comes first, though not surely" } else { "matters most" };
-            let (factor, total) = (first_word(&first.factor), index(first.total));
-            answers.push(format!("{factor} {most} for all outputs together: its S_T is {total}."));
-        }
+        let of = "For all outputs together";
+        answers.extend(aggregate.indices.as_deref().and_then(|indices| leader_of_all(indices, of)));
     }
     answers
+}
+
+/// Which factor leads over many values, the sentence beginning with `of` what; `None` without factors.
+pub(super) fn leader_of_all(indices: &[AggregateIndexRecord], of: &str) -> Option<String> {
+    let contender = |index: &AggregateIndexRecord| Contender {
+        label: name(&index.factor),
+        first_order: Some(index.first_order),
+        total: index.total,
+        probability: None,
+    };
+    let contenders: Vec<Contender> = indices.iter().map(contender).collect();
+    let total = |contender: &Contender| index(contender.total);
+    let leaders = may_lead(&contenders);
+    Some(match leaders[..] {
+        [] => return None,
+        [one] => format!("{of}, {} matters most: its S_T is {}.", contenders[one].label, total(&contenders[one])),
+        _ => {
+            let names = names(&contenders, &leaders, &total);
+            format!("{of}, what matters most cannot be told apart, by S_T: {names}.")
+        }
+    })
 }
 
 #[cfg(test)]
@@ -341,18 +321,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn indices_in_tables_of_outputs_are_short() {
-        let record =
-            |estimate, half: f64| EstimateRecord { estimate, low: Some(estimate - half), high: Some(estimate + half) };
-        assert_eq!(three_decimals(record(0.33712, 0.0024)), "0.337 ± 0.002");
-        assert_eq!(three_decimals(record(0.5, 1e-6)), "0.500");
-        assert_eq!(three_decimals(EstimateRecord { estimate: -0.0001, low: None, high: None }), "0.000");
-    }
-
-    #[test]
     fn what_is_said_of_several_is_said_once() {
         let groups = grouped_by([("few runs", "a"), ("noise", "b"), ("few runs", "c")].into_iter());
         assert_eq!(groups, [("few runs", vec!["a", "c"]), ("noise", vec!["b"])]);
-        assert_eq!(few(&["a", "b", "c", "d", "e", "f", "g", "h"]), "a, b, c, d, e, f and 2 more");
     }
 }

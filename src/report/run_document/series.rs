@@ -4,7 +4,7 @@ use super::figures::{Figures, SERIES_SUFFIXES};
 use super::output::definitions;
 use super::overview;
 use crate::report::document::{Cell, Column, Mark, Part, Section, Table};
-use crate::report::format::{first as first_word, fixed, heading, index, name, significant};
+use crate::report::format::{fixed, give_or_take, heading, name, significant};
 use crate::report::listed;
 use crate::report::output_axis::OutputAxis;
 use crate::report::result::{AggregateIndexRecord, AggregateRecord, DirectionRecord, ResultFile, SeriesRecord};
@@ -80,7 +80,7 @@ pub(super) fn sections(result: &ResultFile, stems: &[[String; SERIES_SUFFIXES.le
             vec![Part::Text(text), overview::factors(&alone).into()]
         };
         figures = drawn.count();
-        let axis = format!("{} along the {}", heading(&series.name, &series.unit), name(&series.axis));
+        let axis = format!("{} along {}", heading(&series.name, &series.unit), name(&series.axis));
         sections.push(Section::new(&format!("series-{}", number + 1), &axis, parts));
     }
     (sections, figures)
@@ -166,7 +166,7 @@ fn main_directions(of: SeriesOf<'_>, figures: &mut Figures<'_>, stem: &str) -> V
         let row = |(number, direction): (usize, &DirectionRecord)| -> Vec<Cell> {
             let of_factor = |factor: &usize| -> Cell {
                 let index = direction.indices.as_ref().and_then(|indices| indices.get(*factor));
-                index.map_or_else(|| "–".to_owned(), |index| overview::three_decimals(read(index))).into()
+                index.map_or_else(|| "–".to_owned(), |index| give_or_take(read(index))).into()
             };
             let mut row: Vec<Cell> = vec![format!("direction {}", number + 1).into(), fixed(direction.share, 1).into()];
             row.extend(order.iter().map(of_factor));
@@ -191,19 +191,9 @@ pub(super) fn answer(result: &ResultFile, series: &SeriesRecord) -> String {
         let reason = series.reason.as_deref().unwrap_or("the result holds none");
         return format!("There are no indices of {} as a whole: {reason}.", name(&series.name));
     };
-    let mut order: Vec<&AggregateIndexRecord> = indices.iter().collect();
-    order.sort_by(|a, b| b.total.estimate.total_cmp(&a.total.estimate));
-    let Some(leader) = order.first() else { return String::new() };
-    let reaches = |low: f64| order[1..].iter().any(|other| other.total.high.is_some_and(|high| high >= low));
-    let tied = leader.total.low.is_some_and(reaches);
-    let most = if tied { "comes first, though not surely," } else { "matters most" };
-    let mut text = format!(
-        "{} {most} for {} as a whole: its S_T over all {} values is {}.",
-        first_word(&leader.factor),
-        name(&series.name),
-        series.positions.len(),
-        index(leader.total)
-    );
+    let whole = format!("For {} as a whole ({} values)", name(&series.name), series.positions.len());
+    let Some(mut text) = overview::leader_of_all(indices, &whole) else { return String::new() };
+    text.extend(super::interactions::of_many(of.values()).map(|interactions| format!(" {interactions}")));
     let stretches = stretches(of);
     if (2..=STRETCHES).contains(&stretches.len()) {
         let unit = match series.axis_unit.as_str() {
@@ -217,7 +207,7 @@ pub(super) fn answer(result: &ResultFile, series: &SeriesRecord) -> String {
             format!("{} {range}", name(&result.factors[factor].name))
         });
         text.push_str(&format!(
-            " Along the {}, the largest S_T is that of {}.",
+            " Along {}, the largest S_T is that of {}.",
             name(&series.axis),
             listed(&words.collect::<Vec<_>>())
         ));

@@ -5,7 +5,7 @@ use super::noise::label;
 use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, Field, fields};
 use crate::report::document::{Cell, Column, Part, Table, Value, csv};
-use crate::report::format::{chance, grouped, name, share, significant, two_digits, value};
+use crate::report::format::{axis_unit, chance, grouped, index, name, share, significant, two_digits, value};
 use crate::report::result::{
     AggregateIndexRecord, AggregateRecord, EffectRecord, EstimateRecord, EstimatorRecord, IndexRecord, IntervalRecord,
     OtherIndexRecord, OutputRecord, PairRecord, ResultFile, StageRecord, SurrogateRecord, SurrogateTermRecord,
@@ -182,7 +182,7 @@ pub(super) fn shares(output: &OutputRecord) -> Option<Part> {
         ]
     };
     let caption = format!(
-        "Shares in percent, with their 95 % intervals.{}",
+        "Shares in percent of the sums of the indices of all factors, with their 95 % intervals.{}",
         largest(shown.len(), order.len(), "factors, all in the CSV file")
     );
     let columns = Column::list(1, &["factor", "of the sum of S_1", "of the sum of S_T"]);
@@ -270,14 +270,10 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
     let number = |x: f64| value(x, &output.unit);
     let mut rows: Vec<(String, String)> = Vec::new();
     let mut add = |label: &str, text: Option<String>| rows.extend(text.map(|text| (label.to_owned(), text)));
-    let mean = output.mean.map(|mean| match output.mean_interval {
-        Some(i) => format!("{} ({} to {})", number(mean), value(i.low, ""), value(i.high, "")),
-        None => number(mean),
-    });
     let sample = &record.sample;
     add("values", Some(grouped(record.values)));
-    add("mean", mean);
-    add("standard deviation", sample.sd.map(number));
+    add("mean", mean(output));
+    add("standard deviation", sd(output));
     add(
         "coefficient of variation",
         sample.sd.filter(|_| sample.mean != 0.0).map(|sd| value(100.0 * sd / sample.mean.abs(), "%")),
@@ -291,10 +287,33 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
         }
     }
     add("largest", Some(number(sample.max)));
-    let caption = "Moments and range are those of all values, the mean with its 95 % interval; quantiles are those of the \
+    let caption = "Moments and range are those of all values, mean and standard deviation with their 95 % intervals; quantiles are those of the \
                    values that were kept.";
     let rows = rows.into_iter().map(|(label, text)| vec![label.into(), text.into()]);
     Some(Part::Table(Table::new(caption, [Column::text(""), Column::number("")]).with_rows(rows)))
+}
+
+/// The mean of an output with its error and unit.
+pub(super) fn mean(output: &OutputRecord) -> Option<String> {
+    Some(of_unit(output.mean?, output.mean_interval, &output.unit))
+}
+
+/// The standard deviation, by the divisor n - 1, as in the file; its interval is that of the variance.
+pub(super) fn sd(output: &OutputRecord) -> Option<String> {
+    let sample = output.distribution.as_ref().and_then(|distribution| distribution.sample.sd);
+    let interval = output
+        .variance_interval
+        .map(|variance| IntervalRecord { low: variance.low.max(0.0).sqrt(), high: variance.high.max(0.0).sqrt() });
+    Some(of_unit(sample.or(output.variance.map(f64::sqrt))?, interval, &output.unit))
+}
+
+fn of_unit(estimate: f64, interval: Option<IntervalRecord>, unit: &str) -> String {
+    let record = EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) };
+    let number = match interval {
+        Some(i) if (i.low..=i.high).contains(&estimate) => index(record),
+        _ => value(estimate, ""),
+    };
+    format!("{number} {}", axis_unit(unit)).trim_end().to_owned()
 }
 
 /// The leading terms of the surrogates, and the plain indices beside the corrected ones.

@@ -2,21 +2,25 @@
 
 use super::record::{SalibFile, SalibIndexRecord, SalibOutputRecord};
 use crate::report::chart::Chart;
-use crate::report::factor_bars::{INDEX, both_orders, index_panel, left_out};
+use crate::report::factor_bars::{left_out, pair_panel};
 use crate::report::leading::{Contender, decides_most};
 use crate::report::result::EstimateRecord;
 
-/// First-order and total index of every input, in percent of the output's variance, with their intervals; the largest total
+/// First-order and total index of every input, as parts of the output's variance, with their intervals; the largest total
 /// index on top.
 pub fn salib_chart(result: &SalibFile, output: &SalibOutputRecord) -> Chart {
     let indices = output.indices.as_deref().unwrap_or_default();
     let inputs = indices.iter().map(|index| index.input.clone()).collect();
     let read = |of: fn(&SalibIndexRecord) -> EstimateRecord| indices.iter().map(|index| Some(of(index))).collect();
     let keys: Vec<f64> = indices.iter().map(|index| index.total.estimate).collect();
-    let series = both_orders(read(|index| index.first_order), read(|index| index.total));
     let title = format!("Sobol' indices of {}", output.name);
     let caption = caption(result, output) + &left_out(indices.len());
-    Chart::new(title, caption).panels([index_panel(INDEX, inputs, series, &keys)])
+    Chart::new(title, caption).panels([pair_panel(
+        inputs,
+        read(|index| index.first_order),
+        read(|index| index.total),
+        &keys,
+    )])
 }
 
 /// What is seen, in one sentence.

@@ -6,7 +6,7 @@ use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::file_names::FileNames;
 use crate::report::file_stems;
-use crate::report::format::{estimate, first};
+use crate::report::format::{index, name as words};
 use crate::report::given::{file_name, moments};
 use crate::report::records::json;
 use crate::report::result::EstimateRecord;
@@ -21,7 +21,7 @@ pub fn salib_document(result: &SalibFile, name: &str) -> Document {
         let figure = Figure::new(place + 1, chart, stem, format!("{name}-indices.csv"));
         let mut parts = output_parts(output);
         parts.push(figure.into());
-        sections.push(Section::new(&format!("output-{}", place + 1), &first(&output.name), parts));
+        sections.push(Section::new(&format!("output-{}", place + 1), &words(&output.name), parts));
     }
     sections.push(Section::new("table", "The table", table_parts(result)));
     Document {
@@ -52,7 +52,7 @@ pub fn file_names(name: &str, outputs: &[&str]) -> FileNames {
 fn output_parts(output: &SalibOutputRecord) -> Vec<Part> {
     let mut parts: Vec<Part> =
         output.distribution.iter().map(|distribution| Part::Text(moments(distribution))).collect();
-    let cell = |record: EstimateRecord| Cell::from(estimate(record, 3));
+    let cell = |record: EstimateRecord| Cell::from(index(record));
     if let Some(indices) = &output.indices {
         let rows = indices.iter().map(|i| vec![Cell::from(&i.input), cell(i.first_order), cell(i.total)]);
         let caption = "First-order index S_1 and total index S_T, each with its 95 % interval.";

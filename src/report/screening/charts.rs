@@ -2,10 +2,11 @@
 
 use super::super::Drawing;
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Point, Series, Shape};
-use super::super::format::{axis_unit, sentence, short_with_unit, the, words};
+use super::super::format::{axis_unit, index, name, words};
 use super::super::leading::{Contender, may_lead, names};
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile};
 use crate::report::file_stems;
+use crate::report::result::EstimateRecord;
 use crate::screening::{FIXABLE, Reading};
 
 /// Most bars in a chart; the rest are counted in its caption.
@@ -40,7 +41,7 @@ fn series(reading: Option<Reading>) -> Series {
 }
 
 fn title(file: &ScreeningFile, output: &OutputScreeningRecord) -> String {
-    format!("{}: screening of {}", file.study.headline(), the(&output.name))
+    format!("{}: screening of {}", file.study.headline(), name(&output.name))
 }
 
 fn axis(symbol: &str, output: &OutputScreeningRecord) -> Axis {
@@ -103,7 +104,7 @@ fn bars(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
         })
     });
     let notes = ranked.iter().enumerate().filter_map(|(row, factor)| {
-        let mu_star = short_with_unit(factor.mu_star?.estimate, &output.unit);
+        let mu_star = of_unit(factor.mu_star?, &output.unit);
         let fixed = if factor.could_be_fixed == Some(true) { ", could be fixed" } else { "" };
         Some(Mark::note(row, mu_star + fixed))
     });
@@ -116,6 +117,11 @@ fn bars(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
     let x = axis("μ*, mean size of the effects per full range of the factor", output);
     let rows = Axis::from_names("", ranked.iter().map(|factor| words(&factor.factor)).collect());
     Chart::new(title(file, output), caption).panels([Panel::new(x, rows).with(bars).with(notes)])
+}
+
+/// An effect with its error and unit.
+fn of_unit(effect: EstimateRecord, unit: &str) -> String {
+    format!("{} {}", index(effect), axis_unit(unit)).trim_end().to_owned()
 }
 
 /// Which factors have no effect, if some have one.
@@ -132,13 +138,19 @@ fn idle(output: &OutputScreeningRecord) -> String {
 fn leader(output: &OutputScreeningRecord) -> String {
     let contender = |factor: &FactorScreeningRecord| {
         let total = factor.mu_star.filter(|mu_star| mu_star.estimate > 0.0)?;
-        Some(Contender { label: the(&factor.factor), first_order: None, total, probability: None })
+        Some(Contender { label: name(&factor.factor), first_order: None, total, probability: None })
     };
     let moving: Vec<Contender> = output.factors.iter().filter_map(contender).collect();
-    let mu_star = |contender: &Contender| short_with_unit(contender.total.estimate, &output.unit);
+    let mu_star = |contender: &Contender| of_unit(contender.total, &output.unit);
+    let output_name = name(&output.name);
     match &may_lead(&moving)[..] {
-        [] => "No factor has any effect.".to_owned(),
-        [lead] => format!("{} matters most: μ* = {}.", sentence(&moving[*lead].label), mu_star(&moving[*lead])),
-        tied => format!("What matters most cannot be told apart, by μ*: {}.", names(&moving, tied, &mu_star)),
+        [] => format!("No factor has any effect on {output_name}."),
+        [lead] => {
+            format!("For {output_name}, {} matters most: μ* = {}.", moving[*lead].label, mu_star(&moving[*lead]))
+        }
+        tied => {
+            let names = names(&moving, tied, &mu_star);
+            format!("What matters most for {output_name} cannot be told apart, by μ*: {names}.")
+        }
     }
 }

@@ -5,10 +5,10 @@ use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile, screeni
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::file_names::FileNames;
-use crate::report::format::{grouped, heading, name, short, the, words};
+use crate::report::format::{grouped, heading, index, name, short, words};
 use crate::report::result::EstimateRecord;
 use crate::report::study_sections::{failures, inputs, study_section, validity_section};
-use crate::report::{capitalised, listed};
+use crate::report::{capitalised, listed, validity};
 use crate::screening::FIXABLE;
 
 /// The document of a screening.
@@ -31,6 +31,8 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
         parts.extend(figures.into_iter().map(|figure| figure.into()));
         sections.push(Section::new(&format!("output-{}", place + 1), &heading(&output.name, &output.unit), parts));
     }
+    lead.push(validity::sentence(&file.validity));
+    lead.extend(validity::of_failures(file.provenance.failed_runs, file.provenance.model_runs));
     if !file.notes.is_empty() {
         let texts = file.notes.iter().map(|note| format!("{}.", capitalised(note))).collect();
         let note = Part::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts };
@@ -90,7 +92,7 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
     let row = |factor: &FactorScreeningRecord| {
         let reading = factor.reading.map(|reading| reading.words());
         let fixed = factor.could_be_fixed.map_or("–", |fixed| if fixed { "yes" } else { "no" });
-        let mu_star = factor.mu_star.map_or_else(|| "–".to_owned(), with_interval);
+        let mu_star = factor.mu_star.map_or_else(|| "–".to_owned(), index);
         let mut row = vec![
             Cell::from(&output.name),
             Cell::from(&output.unit),
@@ -114,7 +116,7 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
     };
     let mut ranked: Vec<usize> = (0..output.factors.len()).collect();
     ranked.sort_by_key(|&place| output.factors[place].rank);
-    let output_name = the(&output.name);
+    let output_name = name(&output.name);
     let caption = if is_derivative {
         format!(
             "Derivatives of {output_name}, times the range of each factor: mean size mu* with its 95 % interval, mean mu, standard \
@@ -137,14 +139,6 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
 /// The columns before those of derivatives: up to sigma/mu*.
 const COLUMNS_BEFORE_NU: usize = 8;
 
-/// `40.12 [38.9, 41.3]`, or the estimate alone where there is no interval.
-fn with_interval(record: EstimateRecord) -> String {
-    match (record.low, record.high) {
-        (Some(low), Some(high)) => format!("{} [{}, {}]", short(record.estimate), short(low), short(high)),
-        _ => short(record.estimate),
-    }
-}
-
 /// Which factors could be fixed, and by which rule.
 fn fixable(output: &OutputScreeningRecord) -> String {
     let fixable = output.factors.iter().filter(|f| f.could_be_fixed == Some(true)).map(|f| words(&f.factor));
@@ -154,11 +148,11 @@ fn fixable(output: &OutputScreeningRecord) -> String {
         100.0 * FIXABLE
     );
     if output.factors.iter().all(|factor| factor.could_be_fixed.is_none()) {
-        return format!("No factor has any effect on {} here: nothing to rank.", the(&output.name));
+        return format!("No factor has any effect on {} here: nothing to rank.", name(&output.name));
     }
     match &fixable[..] {
-        [] => format!("No factor could be fixed for {} ({rule}).", the(&output.name)),
-        names => format!("Could be fixed for {}: {} ({rule}).", the(&output.name), listed(names)),
+        [] => format!("No factor could be fixed for {} ({rule}).", name(&output.name)),
+        names => format!("Could be fixed for {}: {} ({rule}).", name(&output.name), listed(names)),
     }
 }
 

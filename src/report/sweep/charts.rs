@@ -2,8 +2,8 @@
 
 use super::super::Drawing;
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
-use super::super::format::{axis_unit, printed, sentence, short_with_unit, the, words};
-use crate::report::file_stems;
+use super::super::format::{axis_unit, name, printed, short_with_unit, words};
+use crate::report::{capitalised, file_stems};
 
 use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines};
 
@@ -105,18 +105,18 @@ fn values_seen(sweep: &FactorSweepRecord) -> String {
 
 /// What is seen: how far each output goes, its slope, and what is missing.
 fn caption(sweep: &FactorSweepRecord) -> String {
-    let factor = sentence(&words(&sweep.factor));
+    let factor = words(&sweep.factor);
     let mut text = match sweep.curves.iter().find_map(|curve| curve.against.as_ref()) {
         Some(against) => format!(
             "{factor}, {}, for {} values of {}; percentages are for its nominal value. Every other factor is nominal.",
             values_seen(sweep),
             sweep.curves.len() - 1,
-            the(&against.factor)
+            name(&against.factor)
         ),
         None => format!("{factor}, {}; every other factor is nominal.", values_seen(sweep)),
     };
     for effect in &sweep.effects {
-        let output = sentence(&the(&effect.output));
+        let output = name(&effect.output);
         match (effect.percent, effect.elasticity) {
             (Some(0.0), _) => text.push_str(&format!(" {output} does not change.")),
             (Some(percent), Some(elasticity)) => text.push_str(&format!(
@@ -164,7 +164,7 @@ fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> Chart
         0 => String::new(),
         more => format!(" {more} factors of less effect are not shown."),
     };
-    let output = the(&nominal.output);
+    let output = name(&nominal.output);
     let missing = |read: fn(&SweepEffectRecord) -> Option<f64>, end: &str| {
         let without = sweeps.iter().filter(|(sweep, effect)| sweep.labels.is_none() && read(effect).is_none());
         let names: Vec<String> = without.map(|(sweep, _)| words(&sweep.factor)).collect();
@@ -181,7 +181,7 @@ fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> Chart
     let caption = format!(
         "{} with one factor at either end of its range and every other at its nominal value; the percentages \
          are of the nominal value.{categories}{gaps}{beyond}",
-        sentence(&output)
+        capitalised(&format!("values of {output}"))
     );
     let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
     let rows = Axis::from_names("", sweeps.iter().map(|(sweep, _)| words(&sweep.factor)).collect());

@@ -5,8 +5,9 @@ use super::{AgainstRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, 
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::file_names::FileNames;
-use crate::report::format::{grouped, heading, name, short, short_with_unit, the, value};
+use crate::report::format::{grouped, heading, name, short, short_with_unit, value};
 use crate::report::study_sections::{study_section, validity_section};
+use crate::report::validity;
 
 /// The document of sweeps.
 pub fn sweep_document(file: &SweepFile) -> Document {
@@ -29,6 +30,7 @@ pub fn sweep_document(file: &SweepFile) -> Document {
         ];
         sections.push(Section::new(&format!("output-{}", place + 1), &heading(&nominal.output, &nominal.unit), parts));
     }
+    lead.push(validity::sentence(&file.validity));
     let mut parts: Vec<Part> = curves.into_iter().map(|figure| figure.into()).collect();
     let failed: Vec<String> = file.sweeps.iter().flat_map(gap_lines).map(|line| format!("{line}.")).collect();
     if !failed.is_empty() {
@@ -71,11 +73,11 @@ pub fn file_names(name: &str, factors: &[&str], outputs: &[&str]) -> FileNames {
 
 /// Which factor moves an output most.
 fn widest(file: &SweepFile, nominal: &NominalRecord, number: usize) -> String {
-    let output = the(&nominal.output);
+    let output = name(&nominal.output);
     match by_width(file, number).first() {
         Some((sweep, SweepEffectRecord { low: Some(low), high: Some(high), .. })) if high > low => format!(
             "Over its range, with all others nominal, {} moves {output} most: from {} to {}.",
-            the(&sweep.factor),
+            name(&sweep.factor),
             value(*low, ""),
             value(*high, &nominal.unit)
         ),
@@ -118,7 +120,7 @@ fn effects(file: &SweepFile, nominal: &NominalRecord, number: usize) -> Table {
     let caption = format!(
         "How far each factor alone moves {}, all others nominal, the widest range first; the elasticity is its slope there \
          in percent per percent.",
-        the(&nominal.output)
+        name(&nominal.output)
     );
     Table::new(caption, Column::list(1, &headings)).with_rows(by_width(file, number).into_iter().map(row))
 }

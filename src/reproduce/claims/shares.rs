@@ -7,7 +7,7 @@ use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_
 use crate::reproduce::published::CLOSE;
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, published};
 use apportion::afm::{Failure, FrictionLaw, Scene};
-use apportion::report::{EffectRecord, EstimateRecord, IndexRecord, estimate, fixed, share};
+use apportion::report::{EffectRecord, EstimateRecord, IndexRecord, fixed, give_or_take, share};
 
 /// F_cr counts as a product of a function of the dimensions and one of the environment if it is one to this: a
 /// thousandth moves no percentage by more than a tenth.
@@ -341,7 +341,7 @@ fn outweigh(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
         let missing = ClaimsError::NoIndices { group: "general", friction: friction.name };
         let (dimensional, environmental, standing) = outweighing(study).ok_or(missing)?;
         standings.push((friction.name, standing));
-        let total = |record: EstimateRecord| estimate(record, 3);
+        let total = |record: EstimateRecord| give_or_take(record);
         findings.push(format!("{} against {} ({})", total(dimensional), total(environmental), friction.name));
     }
     let all = |wanted: Standing| standings.iter().all(|(_, standing)| *standing == wanted);

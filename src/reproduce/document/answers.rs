@@ -3,7 +3,7 @@
 use crate::reproduce::order::VISIBLE;
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup};
 use apportion::report::document::{Cell, Column, Mark, OnPhone, Part, Table};
-use apportion::report::format::{estimate, words};
+use apportion::report::format::{give_or_take, words};
 use apportion::report::{EffectRecord, IndexRecord, IntervalRecord, fixed, listed, share_of_runs};
 
 /// The factors of a study, the largest total share first.
@@ -153,8 +153,8 @@ pub(super) fn all_shares(studies: &[Reproduced]) -> Vec<Vec<Cell>> {
                 if place == 0 { study.group.key } else { "" }.into(),
                 if place == 0 { study.friction.name } else { "" }.into(),
                 words(factor).into(),
-                estimate(effect.first_order, 4).into(),
-                estimate(effect.total, 4).into(),
+                give_or_take(effect.first_order).into(),
+                give_or_take(effect.total).into(),
                 percent(effect.share_first_order, effect.share_first_order_interval).into(),
                 percent(effect.share_total, effect.share_total_interval).into(),
                 printed.map_or_else(String::new, |(_, share)| format!("{share} %")).into(),

@@ -37,8 +37,17 @@ fn any_mark() -> impl Strategy<Value = Mark> {
     let triples = prop::collection::vec((any_number(), any_number(), any_number()), 0..9);
     let interval = || prop::option::of((any_number(), any_number()));
     let text = || "\\PC{0,30}";
-    let bar = (0_usize..8, any_number(), any_number(), interval(), prop::option::of(any_number()), text())
-        .prop_map(|(row, from, to, interval, published, label)| Bar { row, from, to, interval, published, label });
+    let bar = (0_usize..8, any_number(), any_number(), interval(), prop::option::of(any_number()), text()).prop_map(
+        |(row, from, to, interval, published, label)| Bar {
+            row,
+            from,
+            to,
+            interval,
+            published,
+            label,
+            ..Bar::default()
+        },
+    );
     let point = (any_number(), any_number(), text(), interval(), interval())
         .prop_map(|(x, y, label, x_interval, y_interval)| Point { x, y, label, x_interval, y_interval });
     let shape = prop_oneof![

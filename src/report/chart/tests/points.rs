@@ -43,7 +43,7 @@ fn dots_are_seen_in_the_picture() {
     let without = with.replace("h0", "");
     let height = number(&Document::parse(&with).expect("well-formed").root_element(), "height");
     // Dark pixels once the dots are as dark as ink.
-    let visible = |svg: &str| dark_pixels(&svg.replace("stroke-opacity=\"0.4\"", ""), 0.0, height);
+    let visible = |svg: &str| dark_pixels(&svg.replace("stroke-opacity=\"0.6\"", ""), 0.0, height);
     assert!(visible(&with) > visible(&without), "round ends of lines of no length are drawn");
 }
 

@@ -1,0 +1,186 @@
+//! Estimates with their errors, with as many digits as the error bears: the one way of sentences, tables and captions.
+
+use super::{minus, significant};
+use crate::report::result::{EstimateRecord, IntervalRecord};
+
+/// Most significant digits of an estimate.
+const MOST_DIGITS: i32 = 7;
+/// Up to this ratio of its longer part to the shorter one an interval is told by the longer one.
+const EVEN: f64 = 1.5;
+/// Significant digits of an estimate of which no error is known.
+const WITHOUT_ERROR: usize = 3;
+/// Numbers below this magnitude are written with a power of ten.
+pub(super) const SMALL: f64 = 1e-5;
+
+/// An estimate and the half width of its interval, `0.02487 ± 0.00003`, or both bounds where they are not symmetric about
+/// it to within half, `0.68 [0.52, 1.03]`.
+///
+/// The half width (the longer one, where the two are not equal) has one digit, two if it begins with 1, and the estimate ends
+/// at the same place, after seven digits at the latest. Bounds have the digits of the nearer one, two if it begins with 1 or 2. Without an interval there are three digits. Files have all.
+pub fn give_or_take(record: EstimateRecord) -> String {
+    let EstimateRecord { estimate, low: Some(low), high: Some(high) } = record else {
+        return rounded(record.estimate, WITHOUT_ERROR);
+    };
+    let half = (high - low) / 2.0;
+    if !(half > 0.0 && half.is_finite() && estimate.is_finite()) {
+        return significant(estimate);
+    }
+    let most = match estimate {
+        0.0 => i32::MAX,
+        estimate => MOST_DIGITS - 1 - exponent(estimate),
+    };
+    let (nearer, farther) = (f64::min(estimate - low, high - estimate), f64::max(estimate - low, high - estimate));
+    if nearer * EVEN >= farther || decimals(half) > most {
+        let said = match decimals(farther) > most {
+            // Its digits stand beyond those of the estimate.
+            true => rounded(farther, 1),
+            false => at(farther, decimals(farther)),
+        };
+        return format!("{} ± {said}", at(estimate, decimals(farther).min(most)));
+    }
+    // A bound next to the estimate is no reason for many digits.
+    let nearer = nearer.max(half / 2.0);
+    let digits = if format!("{nearer:.1e}").starts_with(['1', '2']) { 2 } else { 1 };
+    let places = decimals_of(nearer, digits).min(most);
+    format!("{} [{}, {}]", at(estimate, places), at(low, places), at(high, places))
+}
+
+/// The same for sentences, with true minus signs.
+pub fn index(record: EstimateRecord) -> String {
+    minus(&give_or_take(record))
+}
+
+/// A part of 1 in percent with its error: `39.96 ± 0.03 %`. A part that cannot be below 0 or beyond 1 has bounds inside.
+pub fn percent(record: EstimateRecord) -> String {
+    let percent = |part: f64| 100.0 * part;
+    let within = |bound: Option<f64>| bound.map(|bound| percent(bound.clamp(0.0, 1.0)));
+    let estimate = record.estimate;
+    let inside = (0.0..=1.0).contains(&estimate);
+    let bound = |bound: Option<f64>| if inside { within(bound) } else { bound.map(percent) };
+    let (low, high) = (bound(record.low), bound(record.high));
+    format!("{} %", index(EstimateRecord { estimate: percent(estimate), low, high }))
+}
+
+/// A share in percent with its error, `-` if it does not exist.
+pub fn share(share: Option<f64>, interval: Option<IntervalRecord>) -> String {
+    let bounds = |estimate| EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) };
+    share.map_or_else(|| "-".to_owned(), |share| give_or_take(bounds(share)))
+}
+
+/// An error or width by itself, with two significant digits: 0.000083, or 8.3e-7 where there would be more zeros.
+pub fn two_digits(value: f64) -> String {
+    rounded(value, 2)
+}
+
+/// `value` with so many significant digits, without zeros at the end.
+pub(super) fn rounded(value: f64, digits: usize) -> String {
+    significant(format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value))
+}
+
+/// The decimal places of a number with this error, which may be negative.
+fn decimals(error: f64) -> i32 {
+    decimals_of(error, if format!("{error:.1e}").starts_with('1') { 2 } else { 1 })
+}
+
+/// The decimal places of a number with so many digits of its error.
+fn decimals_of(error: f64, digits: i32) -> i32 {
+    digits - 1 - exponent(format!("{error:.1e}").parse().unwrap_or(error))
+}
+
+fn exponent(value: f64) -> i32 {
+    let text = format!("{value:e}");
+    text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
+}
+
+/// `value` with so many decimal places; a zero is `0`, and what is small has a power of ten.
+fn at(value: f64, decimals: i32) -> String {
+    let scale = 10_f64.powi(decimals.abs());
+    if decimals < 0 {
+        return significant((value / scale).round() * scale);
+    }
+    let text = format!("{value:.*}", decimals as usize);
+    if text.chars().all(|c| matches!(c, '-' | '0' | '.')) {
+        return "0".to_owned();
+    }
+    if value.abs() < SMALL {
+        return format!("{value:.*e}", (decimals + exponent(value)).max(0) as usize);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(low: f64, estimate: f64, high: f64) -> EstimateRecord {
+        EstimateRecord { estimate, low: Some(low), high: Some(high) }
+    }
+
+    fn about(estimate: f64, half: f64) -> String {
+        give_or_take(record(estimate - half, estimate, estimate + half))
+    }
+
+    #[test]
+    fn estimates_have_the_digits_that_their_errors_bear() {
+        let cases = [
+            (0.024_868, 0.000_03, "0.02487 ± 0.00003"),
+            (0.5, 0.02, "0.50 ± 0.02"),
+            (0.5, 0.123, "0.50 ± 0.12"),
+            (0.5, 0.097, "0.50 ± 0.10"),
+            (5e-5, 9e-5, "0.00005 ± 0.00009"),
+            (0.000_05, 0.3, "0 ± 0.3"),
+            (-0.041_2, 0.005, "-0.041 ± 0.005"),
+            (3.506e-7, 2e-9, "3.51e-7 ± 2e-9"),
+            (0.975_501_2, 4.1e-8, "0.9755012 ± 4e-8"),
+            (1344.08, 23.0, "1340 ± 20"),
+            (0.0, 3e-7, "0 ± 3e-7"),
+        ];
+        for (estimate, half, text) in cases {
+            assert_eq!(about(estimate, half), text);
+        }
+    }
+
+    #[test]
+    fn bounds_stand_where_they_are_not_symmetric() {
+        assert_eq!(give_or_take(record(0.5217, 0.6789, 1.0301)), "0.68 [0.52, 1.03]");
+        assert_eq!(give_or_take(record(0.4, 0.5, 0.52)), "0.50 [0.40, 0.52]");
+        assert_eq!(give_or_take(record(0.3282, 0.328_45, 0.3287)), "0.3285 ± 0.0003");
+        assert_eq!(give_or_take(record(0.0, 0.0, 1.0)), "0 [0, 1.00]");
+        assert_eq!(give_or_take(record(0.4886, 0.4889, 0.4893)), "0.4889 ± 0.0004");
+        assert_eq!(give_or_take(record(0.9755011, 0.97550118, 0.9755012)), "0.9755012 ± 8e-8");
+        assert_eq!(index(record(-0.03, -0.01, 0.05)), "−0.010 [−0.030, 0.050]");
+    }
+
+    #[test]
+    fn exact_numbers_and_those_without_an_error() {
+        assert_eq!(give_or_take(record(0.0, 0.0, 0.0)), "0");
+        assert_eq!(give_or_take(record(1.0, 1.0, 1.0)), "1");
+        assert_eq!(give_or_take(EstimateRecord { estimate: 0.5, low: None, high: None }), "0.5");
+        assert_eq!(give_or_take(EstimateRecord { estimate: 2.345_678e-7, low: None, high: None }), "2.35e-7");
+        assert_eq!(give_or_take(record(f64::NAN, f64::NAN, f64::NAN)), "NaN");
+    }
+
+    #[test]
+    fn parts_and_shares_in_percent() {
+        assert_eq!(percent(record(0.389, 0.392, 0.395)), "39.2 ± 0.3 %");
+        assert_eq!(percent(EstimateRecord { estimate: 0.5, low: None, high: None }), "50 %");
+        assert_eq!(percent(record(0.25, 0.52, 1.18)), "52 [25, 100] %");
+        assert_eq!(share(Some(97.61), Some(IntervalRecord { low: 97.6, high: 97.62 })), "97.610 ± 0.010");
+        assert_eq!(share(None, None), "-");
+        let widths = [0.0, 0.0351, 8.3e-5, 4.96e-5, 8.32e-7, 2e-8, 12.4].map(two_digits);
+        assert_eq!(widths, ["0", "0.035", "0.000083", "0.00005", "8.3e-7", "2e-8", "12"]);
+    }
+
+    proptest::proptest! {
+        /// What is written is within half of the last place of what is meant, and never shows a place beyond the error.
+        #[test]
+        fn what_is_written_is_what_is_meant(estimate in -10.0..10.0, power in -9.0..0.5_f64) {
+            let half = 10_f64.powf(power);
+            let text = about(estimate, half);
+            let (value, error) = text.split_once(" ± ").expect("symmetric");
+            let (value, error): (f64, f64) = (value.parse().unwrap(), error.parse().unwrap());
+            proptest::prop_assert!((value - estimate).abs() <= half.max(1e-6), "{}", text);
+            proptest::prop_assert!((error / half - 1.0).abs() < 0.34, "{} of {}", text, half);
+        }
+    }
+}
