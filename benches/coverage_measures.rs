@@ -302,7 +302,9 @@ fn main() {
         100.0 * (0.95f64 * 0.05 / seeds as f64).sqrt()
     );
     shapley(&mut text, seeds);
-    text += "\n## Measures of given data\n\nA sum of four independent normal inputs with slopes 3, 2, 1 and 0, random rows.\n\n";
+    text += "\n## Measures of given data\n\nA sum of four independent normal inputs with slopes 3, 2, 1 and 0, random rows. \
+             The interval of delta is that of resamples of the rows: it knows nothing of the bias of kernel densities, and so holds the \
+             exact delta in fewer tables than it says.\n\n";
     given(&mut text, seeds);
     println!("{text}");
     if asked.is_none() {

@@ -152,7 +152,7 @@ impl Orders {
     pub fn next_order(&mut self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.players).collect();
         for left in (1..=self.players).rev() {
-            let place = u64::from(self.stream.next_u32()) * left as u64 >> 32;
+            let place = (u64::from(self.stream.next_u32()) * left as u64) >> 32;
             order.swap(left - 1, place as usize);
         }
         order

@@ -1,7 +1,7 @@
 //! Charts of factors: sorted level bars of indices, and the chart of percentages.
 
 use super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape};
-use super::format::{fixed, index as of_error, minus, name};
+use super::format::{fixed, index as of_error, minus, name, two_digits};
 use super::result::{EffectRecord, EstimateRecord, IntervalRecord, OutputRecord, ResultFile};
 
 /// Most factors in a chart; the rest are summed in a last row.
@@ -15,8 +15,9 @@ const LONGEST: f64 = 1.0;
 const UNKNOWN: &str = "unknown: too few samples";
 /// As far as intervals are drawn.
 const DRAWN: (f64, f64) = (-0.2, 1.2);
-/// Most decimals of a label.
+/// Most decimals of a label; what is smaller than `SMALL` has two digits.
 const DECIMALS: usize = 4;
+const SMALL: f64 = 0.01;
 
 /// A series with its value for each factor; `None` is marked as missing.
 pub(super) type IndexSeries = (Series, Vec<Option<EstimateRecord>>);
@@ -127,7 +128,11 @@ fn index_bar(row: usize, value: Option<EstimateRecord>) -> Bar {
     let said = of_error(index);
     let printed = said.split(' ').next().unwrap_or_default();
     let decimals = printed.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    let label = if decimals > DECIMALS { minus(&fixed(index.estimate, DECIMALS)) } else { printed.to_owned() };
+    let label = match decimals > DECIMALS {
+        true if index.estimate.abs() < SMALL => minus(&two_digits(index.estimate)),
+        true => minus(&fixed(index.estimate, DECIMALS)),
+        false => printed.to_owned(),
+    };
     let interval = index.low.zip(index.high).map(|(low, high)| (low.max(DRAWN.0), high.min(DRAWN.1)));
     Bar { row, to: index.estimate, interval, label, said, ..Bar::default() }
 }

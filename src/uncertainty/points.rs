@@ -66,12 +66,15 @@ impl<'a> KeptPoints<'a> {
     }
 }
 
+/// The replicate and the first base point of a block, and the columns of its runs.
+type Placed<'a> = ((u64, u64), Vec<&'a [f64]>);
+
 /// Some consecutive base points.
 pub(super) struct Chunk<'a> {
     /// Their numbers.
     pub points: Range<usize>,
-    /// Columns of their runs, and the replicate and the first base point of each block.
-    blocks: Vec<((u64, u64), Vec<&'a [f64]>)>,
+    /// Their blocks.
+    blocks: Vec<Placed<'a>>,
 }
 
 impl Chunk<'_> {

@@ -159,3 +159,22 @@ fn charts_have_the_formats_that_are_asked_for() {
         assert!(stderr(&output).contains(expected) && !out.exists(), "{}", stderr(&output));
     }
 }
+
+#[test]
+fn charts_for_a_paper_have_its_width_and_no_title() {
+    let folder = Folder::new();
+    let out = folder.path("out");
+    let study = study_path("ishigami");
+    let run = ["run", text(&study), "--base-samples", "64", "--no-journal", "--out", text(&out)];
+    succeed(&[&run[..], &["--charts", "svg,png", "--chart-width", "88mm"]].concat());
+    let svg = std::fs::read_to_string(out.join("charts/ishigami-indices.svg")).unwrap();
+    let root = svg.split('>').next().unwrap();
+    assert!(root.contains("width=\"88mm\"") && root.contains("viewBox=\"0 0 338 "), "{root}");
+    assert!(!svg.contains("class=\"title\"") && !svg.contains("class=\"caption\"") && svg.contains("<text "), "{svg}");
+    // 88 mm at 600 dpi; pHYs says so behind IHDR.
+    let png = std::fs::read(out.join("charts/ishigami-indices.png")).unwrap();
+    let number = |at: usize| u32::from_be_bytes([png[at], png[at + 1], png[at + 2], png[at + 3]]);
+    assert!((2078..=2080).contains(&number(16)) && &png[37..41] == b"pHYs" && number(41) == 23_622);
+    let said = apportion(&[&run[..], &["--chart-width", "20mm"]].concat());
+    assert!(said.status.code() == Some(2) && stderr(&said).contains("60mm to 300mm"), "{}", stderr(&said));
+}

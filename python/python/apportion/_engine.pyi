@@ -74,6 +74,7 @@ class Study:
         *,
         trajectories: int,
         levels: int | None,
+        derivatives: bool,
         seed: int | None,
         threads: int,
         progress: Callable[[int, int, int, int], None] | None,

@@ -160,14 +160,16 @@ impl<'a> Sheet<'a> {
     }
 
     fn intervals(&self, canvas: &mut Canvas, lanes: &[Lane<'_>]) {
+        let of_lane = |lane: &Lane<'_>| {
+            let (low, high) = lane.bar.drawn().and_then(|bar| bar.interval)?;
+            Some((self.x(low).zip(self.x(high))?, lane.upper(), (lane.height - 2.0).min(7.0)))
+        };
+        let of_bars: Vec<_> = lanes.iter().filter_map(of_lane).collect();
+        canvas.open("g", &[("class", &"rims")]);
+        of_bars.iter().for_each(|&(ends, y, _)| canvas.rim(ends, y));
+        canvas.close("g");
         canvas.open("g", &[("class", &"whiskers")]);
-        for lane in lanes {
-            if let Some((low, high)) = lane.bar.drawn().and_then(|bar| bar.interval)
-                && let Some(ends) = self.x(low).zip(self.x(high))
-            {
-                canvas.whisker(ends, lane.upper(), (lane.height - 2.0).min(7.0));
-            }
-        }
+        of_bars.iter().for_each(|&(ends, y, cap)| canvas.whisker(ends, y, cap));
         for mark in &self.cell.panel.marks {
             if let Shape::Interval(row, low, high) = mark.shape
                 && row < self.cell.panel.y.names.len()

@@ -26,6 +26,12 @@ impl Canvas {
         self.leaf("path", &[("d", &d), ("fill", &"none"), ("stroke", &INK), ("stroke-width", &"1.2")]);
     }
 
+    /// The white rim that parts an interval from the bar below it.
+    pub fn rim(&mut self, (from, to): (f64, f64), y: f64) {
+        let d = format!("M{} {}H{}", Px(from - 0.6), Px(y), Px(to + 0.6));
+        self.leaf("path", &[("d", &d), ("fill", &"none"), ("stroke", &PAPER), ("stroke-width", &"3.2")]);
+    }
+
     /// A cloud of small dots as one path: each is a line of no length with round ends. Coordinates have one decimal.
     pub fn dots(&mut self, dots: &[(f64, f64)], colour: Colour) {
         let mut d = String::with_capacity(14 * dots.len());

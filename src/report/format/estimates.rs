@@ -7,13 +7,15 @@ use crate::report::result::{EstimateRecord, IntervalRecord};
 const MOST_DIGITS: i32 = 7;
 /// Up to this ratio of its longer part to the shorter one an interval is told by the longer one.
 const EVEN: f64 = 1.5;
+/// Below this part of the estimate nobody needs both ends of an interval.
+const LEAST: f64 = 0.01;
 /// Significant digits of an estimate of which no error is known.
 const WITHOUT_ERROR: usize = 3;
 /// Numbers below this magnitude are written with a power of ten.
 pub(super) const SMALL: f64 = 1e-5;
 
 /// An estimate and the half width of its interval, `0.02487 ± 0.00003`, or both bounds where they are not symmetric about
-/// it to within half, `0.68 [0.52, 1.03]`.
+/// it to within half and longer than 1 % of it, `0.68 [0.52, 1.03]`.
 ///
 /// The half width (the longer one, where the two are not equal) has one digit, two if it begins with 1, and the estimate ends
 /// at the same place, after seven digits at the latest. Bounds have the digits of the nearer one, two if it begins with 1 or 2. Without an interval there are three digits. Files have all.
@@ -30,7 +32,7 @@ pub fn give_or_take(record: EstimateRecord) -> String {
         estimate => MOST_DIGITS - 1 - exponent(estimate),
     };
     let (nearer, farther) = (f64::min(estimate - low, high - estimate), f64::max(estimate - low, high - estimate));
-    if nearer * EVEN >= farther || decimals(half) > most {
+    if nearer * EVEN >= farther || half < LEAST * estimate.abs() {
         let said = match decimals(farther) > most {
             // Its digits stand beyond those of the estimate.
             true => rounded(farther, 1),

@@ -11,7 +11,10 @@ pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let title = format!("{}: distribution of {}", headline(result), name(&output.name));
     let output_words = words(&output.name);
     if let Some(distribution) = &output.distribution {
-        return density_chart(&distribution.sample, &title, &output_words);
+        let mut sample = distribution.sample.clone();
+        // That of the page, which surrogates may have corrected.
+        sample.mean = output.mean.unwrap_or(sample.mean);
+        return density_chart(&sample, &title, &output_words);
     }
     let reason = output.reason.as_deref().unwrap_or("its values are beyond double precision in this unit");
     let panel = Panel::new(Axis::new(output_words, ""), Axis::new("probability density", ""));

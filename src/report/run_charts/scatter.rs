@@ -20,7 +20,7 @@ pub fn scatter_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     if panels.is_empty() {
         panels.push(Panel::new(Axis::default(), y));
     }
-    let title = format!("{}: {} over its factors", headline(result), name(&output.name));
+    let title = format!("{}: values of {} over its factors", headline(result), name(&output.name));
     let caption = scatter.map_or_else(|| nothing(output), |scatter| caption(result, output, scatter));
     Chart::new(title, caption).side_by_side().panels(panels)
 }

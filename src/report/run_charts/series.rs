@@ -13,8 +13,8 @@ const OTHERS: Colour = Colour::Series(9);
 const INTERACTIONS: Colour = Colour::Series(10);
 /// That of the noise of a stochastic model.
 const NOISE: Colour = Colour::Series(6);
-/// What is drawn of an index, in percent: intervals of values that hardly vary reach far.
-const DRAWN: (f64, f64) = (-10.0, 110.0);
+/// What is drawn of an index: intervals of values that hardly vary reach far.
+const DRAWN: (f64, f64) = (-0.1, 1.1);
 
 /// A series with the results of its values.
 #[derive(Clone, Copy)]
@@ -56,7 +56,7 @@ impl<'a> SeriesOf<'a> {
     }
 
     fn title(self, what: &str) -> String {
-        format!("{}: {} {what}", headline(self.result), name(&self.series.name))
+        format!("{}: {what} of {}", headline(self.result), name(&self.series.name))
     }
 
     /// Position and index of a factor at every value; `None` where there are no indices.
@@ -87,9 +87,8 @@ pub(in crate::report) fn along_chart(of: SeriesOf<'_>) -> Chart {
             let series = Series::new(name(&of.result.factors[factor].name), Colour::Series(colour));
             let curve = of.curve(factor, read);
             let mut drawn = |x: f64| {
-                let percent = 100.0 * x;
-                is_cut |= !(DRAWN.0..=DRAWN.1).contains(&percent);
-                percent.clamp(DRAWN.0, DRAWN.1)
+                is_cut |= !(DRAWN.0..=DRAWN.1).contains(&x);
+                x.clamp(DRAWN.0, DRAWN.1)
             };
             let band = curve.iter().map(|&(x, index)| {
                 let bounds = index.and_then(|index| index.low.zip(index.high));
@@ -105,9 +104,9 @@ pub(in crate::report) fn along_chart(of: SeriesOf<'_>) -> Chart {
         panel("Total indices S_T: with all interactions", |index| index.effect.total),
         panel("First-order indices S_1: alone", |index| index.effect.first_order),
     ];
-    let cut = if is_cut { " What reaches beyond −10 and 110 % is cut there." } else { "" };
+    let cut = if is_cut { " What reaches beyond −0.1 and 1.1 is cut there." } else { "" };
     let caption = format!("Bands are the 95 % intervals of each value by itself.{cut}{}", of.left_out());
-    Chart::new(of.title("along its axis"), caption).panels(panels)
+    Chart::new(of.title("indices along the axis"), caption).panels(panels)
 }
 
 /// The variance of every value as a stack: what each factor does alone, and in grey what they do together; of dependent factors their
@@ -159,7 +158,7 @@ pub(in crate::report) fn layers_chart(of: SeriesOf<'_>) -> Chart {
                   together."
         }
     };
-    Chart::new(of.title("by shares of its variance"), caption).panels([panel])
+    Chart::new(of.title("shares of the variance"), caption).panels([panel])
 }
 
 /// What one standard deviation of the score of each main direction adds to every value.
@@ -178,5 +177,5 @@ pub(in crate::report) fn directions_chart(of: SeriesOf<'_>) -> Chart {
                  values together."
             .to_owned(),
     };
-    Chart::new(of.title("in its main directions"), caption).panels([panel])
+    Chart::new(of.title("main directions"), caption).panels([panel])
 }

@@ -137,9 +137,9 @@ fn weight_name(order: &[&IndexRecord]) -> &'static str {
 fn how_sure(order: &[&IndexRecord]) -> String {
     match order[0].effect.probability_first {
         None => "; how sure it is that no other is larger, is unknown without intervals".to_owned(),
-        Some(probability) => {
-            format!(", the largest with a probability of {}", chance(Some(probability)).replace('>', "more than "))
-        }
+        // Intervals bear no certainty.
+        Some(probability) if probability > 0.999 => ", the largest with a probability of more than 0.999".to_owned(),
+        Some(probability) => format!(", the largest with a probability of {}", chance(Some(probability))),
     }
 }
 

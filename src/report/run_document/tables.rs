@@ -59,7 +59,9 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part
     );
     let mut printed = places(&order, FACTORS);
     if let (Some(printed), Some(_)) = (&mut printed, noise) {
-        printed.push(order.len());
+        let weight = noise.map_or(0.0, |noise| noise.effect.weight().estimate);
+        let before = order.iter().take(FACTORS).filter(|(_, index)| index.effect.weight().estimate >= weight).count();
+        printed.insert(before, order.len());
     }
     let table = with_effects(effect_table(result, caption, "factor"), rows.chain(of_noise));
     match output.sum_first_order.is_some() || output.sum_total.is_some() {

@@ -27,8 +27,8 @@ fn the_leading_factor_stands_at_the_top() {
     assert!(page.lead[0].contains("no interactions are seen"), "{}", page.lead[0]);
     assert!(page.lead[1].starts_with("After 1280 model runs"), "{}", page.lead[1]);
     let expected = [
-        "Shares",
         "Indices",
+        "Shares",
         "Interactions",
         "How the indices settled",
         "Distribution of the output",

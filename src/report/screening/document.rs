@@ -108,7 +108,7 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
             Cell::valued("", factor.dropped.into()),
         ];
         if is_derivative {
-            let bound = factor.total_bound.map_or_else(|| "–".to_owned(), with_interval);
+            let bound = factor.total_bound.map_or_else(|| "–".to_owned(), index);
             let bound = Cell::valued(bound, Value::Estimate(factor.total_bound));
             row.splice(COLUMNS_BEFORE_NU..COLUMNS_BEFORE_NU, [plain(factor.nu), bound]);
         }

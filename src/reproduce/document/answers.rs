@@ -93,7 +93,44 @@ fn leader(study: &Reproduced) -> Cell {
 /// A paragraph for the top of the page: who leads in each group of studies.
 pub(super) fn paragraph(studies: &[Reproduced]) -> Option<String> {
     let sentences: Vec<String> = [2, 0, 1].iter().filter_map(|&place| sentence(studies, GROUPS[place])).collect();
-    (!sentences.is_empty()).then(|| format!("{}{}", sentences.join(" "), sureness(studies)))
+    (!sentences.is_empty()).then(|| {
+        format!("{}{}{}{}", sentences.join(" "), sureness(studies), interactions(studies), where_it_holds(studies))
+    })
+}
+
+/// How much of the variance is interaction where all factors vary.
+fn interactions(studies: &[Reproduced]) -> String {
+    let general = studies.iter().filter(|study| study.group.key == "general");
+    let sums = general.filter_map(|study| Some(study.result.outputs.first()?.sum_first_order?.estimate));
+    let sums: Vec<f64> = sums.collect();
+    let (Some(least), Some(most)) = (sums.iter().copied().reduce(f64::min), sums.iter().copied().reduce(f64::max))
+    else {
+        return String::new();
+    };
+    let percent = |sum: f64| fixed(100.0 * (1.0 - sum), 0);
+    format!(
+        " In the general studies the first-order indices sum to {} to {}, so {} to {} % of the variance is interaction.",
+        fixed(least, 2),
+        fixed(most, 2),
+        percent(most),
+        percent(least)
+    )
+}
+
+/// On how many of the runs the model leaves its range, by the flag that is raised most.
+fn where_it_holds(studies: &[Reproduced]) -> String {
+    let flags = studies.iter().flat_map(|study| &study.result.validity).filter(|flag| flag.runs > 0);
+    let Some(worst) = flags.max_by(|a, b| a.share.total_cmp(&b.share)) else { return String::new() };
+    let shares = studies.iter().filter_map(|study| study.result.validity.iter().find(|flag| flag.flag == worst.flag));
+    let least = shares.map(|flag| flag.share).fold(1.0, f64::min);
+    let runs = match (fixed(100.0 * least, 0), fixed(100.0 * worst.share, 0)) {
+        (least, most) if least == most => format!("{most} %"),
+        (least, most) => format!("{least} to {most} %"),
+    };
+    format!(
+        " The model does not hold everywhere: on {runs} of the runs of a study, {}",
+        worst.description.replacen("The ", "the ", 1)
+    )
 }
 
 /// How sure it is that the leaders lead, as far as the error of sampling goes.
@@ -128,12 +165,12 @@ fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
         .iter()
         .map(|(friction, index, share)| match alike {
             true => format!("{} % ({})", fixed(*share, 0), friction.name),
-            false => format!("the {} under {} friction ({} %)", words(&index.factor), friction.name, fixed(*share, 0)),
+            false => format!("{} under {} friction ({} %)", words(&index.factor), friction.name, fixed(*share, 0)),
         })
         .collect();
     Some(match alike {
         true => format!(
-            "{among}, the {} decides the critical force: its share of the total indices is {}.",
+            "{among}, {} decides the critical force: its share of the total indices is {}.",
             words(&first.factor),
             listed(&said)
         ),
