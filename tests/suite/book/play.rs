@@ -147,8 +147,9 @@ fn in_an_example(shown: &str) -> Option<String> {
     };
     let wanted = lines(shown);
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
-    let is_there = std::fs::read_dir(folder).unwrap().any(|entry| {
-        let program = lines(&std::fs::read_to_string(entry.unwrap().path()).unwrap());
+    let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let is_there = paths.filter(|path| path.extension().is_some_and(|ending| ending == "rs")).any(|path| {
+        let program = lines(&std::fs::read_to_string(path).unwrap());
         program.windows(wanted.len()).any(|part| part == wanted)
     });
     (!is_there).then(|| "no program of `examples` has these lines".to_owned())
