@@ -8,13 +8,15 @@ use super::result::{EffectRecord, EstimateRecord, IntervalRecord, OutputRecord, 
 pub(super) const MOST: usize = 20;
 /// The axis of indices.
 pub(super) const INDEX: &str = "Sobol' index: part of the variance";
-/// Estimates beyond these bounds, and intervals longer than `LONGEST`, say nothing of an index, which is between 0 and 1.
-const POSSIBLE: std::ops::RangeInclusive<f64> = -0.1..=1.1;
+/// Estimates beyond these bounds say nothing of an index, which is between 0 and 1, or of a difference of two; nor do intervals
+/// longer than `LONGEST`.
+const INDICES: (f64, f64) = (-0.1, 1.1);
+const DIFFERENCES: (f64, f64) = (-1.1, 1.1);
 const LONGEST: f64 = 1.0;
+/// Intervals are drawn so far beyond.
+const BEYOND: f64 = 0.1;
 /// What stands in the place of such a bar.
 const UNKNOWN: &str = "unknown: too few samples";
-/// As far as intervals are drawn.
-const DRAWN: (f64, f64) = (-0.2, 1.2);
 /// Most decimals of a label; what is smaller than `SMALL` has two digits.
 const DECIMALS: usize = 4;
 const SMALL: f64 = 0.01;
@@ -43,12 +45,11 @@ pub(super) fn pair_panel(
 ) -> Panel {
     let with_others = Series::new("S_T − S_1: only together with others", Colour::Series(5));
     let alone: Vec<Option<f64>> = first_order.iter().map(|index| index.map(|index| index.estimate)).collect();
-    let panel = bars(INDEX, factors, both_orders(first_order, total), keys, &|bar, (number, rows)| {
+    bars((INDEX, INDICES), factors, both_orders(first_order, total), keys, &|bar, (number, rows)| {
         // That of the last row is of the sums.
         let split: f64 = rows.iter().filter_map(|&factor| alone[factor]).sum();
         (number == 1).then(|| (split.max(0.0).min(bar.to.max(0.0)), with_others.clone()))
-    });
-    panel
+    })
 }
 
 /// A panel with a row for each factor, those with the largest keys on top, and bars of their indices. What the indices of the
@@ -59,18 +60,31 @@ pub(super) fn index_panel(
     series: impl IntoIterator<Item = IndexSeries>,
     keys: &[f64],
 ) -> Panel {
-    bars(label, factors, series, keys, &|_, _| None)
+    bars((label, INDICES), factors, series, keys, &|_, _| None)
+}
+
+/// The same of differences of indices.
+pub(super) fn difference_panel(
+    label: &str,
+    factors: Vec<String>,
+    series: impl IntoIterator<Item = IndexSeries>,
+    keys: &[f64],
+) -> Panel {
+    bars((label, DIFFERENCES), factors, series, keys, &|_, _| None)
 }
 
 /// What a bar is of: the number of its series, and the factors that it sums.
 type Of<'a> = (usize, &'a [usize]);
 
+/// From where on a bar is of another series, and of which.
+type Beyond<'a> = dyn Fn(&Bar, Of<'_>) -> Option<(f64, Series)> + 'a;
+
 fn bars(
-    label: &str,
+    (label, possible): (&str, (f64, f64)),
     factors: Vec<String>,
     series: impl IntoIterator<Item = IndexSeries>,
     keys: &[f64],
-    beyond: &dyn Fn(&Bar, Of<'_>) -> Option<(f64, Series)>,
+    beyond: &Beyond<'_>,
 ) -> Panel {
     let rows = rows(keys, factors.len());
     let names = rows.iter().map(|row| match row[..] {
@@ -81,7 +95,9 @@ fn bars(
     let mut marks: Vec<Mark> = Vec::new();
     for (number, (series, values)) in series.into_iter().enumerate() {
         for (place, row) in rows.iter().enumerate() {
-            let mut bar = index_bar(place, sum(row.iter().map(|&factor| values.get(factor).copied().flatten())));
+            let value = sum(row.iter().map(|&factor| values.get(factor).copied().flatten()));
+            // Sums may be anything.
+            let mut bar = index_bar(place, value, (row.len() == 1).then_some(possible));
             bar.beyond = beyond(&bar, (number, row));
             marks.push(series.mark(Shape::Bar(bar)));
         }
@@ -116,13 +132,13 @@ fn sum(values: impl ExactSizeIterator<Item = Option<EstimateRecord>>) -> Option<
     }
 }
 
-/// The bar of an index. One of which nothing is known says so: its bar would be read all the same.
-fn index_bar(row: usize, value: Option<EstimateRecord>) -> Bar {
+/// The bar of an index, or of a sum of several, which has no bounds. One of which nothing is known says so: its bar would be
+/// read all the same.
+fn index_bar(row: usize, value: Option<EstimateRecord>, possible: Option<(f64, f64)>) -> Bar {
     let Some(index) = value else { return Bar { row, to: f64::NAN, ..Bar::default() } };
     let length = index.low.zip(index.high).map(|(low, high)| high - low);
-    if !POSSIBLE.contains(&index.estimate) && !(index.low.is_none() && index.estimate > 0.0)
-        || length.is_some_and(|length| length > LONGEST)
-    {
+    let is_possible = possible.is_none_or(|(low, high)| (low..=high).contains(&index.estimate));
+    if !is_possible || length.is_some_and(|length| length > LONGEST) {
         return Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() };
     }
     let said = of_error(index);
@@ -133,7 +149,9 @@ fn index_bar(row: usize, value: Option<EstimateRecord>) -> Bar {
         true => minus(&fixed(index.estimate, DECIMALS)),
         false => printed.to_owned(),
     };
-    let interval = index.low.zip(index.high).map(|(low, high)| (low.max(DRAWN.0), high.min(DRAWN.1)));
+    let ends = possible.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+    let interval = index.low.zip(index.high);
+    let interval = interval.map(|(low, high)| (low.max(ends.0 - BEYOND), high.min(ends.1 + BEYOND)));
     Bar { row, to: index.estimate, interval, label, said, ..Bar::default() }
 }
 
@@ -264,5 +282,57 @@ fn caption(output: &OutputRecord) -> String {
         ),
         (None, Some(reason)) => format!("No shares of {output_name}: {reason}."),
         (None, None) => format!("No shares of {output_name}."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn about(estimate: f64, half: f64) -> Option<EstimateRecord> {
+        Some(EstimateRecord { estimate, low: Some(estimate - half), high: Some(estimate + half) })
+    }
+
+    fn drawn(panel: &Panel) -> Vec<Bar> {
+        let bar = |mark: &'_ Mark| match &mark.shape {
+            Shape::Bar(bar) => Some(bar.clone()),
+            _ => None,
+        };
+        panel.marks.iter().filter_map(bar).collect()
+    }
+
+    #[test]
+    fn the_rest_of_many_factors_is_summed() {
+        let names: Vec<String> = (0..30).map(|k| format!("x{k}")).collect();
+        let keys: Vec<f64> = (0..30).map(f64::from).collect();
+        let values = |scale: f64| (0..30).map(|k| about(scale * f64::from(k), 1e-4)).collect::<Vec<_>>();
+        let panel = pair_panel(names.clone(), values(0.01), values(0.02), &keys);
+        assert_eq!(panel.y.names.len(), 21);
+        assert_eq!((panel.y.names[0].as_str(), panel.y.names[20].as_str()), ("x29", "10 others, summed"));
+        let bars = drawn(&panel);
+        assert_eq!((bars.len(), bars[0].label.as_str()), (42, "0.2900"));
+        // 0 + 1 + ... + 9 = 45, of which nothing is known of the error.
+        assert!((bars[41].to - 0.9).abs() < 1e-12 && bars[41].interval.is_none());
+        let split = bars[41].beyond.as_ref().map(|(split, _)| *split).unwrap_or_default();
+        assert!((split - 0.45).abs() < 1e-12 && bars[20].beyond.is_none());
+        // One more than fit has a row of its own.
+        let panel = pair_panel(names[..21].to_vec(), values(0.01), values(0.02), &keys[..21]);
+        assert_eq!(panel.y.names.last().map(String::as_str), Some("x0"));
+    }
+
+    #[test]
+    fn an_index_of_which_nothing_is_known_has_no_bar() {
+        let keys = [1.0, 0.5, 0.4, 0.3];
+        let names: Vec<String> = ["a", "b", "c", "d"].map(str::to_owned).to_vec();
+        let alone = Some(EstimateRecord { estimate: 2.73, low: None, high: None });
+        let values = vec![about(-1.73, 0.2), alone, about(0.4, 0.6), about(0.02, 0.04)];
+        let panel = index_panel(INDEX, names.clone(), [(Series::default(), values)], &keys);
+        let labels: Vec<String> = drawn(&panel).into_iter().map(|bar| bar.label).collect();
+        assert_eq!(labels, [UNKNOWN, UNKNOWN, UNKNOWN, "0.02"]);
+        assert!(drawn(&panel)[0].to.is_nan() && drawn(&panel)[3].said == "0.02 ± 0.04");
+        let differences = vec![about(-0.73, 0.2), alone, about(0.4, 0.3), about(0.000_013, 0.000_002)];
+        let panel = difference_panel(INDEX, names, [(Series::default(), differences)], &keys);
+        let labels: Vec<String> = drawn(&panel).into_iter().map(|bar| bar.label).collect();
+        assert_eq!(labels, ["\u{2212}0.7", UNKNOWN, "0.4", "0.000013"]);
     }
 }

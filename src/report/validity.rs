@@ -48,9 +48,8 @@ pub(super) fn of_failures(failed: u64, all: u64) -> Option<String> {
 fn clause(description: &str, flag: &str) -> String {
     let text = description.split(": ").next().unwrap_or_default().trim_end_matches('.').trim();
     match text.strip_prefix("The ") {
-        _ if text.is_empty() => format!("the flag {} is raised", flag.replace('-', " ")),
         Some(rest) => format!("the {rest}"),
-        None => format!("holds \u{201c}{text}\u{201d}"),
+        None => format!("the flag {} is raised", flag.replace('-', " ")),
     }
 }
 

@@ -107,7 +107,7 @@ fn compare_tells_what_differs_and_by_how_much() {
     let (a, b) = (a.join("soft-cantilever.json"), b.join("soft-cantilever.json"));
     let said = succeed(&["compare", text(&a), text(&b), "--out", text(&out)]);
     for expected in
-        ["friction", "coulomb", "hk", "factor thickness", "max 2.8", "seed", "leaves out 0", "Critical time (s)"]
+        ["friction", "coulomb", "hk", "factor thickness", "max 2.8", "seed", "leaves out 0", "critical time (s)"]
     {
         assert!(said.contains(expected), "{expected}: {said}");
     }

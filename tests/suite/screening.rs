@@ -48,7 +48,7 @@ fn a_screening_finds_what_the_indices_find() {
     }
     assert_eq!(by("thickness").could_be_fixed, Some(false));
     assert!(by("length").mu.unwrap().estimate < 0.0);
-    assert!(table.contains("Could be fixed for the critical force: height, velocity"));
+    assert!(table.contains("Could be fixed for critical force: height, velocity"));
     let charts = ["-bars.png", "-bars.svg", ".png", ".svg"].map(|end| format!("charts/coulomb-general-screen{end}"));
     let others = ["csv", "html", "json"].map(|ending| format!("coulomb-general-screen.{ending}"));
     assert_eq!(all_files(folder.path()), charts.into_iter().chain(others).collect::<BTreeSet<_>>());
@@ -167,7 +167,7 @@ fn a_family_has_its_gaps_and_its_own_values() {
     assert_eq!(csv.lines().count(), 1 + 4 * 2 + 4 * 5);
     assert!(csv.contains("\nvelocity,nm/s,0,thickness,um,0.5,critical_time,s,,"));
     let svg = read(folder.path(), "charts/coulomb-general-sweep-length.svg");
-    assert!(svg.contains("thickness = 0.5 um") && svg.contains("thickness = 2 um"));
+    assert!(svg.contains("thickness = 0.5 µm") && svg.contains("thickness = 2 µm"));
 }
 
 #[test]

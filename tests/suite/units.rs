@@ -36,8 +36,8 @@ fn a_program_works_in_the_units_of_its_study() {
     folder.with("model.py", PROGRAM);
     let study = folder.with("study.toml", STUDY);
     let printed = succeed(&["run", text(&study), "--out", text(&folder.path("out"))]);
-    assert!(printed.contains("Heat (degC)") && printed.contains("Mean 25.0"), "{printed}");
-    assert!(printed.contains("Cost (EUR/kWh)"), "{printed}");
+    assert!(printed.contains("heat (°C)") && printed.contains("Mean 25"), "{printed}");
+    assert!(printed.contains("cost (EUR/kWh)"), "{printed}");
     let result = read_result(&folder.path("out/study.json")).unwrap();
     let units: Vec<&str> = result.outputs.iter().map(|output| output.unit.as_str()).collect();
     assert_eq!(units, ["degC", "EUR/kWh", "h"]);

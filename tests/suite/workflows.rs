@@ -19,7 +19,7 @@ fn run_writes_what_check_announces() {
     }
     // Page, result, indices, convergence and journal; six charts of two outputs, each as SVG and PNG.
     assert_eq!(all_files(&out).len(), 5 + 2 * 6 * 2);
-    assert!(table.contains("thickness") && table.contains("Critical time (s)"));
+    assert!(table.contains("thickness") && table.contains("critical time (s)"));
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparisonFile};
 use crate::report::Drawing;
-use crate::report::chart::{Chart, Colour, Panel, Series};
-use crate::report::factor_bars::{INDEX, IndexSeries, both_orders, index_panel, left_out};
+use crate::report::chart::{Chart, Colour, Series};
+use crate::report::factor_bars::{INDEX, both_orders, difference_panel, index_panel, left_out};
 use crate::report::file_stems;
 use crate::report::format::{index, name};
 use crate::report::result::EstimateRecord;
@@ -29,7 +29,7 @@ fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
         let b = factors.iter().map(|factor| of(factor).b).collect();
         let series =
             [(Series::new(&file.a.label, Colour::Series(1)), a), (Series::new(&file.b.label, Colour::Series(0)), b)];
-        ranked(&factors, INDEX, series).titled(title)
+        index_panel(INDEX, names(&factors), series, &keys(&factors)).titled(title)
     };
     let title = format!("Indices of {}: {} and {}", name(&output.name), file.a.label, file.b.label);
     let panels =
@@ -44,7 +44,9 @@ fn differences(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
     let total = factors.iter().map(|factor| factor.total.difference).collect();
     let label = "difference: parts of the variance";
     let title = format!("Indices of {}: {} minus {}", name(&output.name), file.b.label, file.a.label);
-    Chart::new(title, caption(output) + shared).panels([ranked(&factors, label, both_orders(first_order, total))])
+    let (names, keys) = (names(&factors), keys(&factors));
+    let panel = difference_panel(label, names, both_orders(first_order, total), &keys);
+    Chart::new(title, caption(output) + shared).panels([panel])
 }
 
 /// The factors that are drawn; groups are not.
@@ -52,10 +54,13 @@ fn single_factors(output: &ComparedOutput) -> Vec<&ComparedFactor> {
     output.factors.iter().filter(|factor| !factor.group).collect()
 }
 
-/// A panel in the order of the larger total indices, the same in both charts.
-fn ranked(factors: &[&ComparedFactor], label_of_axis: &str, series: [IndexSeries; 2]) -> Panel {
-    let keys: Vec<f64> = factors.iter().map(|factor| larger_total(factor)).collect();
-    index_panel(label_of_axis, factors.iter().map(|factor| name(&factor.name)).collect(), series, &keys)
+fn names(factors: &[&ComparedFactor]) -> Vec<String> {
+    factors.iter().map(|factor| name(&factor.name)).collect()
+}
+
+/// What both charts are ordered by: the larger total index.
+fn keys(factors: &[&ComparedFactor]) -> Vec<f64> {
+    factors.iter().map(|factor| larger_total(factor)).collect()
 }
 
 fn larger_total(factor: &ComparedFactor) -> f64 {

@@ -124,9 +124,8 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord, name: &str) -> Ta
             Column::in_file(Field::new("surrogate_unknown")),
         ]);
     }
-    let cell = |record: Option<EstimateRecord>| {
-        Cell::valued(record.map_or_else(String::new, |record| index(record)), Value::Estimate(record))
-    };
+    let cell =
+        |record: Option<EstimateRecord>| Cell::valued(record.map_or_else(String::new, index), Value::Estimate(record));
     let row = |(number, index): (usize, &GivenIndexRecord)| {
         let bins = index.binned.map_or(Value::Empty, |binned| binned.bins.into());
         let mut row = vec![
@@ -148,7 +147,7 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord, name: &str) -> Ta
         row
     };
     // The sum is that of the leading estimates, by ranks where there are any.
-    let sum: Cell = output.sum_first_order.map_or_else(String::new, |sum| three(sum)).into();
+    let sum: Cell = output.sum_first_order.map_or_else(String::new, three).into();
     let of_method = if ranks { [sum, Cell::default()] } else { [Cell::default(), sum] };
     let names: [Cell; 2] = [Cell::default(), "sum".into()];
     let mut sums: Vec<Cell> = names.into_iter().chain(of_method).chain([Cell::default()]).collect();

@@ -33,7 +33,11 @@ pub(super) fn lead(result: &ResultFile, single: &ResultFile) -> Vec<String> {
         let others = single.outputs.len().saturating_sub(OUTPUTS);
         lead.extend(more(others, "more output has its section", "more outputs have theirs"));
     }
-    let validity = validity::sentence(&result.validity);
+    // What is warned of says nothing of where the model holds.
+    let warnings: Vec<&String> = result.outputs.iter().flat_map(|output| &output.warnings).collect();
+    let is_warned = |flag: &str| warnings.iter().any(|text| text.starts_with(&format!("{flag} (")));
+    let flags = result.validity.iter().filter(|record| !is_warned(&record.flag)).cloned();
+    let validity = validity::sentence(&flags.collect::<Vec<_>>());
     match &mut lead[..] {
         // Of one output all is one paragraph.
         [only] => only.push_str(&format!(" {validity}")),

@@ -7,12 +7,15 @@ use crate::report::result::OutputRecord;
 /// Most stretches of outputs in a sentence.
 const NAMES: usize = 6;
 
+/// The words of a warning, and its outputs with the numbers between the words.
+type Group<'a> = (Vec<&'a str>, Vec<(usize, Vec<&'a str>)>);
+
 /// What is warned of, in the order of the first time. Warnings that differ in their numbers alone are one, with the range
 /// of these; one of several outputs says which. Without capitals and full stops, as they are in the file.
 pub(super) fn folded(outputs: &[OutputRecord]) -> Vec<String> {
     let said = outputs.iter().enumerate();
     let said = said.flat_map(|(place, output)| output.warnings.iter().map(move |warning| (place, warning)));
-    let mut groups: Vec<(Vec<&str>, Vec<(usize, Vec<&str>)>)> = Vec::new();
+    let mut groups: Vec<Group<'_>> = Vec::new();
     for (place, warning) in said {
         let (words, numbers) = taken_apart(warning);
         match groups.iter_mut().find(|(known, _)| *known == words) {
