@@ -56,7 +56,7 @@ impl AfmOutput {
         self.row().2
     }
 
-    /// The same for a [`Model`].
+    /// The same for a [`Model`](crate::Model).
     pub fn info(self) -> Output {
         Output::new(self.name(), self.unit(), self.description())
     }
