@@ -8,6 +8,7 @@ mod output;
 mod overview;
 mod series;
 mod tables;
+mod values;
 mod warnings;
 
 pub use figures::OutputNames;

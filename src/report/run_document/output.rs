@@ -3,7 +3,7 @@
 use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, Numbered, SCATTER, SHARES};
 use super::lead::{by_total, widest};
 use super::noise::noise;
-use super::tables;
+use super::{tables, values};
 use crate::estimate::ShapleyMethod;
 use crate::report::document::Part;
 use crate::report::format::{
@@ -100,7 +100,7 @@ fn surrogate(output: &OutputRecord) -> Vec<Part> {
             significant((explained * 1e4).floor() / 1e4)
         ))
     }));
-    parts.extend(tables::surrogate(output, record));
+    parts.extend(values::surrogate(output, record));
     parts
 }
 
@@ -266,7 +266,7 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
 }
 
 fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
-    let Some(table) = tables::moments(of.output) else {
+    let Some(table) = values::moments(of.output) else {
         let text = format!("There are no values of {} to show.", name(&of.output.name));
         return vec![Part::Text(text)];
     };
@@ -277,7 +277,7 @@ fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
 fn range(output: &OutputRecord) -> String {
     let value = |x: f64| short_with_unit(x, &output.unit);
     let sample = output.distribution.as_ref().map(|distribution| &distribution.sample);
-    let mut text = match (tables::mean(output), tables::sd(output)) {
+    let mut text = match (values::mean(output), values::sd(output)) {
         (Some(mean), Some(sd)) => format!("Mean {mean}, standard deviation {sd}"),
         (Some(mean), None) => format!("Mean {mean}"),
         _ => return format!("There is no mean of {}.", name(&output.name)),

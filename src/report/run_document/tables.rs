@@ -5,24 +5,20 @@ use super::noise::label;
 use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, Field, fields};
 use crate::report::document::{Cell, Column, Part, Table, Value, csv};
-use crate::report::format::{axis_unit, chance, grouped, index, name, share, significant, two_digits, value};
+use crate::report::format::{chance, grouped, name, share, two_digits};
 use crate::report::result::{
     AggregateIndexRecord, AggregateRecord, EffectRecord, EstimateRecord, EstimatorRecord, IndexRecord, IntervalRecord,
-    OtherIndexRecord, OutputRecord, PairRecord, ResultFile, StageRecord, SurrogateRecord, SurrogateTermRecord,
+    OtherIndexRecord, OutputRecord, PairRecord, ResultFile, StageRecord,
 };
 
 /// Most factors in a table; the files have all of them.
 pub(super) const FACTORS: usize = 50;
 /// Most pairs of factors.
 const PAIRS: usize = 20;
-/// Quantiles in the table, in percent; the JSON file has more.
-const QUANTILES: [f64; 7] = [2.5, 5.0, 25.0, 50.0, 75.0, 95.0, 97.5];
 /// Most estimators side by side.
 const ESTIMATORS: usize = 6;
-/// Share of the variance, in percent, below which a term of a surrogate is not shown.
-const LEAST_TERM: f64 = 0.01;
 /// Most factors in a table of estimators.
-const FACTORS_OF_ESTIMATORS: usize = 20;
+pub(super) const FACTORS_OF_ESTIMATORS: usize = 20;
 
 /// The places of the columns from the first one on that a table of indices over all outputs leaves out.
 const OF_ONE_OUTPUT: usize = 7;
@@ -264,99 +260,6 @@ pub(super) fn stages(output: &OutputRecord) -> Option<Part> {
     let caption = "Largest half width of all first-order and total indices as the run grew.";
     let table = Table::new(caption, Column::list(0, &["base points", "model runs", "largest half width"]));
     (!output.convergence.is_empty()).then(|| Part::Table(table.with_rows(output.convergence.iter().map(row))))
-}
-
-/// Moments and quantiles of an output's values.
-pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
-    let record = output.distribution.as_ref()?;
-    let number = |x: f64| value(x, &output.unit);
-    let mut rows: Vec<(String, String)> = Vec::new();
-    let mut add = |label: &str, text: Option<String>| rows.extend(text.map(|text| (label.to_owned(), text)));
-    let sample = &record.sample;
-    add("values", Some(grouped(record.values)));
-    add("mean", mean(output));
-    add("standard deviation", sd(output));
-    add(
-        "coefficient of variation",
-        sample.sd.filter(|_| sample.mean != 0.0).map(|sd| value(100.0 * sd / sample.mean.abs(), "%")),
-    );
-    add("skewness", sample.skewness.map(|x| value(x, "")));
-    add("excess kurtosis", sample.excess_kurtosis.map(|x| value(x, "")));
-    add("smallest", Some(number(sample.min)));
-    if sample.histogram.is_some() {
-        for quantile in sample.quantiles.iter().filter(|quantile| QUANTILES.contains(&quantile.percent)) {
-            add(&format!("{} % quantile", significant(quantile.percent)), Some(number(quantile.value)));
-        }
-    }
-    add("largest", Some(number(sample.max)));
-    let caption = "Moments and range are those of all values, mean and standard deviation with their 95 % intervals; quantiles are those of the \
-                   values that were kept.";
-    let rows = rows.into_iter().map(|(label, text)| vec![label.into(), text.into()]);
-    Some(Part::Table(Table::new(caption, [Column::text(""), Column::number("")]).with_rows(rows)))
-}
-
-/// The mean of an output with its error and unit.
-pub(super) fn mean(output: &OutputRecord) -> Option<String> {
-    Some(of_unit(output.mean?, output.mean_interval, &output.unit))
-}
-
-/// The standard deviation, by the divisor n - 1, as in the file; its interval is that of the variance.
-pub(super) fn sd(output: &OutputRecord) -> Option<String> {
-    let sample = output.distribution.as_ref().and_then(|distribution| distribution.sample.sd);
-    let interval = output
-        .variance_interval
-        .map(|variance| IntervalRecord { low: variance.low.max(0.0).sqrt(), high: variance.high.max(0.0).sqrt() });
-    Some(of_unit(sample.or(output.variance.map(f64::sqrt))?, interval, &output.unit))
-}
-
-fn of_unit(estimate: f64, interval: Option<IntervalRecord>, unit: &str) -> String {
-    let record = EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) };
-    let number = match interval {
-        Some(i) if (i.low..=i.high).contains(&estimate) => index(record),
-        _ => value(estimate, ""),
-    };
-    format!("{number} {}", axis_unit(unit)).trim_end().to_owned()
-}
-
-/// The leading terms of the surrogates, and the plain indices beside the corrected ones.
-pub(super) fn surrogate(output: &OutputRecord, record: &SurrogateRecord) -> Vec<Part> {
-    let label = |term: &SurrogateTermRecord| {
-        let factor = |(factor, degree): (&String, &usize)| match degree {
-            1 => name(factor),
-            degree => format!("{}^{degree}", name(factor)),
-        };
-        term.degrees.iter().map(factor).collect::<Vec<_>>().join(" × ")
-    };
-    let terms = record.leading_terms.iter().filter(|term| term.share >= LEAST_TERM);
-    let rows = terms.map(|term| vec![label(term).into(), format!("{} %", significant(rounded(term.share))).into()]);
-    let caption =
-        "The terms of the polynomials that carry most of the variance, by the degree of each factor's polynomial.";
-    let mut parts =
-        vec![Part::Table(Table::new(caption, Column::list(1, &["term", "of the variance"])).with_rows(rows))];
-    if let Some(order) = by_total(output) {
-        let shown = &order[..order.len().min(FACTORS_OF_ESTIMATORS)];
-        let row = |&(number, index): &(usize, &IndexRecord)| -> Vec<Cell> {
-            let plain = record.plain.get(number);
-            let effect = &index.effect;
-            vec![
-                name(&index.factor).into(),
-                Cell::from(Some(effect.first_order)),
-                Cell::from(plain.and_then(|plain| plain.first_order)),
-                Cell::from(Some(effect.total)),
-                Cell::from(plain.and_then(|plain| plain.total)),
-            ]
-        };
-        let headings = ["factor", "S_1", "S_1 plain", "S_T", "S_T plain"];
-        let caption =
-            format!("Indices with and without the surrogate.{}", largest(shown.len(), order.len(), "factors"));
-        parts.push(Part::Table(Table::new(caption, Column::list(1, &headings)).with_rows(shown.iter().map(row))));
-    }
-    parts
-}
-
-/// To three significant digits.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 /// First-order, then total indices by the other estimators, beside the default ones.
