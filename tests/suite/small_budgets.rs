@@ -78,7 +78,7 @@ fn random_points_of_dependent_factors_depend() {
 #[test]
 fn check_says_which_method_serves_for_slow_models() {
     let folder = Folder::new();
-    let program = folder.with("slow.sh", "while read -r row; do sleep 0.01; echo \"$row\"; done\n");
+    let program = folder.with("slow.sh", "read -r header; while read -r row; do sleep 0.01; echo \"$row\"; done\n");
     let factors: String = ["a", "b"].iter().map(|name| format!("[factor.{name}]\nmin = 0\nmax = 1\n")).collect();
     let slow = format!(
         "model = \"command\"\noutputs = [\"y\", \"z\"]\n[command]\nprogram = [\"sh\", {:?}]\n[design]\nbase_samples = 64\n{factors}",
@@ -90,7 +90,7 @@ fn check_says_which_method_serves_for_slow_models() {
     {
         assert!(said.contains(part), "no {part:?} in {said}");
     }
-    let outside = folder.with("out.toml", format!("model = \"external\"\nexternal.outputs = [\"y\"]\n{factors}"));
+    let outside = folder.with("out.toml", format!("model = \"external\"\noutputs = [\"y\"]\n{factors}"));
     let said = succeed(&["check", text(&outside)]);
     assert!(said.contains("apportion analyze OUTPUTS") && !said.contains("apportion run "), "{said}");
     let quick = folder.with("quick.toml", STUDY);
