@@ -25,8 +25,10 @@ pub(super) fn sentence(validity: &[ValidityRecord]) -> String {
         format!("on {runs} {}", clause(&flag.description, &flag.flag))
     };
     let mut all: Vec<String> = raised.iter().take(NAMED).map(said).collect();
-    if raised.len() > NAMED {
-        all.push(format!("{} more flags are raised", raised.len() - NAMED));
+    match raised.len().saturating_sub(NAMED) {
+        0 => (),
+        1 => all.push("another flag is raised".to_owned()),
+        more => all.push(format!("{more} more flags are raised")),
     }
     let more = if raised[0].share > 0.5 { ", so that the numbers are those of a model outside its range" } else { "" };
     format!("The model does not hold everywhere: {}{more}.", listed(&all))
