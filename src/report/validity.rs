@@ -80,6 +80,9 @@ mod tests {
         );
         assert!(sentence(&[]).starts_with("Whether the model holds is not checked"));
         assert!(sentence(&[flag("odd-one", "", 1)]).contains("the flag odd one is raised"));
+        let many: Vec<ValidityRecord> = (0..5).map(|_| flag("b", range, 1)).collect();
+        assert!(sentence(&many[..4]).ends_with("and another flag is raised."), "{}", sentence(&many[..4]));
+        assert!(sentence(&many).ends_with("and 2 more flags are raised."));
     }
 
     #[test]
