@@ -77,8 +77,16 @@ fn beside_charts(stem: &str, ending: &str) -> String {
     format!("charts/{stem}.{ending}")
 }
 
+/// The papers in full, before their initials are used.
+const PAPERS: &str = "The papers are TS04: A. Tafazzoli and M. Sitti (2004), “Dynamic behavior and simulation of nanoparticles sliding \
+                      during nanoprobe-based positioning”, ASME IMECE; CHK: “Sensitivity Analysis of Coulomb and HK Friction \
+                      Models in 2D AFM-Based Nano-Manipulation: Sobol Method”, whose authors are not printed in our copy; and LG: \
+                      M. H. Korayem, M. Taheri and Z. Rastegar, “Sobol method application in sensitivity analysis of LuGre \
+                      friction model during 2D manipulation”, Scientia Iranica, Transactions B (accepted 4 November 2013).";
+
 fn lead(reproduction: &Reproduction) -> Vec<String> {
     let mut lead: Vec<String> = answers::paragraph(&reproduction.studies).into_iter().collect();
+    lead.push(PAPERS.to_owned());
     if !reproduction.claims.is_empty() {
         lead.push(verdicts::sentence(&reproduction.claims));
     }
