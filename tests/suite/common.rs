@@ -70,6 +70,22 @@ pub fn all_files(folder: &Path) -> BTreeSet<String> {
     others.chain(charts.into_iter().map(|name| format!("charts/{name}"))).collect()
 }
 
+/// Runs the study `file` in three parts, each in a folder beside `merged`, and joins them there.
+#[track_caller]
+pub fn run_in_parts(file: &Path, merged: &Path) {
+    let part = |shard: u32| {
+        let out = merged.with_extension(format!("shard{shard}"));
+        succeed(&["run", text(file), "--shard", &format!("{shard}/3"), "--out", text(&out)]);
+        let part = files(&out).into_iter().find(|name| name.contains("shard"));
+        out.join(part.expect("the file of a shard"))
+    };
+    let parts: Vec<PathBuf> = (1..=3).map(part).collect();
+    let mut merge = vec!["merge", text(file)];
+    merge.extend(parts.iter().map(|part| text(part)));
+    merge.extend(["--out", text(merged)]);
+    succeed(&merge);
+}
+
 /// A study of this repository.
 pub fn study_path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("studies").join(format!("{name}.toml"))

@@ -1,6 +1,6 @@
 //! Shapley effects along random permutations of the factors, against closed forms and through the program.
 
-use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
+use crate::common::{Folder, apportion, run_in_parts, stderr, study_path, succeed, text};
 use crate::dependent::{Linear, cases, correlations, portfolio_costs};
 use ::apportion::estimate::{ShapleyMethod, proper_subsets, shapley_effects};
 use ::apportion::{
@@ -168,19 +168,7 @@ fn shards_journals_threads_and_files_give_the_bits_of_one_run() {
             succeed(&words);
         }
         assert_eq!(one, numbers("grown"));
-        let shards: Vec<std::path::PathBuf> = (1..=3)
-            .map(|shard| {
-                let out = path(&format!("shard{shard}"));
-                succeed(&["run", text(&file), "--shard", &format!("{shard}/3"), "--out", text(&out)]);
-                let parts = crate::common::files(&out).into_iter().find(|name| name.contains("shard"));
-                out.join(parts.expect("the file of a shard"))
-            })
-            .collect();
-        let merged = path("merged");
-        let mut merge = vec!["merge", text(&file)];
-        merge.extend(shards.iter().map(|shard| text(shard)));
-        merge.extend(["--out", text(&merged)]);
-        succeed(&merge);
+        run_in_parts(&file, &path("merged"));
         assert_eq!(one, numbers("merged"));
         let (points, outputs, out) = (path("points.csv"), path("outputs.csv"), path("analysed"));
         succeed(&["sample", text(&file), "-o", text(&points)]);

@@ -7,7 +7,7 @@ use apportion::model::KnownAnswer;
 use apportion::report::ResultFile;
 use apportion::{Resume, Study};
 
-use crate::common::{apportion, stderr, succeed, text};
+use crate::common::{apportion, run_in_parts, stderr, succeed, text};
 
 fn refused(output: &std::process::Output, words: &str) {
     assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
@@ -230,19 +230,7 @@ fn shards_and_files_of_outputs_give_the_bits_of_one_run() {
         serde_json::from_str::<serde_json::Value>(&json).unwrap()["outputs"][0].take()
     };
     succeed(&["run", text(&file), "--out", text(&path("one"))]);
-    let shards: Vec<std::path::PathBuf> = (1..=3)
-        .map(|shard| {
-            let out = path(&format!("shard{shard}"));
-            succeed(&["run", text(&file), "--shard", &format!("{shard}/3"), "--out", text(&out)]);
-            let parts = crate::common::files(&out).into_iter().find(|name| name.contains("shard"));
-            out.join(parts.expect("the file of a shard"))
-        })
-        .collect();
-    let mut merge = vec!["merge", text(&file)];
-    merge.extend(shards.iter().map(|shard| text(shard)));
-    let merged = path("merged");
-    merge.extend(["--out", text(&merged)]);
-    succeed(&merge);
+    run_in_parts(&file, &path("merged"));
     assert_eq!(numbers("one/mine.json"), numbers("merged/mine.json"));
     // The same by a table of the points, evaluated on its own.
     let (points, outputs, out) = (path("points.csv"), path("outputs.csv"), path("analysed"));
