@@ -67,9 +67,12 @@
 //! | `own_program` | a program in any language as a model, asked from Rust ([`CommandModel`]) |
 //! | `three_steps` | points to a file, outputs from anywhere, analysed ([`exchange`]) |
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod afm;
 mod analysis;
 mod binary;
+mod clock;
 #[doc(hidden)]
 pub mod design;
 #[doc(hidden)]

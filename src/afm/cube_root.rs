@@ -38,7 +38,7 @@ mod tests {
             assert!((cube_root(cube) - root).abs() <= 2.0 * f64::EPSILON * root, "{root}");
         }
         for x in [8.0, 27.0, 1e6, 2.0_f64.powi(-1074), 2.0_f64.powi(1020)] {
-            assert_eq!(cube_root(x), x.cbrt(), "{x}");
+            assert_eq!(cube_root(x), libm::cbrt(x), "{x}");
         }
     }
 
@@ -54,7 +54,7 @@ mod tests {
         #[test]
         fn agrees_with_the_library(x in any::<f64>()) {
             let x = x.abs();
-            let (own, library) = (cube_root(x), x.cbrt());
+            let (own, library) = (cube_root(x), libm::cbrt(x));
             prop_assert!(own == library || (own - library).abs() <= 2.0 * f64::EPSILON * library || x.is_nan());
         }
     }

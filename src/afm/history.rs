@@ -155,7 +155,7 @@ struct Stage<'a> {
 impl Stage<'_> {
     /// Travel of the apex (m) in equilibrium at a twist.
     fn travel(&self, twist: f64) -> f64 {
-        self.statics.travel(twist, self.statics.lateral_moment(twist) / twist.cos())
+        self.statics.travel(twist, self.statics.lateral_moment(twist) / libm::cos(twist))
     }
 
     /// The twist at the travel `travel`, before the slip.
@@ -170,13 +170,13 @@ impl Stage<'_> {
         let separation = self.scene.equilibrium_separation;
         let theory = self.options.contact;
         let normal_force = self.statics.normal_force(twist);
-        let lateral_force = self.statics.lateral_moment(twist) / twist.cos();
+        let lateral_force = self.statics.lateral_moment(twist) / libm::cos(twist);
         let substrate = self.travel(twist);
-        let tip_force = normal_force.hypot(lateral_force);
-        let force_angle = lateral_force.atan2(normal_force);
+        let tip_force = libm::hypot(normal_force, lateral_force);
+        let force_angle = libm::atan2(lateral_force, normal_force);
         let on_substrate = Pair { radius: particle_radius, modulus, adhesion, separation };
         let at_tip = Pair { radius: particle_radius * tip_radius / (particle_radius + tip_radius), ..on_substrate };
-        let pressing = tip_force * (force_angle - self.scene.contact_angle).cos();
+        let pressing = tip_force * libm::cos(force_angle - self.scene.contact_angle);
         let tip_contact = match theory.contact(&at_tip, pressing) {
             Ok(contact) => Some(contact),
             Err(Failure::BeyondPullOff) => None,

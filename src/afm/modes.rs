@@ -61,7 +61,7 @@ pub struct TipForce {
 impl TipForce {
     /// The force of size `size` (N) at the angle `angle` (rad) from the vertical, psi.
     pub fn polar(size: f64, angle: f64) -> Self {
-        Self { normal: size * angle.cos(), lateral: size * angle.sin() }
+        Self { normal: size * libm::cos(angle), lateral: size * libm::sin(angle) }
     }
 }
 
@@ -133,7 +133,7 @@ impl Pushing {
     pub fn balance(&self, mode: Mode, force: TipForce) -> Result<Balance, Failure> {
         self.check()?;
         let Scene { particle_radius, contact_angle, shear_strength, .. } = self.scene;
-        let (sin, cos) = contact_angle.sin_cos();
+        let (sin, cos) = libm::sincos(contact_angle);
         // F_T cos(psi - phi) and F_T sin(psi - phi): along the line from the tip to the particle, and across it.
         let along = force.normal * cos + force.lateral * sin;
         let across = force.lateral * cos - force.normal * sin;
@@ -244,7 +244,7 @@ impl Loaded {
         if pull_off == 0.0 || at_rest == 0.0 {
             return Ok(0.0);
         }
-        Ok(4.0 * pull_off * (self.contact.radius / at_rest).powf(1.5) * shift)
+        Ok(4.0 * pull_off * libm::pow(self.contact.radius / at_rest, 1.5) * shift)
     }
 }
 

@@ -138,7 +138,7 @@ mod tests {
 
     /// Moments of the points `first..last` of a made-up output.
     fn moments(first: u64, last: u64) -> Moments {
-        let column = |salt: f64| (first..last).map(|i| (i as f64 * 0.7 + salt).sin()).collect::<Vec<f64>>();
+        let column = |salt: f64| (first..last).map(|i| libm::sin(i as f64 * 0.7 + salt)).collect::<Vec<f64>>();
         let (a, b, ab) = (column(0.0), column(1.0), column(2.0));
         let block = BlockOutputs { a: &a, b: &b, ab: &[&ab], ..BlockOutputs::default() };
         Moments::of_block(block, &mut Workspace::default())

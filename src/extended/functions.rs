@@ -134,7 +134,7 @@ impl Extended {
         if self.exponent < -60 {
             return self - self * self.square() / 3.0.into();
         }
-        let guess = Self::from(self.value().atan());
+        let guess = Self::from(libm::atan(self.value()));
         let (sin, cos) = guess.sin_cos();
         let off = (self * cos - sin) / (cos + self * sin);
         guess + off - off * off.square() / 3.0.into()

@@ -159,7 +159,7 @@ impl Extended {
         }
         let third = self.exponent.div_euclid(3);
         let reduced = self.times_power_of_two(-3 * third);
-        let guess = Self::from(reduced.value().cbrt());
+        let guess = Self::from(libm::cbrt(reduced.value()));
         (guess + (reduced / guess.square() - guess) / 3.0.into()).times_power_of_two(third)
     }
 

@@ -34,7 +34,7 @@ pub(super) fn reduced(x: Extended) -> (u32, Extended) {
 
 fn of_positive(x: Extended) -> (u32, Extended) {
     // x = m 2^e, m whole.
-    let scale = |part: f64, bits: i32| part * f64::from(bits).exp2();
+    let scale = |part: f64, bits: i32| part * libm::exp2(f64::from(bits));
     let m = (scale(x.high, 53) as i128) * (1 << 54) + scale(x.low, 107).floor() as i128;
     let e = x.exponent - 107;
     // Bits of 2/pi that make multiples of 4 are passed over.

@@ -164,7 +164,7 @@ impl Deviation {
     /// above if the columns depend on each other.
     pub fn normal(self) -> f64 {
         let v = 2.0 / (9.0 * self.freedom);
-        ((self.statistic / self.freedom).cbrt() - (1.0 - v)) / v.sqrt()
+        (libm::cbrt(self.statistic / self.freedom) - (1.0 - v)) / v.sqrt()
     }
 
     fn too_even(self) -> Option<f64> {

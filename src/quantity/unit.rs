@@ -200,7 +200,7 @@ impl Unit {
         if let [(offset, 1)] = offsets[..] {
             unit.offset = offset;
         }
-        let decades = f64::from(unit.decade) + (unit.times / unit.over).log10();
+        let decades = f64::from(unit.decade) + libm::log10(unit.times / unit.over);
         if !(-MOST_DECADES..=MOST_DECADES).contains(&decades) {
             return Err(malformed("its factor to SI is beyond 10^100"));
         }

@@ -14,7 +14,7 @@ const POWERS: (f64, f64) = (-1.5, -0.5);
 pub fn width_after_doubling(stages: &[StageRecord]) -> Option<f64> {
     let with_width = stages.iter().filter_map(|stage| {
         let width = stage.largest_half_width.filter(|width| *width > 0.0)?;
-        Some(((stage.base_samples as f64).ln(), width.ln()))
+        Some((libm::log(stage.base_samples as f64), libm::log(width)))
     });
     let points: Vec<(f64, f64)> = with_width.collect();
     let points = &points[points.len().saturating_sub(STAGES)..];
@@ -23,7 +23,7 @@ pub fn width_after_doubling(stages: &[StageRecord]) -> Option<f64> {
     let (x, y) = (mean(|point| point.0), mean(|point| point.1));
     let sum = |of: &dyn Fn(f64, f64) -> f64| points.iter().map(|point| of(point.0 - x, point.1 - y)).sum::<f64>();
     let slope = (sum(&|x, y| x * y) / sum(&|x, _| x * x)).clamp(POWERS.0, POWERS.1);
-    slope.is_finite().then(|| (last + slope * 2_f64.ln()).exp())
+    slope.is_finite().then(|| libm::exp(last + slope * libm::log(2.0)))
 }
 
 /// The largest half width of any first-order or total index of a result, at its end; `None` without intervals.
@@ -57,7 +57,7 @@ mod tests {
         let flat = width_after_doubling(&stages(&[Some(0.1), Some(0.1), Some(0.1)])).unwrap();
         assert!((flat - 0.1 * 0.5_f64.sqrt()).abs() < 1e-12, "{flat}");
         let steep = width_after_doubling(&stages(&[Some(1.0), Some(1e-3), Some(1e-6)])).unwrap();
-        assert!((steep - 1e-6 * 2_f64.powf(-1.5)).abs() < 1e-18, "{steep}");
+        assert!((steep - 1e-6 * libm::pow(2.0, -1.5)).abs() < 1e-18, "{steep}");
     }
 
     #[test]

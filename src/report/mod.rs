@@ -58,7 +58,9 @@ pub use run_charts::{convergence_chart, distribution_chart, indices_chart, inter
 pub use run_document::run_document;
 pub use schema::result_schema;
 
-pub(crate) use records::{json, study_setup};
+pub(crate) use records::json;
+#[doc(hidden)]
+pub use records::study_setup;
 pub(crate) use study_sections::{inputs, study_section};
 
 // Open to the program, which is a crate of its own.

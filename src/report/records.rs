@@ -63,7 +63,7 @@ pub struct Drawing {
     pub chart: Chart,
 }
 
-pub(crate) fn study_setup(study: &Study) -> StudySetup {
+pub fn study_setup(study: &Study) -> StudySetup {
     let constants = study.constants().into_iter().map(|(name, value, unit)| ConstantRecord { name, value, unit });
     let factor = |factor: &crate::space::Factor| FactorSetup {
         name: factor.name.clone(),

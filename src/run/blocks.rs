@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::executor::{Evaluated, Finished, LOOK, Task};
 use super::fold::{Branch, Fold, append, merged};
@@ -12,6 +12,7 @@ use super::scratch::{BlockPlace, Scratch};
 use super::totals::{Place, SAMPLE, Totals};
 use super::{BLOCK, FailurePolicy, Job, RunError, Store};
 use crate::binary::{Binary, Reader, binary_fields};
+use crate::clock::Instant;
 use crate::design::BasePoints;
 use crate::estimate::{PointOutputs, part_length};
 use crate::model::{RunContext, Standing, Worker};

@@ -1,10 +1,11 @@
 //! Work of a caller's own through the workers of a model, piece by piece.
 
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::executor::{Evaluated, Executor, Finished, Task};
 use super::{Progress, RunError};
+use crate::clock::Instant;
 use crate::model::{Model, RunContext, Standing, Worker};
 
 /// What `evaluate` makes of every number below `count` with a worker of `model`, in order, on so many threads (0: one per

@@ -7,10 +7,11 @@
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::remote::{Abroad, Answer, Remote, Talk};
 use super::{Progress, RunError, threads_in_force};
+use crate::clock::Instant;
 use crate::model::{Model, RowFailure, RunContext, Standing, Worker};
 
 /// Time that a piece of rows should take: short enough to lose little, and to share out evenly; long enough to be worth a

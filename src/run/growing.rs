@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::blocks::{BlockOptions, Blocks};
 use super::executor::Executor;
@@ -12,6 +12,7 @@ use super::pool::thread_pool;
 use super::remote::Remote;
 use super::rows::{Known, MissingRows};
 use super::{BLOCK, FailurePolicy, Job, MAX_STORED_BYTES, PieceSink, Progress, RunError, Store, Totals};
+use crate::clock::Instant;
 use crate::design::Design;
 use crate::model::RunContext;
 
@@ -20,7 +21,7 @@ pub struct GrowingRun<'a> {
     job: Job<'a>,
     executor: Executor<'a>,
     /// For what is estimated from the totals.
-    pool: Arc<rayon::ThreadPool>,
+    pool: Option<Arc<rayon::ThreadPool>>,
     start: Instant,
     failures: FailurePolicy,
     keeps_outputs: bool,
@@ -120,12 +121,13 @@ impl<'a> GrowingRun<'a> {
     /// # Panics
     /// If the caller is a thread of another pool, and no thread can be started to wait for this one.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        let Some(pool) = &self.pool else { return work() };
         if rayon::current_thread_index().is_none() {
-            return self.pool.install(work);
+            return pool.install(work);
         }
         // A thread of another pool that waits for this one does other work of its pool, which may be a run as well, and
         // another one in that: many runs side by side would use up its stack.
-        std::thread::scope(|scope| scope.spawn(|| self.pool.install(work)).join())
+        std::thread::scope(|scope| scope.spawn(|| pool.install(work)).join())
             .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     }
 

@@ -260,7 +260,7 @@ fn serve_task<T: Task>(
         let Some(piece) = abroad.read_piece(&mut Reader { bytes: request.piece }) else {
             return refuse(requests, "no piece of the task");
         };
-        let began = std::time::Instant::now();
+        let began = crate::clock::Instant::now();
         let evaluated = task.evaluate(worker, &mut scratch, &piece, &|_| ());
         let seconds = began.elapsed().as_secs_f64();
         let Evaluated { output, mut standing, given_up, is_urgent } = evaluated;

@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use thiserror::Error;
 
 use super::executor::{Evaluated, Executor, Finished, Task};
 use super::{Progress, RunError};
+use crate::clock::Instant;
 use crate::model::{Batch, Model, RowFailure, Worker};
 
 /// Why rows were not evaluated to their end.

@@ -7,12 +7,12 @@
 //! cheapest where polynomials explain the model.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use super::growth::longest;
 use super::low_fidelity::beside;
 use super::{Resume, Runner};
 use crate::analysis::{Analysis, Spending, StopReason};
+use crate::clock::Instant;
 use crate::design::{Design, DesignSettings, Rows, Sampler};
 use crate::model::{Batch, RunContext};
 use crate::run::{Job, RowValues, RunError, Store};

@@ -1,12 +1,12 @@
 //! The runs of cheaper models beside those of a model: at its rows, and at points of their own.
 
 use std::path::Path;
-use std::time::Instant;
 
 use super::growth::longest;
 use super::journal::{self, JournalRequest, OpenJournal};
 use super::{Resume, Runner};
 use crate::analysis::{LowTotals, outputs_kept};
+use crate::clock::Instant;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Model, RunContext};
 use crate::run::{GrowingRun, Job, Piece, RunError, Store};

@@ -12,9 +12,9 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
 
 use crate::analysis::{Analysis, FinishedRun, LowTotals, StopReason, Stopped, analysis};
+use crate::clock::Instant;
 use crate::model::{Messages, RunContext};
 use crate::run::{GrowingRun, Job, Piece, Progress, Remote, RemoteWorkers, RunError, Shard, Store, threads_in_force};
 use crate::study::Study;

@@ -164,9 +164,9 @@ impl Stage<'_> {
         let base = (0.5 * width + f * scale * frame.base_lateral, ground - 3.0);
         // About the apex's height at the start, so that a twist lifts nothing off the ground.
         let angle = f * frame.twist;
-        let base = (base.0, base.1 - tall * angle.cos());
+        let base = (base.0, base.1 - tall * libm::cos(angle));
         let placed = |points: &[(f64, f64)], (x0, y0): (f64, f64), angle: f64| -> Vec<(f64, f64)> {
-            let (sin, cos) = angle.sin_cos();
+            let (sin, cos) = libm::sincos(angle);
             points.iter().map(|(x, y)| (x0 + x * cos + y * sin, y0 - x * sin + y * cos)).collect()
         };
         let bar = [(-half, -thick), (half, -thick), (half, 0.0), (-half, 0.0)];
@@ -180,7 +180,7 @@ impl Stage<'_> {
             sketch.path(&placed(shape, base, angle), true, PROBE);
         }
         // Too small to be to scale.
-        let apex = (base.0 + tall * angle.sin(), ground - 2.5);
+        let apex = (base.0 + tall * libm::sin(angle), ground - 2.5);
         sketch.circle((apex.0 - 2.5, apex.1), 2.5, GOLD);
         if named {
             sketch.text("cantilever, from the front", (0.5 * width, 11.0), true);
@@ -199,7 +199,7 @@ impl Stage<'_> {
         // Beyond these the theories are stretched further than a picture can be.
         let depth = |metres: f64| scale * metres.min(0.3 * particle_radius).max(0.0);
         let centre = (x, ground - radius + depth(frame.substrate_indentation));
-        let (sin, cos) = contact_angle.sin_cos();
+        let (sin, cos) = libm::sincos(contact_angle);
 
         sketch.circle((x0, ground - radius), radius, GHOST);
         self.tip(tip_radius * scale, centre, (radius - depth(frame.tip_indentation), (sin, cos)), sketch);
@@ -237,13 +237,13 @@ impl Stage<'_> {
         let mut outline: Vec<(f64, f64)> = (0..=24)
             .map(|i| {
                 let angle = SLOPE + (PI - 2.0 * SLOPE) * f64::from(i) / 24.0;
-                (apex.0 - radius * angle.cos(), apex.1 + radius * angle.sin())
+                (apex.0 - radius * libm::cos(angle), apex.1 + radius * libm::sin(angle))
             })
             .collect();
         let long = 4000.0;
         let (left, right) = (outline[0], outline[24]);
-        outline.push((right.0 + long * SLOPE.sin(), right.1 - long * SLOPE.cos()));
-        outline.insert(0, (left.0 - long * SLOPE.sin(), left.1 - long * SLOPE.cos()));
+        outline.push((right.0 + long * libm::sin(SLOPE), right.1 - long * libm::cos(SLOPE)));
+        outline.insert(0, (left.0 - long * libm::sin(SLOPE), left.1 - long * libm::cos(SLOPE)));
         sketch.path(&outline, true, PROBE);
     }
 

@@ -52,9 +52,9 @@ fn sample(time: f64) -> SceneSample {
     let stiffness = 1.0 / (1.0 / LATERAL + HEIGHT * HEIGHT / TORSION);
     let held = time.min(SLIP);
     let lateral = stiffness * VELOCITY * held;
-    let (tip_force, angle) = (lateral.hypot(NORMAL_FORCE), lateral.atan2(NORMAL_FORCE));
+    let (tip_force, angle) = (libm::hypot(lateral, NORMAL_FORCE), libm::atan2(lateral, NORMAL_FORCE));
     let (substrate_radius, substrate_indentation) = jkr(50e-9, NORMAL_FORCE);
-    let (tip_radius, tip_indentation) = jkr(50e-9 * 20e-9 / 70e-9, tip_force * (angle - PI / 3.0).cos());
+    let (tip_radius, tip_indentation) = jkr(50e-9 * 20e-9 / 70e-9, tip_force * libm::cos(angle - PI / 3.0));
     SceneSample {
         time,
         lateral_force: lateral,
@@ -81,6 +81,6 @@ fn sample(time: f64) -> SceneSample {
 /// Contact radius and indentation after Johnson, Kendall and Roberts (1971) at K = 60 GPa, 0.2 J/m2.
 fn jkr(radius: f64, load: f64) -> (f64, f64) {
     let (modulus, pull) = (60e9, 3.0 * PI * 0.2 * radius);
-    let a = (radius / modulus * (load + pull + (2.0 * pull * load + pull * pull).sqrt())).cbrt();
+    let a = libm::cbrt(radius / modulus * (load + pull + (2.0 * pull * load + pull * pull).sqrt()));
     (a, a * a / radius - 2.0 / 3.0 * (6.0 * PI * 0.2 * a / modulus).sqrt())
 }

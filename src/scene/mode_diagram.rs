@@ -123,11 +123,11 @@ mod tests {
         let angle: Vec<f64> = (0..=90).map(|degree| f64::from(degree).to_radians()).collect();
         // TS04: F*_ss = tau A / (sin psi - mu cos psi), where tan psi > mu.
         let sliding = |psi: &f64| {
-            let lever = psi.sin() - 0.8 * psi.cos();
+            let lever = libm::sin(*psi) - 0.8 * libm::cos(*psi);
             (lever > 0.0).then(|| 7.3e-9 / lever)
         };
         let sliding = angle.iter().map(sliding).collect();
-        let rolling = angle.iter().map(|psi| Some(9e-16 / (50e-9 * (psi - 0.5).sin().abs()))).collect();
+        let rolling = angle.iter().map(|psi| Some(9e-16 / (50e-9 * libm::sin(psi - 0.5).abs()))).collect();
         ModeDiagram {
             forces: vec![
                 ModeLine { mode: "sliding".to_owned(), colour: Colour::Series(0), force: sliding },

@@ -61,7 +61,7 @@ fn factor(factor: f64) -> String {
 /// The largest of 1, 2, 5, 10, 20, ... (or their inverses) not above `limit`; 1 if the limit is no positive number.
 fn round_below(limit: f64) -> f64 {
     // Beyond these powers there is nothing to see, and products with coordinates could overflow.
-    let decade = limit.log10().floor();
+    let decade = libm::log10(limit).floor();
     if !(-100.0..=100.0).contains(&decade) {
         return 1.0;
     }

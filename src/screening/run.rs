@@ -1,12 +1,12 @@
 //! Trajectories through a model: blocks of them through its workers, each to its elementary effects.
 
 use std::collections::BTreeMap;
-use std::time::Instant;
 
 use super::derivative::range;
 use super::points::{Move, Trajectories};
 use super::settings::DERIVATIVE_STEP;
 use super::{ScreeningDesign, ScreeningError, ScreeningJob};
+use crate::clock::Instant;
 use crate::model::{Batch, RowFailure, RunContext};
 use crate::run::{Executor, Halt, Progress, RunError};
 use crate::space::Factor;

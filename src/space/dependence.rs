@@ -254,8 +254,8 @@ fn refuse_uncorrelated(factor: &Factor) -> Result<(), DependenceError> {
 fn of_normal_scores(measure: CorrelationMeasure, stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> {
     match measure {
         CorrelationMeasure::Normal => Ok(stated),
-        CorrelationMeasure::Spearman => Ok(2.0 * (PI / 6.0 * stated).sin()),
-        CorrelationMeasure::Kendall => Ok((PI / 2.0 * stated).sin()),
+        CorrelationMeasure::Spearman => Ok(2.0 * libm::sin(PI / 6.0 * stated)),
+        CorrelationMeasure::Kendall => Ok(libm::sin(PI / 2.0 * stated)),
         CorrelationMeasure::Pearson => pearson(stated, a, b),
     }
 }
@@ -272,7 +272,7 @@ const FARTHEST: f64 = 8.5;
 fn nodes(count: usize) -> Vec<(f64, f64)> {
     let step = 2.0 * FARTHEST / count as f64;
     let place = |k: usize| -FARTHEST + step * (k as f64 + 0.5);
-    let weights: Vec<f64> = (0..count).map(|k| (-0.5 * place(k) * place(k)).exp()).collect();
+    let weights: Vec<f64> = (0..count).map(|k| libm::exp(-0.5 * place(k) * place(k))).collect();
     let sum: f64 = weights.iter().sum();
     weights.iter().enumerate().map(|(k, weight)| (place(k), weight / sum)).collect()
 }

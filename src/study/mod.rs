@@ -18,7 +18,7 @@ pub use builder::StudyBuilder;
 #[cfg(feature = "study")]
 pub use file::{
     AfmSubject, CommandSubject, Diagnostic, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula,
-    KnownSubject, NEW_PROGRAM, OverrideProblem, Problem, StudyError, TemplateRequest, model_guide, new_program,
+    KnownSubject, NEW_PROGRAM, OverrideProblem, Problem, StudyError, TemplateRequest, edited, model_guide, new_program,
     study_schema, template,
 };
 pub use options::{AnalysisOptions, SurrogateChoice, Target};

@@ -135,7 +135,7 @@ pub fn first_terms(caps: Caps<'_>, count: usize) -> Vec<Term> {
             _ => degree.min(5),
         };
         rising(members, most, &mut Vec::new(), &mut |degrees| {
-            let norm = degrees.iter().map(|&k| (k as f64).powf(NORM)).sum::<f64>().powf(1.0 / NORM);
+            let norm = libm::pow(degrees.iter().map(|&k| libm::pow(k as f64, NORM)).sum(), 1.0 / NORM);
             patterns.push(((norm * 1e9).round(), degrees.to_vec()));
         });
     }

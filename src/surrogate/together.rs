@@ -158,7 +158,7 @@ mod tests {
         let families = vec![Family::new(&uniform); 3];
         let time = |k: usize| k as f64 / 40.0;
         let outputs: Vec<Vec<PointOutputs>> = (0..40)
-            .map(|k| kept(&design, |u| (1.0 + u[0] * time(k)).exp() * (1.0 + u[1]) + u[2] * u[2] * (1.0 - time(k))))
+            .map(|k| kept(&design, |u| libm::exp(1.0 + u[0] * time(k)) * (1.0 + u[1]) + u[2] * u[2] * (1.0 - time(k))))
             .collect();
         let refs: Vec<Vec<&PointOutputs>> = outputs.iter().map(|of| of.iter().collect()).collect();
         let together = surrogates_together(&design, &families, &layout, &refs);

@@ -172,7 +172,7 @@ impl FactorValues {
             _ => {
                 let part = i as f64 / last as f64;
                 if is_logarithmic(distribution) {
-                    (low.ln() * (1.0 - part) + high.ln() * part).exp()
+                    libm::exp(libm::log(low) * (1.0 - part) + libm::log(high) * part)
                 } else {
                     low * (1.0 - part) + high * part
                 }

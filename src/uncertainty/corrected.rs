@@ -312,8 +312,8 @@ pub(super) fn hull(a: Option<Interval>, b: Option<Interval>) -> Option<Interval>
 fn difference(a: Estimate, b: Estimate) -> Estimate {
     let estimate = a.estimate - b.estimate;
     let interval = a.interval.zip(b.interval).map(|(of_a, of_b)| Interval {
-        low: estimate - (a.estimate - of_a.low).hypot(of_b.high - b.estimate),
-        high: estimate + (of_a.high - a.estimate).hypot(b.estimate - of_b.low),
+        low: estimate - libm::hypot(a.estimate - of_a.low, of_b.high - b.estimate),
+        high: estimate + libm::hypot(of_a.high - a.estimate, b.estimate - of_b.low),
     });
     Estimate { estimate, interval }
 }

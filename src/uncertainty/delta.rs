@@ -33,7 +33,7 @@ impl InfluenceSums {
 
     /// Acceleration sum U^3/(6 (sum U^2)^(3/2)) of the BCa bootstrap (Efron 1987, J. Am. Stat. Assoc. 82, 171-185).
     pub fn acceleration(&self) -> f64 {
-        if self.squares > 0.0 { self.cubes / (6.0 * self.squares.powf(1.5)) } else { 0.0 }
+        if self.squares > 0.0 { self.cubes / (6.0 * libm::pow(self.squares, 1.5)) } else { 0.0 }
     }
 }
 

@@ -106,7 +106,7 @@ pub(super) fn corrected(
 fn quotient(a: Estimate, b: Estimate) -> Estimate {
     let estimate = a.estimate / b.estimate;
     let interval = a.interval.zip(b.interval).map(|(of_a, of_b)| {
-        let reach = |of_a: f64, of_b: f64| (of_a / b.estimate).hypot(estimate * of_b / b.estimate);
+        let reach = |of_a: f64, of_b: f64| libm::hypot(of_a / b.estimate, estimate * of_b / b.estimate);
         Interval {
             low: estimate - reach(a.estimate - of_a.low, of_b.high - b.estimate),
             high: estimate + reach(of_a.high - a.estimate, b.estimate - of_b.low),

@@ -125,7 +125,7 @@ impl Levels {
         let spread = means.iter().map(|mean| (mean - centre).powi(2)).sum::<f64>() / shape.direct_freedom().max(1.0);
         let logs = decay(quantity, shape, size);
         let (height, slope) = line(&logs, shape);
-        let scale = 2.0 * size.ln();
+        let scale = 2.0 * libm::log(size);
         Some(Self { height: height + scale, slope, spread: spread * size * size })
     }
 }
@@ -145,7 +145,7 @@ fn decay(quantity: &PartInfluences, shape: &Shape, size: f64) -> Vec<f64> {
             *net = net.chunks_exact(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
         }
         // A level without any difference is one of rounding.
-        logs.push((sum / count).max(f64::EPSILON * f64::EPSILON).ln());
+        logs.push(libm::log((sum / count).max(f64::EPSILON * f64::EPSILON)));
     }
     logs.reverse();
     logs.truncate(LEVELS);
@@ -163,7 +163,7 @@ fn weights(shape: &Shape, levels: usize) -> (Vec<f64>, f64) {
 /// Weighted mean of `logs` and slope of the line through them.
 fn line(logs: &[f64], shape: &Shape) -> (f64, f64) {
     if logs.is_empty() {
-        return (f64::NEG_INFINITY, SLOWEST.ln());
+        return (f64::NEG_INFINITY, libm::log(SLOWEST));
     }
     let (weights, centre) = weights(shape, logs.len());
     let sum: f64 = weights.iter().sum();
@@ -172,7 +172,7 @@ fn line(logs: &[f64], shape: &Shape) -> (f64, f64) {
     let square: f64 = weights.iter().enumerate().map(|(below, w)| w * place(below).powi(2)).sum();
     let product: f64 = logs.iter().zip(&weights).enumerate().map(|(below, (log, w))| w * log * place(below)).sum();
     // Three levels are the least that tell a slope from chance; fewer are taken to fall like random points.
-    (height, if logs.len() < 3 { SLOWEST.ln() } else { product / square })
+    (height, if logs.len() < 3 { libm::log(SLOWEST) } else { product / square })
 }
 
 /// The trend of an output's indices.
@@ -190,9 +190,9 @@ impl Trend {
         }
         let count = pool.len() as f64;
         let slope = pool.iter().map(|levels| levels.slope).sum::<f64>() / count;
-        let rho = slope.exp().clamp(FASTEST, SLOWEST);
+        let rho = libm::exp(slope).clamp(FASTEST, SLOWEST);
         let (_, centre) = weights(shape, shape.depth.min(LEVELS));
-        let rise = -centre * rho.ln() + (rho / (1.0 - rho)).ln() + incomplete(shape, rho).ln();
+        let rise = -centre * libm::log(rho) + libm::log(rho / (1.0 - rho)) + libm::log(incomplete(shape, rho));
         let direct = shape.direct_freedom();
         if direct <= 0.0 {
             return Self { rise, freedom: freedom_of_log_variance(SCATTER_OF_INDICES + SCATTER_OF_OUTPUTS) };
@@ -200,7 +200,7 @@ impl Trend {
         let gaps = pool
             .iter()
             .filter(|levels| levels.spread > 0.0)
-            .map(|levels| levels.spread.ln() - log_bias(direct) - levels.height - rise);
+            .map(|levels| libm::log(levels.spread) - log_bias(direct) - levels.height - rise);
         let gaps: Vec<f64> = gaps.collect();
         let independent = (gaps.len() as f64 / DEPENDENCE).max(0.5);
         let noise = (log_variance(direct) + SCATTER_OF_INDICES) / independent;
@@ -213,7 +213,8 @@ impl Trend {
     /// The standard error of the mean over the nets.
     fn error(&self, levels: &Levels, shape: &Shape) -> StandardError {
         let direct = shape.direct_freedom();
-        let prior = if self.freedom > 0.0 { (levels.height + self.rise + log_bias(self.freedom)).exp() } else { 0.0 };
+        let prior =
+            if self.freedom > 0.0 { libm::exp(levels.height + self.rise + log_bias(self.freedom)) } else { 0.0 };
         let freedom = self.freedom + direct;
         if freedom <= 0.0 {
             return StandardError { error: f64::NAN, freedom: 0.0 };

@@ -109,7 +109,7 @@ impl Noise {
         let (a, b) = (own.error * own.error, low.error * low.error);
         let freedom = (a + b).powi(2) / (a * a / own.freedom + b * b / low.freedom);
         let freedom = if freedom.is_finite() { freedom } else { own.freedom.min(low.freedom) };
-        StandardError { error: own.error.hypot(low.error), freedom }
+        StandardError { error: libm::hypot(own.error, low.error), freedom }
     }
 
     /// The standard error of the mean of influences.
@@ -133,7 +133,7 @@ impl Noise {
         let [low, high] = self.concentration.map(half);
         let interval = low.zip(high).map(|(low, high)| {
             let q = if self.skewed && estimate > 0.0 { (high / estimate).min(1.0) } else { 0.0 };
-            let stretch = if q > 1e-9 { q.exp_m1() / q } else { 1.0 };
+            let stretch = if q > 1e-9 { libm::expm1(q) / q } else { 1.0 };
             Interval { low: estimate - low, high: estimate + high * stretch }
         });
         Estimate { estimate, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) }

@@ -29,7 +29,7 @@ pub fn probability_first(
         return None;
     }
     let within_reach = |&k: &usize| {
-        let reach = errors[k].error.hypot(errors[lead].error) * OUT_OF_REACH;
+        let reach = libm::hypot(errors[k].error, errors[lead].error) * OUT_OF_REACH;
         k == lead || estimates[lead] - estimates[k] <= reach
     };
     let rivals: Vec<usize> = (0..estimates.len()).filter(within_reach).collect();

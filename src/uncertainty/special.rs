@@ -4,7 +4,7 @@ use statrs::function::gamma::digamma;
 
 /// Bias of the logarithm of a mean square with `freedom` degrees of freedom: E ln(chi^2_f / f) = psi(f/2) - ln(f/2).
 pub(super) fn log_bias(freedom: f64) -> f64 {
-    digamma(freedom / 2.0) - (freedom / 2.0).ln()
+    digamma(freedom / 2.0) - libm::log(freedom / 2.0)
 }
 
 /// Variance of the logarithm of a mean square with `freedom` degrees of freedom: psi'(f/2).

@@ -17,13 +17,13 @@ struct Transition {
 impl Transition {
     #[inline]
     fn of(lambda: f64) -> Self {
-        let log = lambda.ln();
+        let log = libm::log(lambda);
         // (x - 1)/(x + 1), from -1 to 1.
         let blend = |x: f64| 1.0 - 2.0 / (x + 1.0);
         Self {
-            alpha: -(-lambda / 0.924).exp_m1() / 1.02,
-            rest: 1.54 + 0.279 * blend(2.28 * (1.3 * log).exp()),
-            pull_off: 1.75 - 0.25 * blend(4.04 * (1.4 * log).exp()),
+            alpha: -libm::expm1(-lambda / 0.924) / 1.02,
+            rest: 1.54 + 0.279 * blend(2.28 * libm::exp(1.3 * log)),
+            pull_off: 1.75 - 0.25 * blend(4.04 * libm::exp(1.4 * log)),
         }
     }
 }

@@ -49,7 +49,7 @@ impl Zone {
     /// The zone of extent `extent` > 0.
     #[inline]
     pub fn new(lambda: f64, extent: f64) -> Self {
-        let angle = extent.atan();
+        let angle = libm::atan(extent);
         let f = bulk(extent, angle);
         let b = 4.0 / 3.0 * lambda * lambda * rim(extent, angle);
         Self { lambda, extent, radius: 2.0 / (b + (b * b + 2.0 * lambda * f).sqrt()), angle, f, b }
@@ -136,12 +136,12 @@ impl Zone {
         };
         // A radius between DMT, abar^3 = lift, and JKR.
         let share = lambda / (lambda + 0.6);
-        let radius = (lift + share * (1.0 + (6.0 * lift - 3.0).max(0.0).sqrt())).cbrt();
+        let radius = libm::cbrt(lift + share * (1.0 + (6.0 * lift - 3.0).max(0.0).sqrt()));
         let start = approximate_extent(lambda, radius).min(0.9 * limit);
         let extent = descend((start, limit), |s| {
             let zone = Self::new(lambda, s);
             let value = zone.lift();
-            ((value / lift).ln(), zone.slope() * (zone.radius * zone.radius) / value)
+            (libm::log(value / lift), zone.slope() * (zone.radius * zone.radius) / value)
         });
         Self::new(lambda, extent)
     }
@@ -150,7 +150,7 @@ impl Zone {
     pub fn at_radius(lambda: f64, radius: f64) -> Self {
         let extent = descend((approximate_extent(lambda, radius), f64::INFINITY), |s| {
             let zone = Self::new(lambda, s);
-            ((zone.radius / radius).ln(), -1.0 - zone.excess())
+            (libm::log(zone.radius / radius), -1.0 - zone.excess())
         });
         Self::new(lambda, extent)
     }
@@ -161,7 +161,7 @@ impl Zone {
 fn approximate_extent(lambda: f64, radius: f64) -> f64 {
     let bulk = lambda * radius * radius;
     let rim = lambda * lambda * radius;
-    let narrow = 1.0 / ((2.0 / 3.0 * bulk).cbrt() + (2.0 / 3.0 * rim).sqrt());
+    let narrow = 1.0 / (libm::cbrt(2.0 / 3.0 * bulk) + (2.0 / 3.0 * rim).sqrt());
     let wide = 1.0 / ((PI / 4.0 * bulk).sqrt() + 0.761 * rim);
     narrow.max(wide)
 }
@@ -186,7 +186,7 @@ fn descend((start, limit): (f64, f64), function: impl Fn(f64) -> (f64, f64)) -> 
         } else {
             high = s;
         }
-        let newton = s * step.exp();
+        let newton = s * libm::exp(step);
         if newton > low && newton < high {
             s = newton;
             // What is left of the error if it goes on shrinking quadratically, with a reserve.
@@ -231,14 +231,14 @@ mod tests {
     fn pull_off_tends_to_dmt_and_jkr() {
         for lambda in [1e-30, 1e-12, 1e-8] {
             let zone = Zone::at_pull_off(lambda);
-            let lift = 16.0 / 3.0 * (PI / 2.0 - 1.0) / PI.sqrt() * lambda.powf(1.5);
+            let lift = 16.0 / 3.0 * (PI / 2.0 - 1.0) / PI.sqrt() * libm::pow(lambda, 1.5);
             assert!((zone.lift() / lift - 1.0).abs() < 1e-7, "{lambda}");
             assert!((zone.radius / (2.0 * PI / 3.0 * lambda) - 1.0).abs() < 1e-7, "{lambda}");
         }
         for lambda in [1e4, 1e6, 1e8] {
             let zone = Zone::at_pull_off(lambda);
             assert!((zone.lift() - 0.5).abs() < 1.0 / lambda.powi(2) + 1e-14, "{lambda}");
-            assert!((zone.radius - 1.5_f64.cbrt()).abs() < 1.0 / lambda.powi(2) + 1e-14, "{lambda}");
+            assert!((zone.radius - libm::cbrt(1.5)).abs() < 1.0 / lambda.powi(2) + 1e-14, "{lambda}");
         }
     }
 
@@ -247,8 +247,8 @@ mod tests {
     fn descend_arrives_from_anywhere() {
         for start in [1e-200, 1e-3, 0.5, 1.9, 3.0, 1e200] {
             // (ln s)^2 - 1 falls through zero at 1/e and has its minimum at 1.
-            let root = descend((start, f64::INFINITY), |s| (s.ln().powi(2) - 1.0, 2.0 * s.ln()));
-            assert!((root * 1_f64.exp() - 1.0).abs() < 1e-14, "{start}: {root}");
+            let root = descend((start, f64::INFINITY), |s| (libm::log(s).powi(2) - 1.0, 2.0 * libm::log(s)));
+            assert!((root * libm::exp(1.0) - 1.0).abs() < 1e-14, "{start}: {root}");
         }
     }
 
@@ -256,13 +256,13 @@ mod tests {
         /// The slope is the derivative of the lift: central differences of step 1e-4, good to 1e-8, and the rounding of the lift.
         #[test]
         fn slope_is_the_derivative(log_lambda in -3.0..3.0_f64, log_s in -4.0..4.0_f64) {
-            let (lambda, s) = (10_f64.powf(log_lambda), 10_f64.powf(log_s));
-            let at = |x: f64| Zone::new(lambda, s * x.exp());
+            let (lambda, s) = (libm::pow(10.0, log_lambda), libm::pow(10.0, log_s));
+            let at = |x: f64| Zone::new(lambda, s * libm::exp(x));
             let (up, here, down) = (at(1e-4), at(0.0), at(-1e-4));
             let slope = (up.lift() - down.lift()) / 2e-4;
             let scale = here.radius.powi(3) + lambda * here.radius.powi(2) * (1.0 + here.angle) + 1e-5 * here.lift().abs();
             prop_assert!((slope - here.slope() * here.radius.powi(2)).abs() < 1e-6 * scale);
-            let excess = -1.0 - (up.radius / down.radius).ln() / 2e-4;
+            let excess = -1.0 - libm::log(up.radius / down.radius) / 2e-4;
             prop_assert!((excess - here.excess()).abs() < 1e-6);
             prop_assert!((0.0..=1.0).contains(&here.excess()));
         }
@@ -271,9 +271,9 @@ mod tests {
         /// share that may be tiny.
         #[test]
         fn roots_are_roots(log_lambda in -36.0..9.0_f64, log_share in -14.0..34.0_f64) {
-            let lambda = 10_f64.powf(log_lambda);
+            let lambda = libm::pow(10.0, log_lambda);
             let last = Zone::at_pull_off(lambda);
-            let lift = last.lift() * (1.0 + 10_f64.powf(log_share));
+            let lift = last.lift() * (1.0 + libm::pow(10.0, log_share));
             let zone = Zone::at_lift(lambda, lift, Some(last));
             prop_assert!((zone.lift() / lift - 1.0).abs() < 1e-13, "{} {lift}", zone.lift());
             prop_assert!(zone.radius >= last.radius * (1.0 - 1e-14));
@@ -285,9 +285,9 @@ mod tests {
         #[test]
         fn one_minimum(log_lambda in -6.0..6.0_f64, log_ratio in -3.0..3.0_f64) {
             prop_assume!(log_ratio.abs() > 1e-6);
-            let lambda = 10_f64.powf(log_lambda);
+            let lambda = libm::pow(10.0, log_lambda);
             let last = Zone::at_pull_off(lambda);
-            let zone = Zone::new(lambda, last.extent * 10_f64.powf(log_ratio));
+            let zone = Zone::new(lambda, last.extent * libm::pow(10.0, log_ratio));
             prop_assert_eq!(zone.slope() > 0.0, log_ratio > 0.0);
         }
     }

@@ -72,7 +72,7 @@ impl Pair {
     /// pull-off in units of the reach of the surface forces (Tabor 1977).
     #[inline]
     pub fn tabor(&self) -> f64 {
-        self.tabor_cubed().cbrt()
+        libm::cbrt(self.tabor_cubed())
     }
 
     /// The cube of [`tabor`](Self::tabor), which is enough to compare with.
@@ -97,7 +97,7 @@ impl Pair {
     /// (pi w R^2/K)^(1/3) (m).
     #[inline]
     fn unit_radius(&self) -> f64 {
-        self.radius * (PI * self.adhesion / (self.modulus * self.radius)).cbrt()
+        self.radius * libm::cbrt(PI * self.adhesion / (self.modulus * self.radius))
     }
 }
 

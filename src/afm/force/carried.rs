@@ -37,10 +37,11 @@ impl Motion<'_> {
         let (first, here) = (self.local_frequency(0.0), self.local_frequency(theta));
         let mean = scene.velocity / scene.height;
         let kick = mean * (1.0 - self.turning(0.0));
-        let away = kick / (first * here).sqrt() * phase.sin();
-        let rate = mean * self.turning(theta) + kick * (here / first).sqrt() * phase.cos();
+        let away = kick / (first * here).sqrt() * libm::sin(phase);
+        let rate = mean * self.turning(theta) + kick * (here / first).sqrt() * libm::cos(phase);
         // K_y y_P = K_y (s - H sin theta), s unchanged.
-        let stretch = -2.0 * statics.probe.lateral * scene.height * (theta + 0.5 * away).cos() * (0.5 * away).sin();
+        let stretch =
+            -2.0 * statics.probe.lateral * scene.height * libm::cos(theta + 0.5 * away) * libm::sin(0.5 * away);
         let lateral = statics.lateral_force(theta) + stretch;
         Ok(Eve { t, y: [lateral / self.force, rate / mean] })
     }
@@ -53,7 +54,7 @@ impl Motion<'_> {
     /// omega (rad/s) about the equilibrium at the twist `theta`, the apex held.
     fn local_frequency(&self, theta: f64) -> f64 {
         let &Self { statics, scene, .. } = self;
-        let (sin, cos) = theta.sin_cos();
+        let (sin, cos) = libm::sincos(theta);
         let height = scene.height;
         let twisting = height * (statics.lateral_moment_slope(theta) + statics.lateral_force(theta) * sin);
         let bending = statics.probe.lateral * (height * cos) * (height * cos);
@@ -63,7 +64,7 @@ impl Motion<'_> {
 
 /// d(travel)/d(theta) in equilibrium (m).
 fn travel_slope(statics: &Statics, theta: f64) -> f64 {
-    statics.scene.height * theta.cos() + statics.lateral_force_slope(theta) / statics.probe.lateral
+    statics.scene.height * libm::cos(theta) + statics.lateral_force_slope(theta) / statics.probe.lateral
 }
 
 /// Nodes and weights of Gauss's rule of five points on [-1, 1].
@@ -105,8 +106,8 @@ mod tests {
     #[test]
     fn integrals_are_exact_to_rounding() {
         for end in [1e-6_f64, 0.3, 1.5] {
-            assert!((integral(end, |x| x.cos()) / end.sin() - 1.0).abs() < 1e-14, "{end}");
+            assert!((integral(end, libm::cos) / libm::sin(end) - 1.0).abs() < 1e-14, "{end}");
         }
-        assert_eq!(integral(0.0, |x| x.cos()), 0.0);
+        assert_eq!(integral(0.0, libm::cos), 0.0);
     }
 }

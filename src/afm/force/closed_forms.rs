@@ -268,7 +268,7 @@ fn press(scene: &Scene, options: &Options, columns: &Columns, probes: &mut Probe
 
 #[inline(always)]
 fn bend(scene: &Scene, torsion: Torsion, columns: &Columns, probes: &mut Probes) {
-    let sine = scene.preload_angle.sin();
+    let sine = libm::sin(scene.preload_angle);
     for i in 0..AT_ONCE {
         let probe = Probe::with_sine(&columns.scene(i, scene), torsion, sine);
         probes.normal[i] = probe.normal;

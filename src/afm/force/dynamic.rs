@@ -45,7 +45,9 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let missed = slip.beyond(&limit, quasi_static::left_out(&limit, scene, &substrate, &probe));
     // The march aims at a tenth of the tolerance a step, in F_Y.
     let mut error = Error { normal: missed.normal, lateral: options.tolerance * slip.lateral_force };
-    if missed.normal.max(missed.lateral) > 10.0 * options.tolerance * limit.normal_force.hypot(limit.lateral_force) {
+    if missed.normal.max(missed.lateral)
+        > 10.0 * options.tolerance * libm::hypot(limit.normal_force, limit.lateral_force)
+    {
         error.lateral += missed.lateral;
     }
     if options.friction == FrictionLaw::LuGre {

@@ -186,7 +186,7 @@ pub fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Fail
 impl Critical {
     /// Angle of the tip force from the vertical, psi = atan2(F_Y, F_Z) (rad).
     pub fn force_angle(&self) -> f64 {
-        self.lateral_force.atan2(self.normal_force)
+        libm::atan2(self.lateral_force, self.normal_force)
     }
 
     /// This result, if every quantity is finite. Infinite or undefined ones arise only from

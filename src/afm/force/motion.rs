@@ -64,12 +64,12 @@ impl<'a> Motion<'a> {
     /// the tip would have to be longer.
     pub fn twist(&self, s: f64, q: f64) -> f64 {
         let deflection = q * self.force / self.statics.probe.lateral;
-        ((s * self.length - deflection) / self.scene.height).asin()
+        libm::asin((s * self.length - deflection) / self.scene.height)
     }
 
     /// Moment about the apex over H (N): F_Y cos theta + F_Z sin theta - K_theta theta/H.
     fn moment(&self, theta: f64, q: f64) -> f64 {
-        q * self.force * theta.cos() - self.statics.lateral_moment(theta)
+        q * self.force * libm::cos(theta) - self.statics.lateral_moment(theta)
     }
 
     /// theta'' in units of V/H per unit of time, per newton of moment over H.
@@ -81,7 +81,7 @@ impl<'a> Motion<'a> {
     /// y' of `Motion` at the apex position `s`, which moves at `u` (units of V).
     pub fn rates(&self, [s, u]: [f64; 2], &[q, w]: &[f64; 2]) -> [f64; 2] {
         let theta = self.twist(s, q);
-        [self.stiffness() * (u - w * theta.cos()), self.agility() * self.moment(theta, q)]
+        [self.stiffness() * (u - w * libm::cos(theta)), self.agility() * self.moment(theta, q)]
     }
 
     /// F_Z (N) of the probe alone at a twist.
@@ -97,7 +97,7 @@ impl<'a> Motion<'a> {
     /// Derivatives of [`rates`](Self::rates) by q, w, and s.
     pub fn slopes(&self, s: f64, &[q, w]: &[f64; 2]) -> [[f64; 3]; 2] {
         let theta = self.twist(s, q);
-        let (sin, cos) = theta.sin_cos();
+        let (sin, cos) = libm::sincos(theta);
         let by_s = self.length / (self.scene.height * cos);
         let by_q = -by_s / self.stiffness();
         let turning = self.stiffness() * w * sin;
@@ -113,7 +113,7 @@ impl<'a> Motion<'a> {
     /// indentations, which follow the forces, left out.
     pub fn tip(&self, s: f64, &[q, w]: &[f64; 2]) -> Tip {
         let twist = self.twist(s, q);
-        let (sin, cos) = twist.sin_cos();
+        let (sin, cos) = libm::sincos(twist);
         let height = self.scene.height;
         let spin = w * self.scene.velocity / height;
         let lateral_spring = q * self.force;

@@ -69,40 +69,40 @@ impl<'a> Statics<'a> {
 
     /// F_Z (N) at the twist `theta`. 1 - cos theta as 2 sin^2(theta/2), which does not cancel.
     pub fn normal_force(&self, theta: f64) -> f64 {
-        let half = (0.5 * theta).sin();
+        let half = libm::sin(0.5 * theta);
         self.probe.normal * (self.probe.preload_deflection - 2.0 * self.height * half * half)
     }
 
     /// F_Y cos theta (N) at the twist `theta`.
     pub fn lateral_moment(&self, theta: f64) -> f64 {
-        self.restoring * theta - self.normal_force(theta) * theta.sin()
+        self.restoring * theta - self.normal_force(theta) * libm::sin(theta)
     }
 
     /// Its derivative by the twist (N).
     pub fn lateral_moment_slope(&self, theta: f64) -> f64 {
-        let (sin, cos) = theta.sin_cos();
+        let (sin, cos) = libm::sincos(theta);
         self.restoring - self.normal_force(theta) * cos + self.probe.normal * self.height * sin * sin
     }
 
     /// F_Y (N) at the twist `theta`, below a right angle.
     pub fn lateral_force(&self, theta: f64) -> f64 {
-        self.lateral_moment(theta) / theta.cos()
+        self.lateral_moment(theta) / libm::cos(theta)
     }
 
     /// Its derivative by the twist (N).
     pub fn lateral_force_slope(&self, theta: f64) -> f64 {
-        (self.lateral_moment_slope(theta) + self.lateral_force(theta) * theta.sin()) / theta.cos()
+        (self.lateral_moment_slope(theta) + self.lateral_force(theta) * libm::sin(theta)) / libm::cos(theta)
     }
 
     /// Travel of the apex (m): s = H sin theta + F_Y/K_y.
     pub fn travel(&self, theta: f64, lateral_force: f64) -> f64 {
-        self.height * theta.sin() + lateral_force / self.probe.lateral
+        self.height * libm::sin(theta) + lateral_force / self.probe.lateral
     }
 
     /// The twist at which F_Z has fallen to `least`, or pi/2.
     fn last_twist(&self, least: f64) -> f64 {
         let drop = (self.probe.preload_force - least) / self.probe.normal / self.height;
-        if drop < 1.0 { 2.0 * (0.5 * drop).sqrt().asin() } else { FRAC_PI_2 }
+        if drop < 1.0 { 2.0 * libm::asin((0.5 * drop).sqrt()) } else { FRAC_PI_2 }
     }
 
     /// The slip, and the evaluations of friction it took.
@@ -124,7 +124,7 @@ impl<'a> Statics<'a> {
         };
         // F_Y cos theta - F_Y* cos theta: of the sign of F_Y - F_Y*, and finite up to pi/2.
         let mut residual = |theta: f64| -> Result<f64, Failure> {
-            Ok(self.lateral_moment(theta) - hold(theta)?.0.capacity * theta.cos())
+            Ok(self.lateral_moment(theta) - hold(theta)?.0.capacity * libm::cos(theta))
         };
         let at_rest = residual(0.0)?;
         let last = self.last_twist(least);
@@ -157,7 +157,7 @@ impl<'a> Statics<'a> {
         // friction's where its coefficient is so large that one rounding of the twist moves it by itself.
         let of_geometry = self.lateral_force(theta);
         let agree = (hold.capacity - of_geometry).abs() < 1e-6 * of_geometry;
-        let lateral_force = if agree || theta.cos() < 1e-6 { hold.capacity } else { of_geometry };
+        let lateral_force = if agree || libm::cos(theta) < 1e-6 { hold.capacity } else { of_geometry };
         let travel = self.travel(theta, lateral_force);
         Ok((Slip { normal_force, lateral_force, travel, twist: theta, contact: hold.contact }, evaluations))
     }

@@ -56,7 +56,7 @@ impl Error {
     /// The same where squares over- or underflow. An error that is not a number claims nothing.
     #[cold]
     fn of_extreme(self, slip: &Slip) -> f64 {
-        let size = slip.normal_force.hypot(slip.lateral_force);
+        let size = libm::hypot(slip.normal_force, slip.lateral_force);
         if size == 0.0 && self.normal == 0.0 && self.lateral == 0.0 {
             return ROUNDING;
         }
@@ -139,7 +139,7 @@ pub(super) const ORDINARY_SQUARES: RangeInclusive<f64> = 1e-200..=1e200;
 /// F_cr from its square, or from its parts (F_Z, F_Y) where the square left the numbers.
 #[inline]
 fn magnitude(squared: f64, (normal_force, lateral_force): (f64, f64)) -> f64 {
-    if ORDINARY_SQUARES.contains(&squared) { squared.sqrt() } else { normal_force.hypot(lateral_force) }
+    if ORDINARY_SQUARES.contains(&squared) { squared.sqrt() } else { libm::hypot(normal_force, lateral_force) }
 }
 
 /// s/V.

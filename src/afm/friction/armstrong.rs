@@ -82,7 +82,7 @@ impl Armstrong {
             return self.static_force(load, rest);
         }
         let half = 0.5 * p;
-        let root = half.hypot(q.sqrt());
+        let root = libm::hypot(half, q.sqrt());
         if half > 0.0 { q / (half + root) } else { root - half }
     }
 }
@@ -125,7 +125,7 @@ mod tests {
         #[test]
         fn break_away_is_consistent(rate in -12.0..3.0_f64, rest in 0.0..10.0_f64, fresh in 0.0..1.0_f64) {
             let law = Armstrong { fresh_friction: fresh, ..law() };
-            let loading = Loading { rate: 10_f64.powf(rate), rest };
+            let loading = Loading { rate: libm::pow(10.0, rate), rest };
             let force = law.break_away(4e-7, loading);
             let again = law.static_force(4e-7, rest + force / loading.rate);
             prop_assert!((force / again - 1.0).abs() < 1e-12, "{force} {again}");
@@ -134,7 +134,7 @@ mod tests {
         #[test]
         fn slower_loading_or_longer_rest_holds_more(rate in -9.0..-5.0_f64, rest in 0.0..10.0_f64) {
             let at = |rate: f64, rest| law().break_away(4e-7, Loading { rate, rest });
-            let rate = 10_f64.powf(rate);
+            let rate = libm::pow(10.0, rate);
             prop_assert!(at(rate, rest) > at(2.0 * rate, rest));
             prop_assert!(at(rate, rest + 1.0) > at(rate, rest));
         }

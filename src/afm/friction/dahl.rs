@@ -32,6 +32,6 @@ impl Dahl {
     /// dF/dx (N/m) at the force `force` (N) under `load` (N) when moving in the `direction` (1 or -1).
     pub fn slope(&self, load: f64, force: f64, direction: f64) -> f64 {
         let reserve = 1.0 - force / self.capacity(load) * direction;
-        self.stiffness * reserve.abs().powf(self.exponent).copysign(reserve)
+        self.stiffness * libm::pow(reserve.abs(), self.exponent).copysign(reserve)
     }
 }

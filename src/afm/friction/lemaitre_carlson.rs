@@ -85,7 +85,7 @@ impl LemaitreCarlson {
 
     /// d/dt of stress in units of mubar and of disorder (1/s), when sheared at `velocity` (m/s) of either sign.
     pub(super) fn rates(&self, velocity: f64, &[s, disorder]: &[f64; 2]) -> [f64; 2] {
-        let flow = self.rearrangement_rate * activation(1.0, disorder) * s.sinh();
+        let flow = self.rearrangement_rate * activation(1.0, disorder) * libm::sinh(s);
         let ageing = self.ageing_rate * activation(self.ageing_barrier, disorder);
         let shear = velocity / (2.0 * self.half_thickness);
         [self.modulus / self.stress * (shear - flow), self.disorder_gain * self.stress * s * flow - ageing]
@@ -105,9 +105,9 @@ impl LemaitreCarlson {
         // In logarithms, increasing in sig: ln sinh(sig/mubar) + ln(E0/rate) - 1/chi.
         let balance = |s: f64| {
             let disorder = self.disorder_gain * self.stress * s * rate / self.ageing_rate;
-            let barrier = (-disorder.ln() / self.ageing_barrier).max(0.0);
-            let ln_sinh = s + (-(-2.0 * s).exp_m1()).ln() - std::f64::consts::LN_2;
-            Ok(ln_sinh + (self.rearrangement_rate / rate).ln() - barrier)
+            let barrier = (-libm::log(disorder) / self.ageing_barrier).max(0.0);
+            let ln_sinh = s + libm::log(-libm::expm1(-2.0 * s)) - std::f64::consts::LN_2;
+            Ok(ln_sinh + libm::log(self.rearrangement_rate / rate) - barrier)
         };
         let (low, high) = (f64::MIN_POSITIVE, 1e6);
         let s = root::between(Point { x: low, y: balance(low)? }, Point { x: high, y: balance(high)? }, balance)?;
@@ -117,7 +117,7 @@ impl LemaitreCarlson {
 
 /// exp(-barrier/chi); nothing is left to age or rearrange at chi = 0.
 fn activation(barrier: f64, disorder: f64) -> f64 {
-    if disorder > 0.0 { (-barrier / disorder).exp() } else { 0.0 }
+    if disorder > 0.0 { libm::exp(-barrier / disorder) } else { 0.0 }
 }
 
 impl Sheared {
@@ -136,7 +136,7 @@ impl Sheared {
 
     /// gam' in units of V/(2h).
     pub(super) fn plastic_rate(&self, &[s, disorder]: &[f64; 2]) -> f64 {
-        self.law.rearrangement_rate / self.rate * activation(1.0, disorder) * s.sinh()
+        self.law.rearrangement_rate / self.rate * activation(1.0, disorder) * libm::sinh(s)
     }
 }
 
@@ -150,7 +150,7 @@ impl Problem<2> for Sheared {
     fn jacobian(&self, _: f64, y: &[f64; 2]) -> [[f64; 2]; 2] {
         let &[s, disorder] = y;
         let flow = self.plastic_rate(y);
-        let by_s = self.law.rearrangement_rate / self.rate * activation(1.0, disorder) * s.cosh();
+        let by_s = self.law.rearrangement_rate / self.rate * activation(1.0, disorder) * libm::cosh(s);
         let squared = disorder * disorder;
         let by_disorder = if disorder > 0.0 { flow / squared } else { 0.0 };
         let kappa = self.law.ageing_barrier;

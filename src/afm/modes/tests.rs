@@ -56,12 +56,12 @@ fn mode_diagram_without_shear_strength() {
     let scene = Scene { shear_strength: 0.0, ..Scene::default() };
     let sticky = Pushing { adhesion_in_load: true, ..Pushing::new(scene) };
     let angle = 1.2_f64;
-    let expected = 0.8 * 1.5 * PI * 0.2 * 50e-9 / (angle.sin() - 0.8 * angle.cos());
+    let expected = 0.8 * 1.5 * PI * 0.2 * 50e-9 / (libm::sin(angle) - 0.8 * libm::cos(angle));
     close(sticky.critical_tip_force(Mode::Slide, angle).unwrap().unwrap(), expected, 1e-14);
     // Without either there is nothing but a cone of friction.
     let dry = Pushing::new(scene);
-    assert_eq!(dry.critical_tip_force(Mode::Slide, 0.8_f64.atan() + 1e-9), Ok(Some(0.0)));
-    assert_eq!(dry.critical_tip_force(Mode::Slide, 0.8_f64.atan() - 1e-9), Ok(None));
+    assert_eq!(dry.critical_tip_force(Mode::Slide, libm::atan(0.8) + 1e-9), Ok(Some(0.0)));
+    assert_eq!(dry.critical_tip_force(Mode::Slide, libm::atan(0.8) - 1e-9), Ok(None));
 }
 
 /// Pushed along the line from tip to particle, the tip cannot slip; with the tip on top, it slips like a substrate.
@@ -96,7 +96,7 @@ fn rolling_limits() {
     let rigid = Pushing::new(Scene { equivalent_modulus: 1e30, adhesion: 0.0, ..Scene::default() });
     let drive = |psi: f64| rigid.balance(Mode::Roll, TipForce::polar(1e-7, psi)).unwrap().drive;
     assert!(drive(30_f64.to_radians()) < 1e-15 * drive(0.0));
-    close(drive(0.0), 1e-7 * 50e-9 * 60_f64.to_radians().sin(), 1e-7);
+    close(drive(0.0), 1e-7 * 50e-9 * libm::sin(60_f64.to_radians()), 1e-7);
 }
 
 /// F_Y x0 = (2 pi/3) tau a^3; a push through the centre never spins.
@@ -129,8 +129,8 @@ fn pushing() -> impl Strategy<Value = Pushing> {
     (scene, proptest::sample::select(ContactTheory::ALL), any::<bool>()).prop_map(
         |((radius, modulus, adhesion, contact_angle), theory, adhesion_in_load)| {
             let scene = Scene {
-                particle_radius: 10_f64.powf(radius),
-                equivalent_modulus: 10_f64.powf(modulus),
+                particle_radius: libm::pow(10.0, radius),
+                equivalent_modulus: libm::pow(10.0, modulus),
                 adhesion,
                 contact_angle,
                 ..Scene::default()
@@ -144,13 +144,13 @@ proptest! {
     /// The force of the diagram solves its implicit formula: 1e-9, since near tan psi = mu_s its bracket cancels.
     #[test]
     fn mode_diagram_solves_its_formula(pushing in pushing(), angle in 0.0..=1.57_f64) {
-        let bracket = angle.sin() - 0.8 * angle.cos();
+        let bracket = libm::sin(angle) - 0.8 * libm::cos(angle);
         prop_assume!(bracket.abs() > 1e-3);
         match pushing.critical_tip_force(Mode::Slide, angle).unwrap() {
             None => prop_assert!(bracket < 0.0),
             Some(force) => {
                 let pair = Pair::substrate(&pushing.scene);
-                let contact = pushing.theory.contact(&pair, force * angle.cos()).unwrap();
+                let contact = pushing.theory.contact(&pair, force * libm::cos(angle)).unwrap();
                 let adhesive = if pushing.adhesion_in_load { pushing.theory.pull_off(&pair) } else { 0.0 };
                 let expected = (28e6 * contact.area() + 0.8 * adhesive) / bracket;
                 prop_assert!((force - expected).abs() <= 1e-9 * expected, "{force} {expected}");
@@ -161,7 +161,7 @@ proptest! {
     /// The onset parts what holds from what moves.
     #[test]
     fn onsets_part_rest_from_motion(pushing in pushing(), log_normal in -9.0..-5.0_f64) {
-        let normal = 10_f64.powf(log_normal);
+        let normal = libm::pow(10.0, log_normal);
         for &mode in Mode::ALL {
             let moves = |lateral| pushing.balance(mode, TipForce { normal, lateral }).unwrap().moves();
             match pushing.onset(mode, normal).unwrap() {

@@ -94,7 +94,7 @@ impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
             let end = attempt.step.at(1.0);
             let error = self.size_of(&attempt.error, &end);
             let usable = error.is_finite() && attempt.rate.iter().all(|value| value.is_finite());
-            let factor = if usable { 0.9 * error.powf(-1.0 / f64::from(M::ERROR_ORDER)) } else { 0.1 };
+            let factor = if usable { 0.9 * libm::pow(error, -1.0 / f64::from(M::ERROR_ORDER)) } else { 0.1 };
             if usable && error <= 1.0 {
                 // A step cut short by the horizon says little about the length of the next.
                 let next = h * factor.clamp(0.2, 6.0);

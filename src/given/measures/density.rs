@@ -58,10 +58,10 @@ impl Densities {
 fn add_kernel(density: &mut [f64; GRID], (place, width): (f64, f64), weight: f64) {
     let nearest = place.round().clamp(0.0, (GRID - 1) as f64);
     let (centre, away, step) = (nearest as usize, (nearest - place) / width, 1.0 / width);
-    let top = weight * (-away * away / 2.0).exp();
+    let top = weight * libm::exp(-away * away / 2.0);
     // From point to point the kernel changes by a ratio that itself changes by this one.
-    let ratio = (-step * step).exp();
-    let first = |away: f64| (-(2.0 * away + step) * step / 2.0).exp();
+    let ratio = libm::exp(-step * step);
+    let first = |away: f64| libm::exp(-(2.0 * away + step) * step / 2.0);
     let (mut height, mut change) = (top, first(away));
     for point in &mut density[centre..] {
         *point += height;
@@ -99,7 +99,7 @@ impl Spread {
         if self.squares <= 0.0 || self.weight < 2.0 {
             return 0.0;
         }
-        (0.75 * self.weight).powf(-0.2) * (self.squares / (self.weight - 1.0)).sqrt()
+        libm::pow(0.75 * self.weight, -0.2) * (self.squares / (self.weight - 1.0)).sqrt()
     }
 }
 
@@ -113,7 +113,7 @@ mod tests {
             let mut density = [0.0; GRID];
             add_kernel(&mut density, (place, width), 2.0);
             for (k, got) in density.iter().enumerate() {
-                let expected = 2.0 * (-((k as f64 - place) / width).powi(2) / 2.0).exp();
+                let expected = 2.0 * libm::exp(-((k as f64 - place) / width).powi(2) / 2.0);
                 // The error of a ratio counts as often as there are steps.
                 assert!((got - expected).abs() <= 1e-11 * expected.max(1e-30), "{place} {width} {k}: {got} {expected}");
             }

@@ -16,12 +16,12 @@ pub fn first_order(sorted: Vec<f64>) -> f64 {
     let wave: Vec<f64> = up.chain(down).copied().collect();
     let total: f64 = wave.iter().map(|z| z * z).sum();
     let power = |harmonic: usize| {
-        let (sine, cosine) = (TAU * harmonic as f64 / rows as f64).sin_cos();
+        let (sine, cosine) = libm::sincos(TAU * harmonic as f64 / rows as f64);
         let (mut re, mut im, mut at) = (0.0, 0.0, (1.0, 0.0));
         for (k, z) in wave.iter().enumerate() {
             // Anew from time to time: rounding would grow with the rows.
             if k % 256 == 0 {
-                let (sine, cosine) = (TAU * (harmonic * k % rows) as f64 / rows as f64).sin_cos();
+                let (sine, cosine) = libm::sincos(TAU * (harmonic * k % rows) as f64 / rows as f64);
                 at = (cosine, sine);
             }
             re += z * at.0;
@@ -44,7 +44,7 @@ mod tests {
     fn a_wave_of_the_input_is_all_of_its_variance_and_noise_none() {
         let rows = 1000;
         // A cosine of one period in the order up and down.
-        let sorted: Vec<f64> = (0..rows).map(|k| (TAU * (k as f64) / (2.0 * rows as f64)).cos()).collect();
+        let sorted: Vec<f64> = (0..rows).map(|k| libm::cos(TAU * (k as f64) / (2.0 * rows as f64))).collect();
         assert!((first_order(sorted) - 1.0).abs() < 1e-4);
         let scattered: Vec<f64> = (0..rows).map(|k| ((k * 7919 % rows) as f64 - 499.5) / 500.0).collect();
         assert!(first_order(scattered).abs() < 0.05);

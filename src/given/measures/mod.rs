@@ -180,8 +180,8 @@ impl Classes {
 /// Classes for delta and the mean distances (Plischke, Borgonovo and Smith 2013, as in SALib): at most 48.
 fn classes_for(rows: usize) -> usize {
     let rows = rows as f64;
-    let power = 2.0 / (7.0 + ((1500.0 - rows) / 500.0).tanh());
-    (rows.powf(power).ceil() as usize).min(48)
+    let power = 2.0 / (7.0 + libm::tanh((1500.0 - rows) / 500.0));
+    (libm::pow(rows, power).ceil() as usize).min(48)
 }
 
 impl Job<'_> {

@@ -65,14 +65,14 @@ fn logarithm(x: &[f64]) -> Option<Vec<f64>> {
     if !one_sign || size(f64::max, 0.0) < WIDE * size(f64::min, f64::INFINITY) {
         return None;
     }
-    let logarithms: Vec<f64> = x.iter().map(|x| x.abs().ln()).collect();
+    let logarithms: Vec<f64> = x.iter().map(|x| libm::log(x.abs())).collect();
     (skewness(&logarithms).abs() < skewness(x).abs()).then_some(logarithms)
 }
 
 fn skewness(x: &[f64]) -> f64 {
     let mean = crate::sum::mean(x);
     let moment = |power: i32| x.iter().map(|x| (x - mean).powi(power)).sum::<f64>() / x.len() as f64;
-    moment(3) / moment(2).powf(1.5)
+    moment(3) / libm::pow(moment(2), 1.5)
 }
 
 /// What is tried where the distributions are known.
@@ -85,7 +85,7 @@ pub(super) fn of_distributions(
     distributions: &[Distribution],
 ) -> Result<Vec<Coordinates>, SurrogateRefusal> {
     // The tail of the distribution of Kolmogorov (1933) is 2 exp(-2 x^2), of the largest distance times the root of the rows.
-    let far = ((2.0 * inputs.len() as f64 / REFUSED_BY_CHANCE).ln() / 2.0).sqrt();
+    let far = (libm::log(2.0 * inputs.len() as f64 / REFUSED_BY_CHANCE) / 2.0).sqrt();
     let quantiles = |((input, order), distribution): ((&Column, &Order), &Distribution)| {
         quantiles(&input.values, order, distribution, far)
             .ok_or_else(|| SurrogateRefusal::OtherDistribution { input: input.name.clone() })

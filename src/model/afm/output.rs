@@ -90,8 +90,8 @@ impl AfmOutput {
         let slips = forms.slips();
         match self {
             Self::CriticalTime => forms.critical_time(i),
-            Self::LogCriticalForce => Ok(slips.critical_force[i].ln()),
-            Self::ForceAngle => Ok(slips.lateral_force[i].atan2(slips.normal_force[i])),
+            Self::LogCriticalForce => Ok(libm::log(slips.critical_force[i])),
+            Self::ForceAngle => Ok(libm::atan2(slips.lateral_force[i], slips.normal_force[i])),
             Self::Indentation => forms.indentation(i),
             other => Ok(other.column(slips).map_or(f64::NAN, |column| column[i])),
         }
@@ -104,7 +104,7 @@ impl AfmOutput {
             Self::LateralForce => critical.lateral_force,
             Self::NormalForce => critical.normal_force,
             Self::CriticalTime => critical.critical_time?,
-            Self::LogCriticalForce => critical.critical_force.ln(),
+            Self::LogCriticalForce => libm::log(critical.critical_force),
             Self::ForceAngle => critical.force_angle(),
             Self::ContactRadius => critical.contact_radius,
             Self::Indentation => critical.indentation,

@@ -131,7 +131,7 @@ impl Program {
                 Step::Subtract => with(top, &above[0], |a, b| a - b),
                 Step::Multiply => with(top, &above[0], |a, b| a * b),
                 Step::Divide => with(top, &above[0], |a, b| a / b),
-                Step::Raise => with(top, &above[0], f64::powf),
+                Step::Raise => with(top, &above[0], libm::pow),
                 Step::Compare(comparison) => with(top, &above[0], |a, b| comparison.holds(a, b)),
                 Step::Two(OfTwo { plain, .. }) => with(top, &above[0], plain),
                 Step::Select => {

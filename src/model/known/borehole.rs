@@ -42,7 +42,7 @@ impl Function for Borehole {
         if !(all_positive(x) && r > rw) {
             return f64::NAN;
         }
-        let g = (r / rw).ln();
+        let g = libm::log(r / rw);
         2.0 * std::f64::consts::PI * tu * (hu - hl) / (g * (1.0 + 2.0 * l * tu / (g * rw * rw * kw) + tu / tl))
     }
 

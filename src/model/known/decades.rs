@@ -56,7 +56,7 @@ impl Function for Decades {
 
     fn value(&self, x: &[f64]) -> f64 {
         let decades: f64 = x.iter().zip(&self.k).map(|(x, k)| k * x).sum();
-        10f64.powf(self.offset + decades)
+        libm::pow(10f64, self.offset + decades)
     }
 
     fn expression(&self) -> String {
@@ -66,7 +66,7 @@ impl Function for Decades {
 
     fn exact(&self) -> Exact {
         let b: Vec<f64> = self.k.iter().map(|k| k * LN_10).collect();
-        let mean = 10f64.powf(self.offset) * b.iter().map(|&b| mean_of_exponential(b)).product::<f64>();
+        let mean = libm::pow(10f64, self.offset) * b.iter().map(|&b| mean_of_exponential(b)).product::<f64>();
         Exact::of_product(mean, &b.into_iter().map(relative_variance_of_exponential).collect::<Vec<_>>())
     }
 }

@@ -98,11 +98,11 @@ impl Exact {
     /// S_i = r_i / D, S_ij = r_i r_j / D, ST_i = r_i prod_{j != i} (1 + r_j) / D and variance = mean^2 D, where
     /// D = prod (1 + r_j) - 1 (Sobol' 1993).
     pub(super) fn of_product(mean: f64, r: &[f64]) -> Self {
-        let log: f64 = r.iter().map(|r| r.ln_1p()).sum();
-        let d = log.exp_m1();
+        let log: f64 = r.iter().map(|&r| libm::log1p(r)).sum();
+        let d = libm::expm1(log);
         let first = r.iter().map(|r| r / d).collect();
         // (1 + D) / D, which stays finite where D does not.
-        let total = r.iter().map(|r| r / (1.0 + r) / -(-log).exp_m1()).collect();
+        let total = r.iter().map(|r| r / (1.0 + r) / -libm::expm1(-log)).collect();
         let second = SecondOrder::of(r.len(), |i, j| r[i] * r[j] / d);
         Self::closed(mean, mean * mean * d, first, total, second)
     }
@@ -154,11 +154,11 @@ pub(super) fn relative_variance_of_exponential(b: f64) -> f64 {
         ];
         s * terms.iter().rev().fold(0.0, |sum, term| sum * s + term)
     } else {
-        x / x.tanh() - 1.0
+        x / libm::tanh(x) - 1.0
     }
 }
 
 /// Mean of e^(b x), x uniform on (0, 1): (e^b - 1) / b.
 pub(super) fn mean_of_exponential(b: f64) -> f64 {
-    if b == 0.0 { 1.0 } else { b.exp_m1() / b }
+    if b == 0.0 { 1.0 } else { libm::expm1(b) / b }
 }

@@ -43,7 +43,7 @@ impl Function for Flood {
         if !(all_positive(x) && zm > zv) {
             return f64::NAN;
         }
-        zv + (q / (b * ks * ((zm - zv) / l).sqrt())).powf(0.6) - hd - cb
+        zv + libm::pow(q / (b * ks * ((zm - zv) / l).sqrt()), 0.6) - hd - cb
     }
 
     fn reason(&self, x: &[f64]) -> Option<&'static str> {

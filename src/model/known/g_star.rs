@@ -58,7 +58,7 @@ impl Function for GStar {
         for (((&x, &delta), &alpha), &a) in x.iter().zip(&self.delta).zip(&self.alpha).zip(&self.a) {
             let shifted = x + delta;
             let tent = (2.0 * (shifted - shifted.floor()) - 1.0).abs();
-            let bent = if alpha == 1.0 { tent } else { tent.powf(alpha) };
+            let bent = if alpha == 1.0 { tent } else { libm::pow(tent, alpha) };
             product *= ((1.0 + alpha) * bent + a) / (1.0 + a);
         }
         product

@@ -51,7 +51,7 @@ impl Function for Ishigami {
     }
 
     fn value(&self, x: &[f64]) -> f64 {
-        x[0].sin() + self.a * x[1].sin().powi(2) + self.b * x[2].powi(4) * x[0].sin()
+        libm::sin(x[0]) + self.a * libm::sin(x[1]).powi(2) + self.b * x[2].powi(4) * libm::sin(x[0])
     }
 
     fn expression(&self) -> String {

@@ -88,8 +88,8 @@ impl Function for Roots {
 
     fn value(&self, x: &[f64]) -> f64 {
         let d = self.d as f64;
-        let logs: f64 = x.iter().map(|x| x.ln()).sum();
-        (d * (1.0 / d).ln_1p() + logs / d).exp()
+        let logs: f64 = x.iter().map(|&x| libm::log(x)).sum();
+        libm::exp(d * libm::log1p(1.0 / d) + logs / d)
     }
 
     fn expression(&self) -> String {

@@ -78,7 +78,7 @@ impl Function for Morris {
     }
 
     fn exact(&self) -> Exact {
-        let log = 11f64.ln();
+        let log = libm::log(11f64);
         let (e1, e2) = (1.0 - 0.1 * log, 1.0 - 0.2 * log + 0.01 * (10.0 - 1.0 / 1.1));
         let m = |i| if bent(i) { 2.0 * (1.1 * e1 - 0.5) } else { 0.0 };
         let v = |i| if bent(i) { 4.0 * 1.21 * (e2 - e1 * e1) } else { 1.0 / 3.0 };

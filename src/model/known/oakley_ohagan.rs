@@ -51,7 +51,7 @@ impl Function for OakleyOHagan {
         let c = &*CONSTANTS;
         let mut sum = 0.0;
         for (i, row) in c.m.chunks_exact(INPUTS).enumerate() {
-            let (sin, cos) = x[i].sin_cos();
+            let (sin, cos) = libm::sincos(x[i]);
             let quadratic: f64 = row.iter().zip(x).map(|(m, x)| m * x).sum();
             sum += c.a1[i] * x[i] + c.a2[i] * sin + c.a3[i] * cos + x[i] * quadratic;
         }
@@ -70,7 +70,7 @@ impl Function for OakleyOHagan {
 
     fn exact(&self) -> Exact {
         let c = &*CONSTANTS;
-        let e = (-0.5f64).exp();
+        let e = libm::exp(-0.5f64);
         let m = |i: usize, j: usize| c.m[i * INPUTS + j];
         let mut parts = Vec::new();
         let mut mean = 0.0;

@@ -74,15 +74,15 @@ impl Function for Product {
         let r: Vec<f64> = self.sigma.iter().zip(&self.mu).map(|(sigma, mu)| (sigma / mu).powi(2)).collect();
         let t: Vec<f64> = r.iter().map(|&r| if r.is_infinite() { 1.0 } else { r / (1.0 + r) }).collect();
         // prod c_j over all but the inputs left out, a count of zeros and the logarithm of the others.
-        let log = |r: f64| if r.is_infinite() { 0.0 } else { -r.ln_1p() };
+        let log = |r: f64| if r.is_infinite() { 0.0 } else { -libm::log1p(r) };
         let zeros = r.iter().filter(|r| r.is_infinite()).count();
         let logs: f64 = r.iter().map(|&r| log(r)).sum();
         let others = |left_out: &[usize]| {
             let zeros = zeros - left_out.iter().filter(|&&i| r[i].is_infinite()).count();
             let logs = logs - left_out.iter().map(|&i| log(r[i])).sum::<f64>();
-            if zeros > 0 { 0.0 } else { logs.exp() }
+            if zeros > 0 { 0.0 } else { libm::exp(logs) }
         };
-        let varying = if zeros > 0 { 1.0 } else { -logs.exp_m1() };
+        let varying = if zeros > 0 { 1.0 } else { -libm::expm1(logs) };
         let squares: f64 = self.sigma.iter().zip(&self.mu).map(|(sigma, mu)| mu * mu + sigma * sigma).product();
         let moments = (self.mu.iter().product(), squares * varying);
         let first = (0..r.len()).map(|i| t[i] * others(&[i]) / varying).collect();

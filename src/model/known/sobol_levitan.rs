@@ -56,7 +56,7 @@ impl Function for SobolLevitan {
 
     fn value(&self, x: &[f64]) -> f64 {
         let exponent: f64 = x.iter().zip(&self.b).map(|(x, b)| b * x).sum();
-        exponent.exp() - self.mean + self.c0
+        libm::exp(exponent) - self.mean + self.c0
     }
 
     fn expression(&self) -> String {

@@ -228,7 +228,7 @@ fn three_inputs_of_a_simplex_by_hand() {
 
 #[test]
 fn the_series_of_the_exponential_meets_the_formula() {
-    let direct = |b: f64| (2.0 * b).exp_m1() / (2.0 * b) / (b.exp_m1() / b).powi(2) - 1.0;
+    let direct = |b: f64| libm::expm1(2.0 * b) / (2.0 * b) / (libm::expm1(b) / b).powi(2) - 1.0;
     for b in [0.5, 0.599, 0.601, 1.0, -0.599, -3.0, 20.0] {
         // The direct formula loses a factor of 12 / b^2.
         assert!((relative_variance_of_exponential(b) / direct(b) - 1.0).abs() < 1e-14, "{b}");
@@ -248,7 +248,7 @@ fn a_thousand_inputs_and_more() {
         let hard = known("sobol-g", &[("a", &[0.0]), ("dimension", &[dimension])]).unwrap().exact();
         let indices = hard.indices.unwrap();
         // ST = r / (1 + r) / (1 - (1 + r)^-d), r = 1/3, though the variance itself overflows.
-        let total = 0.25 / (1.0 - 0.75f64.powf(dimension));
+        let total = 0.25 / (1.0 - libm::pow(0.75f64, dimension));
         assert!(indices.total.iter().all(|st| (st - total).abs() < 1e-14));
     }
     let g = known("sobol-g", &[("a", &[6.52]), ("dimension", &[1000.0])]).unwrap().exact().indices.unwrap();

@@ -41,18 +41,18 @@ impl Function for WingWeight {
 
     fn value(&self, x: &[f64]) -> f64 {
         let &[sw, wfw, a, sweep, q, taper, tc, nz, wdg, wp] = x else { return f64::NAN };
-        let cos = sweep.to_radians().cos();
+        let cos = libm::cos(sweep.to_radians());
         if !(all_positive(&x[..SWEEP]) && all_positive(&x[SWEEP + 1..]) && sweep.abs() < 90.0) {
             return f64::NAN;
         }
         0.036
-            * sw.powf(0.758)
-            * wfw.powf(0.0035)
-            * (a / (cos * cos)).powf(0.6)
-            * q.powf(0.006)
-            * taper.powf(0.04)
-            * (100.0 * tc / cos).powf(-0.3)
-            * (nz * wdg).powf(0.49)
+            * libm::pow(sw, 0.758)
+            * libm::pow(wfw, 0.0035)
+            * libm::pow(a / (cos * cos), 0.6)
+            * libm::pow(q, 0.006)
+            * libm::pow(taper, 0.04)
+            * libm::pow(100.0 * tc / cos, -0.3)
+            * libm::pow(nz * wdg, 0.49)
             + sw * wp
     }
 

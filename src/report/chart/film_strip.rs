@@ -142,7 +142,7 @@ impl Sketch<'_> {
     /// An arrow from `at` by `by` with a head 8 px long; one too short for its head is not drawn.
     pub fn arrow(&mut self, at: (f64, f64), by: (f64, f64), colour: &'static str) {
         const HEAD: f64 = 8.0;
-        let size = by.0.hypot(by.1);
+        let size = libm::hypot(by.0, by.1);
         if !(size.is_finite() && size > 1.2 * HEAD) {
             return;
         }

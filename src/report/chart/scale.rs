@@ -81,8 +81,8 @@ impl Scale {
         Some(match self.spacing {
             Spacing::Linear => (value - self.low) / (self.high - self.low),
             Spacing::Logarithmic => {
-                let from = self.low.log10();
-                (value.log10() - from) / (self.high.log10() - from)
+                let from = libm::log10(self.low);
+                (libm::log10(value) - from) / (libm::log10(self.high) - from)
             }
         })
     }
@@ -100,7 +100,7 @@ impl Scale {
         if clear(&self.ticks) {
             return self;
         }
-        let is_decade = |tick: &&Tick| (tick.value.log10() - tick.value.log10().round()).abs() < 1e-9;
+        let is_decade = |tick: &&Tick| (libm::log10(tick.value) - libm::log10(tick.value).round()).abs() < 1e-9;
         let mut ground: Vec<&Tick> = match self.spacing {
             Spacing::Linear => Vec::new(),
             Spacing::Logarithmic => self.ticks.iter().filter(is_decade).collect(),
@@ -144,10 +144,10 @@ impl Scale {
 
     fn logarithmic((low, high): (f64, f64)) -> Self {
         // A little air, and a third of a decade about a single value. The ratio itself could overflow.
-        let span = high.log10() - low.log10();
+        let span = libm::log10(high) - libm::log10(low);
         let air = if span < 1e-3 { 0.33 } else { (0.03 * span).clamp(0.01, 0.5) };
-        let (low, high) = (low / 10f64.powf(air), high * 10f64.powf(air));
-        let (from, to) = (low.log10(), high.log10());
+        let (low, high) = (low / libm::pow(10f64, air), high * libm::pow(10f64, air));
+        let (from, to) = (libm::log10(low), libm::log10(high));
         if to - from < 0.8 {
             // Too short for powers of ten: the round steps of a linear axis, spaced by ratio.
             let options = ScaleOptions { spacing: Spacing::Linear, air: 0.0, steps: 4 };
@@ -187,7 +187,7 @@ struct Step {
 impl Step {
     /// The round step next to `raw` by ratio; `raw` is positive and normal.
     fn near(raw: f64) -> Self {
-        let exponent = raw.log10().floor() as i32;
+        let exponent = libm::log10(raw).floor() as i32;
         let lead = raw / 10f64.powi(exponent);
         let (mantissa, exponent) = match lead {
             _ if lead < 2f64.sqrt() => (1.0, exponent),
@@ -234,7 +234,7 @@ fn widened((low, high): (f64, f64)) -> (f64, f64) {
 
 /// Zero for magnitudes that read well as they are, else the multiple of three that makes them so.
 fn common_exponent(magnitude: f64) -> i32 {
-    if (1e-2..1e5).contains(&magnitude) { 0 } else { 3 * ((magnitude.log10() + 1e-9) / 3.0).floor() as i32 }
+    if (1e-2..1e5).contains(&magnitude) { 0 } else { 3 * ((libm::log10(magnitude) + 1e-9) / 3.0).floor() as i32 }
 }
 
 fn decade_label(decade: i32, digit: i32, plain: bool) -> String {

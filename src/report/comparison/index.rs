@@ -52,7 +52,7 @@ impl ComparedIndex {
 /// ```
 pub fn difference(a: EstimateRecord, b: EstimateRecord) -> EstimateRecord {
     let estimate = b.estimate - a.estimate;
-    let reach = |of_b: Option<f64>, of_a: Option<f64>| Some((of_b? - b.estimate).hypot(of_a? - a.estimate));
+    let reach = |of_b: Option<f64>, of_a: Option<f64>| Some(libm::hypot(of_b? - b.estimate, of_a? - a.estimate));
     EstimateRecord {
         estimate,
         low: reach(b.low, a.high).map(|reach| estimate - reach),

@@ -32,7 +32,7 @@ pub(super) fn of(sample: &Sample<'_>) -> Density {
 
 fn silverman(sample: &Sample<'_>) -> f64 {
     let spread = if sample.iqr > 0.0 { sample.sd.min(sample.iqr / 1.34) } else { sample.sd };
-    0.9 * spread * sample.n().powf(-0.2)
+    0.9 * spread * libm::pow(sample.n(), -0.2)
 }
 
 /// Values counted in equal cells over the reach of the sample, each shared between the middles of the two cells next to
@@ -70,7 +70,7 @@ impl Cells {
         let to = place(x + KERNEL_REACH * bandwidth).ceil() as usize;
         let kernel = |k: usize| {
             let t = (x - self.low - k as f64 * self.width) / bandwidth;
-            self.weights[k] * (-0.5 * t * t).exp()
+            self.weights[k] * libm::exp(-0.5 * t * t)
         };
         (from..=to).map(kernel).sum()
     }
@@ -99,7 +99,7 @@ impl Functional {
     fn at(&self, pairs: &[f64], (n, cell, h): (f64, f64, f64)) -> f64 {
         let term = |lag: usize| {
             let s = (lag as f64 * cell / h).powi(2);
-            (-0.5 * s).exp() * (self.hermite)(s)
+            libm::exp(-0.5 * s) * (self.hermite)(s)
         };
         let sum: f64 = pairs.iter().enumerate().map(|(lag, count)| count * term(lag)).sum();
         (2.0 * sum + n * term(0)) / (n * (n - 1.0) * h.powi(self.order + 1) * (2.0 * PI).sqrt())
@@ -114,10 +114,10 @@ fn plug_in(sample: &Sample<'_>, cells: &Cells) -> Option<f64> {
     let n = cells.count as f64;
     let spread = sample.sd.min(sample.iqr / 1.349);
     let pairs = cells.pairs_by_lag();
-    let sixth = -SIXTH.at(&pairs, (n, cells.width, 1.23 * spread * n.powf(-1.0 / 9.0)));
-    let pilot = (2.394 / (n * sixth)).powf(1.0 / 7.0);
+    let sixth = -SIXTH.at(&pairs, (n, cells.width, 1.23 * spread * libm::pow(n, -1.0 / 9.0)));
+    let pilot = libm::pow(2.394 / (n * sixth), 1.0 / 7.0);
     let fourth = FOURTH.at(&pairs, (n, cells.width, pilot));
-    let bandwidth = (1.0 / (2.0 * PI.sqrt() * n * fourth)).powf(0.2);
+    let bandwidth = libm::pow(1.0 / (2.0 * PI.sqrt() * n * fourth), 0.2);
     (sixth > 0.0 && fourth > 0.0 && bandwidth.is_finite()).then_some(bandwidth)
 }
 
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn the_functionals_are_the_sums_over_all_pairs() {
-        let sorted: Vec<f64> = (0..60).map(|k| (f64::from(k) * 0.1).sinh() / 10.0).collect();
+        let sorted: Vec<f64> = (0..60).map(|k| libm::sinh(f64::from(k) * 0.1) / 10.0).collect();
         let sample = Sample::of(&sorted, 5.0);
         let cells = Cells::of(&sample);
         let (values, ..) = sample.within();
@@ -136,7 +136,7 @@ mod tests {
             let h = 3.0;
             let term = |a: &f64, b: &f64| {
                 let s = ((a - b) / h).powi(2);
-                (-0.5 * s).exp() * (functional.hermite)(s)
+                libm::exp(-0.5 * s) * (functional.hermite)(s)
             };
             let all: f64 = values.iter().map(|a| values.iter().map(|b| term(a, b)).sum::<f64>()).sum();
             let expected = all / (n * (n - 1.0) * h.powi(functional.order + 1) * (2.0 * PI).sqrt());

@@ -220,7 +220,7 @@ impl Moments {
         Self {
             mean,
             sd: libm::scalbn((m2 * n / (n - 1.0).max(1.0)).sqrt(), exponent),
-            skewness: moment(3) / m2.powf(1.5),
+            skewness: moment(3) / libm::pow(m2, 1.5),
             excess_kurtosis: moment(4) / (m2 * m2) - 3.0,
         }
     }

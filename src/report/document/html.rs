@@ -137,6 +137,15 @@ impl Document {
         self.page(&Surroundings { formats, has_files: true })
     }
 
+    /// The body of the section `id` as it stands on the page, without its heading; `None` if there is no such section.
+    ///
+    /// # Errors
+    /// [`DocumentError`] if a chart of it cannot be drawn.
+    pub fn section_html(&self, id: &str) -> Result<Option<String>, DocumentError> {
+        let section = self.sections.iter().find(|section| section.id == id);
+        section.map(|section| Surroundings { formats: &[], has_files: false }.parts(&section.parts)).transpose()
+    }
+
     fn page(&self, around: &Surroundings<'_>) -> Result<String, DocumentError> {
         // Figures have links to their own files.
         let data = if around.has_files { self.file_names().data } else { Vec::new() };

@@ -142,7 +142,7 @@ pub struct Link {
 
 impl Document {
     /// Its charts: the figures in order, then the files alone.
-    pub(crate) fn figures(&self) -> Vec<&Figure> {
+    pub fn figures(&self) -> Vec<&Figure> {
         let mut figures = Vec::new();
         self.visit(&mut |part| {
             if let Part::Figure(figure) = part {

@@ -177,7 +177,7 @@ mod tests {
         /// What is written is within half of the last place of what is meant, and never shows a place beyond the error.
         #[test]
         fn what_is_written_is_what_is_meant(estimate in -10.0..10.0, power in -9.0..0.5_f64) {
-            let half = 10_f64.powf(power);
+            let half = libm::pow(10.0, power);
             let text = about(estimate, half);
             let (value, error) = text.split_once(" ± ").expect("symmetric");
             let (value, error): (f64, f64) = (value.parse().unwrap(), error.parse().unwrap());

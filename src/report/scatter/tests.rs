@@ -24,7 +24,7 @@ fn points_are_runs_of_the_model() {
     assert_eq!(scatter.points.len(), 400);
     for point in &scatter.points {
         let [x1, x2, x3, y] = point[..] else { panic!("three factors and the output") };
-        let exact = x1.sin() + 7.0 * x2.sin().powi(2) + 0.1 * x3.powi(4) * x1.sin();
+        let exact = libm::sin(x1) + 7.0 * libm::sin(x2).powi(2) + 0.1 * x3.powi(4) * libm::sin(x1);
         // The same formula, up to the order of its operations.
         assert!((y - exact).abs() < 1e-12 * (1.0 + exact.abs()), "{y} at {x1}, {x2}, {x3}");
     }

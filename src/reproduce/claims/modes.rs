@@ -21,7 +21,7 @@ pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
 fn diagram(bench: &Bench<'_>, scene: &Scene, adhesion_in_load: bool) -> Result<Vec<(f64, Option<f64>)>, Failure> {
     let mut pushing = (bench.physics.pushing)(*scene);
     pushing.adhesion_in_load = adhesion_in_load;
-    let lowest = pushing.scene.static_friction.atan() + ABOVE_FRICTION;
+    let lowest = libm::atan(pushing.scene.static_friction) + ABOVE_FRICTION;
     let angles = grid((lowest, FRAC_PI_2), bench.sizes.curve);
     angles.into_iter().map(|angle| Ok((angle, pushing.critical_tip_force(Mode::Slide, angle)?))).collect()
 }

@@ -116,7 +116,7 @@ fn sweeps_follow_the_exact_laws() {
     let power = |stem, exponent: f64| {
         let (_, rows) = data(stem);
         for row in &rows {
-            let law = (row[0] / rows[0][0]).powf(exponent);
+            let law = libm::pow(row[0] / rows[0][0], exponent);
             // LuGre friction at this velocity is a constant share of F_Z, but for sigma2 V, which is 1e-14 N: 1e-6 of
             // the least force here.
             assert!((row[1] / rows[0][1] / law - 1.0).abs() < 2e-6, "{stem} at {}", row[0]);
@@ -130,10 +130,10 @@ fn sweeps_follow_the_exact_laws() {
     for row in &coulomb {
         let scene = Scene { thickness: row[0] * 1e-6, ..Scene::default() };
         let &Scene { length, width, thickness, elastic_modulus, preload_angle, static_friction, .. } = &scene;
-        let normal = elastic_modulus * width * thickness.powi(3) * preload_angle.sin() / (4.0 * length * length);
+        let normal = elastic_modulus * width * thickness.powi(3) * libm::sin(preload_angle) / (4.0 * length * length);
         let contact = ContactTheory::Jkr.contact(&Pair::substrate(&scene), normal).unwrap();
         let held = static_friction * normal + scene.shear_strength * std::f64::consts::PI * contact.radius.powi(2);
-        assert!((row[1] * 1e-9 / normal.hypot(held) - 1.0).abs() < 1e-12, "rounding only");
+        assert!((row[1] * 1e-9 / libm::hypot(normal, held) - 1.0).abs() < 1e-12, "rounding only");
     }
 }
 

@@ -8,14 +8,15 @@ const DIMENSIONS: [(&str, f64, f64, f64); 3] =
 
 /// E x^p for x uniform on (a, b).
 fn moment((a, b): (f64, f64), p: f64) -> f64 {
-    let integral = if p == -1.0 { (b / a).ln() } else { (b.powf(p + 1.0) - a.powf(p + 1.0)) / (p + 1.0) };
+    let integral =
+        if p == -1.0 { libm::log(b / a) } else { (libm::pow(b, p + 1.0) - libm::pow(a, p + 1.0)) / (p + 1.0) };
     integral / (b - a)
 }
 
 /// Var ln x for x uniform on (a, b), from the antiderivatives of ln x and ln^2 x.
 fn log_variance((a, b): (f64, f64)) -> f64 {
-    let first = |x: f64| x * x.ln() - x;
-    let second = |x: f64| x * x.ln().powi(2) - 2.0 * x * x.ln() + 2.0 * x;
+    let first = |x: f64| x * libm::log(x) - x;
+    let second = |x: f64| x * libm::log(x).powi(2) - 2.0 * x * libm::log(x) + 2.0 * x;
     let mean = (first(b) - first(a)) / (b - a);
     (second(b) - second(a)) / (b - a) - mean * mean
 }
@@ -101,10 +102,10 @@ fn shares_of_the_logarithm_are_those_of_a_sum() {
 fn one_factor_at_a_time_is_exact() {
     let readings = of("lugre", ("dimensional", Effort::Quick));
     let nominal = [225.0, 48.0, 1.0];
-    let at = |place: usize, x: f64| (x / nominal[place]).powf(DIMENSIONS[place].3);
+    let at = |place: usize, x: f64| libm::pow(x / nominal[place], DIMENSIONS[place].3);
     let variances = [0, 1, 2].map(|place| {
         let (_, a, b, p) = DIMENSIONS[place];
-        (moment((a, b), 2.0 * p) - moment((a, b), p).powi(2)) / nominal[place].powf(2.0 * p)
+        (moment((a, b), 2.0 * p) - moment((a, b), p).powi(2)) / libm::pow(nominal[place], 2.0 * p)
     });
     let ranges = [0, 1, 2].map(|place| (at(place, DIMENSIONS[place].1) - at(place, DIMENSIONS[place].2)).abs());
     for (effect, expected) in [("variance-alone", in_percent(variances)), ("range-alone", in_percent(ranges))] {

@@ -35,7 +35,7 @@ fn counted_by<'a>(on_row: impl Fn() + Send + Sync + 'a) -> impl Model + 'a {
     let output = Output::new("y", Unit::dimensionless(), "");
     FunctionModel::new(vec![output], move |x: &[f64], y: &mut [f64]| {
         on_row();
-        y[0] = (9.0 * x[0]).sin() + x[1] / 3.0;
+        y[0] = libm::sin(9.0 * x[0]) + x[1] / 3.0;
         if x[0] > 0.9 { Err(RowFailure::new("too large")) } else { Ok(()) }
     })
 }

@@ -20,7 +20,7 @@ use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use serde_json::Value;
 
@@ -31,6 +31,7 @@ pub(super) use format::{record, write_record};
 pub use identity::differences;
 
 use super::Piece;
+use crate::clock::Instant;
 use crate::files::{read_opened, read_whole};
 
 /// Time between forced writes to the disk: what a power cut may cost, at most. (The death of the program alone costs

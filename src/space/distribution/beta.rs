@@ -158,7 +158,7 @@ impl Side {
         let fraction = continued_fraction(a, b, x);
         let (here, there) = (fraction / a, continued_fraction(b, a, y) / b);
         let mass = here / (here + there);
-        Self { a, b, x, y, mass, ln_mass: mass.ln(), fraction }
+        Self { a, b, x, y, mass, ln_mass: libm::log(mass), fraction }
     }
 
     /// x and 1 - x at which the probability below x is `p`, at most that of this side.
@@ -169,10 +169,10 @@ impl Side {
 
     /// The probability below `x`, on this side of the split; `y` is 1 - x.
     fn below(&self, (x, y): (f64, f64)) -> f64 {
-        let d = (x / y).ln() - (self.x / self.y).ln();
-        let growth = (self.x * d.exp_m1()).ln_1p();
+        let d = libm::log(x / y) - libm::log(self.x / self.y);
+        let growth = libm::log1p(self.x * libm::expm1(d));
         let fraction = continued_fraction(self.a, self.b, x);
-        (self.ln_mass + self.a * d - (self.a + self.b) * growth + (fraction / self.fraction).ln()).exp()
+        libm::exp(self.ln_mass + self.a * d - (self.a + self.b) * growth + libm::log(fraction / self.fraction))
     }
 
     /// The distance d of the solution, and the steps taken.
@@ -181,16 +181,16 @@ impl Side {
         const CLOSE: f64 = 1e-5;
         /// Never reached.
         const MOST_STEPS: u32 = 50;
-        let target = p.ln() - self.ln_mass;
+        let target = libm::log(p) - self.ln_mass;
         let mut d = self.start(target);
         let mut steps = 0;
         while steps < MOST_STEPS {
             let (x, y) = self.point(d);
             let fraction = continued_fraction(self.a, self.b, x);
             // ln(y_s / y)
-            let growth = (self.x * d.exp_m1()).ln_1p();
+            let growth = libm::log1p(self.x * libm::expm1(d));
             steps += 1;
-            let residual = self.a * d - (self.a + self.b) * growth + (fraction / self.fraction).ln() - target;
+            let residual = self.a * d - (self.a + self.b) * growth + libm::log(fraction / self.fraction) - target;
             let slope = self.a / fraction;
             let step = residual / slope;
             let bend = 0.5 * step * (self.a * y - self.b * x - slope);
@@ -208,13 +208,13 @@ impl Side {
         let slope = self.a / self.fraction;
         let curvature = slope * (slope + self.b * self.x - self.a * self.y);
         let parabola = 2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
-        let tangent = (target + self.fraction.ln() + (self.a + self.b) * self.y.ln()) / self.a;
+        let tangent = (target + libm::log(self.fraction) + (self.a + self.b) * libm::log(self.y)) / self.a;
         tangent.max(parabola).min(0.0)
     }
 
     /// x and 1 - x at the distance d from the split.
     fn point(&self, d: f64) -> (f64, f64) {
-        let ratio = d.exp();
+        let ratio = libm::exp(d);
         let sum = self.y + self.x * ratio;
         (self.x * ratio / sum, self.y / sum)
     }

@@ -47,16 +47,16 @@ impl Family for Exponential {
     }
 
     fn quantile(&self, u: f64) -> f64 {
-        self.location - self.scale * (-u).ln_1p()
+        self.location - self.scale * libm::log1p(-u)
     }
 
     fn upper_quantile(&self, v: f64) -> f64 {
-        self.location - self.scale * v.ln()
+        self.location - self.scale * libm::log(v)
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
         let z = ((x - self.location) / self.scale).max(0.0);
-        (-(-z).exp_m1(), (-z).exp())
+        (-libm::expm1(-z), libm::exp(-z))
     }
 
     fn mean(&self) -> f64 {

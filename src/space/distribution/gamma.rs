@@ -139,9 +139,9 @@ impl Split {
         } else if v <= 0.0 {
             f64::INFINITY
         } else if u <= self.below {
-            self.x * self.lower((u / self.below).ln()).exp()
+            self.x * libm::exp(self.lower(libm::log(u / self.below)))
         } else {
-            self.x * self.upper((v / self.above).ln()).exp()
+            self.x * libm::exp(self.upper(libm::log(v / self.above)))
         }
     }
 
@@ -149,12 +149,12 @@ impl Split {
         if x <= 0.0 {
             return (0.0, 1.0);
         }
-        let common = self.a * (x / self.x).ln() - (x - self.x);
+        let common = self.a * libm::log(x / self.x) - (x - self.x);
         if x <= self.x {
-            let below = self.below * (common + (series(self.a, x) / self.series).ln()).exp();
+            let below = self.below * libm::exp(common + libm::log(series(self.a, x) / self.series));
             (below, 1.0 - below)
         } else {
-            let above = self.above * (common + (continued_fraction(self.a, x) / self.fraction).ln()).exp();
+            let above = self.above * libm::exp(common + libm::log(continued_fraction(self.a, x) / self.fraction));
             (1.0 - above, above)
         }
     }
@@ -166,12 +166,12 @@ impl Split {
         let slope = self.a / self.series;
         let curvature = slope * (slope + self.x - self.a);
         let parabola = 2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
-        let tangent = (target + self.series.ln() - self.x) / self.a;
+        let tangent = (target + libm::log(self.series) - self.x) / self.a;
         let mut d = tangent.max(parabola).min(0.0);
         for _ in 0..MOST_STEPS {
-            let x = self.x * d.exp();
+            let x = self.x * libm::exp(d);
             let series = series(self.a, x);
-            let residual = self.a * d - self.x * d.exp_m1() + (series / self.series).ln() - target;
+            let residual = self.a * d - self.x * libm::expm1(d) + libm::log(series / self.series) - target;
             let slope = self.a / series;
             let step = residual / slope;
             let bend = 0.5 * step * (self.a - x - slope);
@@ -189,12 +189,12 @@ impl Split {
         let slope = 1.0 / self.fraction;
         let curvature = slope * (slope + self.a - self.x);
         let parabola = -2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
-        let exponential = (-target / (self.x * (slope / self.x).min(1.0))).ln_1p();
+        let exponential = libm::log1p(-target / (self.x * (slope / self.x).min(1.0)));
         let mut d = exponential.min(parabola).max(0.0);
         for _ in 0..MOST_STEPS {
-            let x = self.x * d.exp();
+            let x = self.x * libm::exp(d);
             let fraction = continued_fraction(self.a, x);
-            let residual = self.a * d - self.x * d.exp_m1() + (fraction / self.fraction).ln() - target;
+            let residual = self.a * d - self.x * libm::expm1(d) + libm::log(fraction / self.fraction) - target;
             let slope = -1.0 / fraction;
             let step = residual / slope;
             let bend = 0.5 * step * (self.a - x - slope);

@@ -57,16 +57,16 @@ impl Family for Gumbel {
     }
 
     fn quantile(&self, u: f64) -> f64 {
-        self.location - self.scale * (-u.ln()).ln()
+        self.location - self.scale * libm::log(-libm::log(u))
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
-        let log = (-(x - self.location) / self.scale).exp();
-        ((-log).exp(), -(-log).exp_m1())
+        let log = libm::exp(-(x - self.location) / self.scale);
+        (libm::exp(-log), -libm::expm1(-log))
     }
 
     fn upper_quantile(&self, v: f64) -> f64 {
-        self.location - self.scale * (-(-v).ln_1p()).ln()
+        self.location - self.scale * libm::log(-libm::log1p(-v))
     }
 
     fn mean(&self) -> f64 {

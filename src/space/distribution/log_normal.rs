@@ -42,10 +42,10 @@ impl Distribution {
         // Below 1e-8 the logarithm is its argument, past 1e8 the 1 is lost; the square might leave the range.
         let log_sd = match variation {
             small if small < 1e-8 => small,
-            large if large > 1e8 => (2.0 * large.ln()).sqrt(),
-            other => (other * other).ln_1p().sqrt(),
+            large if large > 1e8 => (2.0 * libm::log(large)).sqrt(),
+            other => libm::log1p(other * other).sqrt(),
         };
-        let log_mean = mean.ln() - 0.5 * log_sd * log_sd;
+        let log_mean = libm::log(mean) - 0.5 * log_sd * log_sd;
         Self::LogNormal(LogNormal { log_mean, log_sd, moments: Some((mean, sd)) }).finite()
     }
 
@@ -82,29 +82,29 @@ impl Family for LogNormal {
     }
 
     fn quantile(&self, u: f64) -> f64 {
-        (self.log_mean + self.log_sd * standard_quantile(u)).exp()
+        libm::exp(self.log_mean + self.log_sd * standard_quantile(u))
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
-        let z = (x.max(0.0).ln() - self.log_mean) / self.log_sd;
+        let z = (libm::log(x.max(0.0)) - self.log_mean) / self.log_sd;
         (standard_below(z), standard_below(-z))
     }
 
     fn upper_quantile(&self, v: f64) -> f64 {
-        (self.log_mean - self.log_sd * standard_quantile(v)).exp()
+        libm::exp(self.log_mean - self.log_sd * standard_quantile(v))
     }
 
     fn mean(&self) -> f64 {
         match self.moments {
             Some((mean, _)) => mean,
-            None => (self.log_mean + 0.5 * self.log_sd * self.log_sd).exp(),
+            None => libm::exp(self.log_mean + 0.5 * self.log_sd * self.log_sd),
         }
     }
 
     fn sd(&self) -> f64 {
         match self.moments {
             Some((_, sd)) => sd,
-            None => self.mean() * (self.log_sd * self.log_sd).exp_m1().sqrt(),
+            None => self.mean() * libm::expm1(self.log_sd * self.log_sd).sqrt(),
         }
     }
 
@@ -123,7 +123,7 @@ impl Family for LogNormal {
         refuse_offset(self.name(), unit)?;
         match self.moments {
             Some((mean, sd)) => Distribution::log_normal(unit.to_si(mean), unit.to_si(sd)),
-            None => Distribution::log_normal_of_logs(self.log_mean + unit.to_si(1.0).ln(), self.log_sd),
+            None => Distribution::log_normal_of_logs(self.log_mean + libm::log(unit.to_si(1.0)), self.log_sd),
         }
     }
 }

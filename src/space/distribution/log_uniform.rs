@@ -42,8 +42,8 @@ impl Distribution {
         // The difference is exact up to a ratio of 2, the quotient of it then keeps all digits; past it the
         // logarithm does, taken of the square roots since the quotient itself may overflow.
         let half = match width < min {
-            true => 0.5 * (width / min).ln_1p(),
-            false => (max.sqrt() / min.sqrt()).ln(),
+            true => 0.5 * libm::log1p(width / min),
+            false => libm::log(max.sqrt() / min.sqrt()),
         };
         let centre = min.sqrt() * max.sqrt();
         Self::LogUniform(LogUniform { min, max, centre, half }).finite()
@@ -57,23 +57,23 @@ impl Family for LogUniform {
 
     fn quantile(&self, u: f64) -> f64 {
         // From the centre, where the argument of exp stays within its range and rounds least.
-        (self.centre * ((2.0 * u - 1.0) * self.half).exp()).clamp(self.min, self.max)
+        (self.centre * libm::exp((2.0 * u - 1.0) * self.half)).clamp(self.min, self.max)
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
-        let part = |from: f64, to: f64| ((to - from) / from).ln_1p() / (2.0 * self.half);
+        let part = |from: f64, to: f64| libm::log1p((to - from) / from) / (2.0 * self.half);
         let x = x.clamp(self.min, self.max);
         (part(self.min, x).min(1.0), part(x, self.max).min(1.0))
     }
 
     fn mean(&self) -> f64 {
-        self.centre * (self.half.sinh() / self.half)
+        self.centre * (libm::sinh(self.half) / self.half)
     }
 
     fn sd(&self) -> f64 {
         // E[x^2] - mean^2 = c^2 (sinh h / h) (cosh h - sinh h / h)
         let h = self.half;
-        let mean_ratio = h.sinh() / h;
+        let mean_ratio = libm::sinh(h) / h;
         let excess = match h < 1.0 {
             // The difference cancels; its series is the sum of 2 k h^2k / (2 k + 1)!.
             true => {
@@ -83,7 +83,7 @@ impl Family for LogUniform {
                 }) * h
                     * h
             }
-            false => h.cosh() - mean_ratio,
+            false => libm::cosh(h) - mean_ratio,
         };
         (self.centre * mean_ratio).sqrt() * (self.centre * excess).sqrt()
     }

@@ -48,16 +48,16 @@ impl Family for Logistic {
     }
 
     fn quantile(&self, u: f64) -> f64 {
-        self.location + self.scale * (u.ln() - (-u).ln_1p())
+        self.location + self.scale * (libm::log(u) - libm::log1p(-u))
     }
 
     fn upper_quantile(&self, v: f64) -> f64 {
-        self.location - self.scale * (v.ln() - (-v).ln_1p())
+        self.location - self.scale * (libm::log(v) - libm::log1p(-v))
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
         let z = (x - self.location) / self.scale;
-        (1.0 / (1.0 + (-z).exp()), 1.0 / (1.0 + z.exp()))
+        (1.0 / (1.0 + libm::exp(-z)), 1.0 / (1.0 + libm::exp(z)))
     }
 
     fn mean(&self) -> f64 {

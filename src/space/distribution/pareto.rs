@@ -62,16 +62,16 @@ impl Family for Pareto {
     }
 
     fn quantile(&self, u: f64) -> f64 {
-        (self.min * (-(-u).ln_1p() / self.shape).exp()).max(self.min)
+        (self.min * libm::exp(-libm::log1p(-u) / self.shape)).max(self.min)
     }
 
     fn upper_quantile(&self, v: f64) -> f64 {
-        (self.min * (-v.ln() / self.shape).exp()).max(self.min)
+        (self.min * libm::exp(-libm::log(v) / self.shape)).max(self.min)
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
-        let log = -self.shape * ((x - self.min).max(0.0) / self.min).ln_1p();
-        (-log.exp_m1(), log.exp())
+        let log = -self.shape * libm::log1p((x - self.min).max(0.0) / self.min);
+        (-libm::expm1(log), libm::exp(log))
     }
 
     fn mean(&self) -> f64 {

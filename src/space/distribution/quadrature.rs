@@ -45,9 +45,9 @@ pub(super) fn moments(quantile: impl Fn(f64, f64) -> f64, kinks: &[f64]) -> (f64
     for pair in ends.windows(2) {
         let (from, length) = (pair[0], pair[1] - pair[0]);
         for t in (-193..=193).map(|index| STEP * f64::from(index)) {
-            let ratio = (-PI * t.sinh().abs()).exp();
+            let ratio = libm::exp(-PI * libm::sinh(t).abs());
             let (small, large) = (ratio / (1.0 + ratio), 1.0 / (1.0 + ratio));
-            let weight = STEP * PI * t.cosh() * small * large * length;
+            let weight = STEP * PI * libm::cosh(t) * small * large * length;
             let (below, above) = if t < 0.0 { (small, large) } else { (large, small) };
             let deviation = quantile(from + length * below, (1.0 - pair[1]) + length * above) - origin;
             first += weight * deviation;

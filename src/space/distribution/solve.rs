@@ -9,9 +9,9 @@ pub(super) fn quantile(u: f64, v: f64, (mut low, mut high): (f64, f64), tails: i
     const LEAST: f64 = -800.0;
     let residual = |x: f64| {
         let (below, above) = tails(x);
-        if u <= v { (below / u).ln().max(LEAST) } else { -(above / v).ln().max(LEAST) }
+        if u <= v { libm::log(below / u).max(LEAST) } else { -libm::log(above / v).max(LEAST) }
     };
-    let close = 1e-15 * (1.0 - u.min(v).ln());
+    let close = 1e-15 * (1.0 - libm::log(u.min(v)));
     let mut before = residual(low);
     // At NaN nothing is known.
     if before >= 0.0 || before.is_nan() || low >= high {

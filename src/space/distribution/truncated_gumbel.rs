@@ -64,10 +64,10 @@ impl Distribution {
         (min, max): (f64, f64),
     ) -> Result<Self, DistributionError> {
         let width = (max - min) / scale;
-        let [log_min, log_max] = [min, max].map(|bound| (-(bound - location) / scale).exp());
+        let [log_min, log_max] = [min, max].map(|bound| libm::exp(-(bound - location) / scale));
         // exp(-a) - exp(-b), which cancels nothing; where exp(-a) overflows, F(min) is 0.
-        let ratio = if log_min.is_finite() { log_min * -(-width).exp_m1() } else { f64::INFINITY };
-        let mass = (-log_max).exp() * -(-ratio).exp_m1();
+        let ratio = if log_min.is_finite() { log_min * -libm::expm1(-width) } else { f64::INFINITY };
+        let mass = libm::exp(-log_max) * -libm::expm1(-ratio);
         // Also refused when the bounds are one number as seen from the location.
         if mass.is_nan() || mass < LEAST_MASS {
             return Err(DistributionError::GumbelTruncation { location, scale, min, max });
@@ -85,11 +85,11 @@ impl TruncatedGumbel {
     fn moments(&self) -> (f64, f64, f64) {
         let mode = self.location.clamp(self.min, self.max);
         let z = (mode - self.location) / self.scale;
-        let log = (-z).exp();
+        let log = libm::exp(-z);
         // Where the density has fallen below exp(-45) of its maximum, nothing is left.
-        let from = ((self.min - mode) / self.scale).max(-(45.0 / log).ln_1p());
+        let from = ((self.min - mode) / self.scale).max(-libm::log1p(45.0 / log));
         let to = ((self.max - mode) / self.scale).min(46.0);
-        let density = |t: f64| (-t - log * (-t).exp_m1()).exp();
+        let density = |t: f64| libm::exp(-t - log * libm::expm1(-t));
         let mass = integral(from, to, density);
         let mean = integral(from, to, |t| t * density(t)) / mass;
         let variance = integral(from, to, |t| (t - mean) * (t - mean) * density(t)) / mass;
@@ -104,18 +104,21 @@ impl Family for TruncatedGumbel {
 
     fn quantile(&self, u: f64) -> f64 {
         // -ln F as a share of that of `min`, lost on the way up; overflows only where F(min) is far below u.
-        let fall = (u * self.ratio.exp_m1()).ln_1p() / self.log_min;
+        let fall = libm::log1p(u * libm::expm1(self.ratio)) / self.log_min;
         let value = if fall < 0.5 {
-            self.min - self.scale * (-fall).ln_1p()
+            self.min - self.scale * libm::log1p(-fall)
         } else {
             // -ln (F / F(max)), a positive number like -ln F(max), so that their sum keeps its digits.
-            let rest = (-self.ratio).exp();
-            let above =
-                if u < 0.5 { -(u + (1.0 - u) * rest).ln() } else { -((1.0 - u) * (-self.ratio).exp_m1()).ln_1p() };
-            if above < self.log_max {
-                self.max - self.scale * (above / self.log_max).ln_1p()
+            let rest = libm::exp(-self.ratio);
+            let above = if u < 0.5 {
+                -libm::log(u + (1.0 - u) * rest)
             } else {
-                self.location - self.scale * (self.log_max + above).ln()
+                -libm::log1p((1.0 - u) * libm::expm1(-self.ratio))
+            };
+            if above < self.log_max {
+                self.max - self.scale * libm::log1p(above / self.log_max)
+            } else {
+                self.location - self.scale * libm::log(self.log_max + above)
             }
         };
         // Rounding may lead an ulp past a bound.
@@ -125,10 +128,10 @@ impl Family for TruncatedGumbel {
     fn tails(&self, x: f64) -> (f64, f64) {
         // P(from < X < to) before truncation, as the mass is found.
         let between = |from: f64, to: f64| {
-            let [log_from, log_to] = [from, to].map(|bound| (-(bound - self.location) / self.scale).exp());
+            let [log_from, log_to] = [from, to].map(|bound| libm::exp(-(bound - self.location) / self.scale));
             let width = (to - from) / self.scale;
-            let ratio = if log_from.is_finite() { log_from * -(-width).exp_m1() } else { f64::INFINITY };
-            (-log_to).exp() * -(-ratio).exp_m1()
+            let ratio = if log_from.is_finite() { log_from * -libm::expm1(-width) } else { f64::INFINITY };
+            libm::exp(-log_to) * -libm::expm1(-ratio)
         };
         let (x, mass) = (x.clamp(self.min, self.max), between(self.min, self.max));
         ((between(self.min, x) / mass).min(1.0), (between(x, self.max) / mass).min(1.0))

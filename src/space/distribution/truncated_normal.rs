@@ -119,7 +119,7 @@ impl TruncatedNormal {
         let reach = 90.0 / (z.abs() + (z * z + 90.0).sqrt());
         let from = ((self.min - mode) / self.sd).max(-reach);
         let to = ((self.max - mode) / self.sd).min(reach);
-        let density = |t: f64| (-t * (0.5 * t + z)).exp();
+        let density = |t: f64| libm::exp(-t * (0.5 * t + z));
         let mass = integral(from, to, density);
         let mean = integral(from, to, |t| t * density(t)) / mass;
         let variance = integral(from, to, |t| (t - mean) * (t - mean) * density(t)) / mass;

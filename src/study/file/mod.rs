@@ -100,6 +100,15 @@ impl Study {
     }
 }
 
+/// The text of a study after `overrides`, which [`Study::parse`] reads like the text that it was made from with them.
+///
+/// # Errors
+/// [`StudyError`] if an override cannot be applied, or the text is not TOML.
+pub fn edited(text: &str, overrides: &[String]) -> Result<String, StudyError> {
+    let not_editable = || StudyError::Override { text: overrides.join(" "), problem: OverrideProblem::NotEditable };
+    overridden(text, overrides)?.ok_or_else(not_editable)
+}
+
 fn overridden(text: &str, overrides: &[String]) -> Result<Option<String>, StudyError> {
     overrides::apply(text, overrides).map_err(|(text, problem)| StudyError::Override { text, problem })
 }

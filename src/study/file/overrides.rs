@@ -1,12 +1,14 @@
 //! `--set KEY=VALUE`: changes to a study file from the command line, applied to its text before it is read.
 
-use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
+use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
 use super::error::OverrideProblem;
+use crate::model::ModelKind;
 use crate::names::nearest;
 
 /// Applies `overrides` in order. A key is a path of names joined by dots; `factor.NAME.KEY` reaches the factor of that
-/// name. A value is TOML if it reads as TOML, else a string: `afm.friction=hk` needs no quotes.
+/// name, and `factor.NAME` is all of it: a table takes the place of what it was, a value fixes it. A value is TOML if it reads as
+/// TOML, else a string: `afm.friction=hk` needs no quotes.
 ///
 /// `None` if the text is not TOML: the reader will say so, with the place.
 pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, (String, OverrideProblem)> {
@@ -37,6 +39,13 @@ fn set(root: &mut Table, text: &str) -> Result<(), OverrideProblem> {
         ["factor" | "factors", factor, ref rest @ ..] if !rest.is_empty() => {
             set_in(find_factor(root, factor)?, rest, value)
         }
+        ["factor" | "factors", factor] => match value {
+            Value::InlineTable(table) => {
+                replace(find_factor(root, factor)?, &table);
+                Ok(())
+            }
+            value => fix(root, factor, value),
+        },
         ["outputs"] if root.get("outputs").is_some_and(Item::is_table_like) => Err(OverrideProblem::OutputsTable),
         _ => set_in(root, &names, value),
     }
@@ -100,6 +109,48 @@ fn find_factor<'a>(root: &'a mut Table, name: &str) -> Result<&'a mut dyn TableL
     Ok(factors.swap_remove(place).1)
 }
 
+/// Gives a factor the keys of `table`. It keeps its name.
+fn replace(factor: &mut dyn TableLike, table: &InlineTable) {
+    let keys: Vec<String> = factor.iter().map(|(key, _)| key.to_owned()).filter(|key| key != "name").collect();
+    for key in keys {
+        factor.remove(&key);
+    }
+    for (key, value) in table.iter().filter(|(key, _)| *key != "name") {
+        let mut value = value.clone();
+        value.decor_mut().clear();
+        factor.insert(key, Item::Value(value));
+    }
+}
+
+/// Takes the factor called `name` out of the study, and gives the input of that name one `value`.
+fn fix(root: &mut Table, name: &str, value: Value) -> Result<(), OverrideProblem> {
+    find_factor(root, name)?;
+    let model = match root.get("model") {
+        Some(model) => model.as_str().unwrap_or_default(),
+        None if root.contains_key(ModelKind::EXPRESSION.name) => ModelKind::EXPRESSION.name,
+        None => ModelKind::DEFAULT.name,
+    };
+    let path: &[&str] = match ModelKind::from_name(model) {
+        Some(kind) if kind == ModelKind::AFM => &[kind.table, name],
+        Some(kind) if kind == ModelKind::EXPRESSION => &[kind.table, "constants", name],
+        _ => return Err(OverrideProblem::NotFixed { name: name.to_owned(), model: model.to_owned() }),
+    };
+    let key = if root.contains_key("factor") { "factor" } else { "factors" };
+    let is_named = |table: &dyn TableLike| table.get("name").and_then(Item::as_str) == Some(name);
+    match root.get_mut(key) {
+        Some(Item::ArrayOfTables(tables)) => tables.retain(|table| !is_named(table)),
+        Some(Item::Value(Value::Array(values))) => {
+            values.retain(|value| !value.as_inline_table().is_some_and(|table| is_named(table)));
+        }
+        Some(item) => match item.as_table_like_mut() {
+            Some(table) if !is_named(table) => drop(table.remove(name)),
+            _ => drop(root.remove(key)),
+        },
+        None => (),
+    }
+    set_in(root, path, value)
+}
+
 fn set_in(table: &mut dyn TableLike, names: &[&str], value: Value) -> Result<(), OverrideProblem> {
     let Some((last, path)) = names.split_last() else { return Ok(()) };
     let mut table = table;
@@ -130,6 +181,25 @@ mod tests {
         assert!(applied("design.base_samples = 64").unwrap().contains("[design]\nbase_samples = 64"));
         assert!(applied("outputs=[\"a\", \"b\"]").unwrap().contains("[\"a\", \"b\"]"));
         assert!(applied("afm.preload_angle=0.5 deg").unwrap().contains("preload_angle = \"0.5 deg\""));
+    }
+
+    #[test]
+    fn a_factor_is_replaced_or_fixed() {
+        let replaced = applied("factor.length={ distribution = 'normal', mean = 3, name = 'no' }").unwrap();
+        assert!(replaced.ends_with("[[factor]]\nname = \"length\"\ndistribution = 'normal'\nmean = 3\n"), "{replaced}");
+        let fixed = applied("factor.length=450 um").unwrap();
+        assert_eq!(fixed, "outputs = ['y'] # kept\n[afm]\nfriction = \"coulomb\"\nlength = \"450 um\"\n");
+        for text in
+            ["[factor.a]\nmin = 1\n[factor.b]\nmin = 2\n", "factors = [{ name = 'a', min = 1 }, { name = 'b' }]\n"]
+        {
+            let text = format!("model = \"expression\"\n{text}");
+            let fixed = apply(&text, &["factor.a=0.5".to_owned()]).unwrap().unwrap();
+            assert!(fixed.contains("[expression.constants]\na = 0.5"), "{fixed}");
+            assert!(!fixed.contains("min = 1") && fixed.contains('b'), "{fixed}");
+        }
+        let of_function = apply("model = 'ishigami'\n[factor.x1]\nmin = 0\n", &["factor.x1=0.5".to_owned()]);
+        assert!(matches!(of_function, Err((_, OverrideProblem::NotFixed { .. }))));
+        assert!(matches!(applied("factor.width=1"), Err(OverrideProblem::NoFactor { .. })));
     }
 
     #[test]

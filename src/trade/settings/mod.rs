@@ -10,13 +10,13 @@ mod record;
 mod truth;
 
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
 
 pub use curve::Axis;
 pub use document::{file_names, settings_document};
 pub use record::{SettingsFile, build_settings};
 
 use crate::analysis::Analysis;
+use crate::clock::Instant;
 use crate::estimate::Estimator;
 use crate::run::RunError;
 use crate::study::Study;

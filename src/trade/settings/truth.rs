@@ -1,9 +1,8 @@
 //! What errors are measured from.
 
-use std::time::Instant;
-
 use super::curve::rungs;
 use super::{SettingsJob, TruthFound};
+use crate::clock::Instant;
 use crate::run::RunError;
 use crate::study::Target;
 

@@ -63,7 +63,7 @@ fn panels_stand_in_even_rows_and_share_their_vertical_axis() {
 
 #[test]
 fn thousands_of_dots_make_a_small_file() {
-    let dots = (0..2000).map(|i| (f64::from(i).sin(), f64::from(i).cos())).collect();
+    let dots = (0..2000).map(|i| (libm::sin(f64::from(i)), libm::cos(f64::from(i)))).collect();
     let svg = svg(vec![panel(dots)]);
     // At most "M123.4 123.4h0" for each, and the rest of the figure.
     assert!(svg.len() < 2000 * 14 + 6000, "{}", svg.len());

@@ -103,8 +103,8 @@ impl Frame {
     /// truncation.
     fn of_pin(&self, pin: Pin, x: f64) -> Option<Distribution> {
         match (self.law, pin) {
-            (_, Pin::Place(first)) => self.made(first, x.exp()),
-            (Law::Beta, Pin::Width(second)) => self.made(x.exp(), second),
+            (_, Pin::Place(first)) => self.made(first, libm::exp(x)),
+            (Law::Beta, Pin::Width(second)) => self.made(libm::exp(x), second),
             (_, Pin::Width(second)) => self.made(x, second),
         }
     }
@@ -112,7 +112,7 @@ impl Frame {
     fn range_beside(&self, pin: Pin) -> (f64, f64) {
         match (self.law, pin) {
             // Narrow for the shape of the other side, as far as that has a meaning.
-            (Law::Beta, _) => (1e5f64.ln(), 1e-3f64.ln()),
+            (Law::Beta, _) => (libm::log(1e5), libm::log(1e-3)),
             (_, Pin::Place(_)) => self.widths(),
             (_, Pin::Width(width)) => self.places(width),
         }
@@ -121,8 +121,8 @@ impl Frame {
     /// Logarithms of the widths, from narrow to wide; of the beta distribution, of 1/(alpha + beta).
     fn widths(&self) -> (f64, f64) {
         match self.law {
-            Law::Beta => (-(2e5f64.ln()), -(2e-3f64.ln())),
-            _ => ((1e-6 * (self.max - self.min)).ln(), (1e4 * (self.max - self.min)).ln()),
+            Law::Beta => (-libm::log(2e5), -libm::log(2e-3)),
+            _ => (libm::log(1e-6 * (self.max - self.min)), libm::log(1e4 * (self.max - self.min))),
         }
     }
 
@@ -139,13 +139,13 @@ impl Frame {
     fn placed(&self, width: f64, miss: impl Fn(&Distribution) -> f64) -> Option<Distribution> {
         let at = |place: f64| match self.law {
             Law::Beta => {
-                let (sum, odds) = ((-width).exp(), place.exp());
+                let (sum, odds) = (libm::exp(-width), libm::exp(place));
                 self.made(sum * odds / (1.0 + odds), sum / (1.0 + odds))
             }
-            _ => self.made(place, width.exp()),
+            _ => self.made(place, libm::exp(width)),
         };
         let missed = |place: f64| at(place).map_or(f64::NAN, |found| miss(&found));
-        let (from, to) = self.places(width.exp());
+        let (from, to) = self.places(libm::exp(width));
         let (mut low, mut high) = (None, None);
         for place in evenly(from, to, 25) {
             let y = missed(place);
@@ -162,7 +162,7 @@ impl Frame {
     /// The beta distribution of this width whose highest density is at `mode`.
     fn beta_of_mode(&self, width: f64, mode: f64) -> Option<Distribution> {
         let part = (mode - self.min) / (self.max - self.min);
-        let beyond = (-width).exp() - 2.0;
+        let beyond = libm::exp(-width) - 2.0;
         if beyond > 0.0 { self.made(1.0 + part * beyond, 1.0 + (1.0 - part) * beyond) } else { None }
     }
 

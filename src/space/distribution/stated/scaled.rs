@@ -40,8 +40,8 @@ pub(super) fn solve(law: Law, stated: &[Statement]) -> Option<Distribution> {
         _ => return accept(f64::NAN),
     };
     let (from, to, count) = logs;
-    let by_log = |log: f64| determinant(law, log.exp(), stated);
-    first_zero(evenly(from.ln(), to.ln(), count), by_log, |log| accept(log.exp()))
+    let by_log = |log: f64| determinant(law, libm::exp(log), stated);
+    first_zero(evenly(libm::log(from), libm::log(to), count), by_log, |log| accept(libm::exp(log)))
 }
 
 /// The distribution of location 0 (or least value 0) and scale 1.
@@ -50,7 +50,7 @@ fn standard(law: Law, shape: f64) -> Option<Distribution> {
         Law::Uniform => Distribution::uniform(0.0, 1.0),
         Law::Normal => Distribution::normal(0.0, 1.0),
         Law::Gumbel => Distribution::gumbel(0.0, 1.0),
-        Law::LogUniform => Distribution::log_uniform(1.0, shape.exp()),
+        Law::LogUniform => Distribution::log_uniform(1.0, libm::exp(shape)),
         Law::LogNormal => Distribution::log_normal_of_logs(0.0, shape),
         Law::Weibull => Distribution::weibull(shape, 1.0, 0.0),
         Law::Gamma => Distribution::gamma(shape, 1.0, 0.0),
@@ -97,11 +97,11 @@ fn parameter_of(law: Law, distribution: &Distribution, statistic: Statistic, sha
         // mean (sqrt(1 + c^2) - c) with c = 3 mean / (2 scale)
         (Law::InverseGaussian, Statistic::Mode) => {
             let c = 1.5 * shape * shape;
-            parameter("mean").map(|mean| mean / (c.hypot(1.0) + c))
+            parameter("mean").map(|mean| mean / (libm::hypot(c, 1.0) + c))
         }
         (Law::LogNormal, Statistic::LogMean) => parameter("log_mean"),
         // exp(mu - sigma^2), the mode of a log-normal distribution.
-        (Law::LogNormal, Statistic::Mode) => parameter("log_mean").map(|log_mean| (log_mean - shape * shape).exp()),
+        (Law::LogNormal, Statistic::Mode) => parameter("log_mean").map(|log_mean| libm::exp(log_mean - shape * shape)),
         (Law::Weibull, Statistic::Mode) => {
             let (location, scale) = parameter("location").zip(parameter("scale"))?;
             Some(location + scale * weibull_mode(shape))
@@ -114,7 +114,7 @@ fn parameter_of(law: Law, distribution: &Distribution, statistic: Statistic, sha
 
 /// The mode of a Weibull distribution at location 0 and scale 1: ((k - 1)/k)^(1/k), 0 for shapes k up to 1.
 fn weibull_mode(shape: f64) -> f64 {
-    if shape > 1.0 { ((-shape.recip()).ln_1p() / shape).exp() } else { 0.0 }
+    if shape > 1.0 { libm::exp(libm::log1p(-shape.recip()) / shape) } else { 0.0 }
 }
 
 /// The statements as lines, for one shape.
@@ -144,7 +144,7 @@ impl Lines {
                 Statistic::Scale => [0.0, 1.0, *value],
                 Statistic::Location => [1.0, 0.0, *value],
                 // The scale of a log-normal distribution is exp(log_mean).
-                Statistic::LogMean => [0.0, 1.0, value.exp()],
+                Statistic::LogMean => [0.0, 1.0, libm::exp(*value)],
                 shape if shape.is_shape() => continue,
                 other => [1.0, statistic_of(law, &standard, *other, shape)?, *value],
             });
@@ -191,9 +191,9 @@ fn made(law: Law, (location, scale, shape): (f64, f64, f64), stated: &[Statement
             Distribution::gumbel(or(Statistic::Location, or(Statistic::Mode, location)), or(Statistic::Scale, scale))
         }
         Law::LogUniform => {
-            Distribution::log_uniform(or(Statistic::Min, scale), or(Statistic::Max, scale * shape.exp()))
+            Distribution::log_uniform(or(Statistic::Min, scale), or(Statistic::Max, scale * libm::exp(shape)))
         }
-        Law::LogNormal => Distribution::log_normal_of_logs(or(Statistic::LogMean, scale.ln()), shape),
+        Law::LogNormal => Distribution::log_normal_of_logs(or(Statistic::LogMean, libm::log(scale)), shape),
         Law::Weibull => Distribution::weibull(shape, or(Statistic::Scale, scale), or(Statistic::Location, location)),
         Law::Gamma => Distribution::gamma(shape, or(Statistic::Scale, scale), or(Statistic::Location, location)),
         Law::Exponential => {

@@ -57,6 +57,14 @@ pub enum OverrideProblem {
         /// The nearest factor of the file.
         nearest: Option<String>,
     },
+    /// `factor.NAME=VALUE` would fix an input of a model that has no constants.
+    #[error("factor.{name}=VALUE fixes an input of afm or of a formula; all inputs of the model `{model}` are factors")]
+    NotFixed {
+        /// The name of the factor.
+        name: String,
+        /// The model of the study.
+        model: String,
+    },
     /// The key leads through something that is not a table.
     #[error("`{0}` is not a table of the study, so nothing can be set inside it")]
     NotATable(String),
