@@ -7,6 +7,7 @@ mod compare;
 mod completions;
 mod evaluate;
 mod given_data;
+mod live;
 mod man;
 mod merge;
 mod models;
@@ -81,6 +82,8 @@ enum Command {
     Check(check::Arguments),
     /// Follow one scene of a study in time, every factor at its nominal value: forces, positions, contacts
     Simulate(simulate::Arguments),
+    /// Write a page in which a study can be tried: drag a range, and the percentages follow
+    Live(live::Arguments),
     /// List what can be studied, or show one model in full: formula, factors, outputs, exact indices
     Models(models::Arguments),
     /// Print the JSON Schema of study or result files, for editors and programs
@@ -272,6 +275,7 @@ fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
         Command::GivenData(arguments) => given_data::given_data(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Simulate(arguments) => simulate::simulate(&arguments),
+        Command::Live(arguments) => live::live(&arguments),
         Command::Models(arguments) => models::models(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),

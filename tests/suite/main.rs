@@ -33,6 +33,7 @@ mod given_surrogate;
 mod intervals;
 mod journal;
 mod known;
+mod live;
 mod many_outputs;
 mod metamorphic;
 mod names;

@@ -1,0 +1,48 @@
+//! `apportion live`: a study as a page that computes.
+
+use std::path::PathBuf;
+
+use apportion::report::{prepare_file, prepare_folder, write_atomically};
+
+use super::output::default_folder;
+use super::stop::on_signal;
+use super::{DesignChanges, Failure, StudyArguments, Threads, say};
+use crate::live::{LiveError, live_page, own_text};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    #[command(flatten)]
+    design: DesignChanges,
+    /// The page [default: results/NAME/NAME-live.html]
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    threads: Threads,
+}
+
+impl From<LiveError> for Failure {
+    fn from(error: LiveError) -> Self {
+        match error {
+            LiveError::Model { .. } | LiveError::Files { .. } | LiveError::Study(_) => Self::Input(error.into()),
+            LiveError::Run(error) => error.into(),
+            LiveError::Document(_) | LiveError::Template(_) => Self::Run(error.into()),
+        }
+    }
+}
+
+pub fn live(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load_with(&arguments.design.overrides())?;
+    own_text(&study)?;
+    let name = study.name();
+    let path = arguments.out.clone().unwrap_or_else(|| default_folder(name).join(format!("{name}-live.html")));
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        prepare_folder(folder)?;
+    }
+    prepare_file(&path)?;
+    let page = live_page(&study, arguments.threads.number(), on_signal())?;
+    write_atomically(&path, page.as_bytes())?;
+    say(&format!("wrote {}", path.display()));
+    Ok(())
+}

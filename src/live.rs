@@ -1,0 +1,167 @@
+//! Pages that compute: a study with the engine inside, compiled to WebAssembly (`web/`).
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use apportion::model::ModelKind;
+use apportion::report::document::{Document, DocumentError, symbols};
+use apportion::report::{ResultFile, run_document};
+use apportion::run::RunError;
+use apportion::study::{Study, StudyError, edited};
+use askama::Template;
+use serde_json::json;
+use thiserror::Error;
+use toml_edit::DocumentMut;
+
+/// Why there is no page.
+#[derive(Debug, Error)]
+pub enum LiveError {
+    /// The model is a program, or outside.
+    #[error("a page cannot run the study {study}: its model is neither afm nor a formula nor a known function")]
+    Model {
+        /// The name of the study.
+        study: String,
+    },
+    /// The study is not whole without files beside it.
+    #[error("a page cannot run the study {study}: it needs files beside it ({source})")]
+    Files {
+        /// The name of the study.
+        study: String,
+        /// What is missing without them.
+        source: Box<StudyError>,
+    },
+    /// The study cannot be changed.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// The run of its first result has ended.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A part of the page cannot be drawn.
+    #[error(transparent)]
+    Document(#[from] DocumentError),
+    /// The template cannot be rendered.
+    #[error("cannot make the page: {0}")]
+    Template(#[from] askama::Error),
+}
+
+/// The engine, compiled to WebAssembly by `web/build.sh`: gzip in base64.
+const ENGINE: &str = include_str!("../assets/web/engine.b64");
+
+/// The studies that a page of the nanoparticle offers beside its own.
+const PRESETS: [&str; 4] = [
+    include_str!("../studies/coulomb-dimensional.toml"),
+    include_str!("../studies/coulomb-environmental.toml"),
+    include_str!("../studies/coulomb-general.toml"),
+    include_str!("../studies/soft-cantilever.toml"),
+];
+
+/// What the page shows of a result, in this order, where the result has it.
+const SECTIONS: [&str; 6] = ["mind", "indices", "shares", "interactions", "distribution", "validity"];
+
+#[derive(Template)]
+#[template(path = "live/live.html")]
+struct Page<'a> {
+    page_title: &'a str,
+    title: String,
+    lead: Vec<String>,
+    state: String,
+    sections: Vec<SectionView<'a>>,
+    footer: String,
+    /// The studies as JSON, in an element of script: without `<`.
+    study: String,
+    page_style: &'static str,
+    style: &'static str,
+    script: &'static str,
+    worker: &'static str,
+    engine: &'static str,
+    version: &'static str,
+}
+
+struct SectionView<'a> {
+    id: &'a str,
+    title: String,
+    body: String,
+}
+
+/// The page of `study`, with its result by this program on `threads` threads to begin with, unless `stop` is set.
+///
+/// # Errors
+/// [`LiveError`] if a page cannot run the study, or its first run fails.
+pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<String, LiveError> {
+    let text = own_text(study)?;
+    let study = Study::parse(&text, Path::new(&format!("{}.toml", study.name())), &[])?;
+    let analysis = study.runner().threads(threads).stop(stop).run()?;
+    let mut result = ResultFile::new(&study, &analysis);
+    // One output at a time.
+    result.outputs.truncate(1);
+    result.aggregate = None;
+    page(&study, &text, &run_document(&result), result.provenance.model_runs)
+}
+
+/// The text of a study with all changes made, as a page can run it: for as many base samples as it likes, without files.
+///
+/// # Errors
+/// [`LiveError`] if there is no such text.
+pub fn own_text(study: &Study) -> Result<String, LiveError> {
+    let kind = ModelKind::from_name(study.subject().name());
+    let computes = |kind: ModelKind| kind == ModelKind::AFM || kind == ModelKind::EXPRESSION || kind.known.is_some();
+    if !kind.is_some_and(computes) {
+        return Err(LiveError::Model { study: study.name().to_owned() });
+    }
+    let text = edited(study.source(), study.overrides())?;
+    let text = without_target(&text).unwrap_or(text);
+    // Where there is no file beside it.
+    let alone = Path::new("no-such-folder-of-a-page").join(format!("{}.toml", study.name()));
+    Study::parse(&text, &alone, &[])
+        .map_err(|source| LiveError::Files { study: study.name().to_owned(), source: Box::new(source) })?;
+    Ok(text)
+}
+
+/// The text without what decides by itself how long a run is.
+fn without_target(text: &str) -> Option<String> {
+    let mut document: DocumentMut = text.parse().ok()?;
+    document.remove("accuracy");
+    if let Some(design) = document.get_mut("design").and_then(|design| design.as_table_like_mut()) {
+        for key in ["target", "max_runs", "budget", "budget_runs"] {
+            design.remove(key);
+        }
+    }
+    Some(document.to_string())
+}
+
+fn page(study: &Study, text: &str, document: &Document, runs: u64) -> Result<String, LiveError> {
+    let title = study.title().unwrap_or(study.name());
+    let mut presets = vec![json!({ "title": title, "text": text })];
+    if study.subject().name() == ModelKind::AFM.name {
+        for preset in PRESETS {
+            let Some(text) = without_target(preset) else { continue };
+            let other = Study::parse(&text, Path::new("preset.toml"), &[])?;
+            if other.title() != study.title() {
+                presets.push(json!({ "title": other.title(), "text": text }));
+            }
+        }
+    }
+    let mut sections = Vec::new();
+    for id in SECTIONS {
+        let body = document.section_html(id)?;
+        let title = document.sections.iter().find(|section| section.id == id).map(|section| symbols(&section.title));
+        sections.extend(body.zip(title).map(|(body, title)| SectionView { id, title, body }));
+    }
+    let page = Page {
+        page_title: title,
+        title: symbols(title),
+        lead: document.lead.iter().map(|text| symbols(text)).collect(),
+        state: format!("{runs} runs of the model by the program."),
+        sections,
+        footer: symbols(&document.footer),
+        // A title may hold what would end the element.
+        study: json!({ "presets": presets }).to_string().replace('<', "\\u003c"),
+        page_style: include_str!("../templates/page/page.css"),
+        style: include_str!("../templates/live/live.css"),
+        script: include_str!("../templates/live/live.js"),
+        worker: include_str!("../templates/live/worker.js"),
+        engine: ENGINE,
+        version: env!("CARGO_PKG_VERSION"),
+    };
+    Ok(page.render()?)
+}

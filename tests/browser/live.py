@@ -1,0 +1,272 @@
+"""Tries pages of `apportion live` in a headless Chromium against the program.
+
+    python tests/browser/live.py PROGRAM [--browser PATH] [--engine FILE] [--shots DIR] [--drags N]
+
+Of five studies (three laws of friction, formulas, a known function): every number of the result of the page equals that of the
+program, bit for bit. Of one: sliders by keyboard and by pointer, fixing, undo, a link that restores, "copy as study.toml" that runs in
+the program, a damaged link, no request beyond the page, no message on the console, and what the page shows without scripts.
+With `--engine` the pages have that engine (gzip in base64) in the place of their own. Times are printed, not judged; `--drags`
+moves a slider so many times and prints the memory of the page before and after. Exit code 1 if anything is wrong.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+STUDIES = ["coulomb-general", "hk-general", "lugre-general", "cantilever-formula", "ishigami"]
+SAMPLES = 1024
+LARGEST_PAGE = 2_000_000
+ROOT = Path(__file__).resolve().parents[2]
+
+found = []
+
+
+def expect(holds, what):
+    if not holds:
+        found.append(what)
+        print(f"WRONG {what}", flush=True)
+
+
+def run(program, *arguments):
+    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise SystemExit(f"apportion {' '.join(map(str, arguments))}: {done.stderr}")
+    return done
+
+
+def native(program, study, folder, *more):
+    """The result of the program as JSON."""
+    run(program, "run", study, "--charts", "none", "--no-journal", "--out", folder, *more)
+    [result] = [path for path in folder.glob("*.json")]
+    return json.loads(result.read_text())
+
+
+def numbers(result):
+    """What is estimated: all of a result but where, when and on what it was made."""
+    return {key: result[key] for key in ("factors", "outputs", "validity", "effort") if key in result}
+
+
+def differences(a, b, path=""):
+    """Where two documents differ; numbers as they are written, which is to the last bit."""
+    if isinstance(a, dict) and isinstance(b, dict):
+        for key in sorted(a.keys() | b.keys()):
+            yield from differences(a.get(key), b.get(key), f"{path}.{key}")
+    elif isinstance(a, list) and isinstance(b, list) and len(a) == len(b):
+        for place, pair in enumerate(zip(a, b)):
+            yield from differences(*pair, f"{path}[{place}]")
+    elif repr(a) != repr(b):
+        yield f"{path}: {a!r} against {b!r}"
+
+
+class Browser:
+    def __init__(self, playwright, path):
+        flags = ["--no-sandbox", "--disable-background-networking", "--disable-component-update", "--enable-precise-memory-info", "--js-flags=--expose-gc"]
+        self.browser = playwright.chromium.launch(executable_path=path, args=flags)
+
+    def open(self, page_file, size=(1280, 900), scripts=True, fragment="", dark=False):
+        context = self.browser.new_context(
+            viewport={"width": size[0], "height": size[1]}, java_script_enabled=scripts, color_scheme="dark" if dark else "light"
+        )
+        page = context.new_page()
+        page.on("console", lambda message: expect(False, f"console: {message.text}"))
+        page.on("pageerror", lambda error: expect(False, f"script: {error}"))
+        own = ("file:", "blob:", "data:")
+        page.on("request", lambda request: expect(request.url.startswith(own), f"request to {request.url}"))
+        page.goto(page_file.as_uri() + fragment)
+        return page
+
+
+def settled(page, samples=65536):
+    page.wait_for_function(f"document.body.dataset.samples === '{samples}'", timeout=120_000)
+
+
+def ask(page, request):
+    answer = page.evaluate("(request) => window.apportion.ask(request)", request)
+    expect("done" in answer, f"refused: {answer}")
+    return answer.get("done")
+
+
+def state(page):
+    return page.evaluate("Array.from(document.querySelectorAll('#factors input[type=number]')).map((field) => field.value).join(' ')")
+
+
+def same_bits(arguments, browser, pages, folder):
+    for name in STUDIES:
+        study = ROOT / "studies" / f"{name}.toml"
+        expected = native(arguments.program, study, folder / name, "--base-samples", SAMPLES)
+        page = browser.open(pages[name])
+        page.wait_for_function("window.apportion !== undefined")
+        given = json.loads(page.locator("#study").text_content())["presets"][0]["text"]
+        files = ask(page, {"wanted": "files", "text": given, "changes": [f"design.base_samples={SAMPLES}"]})
+        got = json.loads(files["study.json"]) if "study.json" in files else json.loads(next(text for key, text in files.items() if key.endswith(".json")))
+        wrong = list(differences(numbers(expected), numbers(got)))
+        expect(not wrong, f"{name}: {len(wrong)} numbers differ, such as {wrong[:3]}")
+        print(f"{name}: the same bits" if not wrong else f"{name}: other bits", flush=True)
+        page.context.close()
+
+
+def behaviour(arguments, browser, page_file, folder):
+    begin = time.perf_counter()
+    page = browser.open(page_file)
+    page.wait_for_function("document.body.dataset.samples !== undefined")
+    first = time.perf_counter() - begin
+    settled(page)
+    print(f"first result after {first:.2f} s; settled after {time.perf_counter() - begin:.2f} s: {page.locator('#state').text_content()}")
+    before, lead = state(page), page.locator("#lead").inner_text()
+
+    handle = page.locator("fieldset[data-factor=thickness] input[data-key=largest]")
+    handle.focus()
+    for _ in range(200):
+        page.keyboard.press("ArrowLeft")
+    settled(page)
+    by_keys = state(page)
+    expect(by_keys != before, "the keyboard moves no slider")
+    expect(page.locator("#lead").inner_text() != lead, "the lead does not follow")
+    expect("#s=" in page.url, "the link does not hold the settings")
+
+    box = page.locator("fieldset[data-factor=length] input[data-key=smallest]").bounding_box()
+    share = page.evaluate("(() => { const i = document.querySelector('fieldset[data-factor=length] input[data-key=smallest]'); return i.value / 1000; })()")
+    x, y = box["x"] + 11 + share * (box["width"] - 22), box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 60, y, steps=8)
+    page.mouse.up()
+    settled(page)
+    by_pointer = state(page)
+    expect(by_pointer != by_keys, "the pointer moves no slider")
+
+    page.locator("fieldset[data-factor=width] input[data-key=fix]").check()
+    settled(page)
+    expect("width" not in page.locator("#indices .body").inner_text(), "a fixed factor is still there")
+    page.locator("#settings select[aria-label=friction]").select_option("hk")
+    settled(page)
+    link = page.url
+    shown = state(page)
+
+    other = browser.open(page_file, fragment=link[link.index("#"):])
+    settled(other)
+    expect(state(other) == shown, "the link does not restore")
+    expect(other.locator("#lead").inner_text() == page.locator("#lead").inner_text(), "the link gives another result")
+    other.context.close()
+
+    page.locator("#toml").click()
+    page.wait_for_selector("#text[open]")
+    text = page.locator("#text textarea").input_value()
+    page.locator("#text button").click()
+    copied = folder / "copied.toml"
+    copied.write_text(text)
+    expected = native(arguments.program, copied, folder / "copied")
+    files = ask(page, {"wanted": "files", "text": text, "changes": []})
+    wrong = list(differences(numbers(expected), numbers(json.loads(files["study.json"]))))
+    expect(not wrong, f"copied study: {len(wrong)} numbers differ, such as {wrong[:3]}")
+    expect(expected["provenance"]["base_samples"] == 65536, "the copied study has other base samples")
+    for button, ending in (("json", ".json"), ("csv", ".csv"), ("svg", ".svg")):
+        with page.expect_download() as download:
+            page.locator(f"#{button}").click()
+        saved = Path(download.value.path()).read_bytes()
+        expect(download.value.suggested_filename.endswith(ending) and len(saved) > 500, f"no {button} to download")
+
+    for _ in range(2):
+        page.locator("#undo").click()
+    settled(page)
+    expect(state(page) == by_pointer, "undo does not go back")
+    page.locator("#redo").click()
+    page.locator("#reset").click()
+    settled(page)
+    expect(state(page) == before and "#s=" not in page.url, "reset does not give the study of the file")
+
+    # What cannot be is refused in words, and the page goes on.
+    field = page.locator("fieldset[data-factor=thickness] input[data-parameter=min]")
+    field.fill("99")
+    field.press("Tab")
+    page.wait_for_selector("#refused:not([hidden])")
+    expect("min" in page.locator("#refused").inner_text(), "a refusal without its reason")
+    page.locator("#undo").click()
+    settled(page)
+    expect(page.locator("#refused").is_hidden(), "a refusal that stays")
+
+    damaged = browser.open(page_file, fragment="#s=%%%damaged")
+    settled(damaged)
+    expect(state(damaged) == before, "a damaged link changes the study")
+    damaged.context.close()
+
+    silent = browser.open(page_file, scripts=False)
+    expect(silent.locator("#lead").inner_text().strip() and silent.locator("#indices svg").count() > 0, "nothing without scripts")
+    expect(silent.locator("noscript").count() == 1, "no word about scripts")
+    silent.context.close()
+    return page
+
+
+def drags(page, number):
+    """Memory before and after, and the time from a move to new bars."""
+    script = """async (number) => {
+      const input = document.querySelector('fieldset[data-factor=thickness] input[data-key=largest]');
+      const lead = document.getElementById('lead');
+      const times = [];
+      for (let i = 0; i < number; i++) {
+        const seen = new Promise((resolve) => new MutationObserver((_, o) => { o.disconnect(); resolve(); }).observe(lead, { childList: true }));
+        const begin = performance.now();
+        input.value = 500 + (i * 37) % 300;
+        input.dispatchEvent(new Event('input', { bubbles: true }));
+        await Promise.race([seen, new Promise((resolve) => setTimeout(resolve, 1000))]);
+        times.push(performance.now() - begin);
+      }
+      times.sort((a, b) => a - b);
+      return [times[Math.floor(number / 2)], times[Math.floor(number * 0.95)], document.body.dataset.samples];
+    }"""
+    memory = "(() => { if (window.gc) gc(); return performance.memory.usedJSHeapSize; })()"
+    page.evaluate(script, 20)
+    before = page.evaluate(memory)
+    median, slow, samples = page.evaluate(script, number)
+    after = page.evaluate(memory)
+    print(f"{number} moves of a slider: new bars after {median:.1f} ms (95 %: {slow:.1f} ms) with {samples} base points; heap {before / 1e6:.1f} -> {after / 1e6:.1f} MB")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--browser", default="chromium")
+    parser.add_argument("--engine", type=Path)
+    parser.add_argument("--shots", type=Path)
+    parser.add_argument("--drags", type=int, default=0)
+    arguments = parser.parse_args()
+    arguments.program = str(Path(arguments.program).resolve())
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        folder = Path(folder)
+        pages = {}
+        for name in STUDIES:
+            pages[name] = folder / f"{name}-live.html"
+            run(arguments.program, "live", ROOT / "studies" / f"{name}.toml", "--base-samples", SAMPLES, "--out", pages[name])
+            if arguments.engine:
+                page = pages[name].read_text()
+                begin = page.index('id="engine">') + len('id="engine">')
+                end = page.index("</script>", begin)
+                pages[name].write_text(page[:begin] + arguments.engine.read_text() + page[end:])
+            size = pages[name].stat().st_size
+            expect(size <= LARGEST_PAGE, f"{name}: the page has {size} bytes, more than {LARGEST_PAGE}")
+        browser = Browser(playwright, arguments.browser)
+        same_bits(arguments, browser, pages, folder)
+        page = behaviour(arguments, browser, pages["coulomb-general"], folder)
+        if arguments.drags:
+            drags(page, arguments.drags)
+        if arguments.shots:
+            arguments.shots.mkdir(parents=True, exist_ok=True)
+            for width, height in ((1280, 900), (390, 844)):
+                for dark in (False, True):
+                    shot = browser.open(pages["coulomb-general"], size=(width, height), dark=dark)
+                    settled(shot)
+                    name = f"live-{width}{'-dark' if dark else ''}.png"
+                    shot.screenshot(path=arguments.shots / name, full_page=True)
+    if found:
+        sys.exit(f"{len(found)} findings")
+    print("live pages: all well")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,179 @@
+//! Requests and their answers.
+
+use std::path::Path;
+
+use apportion::Study;
+use apportion::model::ModelKind;
+use apportion::report::document::{DataFile, symbols};
+use apportion::report::{ResultFile, run_document, study_setup};
+use apportion::study::{StudyError, edited};
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+/// What a page can ask of a study: its `text`, with `changes` as those of the program's `--set`.
+#[derive(Debug, Deserialize)]
+pub struct Request {
+    /// What is wanted of it.
+    #[serde(flatten)]
+    pub wanted: Wanted,
+    /// A study file.
+    pub text: String,
+    /// Changes to it, in order.
+    #[serde(default)]
+    pub changes: Vec<String>,
+}
+
+/// What is wanted.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "wanted", rename_all = "kebab-case")]
+pub enum Wanted {
+    /// The factors, choices and outputs of the study.
+    Description,
+    /// The text with the changes made.
+    Text,
+    /// A run: its lead and these sections of its document, with one output alone if it is named.
+    Run {
+        /// Anchors of sections.
+        sections: Vec<String>,
+        /// The output.
+        #[serde(default)]
+        output: Option<String>,
+    },
+    /// A run: its files for programs, and its charts as SVG.
+    Files,
+}
+
+/// An answer, or why there is none.
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Answer {
+    /// What was asked for.
+    Done(Value),
+    /// What is wrong with the study, in words for people.
+    Refused(String),
+}
+
+/// The answer to a request, both as JSON.
+pub fn answer(request: &[u8]) -> String {
+    let answer = serde_json::from_slice::<Request>(request).map_err(|error| error.to_string());
+    let answer = match answer.and_then(|request| request.answer()) {
+        Ok(value) => Answer::Done(value),
+        Err(words) => Answer::Refused(words),
+    };
+    // Serialisation fails on maps without text keys only, of which there is none.
+    serde_json::to_string(&answer).unwrap_or_default()
+}
+
+impl Request {
+    fn answer(&self) -> Result<Value, String> {
+        match &self.wanted {
+            Wanted::Text => edited(&self.text, &self.changes).map(Value::from).map_err(|error| in_words(&error)),
+            Wanted::Description => self.study().map(|study| description(&study)),
+            Wanted::Run { sections, output } => {
+                let result = self.result()?;
+                view(one_output(result, output.as_deref()), sections)
+            }
+            Wanted::Files => {
+                let document = run_document(&self.result()?);
+                let files = document.data_files();
+                let files = files.iter().map(|file| {
+                    let DataFile { name, text } = &**file;
+                    (name.clone(), Value::from(text.as_str()))
+                });
+                let charts = document.figures().into_iter().map(|figure| {
+                    let svg = figure.chart.svg().map_err(|error| error.to_string())?;
+                    Ok((format!("{}.svg", figure.stem), Value::from(svg)))
+                });
+                let charts: Vec<(String, Value)> = charts.collect::<Result<_, String>>()?;
+                Ok(Value::Object(files.chain(charts).collect()))
+            }
+        }
+    }
+
+    fn study(&self) -> Result<Study, String> {
+        let study = Study::parse(&self.text, Path::new("study.toml"), &self.changes);
+        study.map_err(|error| in_words(&error))
+    }
+
+    fn result(&self) -> Result<ResultFile, String> {
+        let study = self.study()?;
+        let analysis = study.run().map_err(|error| error.to_string())?;
+        Ok(ResultFile::new(&study, &analysis))
+    }
+}
+
+fn in_words(error: &StudyError) -> String {
+    error.to_string()
+}
+
+/// A result as if the study had the output of that name alone.
+fn one_output(mut result: ResultFile, output: Option<&str>) -> ResultFile {
+    if let Some(name) = output.filter(|name| result.outputs.iter().any(|output| output.name == *name)) {
+        result.outputs.retain(|output| output.name == name);
+        result.aggregate = None;
+    }
+    result
+}
+
+/// What is shown of a result: its lead and some sections as HTML, and the indices for those who read numbers.
+fn view(result: ResultFile, sections: &[String]) -> Result<Value, String> {
+    let document = run_document(&result);
+    let section = |id: &String| {
+        let html = document.section_html(id).map_err(|error| error.to_string())?;
+        let title = document.sections.iter().find(|section| section.id == *id).map(|section| symbols(&section.title));
+        Ok(html.map(|html| json!({ "id": id, "title": title, "html": html })))
+    };
+    let sections: Vec<Option<Value>> = sections.iter().map(section).collect::<Result<_, String>>()?;
+    Ok(json!({
+        "lead": document.lead.iter().map(|text| symbols(text)).collect::<Vec<_>>(),
+        "plain_lead": document.lead,
+        "sections": sections.into_iter().flatten().collect::<Vec<_>>(),
+        "runs": result.provenance.model_runs,
+        "base_samples": result.provenance.base_samples,
+    }))
+}
+
+/// What a page needs to offer a study for changes.
+fn description(study: &Study) -> Value {
+    let setup = study_setup(study);
+    let kind = ModelKind::from_name(&setup.model);
+    let inputs = kind.map(ModelKind::inputs).unwrap_or_default();
+    let factors = setup.factors.iter().zip(study.space().factors()).map(|(setup, factor)| {
+        let input = inputs.iter().find(|input| input.name == setup.name);
+        let reported = |u: f64| factor.distribution().quantile(u);
+        json!({
+            "name": setup.name,
+            "unit": setup.unit,
+            "group": factor.group,
+            "distribution": setup.distribution,
+            "nominal": setup.nominal,
+            "low": reported(0.005),
+            "high": reported(0.995),
+            "description": input.map(|input| &input.description),
+            "symbol": input.map(|input| symbols(&input.symbol)),
+        })
+    });
+    let choices = kind.map(ModelKind::choices).unwrap_or_default();
+    let choices = choices.iter().filter_map(|(name, values)| {
+        // Behind some names stands where they count.
+        let name = name.split(' ').next()?;
+        let value = setup.settings.get(name)?;
+        (values.len() > 1).then(|| json!({ "name": name, "values": values, "value": value }))
+    });
+    let model = study.model();
+    let outputs = model.outputs().iter().map(|output| json!({ "name": output.name, "unit": output.unit.to_string() }));
+    let all = kind.map(ModelKind::outputs).unwrap_or_default();
+    let all = all.iter().map(|output| json!({ "name": output.name, "unit": output.unit.to_string() }));
+    json!({
+        "title": setup.title,
+        "name": setup.name,
+        "model": setup.model,
+        "can_fix": matches!(setup.model.as_str(), "afm" | "expression"),
+        "factors": factors.collect::<Vec<_>>(),
+        "choices": choices.collect::<Vec<_>>(),
+        "outputs": outputs.collect::<Vec<_>>(),
+        "all_outputs": all.collect::<Vec<_>>(),
+        "base_samples": study.design().settings().base_samples,
+        "version": env!("CARGO_PKG_VERSION"),
+    })
+}
