@@ -86,7 +86,7 @@ fn the_first_paragraph_tells_what_the_intervals_bear() {
         ("dependent factors", of_file("portfolio", 1024)),
         ("stochastic", stochastic()),
         ("screened", screened("sobol-g", &[])),
-        ("screened by derivatives", screened("ishigami", &["--design", "derivative", "--base-samples", "256"])),
+        ("screened by derivatives", screened("ishigami", &["--design", "derivative", "--trajectories", "256"])),
     ];
     let all: String = kinds.iter().map(|(kind, text)| format!("{kind}:\n{text}\n\n")).collect();
     insta::assert_snapshot!(all.trim_end());

@@ -199,8 +199,8 @@ pub(super) fn all_shares(studies: &[Reproduced]) -> Vec<Vec<Cell>> {
                 words(factor).into(),
                 give_or_take(effect.first_order).into(),
                 give_or_take(effect.total).into(),
-                plain(percent(effect.share_first_order, effect.share_first_order_interval)),
-                plain(percent(effect.share_total, effect.share_total_interval)),
+                plain(percent(effect.share_first_order, None)),
+                plain(percent(effect.share_total, None)),
                 printed.map_or_else(String::new, |(_, share)| share.to_string()).into(),
             ]);
         }

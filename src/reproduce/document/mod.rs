@@ -111,7 +111,7 @@ fn shares_section(reproduction: &Reproduction) -> Option<Section> {
         return None;
     }
     let caption = "First-order and total indices of every study with their 95 % intervals, their shares, and the \
-                   percentages that LG prints.";
+                   percentages that LG prints; the CSV file has the intervals of the shares too.";
     let columns = [
         Column::text("study"),
         Column::text("factor"),
