@@ -16,8 +16,8 @@
 //!
 //! Without default features the crate is the engine, the physics of the nanoparticle and the known functions. `study` adds
 //! study files, programs as models and [`exchange`]; `parquet` its tables in Parquet; `charts` adds [`report`]: results as
-//! JSON, text, CSV and SVG; `png` its charts as pictures; `page` its pages and folders of files. `cli`, the default, is the
-//! program with all of them, and `mpi` the same on the ranks of an MPI job.
+//! JSON, text, CSV and SVG; `png` its charts as pictures, `pdf` as figures of papers; `page` its pages and folders of files.
+//! `cli`, the default, is the program with all of them, and `mpi` the same on the ranks of an MPI job.
 //!
 //! # An example
 //!
@@ -99,6 +99,7 @@ pub mod salib;
 pub mod screening;
 #[doc(hidden)]
 pub mod space;
+mod special;
 #[doc(hidden)]
 pub mod study;
 #[doc(hidden)]

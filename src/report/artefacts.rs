@@ -10,6 +10,8 @@ use thiserror::Error;
 
 use super::atomic_write::{WriteError, prepare_folder, prepare_in, write_in};
 use super::chart::{ChartError, ChartWidth};
+#[cfg(feature = "pdf")]
+use super::chart::{PdfError, pdf};
 #[cfg(feature = "png")]
 use super::chart::{PngError, png};
 use super::document::{Document, DocumentError};
@@ -41,6 +43,18 @@ pub enum ArtefactError {
         /// Why.
         source: PngError,
     },
+    /// A chart cannot be turned into a page.
+    #[cfg(feature = "pdf")]
+    #[error("cannot draw {file}: {source}")]
+    Pdf {
+        /// The chart.
+        file: String,
+        /// Why.
+        source: PdfError,
+    },
+    /// PDF is asked for, and the library was built without the feature that writes it.
+    #[error("charts in PDF need the feature `pdf`, which this build does not have")]
+    WithoutPdf,
     /// PNG is asked for, and the library was built without the feature that draws it.
     #[error("charts in PNG need the feature `png`, which this build does not have")]
     WithoutPng,
@@ -100,7 +114,7 @@ pub struct Written {
 impl Artefacts {
     /// Files in `folder`, charts as SVG and PNG.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: folder.into(), formats: ChartFormat::ALL.to_vec(), width: ChartWidth::Wide, input: None }
+        Self { folder: folder.into(), formats: ChartFormat::USUAL.to_vec(), width: ChartWidth::Wide, input: None }
     }
 
     /// The same with charts in these formats; none for no charts.
@@ -193,6 +207,12 @@ impl Artefacts {
                     ChartFormat::Png => png(&svg)
                         .map(|picture| Cow::Owned(picture.bytes))
                         .map_err(|source| ArtefactError::Png { file: figure.stem.clone(), source }),
+                    #[cfg(not(feature = "pdf"))]
+                    ChartFormat::Pdf => Err(ArtefactError::WithoutPdf),
+                    #[cfg(feature = "pdf")]
+                    ChartFormat::Pdf => pdf(&svg)
+                        .map(Cow::Owned)
+                        .map_err(|source| ArtefactError::Pdf { file: figure.stem.clone(), source }),
                 };
                 self.put(&chart_path(&figure.stem, *format), stop, bytes).map(|_| ())
             })

@@ -14,17 +14,22 @@ pub enum ChartFormat {
     Svg,
     /// Pixels.
     Png,
+    /// A page of vectors and text, for papers.
+    Pdf,
 }
 
 impl ChartFormat {
     /// All formats.
-    pub const ALL: [Self; 2] = [Self::Svg, Self::Png];
+    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Pdf];
+    /// The formats that are written where none is asked for.
+    pub const USUAL: [Self; 2] = [Self::Svg, Self::Png];
 
     /// The ending of its files.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Svg => "svg",
             Self::Png => "png",
+            Self::Pdf => "pdf",
         }
     }
 }

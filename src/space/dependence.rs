@@ -6,8 +6,9 @@ use nalgebra::DMatrix;
 use thiserror::Error;
 
 use super::copula::{GaussianCopula, from_score};
-use super::distribution::{Distribution, standard_quantile};
+use super::distribution::Distribution;
 use super::{Factor, Space};
+use crate::special::normal_quantile;
 
 /// What a correlation is a correlation of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -327,7 +328,7 @@ fn rank_scores(column: &[f64]) -> Vec<f64> {
     while first < order.len() {
         let equal = order[first..].iter().take_while(|row| column[**row] == column[order[first]]).count().max(1);
         let rank = first as f64 + (equal + 1) as f64 / 2.0;
-        let score = standard_quantile(rank / (column.len() + 1) as f64);
+        let score = normal_quantile(rank / (column.len() + 1) as f64);
         order[first..first + equal].iter().for_each(|row| scores[*row] = score);
         first += equal;
     }

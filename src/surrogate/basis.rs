@@ -1,9 +1,8 @@
 //! Orthonormal polynomials of the factors: the terms of a surrogate.
 
-use statrs::distribution::{ContinuousCDF, Normal};
-
 use super::own::{OwnPolynomials, Recurrence};
 use crate::space::Distribution;
+use crate::special::normal_quantile;
 
 /// Most factors in a term of the first candidates.
 const MOST_FACTORS: usize = 3;
@@ -288,8 +287,7 @@ pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
             }
         }
         Family::Hermite => {
-            let normal = Normal::standard();
-            let x: Vec<f64> = u.iter().map(|&u| normal.inverse_cdf(u)).collect();
+            let x: Vec<f64> = u.iter().map(|&u| normal_quantile(u)).collect();
             let (mut before, mut now) = (vec![1.0; u.len()], x.clone());
             for k in 1..=degree {
                 let n = k as f64;

@@ -1,7 +1,5 @@
 //! Intervals from the outputs of every base point of a random design.
 
-use statrs::distribution::{ContinuousCDF, Normal};
-
 use super::bootstrap::resampled;
 use super::delta::{InfluenceSums, influence_sums};
 use super::method::IntervalMethod;
@@ -9,6 +7,7 @@ use super::net_decay::StandardError;
 use super::points::KeptPoints;
 use super::{Interval, LEVEL, t_interval};
 use crate::estimate::{Moments, Products};
+use crate::special::{normal_below, normal_quantile};
 
 /// Share of resamples in which a quantity may be undefined before it has no interval.
 const UNDEFINED: f64 = 0.01;
@@ -97,17 +96,16 @@ pub(crate) fn quantile(sorted: &[f64], p: f64) -> f64 {
 /// normal quantile of the share of them below the estimate, where equal ones count half and at least half a value is on
 /// either side. `None` if the acceleration is unknown.
 fn bca_tails(sorted: &[f64], estimate: f64, acceleration: f64) -> Option<[f64; 2]> {
-    let normal = Normal::new(0.0, 1.0).ok()?;
     let below = sorted.partition_point(|x| *x < estimate);
     let equal = sorted.partition_point(|x| *x <= estimate) - below;
     let n = sorted.len() as f64;
     let share = (below as f64 + equal as f64 / 2.0).clamp(0.5, n - 0.5) / n;
-    let bias = normal.inverse_cdf(share);
+    let bias = normal_quantile(share);
     let tail = |p: f64| {
-        let z = bias + normal.inverse_cdf(p);
+        let z = bias + normal_quantile(p);
         let left = 1.0 - acceleration * z;
         // Beyond its pole the transformation has run off to the end.
-        if left > 0.0 { normal.cdf(bias + z / left) } else { f64::from(u8::from(z > 0.0)) }
+        if left > 0.0 { normal_below(bias + z / left) } else { f64::from(u8::from(z > 0.0)) }
     };
     acceleration.is_finite().then(|| [tail((1.0 - LEVEL) / 2.0), tail((1.0 + LEVEL) / 2.0)])
 }

@@ -42,7 +42,7 @@ pub use output::{IntervalOptions, differs_clearly, output_indices, output_moment
 pub use points::KeptPoints;
 pub use ranks::{probability_above, probability_first};
 
-use statrs::distribution::{ContinuousCDF, StudentsT};
+use crate::special::t_quantile_outside;
 
 /// Confidence level of every interval.
 pub const LEVEL: f64 = 0.95;
@@ -81,14 +81,13 @@ pub fn t_interval(estimate: f64, error: StandardError) -> Option<Interval> {
 /// The quantile of Student's t distribution for a two-sided interval at [`LEVEL`]; `None` without degrees of freedom.
 fn t_quantile(freedom: f64) -> Option<f64> {
     // Beyond this many the quantile is the normal one with its first correction (Abramowitz and Stegun 1964, 26.7.5), to
-    // 1e-8; the search of statrs does not end for very many.
+    // 1e-8.
     const MANY: f64 = 1e4;
     if freedom > MANY {
         let z = NORMAL_QUANTILE;
         return Some(z + (z.powi(3) + z) / (4.0 * freedom)).filter(|_| freedom.is_finite());
     }
-    let t = StudentsT::new(0.0, 1.0, freedom).ok()?;
-    Some(t.inverse_cdf((1.0 + LEVEL) / 2.0)).filter(|quantile| quantile.is_finite())
+    (freedom > 0.0).then(|| t_quantile_outside(1.0 - LEVEL, freedom)).filter(|quantile| quantile.is_finite())
 }
 
 #[cfg(test)]

@@ -3,9 +3,9 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{ChiSquared, Distribution, StandardNormal};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::net_decay::{PartInfluences, StandardError};
+use crate::special::t_above;
 
 /// Draws behind each probability: its own error is then below 0.008.
 const DRAWS: usize = 4096;
@@ -92,8 +92,8 @@ pub fn probability_above(estimate: f64, error: StandardError, threshold: f64) ->
     if error.error == 0.0 {
         return Some(f64::from(u8::from(estimate > threshold)));
     }
-    let t = StudentsT::new(0.0, 1.0, error.freedom).ok().filter(|_| error.error.is_finite())?;
-    Some(t.cdf((estimate - threshold) / error.error))
+    let is_known = error.freedom > 0.0 && error.error.is_finite();
+    is_known.then(|| t_above((threshold - estimate) / error.error, error.freedom))
 }
 
 #[cfg(test)]

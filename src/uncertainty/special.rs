@@ -1,7 +1,5 @@
 //! The few special functions that variance components need.
 
-use statrs::function::gamma::digamma;
-
 /// Bias of the logarithm of a mean square with `freedom` degrees of freedom: E ln(chi^2_f / f) = psi(f/2) - ln(f/2).
 pub(super) fn log_bias(freedom: f64) -> f64 {
     digamma(freedom / 2.0) - libm::log(freedom / 2.0)
@@ -26,6 +24,19 @@ pub(super) fn freedom_of_log_variance(variance: f64) -> f64 {
         }
     }
     2.0 * x
+}
+
+/// psi(x) for x > 0: the recurrence psi(x) = psi(x + 1) - 1/x up to 10, then the asymptotic series (Abramowitz and Stegun 1964,
+/// 6.3.18), whose first term left out is below 1e-15 there.
+fn digamma(x: f64) -> f64 {
+    let (mut sum, mut x) = (0.0, x);
+    while x < 10.0 {
+        sum -= 1.0 / x;
+        x += 1.0;
+    }
+    let y = 1.0 / (x * x);
+    let series = y * (1.0 / 12.0 - y * (1.0 / 120.0 - y * (1.0 / 252.0 - y * (1.0 / 240.0 - y * (1.0 / 132.0)))));
+    sum + libm::log(x) - 0.5 / x - series
 }
 
 /// psi'(x) for x > 0: the recurrence psi'(x) = psi'(x + 1) + 1/x^2 up to 10, then the asymptotic series (Abramowitz and

@@ -189,11 +189,13 @@ const interrupt = () => {
   if (flying > 2 * quick) cancel();
 };
 const drag = () => {
+  document.body.dataset.samples = "0";
   goal = {};
   interrupt();
   pump();
 };
 const settle = () => {
+  document.body.dataset.samples = "0";
   goal = { samples: FEWEST };
   interrupt();
   pump();

@@ -80,6 +80,8 @@ for (const frame of all(".frame iframe")) {
     if (frame.contentDocument && frame.contentDocument.body) new ResizeObserver(fit).observe(frame.contentDocument.body);
   };
   frame.addEventListener("load", watch);
+  // What is folded has no height yet.
+  addEventListener("toggle", fit, true);
   if (frame.contentDocument && frame.contentDocument.readyState === "complete") watch();
 }
 

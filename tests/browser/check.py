@@ -143,6 +143,8 @@ def look(page, path):
             found.append(f"link to {href}, which is no file beside the page")
     # Lazy frames load when they come into view.
     for frame in page.query_selector_all("iframe"):
+        # A folded one has no height before it is unfolded.
+        frame.evaluate("frame => { const folded = frame.closest('details'); if (folded) folded.open = true; }")
         frame.scroll_into_view_if_needed()
         page.wait_for_timeout(400)
         inside = frame.content_frame()
@@ -154,6 +156,7 @@ def look(page, path):
             found.append(f"frame {frame.get_attribute('title')!r} hides {hidden} px of its height")
         if inside.evaluate("document.scrollingElement.scrollWidth > innerWidth"):
             found.append(f"frame {frame.get_attribute('title')!r} scrolls sideways")
+        frame.evaluate("frame => { const unfolded = frame.closest('details'); if (unfolded) unfolded.open = false; }")
     page.evaluate("scrollTo(0, 0)")
     return found
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use apportion::report::{ResultFile, run_document};
 use apportion::{Distribution, FunctionModel, SeriesAxis, Study, Unit};
 
-use crate::common::analysed;
+use crate::common::{analysed, study_path, succeed, text};
 
 /// The paragraphs at the top of the page on `y` = `formula` of a, b and c between 0 and 1.
 fn of(formula: &str, design: &str) -> String {
@@ -40,6 +40,27 @@ fn series() -> String {
     lead(&ResultFile::new(&study, &study.run().unwrap()))
 }
 
+/// y = a + b + 3 (a - 1/2)(b - 1) + c e, e a number that is drawn anew in every run.
+fn stochastic() -> String {
+    let model = apportion::function_model("y", |x: &[f64]| {
+        let e = (x[3] + 0.5) / 2f64.powi(30) - 1.0;
+        x[0] + x[1] + 3.0 * (x[0] - 0.5) * (x[1] - 1.0) + x[2] * e
+    });
+    let uniform = |max| Distribution::uniform(0.0, max).unwrap();
+    let study = Study::builder("noisy", model).factor("a", uniform(1.0)).factor("b", uniform(2.0));
+    let study =
+        study.factor("c", uniform(1.0)).factor("seed", Distribution::seed()).base_samples(1024).build().unwrap();
+    lead(&ResultFile::new(&study, &study.run().unwrap()))
+}
+
+/// What the program prints of a screening before its first table.
+fn screened(study: &str, more: &[&str]) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let study = study_path(study);
+    let said = succeed(&[&["screen", text(&study), "--charts", "none", "--out", text(folder.path())], more].concat());
+    said.split("\n\n").next().unwrap_or_default().to_owned()
+}
+
 fn of_file(name: &str, base_samples: u64) -> String {
     lead(&analysed(name, &[&format!("design.base_samples={base_samples}")]))
 }
@@ -63,6 +84,9 @@ fn the_first_paragraph_tells_what_the_intervals_bear() {
             of("4*a+2*b*c", "base_samples = 64\nreplicates = 1\n[analysis]\nintervals = 'replicates'"),
         ),
         ("dependent factors", of_file("portfolio", 1024)),
+        ("stochastic", stochastic()),
+        ("screened", screened("sobol-g", &[])),
+        ("screened by derivatives", screened("ishigami", &["--design", "derivative", "--trajectories", "256"])),
     ];
     let all: String = kinds.iter().map(|(kind, text)| format!("{kind}:\n{text}\n\n")).collect();
     insta::assert_snapshot!(all.trim_end());

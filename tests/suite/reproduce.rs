@@ -106,8 +106,8 @@ fn the_whole_is_the_same_on_any_number_of_threads_and_its_page_leads_nowhere_els
     }
     let drawn =
         |ending: &str| first.keys().filter(|name| name.starts_with("charts/") && name.ends_with(ending)).count();
-    // 34 figures, and the two charts of the readings, whose data are tables of their own.
-    assert_eq!((drawn(".svg"), drawn(".png")), (36, 36));
+    // 34 figures, two that put level curves together, and the two charts of the readings, whose data are tables of their own.
+    assert_eq!((drawn(".svg"), drawn(".png")), (38, 38));
     assert!(drawn(".csv") >= 34);
     let page = std::fs::read_to_string(one.path().join("index.html")).unwrap();
     for part in page.split("href=\"").skip(1) {
@@ -118,10 +118,27 @@ fn the_whole_is_the_same_on_any_number_of_threads_and_its_page_leads_nowhere_els
     }
     assert!(page.contains("href=\"charts/ts04-14-animation.csv\""));
     assert!(!page.contains("src=\"http") && !page.contains("url(http") && !page.contains("@import"));
-    for expected in ["Which factor matters most", "Are the papers right?", "CHK fig. 16", "LG fig. 4c", "TS04 fig. 13"]
-    {
+    for expected in [
+        "Which factor matters most",
+        "Are the papers right?",
+        "<b>CHK fig. 16, LG fig. 4c.</b>",
+        "<b>CHK fig. 9, CHK fig. 11.</b>",
+        "<b>LG fig. 2d, LG fig. 3c.</b>",
+        "TS04 fig. 13",
+        "printed for LuGre (diamonds) are 74 % for elastic modulus and 26 % for velocity",
+    ] {
         assert!(page.contains(expected), "{expected}");
     }
+    // Papers are named in full before their initials are used, and what all captions would say is said once.
+    let first = |words: &str| page.find(words).unwrap_or_else(|| panic!("{words}"));
+    assert!(first("A. Tafazzoli and M. Sitti (2004)") < first("CHK fig.") && first("M. H. Korayem") < first("LG fig."));
+    assert_eq!(
+        page.matches("quasi-static rung").count(),
+        1 + page.matches("differs from the closed forms by at most").count()
+    );
+    // All readings stand in one table.
+    let heads = ["friction", "output", "measure"].map(|name| format!("<th scope=\"col\">{name}</th>")).concat();
+    assert_eq!(page.matches(&heads).count(), 1);
 }
 
 #[test]

@@ -153,7 +153,9 @@ impl<'a> Sheet<'a> {
             let page = if self.layout.columns == 1 { self.layout.page } else { ChartWidth::Wide };
             plot.title(canvas, &panel.title, (self.rise(), page));
         }
-        plot.x_grid(canvas, x);
+        if panel.tiles().next().is_none() {
+            plot.x_grid(canvas, x);
+        }
         if panel.has_rows() {
             flags::draw(canvas, plot, &self.flags);
             self.rows(canvas);

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use super::font::FAMILIES;
 use super::palette::Colour;
 use super::style::{BODY, INK, MARGIN, MUTED, Medium, PAPER, PaperWidth, TITLE};
-use super::svg::{Canvas, Px, Text};
+use super::svg::{Attributes, Canvas, Px, Text};
 use super::text::{wrap, wrap_within};
 
 /// Gap between a key and its name, px.
@@ -157,7 +157,14 @@ impl<'a> Figure<'a> {
         match key {
             Key::Swatch(colour) => {
                 let (left, top, fill) = (Px(x), Px(y - 5.0), colour.hex());
-                canvas.leaf("rect", &[("x", &left), ("y", &top), ("width", &"12"), ("height", &"10"), ("fill", &fill)]);
+                let area: Attributes =
+                    &[("x", &left), ("y", &top), ("width", &"12"), ("height", &"10"), ("fill", &fill)];
+                // The lightest shades are told from the paper by it, as in the map.
+                let rim: Attributes = match colour {
+                    Colour::Shade(_) => &[("stroke", &MUTED), ("stroke-width", &"0.6")],
+                    _ => &[],
+                };
+                canvas.leaf("rect", &[area, rim].concat());
             }
             Key::Line { colour, dash, line, points } => {
                 if line {

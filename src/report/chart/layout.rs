@@ -22,11 +22,10 @@ const NEAR_ZERO: f64 = 0.4;
 const LONGEST_NAME: f64 = 220.0;
 const LONGEST_NOTE: f64 = 150.0;
 const LONGEST_SLOPE: (f64, f64) = (120.0, 64.0);
-/// Height of a bar among several in a row, of one with a label, of one with a published value too, and least height of the
-/// bars of a row, px.
+/// Height of a bar among several in a row, of one with a label or a published value, and least height of the bars of a row,
+/// px.
 const LANE: f64 = 6.0;
 const LABELLED_LANE: f64 = 10.0;
-const SHARED_LANE: f64 = 17.0;
 const LEAST_BARS: f64 = 16.0;
 /// Between the bars of two rows, px.
 pub(super) const ROW_GAP: f64 = 8.0;
@@ -101,8 +100,7 @@ impl Rows {
     fn new(panels: &[Panel], page: ChartWidth) -> Self {
         let bars = || panels.iter().flat_map(Panel::bars);
         let lane = match () {
-            () if bars().any(|(_, bar)| bar.diamond().is_some()) => SHARED_LANE,
-            () if bars().any(|(_, bar)| !bar.label.is_empty()) => LABELLED_LANE,
+            () if bars().any(|(_, bar)| !bar.label.is_empty() || bar.diamond().is_some()) => LABELLED_LANE,
             () => LANE,
         };
         let in_row = |panel: &Panel, row| panel.bars().filter(|(_, bar)| bar.row == row).count();
@@ -276,7 +274,11 @@ fn room_for_labels(panels: &[Panel], values: &[f64], width: f64) -> Option<f64> 
     let needed = panels.iter().flat_map(Panel::bars).filter_map(|(_, bar)| {
         let room = (VALUE.width(&bar.label) + LABEL_ROOM).min(0.5 * width);
         let bar = bar.drawn().filter(|bar| !bar.label.is_empty())?;
-        drawable(low + (bar.right() - low) * width / (width - room))
+        // The label may have to stand behind the published value.
+        let (right, diamond) = (bar.right(), bar.diamond().unwrap_or(f64::NEG_INFINITY));
+        let behind = low + (right - low) * width / (width - room);
+        let right = if diamond < behind { right.max(diamond) } else { right };
+        drawable(low + (right - low) * width / (width - room))
     });
     needed.reduce(f64::max)
 }

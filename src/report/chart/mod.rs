@@ -1,7 +1,7 @@
-//! Charts as SVG text and PNG pictures, all in one style.
+//! Charts as SVG text, PNG pictures and PDF pages, all in one style.
 //!
 //! A [`Chart`] is plain data: panels of marks on axes, each mark of a [`Series`]. One layout and one drawing pass turn it
-//! into SVG, and [`png()`] turns the SVG into a picture. Colours belong to series by number, see [`Colour`].
+//! into SVG; [`png()`] turns the SVG into a picture, and `pdf()` into a page of vectors and text. Colours belong to series by number, see [`Colour`].
 //! The same data give the same bytes. Text stays text, is escaped, and is laid out with the advances of
 //! the embedded faces, which are those of Arial. Numbers that cannot be drawn (not finite, or beyond
 //! 1e300) appear as missing values or gaps.
@@ -18,6 +18,10 @@ mod layout;
 mod model;
 mod palette;
 mod path;
+#[cfg(feature = "pdf")]
+mod pdf;
+#[cfg(feature = "pdf")]
+mod pdf_font;
 mod plot;
 #[cfg(feature = "png")]
 mod png;
@@ -38,6 +42,8 @@ pub use error::ChartError;
 pub use film_strip::{FilmStrip, Look, Sketch};
 pub use model::{Arrangement, Axis, Bar, Chart, Drawing, Mark, Panel, Picture, Point, Series, Shape, Stroke, Tile};
 pub use palette::Colour;
+#[cfg(feature = "pdf")]
+pub use pdf::{PdfError, pdf};
 #[cfg(feature = "png")]
 pub use png::{PNG_SCALE, Png, PngError, png};
 pub use scale::Spacing;

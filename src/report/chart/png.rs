@@ -62,6 +62,11 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
+/// How SVG is read: with the embedded faces alone.
+pub(super) fn options() -> Options<'static> {
+    Options { font_family: FAMILY.to_owned(), fontdb: FONTS.clone(), ..Options::default() }
+}
+
 /// Pixels per inch of a picture for paper, as journals want them of lines and letters.
 const PAPER_DPI: f64 = 600.0;
 /// Pixels per inch of 1 px of an SVG (CSS).
@@ -83,8 +88,7 @@ const CSS_DPI: f64 = 96.0;
 pub fn png(svg: &str) -> Result<Png, PngError> {
     let document = roxmltree::Document::parse(svg).map_err(|error| PngError::Xml(error.to_string()))?;
     let missing = missing(&document);
-    let options = Options { font_family: FAMILY.to_owned(), fontdb: FONTS.clone(), ..Options::default() };
-    let tree = Tree::from_xmltree(&document, &options).map_err(|error| PngError::Svg(error.to_string()))?;
+    let tree = Tree::from_xmltree(&document, &options()).map_err(|error| PngError::Svg(error.to_string()))?;
     let is_paper = document.root_element().attribute("width").is_some_and(|width| width.ends_with("mm"));
     let scale = if is_paper { PAPER_DPI / CSS_DPI } else { f64::from(PNG_SCALE) };
     let width = (f64::from(tree.size().width()) * scale).ceil();
@@ -119,8 +123,7 @@ fn with_density(mut png: Vec<u8>, dpi: f64) -> Vec<u8> {
 #[cfg(test)]
 pub(super) fn extent(svg: &str) -> ([f32; 4], [f32; 2]) {
     let document = roxmltree::Document::parse(svg).expect("well-formed");
-    let options = Options { font_family: FAMILY.to_owned(), fontdb: FONTS.clone(), ..Options::default() };
-    let tree = Tree::from_xmltree(&document, &options).expect("an SVG");
+    let tree = Tree::from_xmltree(&document, &options()).expect("an SVG");
     let bounds = tree.root().abs_bounding_box();
     let size = tree.size();
     ([bounds.left(), bounds.top(), bounds.right(), bounds.bottom()], [size.width(), size.height()])

@@ -5,6 +5,7 @@ use super::layout::{ROW_GAP, TEXT_GAP, row_name, row_note};
 use super::model::{Bar, Mark, Panel, Series, Shape, drawable_pair};
 use super::style::{INK, MARGIN, MUTED, PAPER, TICK, VALUE};
 use super::svg::{Anchor, Canvas, Px, Text};
+use super::symbols::HALF_DIAMOND;
 use super::text::shorten;
 
 /// Between two cells of a map, px.
@@ -19,13 +20,9 @@ struct Lane<'a> {
 }
 
 impl Lane<'_> {
-    fn at(&self, part: f64) -> f64 {
-        self.top + part * self.height
-    }
-
-    /// The height of interval and label: a published value stands below them.
-    fn upper(&self) -> f64 {
-        self.at(if self.bar.diamond().is_some() { 0.25 } else { 0.5 })
+    /// The height of interval, published value and label.
+    fn middle(&self) -> f64 {
+        self.top + 0.5 * self.height
     }
 }
 
@@ -43,8 +40,8 @@ impl<'a> Sheet<'a> {
             canvas.line((x, self.plot.top), (x, self.plot.bottom()));
             canvas.close("g");
         }
-        self.intervals(canvas, &lanes);
         self.published(canvas, &lanes);
+        self.intervals(canvas, &lanes);
         self.values(canvas, &lanes);
         canvas.open("g", &[("class", &"rows")]);
         for row in rows {
@@ -162,7 +159,7 @@ impl<'a> Sheet<'a> {
     fn intervals(&self, canvas: &mut Canvas, lanes: &[Lane<'_>]) {
         let of_lane = |lane: &Lane<'_>| {
             let (low, high) = lane.bar.drawn().and_then(|bar| bar.interval)?;
-            Some((self.x(low).zip(self.x(high))?, lane.upper(), (lane.height - 2.0).min(7.0)))
+            Some((self.x(low).zip(self.x(high))?, lane.middle(), (lane.height - 2.0).min(7.0)))
         };
         let of_bars: Vec<_> = lanes.iter().filter_map(of_lane).collect();
         canvas.open("g", &[("class", &"rims")]);
@@ -186,7 +183,7 @@ impl<'a> Sheet<'a> {
         canvas.open("g", &[("class", &"published")]);
         for lane in lanes {
             if let Some(x) = lane.bar.diamond().and_then(|value| self.x(value)) {
-                canvas.diamond((x, lane.at(0.75)));
+                canvas.diamond((x, lane.middle()));
             }
         }
         canvas.close("g");
@@ -196,13 +193,17 @@ impl<'a> Sheet<'a> {
     fn values(&self, canvas: &mut Canvas, lanes: &[Lane<'_>]) {
         canvas.open("g", &[("class", &"values")]);
         for lane in lanes {
-            let baseline = lane.upper() + VALUE.cap_height() / 2.0;
+            let baseline = lane.middle() + VALUE.cap_height() / 2.0;
             let (end, label, fill) = match lane.bar.drawn() {
                 Some(bar) => (bar.right(), lane.bar.label.as_str(), INK),
                 None if lane.bar.label.is_empty() => (self.cell.panel.base(), "no value", MUTED),
                 None => (self.cell.panel.base(), lane.bar.label.as_str(), MUTED),
             };
             if let Some(x) = self.x(end).filter(|_| !label.is_empty()) {
+                // A published value that would stand in it goes before it.
+                let diamond = lane.bar.diamond().and_then(|value| self.x(value)).map(|at| at + HALF_DIAMOND);
+                let covered = x..x + 2.0 * (TEXT_GAP + HALF_DIAMOND) + VALUE.width(label);
+                let x = diamond.filter(|right| covered.contains(right)).unwrap_or(x);
                 canvas.text(&Text::new(label, (x + TEXT_GAP, baseline), VALUE).fill(fill).halo());
             }
         }

@@ -8,12 +8,13 @@ use super::svg::{Canvas, Px};
 pub(super) type Ends = Option<(f64, f64)>;
 
 /// Half the diagonal of a diamond, px.
-const DIAMOND: f64 = 4.2;
+pub(super) const HALF_DIAMOND: f64 = 4.2;
 
 impl Canvas {
     /// A hollow diamond: a value from elsewhere.
     pub fn diamond(&mut self, (x, y): (f64, f64)) {
-        let (left, right, top, bottom) = (Px(x - DIAMOND), Px(x + DIAMOND), Px(y - DIAMOND), Px(y + DIAMOND));
+        let (left, right, top, bottom) =
+            (Px(x - HALF_DIAMOND), Px(x + HALF_DIAMOND), Px(y - HALF_DIAMOND), Px(y + HALF_DIAMOND));
         let d = format!("M{left} {y}L{x} {top}L{right} {y}L{x} {bottom}Z", x = Px(x), y = Px(y));
         self.leaf("path", &[("d", &d), ("fill", &PAPER), ("stroke", &INK), ("stroke-width", &"1.2")]);
     }

@@ -41,6 +41,7 @@ pub(super) fn check(sections: &[&Section]) -> Result<(), DocumentError> {
 fn collect<'a>(parts: &'a [Part], (anchors, links): (&mut Vec<&'a str>, &mut Vec<&'a str>)) {
     super::visit(parts, &mut |part| match part {
         Part::Figure(figure) => anchors.push(&figure.id),
+        Part::Gallery(figures) => anchors.extend(figures.iter().map(|figure| figure.id.as_str())),
         Part::Table(table) => {
             let cells = || table.rows.iter().flatten();
             links.extend(cells().filter_map(|cell| cell.to.as_deref()));

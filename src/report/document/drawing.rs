@@ -4,14 +4,24 @@ use crate::report::chart::{Chart, ChartError, ChartWidth};
 
 /// The two drawings of a chart; the page shows one of them.
 pub(super) struct Drawings {
+    /// For a column; empty for a small figure.
     pub wide: String,
+    /// For a phone, or half of a column.
     pub narrow: String,
 }
 
-/// The drawings of `chart` as elements whose identifiers begin with `id`.
-pub(super) fn drawings(id: &str, chart: &Chart) -> Result<Drawings, ChartError> {
-    let drawn = |width, suffix: &str| chart.inline(width).map(|svg| named(&svg, &format!("{id}-{suffix}")));
-    Ok(Drawings { wide: drawn(ChartWidth::Wide, "wide")?, narrow: drawn(ChartWidth::Narrow, "narrow")? })
+impl Drawings {
+    /// The drawings of `chart` as elements whose identifiers begin with `id`.
+    pub fn of(id: &str, chart: &Chart) -> Result<Self, ChartError> {
+        let wide = named(&chart.inline(ChartWidth::Wide)?, &format!("{id}-wide"));
+        Ok(Self { wide, ..Self::small(id, chart)? })
+    }
+
+    /// The small one alone.
+    pub fn small(id: &str, chart: &Chart) -> Result<Self, ChartError> {
+        let narrow = named(&chart.inline(ChartWidth::Narrow)?, &format!("{id}-narrow"));
+        Ok(Self { wide: String::new(), narrow })
+    }
 }
 
 /// The picture with its title and description tied to it by identifiers, which not every browser does by itself.

@@ -4,10 +4,10 @@ use askama::Template;
 use thiserror::Error;
 
 use super::anchors::{check, href};
-use super::drawing::{Drawings, drawings};
+use super::drawing::Drawings;
 use super::symbols::{clean, escaped, symbols};
 use super::{Cell, Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
-use crate::report::chart::ChartError;
+use crate::report::chart::{Chart, ChartError};
 use crate::report::file_names::{CHARTS, ChartFormat};
 use crate::report::format::minus;
 
@@ -68,6 +68,8 @@ enum PartView<'a> {
     Notice { mark: &'static str, symbol: &'static str, kind: String, texts: Vec<String> },
     Frame { title: String, html: String },
     Details { summary: String, body: String },
+    Gallery { body: String },
+    OnScreen { instead: String, body: String },
     Figure { id: &'a str, words: FigureWords, drawings: Drawings, links: Vec<LinkView> },
     Table(TableView),
 }
@@ -201,13 +203,24 @@ impl Surroundings<'_> {
             Part::Details { summary, parts } => {
                 PartView::Details { summary: symbols(summary), body: self.parts(parts)? }
             }
-            Part::Figure(figure) => self.figure(figure)?,
+            Part::OnScreen { instead, parts } => {
+                PartView::OnScreen { instead: symbols(instead), body: self.parts(parts)? }
+            }
+            Part::Figure(figure) => self.figure(figure, Drawings::of)?,
+            Part::Gallery(figures) => {
+                let small = figures.iter().map(|figure| Ok(self.figure(figure, Drawings::small)?.render()? + "\n"));
+                PartView::Gallery { body: small.collect::<Result<_, DocumentError>>()? }
+            }
             Part::Table(table) => PartView::Table(table_view(table)),
         };
         Ok(view.render()?.trim_start().to_owned() + "\n")
     }
 
-    fn figure<'a>(&self, figure: &'a Figure) -> Result<PartView<'a>, DocumentError> {
+    fn figure<'a>(
+        &self,
+        figure: &'a Figure,
+        drawings: fn(&str, &Chart) -> Result<Drawings, ChartError>,
+    ) -> Result<PartView<'a>, DocumentError> {
         let drawings = drawings(&figure.id, &figure.chart)
             .map_err(|source| DocumentError::Chart { figure: figure.id.clone(), source })?;
         let words = FigureWords {

@@ -79,6 +79,8 @@ pub enum Part {
     List(Vec<String>),
     /// A figure; terminals do not show it.
     Figure(Box<Figure>),
+    /// Small figures, two side by side where there is room; terminals do not show them.
+    Gallery(Vec<Figure>),
     /// A table.
     Table(Table),
     /// Links to files beside the page; terminals do not show them.
@@ -110,6 +112,13 @@ pub enum Part {
     },
     /// Parts that are for the page alone: what would only fill a terminal.
     OnPage(Vec<Part>),
+    /// Parts that are not printed: what would only fill paper.
+    OnScreen {
+        /// What stands in their place on paper: where they are to be found.
+        instead: String,
+        /// The parts.
+        parts: Vec<Part>,
+    },
 }
 
 /// A figure with what belongs to it.
@@ -144,10 +153,10 @@ impl Document {
     /// Its charts: the figures in order, then the files alone.
     pub fn figures(&self) -> Vec<&Figure> {
         let mut figures = Vec::new();
-        self.visit(&mut |part| {
-            if let Part::Figure(figure) = part {
-                figures.push(&**figure);
-            }
+        self.visit(&mut |part| match part {
+            Part::Figure(figure) => figures.push(&**figure),
+            Part::Gallery(small) => figures.extend(small),
+            _ => (),
         });
         figures.extend(&self.charts);
         figures
@@ -199,7 +208,7 @@ impl Document {
 fn visit<'a>(parts: &'a [Part], see: &mut dyn FnMut(&'a Part)) {
     for part in parts {
         see(part);
-        if let Part::Details { parts, .. } | Part::OnPage(parts) = part {
+        if let Part::Details { parts, .. } | Part::OnPage(parts) | Part::OnScreen { parts, .. } = part {
             visit(parts, see);
         }
     }

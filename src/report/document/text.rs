@@ -34,8 +34,13 @@ impl<'a> Terminal<'a> {
                     texts.iter().for_each(|text| self.line(&format!("{}: {text}", kind.to_lowercase())));
                 }
                 Part::Table(table) => self.table(table),
-                Part::Details { parts, .. } => self.parts(parts),
-                Part::Figure(_) | Part::Links(_) | Part::Code(_) | Part::Frame { .. } | Part::OnPage(_) => (),
+                Part::Details { parts, .. } | Part::OnScreen { parts, .. } => self.parts(parts),
+                Part::Figure(_)
+                | Part::Gallery(_)
+                | Part::Links(_)
+                | Part::Code(_)
+                | Part::Frame { .. }
+                | Part::OnPage(_) => (),
             }
         }
     }

@@ -186,12 +186,12 @@ impl Map<'_> {
 /// The class of outputs without indices, after all others.
 const MISSING: usize = usize::MAX;
 
-fn class(index: f64) -> usize {
+pub(super) fn class(index: f64) -> usize {
     CLASSES.iter().filter(|least| index >= **least).count()
 }
 
 /// The series of a class; `None` where there is no index.
-fn series(class: Option<usize>) -> Series {
+pub(super) fn series(class: Option<usize>) -> Series {
     let Some(class) = class else { return Series::new("no indices", Colour::Series(10)) };
     let name = match class {
         0 => format!("below {}", CLASSES[0]),
@@ -202,7 +202,7 @@ fn series(class: Option<usize>) -> Series {
 }
 
 /// An index in a cell: `.34`.
-fn short(index: f64) -> String {
+pub(super) fn short(index: f64) -> String {
     let text = fixed(index, 2);
     match text.strip_prefix("0.") {
         Some("00") => "0".to_owned(),

@@ -1,4 +1,4 @@
-//! Charts of a run besides that of the shares, all from the result alone: the indices, what acts together, the output
+//! Charts of a run besides that of the shares, all from the result alone: the indices, what acts together, also two by two, the output
 //! over its factors, how it is distributed, how the indices settled, and many outputs or a series at a glance.
 
 mod categories;
@@ -6,6 +6,7 @@ mod convergence;
 mod distribution;
 mod indices;
 mod map;
+mod pairs;
 mod scatter;
 mod series;
 mod slice_means;
@@ -14,6 +15,7 @@ pub use convergence::convergence_chart;
 pub use distribution::distribution_chart;
 pub use indices::{indices_chart, interactions_chart};
 pub(super) use map::{map_chart, overall_order, together_chart};
+pub use pairs::pairs_chart;
 pub use scatter::scatter_chart;
 pub(super) use series::{SeriesOf, along_chart, directions_chart, layers_chart};
 

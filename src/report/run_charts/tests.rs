@@ -9,7 +9,8 @@ use crate::study::Study;
 
 type Draw = fn(&ResultFile, &OutputRecord) -> Chart;
 
-const CHARTS: [Draw; 5] = [indices_chart, interactions_chart, scatter_chart, distribution_chart, convergence_chart];
+const CHARTS: [Draw; 6] =
+    [indices_chart, interactions_chart, pairs_chart, scatter_chart, distribution_chart, convergence_chart];
 
 fn analysed(text: &str) -> ResultFile {
     let study = Study::parse(text, Path::new("charts.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
@@ -21,6 +22,7 @@ fn charts_of_any_result_are_drawn_from_its_json_alone() {
     let holes = "model = \"ishigami-holes\"\n[design]\nbase_samples = 256\n[analysis]\nmax_failed = ";
     let studies = [
         "model = \"ishigami\"\n[design]\nbase_samples = 256".to_owned(),
+        "model = \"ishigami\"\n[design]\nbase_samples = 256\n[analysis]\nsecond_order = true".to_owned(),
         "model = \"constant\"\n[design]\nbase_samples = 256".to_owned(),
         "model = \"linear\"\n[[factor]]\nname = \"x1\"\n[design]\nbase_samples = 256".to_owned(),
         "model = \"sobol-g\"\n[function]\ndimension = 100\n[design]\nbase_samples = 256".to_owned(),
@@ -89,4 +91,34 @@ fn a_study_in_which_nothing_stands_out_says_so() {
         let caption = draw(&result, &result.outputs[0]).caption().to_owned();
         assert!(caption.contains("zero variance"), "{caption}");
     }
+}
+
+#[test]
+fn pairs_stand_below_the_diagonal_in_the_order_of_all_charts() {
+    // S_13 = 0.2437; the order by S_T is x1, x2, x3.
+    let result = analysed("model = \"ishigami\"\n[design]\nbase_samples = 4096\n[analysis]\nsecond_order = true");
+    let chart = pairs_chart(&result, &result.outputs[0]);
+    assert!(
+        chart.caption().starts_with("The largest interaction of two is that of x1 and x3: 24."),
+        "{}",
+        chart.caption()
+    );
+    let panel = &chart.all_panels()[0];
+    assert_eq!(panel.y.names, ["x1 (1)", "x2 (2)", "x3 (3)"]);
+    let tiles: Vec<(usize, usize, &str, &str)> = panel
+        .marks
+        .iter()
+        .filter_map(|mark| match &mark.shape {
+            crate::report::chart::Shape::Tile(tile) => {
+                Some((tile.row, tile.column, tile.letter.as_str(), mark.series.name.as_str()))
+            }
+            _ => None,
+        })
+        .collect();
+    assert_eq!(tiles.len(), 6);
+    assert!(tiles.contains(&(0, 0, ".31", "0.3 to 0.5")) && tiles.contains(&(1, 1, ".44", "0.3 to 0.5")), "{tiles:?}");
+    assert!(tiles.contains(&(2, 0, ".24", "0.2 to 0.3")), "{tiles:?}");
+    assert!(tiles.contains(&(2, 1, "0", "below 0.01, or may be 0")), "{tiles:?}");
+    let without = analysed("model = \"ishigami\"\n[design]\nbase_samples = 256");
+    assert!(pairs_chart(&without, &without.outputs[0]).caption().starts_with("No second-order indices of y: "));
 }

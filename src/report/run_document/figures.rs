@@ -9,7 +9,8 @@ use crate::report::format::name as words;
 use crate::report::output_axis::OutputAxis;
 use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::{
-    convergence_chart, distribution_chart, file_stems, indices_chart, interactions_chart, scatter_chart, study_chart,
+    convergence_chart, distribution_chart, file_stems, indices_chart, interactions_chart, pairs_chart, scatter_chart,
+    study_chart,
 };
 
 /// A chart of every output.
@@ -29,15 +30,18 @@ pub(super) const INTERACTIONS: usize = 2;
 pub(super) const SCATTER: usize = 3;
 pub(super) const DISTRIBUTION: usize = 4;
 pub(super) const CONVERGENCE: usize = 5;
+/// Of results with second-order indices alone.
+pub(super) const PAIRS: usize = 6;
 
 /// The charts in the order of their places above.
-const KINDS: [Kind; 6] = [
+const KINDS: [Kind; 7] = [
     Kind { suffix: "", name: "shares", draw: study_chart, data: ".csv" },
     Kind { suffix: "-indices", name: "indices", draw: indices_chart, data: ".csv" },
     Kind { suffix: "-interactions", name: "interactions", draw: interactions_chart, data: ".csv" },
     Kind { suffix: "-scatter", name: "scatter", draw: scatter_chart, data: "" },
     Kind { suffix: "-distribution", name: "distribution", draw: distribution_chart, data: "" },
     Kind { suffix: "-convergence", name: "convergence", draw: convergence_chart, data: "-convergence.csv" },
+    Kind { suffix: "-pairs", name: "pairs", draw: pairs_chart, data: "-second-order.csv" },
 ];
 
 /// The names of the charts of each output.
@@ -117,14 +121,15 @@ impl Stems {
     }
 }
 
-/// The names of all charts of a study with these outputs.
-pub(super) fn all_stems(study: &str, names: &OutputNames<'_>) -> Vec<String> {
+/// The names of all charts of a study with these outputs; those of pairs are drawn of `second_order` indices alone.
+pub(super) fn all_stems(study: &str, names: &OutputNames<'_>, second_order: bool) -> Vec<String> {
     let Stems { single, series } = Stems::new(study, names);
     let mut all: Vec<String> = series.into_iter().flatten().filter(|stem| !stem.is_empty()).collect();
     if names.single.len() >= MANY_OUTPUTS {
         all.extend(overview_stems(study, OutputAxis::all(&names.single).len()));
     }
-    all.extend(single.into_iter().flatten());
+    let kinds = if second_order { KINDS.len() } else { PAIRS };
+    all.extend(single.into_iter().flat_map(|stems| stems.into_iter().take(kinds)));
     all
 }
 
@@ -193,9 +198,15 @@ impl<'a> Figures<'a> {
         let outputs =
             self.result.outputs.iter().enumerate().map(|(place, output)| Numbered { output, number: place + 1 });
         // Those without a name are no files.
-        let all = outputs.take(self.stems.len()).flat_map(|of| (0..KINDS.len()).map(move |kind| (of, kind)));
+        let kinds = if self.has_pairs() { KINDS.len() } else { PAIRS };
+        let all = outputs.take(self.stems.len()).flat_map(|of| (0..kinds).map(move |kind| (of, kind)));
         let others = all.filter(|(of, kind)| !self.drawn.contains(&(of.number, *kind)));
         others.map(|(of, kind)| self.figure(of, kind)).collect()
+    }
+
+    /// Whether any output has second-order indices.
+    fn has_pairs(&self) -> bool {
+        self.result.outputs.iter().any(|output| output.second_order.is_some())
     }
 
     fn figure(&self, of: Numbered<'_>, kind: usize) -> Figure {

@@ -126,7 +126,7 @@ pub fn run_file_names(name: &str, outputs: &OutputNames<'_>, second_order: bool,
     data.extend(second_order.then(|| format!("{name}-second-order.csv")));
     data.extend(estimators.then(|| format!("{name}-estimators.csv")));
     data.push(format!("{name}-convergence.csv"));
-    FileNames { name: name.to_owned(), data, charts: all_stems(name, outputs) }
+    FileNames { name: name.to_owned(), data, charts: all_stems(name, outputs, second_order) }
 }
 
 /// The indices over all outputs together, or why there are none.

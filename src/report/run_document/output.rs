@@ -1,6 +1,6 @@
 //! What the document says about one output, topic by topic.
 
-use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, Numbered, SCATTER, SHARES};
+use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, Numbered, PAIRS, SCATTER, SHARES};
 use super::lead::{by_total, widest};
 use super::noise::noise;
 use super::{tables, values};
@@ -232,6 +232,9 @@ fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
         text.push_str(&format!(" Most of all, {factor} acts together with others: S_T − S_1 is {difference}."));
     }
     let mut parts = vec![Part::Text(text), figures.draw(of, INTERACTIONS)];
+    if output.second_order.as_ref().is_some_and(|pairs| !pairs.is_empty()) {
+        parts.push(figures.draw(of, PAIRS));
+    }
     parts.extend(tables::pairs(figures.result, output));
     parts
 }

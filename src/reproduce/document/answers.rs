@@ -31,6 +31,11 @@ pub(super) fn percent(share: Option<f64>, interval: Option<IntervalRecord>) -> S
     }
 }
 
+/// A percentage in a column whose heading has the unit.
+fn plain(percentage: String) -> Cell {
+    percentage.trim_end_matches(" %").into()
+}
+
 /// How sure it is that the leader leads.
 fn certainty(effect: &EffectRecord) -> String {
     match effect.probability_first {
@@ -54,9 +59,9 @@ pub(super) fn table(studies: &[Reproduced]) -> Table {
         let cells = FRICTIONS.iter().map(|friction| cell(*group, *friction));
         [Cell::marked(title(*group), Mark::Strong)].into_iter().chain(cells).collect()
     };
-    let caption = "The leading factor of each study: its share of the sum of the total indices and of the first-order \
-                   indices with 95 % intervals, how sure it is that it leads, and the factors that follow with their total \
-                   shares, if half a percent or more.";
+    let caption = "The leading factor of each study: its share of the sum of the total indices S_T and of the first-order \
+                   indices S_1 with 95 % intervals, how sure it is that it leads, and the factors that follow with their \
+                   total shares, if half a percent or more.";
     let frictions = FRICTIONS.iter().map(|friction| Column::text(format!("{} friction", friction.name)));
     let columns = [Column::text("")].into_iter().chain(frictions);
     Table { on_phone: OnPhone::StackLabelled, ..Table::new(caption, columns).with_rows(GROUPS.iter().map(row)) }
@@ -81,7 +86,7 @@ fn leader(study: &Reproduced) -> Cell {
     let followed = if others.is_empty() { "nothing else".to_owned() } else { others.join(", ") };
     Cell {
         note: format!(
-            "{} of the total and {} of the first-order indices; {}; then {followed}",
+            "{} of S_T, {} of S_1; {}; then {followed}",
             percent(effect.share_total, effect.share_total_interval),
             percent(effect.share_first_order, effect.share_first_order_interval),
             certainty(effect)
@@ -187,14 +192,16 @@ pub(super) fn all_shares(studies: &[Reproduced]) -> Vec<Vec<Cell>> {
             let IndexRecord { factor, effect } = index;
             let printed = print.shares.iter().find(|(name, _)| name == factor);
             rows.push(vec![
-                if place == 0 { study.group.key } else { "" }.into(),
-                if place == 0 { study.friction.name } else { "" }.into(),
+                match place {
+                    0 => Cell { note: study.friction.name.to_owned(), ..study.group.key.into() },
+                    _ => Cell::default(),
+                },
                 words(factor).into(),
                 give_or_take(effect.first_order).into(),
                 give_or_take(effect.total).into(),
-                percent(effect.share_first_order, effect.share_first_order_interval).into(),
-                percent(effect.share_total, effect.share_total_interval).into(),
-                printed.map_or_else(String::new, |(_, share)| format!("{share} %")).into(),
+                plain(percent(effect.share_first_order, None)),
+                plain(percent(effect.share_total, None)),
+                printed.map_or_else(String::new, |(_, share)| share.to_string()).into(),
             ]);
         }
     }

@@ -1,16 +1,17 @@
 //! The document of the reproduction: verdicts, figures, readings, tables and provenance.
 
 mod answers;
+mod figures;
 mod provenance;
 mod readings;
 mod typeset;
 mod verdicts;
 
 use super::claims::{claims_csv, claims_json};
-use super::figures::{ANIMATION_STEM, PaperFigure};
+use super::figures::ANIMATION_STEM;
 use super::readings::{readings_csv, readings_json, small_samples_csv};
 use super::{ReproduceError, Reproduction, shares_csv};
-use apportion::report::document::{Column, DataFile, Document, Figure, Link, Part, Section, Table};
+use apportion::report::document::{Column, DataFile, Document, Part, Section, Table};
 use apportion::report::result_json;
 
 /// The document about `reproduction`; what was not asked for is left out. But for the times in the results, its files are
@@ -19,26 +20,18 @@ use apportion::report::result_json;
 /// # Errors
 /// [`ReproduceError`] if the claims cannot be written.
 pub fn document(reproduction: &Reproduction) -> Result<Document, ReproduceError> {
-    let sections = [
-        answers_section(reproduction),
-        claims_section(reproduction),
-        figures_section(reproduction, ("All", "overview", "Shares under every friction model")),
-        figures_section(reproduction, ("CHK", "chk", "Figures of CHK: Coulomb and Hurtado-Kim friction")),
-        figures_section(reproduction, ("LG", "lg", "Figures of LG: LuGre friction")),
-        figures_section(reproduction, ("TS04", "ts04", "Figures of TS04: a push in time")),
-        readings::section(reproduction),
-        shares_section(reproduction),
-        Some(provenance_section(reproduction)),
-    ];
+    let before = [answers_section(reproduction), claims_section(reproduction)];
+    let after = [readings::section(reproduction), shares_section(reproduction), Some(provenance_section(reproduction))];
+    let figures = figures::sections(reproduction).into_iter().map(Some);
     Ok(Document {
         name: "index".to_owned(),
         kicker: "Reproduction of three papers".to_owned(),
         title: "Which factor decides the force that pushes a nanoparticle?".to_owned(),
         lead: lead(reproduction),
-        sections: sections.into_iter().flatten().collect(),
+        sections: before.into_iter().chain(figures).chain(after).flatten().collect(),
         footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
+        charts: figures::files(&reproduction.figures),
         files: files(reproduction)?,
-        ..Document::default()
     })
 }
 
@@ -106,48 +99,9 @@ fn claims_section(reproduction: &Reproduction) -> Option<Section> {
     if reproduction.claims.is_empty() {
         return None;
     }
-    let parts = vec![
-        verdicts::table(&reproduction.claims),
-        verdicts::details(&reproduction.claims, &reproduction.figures),
-        Part::Links(vec![Link::new("verdicts as CSV", "claims.csv"), Link::new("as JSON", "claims.json")]),
-    ];
+    let parts =
+        vec![verdicts::table(&reproduction.claims), verdicts::details(&reproduction.claims, &reproduction.figures)];
     Some(Section::new("claims", "Are the papers right?", parts))
-}
-
-/// The figures whose labels begin with `prefix`.
-fn figures_section(reproduction: &Reproduction, (prefix, id, title): (&str, &str, &str)) -> Option<Section> {
-    let figures: Vec<&PaperFigure> =
-        reproduction.figures.iter().filter(|figure| figure.label.starts_with(prefix)).collect();
-    let mut parts: Vec<Part> = Vec::new();
-    for figure in &figures {
-        parts.push(Part::Figure(Box::new(page_figure(figure))));
-        if let Some(animation) = reproduction.animation.as_ref().filter(|_| figure.stem == "ts04-14") {
-            let html = animation.html.clone();
-            parts.push(Part::Frame { title: "TS04 fig. 14 as an animation".to_owned(), html });
-            let file = |ending: &str| beside_charts(ANIMATION_STEM, ending);
-            parts.push(Part::Links(vec![
-                Link::new("the animation as a page of its own", file("html")),
-                Link::new("every state as CSV", file("csv")),
-                Link::new("as JSON", file("json")),
-            ]));
-        }
-    }
-    (!figures.is_empty()).then(|| Section::new(id, title, parts))
-}
-
-fn page_figure(figure: &PaperFigure) -> Figure {
-    Figure {
-        id: figure.stem.to_owned(),
-        label: figure.label.to_owned(),
-        title: None,
-        beside: match figure.label.split_once(" fig") {
-            Some((paper, _)) => format!("{paper} shows: {}", figure.theirs),
-            None => figure.theirs.to_owned(),
-        },
-        chart: figure.chart.clone(),
-        stem: figure.stem.to_owned(),
-        data: beside_charts(figure.stem, "csv"),
-    }
 }
 
 fn shares_section(reproduction: &Reproduction) -> Option<Section> {
@@ -156,16 +110,25 @@ fn shares_section(reproduction: &Reproduction) -> Option<Section> {
         return None;
     }
     let caption = "First-order and total indices of every study with their 95 % intervals, their shares, and the \
-                   percentages that LG prints.";
-    let headings = ["study", "friction", "factor", "S_1", "S_T", "share of S_1", "share of S_T", "published"];
-    let table = Table::new(caption, Column::list(3, &headings)).with_rows(answers::all_shares(studies));
-    let mut parts = vec![Part::Table(table)];
-    let results = studies.iter().map(|study| {
-        let name = format!("{}-{}", study.friction.key, study.group.key);
-        Link::new(name.clone(), format!("{name}.json"))
-    });
-    parts.push(Part::Links([Link::new("all shares as CSV", "shares.csv")].into_iter().chain(results).collect()));
-    parts.extend(answers::validity(studies));
+                   percentages that LG prints; the CSV file has the intervals of the shares too.";
+    let columns = [
+        Column::text("study"),
+        Column::text("factor"),
+        Column::number("S_1"),
+        Column::number("S_T"),
+        Column::number("% of S_1"),
+        Column::number("% of S_T"),
+        Column::number("printed"),
+    ];
+    let table = Table::new(caption, columns).with_rows(answers::all_shares(studies));
+    let mut parts = vec![Part::Details {
+        summary: "The indices and shares of every study".to_owned(),
+        parts: vec![Part::Table(table)],
+    }];
+    parts.extend(answers::validity(studies).map(|table| Part::Details {
+        summary: "How many runs lie outside the range of a theory".to_owned(),
+        parts: vec![table],
+    }));
     let cautions = answers::cautions(studies);
     if !cautions.is_empty() {
         parts.push(Part::List(cautions));

@@ -1,13 +1,14 @@
 //! What the published percentages could mean: sentences, the chart of distances, and every reading with its numbers.
 
 use crate::reproduce::readings::{
-    Chance, Reading, Readings, SmallSample, chances, distance_chart, headline, small_sample_chart, summary,
+    Chance, Effect, Joint, Readings, SmallSample, VARIANTS, chances, distance_chart, headline, joint,
+    small_sample_chart, summary, words,
 };
-use crate::reproduce::{GROUPS, Reproduction, published};
+use crate::reproduce::{GROUPS, Reproduction};
 use apportion::report::chart::Chart;
-use apportion::report::document::{Cell, Column, Figure, Link, Part, Section, Table};
+use apportion::report::document::{Cell, Column, Figure, Part, Section, Table};
 use apportion::report::fixed;
-use apportion::report::format::words;
+use apportion::report::format::words as spelled;
 
 /// The charts of the readings with the stems of their files.
 fn charts(readings: &Readings) -> [(&'static str, Chart); 2] {
@@ -28,21 +29,25 @@ pub(super) fn section(reproduction: &Reproduction) -> Option<Section> {
             .to_owned(),
     )];
     parts.push(Part::List(summary(readings)));
-    parts.extend(charts(readings).into_iter().map(|(stem, chart)| figure(stem, chart)));
-    parts.push(Part::Links(vec![
-        Link::new("readings as CSV", "readings.csv"),
-        Link::new("small samples as CSV", "small-samples.csv"),
-        Link::new("both as JSON", "readings.json"),
-    ]));
-    for group in GROUPS {
-        parts.push(Part::Details {
-            summary: format!("Every reading of the {} study", group.key),
-            parts: vec![Part::Table(table(readings, group.key))],
-        });
-    }
+    let [distances, small] = charts(readings).map(|(stem, chart)| figure(stem, chart));
+    parts.push(distances);
     parts.push(Part::Details {
-        summary: "Every small sample, and how probable the printed percentages are in it".to_owned(),
-        parts: vec![Part::List(chances(readings)), Part::Table(small_samples(readings))],
+        summary: format!("All {} readings", joint(readings).len()),
+        parts: vec![Part::OnScreen {
+            instead: "The table of all readings is on the screen and in readings.csv.".to_owned(),
+            parts: vec![Part::Table(table(readings)), meanings()],
+        }],
+    });
+    parts.push(Part::Details {
+        summary: "Small samples, and how probable the printed percentages are in them".to_owned(),
+        parts: vec![
+            small,
+            Part::List(chances(readings)),
+            Part::OnScreen {
+                instead: "The table of all small samples is on the screen and in small-samples.csv.".to_owned(),
+                parts: vec![Part::Table(small_samples(readings))],
+            },
+        ],
     });
     Some(Section::new("readings", "What the published percentages could mean", parts))
 }
@@ -59,26 +64,27 @@ fn figure(stem: &str, chart: Chart) -> Part {
     }))
 }
 
-/// The readings of one group, the nearest first, with the shares of the factors that have a printed percentage.
-fn table(readings: &Readings, group: &str) -> Table {
-    let printed = published(group, "lugre").shares;
-    let mut rows: Vec<&Reading> = readings.rows.iter().filter(|reading| reading.group == group).collect();
-    rows.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-    let share = |reading: &Reading, factor: &str| {
-        let share = reading.shares.iter().find(|share| share.factor == factor);
-        share.map_or_else(String::new, |share| format!("{} %", fixed(share.share, 1)))
+/// Every reading in a row, the nearest on the mean of the groups first.
+fn table(readings: &Readings) -> Table {
+    let mut rows = joint(readings);
+    rows.sort_by(|a, b| a.mean.total_cmp(&b.mean));
+    let row = |joint: &Joint<'_>| -> Vec<Cell> {
+        let names = joint.of_groups.first().map_or([""; 3], |reading| words(reading)).map(Cell::from);
+        let distances = joint.of_groups.iter().map(|reading| reading.distance).chain([joint.mean]);
+        names.into_iter().chain(distances.map(|distance| fixed(distance, 1).into())).collect()
     };
-    let row = |reading: &&Reading| {
-        let mut cells = vec![Cell::from(&reading.statement), fixed(reading.distance, 1).into()];
-        cells.extend(printed.iter().map(|(factor, _)| Cell::from(share(reading, factor))));
-        cells.push(reading.runs.to_string().into());
-        cells
-    };
-    let factors = printed.iter().map(|(factor, value)| format!("{}, printed {value} %", words(factor)));
-    let numbers = ["distance (points)".to_owned()].into_iter().chain(factors).chain(["model runs".to_owned()]);
-    let columns = [Column::text("reading")].into_iter().chain(numbers.map(Column::number));
-    let caption = format!("The readings of the {group} study, the nearest to the printed percentages first.");
-    Table::new(caption, columns).with_rows(rows.iter().map(row))
+    let names = ["friction", "output", "measure"].map(Column::text).into_iter();
+    let distances = GROUPS.iter().map(|group| group.key).chain(["mean"]).map(Column::number);
+    let caption = "Every reading with its distance to the printed percentages in each study, in percentage points, the \
+                   nearest on the mean first.";
+    Table::new(caption, names.chain(distances)).with_rows(rows.iter().map(row))
+}
+
+/// What stands in the columns of frictions and of measures.
+fn meanings() -> Part {
+    let frictions = VARIANTS.iter().map(|variant| format!("{}: {}.", variant.name, variant.statement));
+    let measures = Effect::ALL.iter().map(|effect| format!("{}: {}.", effect.symbol(), effect.statement()));
+    Part::List(frictions.chain(measures).collect())
 }
 
 fn small_samples(readings: &Readings) -> Table {
@@ -93,7 +99,7 @@ fn small_samples(readings: &Readings) -> Table {
             .filter(|factor| factor.published.is_some())
             .max_by(|a, b| a.published.unwrap_or_default().total_cmp(&b.published.unwrap_or_default()));
         let Some(factor) = first else { return [Cell::default(), Cell::default()] };
-        let name = words(&factor.factor);
+        let name = spelled(&factor.factor);
         let range = factor.quantiles.map_or_else(String::new, |[low, _, median, _, high]| {
             format!("{name} {} % [{}, {}]", fixed(median, 1), fixed(low, 1), fixed(high, 1))
         });
@@ -105,7 +111,7 @@ fn small_samples(readings: &Readings) -> Table {
         vec![
             sample.group.into(),
             sample.variant.into(),
-            format!("{} of {}", sample.effect.symbol(), words(sample.output.name())).into(),
+            format!("{} of {}", sample.effect.symbol(), spelled(sample.output.name())).into(),
             sample.estimators.name().into(),
             sample.base_samples.to_string().into(),
             range,

@@ -1,5 +1,6 @@
 //! The verdicts on the claims: a table, and a sentence that counts them.
 
+use super::figures::{anchor, label};
 use super::typeset::typeset;
 use crate::reproduce::claims::{Claim, Verdict};
 use crate::reproduce::figures::PaperFigure;
@@ -24,7 +25,7 @@ pub(super) fn table(claims: &[Claim]) -> Part {
         };
         vec![
             claim.number.to_string().into(),
-            Cell { note: claim.source.to_owned(), ..Cell::from(typeset(claim.statement)) },
+            format!("{} ({})", typeset(claim.statement), claim.source).into(),
             Cell { note: typeset(&place), ..badge(&claim.verdict) },
         ]
     };
@@ -36,15 +37,14 @@ pub(super) fn table(claims: &[Claim]) -> Part {
 /// Our figures for every claim, the setting they hold in, and the figures of the page that show it.
 pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
     let row = |claim: &Claim| {
-        let shown = claim.figures.iter().filter_map(|stem| figures.iter().find(|figure| figure.stem == *stem));
-        let links = shown.map(|figure| Link::new(figure.label, format!("#{}", figure.stem)));
+        let shown = claim.figures.iter().filter_map(|stem| Some((label(figures, stem)?, anchor(stem))));
+        let links = shown.map(|(label, anchor)| Link::new(label, format!("#{anchor}")));
         vec![
-            claim.number.to_string().into(),
-            Cell { links: links.collect(), ..Cell::from(typeset(claim.statement)) },
+            Cell { links: links.collect(), ..Cell::from(claim.number.to_string()) },
             Cell { note: typeset(&claim.setting), ..Cell::from(typeset(&claim.finding)) },
         ]
     };
-    let columns = Column::list(3, &["", "claim", "our figures, and the setting they hold in"]);
+    let columns = Column::list(2, &["claim", "our figures, and the setting they hold in"]);
     let table = Table::new("What the verdicts rest on.", columns).with_rows(claims.iter().map(row));
     let table = Table { on_phone: OnPhone::Stack, ..table };
     Part::Details {

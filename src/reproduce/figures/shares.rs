@@ -3,7 +3,7 @@
 use super::PaperFigure;
 use crate::reproduce::{GROUPS, Reproduced, StudyGroup, published, shares_csv};
 use apportion::report::chart::{Chart, Series};
-use apportion::report::{SharesSeries, capitalised, shares_chart};
+use apportion::report::{SharesSeries, capitalised, listed, shares_chart};
 
 /// For each group, in the order of [`GROUPS`]: the figure of CHK and that of LG.
 const PAPERS: [[Paper; 2]; 3] = [
@@ -107,33 +107,30 @@ struct Leader<'a> {
     factor: &'a str,
     shares: (f64, f64),
     friction: &'static str,
-    published: Option<f64>,
 }
 
-fn leader<'a>(group: StudyGroup, member: &'a Reproduced) -> Option<Leader<'a>> {
+fn leader(member: &Reproduced) -> Option<Leader<'_>> {
     let indices = member.result.outputs.first()?.indices.as_ref()?;
     let first = indices.iter().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate))?;
-    let printed = published(group.key, member.friction.key);
     Some(Leader {
         factor: &first.factor,
         shares: (first.effect.share_first_order?, first.effect.share_total?),
         friction: member.friction.name,
-        published: printed.shares.iter().find(|(factor, _)| *factor == first.factor).map(|(_, share)| *share),
     })
 }
 
 /// What is seen, in one sentence.
 fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
-    let leaders: Vec<Leader<'_>> = members.iter().filter_map(|member| leader(group, member)).collect();
+    let leaders: Vec<Leader<'_>> = members.iter().filter_map(|member| leader(member)).collect();
     let shares =
         |l: &Leader<'_>| format!("{:.0} % of the first-order and {:.0} % of the total indices", l.shares.0, l.shares.1);
     let seen = match &leaders[..] {
         [] => "No factor has a share".to_owned(),
-        [one] => format!("The {} has the largest share, {}", words(one.factor), shares(one)),
+        [one] => format!("The largest share is that of {}: {}", words(one.factor), shares(one)),
         [one, rest @ ..] if rest.iter().all(|other| other.factor == one.factor) => {
             let each: Vec<String> = leaders.iter().map(|l| format!("{:.0} %, {}", l.shares.1, l.friction)).collect();
             let every = if leaders.len() > 2 { "every friction model" } else { "both friction models" };
-            format!("The {} has the largest total share under {every} ({})", words(one.factor), each.join("; "))
+            format!("The largest total share under {every} is that of {} ({})", words(one.factor), each.join("; "))
         }
         _ => {
             let each: Vec<String> = leaders
@@ -143,13 +140,13 @@ fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
             capitalised(&format!("the largest total share belongs to {}", each.join(", ")))
         }
     };
-    let printed = leaders.iter().find_map(|l| l.published.map(|share| (share, l)));
-    match printed {
-        Some((share, l)) => {
-            format!("{seen}; printed for {} are {share} % for the {} (diamonds).", l.friction, words(l.factor))
-        }
-        None => format!("{seen}."),
-    }
+    let printed = |member: &&Reproduced| {
+        let shares = published(group.key, member.friction.key).shares;
+        let each: Vec<String> =
+            shares.iter().map(|(factor, share)| format!("{share} % for {}", words(factor))).collect();
+        (!each.is_empty()).then(|| format!("; printed for {} (diamonds) are {}", member.friction.name, listed(&each)))
+    };
+    format!("{seen}{}.", members.iter().filter_map(printed).collect::<String>())
 }
 
 fn words(name: &str) -> String {

@@ -91,9 +91,12 @@ fn every_figure_is_there_once_and_in_order() {
     let dimensional = all.iter().find(|figure| figure.stem == "lg-4a").unwrap();
     let caption = dimensional.chart.caption();
     assert!(
-        caption.starts_with("The thickness has the largest") && caption.contains("printed for LuGre are"),
+        caption.starts_with("The largest share is that of thickness: ")
+            && caption.ends_with("; printed for LuGre (diamonds) are 76 % for thickness."),
         "{caption}"
     );
+    let environmental = all.iter().find(|figure| figure.stem == "lg-4b").unwrap().chart.caption();
+    assert!(environmental.ends_with("are 74 % for elastic modulus and 26 % for velocity."), "{environmental}");
     assert_eq!(dimensional.csv.lines().count(), 5);
 }
 

@@ -9,7 +9,7 @@ use apportion::report::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Sh
 use apportion::report::fixed;
 
 /// Most readings that are drawn, the nearest ones.
-const MOST: usize = 32;
+const MOST: usize = 10;
 /// Colours of the groups, and of the kinds of percentages.
 const GROUP_COLOURS: [Colour; 3] = [Colour::Series(1), Colour::Series(4), Colour::Series(5)];
 

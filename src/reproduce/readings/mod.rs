@@ -22,10 +22,11 @@ use std::time::Instant;
 use serde::Serialize;
 use thiserror::Error;
 
-pub use catalogue::{Axis, Effect, Variant};
+pub use catalogue::{Axis, Effect, VARIANTS, Variant};
 pub use charts::{distance_chart, small_sample_chart};
 pub use distance::distance;
 use distance::distance_error;
+pub(in crate::reproduce) use nearest::{Joint, joint, words};
 pub use small_samples::{Chance, Estimators, SmallSample};
 pub use summary::{chances, headline, summary};
 pub use tables::{readings_csv, readings_json, small_samples_csv};
@@ -36,7 +37,7 @@ use apportion::model::{AfmOutput, RowFailure};
 use apportion::report::ResultFile;
 use apportion::run::{RunError, threads_in_force};
 use apportion::study::{Study, StudyError};
-use catalogue::{SMALL_SAMPLE_VARIANTS, VARIANTS, variant};
+use catalogue::{SMALL_SAMPLE_VARIANTS, variant};
 
 /// Every reading computed.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,7 +10,7 @@ pub(super) const ALIKE: f64 = 0.5;
 
 /// One reading in every group.
 #[derive(Debug, Clone)]
-pub(super) struct Joint<'a> {
+pub(in crate::reproduce) struct Joint<'a> {
     /// One entry per group, in the order of [`GROUPS`].
     pub of_groups: Vec<&'a Reading>,
     /// Mean distance over the groups.
@@ -46,12 +46,18 @@ impl Joint<'_> {
 
 /// A short name of a reading, whatever its group.
 pub(super) fn name(reading: &Reading) -> String {
+    let [friction, output, measure] = words(reading);
+    format!("{friction}: {measure}, {output}")
+}
+
+/// The parts of the name: which friction (or what else is different), of which output, by which measure.
+pub(in crate::reproduce) fn words(reading: &Reading) -> [&'static str; 3] {
     let variant = variant(reading.variant).map_or(reading.variant, |variant| variant.name);
-    format!("{variant}: {}, {}", reading.effect.symbol(), symbol(reading.output))
+    [variant, symbol(reading.output), reading.effect.symbol()]
 }
 
 /// All readings in the order of the catalogue.
-pub(super) fn joint(readings: &Readings) -> Vec<Joint<'_>> {
+pub(in crate::reproduce) fn joint(readings: &Readings) -> Vec<Joint<'_>> {
     readings
         .rows
         .chunks(GROUPS.len())

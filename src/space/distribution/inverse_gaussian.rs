@@ -6,10 +6,10 @@ use libm::erfc;
 
 use super::error::{positive, refuse_offset, within};
 use super::family::{Family, Parameter};
-use super::normal::standard_below;
 use super::quadrature::short_integral;
 use super::{Distribution, DistributionError, solve};
 use crate::quantity::Unit;
+use crate::special::normal_below;
 
 /// Ratios of `scale` to `mean` beyond are refused: scatter of 1e6 means, or of a millionth of one.
 const RATIOS: (f64, f64) = (1e-12, 1e12);
@@ -76,7 +76,7 @@ impl InverseGaussian {
         // Phi(-w) exp(2 ratio), since w^2 = t^2 + 4 ratio.
         let density = 0.5 * libm::exp(-0.5 * t * t);
         if t <= 0.0 {
-            let below = standard_below(t) + density * scaled(w);
+            let below = normal_below(t) + density * scaled(w);
             if below <= 0.5 {
                 return (below, 1.0 - below);
             }

@@ -2,9 +2,9 @@
 
 use super::error::{finite, positive, refuse_offset};
 use super::family::{Family, Parameter};
-use super::normal::{standard_below, standard_quantile};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
+use crate::special::{normal_below, normal_quantile};
 
 /// The logarithm is normal.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,16 +82,16 @@ impl Family for LogNormal {
     }
 
     fn quantile(&self, u: f64) -> f64 {
-        libm::exp(self.log_mean + self.log_sd * standard_quantile(u))
+        libm::exp(self.log_mean + self.log_sd * normal_quantile(u))
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
         let z = (libm::log(x.max(0.0)) - self.log_mean) / self.log_sd;
-        (standard_below(z), standard_below(-z))
+        (normal_below(z), normal_below(-z))
     }
 
     fn upper_quantile(&self, v: f64) -> f64 {
-        libm::exp(self.log_mean - self.log_sd * standard_quantile(v))
+        libm::exp(self.log_mean - self.log_sd * normal_quantile(v))
     }
 
     fn mean(&self) -> f64 {

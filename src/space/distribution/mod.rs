@@ -62,7 +62,6 @@ pub use log_uniform::LogUniform;
 pub use logistic::Logistic;
 pub use mixture::Mixture;
 pub use normal::Normal;
-pub(super) use normal::{standard_below, standard_quantile};
 pub use pareto::Pareto;
 pub use poisson::Poisson;
 pub use seed::Seed;

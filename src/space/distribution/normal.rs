@@ -1,14 +1,10 @@
 //! The normal distribution.
 
-use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
-
-use libm::erfc;
-use statrs::function::erf::erfc_inv;
-
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
+use crate::special::{normal_below, normal_quantile};
 
 /// The normal (Gaussian) distribution.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,23 +13,13 @@ pub struct Normal {
     sd: f64,
 }
 
-/// The quantile of the standard normal distribution; relative error below 4e-16 from u = 1e-290 up.
-pub(in crate::space) fn standard_quantile(u: f64) -> f64 {
-    -SQRT_2 * erfc_inv(2.0 * u)
-}
-
-/// P(Z < z) of the standard normal distribution, to full relative precision in the lower tail.
-pub(in crate::space) fn standard_below(z: f64) -> f64 {
-    0.5 * erfc(-z * FRAC_1_SQRT_2)
-}
-
 impl Distribution {
     /// Normal with mean `mean` and standard deviation `sd`.
     ///
     /// # Formula
     ///
     /// ```text
-    /// quantile(u) = mean - sd sqrt(2) erfc^-1(2 u)
+    /// quantile(u) = mean + sd Phi^-1(u)
     /// ```
     ///
     /// # Errors
@@ -66,16 +52,16 @@ impl Family for Normal {
     }
 
     fn quantile(&self, u: f64) -> f64 {
-        self.mean + self.sd * standard_quantile(u)
+        self.mean + self.sd * normal_quantile(u)
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
         let z = (x - self.mean) / self.sd;
-        (standard_below(z), standard_below(-z))
+        (normal_below(z), normal_below(-z))
     }
 
     fn upper_quantile(&self, v: f64) -> f64 {
-        self.mean - self.sd * standard_quantile(v)
+        self.mean - self.sd * normal_quantile(v)
     }
 
     fn mean(&self) -> f64 {

@@ -1,16 +1,15 @@
 //! The normal distribution between two bounds.
 
-use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 use libm::erf;
-use statrs::function::erf::erf_inv;
 
 use super::error::{bounds, bounds_to_si, finite, positive};
 use super::family::{Family, Parameter};
-use super::normal::{standard_below, standard_quantile};
 use super::quadrature::integral;
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
+use crate::special::{normal_below, normal_quantile, normal_quantile_beside_median};
 
 /// Below this probability between the bounds, probabilities of single values would leave the range of `f64`.
 const LEAST_MASS: f64 = 1e-280;
@@ -38,9 +37,9 @@ pub struct TruncatedNormal {
 /// whichever loses no digits.
 fn between(a: f64, b: f64) -> f64 {
     if a > 0.5 {
-        standard_below(-a) - standard_below(-b)
+        normal_below(-a) - normal_below(-b)
     } else if b < -0.5 {
-        standard_below(b) - standard_below(a)
+        normal_below(b) - normal_below(a)
     } else {
         0.5 * (erf(b * FRAC_1_SQRT_2) - erf(a * FRAC_1_SQRT_2))
     }
@@ -86,7 +85,7 @@ impl Distribution {
         if mass.is_nan() || mass < LEAST_MASS {
             return Err(DistributionError::Truncation { mean, sd, min, max });
         }
-        let (below, above, centre) = (standard_below(a), standard_below(-b), erf(a * FRAC_1_SQRT_2));
+        let (below, above, centre) = (normal_below(a), normal_below(-b), erf(a * FRAC_1_SQRT_2));
         Self::TruncatedNormal(TruncatedNormal { mean, sd, min, max, below, above, centre, mass }).finite()
     }
 }
@@ -100,13 +99,13 @@ impl TruncatedNormal {
     fn standardised(&self, u: f64) -> f64 {
         let lower = self.below + u * self.mass;
         if lower < 0.25 {
-            return standard_quantile(lower);
+            return normal_quantile(lower);
         }
         let upper = self.above + (1.0 - u) * self.mass;
         if upper < 0.25 {
-            return -standard_quantile(upper);
+            return -normal_quantile(upper);
         }
-        SQRT_2 * erf_inv(self.centre + 2.0 * u * self.mass)
+        normal_quantile_beside_median(0.5 * self.centre + u * self.mass)
     }
 
     /// The value of highest density, and mean and standard deviation relative to it.

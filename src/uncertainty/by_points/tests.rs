@@ -3,6 +3,7 @@ use crate::design::{Companions, Design, DesignSettings, Rows, Sampler};
 use crate::estimate::{BlockOutputs, Estimator, PointOutputs, ShapleyMethod, Workspace, contributions};
 use crate::uncertainty::bootstrap::counts_of;
 use crate::uncertainty::estimates::{Layout, quantities};
+use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Outputs of a made-up model at the rows of a design of three factors.
 struct Sample {

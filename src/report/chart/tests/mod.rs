@@ -2,6 +2,8 @@
 
 mod bars;
 mod lines;
+#[cfg(feature = "pdf")]
+mod pdf;
 mod points;
 
 use resvg::usvg::roxmltree::Document;

@@ -8,8 +8,8 @@ fn scatter(title: &str) -> Chart {
     Chart::new(title, "One point.").panels([Panel::new(Axis::default(), Axis::default()).with(marks)])
 }
 
-fn figure(id: &str, chart: Chart) -> Part {
-    Part::Figure(Box::new(Figure {
+fn small(id: &str, chart: Chart) -> Figure {
+    Figure {
         id: id.to_owned(),
         label: "Figure 1".to_owned(),
         title: None,
@@ -17,7 +17,11 @@ fn figure(id: &str, chart: Chart) -> Part {
         chart,
         stem: format!("{id}-chart"),
         data: "data.csv".to_owned(),
-    }))
+    }
+}
+
+fn figure(id: &str, chart: Chart) -> Part {
+    small(id, chart).into()
 }
 
 fn page(parts: Vec<Part>) -> Document {
@@ -45,6 +49,7 @@ fn every_part(text: &str) -> Vec<Part> {
         Part::Notice { mark: Mark::Mixed, kind: t(), texts: vec![t()] },
         Part::Frame { title: t(), html: t() },
         Part::Details { summary: t(), parts: vec![figure("f1", scatter(text))] },
+        Part::OnScreen { instead: t(), parts: vec![Part::Gallery(vec![small("f2", scatter(text))])] },
         Part::Table(Table {
             on_phone: OnPhone::StackLabelled,
             ..Table::new(t(), [Column::text(t()), Column::number(t())]).with_rows([
@@ -78,7 +83,9 @@ fn the_page_needs_nothing_else() {
     for outside in ["http:", "https:", " src=", "@import", "url(", "//cdn", "fetch("] {
         assert!(!own.contains(outside), "{outside}");
     }
-    assert_eq!(html.matches("<svg").count(), 2, "one chart, drawn twice");
+    assert_eq!(html.matches("<svg").count(), 3, "one chart drawn twice, and a small one once");
+    assert!(!html.contains("f2-wide") && html.contains("aria-labelledby=\"f2-narrow-title\""));
+    assert!(html.contains("</div>\n<p class=\"on-paper\">words</p>"), "{html}");
     assert!(html.contains("aria-labelledby=\"f1-wide-title\"") && html.contains("id=\"f1-narrow-desc\""));
     assert!(html.contains("<a href=\"#two\">Two</a>"));
     assert!(html.contains("<span class=\"badge good\"><span aria-hidden=\"true\">✓</span> words</span>"), "{html}");
@@ -111,6 +118,7 @@ fn anchors_are_there_once() {
         (twice, "\"f1\" of the page is there twice"),
         (vec![figure("f 1", scatter("a"))], "is not made of letters"),
         (vec![figure("content", scatter("a"))], "is there twice"),
+        (vec![Part::Gallery(vec![small("f1", scatter("a")), small("f1", scatter("b"))])], "is there twice"),
         (vec![Part::Links(vec![Link { text: "x".to_owned(), to: "#nowhere".to_owned() }])], "linked to and not there"),
     ];
     for (parts, message) in cases {

@@ -1,0 +1,98 @@
+//! What factors do two by two: second-order indices as a map.
+
+use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
+use super::super::factor_bars::not_drawn;
+use super::super::format::{index, name, percent};
+use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
+use super::map::{class, series, short};
+use super::{headline, no_indices};
+
+/// Most factors: of more, the figures would not fit into the cells of a phone.
+const MOST: usize = 15;
+/// The lightest shade.
+const NOTHING: &str = "below 0.01, or may be 0";
+
+/// Second-order indices of every two factors as shades and figures, with the first-order indices on the diagonal; the factor with
+/// the largest total index is the first. Of more than 15 factors, the first 15; the last ones that show nothing are left out.
+pub fn pairs_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
+    let title = format!("{}: what acts on {} two by two", headline(result), name(&output.name));
+    let mut factors: Vec<&IndexRecord> = output.indices.iter().flatten().collect();
+    let all = factors.len();
+    factors.sort_by(|a, b| b.effect.weight().estimate.total_cmp(&a.effect.weight().estimate));
+    factors.truncate(MOST);
+    let mut tiles: Vec<(usize, Tile)> = Vec::new();
+    let (mut shown, drawn) = (2.min(factors.len()), factors.len());
+    for (row, below) in factors.iter().enumerate() {
+        for (column, left) in factors.iter().enumerate().take(row + 1) {
+            let value = match row == column {
+                true => Some(below.effect.first_order),
+                false => pair(output, [&below.factor, &left.factor]),
+            };
+            let Some(value) = value else { continue };
+            let class = shade(value);
+            if class > 0 {
+                shown = shown.max(row + 1);
+            }
+            tiles.push((class, Tile { row, column, letter: short(value.estimate), tip: index(value) }));
+        }
+    }
+    factors.truncate(shown);
+    tiles.retain(|(_, tile)| tile.row < shown);
+    // The legend is in the order of the marks.
+    tiles.sort_by_key(|(class, tile)| (*class, tile.row, tile.column));
+    let marks = tiles.into_iter().map(|(class, tile)| {
+        let series = if class == 0 { Series::new(NOTHING, Colour::Shade(0)) } else { series(Some(class)) };
+        series.mark(Shape::Tile(tile))
+    });
+    let marks: Vec<_> = marks.collect();
+    let names = factors.iter().zip(1..).map(|(index, number)| format!("{} ({number})", name(&index.factor)));
+    let rows = Axis::from_names("", names.collect());
+    let columns =
+        Axis::from_names("the factors by their numbers", (1..=factors.len()).map(|n| n.to_string()).collect());
+    let panel = Panel::new(columns, rows).with(marks);
+    Chart::new(title, caption(output, (all, drawn - shown))).panels([panel])
+}
+
+/// The second-order index of two factors in any order.
+fn pair(output: &OutputRecord, [one, other]: [&str; 2]) -> Option<EstimateRecord> {
+    let is_theirs = |[a, b]: &[String; 2]| (a == one && b == other) || (a == other && b == one);
+    let pair = output.second_order.iter().flatten().find(|pair| is_theirs(&pair.factors))?;
+    Some(pair.index).filter(|index| index.estimate.is_finite())
+}
+
+/// The class of an index; that of nothing for one that may be 0.
+fn shade(index: EstimateRecord) -> usize {
+    if index.low.is_none_or(|low| low > 0.0) { class(index.estimate) } else { 0 }
+}
+
+/// Which two factors act together most, if any are sure to, and which of all are not drawn since there are many, or since they
+/// show nothing.
+fn caption(output: &OutputRecord, (all, idle): (usize, usize)) -> String {
+    let Some(pairs) = &output.second_order else {
+        return match output.indices {
+            Some(_) => format!("No second-order indices of {}: the study does not ask for them.", name(&output.name)),
+            None => no_indices(output),
+        };
+    };
+    let meaning = "Below the diagonal, what two factors do together beyond what each does alone (S_ij); on it, what each does \
+                   alone (S_i).";
+    let sure = pairs.iter().filter(|pair| pair.index.low.is_some_and(|low| low > 0.0));
+    let most = sure.max_by(|a, b| a.index.estimate.total_cmp(&b.index.estimate));
+    let has_intervals = pairs.iter().any(|pair| pair.index.low.is_some());
+    let seen = match most {
+        Some(most) => {
+            let [a, b] = &most.factors;
+            format!("The largest interaction of two is that of {} and {}: {}.", name(a), name(b), percent(most.index))
+        }
+        None if has_intervals => {
+            "No two factors are sure to act together: 0 is within the interval of every pair.".to_owned()
+        }
+        None => "Without intervals, how sure the interactions are is unknown.".to_owned(),
+    };
+    let idle = match idle {
+        0 => String::new(),
+        1 => format!(" Every cell of the last factor is {NOTHING}; it is not drawn."),
+        _ => format!(" Every cell of the last {idle} factors is {NOTHING}; they are not drawn."),
+    };
+    format!("{seen} {meaning}{}{idle}", not_drawn(all, MOST))
+}
