@@ -119,7 +119,7 @@ pub use analysis::{
     SeriesAnalysis, Spending, StopReason, Stopped,
 };
 pub use design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
-pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyMethod, Total, Undefined};
+pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyMethod, ShapleyPlayers, Total, Undefined};
 pub use model::{
     AfmModel, AfmOutput, Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag,
     FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure,

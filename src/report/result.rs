@@ -222,6 +222,9 @@ pub struct OutputRecord {
     /// The noise of a stochastic model, which is none of the factors, and what is known of the mean over it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseRecord>,
+    /// Shapley effects of the groups and of the factors that have none, where these are the players: they sum to 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shapley_groups: Option<Vec<PlayerRecord>>,
     /// Second-order indices of all pairs of factors, if asked for.
     #[serde(default)]
     pub second_order: Option<Vec<PairRecord>>,

@@ -186,6 +186,7 @@ impl Study {
             second_order: self.analysis.second_order,
             dependent: self.space.copula().is_some(),
             shapley: self.analysis.shapley_of(&self.space),
+            players: self.analysis.players(&self.space).into_iter().map(|(place, _)| place).collect(),
             noise: self.space.noise().map(|noise| NoiseLayout::new(noise, self.design.swaps())),
         }
     }

@@ -47,6 +47,7 @@ mod screening;
 mod series;
 mod series_files;
 mod shapley;
+mod shapley_groups;
 mod small_budgets;
 mod stopped;
 mod study_forms;

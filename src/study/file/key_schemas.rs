@@ -7,7 +7,7 @@ use super::distribution_forms::FORMS;
 use super::sections::NoiseSection;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
 use crate::design::Sampler;
-use crate::estimate::{Estimator, ShapleyMethod};
+use crate::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
 use crate::model::{KnownAnswer, Match, ModelKind, Protocol, edge_unit};
 use crate::run::FailurePolicy;
 use crate::space::CorrelationMeasure;
@@ -56,6 +56,10 @@ pub(super) fn surrogates() -> Vec<&'static str> {
 
 pub(super) fn shapley_methods() -> Vec<&'static str> {
     names(&ShapleyMethod::ALL, ShapleyMethod::name)
+}
+
+pub(super) fn shapley_players() -> Vec<&'static str> {
+    names(&ShapleyPlayers::ALL, ShapleyPlayers::name)
 }
 
 pub(super) fn intervals() -> Vec<&'static str> {
