@@ -7,6 +7,7 @@ mod density;
 mod distances;
 mod fourier;
 mod hsic;
+mod twin;
 
 use std::collections::BTreeMap;
 
@@ -21,6 +22,7 @@ use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
 use density::Densities;
 use distances::{Distance, distances};
 pub use hsic::MOST_ROWS as MOST_ROWS_OF_KERNELS;
+use twin::Twin;
 
 /// A measure of the influence of an input on an output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -111,7 +113,10 @@ impl InputMeasures {
 /// Permutations behind a p-value: it is known to 0.005 at best.
 pub const PERMUTATIONS: usize = 199;
 
-/// Resamples behind the bias and the interval of delta.
+/// p-values below this are taken for influence.
+const LEVEL: f64 = 0.05;
+
+/// Resamples behind the bias and the interval of delta, and tables of its twin.
 const RESAMPLES: usize = 100;
 
 /// Classes of PAWN.
@@ -209,7 +214,12 @@ impl Job<'_> {
                     let chance = chance.get(&classes.sizes()).map_or(&[][..], Vec::as_slice);
                     let mut values = self.judged(self.plain(classes, &rows), chance);
                     if is_random {
-                        values[Measure::Delta as usize].estimate = self.delta(classes, number as u64);
+                        let delta = &mut values[Measure::Delta as usize];
+                        delta.estimate = self.delta(classes, &order.centred_ranks(), number as u64);
+                        if let (Some(interval), Some(LEVEL..)) = (&mut delta.estimate.interval, delta.p_value) {
+                            // What is not told from chance may be nothing.
+                            interval.low = interval.low.min(0.0);
+                        }
                     }
                     let (r2, p_value) = outputs.with(&inputs[number].values);
                     let estimate = Estimate { estimate: r2, interval: None };
@@ -269,8 +279,9 @@ impl Job<'_> {
         })
     }
 
-    /// Delta less its bias, with its interval, by resamples of the rows.
-    fn delta(&self, classes: &Classes, input: u64) -> Estimate {
+    /// Delta less its bias by resamples of the rows (Plischke et al. 2013). Its interval is that of the resamples and that of
+    /// tables of a [`Twin`], whose delta is known, together: it reaches from the lower end of both to the upper one.
+    fn delta(&self, classes: &Classes, ranks: &[f64], input: u64) -> Estimate {
         let (z, rows) = (self.z, self.z.len());
         let plain = self.densities.delta(z, &classes.fine, &vec![1.0; rows]);
         let resample = |number: usize| {
@@ -279,13 +290,29 @@ impl Job<'_> {
             (0..rows).for_each(|_| weights[random.random_range(0..rows as u64) as usize] += 1.0);
             self.densities.delta(z, &classes.fine, &weights)
         };
-        let resampled: Vec<f64> = (0..RESAMPLES).into_par_iter().map(resample).collect();
-        let mean = resampled.iter().sum::<f64>() / RESAMPLES as f64;
-        let squares: f64 = resampled.iter().map(|delta| (delta - mean).powi(2)).sum();
-        let half_width = NORMAL_QUANTILE * (squares / (RESAMPLES as f64 - 1.0)).sqrt();
+        let (mean, half_width) = moments(&(0..RESAMPLES).into_par_iter().map(resample).collect::<Vec<f64>>());
         let estimate = 2.0 * plain - mean;
-        Estimate { estimate, interval: Some(Interval { low: estimate - half_width, high: estimate + half_width }) }
+        let mut interval = Interval { low: estimate - half_width, high: estimate + half_width };
+        if let Some(twin) = Twin::new(z, ranks, &classes.fine) {
+            let of_table = |number: usize| {
+                let outputs = twin.outputs(&mut self.random(1 << 26 | input << 8 | number as u64));
+                Densities::new(&outputs).delta(&outputs, &classes.fine, &vec![1.0; rows])
+            };
+            let (mean, half_width) = moments(&(0..RESAMPLES).into_par_iter().map(of_table).collect::<Vec<f64>>());
+            let unbiased = plain - (mean - twin.delta());
+            interval.low = interval.low.min(unbiased - half_width);
+            interval.high = interval.high.max(unbiased + half_width);
+        }
+        Estimate { estimate, interval: Some(interval) }
     }
+}
+
+/// The mean of what resamples gave, and the half width of the interval of one of them.
+fn moments(resampled: &[f64]) -> (f64, f64) {
+    let count = resampled.len() as f64;
+    let mean = resampled.iter().sum::<f64>() / count;
+    let squares: f64 = resampled.iter().map(|delta| (delta - mean).powi(2)).sum();
+    (mean, NORMAL_QUANTILE * (squares / (count - 1.0)).sqrt())
 }
 
 #[cfg(test)]
