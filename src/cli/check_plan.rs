@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use apportion::MOST_ROWS_OF_MEASURES;
 use apportion::design::{Companions, Design};
 use apportion::estimate::{FirstOrder, ShapleyMethod, Total};
 use apportion::report::significant;
@@ -149,6 +150,10 @@ fn asked(study: &Study) -> String {
         let players = analysis.shapley_players.unwrap_or_default();
         format!("Shapley effects of the {}", players.name())
     }));
+    if !analysis.measures.is_empty() {
+        let names: Vec<&str> = analysis.measures.iter().map(|measure| measure.name()).collect();
+        parts.push(format!("measures {} from the first {MOST_ROWS_OF_MEASURES} rows A and B", names.join(", ")));
+    }
     if let Some(noise) = study.space().noise() {
         parts.push(format!("the noise ({}) and the mean over it", study.space().factors()[noise].name));
     }

@@ -3,15 +3,17 @@
 use serde_json::{Map, Value};
 
 use super::distribution::OutputDistribution;
+use super::given::GivenMeasuresRecord;
 use super::records::{estimate_record, input_value};
 use super::result::{
     DependentRecord, DistributionRecord, EffectRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord,
-    IntervalRecord, LowUseRecord, MeanIndexRecord, NoiseRecord, OtherIndexRecord, OutputRecord, PairRecord,
-    PlayerRecord, StageIndexRecord, StageRecord, SubsetRecord, SurrogateRecord, SurrogateTermRecord,
+    IntervalRecord, LowUseRecord, MeanIndexRecord, MeasuresRecord, NoiseRecord, OtherIndexRecord, OutputRecord,
+    PairRecord, PlayerRecord, StageIndexRecord, StageRecord, SubsetRecord, SurrogateRecord, SurrogateTermRecord,
 };
 use super::scatter::{FirstRows, scatter_record};
-use crate::analysis::{Analysis, FailureCount, OutputAnalysis, names_of_swaps, row_inputs};
+use crate::analysis::{Analysis, FailureCount, OutputAnalysis, RunMeasures, names_of_swaps, row_inputs};
 use crate::estimate::{FirstOrder, ShapleyPlayers, Total};
+use crate::given::Measure;
 use crate::run::Place;
 use crate::study::Study;
 use crate::uncertainty::{
@@ -58,6 +60,7 @@ impl<'a> OutputRecords<'a> {
             dummy: None,
             noise: None,
             shapley_groups: None,
+            measures: output.measures.as_ref().map(|of| measures_record(of, &study.analysis.measures)),
             second_order: None,
             estimators: Vec::new(),
             surrogate: None,
@@ -116,6 +119,11 @@ fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices
     }
     record.estimators = estimator_records(study, indices);
     record.surrogate = indices.surrogate.as_ref().map(|used| surrogate_record(study, used));
+}
+
+fn measures_record(of: &RunMeasures, wanted: &[Measure]) -> MeasuresRecord {
+    let factors = of.factors.iter().map(|factor| GivenMeasuresRecord::of(factor, wanted)).collect();
+    MeasuresRecord { rows: of.rows as u64, factors }
 }
 
 /// The Shapley effects of groups, and of factors without one, in a list of their own: those of factors alone are not theirs.

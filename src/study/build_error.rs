@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::options::MOST_OUTPUTS_OF_MEASURES;
 use crate::design::DesignError;
 use crate::estimate::MAX_SHAPLEY_FACTORS;
 use crate::space::{DependenceError, DistributionError};
@@ -110,6 +111,12 @@ pub enum BuildError {
     ShapleyPlayers {
         /// Whether there are to be Shapley effects.
         wanted: bool,
+    },
+    /// Other measures of too many outputs.
+    #[error("measures of {outputs} outputs: at most {MOST_OUTPUTS_OF_MEASURES}, each of which takes a second or so")]
+    Measures {
+        /// The number of outputs.
+        outputs: usize,
     },
     /// A target that no run can reach.
     #[error("{what} = {value}: expected a finite number above 0")]

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
-use super::options::{rows, split_design};
+use super::options::{MOST_OUTPUTS_OF_MEASURES, rows, split_design};
 use super::subject::{CustomSubject, LowFidelity};
 use super::{AnalysisOptions, BuildError, Study, SurrogateChoice, Target};
 
@@ -233,6 +233,10 @@ impl StudyBuilder {
                 return Err(BuildError::Dependent { what });
             }
         }
+        let outputs = self.model.outputs().len();
+        if !analysis.measures.is_empty() && outputs > MOST_OUTPUTS_OF_MEASURES {
+            return Err(BuildError::Measures { outputs });
+        }
         let target = checked_target(self.target, self.sampler)?;
         let is_split = self.plain_rows > 0 || self.budget_runs.is_some();
         let replicates = self.replicates.unwrap_or(analysis.default_replicates(self.sampler, is_split));
@@ -332,6 +336,8 @@ fn checked(mut options: AnalysisOptions, sampler: Sampler, space: &Space) -> Res
     if groups && (options.shapley == Some(false) || space.groups().is_empty()) {
         return Err(BuildError::ShapleyPlayers { wanted: options.shapley != Some(false) });
     }
+    options.measures.sort_unstable();
+    options.measures.dedup();
     // The default ones are in every result.
     options.estimators.retain(|estimator| *estimator != Estimator::Default);
     Ok(options)

@@ -21,7 +21,7 @@ pub use file::{
     KnownSubject, NEW_PROGRAM, OverrideProblem, Problem, StudyError, TemplateRequest, model_guide, new_program,
     study_schema, template,
 };
-pub use options::{AnalysisOptions, SurrogateChoice, Target};
+pub use options::{AnalysisOptions, MOST_OUTPUTS_OF_MEASURES, SurrogateChoice, Target};
 use subject::CustomSubject;
 pub use subject::{LowFidelity, Rung, Subject};
 

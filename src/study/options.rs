@@ -2,6 +2,7 @@
 
 use crate::design::{Companions, Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets};
+use crate::given::Measure;
 use crate::run::FailurePolicy;
 use crate::space::Space;
 use crate::surrogate::FEWEST_NETS;
@@ -23,6 +24,9 @@ pub struct AnalysisOptions {
     pub shapley_method: Option<ShapleyMethod>,
     /// Who the players are. `None` for the factors.
     pub shapley_players: Option<ShapleyPlayers>,
+    /// Other measures than Sobol' indices that stand beside them, from the first
+    /// [`MOST_ROWS_OF_MEASURES`](crate::MOST_ROWS_OF_MEASURES) rows A and B; of at most [`MOST_OUTPUTS_OF_MEASURES`](crate::study::MOST_OUTPUTS_OF_MEASURES) outputs.
+    pub measures: Vec<Measure>,
     /// Whether indices over all outputs together are asked for.
     pub aggregate: bool,
     /// Whether a dummy factor, which does nothing, is run along: its indices are the noise of the model.
@@ -51,6 +55,7 @@ impl AnalysisOptions {
             shapley: None,
             shapley_method: None,
             shapley_players: None,
+            measures: Vec::new(),
             aggregate: false,
             dummy: false,
             intervals: IntervalMethod::default_for(sampler),
@@ -250,6 +255,9 @@ const FIRST_FREE_POINTS: u64 = 4;
 
 /// Dependent factors up to which Shapley effects are not asked for one by one.
 const FREE_SHAPLEY_FACTORS: usize = 4;
+
+/// Most outputs of a study with other measures: each takes a second or so.
+pub const MOST_OUTPUTS_OF_MEASURES: usize = 100;
 
 pub(super) const DEFAULT_RESAMPLES: usize = 1000;
 pub(super) const DEFAULT_THRESHOLD: f64 = 0.05;

@@ -41,6 +41,7 @@ mod page;
 mod points;
 mod remote_workers;
 mod reproduce;
+mod run_measures;
 mod scenes;
 mod schema;
 mod screening;

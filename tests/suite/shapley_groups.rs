@@ -157,11 +157,7 @@ fn a_group_counts_once() {
         let found = output.group(group).unwrap().shapley.unwrap();
         assert!((found.estimate - 0.5).abs() < 0.01, "{group}: {found:?}");
     }
-    assert_eq!(
-        study(ShapleyPlayers::Groups).design().rows_per_point(),
-        2 + 3,
-        "that of the group g is that of c from A"
-    );
+    assert_eq!(study(ShapleyPlayers::Groups).design().rows_per_point(), 2 + 3 + 1, "h is c");
     let analysis = study(ShapleyPlayers::Factors).run().unwrap();
     let output = analysis.output("y").unwrap();
     assert!(output.group("g").unwrap().shapley.is_none());
@@ -252,7 +248,8 @@ fn the_program_tells_of_groups() {
         assert_eq!(players[2]["factors"], serde_json::json!(["x5", "x6", "x7"]));
         let sum: f64 = players.iter().map(|player| player["shapley"]["estimate"].as_f64().unwrap()).sum();
         assert!((sum - 1.0).abs() < 1e-12 && players[1]["shapley"]["low"].is_number());
-        assert_eq!(players[3]["shapley"]["estimate"], 0.0, "nothing of the shape is in the formula");
+        let idle = &players[3]["shapley"];
+        assert!(idle["estimate"].as_f64().unwrap().abs() < 0.05, "nothing of the shape is in the formula: {idle}");
         let lines = std::fs::read_to_string(out.join(format!("{kind}.csv"))).unwrap();
         let commas = |line: &str| line.matches(',').count();
         let first = lines.lines().next().unwrap();

@@ -28,6 +28,7 @@ _ANALYSIS = (
     "shapley",
     "shapley_method",
     "shapley_players",
+    "measures",
     "aggregate",
     "dummy",
     "intervals",
@@ -57,7 +58,7 @@ class Study:
 
     Keywords are the keys of a study file: `base_samples`, `sampler`, `replicates`, `seed`, `budget_runs`, `max_runs`,
     `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `shapley_method`, `shapley_players`,
-    `estimators`, `intervals`, `surrogate`,
+    `measures`, `estimators`, `intervals`, `surrogate`,
     `threshold`, `dummy`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
     `expression={...}`, `fidelity={...}`. Factors that depend on each other, by a Gaussian copula:
     `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of tables as in a study file, as in

@@ -99,7 +99,7 @@ pub struct Measured {
 pub struct InputMeasures {
     /// The input.
     pub input: String,
-    /// One entry per measure.
+    /// One entry per measure; NaN where it was not asked for.
     pub values: [Measured; 7],
 }
 
@@ -139,14 +139,28 @@ pub fn measures(
     let is_random = indices.points == PointSet::Independent;
     let of_output = |(number, output): (usize, &Column)| {
         let z = centred(&output.values)?;
-        let job = Job { z: &z, order: Order::of(&z), densities: Densities::new(&z), seed: [seed, number as u64] };
+        let job = Job::new(&z, &Measure::ALL, [seed, number as u64]);
         Ok(job.measures(inputs, &orders, is_random))
     };
     outputs.iter().enumerate().map(of_output).collect()
 }
 
+/// The measures `wanted` of one output with respect to every input, of rows that are known to be draws from the distributions of the
+/// inputs: with intervals and p-values. Measures that are not wanted are NaN.
+pub(crate) fn measures_of_rows(
+    inputs: &[Column],
+    output: &[f64],
+    wanted: &[Measure],
+    seed: [u64; 2],
+) -> Result<Vec<InputMeasures>, NoVariance> {
+    let z = centred(output)?;
+    let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
+    Ok(Job::new(&z, wanted, seed).measures(inputs, &orders, true))
+}
+
 /// One output.
 struct Job<'a> {
+    wanted: &'a [Measure],
     z: &'a [f64],
     order: Order,
     densities: Densities,
@@ -189,7 +203,15 @@ fn classes_for(rows: usize) -> usize {
     (rows.powf(power).ceil() as usize).min(48)
 }
 
-impl Job<'_> {
+impl<'a> Job<'a> {
+    fn new(z: &'a [f64], wanted: &'a [Measure], seed: [u64; 2]) -> Self {
+        Self { wanted, z, order: Order::of(z), densities: Densities::new(z), seed }
+    }
+
+    fn wants(&self, measure: Measure) -> bool {
+        self.wanted.contains(&measure)
+    }
+
     fn random(&self, stream: u64) -> ChaCha8Rng {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed[0]);
         random.set_stream(self.seed[1] << 32 | stream);
@@ -204,7 +226,7 @@ impl Job<'_> {
                 chance.entry(classes.sizes()).or_insert_with(|| self.by_chance(classes));
             }
         }
-        let outputs = hsic::Outputs::new(self.z);
+        let outputs = self.wants(Measure::Hsic).then(|| hsic::Outputs::new(self.z));
         let of_input = |number: usize| {
             let (classes, order) = (&classes[number], &orders[number]);
             let values = match order.groups() {
@@ -213,7 +235,7 @@ impl Job<'_> {
                     let rows = order.shuffled(self.seed[0], number as u64);
                     let chance = chance.get(&classes.sizes()).map_or(&[][..], Vec::as_slice);
                     let mut values = self.judged(self.plain(classes, &rows), chance);
-                    if is_random {
+                    if is_random && self.wants(Measure::Delta) {
                         let delta = &mut values[Measure::Delta as usize];
                         delta.estimate = self.delta(classes, &order.centred_ranks(), number as u64);
                         if let (Some(interval), Some(LEVEL..)) = (&mut delta.estimate.interval, delta.p_value) {
@@ -221,12 +243,17 @@ impl Job<'_> {
                             interval.low = interval.low.min(0.0);
                         }
                     }
-                    let (r2, p_value) = outputs.with(&inputs[number].values);
-                    let estimate = Estimate { estimate: r2, interval: None };
-                    values[Measure::Hsic as usize] = Measured { estimate, p_value: p_value.filter(|_| is_random) };
+                    if let Some(outputs) = &outputs {
+                        let (r2, p_value) = outputs.with(&inputs[number].values);
+                        let estimate = Estimate { estimate: r2, interval: None };
+                        values[Measure::Hsic as usize] = Measured { estimate, p_value: p_value.filter(|_| is_random) };
+                    }
                     values
                 }
             };
+            let unasked = Measured { estimate: Estimate { estimate: f64::NAN, interval: None }, p_value: None };
+            let of_measure = |measure: Measure| if self.wants(measure) { values[measure as usize] } else { unasked };
+            let values = Measure::ALL.map(of_measure);
             InputMeasures { input: inputs[number].name.clone(), values }
         };
         (0..inputs.len()).into_par_iter().map(of_input).collect()
@@ -247,7 +274,7 @@ impl Job<'_> {
         let median = if slides.len() % 2 == 1 { slides[middle] } else { (slides[middle - 1] + slides[middle]) / 2.0 };
         [
             fourier::first_order(rows.iter().map(|&row| self.z[row]).collect()),
-            self.densities.delta(self.z, &classes.fine, &weights),
+            if self.wants(Measure::Delta) { self.densities.delta(self.z, &classes.fine, &weights) } else { f64::NAN },
             mean(Distance::kolmogorov),
             mean(Distance::kuiper),
             median,

@@ -2,6 +2,7 @@
 
 use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, Numbered, SCATTER, SHARES};
 use super::lead::{by_total, widest};
+use super::measures::measures;
 use super::noise::noise;
 use super::{tables, values};
 use crate::estimate::ShapleyMethod;
@@ -34,6 +35,7 @@ pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> 
         topics.push(topic("shares", "Shares", shares(figures, of)));
         topics.push(topic("noise", "The noise", noise(figures.result, of.output)));
         topics.push(topic("interactions", "Interactions", interactions(figures, of)));
+        topics.push(topic("measures", "Other measures", measures(figures.result, of.output)));
         topics.push(topic("convergence", "How the indices settled", convergence(figures, of)));
     }
     topics.push(topic("distribution", "Distribution of the output", distribution(figures, of)));

@@ -157,7 +157,7 @@ pub(super) fn indices_csv(result: &ResultFile) -> String {
     let series = result.series.iter().filter_map(|series| {
         let indices = series.indices.as_ref()?;
         let (outputs, weighting) = (vec![series.name.clone()], String::new());
-        let record = AggregateRecord { outputs, weighting, indices: None, reason: None };
+        let record = AggregateRecord { outputs, weighting, indices: None, noise: None, reason: None };
         table(aggregate_of(result, &record, indices))
     });
     let header = std::iter::once(effect_table(result, String::new(), ""));
@@ -332,7 +332,10 @@ pub(super) fn estimators(output: &OutputRecord) -> Vec<Part> {
 
 /// Indices over all outputs together.
 pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indices: &[AggregateIndexRecord]) -> Part {
-    let mut order: Vec<(usize, &AggregateIndexRecord)> = indices.iter().enumerate().collect();
+    // The noise is one more line.
+    let noise = record.noise.as_ref();
+    let lines = || indices.iter().chain(noise);
+    let mut order: Vec<(usize, &AggregateIndexRecord)> = lines().enumerate().collect();
     order.sort_by(|a, b| b.1.total.estimate.total_cmp(&a.1.total.estimate));
     // The names of hundreds, in every line, would be most of the file.
     let outputs = match record.outputs.len() {
@@ -343,7 +346,11 @@ pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indice
     let row = |index: &AggregateIndexRecord| {
         let nothing = || Cell::valued("", Value::Empty);
         let none = || Cell::valued("", Value::Estimate(None));
-        let label = Cell::valued(name(&index.factor), (&index.factor).into());
+        let label = match noise == Some(index) {
+            true => format!("noise ({})", name(&index.factor)),
+            false => name(&index.factor),
+        };
+        let label = Cell::valued(label, (&index.factor).into());
         let estimates = [index.first_order.into(), index.total.into(), none(), none(), none(), nothing(), nothing()];
         [outputs.as_str().into(), "aggregate".into(), label].into_iter().chain(estimates).collect()
     };
@@ -351,7 +358,7 @@ pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indice
         "Aggregated indices of all outputs.{}",
         largest(order.len().min(FACTORS), order.len(), "factors, all in the CSV file")
     );
-    let mut table = with_effects(effect_table(result, caption, "factor"), indices.iter().map(row));
+    let mut table = with_effects(effect_table(result, caption, "factor"), lines().map(row));
     table.columns[OF_ONE_OUTPUT..].iter_mut().for_each(Column::hide);
     Part::Table(Table { printed: places(&order, FACTORS), at_end: true, ..table })
 }

@@ -5,6 +5,7 @@ use super::error::Problem;
 use super::sections::{AnalysisSection, At, DesignSection};
 use crate::design::{MAX_ORDERED_FACTORS, Sampler, has_room_for_orders};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers};
+use crate::given::Measure;
 use crate::quantity::{Dimension, Quantity};
 use crate::run::FailurePolicy;
 use crate::space::Space;
@@ -28,6 +29,7 @@ pub(super) fn analysis(
     let shapley = shapley(context, section, space)?;
     Ok(AnalysisOptions {
         estimators: estimators(context, section)?,
+        measures: measures(context, section)?,
         second_order: flag(&section.second_order),
         subsets: subsets(context, section, space)?,
         shapley: shapley.asked,
@@ -72,6 +74,21 @@ fn estimators(context: &Context<'_>, section: &AnalysisSection) -> Result<Vec<Es
     // The default ones are in every result.
     estimators.retain(|estimator| *estimator != Estimator::Default);
     Ok(estimators)
+}
+
+fn measures(context: &Context<'_>, section: &AnalysisSection) -> Result<Vec<Measure>, Fault> {
+    let mut measures = Vec::new();
+    for name in section.measures.iter().flat_map(|list| list.get_ref()) {
+        let measure = choice(context, name, "measure", &Measure::ALL, Measure::name)?;
+        if measures.contains(&measure) {
+            let problem = Problem::Repeated { what: "measure", name: name.get_ref().clone() };
+            return Err(context.fault(name.span(), problem));
+        }
+        measures.push(measure);
+    }
+    // In the order of results.
+    measures.sort_unstable();
+    Ok(measures)
 }
 
 fn subsets(context: &Context<'_>, section: &AnalysisSection, space: &Space) -> Result<Vec<Vec<usize>>, Fault> {

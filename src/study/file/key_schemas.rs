@@ -8,6 +8,7 @@ use super::sections::NoiseSection;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
 use crate::design::Sampler;
 use crate::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
+use crate::given::Measure;
 use crate::model::{KnownAnswer, Match, ModelKind, Protocol, edge_unit};
 use crate::run::FailurePolicy;
 use crate::space::CorrelationMeasure;
@@ -44,6 +45,10 @@ pub(super) fn lows(_: &mut SchemaGenerator) -> Schema {
 /// The schema of an estimator's name.
 pub(super) fn estimators() -> Value {
     json!({ "enum": names(&Estimator::ALL, Estimator::name) })
+}
+
+pub(super) fn measures() -> Value {
+    json!({ "enum": names(&Measure::ALL, Measure::name) })
 }
 
 pub(super) fn correlation_measures() -> Vec<&'static str> {
