@@ -13,6 +13,8 @@ const SEEDS: u64 = 200;
 const SIZES: [u64; 3] = [256, 1024, 4096];
 /// Most model runs of a seed.
 const MOST_RUNS: u64 = 1 << 19;
+/// Of deltas of runs, which take longer.
+const DELTA_SEEDS: u64 = 100;
 const ROWS: [usize; 2] = [200, 1000];
 /// p-values below this are taken for influence.
 const LEVEL: f64 = 0.05;
@@ -260,7 +262,7 @@ fn delta_cases() -> Vec<DeltaCase> {
 
 /// Delta of runs of nets, and of random rows, by its own resamples and twins.
 fn deltas(text: &mut String, seeds: u64) {
-    let sizes = [100u64, 512, 2048];
+    let sizes = [100u64, 512];
     let heads = sizes.map(|n| format!("{} rows", 2 * n)).join(" | ");
     let _ = writeln!(text, "| output | points | inputs | {heads} |\n|---|---|---|{}", "---|".repeat(sizes.len()));
     for case in delta_cases() {
@@ -378,7 +380,7 @@ fn main() {
     text += "\n## Delta of a run\n\n`measures = [\"delta\"]` in `[analysis]`: the first rows A and B, of random points and of four nets. The \
              estimate is less its bias by resamples (Plischke, Borgonovo and Smith 2013); of an input that is idle every table in which \
              the interval reaches 0 holds the truth.\n\n";
-    deltas(&mut text, seeds.min(100));
+    deltas(&mut text, seeds.min(DELTA_SEEDS));
     println!("{text}");
     if asked.is_none() {
         let page = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/coverage-measures.md");

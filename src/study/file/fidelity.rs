@@ -112,7 +112,7 @@ fn described(context: &Context<'_>, table: &toml::Table) -> Result<LowFidelity, 
         let value = |value: &toml::Value| Some(value.to_string()).filter(|text| text.len() <= LONGEST);
         let own = |(key, of): (&String, &toml::Value)| format!(", {key} = {}", value(of).as_deref().unwrap_or("..."));
         let own = table.iter().map(own).collect::<String>();
-        let expected = format!("a name for the cheaper model, as in {{ name = \"coarse\"{own} }}");
+        let expected = format!("a table with a name, as in {{ name = \"coarse\"{own} }}");
         return Err(wrong("low", &expected, "a table without `name`".to_owned()));
     };
     if let Some(expected) = refused_name(&name) {
