@@ -14,7 +14,7 @@ const SIZES: [u64; 3] = [256, 1024, 4096];
 /// Most model runs of a seed.
 const MOST_RUNS: u64 = 1 << 19;
 /// Of deltas of runs, which take longer.
-const DELTA_SEEDS: u64 = 100;
+const DELTA_SEEDS: u64 = 40;
 const ROWS: [usize; 2] = [200, 1000];
 /// p-values below this are taken for influence.
 const LEVEL: f64 = 0.05;
