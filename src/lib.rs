@@ -116,14 +116,15 @@ pub mod trade;
 pub mod uncertainty;
 
 // The modules that are hidden are open to the program, which is a crate of its own, and promise nothing.
+pub use analysis::MOST_ROWS_OF_MEASURES;
 #[doc(hidden)]
 pub use analysis::MixedModels;
 pub use analysis::{
     Aggregate, Analysis, Direction, FailureCount, LookupError, LowRuns, NoDirections, NoIndices, OutputAnalysis,
-    SeriesAnalysis, Spending, StopReason, Stopped,
+    RunMeasures, SeriesAnalysis, Spending, StopReason, Stopped,
 };
 pub use design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
-pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyMethod, Total, Undefined};
+pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyMethod, ShapleyPlayers, Total, Undefined};
 pub use model::{
     AfmModel, AfmOutput, Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag,
     FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure,

@@ -414,6 +414,18 @@ def test_dependent_factors_have_shapley_effects():
         shapley_method="permutations",
     )
     assert abs(walked.shapley["a"].estimate - 0.5) < 0.03 and abs(sum(np.asarray(walked.shapley)) - 1) < 1e-12
+    grouped = ap.analyse(
+        lambda a, b, c: 2 * a + b + c,
+        {"a": ap.Normal(0, 1, group="g"), "b": ap.Normal(0, 2, group="g"), "c": ap.Normal(0, 1)},
+        base_samples=4096,
+        shapley_players="groups",
+        measures=["delta", "r2_hsic"],
+    )
+    assert list(grouped.measures) == ["delta", "r2_hsic"]
+    delta = grouped.measures["delta"]["c"]
+    assert delta.low < delta.estimate < delta.high < grouped.measures["delta"]["a"].low
+    assert list(grouped.shapley_groups) == ["c", "g"] and len(grouped.shapley) == 0
+    assert abs(grouped.shapley_groups["g"].estimate - 8 / 9) < 0.01
     with pytest.raises(ap.StudyError, match="nearest"):
         three = factors | {"c": ap.Normal(0, 1)}
         ap.analyse(lambda a, b, c: a, three, dependence={("a", "b"): 0.9, ("b", "c"): 0.9, ("a", "c"): -0.9})

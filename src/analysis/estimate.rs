@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::finished_run::{FinishedRun, LowTotals, outputs_kept, row_inputs};
+use super::measures::FirstRows;
 use super::result::{Aggregate, Analysis, FailureCount, LowRuns, NoIndices, OutputAnalysis, Stopped};
 use super::series::{series, single_outputs, together};
 use super::warnings;
@@ -47,7 +48,16 @@ pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
 /// The results for all outputs; `whole` holds the counts over all replicates.
 fn output_analyses(run: &FinishedRun<'_>, whole: &Totals, corrected: &Corrections) -> Vec<OutputAnalysis> {
     let outputs = run.model.outputs().par_iter().enumerate();
-    outputs.map(|(number, output)| output_analysis(run, output, number, (whole, corrected))).collect()
+    let mut analyses: Vec<OutputAnalysis> =
+        outputs.map(|(number, output)| output_analysis(run, output, number, (whole, corrected))).collect();
+    let wanted = &run.study.analysis.measures;
+    if !wanted.is_empty() {
+        let rows = FirstRows::of(run.design, &run.study.space);
+        for (number, output) in analyses.iter_mut().enumerate() {
+            output.measures = rows.measures(wanted, number, &output.samples);
+        }
+    }
+    analyses
 }
 
 fn low_runs(low: &LowTotals<'_>) -> LowRuns {
@@ -173,6 +183,7 @@ fn output_analysis(
         indices,
         values: totals.values,
         samples: run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect(),
+        measures: None,
         warnings,
         names: [factors, study.space.groups().into_iter().map(|group| group.name).collect()],
     }

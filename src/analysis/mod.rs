@@ -3,6 +3,7 @@
 mod directions;
 mod estimate;
 mod finished_run;
+mod measures;
 mod result;
 mod series;
 mod warnings;
@@ -12,6 +13,7 @@ pub(crate) use estimate::{analysis, interval_options, surrogates};
 pub(crate) use finished_run::{FinishedRun, LowTotals, outputs_kept};
 #[cfg(feature = "charts")]
 pub(crate) use finished_run::{names_of_swaps, row_inputs};
+pub use measures::{MOST_ROWS_OF_MEASURES, RunMeasures};
 #[cfg(feature = "charts")]
 pub(crate) use result::LOST;
 pub use result::{

@@ -4,6 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
+use super::measures::RunMeasures;
 use super::series::SeriesAnalysis;
 use crate::design::Design;
 use crate::estimate::{CentralMoments, Scaling, Undefined};
@@ -141,6 +142,9 @@ pub struct OutputAnalysis {
     pub values: CentralMoments,
     /// Of every replicate the outputs of its first rows A and B: A, B, A, B, ...; NaN where a run failed.
     pub samples: Vec<Vec<f64>>,
+    /// Other measures of the influence of the factors, where the study asks for some; `None` too where the output does not vary, or too
+    /// few runs have succeeded.
+    pub measures: Option<RunMeasures>,
     /// What a careful reader should know, in sentences.
     pub warnings: Vec<String>,
     /// Names of the factors and of the groups, in the order of their indices.

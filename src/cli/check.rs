@@ -57,7 +57,8 @@ fn pilot(study: &Study) -> Result<Pilot, Failure> {
 
 /// The files of a run with what they hold.
 fn files(study: &Study) -> String {
-    const CONTENTS: [(&str, &str); 5] = [
+    const CONTENTS: [(&str, &str); 6] = [
+        ("-measures.csv", "other measures of the factors"),
         ("-second-order.csv", "the second-order indices of all pairs"),
         ("-estimators.csv", "the indices by the other estimators"),
         ("-convergence.csv", "the indices at every stage of the run"),

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use apportion::MOST_ROWS_OF_MEASURES;
 use apportion::design::{Companions, Design};
 use apportion::estimate::{FirstOrder, ShapleyMethod, Total};
 use apportion::report::significant;
@@ -145,7 +146,14 @@ fn asked(study: &Study) -> String {
     parts.extend(counted(analysis.subsets.len(), "subset"));
     parts.extend(analysis.dummy.then(|| "a dummy factor".to_owned()));
     parts.extend(analysis.second_order.then(|| format!("second order of {} pairs", study.layout().pair_list().len())));
-    parts.extend(analysis.has_shapley(study.space()).then(|| "Shapley effects of the factors".to_owned()));
+    parts.extend(analysis.has_shapley(study.space()).then(|| {
+        let players = analysis.shapley_players.unwrap_or_default();
+        format!("Shapley effects of the {}", players.name())
+    }));
+    if !analysis.measures.is_empty() {
+        let names: Vec<&str> = analysis.measures.iter().map(|measure| measure.name()).collect();
+        parts.push(format!("measures {} from the first {MOST_ROWS_OF_MEASURES} rows A and B", names.join(", ")));
+    }
     if let Some(noise) = study.space().noise() {
         parts.push(format!("the noise ({}) and the mean over it", study.space().factors()[noise].name));
     }
@@ -214,9 +222,10 @@ fn rows(study: &Study) -> String {
     let plain = design.plain_rows();
     words.extend((plain > 0).then(|| format!("{plain} plain, for surrogates alone")));
     let steps = design.step_runs().len();
-    words.extend(
-        (steps > 0).then(|| format!("{} along a random order of the factors, for Shapley effects", rows_of(steps))),
-    );
+    words.extend((steps > 0).then(|| {
+        let players = analysis.shapley_players.unwrap_or_default().name();
+        format!("{} along a random order of the {players}, for Shapley effects", rows_of(steps))
+    }));
     let all = 2 + swaps as u64 * (1 + design.companions().count()) + u64::from(plain) + steps as u64;
     let saved = all - design.rows_per_point();
     let once = if saved > 0 {

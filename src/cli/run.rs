@@ -7,8 +7,8 @@ use anyhow::anyhow;
 use apportion::Resume;
 use apportion::exchange::{Format, save_outputs};
 use apportion::report::{
-    Artefacts, FileNames, OutputNames, OutputRecord, ResultFile, inputs_in_words, prepare_file, prepare_folder,
-    read_result, run_document, run_file_names, stream_atomically,
+    Artefacts, FileNames, OutputNames, OutputRecord, ResultFile, RunTables, inputs_in_words, prepare_file,
+    prepare_folder, read_result, run_document, run_file_names, stream_atomically,
 };
 use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
@@ -212,7 +212,13 @@ pub fn file_names(study: &Study) -> FileNames {
     let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     let series: Vec<_> = model.series().iter().map(|series| (series.name.as_str(), series.places())).collect();
     let outputs = OutputNames::new(&outputs, &series);
-    run_file_names(study.name(), &outputs, study.analysis().second_order, !study.analysis().estimators.is_empty())
+    let analysis = study.analysis();
+    let tables = RunTables {
+        second_order: analysis.second_order,
+        estimators: !analysis.estimators.is_empty(),
+        measures: !analysis.measures.is_empty(),
+    };
+    run_file_names(study.name(), &outputs, tables)
 }
 
 /// Writes the files of a result, and says what came out.

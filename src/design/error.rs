@@ -117,11 +117,13 @@ pub enum DesignError {
     PlainRowsOfDependentFactors,
     /// Random orders of more factors than the memory of a block of base points is for.
     #[error(
-        "{factors} factors are too many for Shapley effects along random orders: at most {MAX_ORDERED_FACTORS} are possible; leave \
-         out those that hardly act, which their total indices tell"
+        "{factors} factors are too many for Shapley effects along random orders of {players} players: at most {MAX_ORDERED_FACTORS} \
+         single ones are possible; leave out those that hardly act, which their total indices tell, or put them into fewer groups"
     )]
     TooManyOrderedFactors {
-        /// The number asked for.
+        /// Players of the orders.
+        players: usize,
+        /// Factors in all.
         factors: usize,
     },
     /// Players that are not the factors.

@@ -42,8 +42,14 @@ pub const MAX_REPLICATES: u64 = 4096;
 /// Most factors of a design with second-order indices: their sums take d (d - 1) numbers for every output.
 pub const MAX_PAIRED_FACTORS: usize = 256;
 
-/// Most factors of a design with rows along random orders: its base points have a column for each factor in each of these rows.
+/// Most factors of a design with rows along random orders of single factors: its base points have a column for each factor in each of
+/// these rows. Of fewer players than factors there may be more factors, as long as there are no more columns.
 pub const MAX_ORDERED_FACTORS: usize = 100;
+
+/// Whether base points have room for the rows along random orders of so many players that are so many factors together.
+pub fn has_room_for_orders(players: usize, factors: usize) -> bool {
+    players.saturating_sub(1).saturating_mul(factors) <= (MAX_ORDERED_FACTORS - 1) * MAX_ORDERED_FACTORS
+}
 
 /// Most plain rows of a base point.
 pub const MAX_PLAIN_ROWS: u32 = 1000;
@@ -192,8 +198,8 @@ impl Design {
             }
         }
         if !rows.players.is_empty() {
-            if factors > MAX_ORDERED_FACTORS {
-                return Err(DesignError::TooManyOrderedFactors { factors });
+            if !has_room_for_orders(rows.players.len(), factors) {
+                return Err(DesignError::TooManyOrderedFactors { players: rows.players.len(), factors });
             }
             let mut players = rows.players.concat();
             players.sort_unstable();

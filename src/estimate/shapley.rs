@@ -1,14 +1,15 @@
-//! Shapley effects: the share of the variance that each factor accounts for, dependent or not, adding up to all of it.
+//! Shapley effects: the share of the variance that each player accounts for, dependent or not, adding up to all of it. The players
+//! are the factors, or the groups of them.
 
-/// Most factors whose Shapley effects are found from all of their subsets: every base point costs 2^d runs.
+/// Most players whose Shapley effects are found from all of their subsets: every base point costs 2^p runs of p players.
 pub const MAX_SHAPLEY_FACTORS: usize = 8;
 
 /// How Shapley effects are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ShapleyMethod {
-    /// From all subsets of the factors, at most [`MAX_SHAPLEY_FACTORS`]: 2^d runs for each base sample, and the smaller errors.
+    /// From all subsets of the players, at most [`MAX_SHAPLEY_FACTORS`]: 2^p runs for each base sample, and the smaller errors.
     Subsets,
-    /// Along a random order of the factors at each base sample: d - 1 more runs for each.
+    /// Along a random order of the players at each base sample: p - 1 more runs for each.
     Permutations,
 }
 
@@ -21,6 +22,31 @@ impl ShapleyMethod {
         match self {
             Self::Subsets => "subsets",
             Self::Permutations => "permutations",
+        }
+    }
+}
+
+/// Who shares out the variance in Shapley effects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ShapleyPlayers {
+    /// Every factor by itself.
+    #[default]
+    Factors,
+    /// The groups of factors, and the factors without a group each by itself: the effect of a group is what all its factors add
+    /// at once to the players before it, the value of the game between unions (Owen 1977, in Mathematical Economics and Game
+    /// Theory, Springer, 76-88).
+    Groups,
+}
+
+impl ShapleyPlayers {
+    /// Both, the default first.
+    pub const ALL: [Self; 2] = [Self::Factors, Self::Groups];
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Factors => "factors",
+            Self::Groups => "groups",
         }
     }
 }

@@ -178,18 +178,22 @@ fn aggregate_record(study: &Study, analysis: &Analysis) -> Option<AggregateRecor
         outputs: aggregate.outputs.clone(),
         weighting: weighting.to_owned(),
         indices: indices.ok().map(|all| together_records(study, all)),
+        noise: study.space.noise().zip(indices.ok()).map(|(noise, all)| together_record(study, all, noise)),
         reason: indices.err().map(|undefined| undefined.to_string()),
     })
 }
 
 fn together_records(study: &Study, all: &AggregateIndices) -> Vec<AggregateIndexRecord> {
-    let record = |(number, factor): (usize, &crate::space::Factor)| AggregateIndexRecord {
-        factor: factor.name.clone(),
-        first_order: estimate_record(all.first_order[number]),
-        total: estimate_record(all.total[number]),
-    };
-    let known = |(_, factor): &(usize, &crate::space::Factor)| !factor.distribution().is_noise();
-    study.space.factors().iter().enumerate().filter(known).map(record).collect()
+    let known = (0..study.space.factors().len()).filter(|factor| Some(*factor) != study.space.noise());
+    known.map(|factor| together_record(study, all, factor)).collect()
+}
+
+fn together_record(study: &Study, all: &AggregateIndices, factor: usize) -> AggregateIndexRecord {
+    AggregateIndexRecord {
+        factor: study.space.factors()[factor].name.clone(),
+        first_order: estimate_record(all.first_order[factor]),
+        total: estimate_record(all.total[factor]),
+    }
 }
 
 fn series_record(study: &Study, analysis: &Analysis, found: &SeriesAnalysis) -> SeriesRecord {

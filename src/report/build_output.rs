@@ -3,15 +3,17 @@
 use serde_json::{Map, Value};
 
 use super::distribution::OutputDistribution;
+use super::given::GivenMeasuresRecord;
 use super::records::{estimate_record, input_value};
 use super::result::{
     DependentRecord, DistributionRecord, EffectRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord,
-    IntervalRecord, LowUseRecord, MeanIndexRecord, NoiseRecord, OtherIndexRecord, OutputRecord, PairRecord,
-    StageIndexRecord, StageRecord, SubsetRecord, SurrogateRecord, SurrogateTermRecord,
+    IntervalRecord, LowUseRecord, MeanIndexRecord, MeasuresRecord, NoiseRecord, OtherIndexRecord, OutputRecord,
+    PairRecord, PlayerRecord, StageIndexRecord, StageRecord, SubsetRecord, SurrogateRecord, SurrogateTermRecord,
 };
 use super::scatter::{FirstRows, scatter_record};
-use crate::analysis::{Analysis, FailureCount, OutputAnalysis, names_of_swaps, row_inputs};
-use crate::estimate::{FirstOrder, Total};
+use crate::analysis::{Analysis, FailureCount, OutputAnalysis, RunMeasures, names_of_swaps, row_inputs};
+use crate::estimate::{FirstOrder, ShapleyPlayers, Total};
+use crate::given::Measure;
 use crate::run::Place;
 use crate::study::Study;
 use crate::uncertainty::{
@@ -57,6 +59,8 @@ impl<'a> OutputRecords<'a> {
             subsets: None,
             dummy: None,
             noise: None,
+            shapley_groups: None,
+            measures: output.measures.as_ref().map(|of| measures_record(of, &study.analysis.measures)),
             second_order: None,
             estimators: Vec::new(),
             surrogate: None,
@@ -102,6 +106,9 @@ fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices
     };
     record.subsets = Some(subsets.map(of_subset).collect());
     record.dummy = indices.dummy.as_ref().map(effect_record);
+    if study.analysis.shapley_players == Some(ShapleyPlayers::Groups) {
+        add_players(record, indices);
+    }
     if study.analysis.second_order {
         let of_pair = |((j, k), index): ((usize, usize), &Estimate)| PairRecord {
             factors: [j, k].map(|number| factors[number].name.clone()),
@@ -112,6 +119,29 @@ fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices
     }
     record.estimators = estimator_records(study, indices);
     record.surrogate = indices.surrogate.as_ref().map(|used| surrogate_record(study, used));
+}
+
+fn measures_record(of: &RunMeasures, wanted: &[Measure]) -> MeasuresRecord {
+    let factors = of.factors.iter().map(|factor| GivenMeasuresRecord::of(factor, wanted)).collect();
+    MeasuresRecord { rows: of.rows as u64, factors }
+}
+
+/// The Shapley effects of groups, and of factors without one, in a list of their own: those of factors alone are not theirs.
+fn add_players(record: &mut OutputRecord, indices: &OutputIndices) {
+    let of_factors = record.indices.iter_mut().flatten().zip(&indices.factors);
+    let of_factors = of_factors.map(|(index, effect)| {
+        index.effect.shapley = None;
+        (index.factor.clone(), vec![index.factor.clone()], effect)
+    });
+    let of_groups = record.groups.iter_mut().flatten().zip(&indices.groups);
+    let of_groups = of_groups.map(|(group, effect)| {
+        group.effect.shapley = None;
+        (group.group.clone(), group.factors.clone(), effect)
+    });
+    let player = |(player, factors, effect): (String, Vec<String>, &EffectEstimates)| {
+        effect.shapley.map(|shapley| PlayerRecord { player, factors, shapley: estimate_record(shapley) })
+    };
+    record.shapley_groups = Some(of_factors.chain(of_groups).filter_map(player).collect());
 }
 
 fn noise_record(study: &Study, indices: &OutputIndices, noise: &NoiseIndices) -> NoiseRecord {

@@ -250,9 +250,12 @@ pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let factors: Vec<&str> = result.factors.iter().map(|factor| factor.name.as_str()).collect();
     let title = result.study.title.as_ref().unwrap_or(&result.study.name);
     let indices = || output.indices.iter().flatten();
-    if indices().any(|index| index.effect.shapley.is_some()) {
-        let names = indices().map(|index| name(&index.factor)).collect();
-        let effects: Vec<Option<EstimateRecord>> = indices().map(|index| index.effect.shapley).collect();
+    let of_factors = indices().filter_map(|index| Some((name(&index.factor), index.effect.shapley?)));
+    let of_players = output.shapley_groups.iter().flatten().map(|player| (name(&player.player), player.shapley));
+    let shapley: Vec<(String, EstimateRecord)> = of_factors.chain(of_players).collect();
+    if !shapley.is_empty() {
+        let (names, effects): (_, Vec<EstimateRecord>) = shapley.into_iter().unzip();
+        let effects: Vec<Option<EstimateRecord>> = effects.into_iter().map(Some).collect();
         let keys: Vec<f64> = effects.iter().map(|effect| effect.map_or(f64::NAN, |effect| effect.estimate)).collect();
         let series = (Series::new("Shapley effect", Colour::Series(0)), effects);
         let panel = index_panel("Shapley effect: part of the variance", names, [series], &keys);

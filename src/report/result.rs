@@ -14,6 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::distribution::OutputDistribution;
+use super::given::GivenMeasuresRecord;
 pub use indices::*;
 pub use noise::{MeanIndexRecord, NoiseRecord};
 pub use scatter::*;
@@ -222,6 +223,13 @@ pub struct OutputRecord {
     /// The noise of a stochastic model, which is none of the factors, and what is known of the mean over it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseRecord>,
+    /// Shapley effects of the groups and of the factors that have none, where these are the players: they sum to 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shapley_groups: Option<Vec<PlayerRecord>>,
+    /// Other measures of the influence of the factors, if asked for; absent too where the output does not vary, or too few runs have
+    /// succeeded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measures: Option<MeasuresRecord>,
     /// Second-order indices of all pairs of factors, if asked for.
     #[serde(default)]
     pub second_order: Option<Vec<PairRecord>>,
@@ -244,6 +252,16 @@ pub struct OutputRecord {
     pub reason: Option<String>,
     /// What a careful reader should know.
     pub warnings: Vec<String>,
+}
+
+/// Other measures than Sobol' indices.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
+pub struct MeasuresRecord {
+    /// The first rows A and B that they were taken from.
+    pub rows: u64,
+    /// One entry per factor.
+    pub factors: Vec<GivenMeasuresRecord>,
 }
 
 /// How the values of an output are distributed, as far as the rows A and B tell.
@@ -293,6 +311,9 @@ pub struct AggregateRecord {
     pub weighting: String,
     /// One entry per factor; `null` where an output has no indices.
     pub indices: Option<Vec<AggregateIndexRecord>>,
+    /// The noise of a stochastic model, which is none of the factors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<AggregateIndexRecord>,
     /// Why there are none.
     pub reason: Option<String>,
 }

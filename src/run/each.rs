@@ -3,7 +3,8 @@
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use super::executor::{Evaluated, Executor, Finished, Task};
+use super::executor::Executor;
+use super::task::{Evaluated, Finished, Task};
 use super::{Progress, RunError};
 use crate::clock::Instant;
 use crate::model::{Model, RunContext, Standing, Worker};

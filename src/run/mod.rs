@@ -25,6 +25,7 @@ mod scratch;
 mod shard;
 mod store;
 mod table;
+mod task;
 mod totals;
 
 use std::time::Duration;

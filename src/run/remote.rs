@@ -9,9 +9,10 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use super::blocks::{BlockOptions, Blocks};
-use super::executor::{Evaluated, LOOK, Task};
+use super::executor::LOOK;
 use super::fold::{Fold, Sums};
 use super::rows::MissingRows;
+use super::task::{Evaluated, Task};
 use super::{FailurePolicy, Job, Store};
 use crate::binary::{Binary, Reader, binary_fields};
 use crate::design::{Design, DesignSettings, Rows, Sampler};

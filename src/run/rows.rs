@@ -4,10 +4,10 @@ use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-use super::executor::{Evaluated, Finished, Task};
 use super::journal::{record, write_record};
 use super::remote::{Abroad, DesignKey, Errand};
 use super::store::{Piece, Store};
+use super::task::{Evaluated, Finished, Task};
 use super::{FailurePolicy, Job, PieceSink, Place, RunError};
 use crate::binary::{Binary, Reader};
 use crate::design::BasePoints;

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use thiserror::Error;
 
-use super::executor::{Evaluated, Executor, Finished, Task};
+use super::executor::Executor;
+use super::task::{Evaluated, Finished, Task};
 use super::{Progress, RunError};
 use crate::clock::Instant;
 use crate::model::{Batch, Model, RowFailure, Worker};

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::options::MOST_OUTPUTS_OF_MEASURES;
 use crate::design::DesignError;
 use crate::estimate::MAX_SHAPLEY_FACTORS;
 use crate::space::{DependenceError, DistributionError};
@@ -83,15 +84,15 @@ pub enum BuildError {
         /// What.
         what: &'static str,
     },
-    /// Shapley effects of too many factors.
+    /// Shapley effects of too many factors, or groups.
     #[error(
-        "Shapley effects of {factors} factors: at most {most}, {}",
+        "Shapley effects of {factors} players: at most {most}, {}",
         if *most == MAX_SHAPLEY_FACTORS { "each base sample taking 2^d runs; by random permutations there may be more" } else {
             "each base sample taking a run for each"
         }
     )]
     Shapley {
-        /// The number of factors.
+        /// The number of players.
         factors: usize,
         /// Most that the method serves.
         most: usize,
@@ -101,6 +102,21 @@ pub enum BuildError {
     ShapleyMethod {
         /// Its name.
         method: &'static str,
+    },
+    /// Shapley effects of groups that are not there, or not wanted.
+    #[error(
+        "shapley_players = \"groups\" {}",
+        if *wanted { "without a group: give factors one" } else { "beside shapley = false: leave out one of them" }
+    )]
+    ShapleyPlayers {
+        /// Whether there are to be Shapley effects.
+        wanted: bool,
+    },
+    /// Other measures of too many outputs.
+    #[error("measures of {outputs} outputs: at most {MOST_OUTPUTS_OF_MEASURES}, each of which takes a second or so")]
+    Measures {
+        /// The number of outputs.
+        outputs: usize,
     },
     /// A target that no run can reach.
     #[error("{what} = {value}: expected a finite number above 0")]

@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
-use super::options::{rows, split_design};
+use super::options::{MOST_OUTPUTS_OF_MEASURES, rows, split_design};
 use super::subject::{CustomSubject, LowFidelity};
 use super::{AnalysisOptions, BuildError, Study, SurrogateChoice, Target};
-use crate::design::MAX_ORDERED_FACTORS;
-use crate::design::{Design, DesignSettings, Sampler};
-use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod};
+
+use crate::design::{Design, DesignSettings, MAX_ORDERED_FACTORS, Sampler, has_room_for_orders};
+use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers};
 use crate::model::{Model, OutputSeries};
 use crate::names::{names_files, refused_name, refused_output_name, refused_title, shown};
 use crate::quantity::Unit;
@@ -217,7 +217,7 @@ impl StudyBuilder {
         let space = Space::new(self.factors.into_iter().collect::<Result<_, _>>()?);
         refuse_repeated("factor", space.factors().iter().map(|factor| factor.name.as_str()))?;
         let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(self.sampler));
-        let analysis = checked(analysis, self.sampler, space.factors().len())?;
+        let analysis = checked(analysis, self.sampler, &space)?;
         let space = space.with_dependences(self.dependences)?;
         if space.noise().is_some() && analysis.asks_for_shapley() {
             return Err(BuildError::Dependent { what: "Shapley effects beside the noise of a stochastic model" });
@@ -232,6 +232,10 @@ impl StudyBuilder {
             if let Some((what, _)) = refused.into_iter().find(|(_, asked)| *asked) {
                 return Err(BuildError::Dependent { what });
             }
+        }
+        let outputs = self.model.outputs().len();
+        if !analysis.measures.is_empty() && outputs > MOST_OUTPUTS_OF_MEASURES {
+            return Err(BuildError::Measures { outputs });
         }
         let target = checked_target(self.target, self.sampler)?;
         let is_split = self.plain_rows > 0 || self.budget_runs.is_some();
@@ -297,7 +301,8 @@ fn refuse_overlap(model: &dyn Model) -> Result<(), BuildError> {
 }
 
 /// The options as a study file could have said them.
-fn checked(mut options: AnalysisOptions, sampler: Sampler, factors: usize) -> Result<AnalysisOptions, BuildError> {
+fn checked(mut options: AnalysisOptions, sampler: Sampler, space: &Space) -> Result<AnalysisOptions, BuildError> {
+    let factors = space.factors().len();
     if !options.intervals.serves(sampler) {
         let (method, sampler) = (options.intervals.name(), sampler.name());
         return Err(BuildError::UnfitInterval { method, sampler });
@@ -314,16 +319,25 @@ fn checked(mut options: AnalysisOptions, sampler: Sampler, factors: usize) -> Re
             return Err(BuildError::Subset { subset: subset.clone(), factors });
         }
     }
-    let most = match options.shapley_method {
-        Some(ShapleyMethod::Subsets) => MAX_SHAPLEY_FACTORS,
-        Some(ShapleyMethod::Permutations) | None => MAX_ORDERED_FACTORS,
+    let players = options.players(space).len();
+    let (most, fits) = match options.shapley_method {
+        Some(ShapleyMethod::Subsets) => (MAX_SHAPLEY_FACTORS, players <= MAX_SHAPLEY_FACTORS),
+        // All subsets, of so few.
+        None if players <= MAX_SHAPLEY_FACTORS => (MAX_ORDERED_FACTORS, true),
+        Some(ShapleyMethod::Permutations) | None => (MAX_ORDERED_FACTORS, has_room_for_orders(players, factors)),
     };
-    if options.asks_for_shapley() && factors > most {
-        return Err(BuildError::Shapley { factors, most });
+    if options.asks_for_shapley() && !fits {
+        return Err(BuildError::Shapley { factors: players, most });
     }
     if let (Some(false), Some(method)) = (options.shapley, options.shapley_method) {
         return Err(BuildError::ShapleyMethod { method: method.name() });
     }
+    let groups = options.shapley_players == Some(ShapleyPlayers::Groups);
+    if groups && (options.shapley == Some(false) || space.groups().is_empty()) {
+        return Err(BuildError::ShapleyPlayers { wanted: options.shapley != Some(false) });
+    }
+    options.measures.sort_unstable();
+    options.measures.dedup();
     // The default ones are in every result.
     options.estimators.retain(|estimator| *estimator != Estimator::Default);
     Ok(options)

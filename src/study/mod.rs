@@ -21,7 +21,7 @@ pub use file::{
     KnownSubject, NEW_PROGRAM, OverrideProblem, Problem, StudyError, TemplateRequest, edited, model_guide, new_program,
     study_schema, template,
 };
-pub use options::{AnalysisOptions, SurrogateChoice, Target};
+pub use options::{AnalysisOptions, MOST_OUTPUTS_OF_MEASURES, SurrogateChoice, Target};
 use subject::CustomSubject;
 pub use subject::{LowFidelity, Rung, Subject};
 
@@ -186,6 +186,7 @@ impl Study {
             second_order: self.analysis.second_order,
             dependent: self.space.copula().is_some(),
             shapley: self.analysis.shapley_of(&self.space),
+            players: self.analysis.players(&self.space).into_iter().map(|(place, _)| place).collect(),
             noise: self.space.noise().map(|noise| NoiseLayout::new(noise, self.design.swaps())),
         }
     }

@@ -1,7 +1,8 @@
 //! What is asked of the runs of a study, and when they end.
 
 use crate::design::{Companions, Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
-use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, proper_subsets};
+use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets};
+use crate::given::Measure;
 use crate::run::FailurePolicy;
 use crate::space::Space;
 use crate::surrogate::FEWEST_NETS;
@@ -17,10 +18,15 @@ pub struct AnalysisOptions {
     /// Sets of factors, by number, whose joint indices are asked for.
     pub subsets: Vec<Vec<usize>>,
     /// Whether Shapley effects are asked for, of at most a hundred factors. `None` to have them of up to four factors
-    /// that depend on each other, and where `shapley_method` says how.
+    /// that depend on each other, and where `shapley_method` says how or `shapley_players` of whom.
     pub shapley: Option<bool>,
-    /// How they are found. `None` for all subsets of up to [`MAX_SHAPLEY_FACTORS`] factors, and random permutations of more.
+    /// How they are found. `None` for all subsets of up to [`MAX_SHAPLEY_FACTORS`] players, and random permutations of more.
     pub shapley_method: Option<ShapleyMethod>,
+    /// Who the players are. `None` for the factors.
+    pub shapley_players: Option<ShapleyPlayers>,
+    /// Other measures than Sobol' indices that stand beside them, from the first
+    /// [`MOST_ROWS_OF_MEASURES`](crate::MOST_ROWS_OF_MEASURES) rows A and B; of at most [`MOST_OUTPUTS_OF_MEASURES`](crate::study::MOST_OUTPUTS_OF_MEASURES) outputs.
+    pub measures: Vec<Measure>,
     /// Whether indices over all outputs together are asked for.
     pub aggregate: bool,
     /// Whether a dummy factor, which does nothing, is run along: its indices are the noise of the model.
@@ -48,6 +54,8 @@ impl AnalysisOptions {
             subsets: Vec::new(),
             shapley: None,
             shapley_method: None,
+            shapley_players: None,
+            measures: Vec::new(),
             aggregate: false,
             dummy: false,
             intervals: IntervalMethod::default_for(sampler),
@@ -61,7 +69,7 @@ impl AnalysisOptions {
 }
 
 impl AnalysisOptions {
-    /// Whether there will be Shapley effects of the factors of `space`.
+    /// Whether there will be Shapley effects of the factors of `space`, or of their groups.
     pub fn has_shapley(&self, space: &Space) -> bool {
         let is_free = space.copula().is_some() && space.factors().len() <= FREE_SHAPLEY_FACTORS;
         self.asks_for_shapley() || is_free && self.shapley.is_none()
@@ -69,16 +77,22 @@ impl AnalysisOptions {
 
     /// Whether they are asked for in words.
     pub(super) fn asks_for_shapley(&self) -> bool {
-        self.shapley.unwrap_or(self.shapley_method.is_some())
+        self.shapley.unwrap_or(self.shapley_method.is_some() || self.shapley_players.is_some())
     }
 
     /// How they will be found, if there will be some.
     pub fn shapley_of(&self, space: &Space) -> Option<ShapleyMethod> {
-        let by_number = match space.factors().len() <= MAX_SHAPLEY_FACTORS {
+        let by_number = match self.players(space).len() <= MAX_SHAPLEY_FACTORS {
             true => ShapleyMethod::Subsets,
             false => ShapleyMethod::Permutations,
         };
         self.has_shapley(space).then(|| self.shapley_method.unwrap_or(by_number))
+    }
+
+    /// The players of Shapley effects, if there will be some: the number of each among the factors and groups in their order, and
+    /// its factors.
+    pub(super) fn players(&self, space: &Space) -> Vec<(usize, Swap)> {
+        shapley_players(self.shapley_players.unwrap_or_default(), space)
     }
 
     /// Replicates where nothing else is said: as many as the kind of interval works best with on points of `sampler`, and
@@ -242,6 +256,9 @@ const FIRST_FREE_POINTS: u64 = 4;
 /// Dependent factors up to which Shapley effects are not asked for one by one.
 const FREE_SHAPLEY_FACTORS: usize = 4;
 
+/// Most outputs of a study with other measures: each takes a second or so.
+pub const MOST_OUTPUTS_OF_MEASURES: usize = 100;
+
 pub(super) const DEFAULT_RESAMPLES: usize = 1000;
 pub(super) const DEFAULT_THRESHOLD: f64 = 0.05;
 pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
@@ -293,19 +310,36 @@ pub(crate) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
     }
     swaps.extend(analysis.dummy.then(Vec::new));
     let shapley = analysis.shapley_of(space);
+    let players: Vec<Swap> = analysis.players(space).into_iter().map(|(_, factors)| factors).collect();
     if shapley == Some(ShapleyMethod::Subsets) {
         let first = swaps.len();
-        swaps.extend(proper_subsets(factors));
+        let joined = |subset: Vec<usize>| {
+            let mut factors: Swap = subset.into_iter().flat_map(|player| players[player].clone()).collect();
+            factors.sort_unstable();
+            factors
+        };
+        swaps.extend(proper_subsets(players.len()).into_iter().map(joined));
         redrawn.extend(first..swaps.len());
     }
     let second_order = Companions { ba: analysis.second_order, ..Companions::NONE };
     let companions = analysis.estimators.iter().fold(second_order, |all, estimator| all.union(estimator.needs()));
     let (second_order, copula) = (analysis.second_order, space.copula().cloned());
     let players = match shapley {
-        Some(ShapleyMethod::Permutations) => (0..factors).map(|factor| vec![factor]).collect(),
+        Some(ShapleyMethod::Permutations) => players,
         _ => Vec::new(),
     };
     Rows { swaps, companions, second_order, plain_rows, copula, redrawn, players }
+}
+
+/// The players of `space`: the number of each among the factors and groups in their order, and its factors.
+pub(super) fn shapley_players(players: ShapleyPlayers, space: &Space) -> Vec<(usize, Swap)> {
+    let factors = space.factors();
+    let alone = |number: &usize| players == ShapleyPlayers::Factors || factors[*number].group.is_none();
+    let single = (0..factors.len()).filter(alone).map(|number| (number, vec![number]));
+    let groups = space.groups().into_iter().enumerate();
+    let groups = groups.map(|(number, group)| (factors.len() + number, group.factors));
+    let groups = groups.filter(|_| players == ShapleyPlayers::Groups);
+    single.chain(groups).collect()
 }
 
 #[cfg(test)]

@@ -64,15 +64,15 @@ pub struct EffectEstimates {
     /// Whether the interval of the first-order index lay wholly above that of the total index, which no pair of indices can:
     /// both were then lengthened until they met.
     pub contradictory: bool,
-    /// Probability that the total index (the Shapley effect, if there is one) is the largest of all factors'; `None` for others than factors, and where errors are
+    /// Probability that the total index (the Shapley effect, if all factors have one) is the largest of all factors'; `None` for others than factors, and where errors are
     /// unknown or [ranks](super::IntervalOptions::ranks) were not asked for. Where several total indices are equal in truth, it is as likely to be any number as any other.
     pub probability_first: Option<f64>,
     /// Probability that the total index is above the threshold.
     pub probability_above: Option<f64>,
     /// The indices by each of the other estimators asked for.
     pub others: Vec<OtherEstimates>,
-    /// Shapley effect of a factor, if it was asked for: its share of the variance, dependent on others or not; those of all factors
-    /// sum to 1 (Owen 2014; Song, Nelson and Staum 2016).
+    /// Shapley effect of a player, if it was asked for: its share of the variance, dependent on others or not. Players are the factors,
+    /// or the groups and the factors that have none; the effects of all players sum to 1 (Owen 2014; Song, Nelson and Staum 2016).
     pub shapley: Option<Estimate>,
     /// What there is of a factor, group or subset where factors depend on each other; `None` where they are independent.
     pub dependent: Option<DependentEstimates>,

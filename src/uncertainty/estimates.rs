@@ -25,8 +25,10 @@ pub struct Layout {
     pub second_order: bool,
     /// Whether factors depend on each other.
     pub dependent: bool,
-    /// How the Shapley effects of the factors are found, if there are any.
+    /// How the Shapley effects of the players are found, if there are any.
     pub shapley: Option<ShapleyMethod>,
+    /// The players, by their numbers among the factors and groups in their order.
+    pub players: Vec<usize>,
     /// The noise of a stochastic model, if it has one; there are no Shapley effects then, nor dependent factors.
     pub noise: Option<NoiseLayout>,
 }
@@ -91,7 +93,8 @@ impl Layout {
     /// Factors only.
     pub fn plain(factors: usize) -> Self {
         let (groups, subsets, dummy, second_order, dependent, shapley) = Default::default();
-        Self { factors, groups, subsets, dummy, estimators: Vec::new(), second_order, dependent, shapley, noise: None }
+        let (estimators, players) = (Vec::new(), (0..factors).collect());
+        Self { factors, groups, subsets, dummy, estimators, second_order, dependent, shapley, players, noise: None }
     }
 
     /// Number of factors, groups and subsets.
@@ -141,9 +144,14 @@ impl Layout {
         self.mean_share() + 1 + 2 * swap
     }
 
-    /// Place of the Shapley effect of the first factor.
+    /// Place of the Shapley effect of the first player.
     pub(super) fn shapley(&self) -> usize {
         self.mean_share() + self.noise.as_ref().map_or(0, |noise| 1 + 2 * noise.swaps.len())
+    }
+
+    /// Whether every factor is a player, so that Shapley effects are those of factors.
+    pub(super) fn has_shapley_of_factors(&self) -> bool {
+        self.shapley.is_some() && self.players.iter().copied().eq(0..self.factors)
     }
 
     /// The pairs of factors, in the order of their second-order indices.
@@ -168,7 +176,7 @@ impl Layout {
     /// faster with the number of points than random points do.
     pub(super) fn random(&self) -> std::ops::Range<usize> {
         let is_random = self.shapley == Some(ShapleyMethod::Permutations);
-        self.shapley()..self.shapley() + if is_random { self.factors } else { 0 }
+        self.shapley()..self.shapley() + if is_random { self.players.len() } else { 0 }
     }
 
     /// Which quantities tell how errors decay: the default first-order and total indices of everything but the dummy.
@@ -203,11 +211,11 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
     match layout.shapley {
         None => (),
         Some(ShapleyMethod::Subsets) => {
-            let single: Vec<f64> = (0..layout.factors).map(|factor| total[layout.redrawn(factor)]).collect();
+            let single: Vec<f64> = layout.players.iter().map(|player| total[layout.redrawn(*player)]).collect();
             list.extend(shapley_effects(&single, &total[layout.swaps()..]));
         }
         Some(ShapleyMethod::Permutations) => {
-            list.extend(moments.shapley().map_or(vec![f64::NAN; layout.factors], ShapleyMoments::effects));
+            list.extend(moments.shapley().map_or(vec![f64::NAN; layout.players.len()], ShapleyMoments::effects));
         }
     }
     if let Some(noise) = &layout.noise {

@@ -128,11 +128,12 @@ pub fn output_indices(
         effects = both.map(|(with_others, alone)| with_others.of_dependent_factors(alone)).collect();
     }
     let subsets = effects.split_off(layout.factors + layout.groups);
+    // Players are factors and groups alone.
+    for (player, shapley) in layout.players.iter().zip(&judged.estimates[layout.shapley()..]) {
+        effects[*player].shapley = Some(*shapley);
+    }
     let groups = effects.split_off(layout.factors);
     let [sum_first_order, sum_total, ..] = judged.estimates[..] else { return Err(Undefined::NoRuns) };
-    for (effect, shapley) in effects.iter_mut().zip(&judged.estimates[layout.shapley()..]) {
-        effect.shapley = Some(*shapley);
-    }
     let second_order = judged.estimates[layout.pairs()..layout.mean_share()].to_vec();
     let (factors, noise) = (effects, judged.noise(layout));
     Ok(OutputIndices { factors, groups, subsets, dummy, sum_first_order, sum_total, second_order, surrogate, noise })
@@ -236,9 +237,9 @@ impl Judged {
         // The noise is no factor that could be the first.
         let noise = layout.noise.as_ref().map(|noise| noise.factor);
         let factors = (0..layout.factors).filter(|factor| Some(*factor) != noise);
-        let place = |factor: usize| match layout.shapley {
-            Some(_) => layout.shapley() + factor,
-            None => layout.place(layout.redrawn(factor), Number::Total),
+        let place = |factor: usize| match layout.has_shapley_of_factors() {
+            true => layout.shapley() + factor,
+            false => layout.place(layout.redrawn(factor), Number::Total),
         };
         let places: Vec<usize> = factors.map(place).collect();
         let estimates: Vec<f64> = places.iter().map(|&place| self.estimates[place].estimate).collect();

@@ -16,6 +16,10 @@ from scipy import stats
 U = [1e-6, 0.013, 0.11, 0.23, 0.31, 0.47, 0.53, 0.61, 0.77, 0.83, 0.91, 0.987, 0.999999]
 
 
+# Values that are listed have no error of their own: to the ends.
+FAR = [2.0**-64, *U, 1 - 2.0**-53]
+
+
 def listed(values, weights=None):
     """A distribution on a list; scipy wants each value once, in ascending order."""
     weights = np.ones(len(values)) if weights is None else np.asarray(weights, float)
@@ -28,8 +32,8 @@ def kind(name, parameters, frozen):
     return dict(
         distribution=name,
         parameters=parameters,
-        u=U,
-        quantile=[float(x) for x in frozen.ppf(U)],
+        u=FAR,
+        quantile=[float(x) for x in frozen.ppf(FAR)],
         mean=float(frozen.mean()),
         sd=float(frozen.std()),
     )
@@ -42,8 +46,8 @@ def of_list(name, parameters, values, weights=None):
     return dict(
         distribution=name,
         parameters=parameters,
-        u=U,
-        quantile=[float(distinct[int(place)]) for place in places.ppf(U)],
+        u=FAR,
+        quantile=[float(distinct[int(place)]) for place in places.ppf(FAR)],
         mean=mean,
         sd=float(np.sqrt(np.dot(shares, (distinct - mean) ** 2))),
     )
@@ -63,6 +67,11 @@ KINDS = [
     ]
 ] + [
     of_list("empirical", dict(values=values), values) for values in [MEASURED, [3.5], [1e9, 1e9 + 1, 1e9 + 2]]
+] + [
+    of_list("discrete", dict(values=values, weights=weights), values, weights)
+    for values, weights in [([3, 1, 2], [1, 0, 3]), ([1e-9, 5e-9, 2e-9], [2, 1, 1]), ([-1, 0, 1, 0], [1, 1, 1, 2])]
+] + [
+    of_list("constant", dict(value=value), [value]) for value in [225.0, -3e-9]
 ]
 
 

@@ -34,6 +34,10 @@ fn from_json(case: &Value) -> Distribution {
         "pareto" if p("shape") <= 2.0 => return truncated_pareto(case),
         "pareto" => Distribution::pareto(p("shape"), p("min")),
         "inverse-gaussian" => Distribution::inverse_gaussian(p("mean"), p("scale")),
+        "histogram" => {
+            let [edges, weights] = ["edges", "weights"].map(|key| numbers(&case["parameters"][key]));
+            Distribution::histogram(&edges, &weights)
+        }
         "mixture" => {
             let list = |key: &str| case["parameters"][key].as_array().expect("a list").clone();
             let component = |component: &Value| {
@@ -101,6 +105,21 @@ fn quantiles_and_moments_are_those_of_scipy_and_mpmath() {
             if case["parameters"]["truncate"].is_null() { 0.0 } else { f64::EPSILON * mean.abs() / expected_sd };
         let error = (distribution.sd() / expected_sd - 1.0).abs();
         assert!(error < 5e-15 + rounding, "{distribution:?} {} {error:e}", distribution.sd());
+    }
+}
+
+/// Whoever adds a family owes it a reference: all that study files may name have one.
+#[test]
+fn every_family_has_its_reference() {
+    let schema: Value = serde_json::from_str(&crate::common::succeed(&["schema", "study"])).expect("json");
+    let names = &schema["definitions"]["FactorSection"]["properties"]["distribution"]["enum"];
+    let names: Vec<&str> = names.as_array().expect("names").iter().filter_map(Value::as_str).collect();
+    assert!(names.len() >= 26, "{names:?}");
+    let [families, kinds] = [include_str!("../oracle/distributions.json"), include_str!("../oracle/factor_kinds.json")];
+    for name in names {
+        let case = format!("{{\"distribution\": \"{name}\", \"parameters\"");
+        // The seeds of a stochastic model are no numbers that could be compared.
+        assert!(name == "seed" || families.contains(&case) || kinds.contains(&case), "{name}");
     }
 }
 

@@ -27,6 +27,8 @@ fn kind(case: &Value) -> Distribution {
             Distribution::categorical(&labels, Some(&list("values")), Some(&list("weights")))
         }
         "empirical" => Distribution::empirical(&list("values"), None),
+        "discrete" => Distribution::discrete(&list("values"), Some(&list("weights"))),
+        "constant" => Distribution::constant(number("value")),
         other => panic!("{other}"),
     };
     made.unwrap_or_else(|error| panic!("{error}"))
@@ -45,7 +47,7 @@ fn stated(case: &Value) -> Distribution {
 #[test]
 fn whole_numbers_categories_and_lists_are_those_of_scipy() {
     let cases = oracle("kinds");
-    assert_eq!(cases.len(), 14);
+    assert_eq!(cases.len(), 19);
     for case in cases {
         let distribution = kind(&case);
         for (u, expected) in numbers(&case["u"]).into_iter().zip(numbers(&case["quantile"])) {

@@ -213,7 +213,9 @@ fn what_cannot_be_is_refused_with_its_reason() {
         "closed-form",
     );
     refused(&PAIR.replace("{ y = \"sin(x1) + 3", "{ z = \"sin(x1) + 3"), &[], "must be those of the model");
-    refused(&PAIR.replace("name = \"coarse\", ", ""), &[], "name of a cheaper model");
+    let nameless = "a table with a name, as in { name = \"coarse\", expression = ... }";
+    refused(&PAIR.replace("name = \"coarse\", ", ""), &[], nameless);
+    refused(&PAIR.replace("name = \"coarse\"", "name = \"\""), &[], "name of a cheaper model");
     refused(&PAIR.replace("3*sin(x2)^2 +", "3*sin(x2^2 +"), &[], "cheaper model `coarse`");
 }
 

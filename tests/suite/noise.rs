@@ -288,3 +288,26 @@ fn the_example_says_which_question_each_number_answers() {
     let (one, two) = (estimates(&one), estimates(&result("two")));
     assert!(one.len() == 6 && one.iter().zip(&two).all(|(a, b)| (a - b).abs() < 1e-12), "{one:?} {two:?}");
 }
+
+/// The noise has a line among the indices over all outputs together: it is none of the factors, and their total indices sum to 1 with it.
+#[test]
+fn indices_over_all_outputs_have_a_line_of_the_noise() {
+    let folder = Folder::new();
+    let study = "model = \"expression\"\nnoise = \"seed\"\n[expression.outputs]\ny = \"x + sin(seed)\"\nz = \"2*x\"\n[design]\n\
+                 base_samples = 1024\n[analysis]\naggregate = true\n[[factor]]\nname = \"x\"\nmin = 0\nmax = 1\n";
+    let file = folder.with("noisy.toml", study);
+    let out = folder.path("out");
+    let told = succeed(&["run", text(&file), "--out", text(&out)]);
+    let together = told.split("All outputs together").nth(1).unwrap();
+    assert!(together.contains("noise (seed)"), "{told}");
+    let json: serde_json::Value = serde_json::from_slice(&std::fs::read(out.join("noisy.json")).unwrap()).unwrap();
+    let aggregate = &json["aggregate"];
+    let total = |record: &serde_json::Value| record["total"]["estimate"].as_f64().unwrap();
+    assert!(
+        aggregate["noise"]["factor"] == "seed" && aggregate["indices"].as_array().unwrap().len() == 1,
+        "{aggregate}"
+    );
+    assert!((total(&aggregate["indices"][0]) + total(&aggregate["noise"]) - 1.0).abs() < 0.05, "{aggregate}");
+    let lines = std::fs::read_to_string(out.join("noisy.csv")).unwrap();
+    assert!(lines.contains("aggregate,seed,") && lines.contains("aggregate,x,"), "{lines}");
+}

@@ -196,6 +196,19 @@ class OutputResult:
         return Indices({record["factor"]: Index.of(record["shapley"]) for record in records})
 
     @property
+    def measures(self) -> dict[str, Indices]:
+        """Other measures than Sobol' indices by their names, of the factors; empty without `measures=["delta", ...]`."""
+        factors = (self.record.get("measures") or {"factors": []})["factors"]
+        names = factors[0]["measures"] if factors else []
+        return {name: Indices({of["input"]: Index.of(of["measures"][name]) for of in factors}) for name in names}
+
+    @property
+    def shapley_groups(self) -> Indices:
+        """Shapley effects of the groups and of the factors that have none, which sum to 1; empty without `shapley_players="groups"`."""
+        records = self.record.get("shapley_groups") or []
+        return Indices({record["player"]: Index.of(record["shapley"]) for record in records})
+
+    @property
     def second_order(self) -> Indices:
         """Second-order indices by pairs of factors; empty if they were not asked for."""
         records = self.record["second_order"] or []
@@ -379,6 +392,16 @@ class Result(Document):
         some with `shapley=True` (of up to 8 factors from all subsets, of up to 100 along random permutations), and by default of up
         to 4 factors that depend on each other."""
         return self._only().shapley
+
+    @property
+    def measures(self) -> dict[str, Indices]:
+        """Other measures than Sobol' indices by their names, with `measures=["delta", "pawn_median", ...]`."""
+        return self._only().measures
+
+    @property
+    def shapley_groups(self) -> Indices:
+        """Shapley effects of the groups, and of the factors that have none, with `shapley_players="groups"`: they sum to 1."""
+        return self._only().shapley_groups
 
     @property
     def second_order(self) -> Indices:

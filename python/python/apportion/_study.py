@@ -27,6 +27,8 @@ _ANALYSIS = (
     "subsets",
     "shapley",
     "shapley_method",
+    "shapley_players",
+    "measures",
     "aggregate",
     "dummy",
     "intervals",
@@ -55,7 +57,8 @@ class Study:
     `noise={"mean_totals": True}` adds the total indices of the mean over it, one more run of each base sample for each factor.
 
     Keywords are the keys of a study file: `base_samples`, `sampler`, `replicates`, `seed`, `budget_runs`, `max_runs`,
-    `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `shapley_method`, `estimators`, `intervals`, `surrogate`,
+    `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `shapley_method`, `shapley_players`,
+    `measures`, `estimators`, `intervals`, `surrogate`,
     `threshold`, `dummy`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
     `expression={...}`, `fidelity={...}`. Factors that depend on each other, by a Gaussian copula:
     `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of tables as in a study file, as in

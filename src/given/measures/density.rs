@@ -55,8 +55,8 @@ impl Densities {
 }
 
 /// Adds the kernel at `place` of that `width`, both in steps of the grid, times its weight and the root of 2 pi times its width.
-fn add_kernel(density: &mut [f64; GRID], (place, width): (f64, f64), weight: f64) {
-    let nearest = place.round().clamp(0.0, (GRID - 1) as f64);
+pub(super) fn add_kernel<const POINTS: usize>(density: &mut [f64; POINTS], (place, width): (f64, f64), weight: f64) {
+    let nearest = place.round().clamp(0.0, (POINTS - 1) as f64);
     let (centre, away, step) = (nearest as usize, (nearest - place) / width, 1.0 / width);
     let top = weight * libm::exp(-away * away / 2.0);
     // From point to point the kernel changes by a ratio that itself changes by this one.
@@ -78,14 +78,14 @@ fn add_kernel(density: &mut [f64; GRID], (place, width): (f64, f64), weight: f64
 
 /// Moments of the outputs of a class.
 #[derive(Clone, Default)]
-struct Spread {
+pub(super) struct Spread {
     weight: f64,
     mean: f64,
     squares: f64,
 }
 
 impl Spread {
-    fn add(&mut self, z: f64, weight: f64) {
+    pub fn add(&mut self, z: f64, weight: f64) {
         if weight > 0.0 {
             self.weight += weight;
             let before = z - self.mean;
@@ -95,7 +95,7 @@ impl Spread {
     }
 
     /// Silverman's (1986) width of kernels; 0 without spread.
-    fn width(&self) -> f64 {
+    pub fn width(&self) -> f64 {
         if self.squares <= 0.0 || self.weight < 2.0 {
             return 0.0;
         }

@@ -7,6 +7,7 @@ mod density;
 mod distances;
 mod fourier;
 mod hsic;
+mod twin;
 
 use std::collections::BTreeMap;
 
@@ -21,6 +22,7 @@ use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
 use density::Densities;
 use distances::{Distance, distances};
 pub use hsic::MOST_ROWS as MOST_ROWS_OF_KERNELS;
+use twin::Twin;
 
 /// A measure of the influence of an input on an output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -97,7 +99,7 @@ pub struct Measured {
 pub struct InputMeasures {
     /// The input.
     pub input: String,
-    /// One entry per measure.
+    /// One entry per measure; NaN where it was not asked for.
     pub values: [Measured; 7],
 }
 
@@ -111,7 +113,10 @@ impl InputMeasures {
 /// Permutations behind a p-value: it is known to 0.005 at best.
 pub const PERMUTATIONS: usize = 199;
 
-/// Resamples behind the bias and the interval of delta.
+/// p-values below this are taken for influence.
+const LEVEL: f64 = 0.05;
+
+/// Resamples behind the bias and the interval of delta, and tables of its twin.
 const RESAMPLES: usize = 100;
 
 /// Classes of PAWN.
@@ -134,14 +139,28 @@ pub fn measures(
     let is_random = indices.points == PointSet::Independent;
     let of_output = |(number, output): (usize, &Column)| {
         let z = centred(&output.values)?;
-        let job = Job { z: &z, order: Order::of(&z), densities: Densities::new(&z), seed: [seed, number as u64] };
+        let job = Job::new(&z, &Measure::ALL, [seed, number as u64]);
         Ok(job.measures(inputs, &orders, is_random))
     };
     outputs.iter().enumerate().map(of_output).collect()
 }
 
+/// The measures `wanted` of one output with respect to every input, of rows that are known to be draws from the distributions of the
+/// inputs: with intervals and p-values. Measures that are not wanted are NaN.
+pub(crate) fn measures_of_rows(
+    inputs: &[Column],
+    output: &[f64],
+    wanted: &[Measure],
+    seed: [u64; 2],
+) -> Result<Vec<InputMeasures>, NoVariance> {
+    let z = centred(output)?;
+    let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
+    Ok(Job::new(&z, wanted, seed).measures(inputs, &orders, true))
+}
+
 /// One output.
 struct Job<'a> {
+    wanted: &'a [Measure],
     z: &'a [f64],
     order: Order,
     densities: Densities,
@@ -184,7 +203,15 @@ fn classes_for(rows: usize) -> usize {
     (libm::pow(rows, power).ceil() as usize).min(48)
 }
 
-impl Job<'_> {
+impl<'a> Job<'a> {
+    fn new(z: &'a [f64], wanted: &'a [Measure], seed: [u64; 2]) -> Self {
+        Self { wanted, z, order: Order::of(z), densities: Densities::new(z), seed }
+    }
+
+    fn wants(&self, measure: Measure) -> bool {
+        self.wanted.contains(&measure)
+    }
+
     fn random(&self, stream: u64) -> ChaCha8Rng {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed[0]);
         random.set_stream(self.seed[1] << 32 | stream);
@@ -199,7 +226,7 @@ impl Job<'_> {
                 chance.entry(classes.sizes()).or_insert_with(|| self.by_chance(classes));
             }
         }
-        let outputs = hsic::Outputs::new(self.z);
+        let outputs = self.wants(Measure::Hsic).then(|| hsic::Outputs::new(self.z));
         let of_input = |number: usize| {
             let (classes, order) = (&classes[number], &orders[number]);
             let values = match order.groups() {
@@ -208,15 +235,25 @@ impl Job<'_> {
                     let rows = order.shuffled(self.seed[0], number as u64);
                     let chance = chance.get(&classes.sizes()).map_or(&[][..], Vec::as_slice);
                     let mut values = self.judged(self.plain(classes, &rows), chance);
-                    if is_random {
-                        values[Measure::Delta as usize].estimate = self.delta(classes, number as u64);
+                    if is_random && self.wants(Measure::Delta) {
+                        let delta = &mut values[Measure::Delta as usize];
+                        delta.estimate = self.delta(classes, &order.centred_ranks(), number as u64);
+                        if let (Some(interval), Some(LEVEL..)) = (&mut delta.estimate.interval, delta.p_value) {
+                            // What is not told from chance may be nothing.
+                            interval.low = interval.low.min(0.0);
+                        }
                     }
-                    let (r2, p_value) = outputs.with(&inputs[number].values);
-                    let estimate = Estimate { estimate: r2, interval: None };
-                    values[Measure::Hsic as usize] = Measured { estimate, p_value: p_value.filter(|_| is_random) };
+                    if let Some(outputs) = &outputs {
+                        let (r2, p_value) = outputs.with(&inputs[number].values);
+                        let estimate = Estimate { estimate: r2, interval: None };
+                        values[Measure::Hsic as usize] = Measured { estimate, p_value: p_value.filter(|_| is_random) };
+                    }
                     values
                 }
             };
+            let unasked = Measured { estimate: Estimate { estimate: f64::NAN, interval: None }, p_value: None };
+            let of_measure = |measure: Measure| if self.wants(measure) { values[measure as usize] } else { unasked };
+            let values = Measure::ALL.map(of_measure);
             InputMeasures { input: inputs[number].name.clone(), values }
         };
         (0..inputs.len()).into_par_iter().map(of_input).collect()
@@ -237,7 +274,7 @@ impl Job<'_> {
         let median = if slides.len() % 2 == 1 { slides[middle] } else { (slides[middle - 1] + slides[middle]) / 2.0 };
         [
             fourier::first_order(rows.iter().map(|&row| self.z[row]).collect()),
-            self.densities.delta(self.z, &classes.fine, &weights),
+            if self.wants(Measure::Delta) { self.densities.delta(self.z, &classes.fine, &weights) } else { f64::NAN },
             mean(Distance::kolmogorov),
             mean(Distance::kuiper),
             median,
@@ -269,8 +306,9 @@ impl Job<'_> {
         })
     }
 
-    /// Delta less its bias, with its interval, by resamples of the rows.
-    fn delta(&self, classes: &Classes, input: u64) -> Estimate {
+    /// Delta less its bias by resamples of the rows (Plischke et al. 2013). Its interval is that of the resamples and that of
+    /// tables of a [`Twin`], whose delta is known, together: it reaches from the lower end of both to the upper one.
+    fn delta(&self, classes: &Classes, ranks: &[f64], input: u64) -> Estimate {
         let (z, rows) = (self.z, self.z.len());
         let plain = self.densities.delta(z, &classes.fine, &vec![1.0; rows]);
         let resample = |number: usize| {
@@ -279,13 +317,29 @@ impl Job<'_> {
             (0..rows).for_each(|_| weights[random.random_range(0..rows as u64) as usize] += 1.0);
             self.densities.delta(z, &classes.fine, &weights)
         };
-        let resampled: Vec<f64> = (0..RESAMPLES).into_par_iter().map(resample).collect();
-        let mean = resampled.iter().sum::<f64>() / RESAMPLES as f64;
-        let squares: f64 = resampled.iter().map(|delta| (delta - mean).powi(2)).sum();
-        let half_width = NORMAL_QUANTILE * (squares / (RESAMPLES as f64 - 1.0)).sqrt();
+        let (mean, half_width) = moments(&(0..RESAMPLES).into_par_iter().map(resample).collect::<Vec<f64>>());
         let estimate = 2.0 * plain - mean;
-        Estimate { estimate, interval: Some(Interval { low: estimate - half_width, high: estimate + half_width }) }
+        let mut interval = Interval { low: estimate - half_width, high: estimate + half_width };
+        if let Some(twin) = Twin::new(z, ranks, &classes.fine) {
+            let of_table = |number: usize| {
+                let outputs = twin.outputs(&mut self.random(1 << 26 | input << 8 | number as u64));
+                Densities::new(&outputs).delta(&outputs, &classes.fine, &vec![1.0; rows])
+            };
+            let (mean, half_width) = moments(&(0..RESAMPLES).into_par_iter().map(of_table).collect::<Vec<f64>>());
+            let unbiased = plain - (mean - twin.delta());
+            interval.low = interval.low.min(unbiased - half_width);
+            interval.high = interval.high.max(unbiased + half_width);
+        }
+        Estimate { estimate, interval: Some(interval) }
     }
+}
+
+/// The mean of what resamples gave, and the half width of the interval of one of them.
+fn moments(resampled: &[f64]) -> (f64, f64) {
+    let count = resampled.len() as f64;
+    let mean = resampled.iter().sum::<f64>() / count;
+    let squares: f64 = resampled.iter().map(|delta| (delta - mean).powi(2)).sum();
+    (mean, NORMAL_QUANTILE * (squares / (count - 1.0)).sqrt())
 }
 
 #[cfg(test)]

@@ -41,7 +41,7 @@ fn other_programs_have_the_same_numbers() {
     let inputs = uniform(720, 3, 7);
     let y = output(&inputs, |x| libm::exp(x[0]) + 4.0 * (x[1] - 0.5).powi(2) * x[0]);
     let z = centred(&y.values).unwrap();
-    let job = Job { z: &z, order: Order::of(&z), densities: Densities::new(&z), seed: [0, 0] };
+    let job = Job::new(&z, &Measure::ALL, [0, 0]);
     for (input, expected) in inputs.iter().zip(EXPECTED) {
         let order = Order::of(&input.values);
         let found = job.plain(&Classes::new(&order, z.len()), &order.shuffled(0, 0));

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{GivenFile, GivenOutputRecord};
@@ -18,7 +19,7 @@ use crate::report::result::EstimateRecord;
 const SIGNIFICANT: f64 = 0.05;
 
 /// The measures of one input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GivenMeasuresRecord {
     /// The input.
     pub input: String,
@@ -27,7 +28,7 @@ pub struct GivenMeasuresRecord {
 }
 
 /// A measure of one input.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MeasuredRecord {
     /// The measure, with the bounds of its interval where it has one.
     #[serde(flatten)]
@@ -48,12 +49,19 @@ impl GivenFile {
 }
 
 fn record(of: &InputMeasures) -> GivenMeasuresRecord {
-    let measured = |measure: Measure| {
-        let found = of.get(measure);
-        let record = MeasuredRecord { estimate: estimate_record(found.estimate), p_value: found.p_value };
-        (measure.name().to_owned(), record)
-    };
-    GivenMeasuresRecord { input: of.input.clone(), measures: Measure::ALL.into_iter().map(measured).collect() }
+    GivenMeasuresRecord::of(of, &Measure::ALL)
+}
+
+impl GivenMeasuresRecord {
+    /// Those of `wanted` measures.
+    pub(in crate::report) fn of(of: &InputMeasures, wanted: &[Measure]) -> Self {
+        let measured = |measure: &Measure| {
+            let found = of.get(*measure);
+            let record = MeasuredRecord { estimate: estimate_record(found.estimate), p_value: found.p_value };
+            (measure.name().to_owned(), record)
+        };
+        Self { input: of.input.clone(), measures: wanted.iter().map(measured).collect() }
+    }
 }
 
 impl GivenMeasuresRecord {
@@ -73,8 +81,10 @@ pub(super) fn section(result: &GivenFile, name: &str, figures: usize) -> Option<
         result.outputs.iter().filter_map(|output| Some((output, output.measures.as_deref()?))).collect();
     let mut parts = Vec::new();
     for (number, (output, inputs)) in outputs.iter().enumerate() {
-        parts.push(Part::Text(agreement(output, inputs)));
-        parts.push(table(output, inputs, name).into());
+        parts.push(Part::Text(agreement(&output.name, inputs, &Measure::ALL)));
+        let mut table = table(&output.name, ("input", inputs), &Measure::ALL);
+        table.file = file_name(name);
+        parts.push(table.into());
         let stem = if result.outputs.len() == 1 { String::new() } else { format!("-{}", number + 1) };
         let chart = chart(output, inputs);
         parts.push(Figure::new(figures + number + 1, chart, format!("{name}-measures{stem}"), file_name(name)).into());
@@ -97,9 +107,9 @@ fn ranks(inputs: &[GivenMeasuresRecord], measure: Measure) -> Vec<usize> {
 }
 
 /// Whether the measures agree on the input that matters most, and which inputs none of them tells from chance.
-fn agreement(output: &GivenOutputRecord, inputs: &[GivenMeasuresRecord]) -> String {
+pub(in crate::report) fn agreement(output: &str, inputs: &[GivenMeasuresRecord], measures: &[Measure]) -> String {
     let mut first: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
-    for measure in Measure::ALL {
+    for &measure in measures {
         if let Some(lead) = ranks(inputs, measure).iter().position(|rank| *rank == 1) {
             first.entry(lead).or_default().push(measure.heading());
         }
@@ -107,14 +117,15 @@ fn agreement(output: &GivenOutputRecord, inputs: &[GivenMeasuresRecord]) -> Stri
     let mut leads: Vec<(usize, Vec<&str>)> = first.into_iter().collect();
     leads.sort_by_key(|(_, by)| std::cmp::Reverse(by.len()));
     let mut text = match &leads[..] {
-        [(lead, _)] => format!("All measures put {} first for {}.", inputs[*lead].input, output.name),
+        [(lead, _)] if measures.len() > 1 => format!("All measures put {} first for {output}.", inputs[*lead].input),
+        [(lead, _)] => format!("{} comes first for {output}.", inputs[*lead].input),
         leads => {
             let one = |(lead, by): &(usize, Vec<&str>)| format!("{} by {}", inputs[*lead].input, by.join(", "));
             let all: Vec<String> = leads.iter().map(one).collect();
-            format!("The measures do not agree on what comes first for {}: {}.", output.name, all.join("; "))
+            format!("The measures do not agree on what comes first for {output}: {}.", all.join("; "))
         }
     };
-    let no_influence = |of: &&GivenMeasuresRecord| Measure::ALL.into_iter().all(|measure| of.may_be_chance(measure));
+    let no_influence = |of: &&GivenMeasuresRecord| measures.iter().all(|measure| of.may_be_chance(*measure));
     let idle: Vec<&str> = inputs.iter().filter(no_influence).map(|of| of.input.as_str()).collect();
     if !idle.is_empty() {
         text.push_str(&format!(" No measure tells {} from an input without influence.", idle.join(", ")));
@@ -122,15 +133,20 @@ fn agreement(output: &GivenOutputRecord, inputs: &[GivenMeasuresRecord]) -> Stri
     text
 }
 
-fn table(output: &GivenOutputRecord, inputs: &[GivenMeasuresRecord], name: &str) -> Table {
-    let mut columns = vec![Column::in_file(Field::new("output")), Column::text("input").named(Field::new("input"))];
-    for measure in Measure::ALL {
+/// The `measures` of an output, a row for each input or factor, as `what` says.
+pub(in crate::report) fn table(
+    output: &str,
+    (what, inputs): (&'static str, &[GivenMeasuresRecord]),
+    measures: &[Measure],
+) -> Table {
+    let mut columns = vec![Column::in_file(Field::new("output")), Column::text(what).named(Field::new(what))];
+    for measure in measures {
         columns.push(Column::number(measure.heading()).named(Field::estimate(measure.name())));
         columns.push(Column::in_file(Field::new(format!("{}_p", measure.name()))));
     }
     let row = |of: &GivenMeasuresRecord| {
-        let mut row = vec![Cell::from(&output.name), Cell::from(&of.input)];
-        for measure in Measure::ALL {
+        let mut row = vec![Cell::from(output), Cell::from(&of.input)];
+        for &measure in measures {
             let found = of.get(measure);
             let said = found.map_or_else(String::new, |found| match found.estimate.low {
                 Some(_) => of_error(found.estimate),
@@ -143,15 +159,24 @@ fn table(output: &GivenOutputRecord, inputs: &[GivenMeasuresRecord], name: &str)
         }
         row
     };
-    let caption = format!(
-        "In brackets is what an input without influence reaches in more than {:.0} of 100 tables: by {PERMUTATIONS} permutations of \
-         the output, of R2-HSIC by a gamma distribution. Delta has its 95 % interval. R2-HSIC is of the first {MOST_ROWS_OF_KERNELS} \
-         rows at most.",
+    let has = |measure| measures.contains(&measure);
+    let chance = match (measures == [Measure::Hsic], has(Measure::Hsic)) {
+        (true, _) => "by a gamma distribution".to_owned(),
+        (false, true) => format!("by {PERMUTATIONS} permutations of the output, of R2-HSIC by a gamma distribution"),
+        (false, false) => format!("by {PERMUTATIONS} permutations of the output"),
+    };
+    let article = if what == "input" { "an" } else { "a" };
+    let mut caption = format!(
+        "In brackets is what {article} {what} without influence reaches in more than {:.0} of 100 tables: {chance}.",
         100.0 * SIGNIFICANT
     );
-    let mut table = Table::new(caption, columns).with_rows(inputs.iter().map(row));
-    table.file = file_name(name);
-    table
+    if has(Measure::Delta) {
+        caption.push_str(" Delta has its 95 % interval.");
+    }
+    if has(Measure::Hsic) {
+        caption.push_str(&format!(" R2-HSIC is of the first {MOST_ROWS_OF_KERNELS} rows at most."));
+    }
+    Table::new(caption, columns).with_rows(inputs.iter().map(row))
 }
 
 /// The rank of every input by every measure.

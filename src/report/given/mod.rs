@@ -11,6 +11,7 @@ pub use chart::given_chart;
 pub use document::given_document;
 pub(super) use document::{file_name, moments};
 pub use measures::{GivenMeasuresRecord, MeasuredRecord};
+pub(super) use measures::{agreement, table as measures_table};
 pub use record::{
     BinnedRecord, DependenceRecord, GivenFacts, GivenFile, GivenIndexRecord, GivenInputRecord, GivenOutputRecord,
     GivenProvenance, SurrogateResult, TableRecord, build_given,

@@ -75,6 +75,7 @@ pub struct EffectRecord {
     #[serde(default)]
     pub probability_above_threshold: Option<f64>,
     /// Shapley effect of a factor, if asked for: its share of the variance, dependent on others or not; those of all factors sum to 1.
+    /// Those of groups stand in `shapley_groups` of the output.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapley: Option<EstimateRecord>,
     /// Where factors depend on each other: what there is beside. The first-order index is then Var E(Y | X)/V with all that the
@@ -91,6 +92,18 @@ pub struct DependentRecord {
     pub independent_first_order: EstimateRecord,
     /// Total index of the factor with all that it tells of others.
     pub full_total: EstimateRecord,
+}
+
+/// The Shapley effect of a group, or of a factor that has none, where groups share out the variance.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[doc(hidden)]
+pub struct PlayerRecord {
+    /// The name of the group, or of the factor.
+    pub player: String,
+    /// Its factors.
+    pub factors: Vec<String>,
+    /// Its share of the variance; those of all players sum to 1.
+    pub shapley: EstimateRecord,
 }
 
 impl EffectRecord {

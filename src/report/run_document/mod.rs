@@ -3,6 +3,7 @@
 mod figures;
 mod interactions;
 mod lead;
+mod measures;
 mod noise;
 mod output;
 mod overview;
@@ -77,6 +78,9 @@ pub fn run_document(result: &ResultFile) -> Document {
         if result.outputs.iter().any(|output| output.second_order.is_some()) {
             put("-second-order.csv", tables::pairs_csv(result));
         }
+        if result.outputs.iter().any(|output| output.measures.is_some()) {
+            put("-measures.csv", measures::measures_csv(result));
+        }
     } else if !has_indices {
         // Without any index the table has a header still.
         put(".csv", tables::no_indices_csv(result));
@@ -120,13 +124,25 @@ fn under_headings(topics: Vec<Topic>) -> Vec<Part> {
     topics.into_iter().flat_map(under).collect()
 }
 
+/// What a run is asked for that has a file of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct RunTables {
+    /// Second-order indices.
+    pub second_order: bool,
+    /// Other estimators.
+    pub estimators: bool,
+    /// Other measures.
+    pub measures: bool,
+}
+
 /// The names of the files of a run of the study called `name` with these `outputs`.
-pub fn run_file_names(name: &str, outputs: &OutputNames<'_>, second_order: bool, estimators: bool) -> FileNames {
+pub fn run_file_names(name: &str, outputs: &OutputNames<'_>, tables: RunTables) -> FileNames {
     let mut data = vec![format!("{name}.json"), format!("{name}.csv")];
-    data.extend(second_order.then(|| format!("{name}-second-order.csv")));
-    data.extend(estimators.then(|| format!("{name}-estimators.csv")));
+    data.extend(tables.second_order.then(|| format!("{name}-second-order.csv")));
+    data.extend(tables.measures.then(|| format!("{name}-measures.csv")));
+    data.extend(tables.estimators.then(|| format!("{name}-estimators.csv")));
     data.push(format!("{name}-convergence.csv"));
-    FileNames { name: name.to_owned(), data, charts: all_stems(name, outputs, second_order) }
+    FileNames { name: name.to_owned(), data, charts: all_stems(name, outputs, tables.second_order) }
 }
 
 /// The indices over all outputs together, or why there are none.

@@ -2,6 +2,7 @@
 
 use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, Numbered, PAIRS, SCATTER, SHARES};
 use super::lead::{by_total, widest};
+use super::measures::measures;
 use super::noise::noise;
 use super::{tables, values};
 use crate::estimate::ShapleyMethod;
@@ -34,6 +35,7 @@ pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> 
         topics.push(topic("shares", "Shares", shares(figures, of)));
         topics.push(topic("noise", "The noise", noise(figures.result, of.output)));
         topics.push(topic("interactions", "Interactions", interactions(figures, of)));
+        topics.push(topic("measures", "Other measures", measures(figures.result, of.output)));
         topics.push(topic("convergence", "How the indices settled", convergence(figures, of)));
     }
     topics.push(topic("distribution", "Distribution of the output", distribution(figures, of)));
@@ -116,18 +118,25 @@ fn times(gain: f64) -> String {
 
 fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let any = |asked: fn(&IndexRecord) -> bool| of.output.indices.iter().flatten().any(asked);
-    if any(|index| index.effect.shapley.is_some()) {
+    let of_groups = of.output.shapley_groups.is_some();
+    if of_groups || any(|index| index.effect.shapley.is_some()) {
         let is_random = figures.result.provenance.shapley_method.as_deref() == Some(ShapleyMethod::Permutations.name());
-        let orders = if is_random {
-            "over a random order of the factors at each base sample"
-        } else {
-            "over all orders of the factors"
+        let (players, player) = match of_groups {
+            true => ("groups of factors, and factors that have no group,", "group"),
+            false => ("factors", "factor"),
+        };
+        let orders = match (is_random, of_groups) {
+            (true, true) => "over a random order of them at each base sample",
+            (true, false) => "over a random order of the factors at each base sample",
+            (false, true) => "over all orders of them",
+            (false, false) => "over all orders of the factors",
         };
         let text = format!(
-            "Shapley effects share out the variance of the output among the factors, whether or not they depend on each other: \
-             each is the mean, {orders}, of what a factor adds to what those before it explain. They sum to 100 %."
+            "Shapley effects share out the variance of the output among the {players} whether or not they depend on each other: \
+             each is the mean, {orders}, of what a {player} adds to what those before it explain. They sum to 100 %."
         );
-        return vec![Part::Text(text), figures.draw(of, SHARES)];
+        let table = tables::players(of.output);
+        return [Part::Text(text), figures.draw(of, SHARES)].into_iter().chain(table).collect();
     }
     if any(|index| index.effect.dependent.is_some()) {
         return vec![Part::Text(

@@ -30,6 +30,7 @@ fn values_alone(of: SeriesOf<'_>) -> ResultFile {
         outputs: outputs.iter().map(|output| output.name.clone()).collect(),
         weighting: WEIGHTING.to_owned(),
         indices: series.indices.clone(),
+        noise: None,
         reason: series.reason.clone(),
     };
     with_outputs(result, outputs, Some(aggregate))

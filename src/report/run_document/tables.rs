@@ -8,7 +8,7 @@ use crate::report::document::{Cell, Column, Part, Table, Value, csv};
 use crate::report::format::{chance, grouped, name, share, two_digits};
 use crate::report::result::{
     AggregateIndexRecord, AggregateRecord, EffectRecord, EstimateRecord, EstimatorRecord, IndexRecord, IntervalRecord,
-    OtherIndexRecord, OutputRecord, PairRecord, ResultFile, StageRecord,
+    OtherIndexRecord, OutputRecord, PairRecord, PlayerRecord, ResultFile, StageRecord,
 };
 
 /// Most factors in a table; the files have all of them.
@@ -37,8 +37,11 @@ fn places<T>(order: &[(usize, T)], most: usize) -> Option<Vec<usize>> {
 pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part> {
     let order = by_total(output)?;
     let indices = output.indices.iter().flatten();
-    let rows =
-        indices.map(|index| effect_row((&output.name, "factor"), (name(&index.factor), &index.factor), &index.effect));
+    let rows = indices.map(|index| {
+        let mut row = effect_row((&output.name, "factor"), (name(&index.factor), &index.factor), &index.effect);
+        row.extend(of_player(output, &index.factor, std::slice::from_ref(&index.factor)));
+        row
+    });
     let noise = output.noise.as_ref();
     let of_noise = noise.map(|noise| effect_row((&output.name, "noise"), (label(noise), &noise.name), &noise.effect));
     let sum = |sum: Option<EstimateRecord>| sum.map_or_else(Cell::default, Cell::from);
@@ -92,13 +95,21 @@ fn effect_table(result: &ResultFile, caption: String, what: &str) -> Table {
         columns.push(estimate("S_1 given the others", "independent_first_order"));
         columns.push(estimate("S_T with the others", "full_total"));
     }
-    if index.is_some_and(|index| index.effect.shapley.is_some()) {
+    let has_players = result.outputs.iter().any(|output| output.shapley_groups.is_some());
+    if has_players || index.is_some_and(|index| index.effect.shapley.is_some()) {
         columns.push(estimate("Shapley effect", "shapley"));
     }
     Table { file: format!("{}.csv", result.study.name), ..Table::new(caption, columns) }
 }
 
-/// `table` with these rows, each of which may lack indices at its end: groups have no Shapley effects.
+/// The Shapley effect of a group, or of a factor without one, where these are the players.
+fn of_player(output: &OutputRecord, player: &str, factors: &[String]) -> Option<Cell> {
+    let mut players = output.shapley_groups.iter().flatten();
+    let found = players.find(|record| record.player == player && record.factors == factors)?;
+    Some(found.shapley.into())
+}
+
+/// `table` with these rows, each of which may lack indices at its end: who is no player has no Shapley effect.
 fn with_effects(table: Table, rows: impl IntoIterator<Item = Vec<Cell>>) -> Table {
     let length = table.columns.len();
     table.with_rows(rows.into_iter().map(|mut row| {
@@ -146,7 +157,7 @@ pub(super) fn indices_csv(result: &ResultFile) -> String {
     let series = result.series.iter().filter_map(|series| {
         let indices = series.indices.as_ref()?;
         let (outputs, weighting) = (vec![series.name.clone()], String::new());
-        let record = AggregateRecord { outputs, weighting, indices: None, reason: None };
+        let record = AggregateRecord { outputs, weighting, indices: None, noise: None, reason: None };
         table(aggregate_of(result, &record, indices))
     });
     let header = std::iter::once(effect_table(result, String::new(), ""));
@@ -192,7 +203,9 @@ pub(super) fn joint(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
     let names = |factors: &[String]| factors.iter().map(|factor| name(factor)).collect::<Vec<_>>().join(" + ");
     let groups = output.groups.iter().flatten().map(|group| {
         let label = format!("{}: {}", name(&group.group), names(&group.factors));
-        effect_row((&output.name, "group"), (label, &group.group), &group.effect)
+        let mut row = effect_row((&output.name, "group"), (label, &group.group), &group.effect);
+        row.extend(of_player(output, &group.group, &group.factors));
+        row
     });
     let subsets = output.subsets.iter().flatten().map(|subset| {
         let in_file = subset.factors.join(" + ");
@@ -212,6 +225,24 @@ pub(super) fn joint(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
     let groups = table(of_groups, groups.collect());
     let others = Table { at_end: true, ..table(of_subsets, subsets.chain(dummy).collect()) };
     [groups, others].into_iter().filter(|table| !table.rows.is_empty()).map(Part::Table).collect()
+}
+
+/// The Shapley effects of groups, the largest first.
+pub(super) fn players(output: &OutputRecord) -> Option<Part> {
+    let players = output.shapley_groups.as_ref().filter(|players| !players.is_empty())?;
+    let mut order: Vec<(usize, &PlayerRecord)> = players.iter().enumerate().collect();
+    order.sort_by(|a, b| b.1.shapley.estimate.total_cmp(&a.1.shapley.estimate));
+    let row = |player: &PlayerRecord| {
+        let factors: Vec<String> = player.factors.iter().map(|factor| name(factor)).collect();
+        vec![name(&player.player).into(), factors.join(" + ").into(), player.shapley.into()]
+    };
+    let columns = [Column::text("group"), Column::text("factors"), Column::number("Shapley effect")];
+    let caption = format!(
+        "Shapley effects of groups of factors.{}",
+        largest(order.len().min(FACTORS), order.len(), "groups, all in the CSV file")
+    );
+    let table = Table::new(caption, columns).with_rows(players.iter().map(row));
+    Some(Part::Table(Table { printed: places(&order, FACTORS), ..table }))
 }
 
 /// The largest second-order indices.
@@ -301,7 +332,10 @@ pub(super) fn estimators(output: &OutputRecord) -> Vec<Part> {
 
 /// Indices over all outputs together.
 pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indices: &[AggregateIndexRecord]) -> Part {
-    let mut order: Vec<(usize, &AggregateIndexRecord)> = indices.iter().enumerate().collect();
+    // The noise is one more line.
+    let noise = record.noise.as_ref();
+    let lines = || indices.iter().chain(noise);
+    let mut order: Vec<(usize, &AggregateIndexRecord)> = lines().enumerate().collect();
     order.sort_by(|a, b| b.1.total.estimate.total_cmp(&a.1.total.estimate));
     // The names of hundreds, in every line, would be most of the file.
     let outputs = match record.outputs.len() {
@@ -312,7 +346,11 @@ pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indice
     let row = |index: &AggregateIndexRecord| {
         let nothing = || Cell::valued("", Value::Empty);
         let none = || Cell::valued("", Value::Estimate(None));
-        let label = Cell::valued(name(&index.factor), (&index.factor).into());
+        let label = match noise == Some(index) {
+            true => format!("noise ({})", name(&index.factor)),
+            false => name(&index.factor),
+        };
+        let label = Cell::valued(label, (&index.factor).into());
         let estimates = [index.first_order.into(), index.total.into(), none(), none(), none(), nothing(), nothing()];
         [outputs.as_str().into(), "aggregate".into(), label].into_iter().chain(estimates).collect()
     };
@@ -320,7 +358,7 @@ pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indice
         "Aggregated indices of all outputs.{}",
         largest(order.len().min(FACTORS), order.len(), "factors, all in the CSV file")
     );
-    let mut table = with_effects(effect_table(result, caption, "factor"), indices.iter().map(row));
+    let mut table = with_effects(effect_table(result, caption, "factor"), lines().map(row));
     table.columns[OF_ONE_OUTPUT..].iter_mut().for_each(Column::hide);
     Part::Table(Table { printed: places(&order, FACTORS), at_end: true, ..table })
 }

@@ -44,7 +44,7 @@ fn the_leading_factor_stands_at_the_top() {
     };
     assert_eq!(
         sorted(page.file_names()),
-        sorted(run_file_names("small", &OutputNames::new(&["y"], &[]), false, false))
+        sorted(run_file_names("small", &OutputNames::new(&["y"], &[]), RunTables::default()))
     );
 }
 
@@ -97,4 +97,15 @@ fn names_and_titles_cannot_break_out() {
     let html = page(&result).html().unwrap();
     assert!(!html.contains("<script>alert"));
     assert_eq!(html.matches("</script>").count(), 1);
+}
+
+/// A surrogate may know the variance so much better than the values do that their own is outside of its interval.
+#[test]
+fn a_standard_deviation_has_its_error() {
+    let mut result = result(&format!("model = \"ishigami\"{SMALL}"));
+    let output = &mut result.outputs[0];
+    output.variance = Some(4.0);
+    output.variance_interval = Some(crate::report::result::IntervalRecord { low: 3.96, high: 4.04 });
+    let told = super::values::sd(output).unwrap();
+    assert!(told.starts_with("2.0") && told.contains('±'), "{told}");
 }

@@ -47,13 +47,16 @@ pub(super) fn mean(output: &OutputRecord) -> Option<String> {
     Some(of_unit(output.mean?, output.mean_interval, &output.unit))
 }
 
-/// The standard deviation, by the divisor n - 1, as in the file; its interval is that of the variance.
+/// The standard deviation, by the divisor n - 1, as in the file; its interval is that of the variance. Where a surrogate knows the
+/// variance so much better that the values are outside of its interval, the root of the variance.
 pub(super) fn sd(output: &OutputRecord) -> Option<String> {
     let sample = output.distribution.as_ref().and_then(|distribution| distribution.sample.sd);
     let interval = output
         .variance_interval
         .map(|variance| IntervalRecord { low: variance.low.max(0.0).sqrt(), high: variance.high.max(0.0).sqrt() });
-    Some(of_unit(sample.or(output.variance.map(f64::sqrt))?, interval, &output.unit))
+    let is_inside = |sd: &f64| interval.is_none_or(|interval| (interval.low..=interval.high).contains(sd));
+    let known = sample.filter(is_inside).or(output.variance.map(f64::sqrt)).or(sample);
+    Some(of_unit(known?, interval, &output.unit))
 }
 
 fn of_unit(estimate: f64, interval: Option<IntervalRecord>, unit: &str) -> String {

@@ -3,13 +3,13 @@
 use super::context::{Context, Fault, choice, unknown_name, wrong};
 use super::error::Problem;
 use super::sections::{AnalysisSection, At, DesignSection};
-use crate::design::MAX_ORDERED_FACTORS;
-use crate::design::Sampler;
-use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod};
+use crate::design::{MAX_ORDERED_FACTORS, Sampler, has_room_for_orders};
+use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers};
+use crate::given::Measure;
 use crate::quantity::{Dimension, Quantity};
 use crate::run::FailurePolicy;
 use crate::space::Space;
-use crate::study::options::{DEFAULT_MAX_FAILED, DEFAULT_RESAMPLES, DEFAULT_THRESHOLD};
+use crate::study::options::{DEFAULT_MAX_FAILED, DEFAULT_RESAMPLES, DEFAULT_THRESHOLD, shapley_players};
 use crate::study::{AnalysisOptions, SurrogateChoice, Target};
 use crate::uncertainty::IntervalMethod;
 
@@ -26,13 +26,15 @@ pub(super) fn analysis(
         None => FailurePolicy::DropBlock,
         Some(name) => choice(context, name, "failure policy", &FailurePolicy::ALL, FailurePolicy::name)?,
     };
-    let (shapley, shapley_method) = shapley(context, section, space)?;
+    let shapley = shapley(context, section, space)?;
     Ok(AnalysisOptions {
         estimators: estimators(context, section)?,
+        measures: measures(context, section)?,
         second_order: flag(&section.second_order),
         subsets: subsets(context, section, space)?,
-        shapley,
-        shapley_method,
+        shapley: shapley.asked,
+        shapley_method: shapley.method,
+        shapley_players: shapley.players,
         aggregate: flag(&section.aggregate),
         dummy: flag(&section.dummy),
         intervals,
@@ -74,6 +76,21 @@ fn estimators(context: &Context<'_>, section: &AnalysisSection) -> Result<Vec<Es
     Ok(estimators)
 }
 
+fn measures(context: &Context<'_>, section: &AnalysisSection) -> Result<Vec<Measure>, Fault> {
+    let mut measures = Vec::new();
+    for name in section.measures.iter().flat_map(|list| list.get_ref()) {
+        let measure = choice(context, name, "measure", &Measure::ALL, Measure::name)?;
+        if measures.contains(&measure) {
+            let problem = Problem::Repeated { what: "measure", name: name.get_ref().clone() };
+            return Err(context.fault(name.span(), problem));
+        }
+        measures.push(measure);
+    }
+    // In the order of results.
+    measures.sort_unstable();
+    Ok(measures)
+}
+
 fn subsets(context: &Context<'_>, section: &AnalysisSection, space: &Space) -> Result<Vec<Vec<usize>>, Fault> {
     let factors = space.factors();
     let mut subsets = Vec::new();
@@ -106,31 +123,58 @@ fn subsets(context: &Context<'_>, section: &AnalysisSection, space: &Space) -> R
     Ok(subsets)
 }
 
-fn shapley(
-    context: &Context<'_>,
-    section: &AnalysisSection,
-    space: &Space,
-) -> Result<(Option<bool>, Option<ShapleyMethod>), Fault> {
+/// What is said of Shapley effects.
+#[derive(Default)]
+struct Shapley {
+    asked: Option<bool>,
+    method: Option<ShapleyMethod>,
+    players: Option<ShapleyPlayers>,
+}
+
+fn shapley(context: &Context<'_>, section: &AnalysisSection, space: &Space) -> Result<Shapley, Fault> {
     let factors = space.factors().len();
-    let mut method = None;
+    let mut shapley = Shapley { asked: section.shapley.as_ref().map(|asked| *asked.get_ref()), ..Shapley::default() };
+    let refused = shapley.asked == Some(false);
+    let fault = |at: &At<String>, key: &str, expected: &str, found: String| {
+        Err(context.fault(at.span(), wrong(key, expected, found)))
+    };
+    const BESIDE_FALSE: &str = "nothing beside shapley = false";
+    if let Some(name) = &section.shapley_players {
+        let found = choice(context, name, "kind of players", &ShapleyPlayers::ALL, ShapleyPlayers::name)?;
+        if refused {
+            return fault(name, "shapley_players", BESIDE_FALSE, format!("\"{}\"", found.name()));
+        }
+        if found == ShapleyPlayers::Groups && space.groups().is_empty() {
+            let expected = "\"groups\" where factors have some, as in group = \"load\" of a [[factor]]";
+            return fault(name, "shapley_players", expected, "it in a study without groups".to_owned());
+        }
+        shapley.players = Some(found);
+    }
+    let players = shapley_players(shapley.players.unwrap_or_default(), space).len();
+    let what = if shapley.players == Some(ShapleyPlayers::Groups) { "players" } else { "factors" };
     if let Some(name) = &section.shapley_method {
         let found = choice(context, name, "method for Shapley effects", &ShapleyMethod::ALL, ShapleyMethod::name)?;
-        let fault =
-            |expected: &str, found: String| Err(context.fault(name.span(), wrong("shapley_method", expected, found)));
-        if found == ShapleyMethod::Subsets && factors > MAX_SHAPLEY_FACTORS {
-            let expected = format!("\"permutations\": all subsets are those of at most {MAX_SHAPLEY_FACTORS} factors");
-            return fault(&expected, format!("\"subsets\" with {factors} factors"));
+        if found == ShapleyMethod::Subsets && players > MAX_SHAPLEY_FACTORS {
+            let expected = format!("\"permutations\": all subsets are those of at most {MAX_SHAPLEY_FACTORS} {what}");
+            return fault(name, "shapley_method", &expected, format!("\"subsets\" with {players} {what}"));
         }
-        if section.shapley.as_ref().is_some_and(|asked| !asked.get_ref()) {
-            return fault("nothing beside shapley = false", format!("\"{}\"", found.name()));
+        if refused {
+            return fault(name, "shapley_method", BESIDE_FALSE, format!("\"{}\"", found.name()));
         }
-        method = Some(found);
+        shapley.method = Some(found);
     }
     let asked = section.shapley.as_ref().map(|asked| (*asked.get_ref(), asked.span(), "shapley"));
-    let how = section.shapley_method.as_ref().map(|name| (true, name.span(), "shapley_method"));
-    if let Some((true, span, key)) = asked.clone().or(how) {
-        if factors > MAX_ORDERED_FACTORS {
-            let expected = format!("no Shapley effects, which are those of at most {MAX_ORDERED_FACTORS} factors");
+    let method = section.shapley_method.as_ref().map(|name| (true, name.span(), "shapley_method"));
+    let of_whom = section.shapley_players.as_ref().map(|name| (true, name.span(), "shapley_players"));
+    if let Some((true, span, key)) = asked.or(method).or(of_whom) {
+        if players > MAX_SHAPLEY_FACTORS && !has_room_for_orders(players, factors) {
+            let fewer = match shapley.players {
+                Some(ShapleyPlayers::Groups) => "fewer groups",
+                _ => "groups, with shapley_players = \"groups\"",
+            };
+            let expected = format!(
+                "no Shapley effects, which are those of at most {MAX_ORDERED_FACTORS} factors; of more factors in {fewer}"
+            );
             return Err(context.fault(span, wrong(key, &expected, format!("them with {factors} factors"))));
         }
         if space.noise().is_some() {
@@ -138,7 +182,7 @@ fn shapley(
             return Err(context.fault(span, wrong(key, expected, "them".to_owned())));
         }
     }
-    Ok((asked.map(|(asked, ..)| asked), method))
+    Ok(shapley)
 }
 
 fn surrogate(

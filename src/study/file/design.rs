@@ -1,12 +1,12 @@
 //! The `[design]` table with what `[analysis]` asks of it: how many runs, of which rows, until when.
 
-use super::context::{Context, Fault};
+use super::context::{Context, Fault, wrong};
 use super::error::Problem;
 use super::sections::{At, DesignSection, StudyFile};
 use super::{analysis, context::choice, fidelity, noise};
 use crate::design::{Design, DesignError, DesignSettings, Sampler};
 use crate::space::Space;
-use crate::study::options::{rows, split_design};
+use crate::study::options::{MOST_OUTPUTS_OF_MEASURES, rows, split_design};
 use crate::study::{AnalysisOptions, SurrogateChoice, Target};
 use crate::surrogate::FEWEST_NETS;
 
@@ -27,6 +27,10 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
         Some(name) => choice(context, name, "sampler", &Sampler::ALL, Sampler::name)?,
     };
     let mut analysis = analysis::analysis(context, &file.analysis, sampler, space)?;
+    if let Some(measures) = file.analysis.measures.as_ref().filter(|_| outputs > MOST_OUTPUTS_OF_MEASURES) {
+        let expected = format!("none of more than {MOST_OUTPUTS_OF_MEASURES} outputs");
+        return Err(context.fault(measures.span(), wrong("measures", &expected, format!("some of {outputs} outputs"))));
+    }
     for subset in noise::subsets_of_mean(file, space) {
         if !analysis.subsets.contains(&subset) {
             analysis.subsets.push(subset);

@@ -107,7 +107,14 @@ pub(super) fn lows(
 
 /// The cheaper model that the study describes with the keys of `table` in the place of its own.
 fn described(context: &Context<'_>, table: &toml::Table) -> Result<LowFidelity, Problem> {
-    let name = table.get("name").and_then(toml::Value::as_str).unwrap_or_default().to_owned();
+    let Some(name) = table.get("name").and_then(toml::Value::as_str).map(str::to_owned) else {
+        const LONGEST: usize = 30;
+        let value = |value: &toml::Value| Some(value.to_string()).filter(|text| text.len() <= LONGEST);
+        let own = |(key, of): (&String, &toml::Value)| format!(", {key} = {}", value(of).as_deref().unwrap_or("..."));
+        let own = table.iter().map(own).collect::<String>();
+        let expected = format!("a table with a name, as in {{ name = \"coarse\"{own} }}");
+        return Err(wrong("low", &expected, "a table without `name`".to_owned()));
+    };
     if let Some(expected) = refused_name(&name) {
         return Err(wrong("name of a cheaper model", &expected, format!("\"{name}\"")));
     }

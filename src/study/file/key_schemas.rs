@@ -7,7 +7,8 @@ use super::distribution_forms::FORMS;
 use super::sections::NoiseSection;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
 use crate::design::Sampler;
-use crate::estimate::{Estimator, ShapleyMethod};
+use crate::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
+use crate::given::Measure;
 use crate::model::{KnownAnswer, Match, ModelKind, Protocol, edge_unit};
 use crate::run::FailurePolicy;
 use crate::space::CorrelationMeasure;
@@ -46,6 +47,10 @@ pub(super) fn estimators() -> Value {
     json!({ "enum": names(&Estimator::ALL, Estimator::name) })
 }
 
+pub(super) fn measures() -> Value {
+    json!({ "enum": names(&Measure::ALL, Measure::name) })
+}
+
 pub(super) fn correlation_measures() -> Vec<&'static str> {
     names(&CorrelationMeasure::ALL, CorrelationMeasure::name)
 }
@@ -56,6 +61,10 @@ pub(super) fn surrogates() -> Vec<&'static str> {
 
 pub(super) fn shapley_methods() -> Vec<&'static str> {
     names(&ShapleyMethod::ALL, ShapleyMethod::name)
+}
+
+pub(super) fn shapley_players() -> Vec<&'static str> {
+    names(&ShapleyPlayers::ALL, ShapleyPlayers::name)
 }
 
 pub(super) fn intervals() -> Vec<&'static str> {

@@ -209,6 +209,13 @@ pub(super) struct AnalysisSection {
     /// base sample and larger errors.
     #[schemars(extend("enum" = key_schemas::shapley_methods()))]
     pub shapley_method: Option<At<String>>,
+    /// Who shares out the variance in Shapley effects: every factor, or the groups with the factors that have none. The counts of
+    /// factors and runs above are then those of the groups.
+    #[schemars(extend("enum" = key_schemas::shapley_players(), "default" = "factors"))]
+    pub shapley_players: Option<At<String>>,
+    /// Other measures of the influence of every factor beside Sobol' indices, from the first 4096 rows A and B; of at most 100 outputs.
+    #[schemars(extend("items" = key_schemas::measures()))]
+    pub measures: Option<At<Vec<At<String>>>>,
     /// Indices over all outputs together.
     pub aggregate: Option<At<bool>>,
     /// A factor that does nothing is run along: its indices are the noise of the model.

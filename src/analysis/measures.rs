@@ -1,0 +1,75 @@
+//! Other measures of influence than Sobol' indices, from rows A and B of a run.
+//!
+//! The rows A and B are draws from the distributions of the factors, as those of a table of given data are. A run keeps the outputs of
+//! the first of them, and their inputs are a function of their numbers, so that its memory does not grow with its size.
+
+use crate::design::Design;
+use crate::given::{Column, FEWEST_ROWS, InputMeasures, Measure, measures_of_rows};
+use crate::run::SAMPLE;
+use crate::space::Space;
+
+/// Most rows, over all replicates, that other measures are taken from: the first of a run.
+pub const MOST_ROWS_OF_MEASURES: u64 = 1 << 12;
+
+/// Other measures of one output.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct RunMeasures {
+    /// Rows A and B with a value that they were taken from: at most [`MOST_ROWS_OF_MEASURES`].
+    pub rows: usize,
+    /// The measures of every factor but a noise.
+    pub factors: Vec<InputMeasures>,
+}
+
+/// The rows that measures are taken from: the first rows A and B of every replicate, a column for each factor.
+pub(super) struct FirstRows {
+    /// Base points of each replicate.
+    points: usize,
+    factors: Vec<Column>,
+    seed: u64,
+}
+
+impl FirstRows {
+    pub fn of(design: &Design, space: &Space) -> Self {
+        let replicates = design.settings().replicates;
+        let most = (MOST_ROWS_OF_MEASURES / 2).min(SAMPLE) / replicates;
+        let points = most.max(1).min(design.points_per_replicate()) as usize;
+        let known = || space.factors().iter().enumerate().filter(|(_, factor)| !factor.distribution().is_noise());
+        let mut factors: Vec<Column> =
+            known().map(|(_, factor)| Column { name: factor.name.clone(), values: Vec::new() }).collect();
+        for replicate in 0..replicates {
+            let mut columns = vec![vec![0.0; points]; design.columns()];
+            design.replicate(replicate).fill(0, &mut columns);
+            for ((number, factor), column) in known().zip(&mut factors) {
+                let rows = columns[number].iter().zip(&columns[space.factors().len() + number]);
+                column.values.extend(rows.flat_map(|(a, b)| [*a, *b]).map(|u| factor.distribution().quantile(u)));
+            }
+        }
+        Self { points, factors, seed: design.settings().seed }
+    }
+
+    /// The measures `wanted` of output number `number`, of which every replicate has kept these rows; `None` if too few have a value,
+    /// or all the same.
+    ///
+    /// Intervals and p-values are those of independent rows. Points of nets and Latin hypercubes are spread more evenly, which lets
+    /// what chance does look larger than it is: both are on the safe side there.
+    pub fn measures(&self, wanted: &[Measure], number: usize, samples: &[Vec<f64>]) -> Option<RunMeasures> {
+        let kept = samples.iter().flat_map(|rows| {
+            let rows = rows.iter().copied().chain(std::iter::repeat(f64::NAN));
+            rows.take(2 * self.points)
+        });
+        let outputs: Vec<f64> = kept.collect();
+        let has_value: Vec<bool> = outputs.iter().map(|y| y.is_finite()).collect();
+        let kept = |values: &[f64]| -> Vec<f64> {
+            values.iter().zip(&has_value).filter(|(_, has_value)| **has_value).map(|(value, _)| *value).collect()
+        };
+        let outputs = kept(&outputs);
+        if outputs.len() < FEWEST_ROWS {
+            return None;
+        }
+        let of_factor = |column: &Column| Column { name: column.name.clone(), values: kept(&column.values) };
+        let inputs: Vec<Column> = self.factors.iter().map(of_factor).collect();
+        let factors = measures_of_rows(&inputs, &outputs, wanted, [self.seed, number as u64]).ok()?;
+        Some(RunMeasures { rows: outputs.len(), factors })
+    }
+}

@@ -1,0 +1,39 @@
+//! Other measures than Sobol' indices, of the first rows A and B.
+
+use super::tables::FACTORS;
+use crate::given::Measure;
+use crate::report::document::{Part, Table, csv};
+use crate::report::format::grouped;
+use crate::report::given::{agreement, measures_table};
+use crate::report::result::{MeasuresRecord, OutputRecord, ResultFile};
+
+/// What they say, and a row for each factor.
+pub(super) fn measures(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
+    let Some(record) = &output.measures else { return Vec::new() };
+    let wanted = wanted(record);
+    let text = format!(
+        "{} They are taken from {} rows A and B, the first of the run, as from given data; where points are not independent but spread \
+         evenly, intervals and what passes for chance are on the safe side.",
+        agreement(&output.name, &record.factors, &wanted),
+        grouped(record.rows)
+    );
+    vec![Part::Text(text), Part::Table(table(result, output, record))]
+}
+
+/// The measures of a record.
+fn wanted(record: &MeasuresRecord) -> Vec<Measure> {
+    let is_there = |measure: &Measure| record.factors.iter().any(|of| of.measures.contains_key(measure.name()));
+    Measure::ALL.into_iter().filter(is_there).collect()
+}
+
+fn table(result: &ResultFile, output: &OutputRecord, record: &MeasuresRecord) -> Table {
+    let table = measures_table(&output.name, ("factor", &record.factors), &wanted(record));
+    let printed = Some((0..table.rows.len().min(FACTORS)).collect());
+    Table { file: format!("{}-measures.csv", result.study.name), printed, ..table }
+}
+
+/// Those of all outputs.
+pub(super) fn measures_csv(result: &ResultFile) -> String {
+    let tables = result.outputs.iter().filter_map(|output| Some(table(result, output, output.measures.as_ref()?)));
+    csv(tables)
+}

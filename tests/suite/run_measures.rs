@@ -1,0 +1,146 @@
+//! Other measures than Sobol' indices beside those of a run, from its first rows A and B.
+
+use crate::common::{Folder, apportion, run_in_parts, stderr, succeed, text};
+use ::apportion::given::{Column, Measure, Method, analyse, measures};
+use ::apportion::{
+    AnalysisOptions, Distribution, MOST_ROWS_OF_MEASURES, Sampler, Study, SurrogateChoice, function_model,
+};
+
+/// A sum of three normal factors with slopes 3, 2 and 1, and one that does nothing; rows with a large first factor fail if asked.
+fn linear(sampler: Sampler, base_samples: u64, wanted: &[Measure], fails: bool) -> Study {
+    let value = move |x: &[f64]| if fails && x[0] > 1.0 { f64::NAN } else { 3.0 * x[0] + 2.0 * x[1] + x[2] };
+    let options = AnalysisOptions {
+        measures: wanted.to_vec(),
+        surrogate: SurrogateChoice::Off,
+        max_failed: 0.5,
+        ..AnalysisOptions::for_sampler(sampler)
+    };
+    let mut builder = Study::builder("linear", function_model("y", value)).sampler(sampler).base_samples(base_samples);
+    for name in ["x1", "x2", "x3", "idle"] {
+        builder = builder.factor(name, Distribution::normal(0.0, 1.0).unwrap());
+    }
+    builder.seed(3).analysis(options).build().unwrap()
+}
+
+/// The deltas of a sum of normals by quadrature, and the squares of the correlations, which the spectrum finds.
+#[test]
+fn what_is_known_exactly_is_found_from_nets_and_random_rows() {
+    for sampler in [Sampler::Sobol, Sampler::Random, Sampler::LatinHypercube] {
+        let analysis = linear(sampler, 1 << 13, &[Measure::Delta, Measure::Fourier], false).run().unwrap();
+        let found = analysis.outputs[0].measures.as_ref().unwrap();
+        assert_eq!(found.rows as u64, MOST_ROWS_OF_MEASURES, "{sampler:?}");
+        let names: Vec<&str> = found.factors.iter().map(|factor| factor.input.as_str()).collect();
+        assert_eq!(names, ["x1", "x2", "x3", "idle"]);
+        for (factor, (delta, first)) in found.factors.iter().zip([(0.3873, 9.0), (0.2016, 4.0), (0.0890, 1.0)]) {
+            let (found, s1) = (factor.get(Measure::Delta), factor.get(Measure::Fourier).estimate.estimate);
+            let interval = found.estimate.interval.unwrap();
+            assert!(interval.low < delta && delta < interval.high, "{sampler:?} {}: {found:?}", factor.input);
+            assert!(interval.high - interval.low < 0.08, "{sampler:?} {}: {found:?}", factor.input);
+            assert!((s1 - first / 14.0).abs() < 0.04, "{sampler:?} {}: {s1}", factor.input);
+            assert!(found.p_value.unwrap() < 0.01 && factor.get(Measure::Hsic).estimate.estimate.is_nan());
+        }
+        let idle = found.factors[3].get(Measure::Delta);
+        assert!(idle.p_value.unwrap() > 0.05 && idle.estimate.interval.unwrap().low <= 0.0, "{sampler:?}: {idle:?}");
+    }
+}
+
+/// The same bits as from a table of the same rows.
+#[test]
+fn rows_of_a_run_are_given_data() {
+    let study = linear(Sampler::Random, 256, &Measure::ALL, true);
+    let analysis = study.run().unwrap();
+    let found = analysis.outputs[0].measures.as_ref().unwrap();
+    let (design, factors) = (study.design(), study.space().factors());
+    let mut inputs: Vec<Column> =
+        factors.iter().map(|factor| Column { name: factor.name.clone(), values: Vec::new() }).collect();
+    let mut y = Vec::new();
+    for base in 0..256 {
+        for run in 0..2 {
+            let mut u = [0.0; 4];
+            design.point(base * design.rows_per_point() + run, &mut u);
+            let x = study.space().values_at(&u);
+            if x[0] <= 1.0 {
+                inputs.iter_mut().zip(&x).for_each(|(input, x)| input.values.push(*x));
+                y.push(3.0 * x[0] + 2.0 * x[1] + x[2]);
+            }
+        }
+    }
+    assert_eq!(found.rows, y.len());
+    let outputs = [Column { name: "y".to_owned(), values: y }];
+    let indices = analyse(&inputs, &outputs, Method::Both, 3).unwrap();
+    assert_eq!(measures(&inputs, &outputs, &indices, 3).remove(0).unwrap(), found.factors);
+}
+
+#[test]
+fn nothing_is_made_up_where_nothing_can_be_told() {
+    let of = |value: fn(&[f64]) -> f64, base_samples: u64| {
+        let options =
+            AnalysisOptions { measures: vec![Measure::Delta], ..AnalysisOptions::for_sampler(Sampler::Sobol) };
+        let builder = Study::builder("s", function_model("y", value)).base_samples(base_samples);
+        let builder = builder.factor("x", Distribution::uniform(0.0, 1.0).unwrap());
+        builder.analysis(options).build().unwrap().run().unwrap().outputs[0].measures.clone()
+    };
+    assert!(of(|_| 1.0, 64).is_none() && of(|x| x[0], 8).is_none() && of(|x| x[0], 64).is_some());
+}
+
+const STUDY: &str = "model = \"expression\"\n[expression.outputs]\ny = \"3*a + 2*b*b\"\nz = \"b\"\n[design]\nbase_samples = 512\n\
+                     [analysis]\nmeasures = [\"pawn_median\", \"delta\"]\n";
+
+fn study() -> String {
+    let factor = |name: &str| format!("[[factor]]\nname = \"{name}\"\nmin = -1\nmax = 1\n");
+    STUDY.to_owned() + &["a", "b", "idle"].map(factor).concat()
+}
+
+#[test]
+fn the_program_states_them_beside_the_indices() {
+    let folder = Folder::new();
+    let file = folder.with("study.toml", study());
+    let told = succeed(&["check", text(&file)]);
+    assert!(told.contains("measures delta, pawn_median from the first 4096 rows A and B"), "{told}");
+    assert!(told.contains("study-measures.csv  other measures of the factors"), "{told}");
+    let out = folder.path("out");
+    let told = succeed(&["run", text(&file), "--out", text(&out)]);
+    assert!(told.contains("All measures put a first for y.") && told.contains("PAWN median"), "{told}");
+    assert!(told.contains("1024 rows A and B"), "{told}");
+    let json: serde_json::Value = serde_json::from_slice(&std::fs::read(out.join("study.json")).unwrap()).unwrap();
+    let of = |output: usize, factor: usize| json["outputs"][output]["measures"]["factors"][factor].clone();
+    assert_eq!(json["outputs"][0]["measures"]["rows"], 1024);
+    let delta = &of(0, 0)["measures"]["delta"];
+    assert!(delta["low"].is_number() && delta["p_value"].is_number() && of(0, 0)["input"] == "a");
+    assert_eq!(of(0, 0)["measures"].as_object().unwrap().len(), 2);
+    assert!(of(1, 0)["measures"]["pawn_median"]["p_value"].as_f64().unwrap() > 0.05, "z is b alone");
+    let csv = std::fs::read_to_string(out.join("study-measures.csv")).unwrap();
+    assert!(csv.starts_with("output,factor,delta,delta_low,delta_high,delta_p,pawn_median,"), "{csv}");
+    assert_eq!(csv.lines().count(), 1 + 2 * 3);
+    let page = std::fs::read_to_string(out.join("study.html")).unwrap();
+    let again = folder.path("again");
+    succeed(&["report", text(&out.join("study.json")), "--out", text(&again)]);
+    assert_eq!(page, std::fs::read_to_string(again.join("study.html")).unwrap());
+    // Threads, and parts that are joined, make no difference.
+    let measured = |folder: &std::path::Path| std::fs::read(folder.join("study-measures.csv")).unwrap();
+    let alone = folder.path("alone");
+    succeed(&["run", text(&file), "--threads", "1", "--out", text(&alone)]);
+    assert_eq!(measured(&out), measured(&alone));
+    let merged = folder.path("merged");
+    run_in_parts(&file, &merged);
+    assert_eq!(measured(&out), measured(&merged));
+}
+
+#[test]
+fn what_is_no_measure_is_refused() {
+    let folder = Folder::new();
+    let file = folder.with("study.toml", study());
+    for (change, expected) in [
+        ("analysis.measures=[\"pawn\"]", "pawn_median"),
+        ("analysis.measures=[\"delta\", \"delta\"]", "`delta`"),
+        ("analysis.measures=\"delta\"", "measures"),
+    ] {
+        let output = apportion(&["check", text(&file), "--set", change]);
+        assert_eq!(output.status.code(), Some(2), "{change}");
+        assert!(stderr(&output).contains(expected), "{change}: {}", stderr(&output));
+    }
+    let outputs: String = (0..101).map(|k| format!("y{k} = \"a + {k}*b\"\n")).collect();
+    let many = study().replace("y = \"3*a + 2*b*b\"\nz = \"b\"\n", &outputs);
+    let output = apportion(&["check", text(&folder.with("many.toml", many))]);
+    assert!(stderr(&output).contains("none of more than 100 outputs"), "{}", stderr(&output));
+}

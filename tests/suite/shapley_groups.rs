@@ -1,0 +1,304 @@
+//! Shapley effects of groups of factors: the players of the game are the groups, and the factors that have none.
+
+use crate::common::{Folder, apportion, stderr, succeed, text};
+use crate::dependent::{Linear, correlations};
+use ::apportion::estimate::{ShapleyMethod, ShapleyPlayers, proper_subsets, shapley_effects};
+use ::apportion::{
+    AnalysisOptions, BuildError, Dependence, Distribution, Estimate, Factor, Sampler, Study, SurrogateChoice, Unit,
+    function_model,
+};
+
+fn factor(name: &str, law: Distribution, group: Option<&str>) -> Factor {
+    let mut factor = Factor::new(name, Unit::dimensionless(), law).unwrap();
+    factor.group = group.map(str::to_owned);
+    factor
+}
+
+/// A linear output and the groups of its factors.
+struct Grouped {
+    linear: Linear,
+    /// Of each factor.
+    groups: Vec<Option<&'static str>>,
+}
+
+impl Grouped {
+    /// The players as they are listed: factors without a group, then groups in the order of their first factors.
+    fn players(&self) -> Vec<(String, Vec<usize>)> {
+        let lone = self.linear.all().into_iter().filter(|j| self.groups[*j].is_none());
+        let mut players: Vec<(String, Vec<usize>)> = lone.map(|j| (format!("x{}", j + 1), vec![j])).collect();
+        for (j, group) in self.groups.iter().enumerate() {
+            let Some(group) = group else { continue };
+            match players.iter_mut().find(|(name, _)| name == group) {
+                Some((_, factors)) => factors.push(j),
+                None => players.push(((*group).to_owned(), vec![j])),
+            }
+        }
+        players
+    }
+
+    /// From c(u) = E Var(Y | all factors outside the players u)/V of all sets u of players, which normal factors have in closed form.
+    fn exact(&self) -> Vec<f64> {
+        let players = self.players();
+        let cost = |set: &[usize]| {
+            let factors: Vec<usize> = set.iter().flat_map(|player| players[*player].1.clone()).collect();
+            self.linear.total(&factors)
+        };
+        let single: Vec<f64> = (0..players.len()).map(|player| cost(&[player])).collect();
+        let proper: Vec<f64> = proper_subsets(players.len()).iter().map(|set| cost(set)).collect();
+        shapley_effects(&single, &proper)
+    }
+
+    fn study(&self, base_samples: u64, seed: u64, method: ShapleyMethod) -> Study {
+        let b = self.linear.b.clone();
+        let model = function_model("y", move |x: &[f64]| x.iter().zip(&b).map(|(x, b)| b * x).sum());
+        let options = AnalysisOptions {
+            shapley_method: Some(method),
+            shapley_players: Some(ShapleyPlayers::Groups),
+            surrogate: SurrogateChoice::Off,
+            ..AnalysisOptions::for_sampler(Sampler::Sobol)
+        };
+        let mut builder = Study::builder("linear", model).base_samples(base_samples).seed(seed).analysis(options);
+        let names: Vec<String> = self.linear.all().into_iter().map(|j| format!("x{}", j + 1)).collect();
+        for (j, name) in names.iter().enumerate() {
+            builder = builder.with_factor(factor(
+                name,
+                Distribution::normal(3.0, self.linear.sd[j]).unwrap(),
+                self.groups[j],
+            ));
+        }
+        if self.linear.r.iter().flatten().any(|r| *r != 0.0 && *r != 1.0) {
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            builder = builder.dependence(Dependence::new(&names, self.linear.r.clone()));
+        }
+        builder.build().unwrap()
+    }
+
+    /// The effects of the players as they are listed, from a run.
+    fn found(&self, base_samples: u64, seed: u64, method: ShapleyMethod) -> Vec<Estimate> {
+        let analysis = self.study(base_samples, seed, method).run().unwrap();
+        let output = analysis.output("y").unwrap();
+        let effect = |(name, factors): &(String, Vec<usize>)| {
+            let effect = if self.groups[factors[0]].is_some() { output.group(name) } else { output.factor(name) };
+            effect.unwrap().shapley.unwrap()
+        };
+        let grouped = self.groups.iter().position(Option::is_some).unwrap();
+        assert!(output.factor(&format!("x{}", grouped + 1)).unwrap().shapley.is_none(), "its group is the player");
+        self.players().iter().map(effect).collect()
+    }
+}
+
+/// Independent factors; tied within a group; tied across groups; both, with a factor that has no group; more players than subsets
+/// serve by default.
+fn cases() -> Vec<Grouped> {
+    let (g, h) = (Some("g"), Some("h"));
+    let five = |upper: &[f64]| Linear {
+        b: vec![1.0, -2.0, 0.5, 0.0, 1.5],
+        sd: vec![1.0, 1.0, 3.0, 1.0, 0.5],
+        r: correlations(5, upper),
+    };
+    let groups = || vec![g, h, g, h, None];
+    let of = |linear: Linear, groups| Grouped { linear, groups };
+    let mut ten = correlations(10, &[0.0; 45]);
+    for (i, j, value) in [(0, 1, 0.7), (1, 2, -0.5), (2, 3, 0.3), (5, 6, 0.9), (5, 8, -0.4), (6, 8, -0.2)] {
+        (ten[i][j], ten[j][i]) = (value, value);
+    }
+    let b = vec![1.0, -2.0, 0.5, 1.5, 0.0, 1.0, 1.0, -0.3, 2.0, 0.7];
+    let ten = Linear { b, sd: vec![1.0, 1.0, 3.0, 1.0, 0.5, 2.0, 1.0, 1.0, 0.5, 1.0], r: ten };
+    vec![
+        of(five(&[0.0; 10]), groups()),
+        of(five(&[0.0, 0.6, 0.0, 0.0, 0.0, -0.5, 0.0, 0.0, 0.0, 0.0]), groups()),
+        of(five(&[0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.4, 0.0, 0.0]), groups()),
+        of(five(&[0.5, 0.0, 0.3, 0.0, 0.0, -0.4, 0.0, 0.2, 0.0, 0.6]), groups()),
+        of(ten, vec![g, g, h, h, None, None, Some("i"), Some("i"), None, g]),
+    ]
+}
+
+#[test]
+fn linear_outputs_have_closed_forms() {
+    for (number, case) in cases().into_iter().enumerate() {
+        let exact = case.exact();
+        for (method, tolerance) in [(ShapleyMethod::Subsets, 6e-3), (ShapleyMethod::Permutations, 0.025)] {
+            let found = case.found(1 << 12, 1, method);
+            assert_eq!(found.len(), exact.len());
+            for (found, exact) in found.iter().zip(&exact) {
+                assert!((found.estimate - exact).abs() < tolerance, "case {number}, {method:?}: {found:?}, {exact}");
+            }
+            let sum: f64 = found.iter().map(|effect| effect.estimate).sum();
+            assert!((sum - 1.0).abs() < 1e-12, "case {number}, {method:?}: {sum}");
+        }
+    }
+    // Of independent factors and an additive output, the effect of a group is the sum of those of its factors.
+    let (exact, parts) = (cases()[0].exact(), [1.0, 4.0, 2.25, 0.0, 0.5625]);
+    let all: f64 = parts.iter().sum();
+    for (exact, part) in exact.iter().zip([parts[4], parts[0] + parts[2], parts[1] + parts[3]]) {
+        assert!((exact - part / all).abs() < 1e-14);
+    }
+}
+
+/// Two groups share out what they do only together, whatever the number of their factors; single factors would not.
+#[test]
+fn a_group_counts_once() {
+    let product = |x: &[f64]| x[0] * x[1] * x[2];
+    let study = |players| {
+        let mut builder = Study::builder("product", function_model("y", product)).base_samples(1 << 12);
+        for (name, group) in [("a", "g"), ("b", "g"), ("c", "h")] {
+            builder = builder.with_factor(factor(name, Distribution::uniform(-1.0, 1.0).unwrap(), Some(group)));
+        }
+        let options = AnalysisOptions {
+            shapley: Some(true),
+            shapley_players: Some(players),
+            ..AnalysisOptions::for_sampler(Sampler::Sobol)
+        };
+        builder.analysis(options).build().unwrap()
+    };
+    let analysis = study(ShapleyPlayers::Groups).run().unwrap();
+    let output = analysis.output("y").unwrap();
+    for group in ["g", "h"] {
+        let found = output.group(group).unwrap().shapley.unwrap();
+        assert!((found.estimate - 0.5).abs() < 0.01, "{group}: {found:?}");
+    }
+    assert_eq!(study(ShapleyPlayers::Groups).design().rows_per_point(), 2 + 3 + 1, "h is c");
+    let analysis = study(ShapleyPlayers::Factors).run().unwrap();
+    let output = analysis.output("y").unwrap();
+    assert!(output.group("g").unwrap().shapley.is_none());
+    let found = output.factor("c").unwrap().shapley.unwrap();
+    assert!((found.estimate - 1.0 / 3.0).abs() < 0.01, "{found:?}");
+}
+
+/// Groups of one factor each are those factors, to the last bit.
+#[test]
+fn groups_of_one_are_their_factors() {
+    for method in ShapleyMethod::ALL {
+        let mut case = cases().swap_remove(3);
+        case.groups = vec![Some("a"), Some("b"), Some("c"), Some("d"), Some("e")];
+        let of_groups = case.found(256, 3, method);
+        let options = AnalysisOptions {
+            shapley_method: Some(method),
+            surrogate: SurrogateChoice::Off,
+            ..AnalysisOptions::for_sampler(Sampler::Sobol)
+        };
+        let analysis = case.linear.study_with(256, 3, options).run().unwrap();
+        let factors = &analysis.output("y").unwrap().indices.as_ref().unwrap().factors;
+        let of_factors: Vec<f64> = factors.iter().map(|factor| factor.shapley.unwrap().estimate).collect();
+        let of_groups: Vec<f64> = of_groups.iter().map(|effect| effect.estimate).collect();
+        assert_eq!(of_groups, of_factors, "{method:?}");
+    }
+}
+
+/// Share of 95 % intervals that hold the truth; more seeds with `SEEDS=200 cargo test --release --test suite -- --nocapture
+/// intervals_of_groups`.
+#[test]
+fn intervals_of_groups_hold_the_truth() {
+    let seeds: u64 = std::env::var("SEEDS").map_or(25, |seeds| seeds.parse().unwrap());
+    for method in ShapleyMethod::ALL {
+        for base_samples in [256, 1024] {
+            let (mut held, mut all) = (0, 0);
+            for case in cases() {
+                let exact = case.exact();
+                for seed in 0..seeds {
+                    for (found, exact) in case.found(base_samples, seed, method).iter().zip(&exact) {
+                        let interval = found.interval.unwrap();
+                        held += usize::from(interval.low - 1e-12 <= *exact && *exact <= interval.high + 1e-12);
+                        all += 1;
+                    }
+                }
+            }
+            let share = held as f64 / all as f64;
+            println!("{}, N = {base_samples}: {share:.3} of {all}", method.name());
+            assert!(share > 0.88, "{method:?}, N = {base_samples}: {share:.3}");
+        }
+    }
+}
+
+/// Twelve factors in groups of four, three and four, and one by itself.
+fn twelve() -> String {
+    let group = |k: usize| match k {
+        1..=4 => "group = \"load\"\n",
+        5..=7 => "group = \"soil\"\n",
+        8..=11 => "group = \"shape\"\n",
+        _ => "",
+    };
+    let factor = |k: usize| format!("[[factor]]\nname = \"x{k}\"\nmin = -1\nmax = 2\n{}", group(k));
+    "model = \"expression\"\noutputs.y = \"x1 + 2*x2*x6 + x4^2 - x12*x5\"\n[design]\nbase_samples = 512\n\
+     [analysis]\nshapley_players = \"groups\"\n"
+        .to_owned()
+        + &(1..=12).map(factor).collect::<String>()
+}
+
+#[test]
+fn the_program_tells_of_groups() {
+    let folder = Folder::new();
+    for (kind, dependence) in
+        [("plain", ""), ("tied", "[[dependence]]\nfactors = [\"x1\", \"x5\", \"x12\"]\ncorrelation = 0.4\n")]
+    {
+        let file = folder.with(&format!("{kind}.toml"), twelve() + dependence);
+        let told = succeed(&["check", text(&file)]);
+        assert!(told.contains("Shapley effects of the groups"), "{told}");
+        let out = folder.path(kind);
+        let told = succeed(&["run", text(&file), "--out", text(&out)]);
+        assert!(told.contains("Shapley effects of groups of factors"), "{told}");
+        let json: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(out.join(format!("{kind}.json"))).unwrap()).unwrap();
+        assert_eq!(json["provenance"]["shapley_method"], "subsets");
+        let output = &json["outputs"][0];
+        assert!(output["indices"][0].get("shapley").is_none() && output["groups"][0].get("shapley").is_none());
+        let players = output["shapley_groups"].as_array().unwrap();
+        let names: Vec<&str> = players.iter().map(|player| player["player"].as_str().unwrap()).collect();
+        assert_eq!(names, ["x12", "load", "soil", "shape"]);
+        assert_eq!(players[2]["factors"], serde_json::json!(["x5", "x6", "x7"]));
+        let sum: f64 = players.iter().map(|player| player["shapley"]["estimate"].as_f64().unwrap()).sum();
+        assert!((sum - 1.0).abs() < 1e-12 && players[1]["shapley"]["low"].is_number());
+        let idle = &players[3]["shapley"];
+        assert!(idle["estimate"].as_f64().unwrap().abs() < 0.05, "nothing of the shape is in the formula: {idle}");
+        let lines = std::fs::read_to_string(out.join(format!("{kind}.csv"))).unwrap();
+        let commas = |line: &str| line.matches(',').count();
+        let first = lines.lines().next().unwrap();
+        assert!(first.contains("shapley") && lines.lines().all(|line| commas(line) == commas(first)), "{lines}");
+        let last = |start: &str| {
+            let line = lines.lines().find(|line| line.starts_with(start)).unwrap();
+            line.rsplit(',').nth(2).unwrap().to_owned()
+        };
+        assert!(last("y,factor,x1,").is_empty() && !last("y,factor,x12,").is_empty(), "{lines}");
+        assert!(!last("y,group,load,").is_empty(), "{lines}");
+        let page = std::fs::read_to_string(out.join(format!("{kind}.html"))).unwrap();
+        assert!(page.contains("over all orders of them, of what a group adds"));
+        let again = folder.path(&format!("again-{kind}"));
+        succeed(&["report", text(&out.join(format!("{kind}.json"))), "--out", text(&again)]);
+        assert_eq!(page, std::fs::read_to_string(again.join(format!("{kind}.html"))).unwrap());
+    }
+}
+
+#[test]
+fn groups_serve_where_factors_are_too_many_and_what_cannot_be_is_refused() {
+    let folder = Folder::new();
+    let file = folder.with("twelve.toml", twelve());
+    let alone: Vec<String> = twelve().lines().filter(|line| !line.starts_with("group")).map(str::to_owned).collect();
+    let lone = folder.with("lone.toml", alone.join("\n"));
+    for (file, change, expected) in [
+        (&file, "analysis.shapley_players=\"teams\"", "groups"),
+        (&file, "analysis={shapley=false, shapley_players=\"groups\"}", "nothing beside shapley = false"),
+        (&lone, "analysis.shapley=true", "where factors have some"),
+    ] {
+        let output = apportion(&["check", text(file), "--set", change]);
+        assert_eq!(output.status.code(), Some(2), "{change}");
+        assert!(stderr(&output).contains(expected), "{change}: {}", stderr(&output));
+    }
+    let many = |asked: &str| {
+        let factor = |k: usize| format!("[[factor]]\nname = \"x{k}\"\nmin = 0\nmax = 1\ngroup = \"g{}\"\n", k % 12);
+        let factors: String = (0..200).map(factor).collect();
+        let text =
+            format!("model = \"expression\"\noutputs.y = \"x1 + x2\"\ndesign.base_samples = 8\n[analysis]\n{asked}\n");
+        folder.with("many.toml", text + &factors)
+    };
+    let output = apportion(&["check", text(&many("shapley = true"))]);
+    assert!(stderr(&output).contains("shapley_players = \"groups\""), "{}", stderr(&output));
+    let told = succeed(&["check", text(&many("shapley_players = \"groups\""))]);
+    assert!(told.contains("11 rows along a random order of the groups, for Shapley effects"), "{told}");
+    let build = |options: AnalysisOptions| {
+        let builder = Study::builder("sum", function_model("y", |x: &[f64]| x.iter().sum()));
+        builder.factor("x", Distribution::uniform(0.0, 1.0).unwrap()).analysis(options).build().map(|_| ())
+    };
+    let shapley_players = Some(ShapleyPlayers::Groups);
+    let options = AnalysisOptions { shapley_players, ..AnalysisOptions::for_sampler(Sampler::Sobol) };
+    assert!(matches!(build(options), Err(BuildError::ShapleyPlayers { wanted: true })));
+}
