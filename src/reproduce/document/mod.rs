@@ -32,7 +32,6 @@ pub fn document(reproduction: &Reproduction) -> Result<Document, ReproduceError>
         footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
         charts: figures::files(&reproduction.figures),
         files: files(reproduction)?,
-        ..Document::default()
     })
 }
 
