@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use apportion::model::ModelKind;
-use apportion::report::document::{Document, DocumentError, symbols};
+use apportion::report::document::{DataFile, Document, DocumentError, Link, Part, Section, symbols};
 use apportion::report::{ResultFile, run_document};
 use apportion::run::RunError;
 use apportion::study::{Study, StudyError, edited};
@@ -96,6 +96,23 @@ pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<Str
     result.outputs.truncate(1);
     result.aggregate = None;
     page(&study, &text, &run_document(&result), result.provenance.model_runs)
+}
+
+/// The name of the live page of the study called `name`.
+pub fn file_name(name: &str) -> String {
+    format!("{name}-live.html")
+}
+
+/// Puts the live `page` beside a document, as the file `name` that a section links to.
+pub fn put_beside(document: &mut Document, name: &str, page: String) {
+    let text = "What if your own factors vary less, or more? A page beside this one computes it while a \
+                range is dragged, with the engine of this program inside; it needs no network.";
+    let parts = vec![Part::Text(text.to_owned()), Part::Links(vec![Link::new("Try your own ranges", name)])];
+    // Before how it was made.
+    let place = document.sections.iter().position(|section| matches!(&*section.id, "cost" | "provenance"));
+    let place = place.unwrap_or(document.sections.len());
+    document.sections.insert(place, Section::new("try", "Try your own ranges", vec![Part::OnPage(parts)]));
+    document.files.push(DataFile::new(name, page));
 }
 
 /// The text of a study with all changes made, as a page can run it: for as many base samples as it likes, without files.

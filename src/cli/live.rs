@@ -7,7 +7,7 @@ use apportion::report::{prepare_file, prepare_folder, write_atomically};
 use super::output::default_folder;
 use super::stop::on_signal;
 use super::{DesignChanges, Failure, StudyArguments, Threads, say};
-use crate::live::{LiveError, live_page, own_text};
+use crate::live::{LiveError, file_name, live_page, own_text};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -36,7 +36,7 @@ pub fn live(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load_with(&arguments.design.overrides())?;
     own_text(&study)?;
     let name = study.name();
-    let path = arguments.out.clone().unwrap_or_else(|| default_folder(name).join(format!("{name}-live.html")));
+    let path = arguments.out.clone().unwrap_or_else(|| default_folder(name).join(file_name(name)));
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         prepare_folder(folder)?;
     }

@@ -54,7 +54,7 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         if journals.len() == 1 { "1 journal".to_owned() } else { format!("{} journals", journals.len()) },
         path.display()
     ));
-    deliver(&study, &artefacts, &ResultFile::new(&study, &result))
+    deliver(&study, &artefacts, &ResultFile::new(&study, &result), None)
 }
 
 /// The journals of shards in `folder`, in the order of their names.

@@ -1,15 +1,21 @@
 //! `apportion reproduce`: the papers' figures and claims, on one page.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock};
 
 use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, document, in_words, reproduce as run};
 use anyhow::anyhow;
 use apportion::report::FileNames;
+use apportion::study::Study;
 
 use super::output::{ChartArguments, deliver_with};
 use super::progress::{Meter, PartMeter};
+use super::stop::on_signal;
 use super::{DesignChanges, Failure, Threads};
+use crate::live::{live_page, put_beside};
+
+/// The file of the live page.
+const LIVE: &str = "live.html";
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -67,7 +73,18 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
     };
     let meters = Meters::default();
     let reproduction = run(&request, &|event| meters.show(&event))?;
-    deliver_with(&artefacts, &document(&reproduction)?, &in_words(&reproduction))
+    let mut document = document(&reproduction)?;
+    if request.only.is_none() {
+        let page = live_page(&live_study()?, request.threads, on_signal())?;
+        put_beside(&mut document, LIVE, page);
+    }
+    deliver_with(&artefacts, &document, &in_words(&reproduction))
+}
+
+/// The study that the live page begins with: all eight factors, as its first result the program's with few runs.
+fn live_study() -> Result<Study, Failure> {
+    let text = include_str!("../../studies/coulomb-general.toml");
+    Ok(Study::parse(text, Path::new("coulomb-general.toml"), &["design.base_samples=4096".to_owned()])?)
 }
 
 /// The meter of what goes on at present.

@@ -18,6 +18,7 @@ use super::progress::Meter;
 use super::ranks::{self, Ranks};
 use super::stop::Stoppable;
 use super::{DesignChanges, Failure, StudyArguments, Threads, say, stop};
+use crate::live::{file_name, live_page, own_text, put_beside};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -35,6 +36,9 @@ pub struct Arguments {
     /// Also write the points and outputs of all runs to a file (.csv, .parquet or .npy)
     #[arg(long, value_name = "FILE", conflicts_with = "shard")]
     save_outputs: Option<PathBuf>,
+    /// Also write the page in which the study can be tried (NAME-live.html), to which the page of the result links
+    #[arg(long, conflicts_with = "shard")]
+    live: bool,
     #[command(flatten)]
     record: RecordArguments,
 }
@@ -87,8 +91,13 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     let artefacts = arguments.charts.artefacts(&folder);
     let asked = &arguments.record;
     prepare_folder(&folder)?;
+    if arguments.live {
+        own_text(&study)?;
+    }
     if asked.shard.is_none() {
-        artefacts.check(&file_names(&study))?;
+        let mut names = file_names(&study);
+        names.data.extend(arguments.live.then(|| file_name(study.name())));
+        artefacts.check(&names)?;
     } else if study.target().grows() {
         let why =
             "a study with an accuracy, a target, a budget or max_runs has no size that could be shared out beforehand";
@@ -143,7 +152,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     if let Some((target, store)) = saved.zip(store.as_ref()) {
         save(&study, &result, store, target)?;
     }
-    deliver(&study, &artefacts, &result)
+    let live = arguments.live.then(|| live_page(&study, arguments.threads.number(), stop)).transpose()?;
+    deliver(&study, &artefacts, &result, live)
 }
 
 /// Most outputs without indices that are named.
@@ -221,9 +231,13 @@ pub fn file_names(study: &Study) -> FileNames {
     run_file_names(study.name(), &outputs, tables)
 }
 
-/// Writes the files of a result, and says what came out.
-pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile) -> Result<(), Failure> {
-    output::deliver(artefacts, &run_document(result))?;
+/// Writes the files of a result, with its `live` page if there is one, and says what came out.
+pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile, live: Option<String>) -> Result<(), Failure> {
+    let mut document = run_document(result);
+    if let Some(page) = live {
+        put_beside(&mut document, &file_name(study.name()), page);
+    }
+    output::deliver(artefacts, &document)?;
     let lost: Vec<&str> =
         result.outputs.iter().filter(|output| lost(study, output)).map(|output| output.name.as_str()).collect();
     if lost.is_empty() {

@@ -129,6 +129,15 @@ const show = (view, seconds, whole) => {
   }
   const old = whole ? ALL : QUICK;
   for (const id of old) if (!kept.has(id) && at(id)) at(id).remove();
+  for (const box of document.querySelectorAll("fieldset.factor")) {
+    const percentage = view.percentages[box.dataset.factor];
+    const known = percentage && Number.isFinite(percentage.total);
+    const meter = box.querySelector(".meter");
+    meter.hidden = !known;
+    if (!known) continue;
+    meter.firstElementChild.style.width = `${Math.min(100, Math.max(0, percentage.total))}%`;
+    meter.lastElementChild.textContent = `S\u209c ${percentage.total < 10 ? percentage.total.toFixed(1) : Math.round(percentage.total)}\u00a0%`;
+  }
   at("state").textContent =
     `${grouped(view.runs)} runs of the model in ${seconds < 0.0095 ? (seconds * 1000).toFixed(1) : Math.round(seconds * 1000)} ms, here in this page; ` +
     `${grouped(view.base_samples)} base points.`;
@@ -295,11 +304,16 @@ const card = (factor) => {
       };
       kinds.append(make("label", {}, fix, "fixed"));
     }
-    const parts = [legend, kinds];
+    const meter = make("div", { className: "meter", hidden: true }, make("span"), make("span"));
+    meter.title = "Total index: the part of the variance that this factor has, alone and together with others";
+    const parts = [legend, kinds, meter];
     const slides = fixed === undefined && SLIDES[distribution.name];
     if (slides) parts.push(slider(factor, distribution, slides));
     else parts.push(make("div", { style: "clear: both" }));
     parts.push(fields(factor, { fixed, distribution }, draw));
+    const old = box.querySelector(".meter");
+    if (old) meter.replaceChildren(...old.childNodes);
+    meter.hidden = !old || old.hidden;
     box.replaceChildren(...parts);
     if (active) {
       const same = box.querySelector(`[data-key="${active}"]`);

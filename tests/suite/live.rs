@@ -42,6 +42,19 @@ fn a_page_has_the_engine_the_study_as_it_was_changed_and_its_result() {
 }
 
 #[test]
+fn the_page_of_a_run_links_to_its_own() {
+    let folder = Folder::new();
+    let to = folder.path("out");
+    let out = ["--live", "--charts", "none", "--base-samples", "256", "--out", text(&to)];
+    succeed(&[&["run", text(&study_path("ishigami"))], &out[..]].concat());
+    let page = std::fs::read_to_string(to.join("ishigami.html")).unwrap();
+    assert!(page.contains("href=\"ishigami-live.html\"") && page.contains("Try your own ranges"));
+    assert_eq!(presets(&std::fs::read_to_string(to.join("ishigami-live.html")).unwrap()).len(), 1);
+    let refused = apportion(&[&["run", text(&study_path("command-python/command-python"))], &out[..]].concat());
+    assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+}
+
+#[test]
 fn a_run_that_decides_its_own_length_gets_that_of_the_page() {
     let folder = Folder::new();
     let page = folder.path("live.html");

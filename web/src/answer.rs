@@ -128,9 +128,21 @@ fn view(result: ResultFile, sections: &[String]) -> Result<Value, String> {
         "lead": document.lead.iter().map(|text| symbols(text)).collect::<Vec<_>>(),
         "plain_lead": document.lead,
         "sections": sections.into_iter().flatten().collect::<Vec<_>>(),
+        "percentages": percentages(&result),
         "runs": result.provenance.model_runs,
         "base_samples": result.provenance.base_samples,
     }))
+}
+
+/// Of the first output, by factor: 100 S_T and what it is of the sum of all, as far as they are known.
+fn percentages(result: &ResultFile) -> Value {
+    let indices = result.outputs.first().and_then(|output| output.indices.as_ref());
+    let percent = |x: f64| x.is_finite().then_some(100.0 * x);
+    let entries = indices.into_iter().flatten().map(|index| {
+        let total = percent(index.effect.total.estimate);
+        (index.factor.clone(), json!({ "total": total, "share": index.effect.share_total }))
+    });
+    Value::Object(entries.collect())
 }
 
 /// What a page needs to offer a study for changes.

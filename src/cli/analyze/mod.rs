@@ -87,7 +87,7 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     artefacts.check(&file_names(study))?;
     let runner = study.runner().threads(arguments.threads.number()).store(&answers.store);
     let analysis = runner.run().map_err(|error| with_inputs(study, error))?;
-    deliver(study, &artefacts, &ResultFile::new(study, &analysis))
+    deliver(study, &artefacts, &ResultFile::new(study, &analysis), None)
 }
 
 /// A remark for a file with the wrong number of rows, if its first line seems to be a row.
