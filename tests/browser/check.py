@@ -193,7 +193,8 @@ def open_page(browser, path, size, shots, scheme="light"):
     page.on("requestfailed", lambda request: found.append(f"request failed: {request.url[:90]}"))
 
     def requested(request):
-        if urlsplit(request.url).scheme not in ("file", "data", "about"):
+        # What a page makes itself, such as the script of its own thread, is a blob.
+        if urlsplit(request.url).scheme not in ("file", "data", "about", "blob"):
             found.append(f"request beyond the file: {request.url[:90]}")
 
     page.on("request", requested)
