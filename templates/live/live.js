@@ -136,7 +136,8 @@ const show = (view, seconds, whole) => {
     meter.hidden = !known;
     if (!known) continue;
     meter.firstElementChild.style.width = `${Math.min(100, Math.max(0, percentage.total))}%`;
-    meter.lastElementChild.textContent = `S\u209c ${percentage.total < 10 ? percentage.total.toFixed(1) : Math.round(percentage.total)}\u00a0%`;
+    const rounded = percentage.total < 10 ? percentage.total.toFixed(1) : Math.round(percentage.total);
+    meter.lastElementChild.innerHTML = `<var>S</var><sub>T</sub> ${rounded}\u00a0%`;
   }
   at("state").textContent =
     `${grouped(view.runs)} runs of the model in ${seconds < 0.0095 ? (seconds * 1000).toFixed(1) : Math.round(seconds * 1000)} ms, here in this page; ` +
