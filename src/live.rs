@@ -175,7 +175,7 @@ fn page(study: &Study, text: &str, document: &Document, runs: u64) -> Result<Str
         study: json!({ "presets": presets }).to_string().replace('<', "\\u003c"),
         page_style: include_str!("../templates/page/page.css"),
         style: include_str!("../templates/live/live.css"),
-        script: include_str!("../templates/live/live.js"),
+        script: concat!(include_str!("../templates/live/live.js"), include_str!("../templates/page/charts.js")),
         worker: include_str!("../templates/live/worker.js"),
         engine: ENGINE,
         version: env!("CARGO_PKG_VERSION"),

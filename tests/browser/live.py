@@ -130,6 +130,13 @@ def behaviour(arguments, browser, page_file, folder):
     expect(page.locator("#lead").inner_text() != lead, "the lead does not follow")
     expect("#s=" in page.url, "the link does not hold the settings")
 
+    # What a bar says is there at once; an entry of the legend puts its series away and back.
+    bar = page.locator("#indices .wide .bars rect").first
+    bar.hover()
+    expect(page.locator(".tip").is_visible() and page.locator(".tip").inner_text().strip(), "no word about a bar")
+    for hidden in (True, False):
+        page.locator("#indices .wide .legend text").first.click()
+        expect((bar.evaluate("bar => getComputedStyle(bar).visibility") == "hidden") == hidden, "the legend switches nothing")
     box = page.locator("fieldset[data-factor=length] input[data-key=smallest]").bounding_box()
     share = page.evaluate("(() => { const i = document.querySelector('fieldset[data-factor=length] input[data-key=smallest]'); return i.value / 1000; })()")
     x, y = box["x"] + 11 + share * (box["width"] - 22), box["y"] + box["height"] / 2

@@ -169,7 +169,10 @@ impl Document {
             sections,
             footer: symbols(&self.footer),
             style: include_str!("../../../templates/page/page.css"),
-            script: include_str!("../../../templates/page/page.js"),
+            script: concat!(
+                include_str!("../../../templates/page/page.js"),
+                include_str!("../../../templates/page/charts.js")
+            ),
             version: env!("CARGO_PKG_VERSION"),
         };
         Ok(view.render()?)
