@@ -22,6 +22,14 @@ pub enum LiveError {
         /// The name of the study.
         study: String,
     },
+    /// A page has the points of so many factors.
+    #[error("a page cannot run the study {study}: it has {factors} factors, more than {MOST_FACTORS}")]
+    Factors {
+        /// The name of the study.
+        study: String,
+        /// How many factors it has.
+        factors: usize,
+    },
     /// The study is not whole without files beside it.
     #[error("a page cannot run the study {study}: it needs files beside it ({source})")]
     Files {
@@ -55,6 +63,9 @@ const PRESETS: [&str; 4] = [
     include_str!("../studies/soft-cantilever.toml"),
 ];
 
+/// Two columns of Sobol' points for each, of the 1024 that the engine has in a page.
+const MOST_FACTORS: usize = 512;
+
 /// What the page shows of a result, in this order, where the result has it.
 const SECTIONS: [&str; 6] = ["mind", "indices", "shares", "interactions", "distribution", "validity"];
 
@@ -72,6 +83,7 @@ struct Page<'a> {
     page_style: &'static str,
     style: &'static str,
     script: &'static str,
+    beginning: &'static str,
     worker: &'static str,
     engine: &'static str,
     version: &'static str,
@@ -103,15 +115,18 @@ pub fn file_name(name: &str) -> String {
     format!("{name}-live.html")
 }
 
-/// Puts the live `page` beside a document, as the file `name` that a section links to.
+/// Puts the live `page` beside a document, as the file `name` that a section links to: in the place of the section that tells
+/// how to make one, if there is one.
 pub fn put_beside(document: &mut Document, name: &str, page: String) {
+    const TITLE: &str = "Try your own ranges";
     let text = "What if your own factors vary less, or more? A page beside this one computes it while a \
                 range is dragged, with the engine of this program inside; it needs no network.";
-    let parts = vec![Part::Text(text.to_owned()), Part::Links(vec![Link::new("Try your own ranges", name)])];
+    let parts = vec![Part::Text(text.to_owned()), Part::Links(vec![Link::new(TITLE, name)])];
+    document.sections.retain(|section| section.id != "try");
     // Before how it was made.
     let place = document.sections.iter().position(|section| matches!(&*section.id, "cost" | "provenance"));
     let place = place.unwrap_or(document.sections.len());
-    document.sections.insert(place, Section::new("try", "Try your own ranges", vec![Part::OnPage(parts)]));
+    document.sections.insert(place, Section::new("try", TITLE, vec![Part::OnPage(parts)]));
     document.files.push(DataFile::new(name, page));
 }
 
@@ -124,6 +139,10 @@ pub fn own_text(study: &Study) -> Result<String, LiveError> {
     let computes = |kind: ModelKind| kind == ModelKind::AFM || kind == ModelKind::EXPRESSION || kind.known.is_some();
     if !kind.is_some_and(computes) {
         return Err(LiveError::Model { study: study.name().to_owned() });
+    }
+    let factors = study.space().factors().len();
+    if factors > MOST_FACTORS {
+        return Err(LiveError::Factors { study: study.name().to_owned(), factors });
     }
     let text = edited(study.source(), study.overrides())?;
     let text = without_target(&text).unwrap_or(text);
@@ -176,6 +195,7 @@ fn page(study: &Study, text: &str, document: &Document, runs: u64) -> Result<Str
         page_style: include_str!("../templates/page/page.css"),
         style: include_str!("../templates/live/live.css"),
         script: concat!(include_str!("../templates/live/live.js"), include_str!("../templates/page/charts.js")),
+        beginning: include_str!("../templates/live/begin.js"),
         worker: include_str!("../templates/live/worker.js"),
         engine: ENGINE,
         version: env!("CARGO_PKG_VERSION"),

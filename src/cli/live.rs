@@ -25,7 +25,9 @@ pub struct Arguments {
 impl From<LiveError> for Failure {
     fn from(error: LiveError) -> Self {
         match error {
-            LiveError::Model { .. } | LiveError::Files { .. } | LiveError::Study(_) => Self::Input(error.into()),
+            LiveError::Model { .. } | LiveError::Factors { .. } | LiveError::Files { .. } | LiveError::Study(_) => {
+                Self::Input(error.into())
+            }
             LiveError::Run(error) => error.into(),
             LiveError::Document(_) | LiveError::Template(_) => Self::Run(error.into()),
         }

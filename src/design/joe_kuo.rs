@@ -2,26 +2,36 @@
 
 use std::sync::LazyLock;
 
-/// Number of dimensions the embedded table holds (the first one needs no entry: it is van der Corput's sequence).
-pub const MAX_DIMENSIONS: usize = 4096;
+/// Number of dimensions the embedded tables hold (the first one needs no entry: it is van der Corput's sequence). In a web
+/// page the first table has to do, since every byte is loaded.
+pub const MAX_DIMENSIONS: usize = if cfg!(target_family = "wasm") { 1024 } else { 4096 };
 
 /// Bits of a coordinate, and so the number of direction numbers per dimension: 2^32 distinct points.
 pub const BITS: usize = 32;
 
-const TABLE: &str = include_str!("../../assets/joe-kuo/new-joe-kuo-6.4096.txt");
+/// Dimensions 2 to 1024, and those that follow.
+const TABLES: [&str; 2] = [
+    include_str!("../../assets/joe-kuo/new-joe-kuo-6.1024.txt"),
+    if cfg!(target_family = "wasm") { "" } else { include_str!("../../assets/joe-kuo/new-joe-kuo-6.4096.txt") },
+];
 
 /// Direction numbers of one dimension, bits reversed: entry `k` is XORed into the coordinate when bit `k` of the point's
 /// index is set. The least significant bit of an entry stands for 1/2, as the scramble wants it.
 pub type Directions = [u32; BITS];
 
-/// Of all dimensions, read once for the whole program.
-static ALL: LazyLock<Vec<Directions>> = LazyLock::new(|| {
+/// Of most studies, so that a short run does not read thousands of dimensions.
+const FEW: usize = 128;
+
+/// The first few and all dimensions, each read once for the whole program.
+static FIRST: LazyLock<Vec<Directions>> = LazyLock::new(|| read(FEW));
+static ALL: LazyLock<Vec<Directions>> = LazyLock::new(|| read(MAX_DIMENSIONS));
+
+fn read(dimensions: usize) -> Vec<Directions> {
     let van_der_corput = std::array::from_fn(|k| 1 << (BITS - 1 - k));
-    std::iter::once(van_der_corput)
-        .chain(TABLE.lines().filter(|line| !line.starts_with('#')).map(from_line))
-        .map(|v| v.map(u32::reverse_bits))
-        .collect()
-});
+    let lines = TABLES.into_iter().flat_map(str::lines).filter(|line| !line.starts_with('#'));
+    let all = std::iter::once(van_der_corput).chain(lines.map(from_line));
+    all.take(dimensions).map(|v| v.map(u32::reverse_bits)).collect()
+}
 
 /// Direction numbers of the first `dimensions` dimensions, in order.
 ///
@@ -32,7 +42,7 @@ static ALL: LazyLock<Vec<Directions>> = LazyLock::new(|| {
 /// If `dimensions` exceeds [`MAX_DIMENSIONS`]; [`crate::design::Design`] checks this before.
 pub fn directions(dimensions: usize) -> &'static [Directions] {
     assert!(dimensions <= MAX_DIMENSIONS, "at most {MAX_DIMENSIONS} dimensions");
-    &ALL[..dimensions]
+    if dimensions <= FEW { &FIRST[..dimensions] } else { &ALL[..dimensions] }
 }
 
 /// Before the bits are reversed: the most significant bit of an entry stands for 1/2.

@@ -7,7 +7,7 @@
 //! The first 20 columns were searched for up to 12 factors, 16 for more: nets of 2^20 and of 2^16 points. Further columns are
 //! those of the Sobol' sequence, which keep every coordinate a (0, 1)-sequence to 2^32 points.
 
-use std::sync::LazyLock;
+use std::sync::OnceLock;
 
 use super::joe_kuo::{Directions, directions};
 
@@ -19,12 +19,8 @@ const TABLE: &str = include_str!("../../assets/pick-freeze/nets.txt");
 /// The direction numbers of one factor in A and in B, bits reversed as in [`Directions`].
 pub type Pair = [Directions; 2];
 
-/// The tables of d = 1, 2, .., one after the other: d pairs each.
-static ALL: LazyLock<Vec<Pair>> = LazyLock::new(|| {
-    let lines = TABLE.lines().filter(|line| !line.starts_with('#'));
-    let sizes = (1..=MAX_SEARCHED_FACTORS).flat_map(|d| (0..d).map(move |i| (d, i)));
-    sizes.zip(lines).map(|((d, i), line)| pair(line, [i, d + i])).collect()
-});
+/// The tables of d = 1, 2, .., each read when it is first asked for: d pairs.
+static READ: [OnceLock<Vec<Pair>>; MAX_SEARCHED_FACTORS + 1] = [const { OnceLock::new() }; MAX_SEARCHED_FACTORS + 1];
 
 /// The pairs of a design of `factors` factors, one for each.
 ///
@@ -32,8 +28,11 @@ static ALL: LazyLock<Vec<Pair>> = LazyLock::new(|| {
 /// If `factors` exceeds [`MAX_SEARCHED_FACTORS`]; [`crate::design::Design`] checks this before.
 pub fn pairs(factors: usize) -> &'static [Pair] {
     assert!(factors <= MAX_SEARCHED_FACTORS, "at most {MAX_SEARCHED_FACTORS} factors");
-    let first = factors * factors.saturating_sub(1) / 2;
-    &ALL[first..first + factors]
+    READ[factors].get_or_init(|| {
+        let before = factors * factors.saturating_sub(1) / 2;
+        let lines = TABLE.lines().filter(|line| !line.starts_with('#')).skip(before);
+        lines.take(factors).enumerate().map(|(i, line)| pair(line, [i, factors + i])).collect()
+    })
 }
 
 /// A line of the table: d, and the bits above the diagonal of the two matrices in hexadecimal. Further columns are those

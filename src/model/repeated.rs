@@ -61,7 +61,7 @@ fn square(unit: &Unit) -> Unit {
             let texts = one.into_iter().chain(above.map(|above| above + &below));
             let (zero, step) = (unit.to_si(0.0), unit.to_si(1.0));
             let is_square = |square: &Unit| square.to_si(0.0) == zero && same(square.to_si(1.0), step * step);
-            let known = texts.filter_map(|text| Unit::parse(&text).ok()).find(is_square);
+            let known = texts.filter_map(|text| Unit::known(&text)).find(is_square);
             known.unwrap_or_else(|| Unit::label(&format!("({symbol})^2")))
         }
     }

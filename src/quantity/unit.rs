@@ -158,7 +158,12 @@ impl Unit {
     /// assert_eq!(Unit::label("nN").to_si(3.0), 3e-9);
     /// ```
     pub fn label(text: &str) -> Self {
-        Self::parse(text).unwrap_or_else(|_| Self { is_label: true, ..Self::called(text.trim()) })
+        Self::known(text).unwrap_or_else(|| Self { is_label: true, ..Self::called(text.trim()) })
+    }
+
+    /// The unit `text`, if it is one.
+    pub(crate) fn known(text: &str) -> Option<Self> {
+        Self::read(text, |_| None).ok()
     }
 
     /// Pure numbers, whose unit is written so.
@@ -176,6 +181,11 @@ impl Unit {
     /// [`UnitError`] says which part was not understood. A product after a division (`N/m s`) is refused as
     /// ambiguous; so is a factor to SI beyond 10^100.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
+        Self::read(text, nearest)
+    }
+
+    /// Reads a unit; `nearest` finds a symbol like one that is unknown.
+    fn read(text: &str, nearest: fn(&str) -> Option<String>) -> Result<Self, UnitError> {
         let malformed = |reason| UnitError::Malformed { unit: text.to_owned(), reason };
         let mut unit = Self::called(text.trim());
         if unit.symbol.is_empty() {
@@ -194,7 +204,14 @@ impl Unit {
                     ));
                 }
                 let power = if place == 0 { 1 } else { -1 };
-                offsets.extend(unit.multiply(factor, power, text)?);
+                let symbol = |name: &str| {
+                    lookup(name).or_else(|| juxtaposed(name)).ok_or_else(|| UnitError::Unknown {
+                        unit: text.to_owned(),
+                        symbol: name.to_owned(),
+                        nearest: nearest(name),
+                    })
+                };
+                offsets.extend(unit.multiply(factor, power, text, symbol)?);
             }
         }
         if let [(offset, 1)] = offsets[..] {
@@ -208,8 +225,14 @@ impl Unit {
     }
 
     /// Multiplies by one factor, such as `mm^2`, to the power 1 or -1. Returns the offset and the power of every symbol in
-    /// it, but for `1`.
-    fn multiply(&mut self, factor: &str, sign: i8, text: &str) -> Result<Vec<(f64, i8)>, UnitError> {
+    /// it, but for `1`. `symbols` finds those of a name in it.
+    fn multiply(
+        &mut self,
+        factor: &str,
+        sign: i8,
+        text: &str,
+        symbols: impl Fn(&str) -> Result<Vec<(&'static Symbol, i32)>, UnitError>,
+    ) -> Result<Vec<(f64, i8)>, UnitError> {
         let malformed = |reason| UnitError::Malformed { unit: text.to_owned(), reason };
         let end = factor.find(|c: char| c.is_ascii_digit() || "^+-".contains(c)).filter(|end| *end > 0);
         let (name, exponent) = factor.split_at(end.unwrap_or(factor.len()));
@@ -221,13 +244,8 @@ impl Unit {
         if !(1..=9).contains(&power.unsigned_abs()) {
             return Err(malformed("a power must lie between 1 and 9, or -9 and -1"));
         }
-        let found = lookup(name).or_else(|| juxtaposed(name)).ok_or_else(|| UnitError::Unknown {
-            unit: text.to_owned(),
-            symbol: name.to_owned(),
-            nearest: nearest(name),
-        })?;
         let mut offsets = Vec::new();
-        for (symbol, prefix) in found {
+        for (symbol, prefix) in symbols(name)? {
             let too_high = || malformed("its powers are too high");
             let (times, over) = (symbol.times.powi(power.abs().into()), symbol.over.powi(power.abs().into()));
             let (times, over) = if power * sign > 0 { (times, over) } else { (over, times) };
@@ -345,7 +363,13 @@ fn plain(text: &str) -> String {
 }
 
 fn lookup(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
-    spellings().find(|(spelling, ..)| spelling == name).map(|(_, symbol, prefix)| vec![(symbol, prefix)])
+    if let Some(symbol) = SYMBOLS.iter().find(|symbol| symbol.name == name) {
+        return Some(vec![(symbol, 0)]);
+    }
+    let (prefix, decade) = PREFIXES.into_iter().find(|(prefix, _)| name.starts_with(*prefix))?;
+    let rest = &name[prefix.len_utf8()..];
+    let symbol = SYMBOLS.iter().find(|symbol| symbol.name == rest && symbol.prefixes.contains(prefix))?;
+    Some(vec![(symbol, decade)])
 }
 
 /// Two symbols without a sign between them, as in `Ns/m`; only after `N`, `Pa` and `J`, where nothing else is meant.

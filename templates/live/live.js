@@ -31,20 +31,16 @@ let worker = null;
 let calls = 0;
 const waiting = new Map();
 
-const unpacked = async () => {
-  const text = atob(at("engine").textContent.trim());
-  const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compile(await new Response(stream).arrayBuffer());
-};
-const source = URL.createObjectURL(new Blob([at("worker").textContent], { type: "text/javascript" }));
-const begin = () => {
-  worker = new Worker(source);
+const listen = () => {
   worker.onmessage = ({ data }) => {
     const hear = waiting.get(data.id);
     waiting.delete(data.id);
     if (hear) hear(data);
   };
+};
+const begin = () => {
+  worker = new Worker(engineSource);
+  listen();
   worker.postMessage({ module });
 };
 const tell = (request) => new Promise((resolve) => {
@@ -539,13 +535,14 @@ addEventListener("hashchange", async () => {
 });
 
 (async () => {
-  if (typeof WebAssembly !== "object" || typeof DecompressionStream !== "function") {
+  if (!engineThread) {
     at("state").textContent = "This browser has no WebAssembly: what you see is the result for the ranges of the study file.";
     return;
   }
   try {
-    module = await unpacked();
-    begin();
+    module = await engineModule;
+    worker = engineThread;
+    listen();
     restored();
     if (!(await described())) return;
     controls();

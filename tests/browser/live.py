@@ -21,7 +21,7 @@ from playwright.sync_api import sync_playwright
 
 STUDIES = ["coulomb-general", "hk-general", "lugre-general", "cantilever-formula", "ishigami"]
 SAMPLES = 1024
-LARGEST_PAGE = 2_600_000
+LARGEST_PAGE = 2_000_000
 ROOT = Path(__file__).resolve().parents[2]
 
 found = []
@@ -114,7 +114,7 @@ def same_bits(arguments, browser, pages, folder):
 def behaviour(arguments, browser, page_file, folder):
     begin = time.perf_counter()
     page = browser.open(page_file)
-    page.wait_for_function("document.body.dataset.samples !== undefined")
+    page.wait_for_function("document.body.dataset.samples > 0")
     first = time.perf_counter() - begin
     settled(page)
     print(f"first result after {first:.2f} s; settled after {time.perf_counter() - begin:.2f} s: {page.locator('#state').text_content()}")

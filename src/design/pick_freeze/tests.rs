@@ -23,15 +23,16 @@ fn pair_cost([a, b]: [&Directions; 2], m: usize) -> f64 {
 
 #[test]
 fn the_table_is_complete_and_every_matrix_is_upper_triangular() {
-    assert_eq!(ALL.len(), MAX_SEARCHED_FACTORS * (MAX_SEARCHED_FACTORS + 1) / 2);
-    for line in TABLE.lines().filter(|line| !line.starts_with('#')) {
+    let lines = || TABLE.lines().filter(|line| !line.starts_with('#'));
+    assert_eq!(lines().count(), MAX_SEARCHED_FACTORS * (MAX_SEARCHED_FACTORS + 1) / 2);
+    for line in lines() {
         let mut words = line.split(' ');
         let d: usize = words.next().and_then(|d| d.parse().ok()).expect("a number of factors");
         let columns = if d <= 12 { 20 } else { 16 };
         let bits: usize = columns * (columns - 1) / 2;
         assert!(words.clone().count() == 2 && words.all(|digits| digits.len() == bits.div_ceil(4)), "{line}");
     }
-    for directions in ALL.iter().flatten() {
+    for directions in (1..=MAX_SEARCHED_FACTORS).flat_map(pairs).flatten() {
         for (k, entry) in directions.iter().enumerate() {
             // A one on the diagonal and zeros below it: this is what makes each coordinate a (0, 1)-sequence.
             assert_eq!(entry.checked_ilog2(), Some(k as u32));

@@ -256,3 +256,18 @@ proptest! {
         let _ = (Unit::parse(&text), Unit::parse(&near));
     }
 }
+
+#[test]
+fn every_spelling_is_looked_up_as_the_first_symbol_that_has_it() {
+    let mut first: Vec<(String, &Symbol, i32)> = Vec::new();
+    for (spelling, symbol, decade) in spellings() {
+        if !first.iter().any(|(earlier, ..)| *earlier == spelling) {
+            first.push((spelling, symbol, decade));
+        }
+    }
+    for (spelling, symbol, decade) in first {
+        let found = lookup(&spelling).unwrap();
+        assert!(std::ptr::eq(found[0].0, symbol) || found[0].0.name == symbol.name, "{spelling}");
+        assert_eq!(found[0].1, decade, "{spelling}");
+    }
+}

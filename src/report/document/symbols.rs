@@ -107,7 +107,7 @@ fn starts_with_unit(text: &str) -> bool {
     let word = word.trim_end_matches(['?', '!']);
     // A unit that begins with a digit is none in a sentence.
     word.starts_with(|c: char| !c.is_ascii_digit())
-        && Unit::parse(&typed(word)).is_ok_and(|unit| !unit.symbol().is_empty())
+        && Unit::known(&typed(word)).is_some_and(|unit| !unit.symbol().is_empty())
 }
 
 /// A unit with raised digits as it is typed.

@@ -9,7 +9,7 @@ use crate::quantity::Unit;
 /// assert_eq!((unit("um"), unit("mJ/m2"), unit("furlong2")), ("µm".into(), "mJ/m²".into(), "furlong2".into()));
 /// ```
 pub fn unit(text: &str) -> String {
-    if Unit::parse(text).is_err() {
+    if Unit::known(text).is_none() {
         return text.to_owned();
     }
     let mut printed = String::with_capacity(text.len() + 4);
@@ -31,7 +31,7 @@ pub fn unit(text: &str) -> String {
 
 /// A symbol with a true micro sign, if `u` is its prefix.
 fn symbol(text: &str) -> String {
-    match text.strip_prefix('u').filter(|bare| !bare.is_empty() && Unit::parse(bare).is_ok()) {
+    match text.strip_prefix('u').filter(|bare| !bare.is_empty() && Unit::known(bare).is_some()) {
         Some(bare) => format!("µ{bare}"),
         None => match text {
             "deg" => "°".to_owned(),

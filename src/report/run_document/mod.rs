@@ -17,7 +17,7 @@ use figures::{Figures, Numbered, Stems, all_stems};
 use output::Topic;
 use warnings::folded;
 
-use crate::model::MANY_OUTPUTS;
+use crate::model::{MANY_OUTPUTS, ModelKind};
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
 use super::file_names::FileNames;
@@ -55,8 +55,10 @@ pub fn run_document(result: &ResultFile) -> Document {
     let is_many = single.outputs.len() >= MANY_OUTPUTS;
     sections.extend(if is_many { overview::sections(&mut figures) } else { of_outputs(&mut figures) });
     sections.extend(validity_section(&result.validity));
+    let setup = StudySetup::from_result(result);
+    sections.extend(own_ranges(&setup));
     sections.push(Section::new("cost", "Cost", cost(result)));
-    sections.push(study_section(&StudySetup::from_result(result)));
+    sections.push(study_section(&setup));
     sections.push(Section::new("provenance", "Provenance", vec![Part::OnPage(provenance(result))]));
     let study = &result.study;
     let mut document = Document {
@@ -231,6 +233,20 @@ fn chosen(result: &ResultFile, spending: &SpendingRecord) -> Vec<String> {
     });
     texts.push("These lines in the place of `accuracy` make the same run again, to the bit.".to_owned());
     texts
+}
+
+/// How to try other ranges: of a study in a file whose model computes in a page.
+fn own_ranges(study: &StudySetup) -> Option<Section> {
+    let kind = ModelKind::from_name(&study.model)?;
+    let computes = kind == ModelKind::AFM || kind == ModelKind::EXPRESSION || kind.known.is_some();
+    let changes = if study.overrides.is_empty() { "" } else { ", with the changes of this run," };
+    let text = format!(
+        "What if your own factors vary less, or more? `apportion live {}.toml`{changes} makes a page that computes it while a \
+         range is dragged, with the engine of this program inside; it needs no network.",
+        study.name
+    );
+    let parts = vec![Part::OnPage(vec![Part::Text(text)])];
+    (computes && !study.source.is_empty()).then(|| Section::new("try", "Try your own ranges", parts))
 }
 
 /// How the answer came about.

@@ -34,9 +34,10 @@ fn the_leading_factor_stands_at_the_top() {
         "Distribution of the output",
         "The output against its factors",
         "What the surrogate did",
+        "Try your own ranges",
         "Cost",
     ];
-    assert_eq!(titles(&page)[..8], expected);
+    assert_eq!(titles(&page)[..9], expected);
     let sorted = |mut names: FileNames| {
         names.data.sort();
         names.charts.sort();

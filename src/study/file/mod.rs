@@ -3,6 +3,7 @@
 
 mod analysis;
 mod at;
+#[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
 mod command;
 mod constants;
 mod context;

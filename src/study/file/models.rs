@@ -89,14 +89,23 @@ pub(super) const TABLES: [ModelTable; 5] = [
         name: "command",
         span: |file| file.command.as_ref().map(At::span),
         inputs: |reading| command::inputs(reading.context, &reading.file.factor),
-        subject: |Reading { context, file, .. }, space| {
-            let (subject, notes) = command::subject(context, file.command.as_ref(), file.outputs.as_ref(), space)?;
-            Ok((Arc::new(subject), notes))
-        },
+        subject: program,
         template: program_template,
         guide: Some(guides::command),
     },
 ];
+
+#[cfg(not(target_family = "wasm"))]
+fn program(Reading { context, file, .. }: &Reading<'_>, space: &Space) -> Subjects {
+    let (subject, notes) = command::subject(context, file.command.as_ref(), file.outputs.as_ref(), space)?;
+    Ok((Arc::new(subject), notes))
+}
+
+/// A page starts no programs, and does not carry what would speak with them.
+#[cfg(target_family = "wasm")]
+fn program(Reading { context, .. }: &Reading<'_>, _: &Space) -> Subjects {
+    Err(context.fault(0..0, Problem::NoProgram))
+}
 
 /// The table of a kind of model.
 pub(super) fn table_of(kind: ModelKind) -> &'static ModelTable {

@@ -6,7 +6,6 @@ use toml::de::{DeTable, Deserializer};
 use super::context::{Context, Fault};
 use super::error::{Problem, meant};
 use super::forms::normalise;
-use super::schema;
 use super::sections::StudyFile;
 
 /// What stands in the text of `context`.
@@ -41,17 +40,39 @@ fn is_factor(key: Option<&str>) -> bool {
 /// A key of no meaning where it stands: of another table perhaps, by our name or by another one.
 fn unknown_key(name: String, expected: Vec<String>) -> Problem {
     let nearest = meant(&name, expected.iter().map(String::as_str));
-    let elsewhere = || match schema::table_of(&name) {
+    let elsewhere = || match table_of(&name) {
         Some(table) => Some(format!("it stands {table}")),
         None => {
             let ours = meant_elsewhere(&name)?;
-            Some(format!("did you mean `{ours}`, which stands {}?", schema::table_of(&ours)?))
+            Some(format!("did you mean `{ours}`, which stands {}?", table_of(&ours)?))
         }
     };
     match elsewhere().filter(|_| nearest.is_none()) {
         Some(right) => Problem::Misplaced { name, right },
         None => Problem::UnknownKey { name, nearest, expected },
     }
+}
+
+/// Where a key stands in a study file, in words; `None` if there is no such key.
+fn table_of(key: &str) -> Option<&'static str> {
+    let tables = [
+        ("", "at the top of the file, above the first table"),
+        ("[design]", "in the table [design]"),
+        ("[analysis]", "in the table [analysis]"),
+        ("[[factor]]", "in the table [[factor]] of a factor"),
+        ("[noise]", "in the table [noise]"),
+        ("[command]", "in the table [command]"),
+        ("[expression]", "in the table [expression]"),
+    ];
+    // What stands there is wrong in any case: the question is whether the key is.
+    let knows = |head: &str| {
+        let text = format!("{head}\n{} = 0", toml_edit::Key::new(key));
+        let root = DeTable::parse(&text).map_err(|error| error.to_string());
+        let read =
+            root.and_then(|root| StudyFile::deserialize(Deserializer::from(root)).map_err(|error| error.to_string()));
+        read.map_or_else(|message| !message.contains("unknown field"), |_| true)
+    };
+    tables.into_iter().find(|(head, _)| knows(head)).map(|(_, words)| words)
 }
 
 /// Our key for one of another program, whichever table it belongs to.

@@ -25,24 +25,6 @@ pub fn study_schema() -> Value {
     schema
 }
 
-/// Where a key stands in a study file, in words; `None` if there is no such key.
-pub(super) fn table_of(key: &str) -> Option<&'static str> {
-    let schema = study_schema();
-    let has = |table: &Value| table["properties"].get(key).is_some();
-    if has(&schema) {
-        return Some("at the top of the file, above the first table");
-    }
-    let tables = [
-        ("DesignSection", "in the table [design]"),
-        ("AnalysisSection", "in the table [analysis]"),
-        ("FactorSection", "in the table [[factor]] of a factor"),
-        ("NoiseSection", "in the table [noise]"),
-        ("CommandSection", "in the table [command]"),
-        ("ExpressionSection", "in the table [expression]"),
-    ];
-    tables.into_iter().find(|(name, _)| has(&schema["definitions"][*name])).map(|(_, words)| words)
-}
-
 /// TOML has no null: what is not said is left out.
 fn without_null(schema: &mut Schema) {
     let Some(object) = schema.as_object_mut() else { return };
