@@ -63,15 +63,16 @@ fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
         })
     });
     let caption = format!(
-        "Mean size μ* of the elementary effects per full range of each factor, and their standard deviation σ, from \
-         {} trajectories. {}{}",
+        "Mean size μ* of the {}, and their standard deviation σ, from {} trajectories. {}{}",
+        effects_of(file),
         file.provenance.trajectories,
         leader(output),
         idle(output)
     );
     let slopes = [(1.0, "σ = μ*"), (0.5, "σ = 0.5 μ*"), (0.1, "σ = 0.1 μ*")];
-    let x = axis("μ*, mean size of the effects", output);
-    let y = axis("σ, standard deviation of the effects", output);
+    let of = if is_derivative(file) { "derivatives" } else { "effects" };
+    let x = axis(&format!("μ*, mean size of the {of}"), output);
+    let y = axis(&format!("σ, standard deviation of the {of}"), output);
     let slopes = slopes.map(|(slope, label)| Mark::slope(slope, label));
     Chart::new(title(file, output), caption).panels([Panel::new(x, y).with(points).with(slopes)])
 }
@@ -109,12 +110,20 @@ fn bars(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
         Some(Mark::note(row, mu_star + fixed))
     });
     let caption = format!(
-        "Mean size μ* of the elementary effects. A factor could be fixed where the upper bound of μ* lies below {} % \
-         of the largest μ*. {}{beyond}",
+        "Mean size μ* of the {}. A factor could be fixed where the upper bound of μ* lies below {} % of the largest μ*. \
+         {}{beyond}",
+        effects_of(file),
         100.0 * FIXABLE,
         leader(output)
     );
-    let x = axis("μ*, mean size of the effects per full range of the factor", output);
+    let x = axis(
+        if is_derivative(file) {
+            "μ*, mean size of the derivatives, times the range of the factor"
+        } else {
+            "μ*, mean size of the effects per full range of the factor"
+        },
+        output,
+    );
     let rows = Axis::from_names("", ranked.iter().map(|factor| words(&factor.factor)).collect());
     Chart::new(title(file, output), caption).panels([Panel::new(x, rows).with(bars).with(notes)])
 }
@@ -134,8 +143,20 @@ fn idle(output: &OutputScreeningRecord) -> String {
     format!(" Without effect: {}.", names.join(", "))
 }
 
+/// What a screening takes the mean size of.
+fn effects_of(file: &ScreeningFile) -> &'static str {
+    match is_derivative(file) {
+        true => "derivatives by each factor, times its range,",
+        false => "elementary effects per full range of each factor",
+    }
+}
+
+fn is_derivative(file: &ScreeningFile) -> bool {
+    file.provenance.derivative_step.is_some()
+}
+
 /// What is seen, in one sentence.
-fn leader(output: &OutputScreeningRecord) -> String {
+pub(super) fn leader(output: &OutputScreeningRecord) -> String {
     let contender = |factor: &FactorScreeningRecord| {
         let total = factor.mu_star.filter(|mu_star| mu_star.estimate > 0.0)?;
         Some(Contender { label: name(&factor.factor), first_order: None, total, probability: None })
@@ -146,11 +167,15 @@ fn leader(output: &OutputScreeningRecord) -> String {
     match &may_lead(&moving)[..] {
         [] => format!("No factor has any effect on {output_name}."),
         [lead] => {
-            format!("For {output_name}, {} matters most: μ* = {}.", moving[*lead].label, mu_star(&moving[*lead]))
+            let Contender { label, .. } = &moving[*lead];
+            let size = mu_star(&moving[*lead]);
+            format!("For {output_name}, {label} matters most: μ*, the mean size of its effects, is {size}.")
         }
         tied => {
             let names = names(&moving, tied, &mu_star);
-            format!("What matters most for {output_name} cannot be told apart, by μ*: {names}.")
+            format!(
+                "What matters most for {output_name} cannot be told apart by μ*, the mean size of effects: {names}."
+            )
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A screening as a document.
 
-use super::charts::screening_suffixes;
+use super::charts::{leader, screening_suffixes};
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile, screening_charts, screening_json};
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
@@ -22,7 +22,7 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
     });
     for (place, output) in file.outputs.iter().enumerate() {
         let figures: Vec<Figure> = charts.by_ref().take(2).collect();
-        lead.extend(figures.get(1).map(|bars| bars.chart.caption().to_owned()));
+        lead.push(leader(output));
         lead.push(fixable(output));
         let mut parts: Vec<Part> = Part::warnings(&output.warnings).into_iter().collect();
         let failed = output.failures.iter();
@@ -73,17 +73,17 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
         in_file("unit"),
         Column::text("factor").named(Field::new("factor")),
         in_file("rank"),
-        estimate("mu*", "mu_star"),
-        estimate("mu", "mu"),
-        estimate("sigma", "sigma"),
-        estimate("sigma/mu*", "ratio"),
+        estimate("μ*", "mu_star"),
+        estimate("μ", "mu"),
+        estimate("σ", "sigma"),
+        estimate("σ/μ*", "ratio"),
         Column::text("reading").named(Field::new("reading")),
         Column::text("could be fixed").named(Field::new("could_be_fixed")),
         in_file("effects"),
         in_file("dropped"),
     ];
     if is_derivative {
-        let own = [estimate("nu", "nu"), estimate("S_T at most", "total_bound")];
+        let own = [estimate("ν", "nu"), estimate("S_T at most", "total_bound")];
         columns.splice(COLUMNS_BEFORE_NU..COLUMNS_BEFORE_NU, own);
     }
     let plain = |estimate: Option<EstimateRecord>| {
@@ -117,17 +117,13 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
     let mut ranked: Vec<usize> = (0..output.factors.len()).collect();
     ranked.sort_by_key(|&place| output.factors[place].rank);
     let output_name = name(&output.name);
+    let measures = "mean size μ* with its 95 % interval, mean μ, standard deviation σ";
+    let bound = "; ν, the mean square of the derivative per unit of the factor, and what the total index S_T is at most by \
+                 Poincaré's inequality";
     let caption = if is_derivative {
-        format!(
-            "Derivatives of {output_name}, times the range of each factor: mean size mu* with its 95 % interval, mean mu, standard \
-             deviation sigma; nu, the mean square of the derivative per unit of the factor, and what the total index S_T is at most \
-             by Poincaré's inequality."
-        )
+        format!("Derivatives of {output_name}, times the range of each factor: {measures}{bound}.")
     } else {
-        format!(
-            "Elementary effects on {output_name} per full range of each factor: mean size mu* with its 95 % interval, mean mu, \
-             standard deviation sigma."
-        )
+        format!("Elementary effects on {output_name} per full range of each factor: {measures}.")
     };
     Table {
         printed: Some(ranked),
@@ -136,17 +132,15 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
     }
 }
 
-/// The columns before those of derivatives: up to sigma/mu*.
+/// The columns before those of derivatives: up to σ/μ*.
 const COLUMNS_BEFORE_NU: usize = 8;
 
 /// Which factors could be fixed, and by which rule.
 fn fixable(output: &OutputScreeningRecord) -> String {
     let fixable = output.factors.iter().filter(|f| f.could_be_fixed == Some(true)).map(|f| words(&f.factor));
     let fixable: Vec<String> = fixable.collect();
-    let rule = format!(
-        "the upper bound of mu* below {} % of the largest mu*, by at least half of the effects",
-        100.0 * FIXABLE
-    );
+    let rule =
+        format!("the upper bound of μ* below {} % of the largest μ*, by at least half of the effects", 100.0 * FIXABLE);
     if output.factors.iter().all(|factor| factor.could_be_fixed.is_none()) {
         return format!("No factor has any effect on {} here: nothing to rank.", name(&output.name));
     }
