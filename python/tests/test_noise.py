@@ -33,5 +33,46 @@ def test_total_indices_of_the_mean():
         lambda x1, s: x1 + 0 * s, {"x1": (0, 1)}, noise={"name": "s", "mean_totals": True}, call="columns", base_samples=64
     )
     assert abs(named["y"].of_mean("total")["x1"].estimate - 1) < 1e-9
-    with pytest.raises(ap.StudyError, match="mean and variance as outputs of its own"):
-        ap.Study(noisy, factors, noise={"repetitions": 8}, vectorised=False)
+
+
+def test_repetitions_give_mean_and_variance_as_in_the_engine():
+    factors = {"x1": (0, 1), "x2": (0, 1)}
+    noise = {"repetitions": 5}
+    options = {"noise": noise, "base_samples": 64, "seed": 3}
+    formula = ap.analyse("expression", factors, expression={"outputs": {"y": "(x1 + 2 * x2) * seed / 2147483648"}}, **options)
+    calls = []
+
+    def one(x1, x2, seed):
+        calls.append(seed)
+        return (x1 + 2 * x2) * seed / 2147483648
+
+    assert list(formula.outputs) == ["y_mean", "y_variance"]
+    # A row at a time is asked once more, for the names of the outputs.
+    for function, vectorised in [(one, False), (lambda x1, x2, seed: (x1 + 2 * x2) * seed / 2147483648, True)]:
+        result = ap.analyse(function, factors, vectorised=vectorised, **options)
+        assert list(result.outputs) == list(formula.outputs)
+        for name in result.outputs:
+            for own, expected in zip(result[name].total.values(), formula[name].total.values()):
+                assert own.estimate == pytest.approx(expected.estimate, abs=1e-12)
+    assert len(calls) == 5 * formula.to_dict()["provenance"]["model_runs"] + 1
+    with pytest.raises(ap.StudyError, match="from 1 to 1000"):
+        ap.Study(one, factors, noise={"repetitions": 0}, vectorised=False)
+
+
+def test_repetitions_of_series_failures_and_units():
+    def walk(x, seed):
+        if x > 0.9:
+            raise ValueError("too far")
+        steps = np.random.default_rng(int(seed)).normal(size=3)
+        return {"path": x + np.cumsum(steps), "end": x + steps.sum()}
+
+    outputs = {"path": {"unit": "nm", "length": 3, "axis": "step"}, "end": "nm/s"}
+    noise = {"repetitions": 4, "name": "seed"}
+    study = ap.Study(walk, {"x": (0, 1)}, noise=noise, outputs=outputs, vectorised=False, base_samples=64)
+    with pytest.warns(UserWarning, match="too far"):
+        values = study.evaluate([[0.5, 7.0], [0.95, 7.0]])
+    assert study.outputs == [f"path_{p}[{k}]" for p in ("mean", "variance") for k in range(3)] + ["end_mean", "end_variance"]
+    assert np.isfinite(values[0]).all() and np.isnan(values[1]).all()
+    assert values[0, 2] == pytest.approx(values[0, 6]) and values[0, 5] == pytest.approx(values[0, 7])
+    units = dict(study._study.outputs)
+    assert units["path_variance[0]"] == "nm^2" and units["end_variance"] == "(nm/s)^2"

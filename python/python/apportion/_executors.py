@@ -13,6 +13,7 @@ import numpy as np
 
 from ._engine import RunError, Stop
 from ._functions import AnswerError, Call
+from ._repeated import RepeatedCall
 
 # How often a block is handed out before the run gives up.
 ATTEMPTS = 4
@@ -35,7 +36,7 @@ def workers_of(executor: Any) -> int:
 class Blocks:
     """Hands blocks of rows to an executor and waits for their outputs; called from several threads at once."""
 
-    def __init__(self, executor: Any, call: Call, stop: Stop):
+    def __init__(self, executor: Any, call: Call | RepeatedCall, stop: Stop):
         self.executor = executor
         self.stop = stop
         self.call = _portable(call)
@@ -79,7 +80,7 @@ class _ByValue:
 
     def __init__(self, data: bytes):
         self.data = data
-        self._call: Call | None = None
+        self._call: Call | RepeatedCall | None = None
 
     def __getstate__(self) -> bytes:
         return self.data
@@ -88,13 +89,13 @@ class _ByValue:
         self.data = data
         self._call = None
 
-    def load(self) -> Call:
+    def load(self) -> Call | RepeatedCall:
         if self._call is None:
             self._call = pickle.loads(self.data)
         return self._call
 
 
-def _portable(call: Call) -> Any:
+def _portable(call: Call | RepeatedCall) -> Any:
     module = getattr(call.function, "__module__", None)
     try:
         if module != "__main__":
@@ -115,7 +116,7 @@ def _portable(call: Call) -> Any:
     return _ByValue(cloudpickle.dumps(call))
 
 
-def called_elsewhere(executor: Any, call: Call, stop: Stop, workers: int | None) -> tuple[Callable[..., Any], int]:
+def called_elsewhere(executor: Any, call: Call | RepeatedCall, stop: Stop, workers: int | None) -> tuple[Callable[..., Any], int]:
     """What the engine calls, and from how many threads."""
     count = workers if workers is not None else AHEAD * workers_of(executor)
     return Blocks(executor, call, stop), max(1, count)

@@ -17,6 +17,7 @@ from ._distributions import Factor, Seed
 from ._engine import RunError, StudyError
 from ._executors import called_elsewhere
 from ._functions import Call, expanded
+from ._repeated import RepeatedCall, outputs_of, taken_out
 from ._result import Document, Result
 
 # Keys of `Study` by the table of the study file that they belong to.
@@ -54,7 +55,8 @@ class Study:
     `axis_unit`, and `positions` (all, or the first one and the step).
 
     `noise="seed"` gives a stochastic model a seed with every row, as its last argument or by that name;
-    `noise={"mean_totals": True}` adds the total indices of the mean over it, one more run of each base sample for each factor.
+    `noise={"mean_totals": True}` adds the total indices of the mean over it, one more run of each base sample for each factor,
+    and `noise={"repetitions": 8}` calls the function so often for each row: its outputs are then `y_mean` and `y_variance`.
 
     Keywords are the keys of a study file: `base_samples`, `sampler`, `replicates`, `seed`, `budget_runs`, `max_runs`,
     `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `shapley_method`, `shapley_players`,
@@ -84,7 +86,10 @@ class Study:
         if isinstance(outputs, str):
             outputs = [outputs]
         made = {key: Factor.of(value) for key, value in (factors or {}).items()}
+        repetitions = 1
         if isinstance(noise, Mapping):
+            if callable(model):
+                noise, repetitions = taken_out(noise)
             # The engine makes a factor of it, behind all others.
             options["noise"] = noise = {"name": "seed", **noise}
             stated, made = dict(made), {**made, noise["name"]: Seed()}
@@ -97,7 +102,7 @@ class Study:
         design |= {"budget": None if budget is None else f"{budget} s"}
         analysis = {key: options.pop(key, None) for key in _ANALYSIS}
         options["dependence"] = _dependence(options.get("dependence"), made)
-        self._call: Call | None = None
+        self._call: Call | RepeatedCall | None = None
         if callable(model):
             quantiles = {place: f.quantile for place, f in enumerate(made.values()) if f.quantile is not None}
             names = list(outputs) if outputs is not None else None
@@ -105,6 +110,9 @@ class Study:
             self._call = Call(
                 model, list(made), vectorised=vectorised, style=call, outputs=names, lengths=lengths, quantiles=quantiles
             )
+            if repetitions > 1:
+                self._call = RepeatedCall(self._call, list(made).index(noise["name"]), repetitions)
+                outputs = outputs_of(outputs)
         elif any(factor.quantile is not None for factor in made.values()):
             raise StudyError("factors by their quantile functions serve functions of Python alone")
         table["model"] = "external" if callable(model) or model is None else model
