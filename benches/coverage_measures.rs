@@ -1,6 +1,7 @@
 //! How often do the intervals of Shapley effects and of measures of given data hold, and how often does chance pass for influence?
 //!
-//! `cargo bench --bench coverage_measures` writes `docs/coverage-measures.md`, of 200 seeds; `-- 20` takes 20 seeds and prints it.
+//! `cargo bench --bench coverage_measures` writes `docs/coverage-measures.md`, of 200 seeds; `-- 20` takes 20 seeds and prints it,
+//! `-- deltas` only its last section.
 
 use std::fmt::Write as _;
 
@@ -372,16 +373,21 @@ fn main() {
          runs.\n\n",
         100.0 * (0.95f64 * 0.05 / seeds as f64).sqrt()
     );
+    if std::env::args().any(|argument| argument == "deltas") {
+        text.clear();
+        deltas(&mut text, DELTA_SEEDS);
+        return println!("{text}");
+    }
     shapley(&mut text, seeds);
     text += "\n## Measures of given data\n\nA sum of four independent normal inputs with slopes 3, 2, 1 and 0, random rows. \
-             The interval of delta is the union of that of resamples and that of a twin whose delta is known \
-             ([how](given-data-format.md)).\n\n";
+             The interval of delta is the union of that of resamples and that of a twin whose delta is known, and reaches up to what \
+             narrower kernels in finer classes point to ([how](given-data-format.md)).\n\n";
     given(&mut text, seeds);
     text += "\n## Delta of a run\n\n`measures = [\"delta\"]` in `[analysis]`: the first rows A and B, of random points and of four nets. The \
              estimate is less its bias by resamples (Plischke, Borgonovo and Smith 2013); of an input that is idle every table in which \
-             the interval reaches 0 holds the truth. 40 seeds. Of an output that goes up and down with an input inside a class, as \
-             Ishigami's function does, classes of few rows see little of that: the estimate is far too small, and so is its interval, \
-             whatever the twin adds.\n\n";
+             the interval reaches 0 holds the truth. 40 seeds. In wide classes and under wide kernels little is seen of an output that goes \
+             up and down with an input, as Ishigami's function does: its estimates are too small; the upper ends of their intervals \
+             allow for that.\n\n";
     deltas(&mut text, seeds.min(DELTA_SEEDS));
     println!("{text}");
     if asked.is_none() {

@@ -19,16 +19,17 @@ impl Densities {
     }
 
     /// Half of the mean over the classes of the distance between the density of the outputs there and that of all (Plischke et al.
-    /// 2013, eq. 26). A row counts as often as its weight says. A class without spread is a point, as far as can be from any density.
-    pub fn delta(&self, z: &[f64], (labels, count): &(Vec<usize>, usize), weights: &[f64]) -> f64 {
+    /// 2013, eq. 26), by kernels of this part of Silverman's width. A row counts as often as its weight says. A class without spread is
+    /// a point, as far as can be from any density.
+    pub fn delta(&self, z: &[f64], (labels, count): &(Vec<usize>, usize), weights: &[f64], part: f64) -> f64 {
         let mut all = Spread::default();
         let mut classes = vec![Spread::default(); *count];
         for ((&label, z), &weight) in labels.iter().zip(z).zip(weights) {
             all.add(*z, weight);
             classes[label].add(*z, weight);
         }
-        let (of_all, widths) = (all.width() / self.step, classes.iter().map(|class| class.width() / self.step));
-        let widths: Vec<f64> = widths.collect();
+        let width = |of: &Spread| part * of.width() / self.step;
+        let (of_all, widths) = (width(&all), classes.iter().map(width).collect::<Vec<f64>>());
         let (mut density, mut densities) = ([0.0; GRID], vec![[0.0; GRID]; *count]);
         for ((&label, z), &weight) in labels.iter().zip(z).zip(weights) {
             if weight > 0.0 {
@@ -124,6 +125,6 @@ mod tests {
     fn classes_that_are_points_are_as_far_as_can_be() {
         let z: Vec<f64> = (0..40).map(|k| f64::from(k % 2)).collect();
         let labels: Vec<usize> = (0..40).map(|k| k % 2).collect();
-        assert_eq!(Densities::new(&z).delta(&z, &(labels, 2), &[1.0; 40]), 1.0);
+        assert_eq!(Densities::new(&z).delta(&z, &(labels, 2), &[1.0; 40], 1.0), 1.0);
     }
 }

@@ -18,6 +18,7 @@ use rayon::prelude::*;
 use super::column::{Column, NoVariance};
 use super::order::Order;
 use super::{GivenIndices, PointSet, centred};
+use crate::special::normal_quantile;
 use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
 use density::Densities;
 use distances::{Distance, distances};
@@ -119,6 +120,11 @@ const LEVEL: f64 = 0.05;
 /// Resamples behind the bias and the interval of delta, and tables of its twin.
 const RESAMPLES: usize = 100;
 
+/// Of the kernels that show what wider ones in half as many classes do not: the part of their width.
+const NARROWER: f64 = 0.5;
+/// What they do not show either, in parts of the difference: as much again, where errors fall in proportion to the width.
+const LEFT: f64 = 1.0;
+
 /// Classes of PAWN.
 const PAWN_CLASSES: usize = 10;
 
@@ -163,6 +169,8 @@ struct Job<'a> {
     wanted: &'a [Measure],
     z: &'a [f64],
     order: Order,
+    /// Normal scores of the outputs: delta does not change when the output is bent, and its kernels need tails that are short.
+    scores: Vec<f64>,
     densities: Densities,
     seed: [u64; 2],
 }
@@ -171,19 +179,22 @@ struct Job<'a> {
 struct Classes {
     /// The class of every row, and how many there are.
     fine: (Vec<usize>, usize),
+    /// Twice as many.
+    finer: (Vec<usize>, usize),
     /// Those of PAWN.
     coarse: (Vec<usize>, usize),
 }
 
 impl Classes {
     fn new(order: &Order, rows: usize) -> Self {
-        Self { fine: order.classes(classes_for(rows)), coarse: order.classes(PAWN_CLASSES) }
+        let count = classes_for(rows);
+        Self { fine: order.classes(count), finer: order.classes(2 * count), coarse: order.classes(PAWN_CLASSES) }
     }
 
     /// The classes with the rows in another order.
     fn permuted(&self, rows: &[usize]) -> Self {
         let permuted = |(labels, count): &(Vec<usize>, usize)| (rows.iter().map(|&row| labels[row]).collect(), *count);
-        Self { fine: permuted(&self.fine), coarse: permuted(&self.coarse) }
+        Self { fine: permuted(&self.fine), finer: permuted(&self.finer), coarse: permuted(&self.coarse) }
     }
 
     /// What the measures of an input without influence depend on.
@@ -205,7 +216,9 @@ fn classes_for(rows: usize) -> usize {
 
 impl<'a> Job<'a> {
     fn new(z: &'a [f64], wanted: &'a [Measure], seed: [u64; 2]) -> Self {
-        Self { wanted, z, order: Order::of(z), densities: Densities::new(z), seed }
+        let order = Order::of(z);
+        let scores = normal_scores(&order);
+        Self { wanted, z, order, densities: Densities::new(&scores), scores, seed }
     }
 
     fn wants(&self, measure: Measure) -> bool {
@@ -274,7 +287,11 @@ impl<'a> Job<'a> {
         let median = if slides.len() % 2 == 1 { slides[middle] } else { (slides[middle - 1] + slides[middle]) / 2.0 };
         [
             fourier::first_order(rows.iter().map(|&row| self.z[row]).collect()),
-            if self.wants(Measure::Delta) { self.densities.delta(self.z, &classes.fine, &weights) } else { f64::NAN },
+            if self.wants(Measure::Delta) {
+                self.densities.delta(&self.scores, &classes.fine, &weights, 1.0)
+            } else {
+                f64::NAN
+            },
             mean(Distance::kolmogorov),
             mean(Distance::kuiper),
             median,
@@ -307,23 +324,30 @@ impl<'a> Job<'a> {
     }
 
     /// Delta less its bias by resamples of the rows (Plischke et al. 2013). Its interval is that of the resamples and that of
-    /// tables of a [`Twin`], whose delta is known, together: it reaches from the lower end of both to the upper one.
+    /// tables of a [`Twin`], whose delta is known, together: it reaches from the lower end of both to the upper one, and as high as
+    /// narrower kernels in finer classes say, and what they leave.
     fn delta(&self, classes: &Classes, ranks: &[f64], input: u64) -> Estimate {
-        let (z, rows) = (self.z, self.z.len());
-        let plain = self.densities.delta(z, &classes.fine, &vec![1.0; rows]);
-        let resample = |number: usize| {
-            let mut random = self.random(1 << 24 | input << 8 | number as u64);
-            let mut weights = vec![0.0; rows];
-            (0..rows).for_each(|_| weights[random.random_range(0..rows as u64) as usize] += 1.0);
-            self.densities.delta(z, &classes.fine, &weights)
+        let (z, rows) = (&self.scores[..], self.z.len());
+        let ones = vec![1.0; rows];
+        let resampled = |classes: &(Vec<usize>, usize), part: f64| {
+            let plain = self.densities.delta(z, classes, &ones, part);
+            let resample = |number: usize| {
+                let mut random = self.random(1 << 24 | input << 8 | number as u64);
+                let mut weights = vec![0.0; rows];
+                (0..rows).for_each(|_| weights[random.random_range(0..rows as u64) as usize] += 1.0);
+                self.densities.delta(z, classes, &weights, part)
+            };
+            let (mean, half_width) = moments(&(0..RESAMPLES).into_par_iter().map(resample).collect::<Vec<f64>>());
+            (plain, 2.0 * plain - mean, half_width)
         };
-        let (mean, half_width) = moments(&(0..RESAMPLES).into_par_iter().map(resample).collect::<Vec<f64>>());
-        let estimate = 2.0 * plain - mean;
+        let (plain, estimate, half_width) = resampled(&classes.fine, 1.0);
         let mut interval = Interval { low: estimate - half_width, high: estimate + half_width };
+        let (_, finer, half_width) = resampled(&classes.finer, NARROWER);
+        interval.high = interval.high.max(finer + LEFT * (finer - estimate) + half_width);
         if let Some(twin) = Twin::new(z, ranks, &classes.fine) {
             let of_table = |number: usize| {
                 let outputs = twin.outputs(&mut self.random(1 << 26 | input << 8 | number as u64));
-                Densities::new(&outputs).delta(&outputs, &classes.fine, &vec![1.0; rows])
+                Densities::new(&outputs).delta(&outputs, &classes.fine, &ones, 1.0)
             };
             let (mean, half_width) = moments(&(0..RESAMPLES).into_par_iter().map(of_table).collect::<Vec<f64>>());
             let unbiased = plain - (mean - twin.delta());
@@ -332,6 +356,13 @@ impl<'a> Job<'a> {
         }
         Estimate { estimate, interval: Some(interval) }
     }
+}
+
+/// The quantile of the normal distribution at the middle of each row's place among all; equal rows share the middle of theirs.
+fn normal_scores(order: &Order) -> Vec<f64> {
+    let ranks = order.centred_ranks();
+    let rows = ranks.len() as f64;
+    ranks.iter().map(|rank| normal_quantile(rank / rows + 0.5)).collect()
 }
 
 /// The mean of what resamples gave, and the half width of the interval of one of them.
