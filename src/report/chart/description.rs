@@ -1,7 +1,8 @@
 //! What a chart says of itself besides title and caption: its legend, and its data in words.
 
+use super::bar::{Bar, drawable_pair};
 use super::figure::{Entry, Key};
-use super::model::{Bar, Body, Chart, Mark, Panel, Point, Shape};
+use super::model::{Body, Chart, Mark, Panel, Point, Shape};
 use super::text::percent;
 
 impl Chart {
@@ -30,7 +31,7 @@ impl Chart {
         let any = |test: fn(&Shape) -> bool| self.marks().any(|mark| test(&mark.shape));
         let has_interval = |shape: &Shape| match shape {
             Shape::Bar(bar) => bar.drawn().is_some_and(|bar| bar.interval.is_some()),
-            Shape::Interval(_, low, high) => super::model::drawable_pair((*low, *high)).is_some(),
+            Shape::Interval(_, low, high) => drawable_pair((*low, *high)).is_some(),
             _ => false,
         };
         if any(has_interval) {
@@ -108,7 +109,11 @@ impl Chart {
             Some(_) if !bar.said.is_empty() => bar.said.clone(),
             Some(drawn) => {
                 let interval = drawn.interval.map(|(low, high)| format!(" ({} to {})", number(low), number(high)));
-                let from = if bar.from == 0.0 { String::new() } else { format!("{} to ", number(bar.from)) };
+                let from = if bar.from == 0.0 || bar.from == bar.to {
+                    String::new()
+                } else {
+                    format!("{} to ", number(bar.from))
+                };
                 from + &number(bar.to) + &interval.unwrap_or_default()
             }
         };

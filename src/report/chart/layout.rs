@@ -1,8 +1,9 @@
 //! Where the panels of a chart stand, and which scales they have.
 
-use super::model::{Arrangement, Bar, Chart, Mark, Panel, Shape, Tile, drawable_pair};
+use super::bar::{Bar, drawable_pair};
+use super::model::{Arrangement, Chart, Mark, Panel, Shape, Tile};
 use super::plot::{TICK_GAP, tick_room, title_room};
-use super::scale::{Scale, ScaleOptions};
+use super::scale::{Scale, ScaleOptions, Spacing};
 use super::style::{ChartWidth, MARGIN, TICK, VALUE, drawable};
 use super::text::shorten;
 
@@ -270,15 +271,20 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
 
 /// The value up to which an axis must go for the labels after its bars.
 fn room_for_labels(panels: &[Panel], values: &[f64], width: f64) -> Option<f64> {
-    let low = values.iter().copied().filter_map(drawable).reduce(f64::min)?;
+    let spacing = panels.first().map(|panel| panel.x.spacing).unwrap_or_default();
+    let low = values.iter().copied().filter(|value| spacing.shows(*value)).reduce(f64::min)?;
+    let beyond = |right: f64, room: f64| match spacing {
+        Spacing::Linear => low + (right - low) * width / (width - room),
+        Spacing::Logarithmic => low * libm::pow(right / low, width / (width - room)),
+    };
     let needed = panels.iter().flat_map(Panel::bars).filter_map(|(_, bar)| {
         let room = (VALUE.width(&bar.label) + LABEL_ROOM).min(0.5 * width);
         let bar = bar.drawn().filter(|bar| !bar.label.is_empty())?;
         // The label may have to stand behind the published value.
         let (right, diamond) = (bar.right(), bar.diamond().unwrap_or(f64::NEG_INFINITY));
-        let behind = low + (right - low) * width / (width - room);
+        let behind = beyond(right, room);
         let right = if diamond < behind { right.max(diamond) } else { right };
-        drawable(low + (right - low) * width / (width - room))
+        drawable(beyond(right, room))
     });
     needed.reduce(f64::max)
 }

@@ -6,6 +6,7 @@
 //! the embedded faces, which are those of Arial. Numbers that cannot be drawn (not finite, or beyond
 //! 1e300) appear as missing values or gaps.
 
+mod bar;
 mod description;
 mod draw;
 mod error;
@@ -15,6 +16,7 @@ mod flags;
 mod font;
 mod labels;
 mod layout;
+mod logarithmic;
 mod model;
 mod palette;
 mod path;
@@ -27,6 +29,7 @@ mod plot;
 mod png;
 mod rows;
 mod scale;
+mod series;
 mod style;
 mod svg;
 mod symbols;
@@ -37,14 +40,16 @@ mod reading;
 #[cfg(test)]
 mod tests;
 
+pub use bar::Bar;
 pub use error::ChartError;
 #[doc(hidden)]
 pub use film_strip::{FilmStrip, Look, Sketch};
-pub use model::{Arrangement, Axis, Bar, Chart, Drawing, Mark, Panel, Picture, Point, Series, Shape, Stroke, Tile};
+pub use model::{Arrangement, Axis, Chart, Drawing, Mark, Panel, Picture, Point, Shape, Tile};
 pub use palette::Colour;
 #[cfg(feature = "pdf")]
 pub use pdf::{PdfError, pdf};
 #[cfg(feature = "png")]
 pub use png::{PNG_SCALE, Png, PngError, png};
 pub use scale::Spacing;
+pub use series::{Series, Stroke};
 pub use style::{ChartWidth, PaperWidth};

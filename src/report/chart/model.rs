@@ -1,9 +1,8 @@
 //! What a chart is: panels of marks on axes.
 
-use super::palette::Colour;
+use super::bar::Bar;
 use super::scale::Spacing;
-use super::style::drawable;
-use super::text::percent;
+use super::series::Series;
 
 /// A chart: headline, caption, and panels of marks; or a picture that was drawn elsewhere.
 ///
@@ -89,33 +88,6 @@ pub struct Axis {
     pub names: Vec<String>,
 }
 
-/// What the marks of one name look like.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Series {
-    /// Name in the legend; empty for none.
-    pub name: String,
-    /// Colour, and symbol of points.
-    pub colour: Colour,
-    /// How its lines are drawn.
-    pub stroke: Stroke,
-}
-
-/// How a line is drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Stroke {
-    /// A full line.
-    #[default]
-    Solid,
-    /// A dashed line.
-    Dashed,
-    /// A dotted line.
-    Dotted,
-    /// A full line with a symbol at every point.
-    SolidWithPoints,
-    /// Symbols alone.
-    Points,
-}
-
 /// A mark of a series. Numbers that cannot be drawn (not finite, beyond 1e300, not positive on a logarithmic axis) leave
 /// gaps in lines, bands and layers; other marks are left out.
 #[derive(Clone, Debug, PartialEq)]
@@ -181,27 +153,6 @@ pub struct Tile {
     pub letter: String,
     /// What is shown when it is pointed at.
     pub tip: String,
-}
-
-/// A level bar. One with an end that cannot be drawn keeps its place, which says so.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bar {
-    /// Its row.
-    pub row: usize,
-    /// Where it begins.
-    pub from: f64,
-    /// Where it ends: its value.
-    pub to: f64,
-    /// Lower and upper bound of the value.
-    pub interval: Option<(f64, f64)>,
-    /// The value from elsewhere, drawn as a hollow diamond.
-    pub published: Option<f64>,
-    /// Written after it; in the place of a bar that cannot be drawn, why.
-    pub label: String,
-    /// Its value in words, with its error; empty for the plain numbers.
-    pub said: String,
-    /// The part from a value on, which is that of another series.
-    pub beyond: Option<(f64, Series)>,
 }
 
 impl Chart {
@@ -343,16 +294,6 @@ impl Axis {
 }
 
 impl Series {
-    /// A series whose lines are solid.
-    pub fn new(name: impl Into<String>, colour: Colour) -> Self {
-        Self { name: name.into(), colour, stroke: Stroke::Solid }
-    }
-
-    /// The series with another stroke.
-    pub fn stroke(self, stroke: Stroke) -> Self {
-        Self { stroke, ..self }
-    }
-
     /// A mark of the series.
     pub fn mark(&self, shape: Shape) -> Mark {
         Mark { series: self.clone(), shape }
@@ -366,24 +307,6 @@ impl Series {
     /// A band of the series.
     pub fn band(&self, edges: Vec<(f64, f64, f64)>) -> Mark {
         self.mark(Shape::Band(edges))
-    }
-}
-
-impl Stroke {
-    pub(super) fn has_line(self) -> bool {
-        self != Self::Points
-    }
-
-    pub(super) fn has_points(self) -> bool {
-        matches!(self, Self::SolidWithPoints | Self::Points)
-    }
-
-    pub(super) fn dash(self) -> &'static str {
-        match self {
-            Self::Dashed => "7 4",
-            Self::Dotted => "2 3",
-            _ => "none",
-        }
     }
 }
 
@@ -402,36 +325,4 @@ impl Mark {
     pub fn note(row: usize, text: impl Into<String>) -> Self {
         Series::default().mark(Shape::Note(row, text.into()))
     }
-}
-
-impl Bar {
-    /// A bar from 0 to a value in percent, with the value written after it; `None` keeps its place.
-    pub fn percent(row: usize, value: Option<f64>, interval: Option<(f64, f64)>) -> Self {
-        let label = value.map_or_else(String::new, percent);
-        Self { row, to: value.unwrap_or(f64::NAN), interval, label, ..Self::default() }
-    }
-
-    /// The bar as it is drawn; `None` if it cannot be.
-    pub(super) fn drawn(&self) -> Option<Self> {
-        drawable(self.from).and(drawable(self.to))?;
-        let interval = self.interval.and_then(drawable_pair);
-        Some(Self { interval, ..self.clone() })
-    }
-
-    /// The part that is of another series, if there is something of it: from where to the end.
-    pub(super) fn of_other(&self) -> Option<(f64, f64, &Series)> {
-        let (split, series) = self.beyond.as_ref()?;
-        let split = drawable(*split)?.clamp(self.from.min(self.to), self.from.max(self.to));
-        (split != self.to).then_some((split, self.to, series))
-    }
-
-    /// The diamond, if it can be drawn.
-    pub(super) fn diamond(&self) -> Option<f64> {
-        self.published.and_then(drawable)
-    }
-}
-
-/// Both bounds if both can be drawn.
-pub(super) fn drawable_pair((low, high): (f64, f64)) -> Option<(f64, f64)> {
-    drawable(low).zip(drawable(high))
 }

@@ -1,13 +1,20 @@
 //! Draws level bars in rows, with their names, intervals and notes.
 
+use std::fmt::Display;
+
+use super::bar::{Bar, drawable_pair};
 use super::draw::Sheet;
 use super::layout::{ROW_GAP, TEXT_GAP, row_name, row_note};
-use super::model::{Bar, Mark, Panel, Series, Shape, drawable_pair};
+use super::model::{Mark, Panel, Shape};
+use super::scale::Spacing;
+use super::series::Series;
 use super::style::{INK, MARGIN, MUTED, PAPER, TICK, VALUE};
 use super::svg::{Anchor, Canvas, Px, Text};
 use super::symbols::HALF_DIAMOND;
 use super::text::shorten;
 
+/// Most that a dot is in radius, px.
+const DOT: f64 = 4.5;
 /// Between two cells of a map, px.
 const TILE_GAP: f64 = 2.0;
 
@@ -82,6 +89,19 @@ impl<'a> Sheet<'a> {
             let own = (bar.from, other.map_or(bar.to, |(split, ..)| split), lane.series);
             for (from, to, series) in std::iter::once(own).chain(other) {
                 let Some((left, right)) = self.x(from).zip(self.x(to)) else { continue };
+                let fill = series.colour.hex();
+                let words = self.chart.bar_in_words(self.cell.panel, &lane.series.name, &bar);
+                if self.cell.panel.x.spacing == Spacing::Logarithmic {
+                    let radius = DOT.min(0.5 * lane.height - 0.5);
+                    let place = [
+                        ("cx", &Px(right) as &dyn Display),
+                        ("cy", &Px(lane.middle())),
+                        ("r", &Px(radius)),
+                        ("fill", &fill),
+                    ];
+                    canvas.tipped("circle", &place, &words);
+                    continue;
+                }
                 canvas.tipped(
                     "rect",
                     &[
@@ -89,9 +109,9 @@ impl<'a> Sheet<'a> {
                         ("y", &Px(lane.top)),
                         ("width", &Px((right - left).abs())),
                         ("height", &Px(lane.height)),
-                        ("fill", &series.colour.hex()),
+                        ("fill", &fill),
                     ],
-                    &self.chart.bar_in_words(self.cell.panel, &lane.series.name, &bar),
+                    &words,
                 );
             }
         }
@@ -199,7 +219,9 @@ impl<'a> Sheet<'a> {
                 None if lane.bar.label.is_empty() => (self.cell.panel.base(), "no value", MUTED),
                 None => (self.cell.panel.base(), lane.bar.label.as_str(), MUTED),
             };
-            if let Some(x) = self.x(end).filter(|_| !label.is_empty()) {
+            // A logarithmic axis has no zero where the bar would begin.
+            let left = (self.cell.panel.x.spacing == Spacing::Logarithmic).then_some(self.plot.left);
+            if let Some(x) = self.x(end).or(left).filter(|_| !label.is_empty()) {
                 // A published value that would stand in it goes before it.
                 let diamond = lane.bar.diamond().and_then(|value| self.x(value)).map(|at| at + HALF_DIAMOND);
                 let covered = x..x + 2.0 * (TEXT_GAP + HALF_DIAMOND) + VALUE.width(label);

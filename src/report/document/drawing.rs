@@ -1,27 +1,40 @@
-//! Charts inside a page: both drawings of each, named for screen readers.
+//! Charts inside a page: the drawings of each, named for screen readers.
 
 use crate::report::chart::{Chart, ChartError, ChartWidth};
 
-/// The two drawings of a chart; the page shows one of them.
+/// The drawings of a chart; the page shows one of them.
+#[derive(Default)]
 pub(super) struct Drawings {
     /// For a column; empty for a small figure.
     pub wide: String,
     /// For a phone, or half of a column.
     pub narrow: String,
+    /// Both on a logarithmic axis, where that shows more.
+    pub logarithmic: Option<[String; 2]>,
 }
 
 impl Drawings {
     /// The drawings of `chart` as elements whose identifiers begin with `id`.
     pub fn of(id: &str, chart: &Chart) -> Result<Self, ChartError> {
-        let wide = named(&chart.inline(ChartWidth::Wide)?, &format!("{id}-wide"));
-        Ok(Self { wide, ..Self::small(id, chart)? })
+        let logarithmic = chart.logarithmic().map(|chart| {
+            let id = format!("{id}-log");
+            Ok([wide(&id, &chart)?, narrow(&id, &chart)?])
+        });
+        Ok(Self { wide: wide(id, chart)?, narrow: narrow(id, chart)?, logarithmic: logarithmic.transpose()? })
     }
 
     /// The small one alone.
     pub fn small(id: &str, chart: &Chart) -> Result<Self, ChartError> {
-        let narrow = named(&chart.inline(ChartWidth::Narrow)?, &format!("{id}-narrow"));
-        Ok(Self { wide: String::new(), narrow })
+        Ok(Self { narrow: narrow(id, chart)?, ..Self::default() })
     }
+}
+
+fn wide(id: &str, chart: &Chart) -> Result<String, ChartError> {
+    Ok(named(&chart.inline(ChartWidth::Wide)?, &format!("{id}-wide")))
+}
+
+fn narrow(id: &str, chart: &Chart) -> Result<String, ChartError> {
+    Ok(named(&chart.inline(ChartWidth::Narrow)?, &format!("{id}-narrow")))
 }
 
 /// The picture with its title and description tied to it by identifiers, which not every browser does by itself.

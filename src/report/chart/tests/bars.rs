@@ -206,3 +206,34 @@ proptest! {
         marks_stand_at_their_values(&bars, &chart(vec![panel(names(values.len(), "name"), marks)]).svg().expect("a chart"));
     }
 }
+
+#[test]
+fn bars_far_apart_are_dots_on_a_logarithmic_axis() {
+    let bar = |row, to: f64, half: f64| {
+        let said = format!("{to} of it");
+        Bar { row, to, interval: Some((to - half, to + half)), label: to.to_string(), said, ..Bar::default() }
+    };
+    let names: Vec<String> = ["a", "b", "c", "d"].map(str::to_owned).to_vec();
+    let chart = |bars: &[Bar]| {
+        let marks = bars.iter().map(|bar| Series::new("index", Colour::Series(0)).mark(Shape::Bar(bar.clone())));
+        let panel = Panel::new(Axis::new("x", ""), Axis::from_names("", names.clone())).with(marks);
+        Chart::new("T", "C").panels([panel])
+    };
+    let drawn = chart(&[bar(0, 0.9, 0.01), bar(1, 0.001, 0.1), bar(2, 0.0, 0.0), bar(3, f64::NAN, 0.0)]);
+    let other = drawn.logarithmic().unwrap();
+    let svg = other.svg().unwrap();
+    assert!(
+        svg.matches("<circle").count() >= 2
+            && svg.contains("a, index: 0.9 of it")
+            && !svg.contains("class=\"baseline\"")
+    );
+    let [Mark { shape: Shape::Bar(small), .. }, ..] = &other.all_panels()[0].marks[1..] else { panic!("no bar") };
+    assert_eq!((small.from, small.to, small.interval), (0.001, 0.001, Some((0.0005, 0.101))));
+    // What is not positive keeps its words.
+    let [.., Mark { shape: Shape::Bar(zero), .. }, _] = &other.all_panels()[0].marks[..] else { panic!("no bar") };
+    assert!(zero.to.is_nan() && zero.label == "0");
+    // Within a factor of 100, with values from elsewhere, or once more: a linear axis does.
+    assert!(chart(&[bar(0, 0.9, 0.0), bar(1, 0.01, 0.0)]).logarithmic().is_none());
+    assert!(chart(&[bar(0, 0.9, 0.0), Bar { published: Some(1.0), ..bar(1, 0.001, 0.0) }]).logarithmic().is_none());
+    assert!(other.logarithmic().is_none() && chart(&[]).logarithmic().is_none());
+}
