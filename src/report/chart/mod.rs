@@ -16,6 +16,7 @@ mod flags;
 mod font;
 mod labels;
 mod layout;
+#[cfg(any(feature = "page", test))]
 mod logarithmic;
 mod model;
 mod palette;
