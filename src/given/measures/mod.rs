@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use super::column::{Column, NoVariance};
 use super::order::Order;
 use super::{GivenIndices, PointSet, centred};
-use crate::special::normal_quantile;
+use crate::space::normal_scores;
 use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
 use density::Densities;
 use distances::{Distance, distances};
@@ -217,7 +217,7 @@ fn classes_for(rows: usize) -> usize {
 impl<'a> Job<'a> {
     fn new(z: &'a [f64], wanted: &'a [Measure], seed: [u64; 2]) -> Self {
         let order = Order::of(z);
-        let scores = normal_scores(&order);
+        let scores = centred_scores(&order);
         Self { wanted, z, order, densities: Densities::new(&scores), scores, seed }
     }
 
@@ -354,15 +354,17 @@ impl<'a> Job<'a> {
             interval.low = interval.low.min(unbiased - half_width);
             interval.high = interval.high.max(unbiased + half_width);
         }
+        // No delta is above 1.
+        interval.high = interval.high.min(1.0).max(estimate);
         Estimate { estimate, interval: Some(interval) }
     }
 }
 
 /// The quantile of the normal distribution at the middle of each row's place among all; equal rows share the middle of theirs.
-fn normal_scores(order: &Order) -> Vec<f64> {
+fn centred_scores(order: &Order) -> Vec<f64> {
     let ranks = order.centred_ranks();
     let rows = ranks.len() as f64;
-    ranks.iter().map(|rank| normal_quantile(rank / rows + 0.5)).collect()
+    normal_scores(&ranks.iter().map(|rank| rank / rows + 0.5).collect::<Vec<f64>>())
 }
 
 /// The mean of what resamples gave, and the half width of the interval of one of them.

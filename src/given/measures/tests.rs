@@ -74,6 +74,15 @@ fn delta_of_a_sum_of_normals_is_that_of_the_integral() {
 }
 
 #[test]
+fn the_interval_of_delta_ends_at_1() {
+    let inputs = uniform(500, 2, 3);
+    let found = measured(&inputs, output(&inputs, |x| x[0] + 1e-6 * x[1]), 0);
+    let delta = found[0].get(Measure::Delta).estimate;
+    let interval = delta.interval.unwrap();
+    assert!(delta.estimate > 0.9 && interval.high == delta.estimate.max(1.0), "{delta:?}");
+}
+
+#[test]
 fn what_is_known_in_closed_form() {
     let x: Vec<f64> = (0..1000).map(|k| f64::from(k * 371 % 1000)).collect();
     let order = Order::of(&x);

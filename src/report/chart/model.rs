@@ -101,7 +101,7 @@ pub struct Mark {
 /// The kinds of marks.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A line through points, or the points, see [`Stroke`].
+    /// A line through points, or the points, see [`super::Stroke`].
     Line(Vec<(f64, f64)>),
     /// A shaded band as (x, low, high).
     Band(Vec<(f64, f64, f64)>),

@@ -201,11 +201,14 @@ fn of_variant(
     (group, effort): (&'static str, Effort),
     threads: usize,
 ) -> Result<Vec<Reading>, ReadingsError> {
-    let base_samples = match effort {
-        Effort::Full => variant.base_samples,
-        Effort::Quick => variant.base_samples / 16,
+    let overrides = match effort {
+        Effort::Full => vec![format!("design.base_samples={}", variant.base_samples)],
+        // Of so few base samples surrogates would be fitted, which takes longer than the runs.
+        Effort::Quick => {
+            vec![format!("design.base_samples={}", variant.base_samples / 16), "analysis.surrogate=off".to_owned()]
+        }
     };
-    let study = study(variant, group, &[format!("design.base_samples={base_samples}")])?;
+    let study = study(variant, group, &overrides)?;
     let result = ResultFile::new(&study, &study.runner().threads(threads).run()?);
     let mut readings = Vec::new();
     for (number, &output) in variant.outputs.iter().enumerate() {
