@@ -1,7 +1,7 @@
-//! Searches the generator matrices of `assets/pick-freeze/nets.txt`: nets made for the rows A, B and AB_i of a Saltelli
+//! Searches the generator matrices of `assets/pick-freeze`: nets made for the rows A, B and AB_i of a Saltelli
 //! design, for every number of factors.
 //!
-//!     cargo run --release --example search_nets -- [first d] [last d] [levels] > nets.txt
+//!     cargo run --release --example search_nets -- 1 32 > nets.32.txt     # [first d] [last d] [levels]
 //!
 //! The 2d matrices, in the order A_1 B_1 A_2 B_2 .., are upper triangular with a unit diagonal, so that every coordinate
 //! is a (0, 1)-sequence in base 2 (Niederreiter 1987) whatever stands above the diagonal. Level m is column m of all

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use apportion::design::Sampler;
 use apportion::model::ModelKind;
 use apportion::report::document::{DataFile, Document, DocumentError, Link, Part, Section, symbols};
 use apportion::report::{ResultFile, run_document};
@@ -23,12 +24,18 @@ pub enum LiveError {
         study: String,
     },
     /// A page has the points of so many factors.
-    #[error("a page cannot run the study {study}: it has {factors} factors, more than {MOST_FACTORS}")]
+    #[error(
+        "a page cannot run the study {study}: it has {factors} factors, more than {most} (of the sampler {sampler})"
+    )]
     Factors {
         /// The name of the study.
         study: String,
         /// How many factors it has.
         factors: usize,
+        /// Its sampler.
+        sampler: &'static str,
+        /// How many factors a page has points of it for.
+        most: usize,
     },
     /// The study is not whole without files beside it.
     #[error("a page cannot run the study {study}: it needs files beside it ({source})")]
@@ -65,6 +72,9 @@ const PRESETS: [&str; 4] = [
 
 /// Two columns of Sobol' points for each, of the 1024 that the engine has in a page.
 const MOST_FACTORS: usize = 512;
+
+/// The same of the sampler whose nets are made for pick-freeze designs.
+const MOST_SEARCHED_FACTORS: usize = 32;
 
 /// What the page shows of a result, in this order, where the result has it.
 const SECTIONS: [&str; 6] = ["mind", "indices", "shares", "interactions", "distribution", "validity"];
@@ -141,8 +151,10 @@ pub fn own_text(study: &Study) -> Result<String, LiveError> {
         return Err(LiveError::Model { study: study.name().to_owned() });
     }
     let factors = study.space().factors().len();
-    if factors > MOST_FACTORS {
-        return Err(LiveError::Factors { study: study.name().to_owned(), factors });
+    let sampler = study.design().settings().sampler;
+    let most = if sampler == Sampler::SobolPickFreeze { MOST_SEARCHED_FACTORS } else { MOST_FACTORS };
+    if factors > most {
+        return Err(LiveError::Factors { study: study.name().to_owned(), factors, sampler: sampler.name(), most });
     }
     let text = edited(study.source(), study.overrides())?;
     let text = without_target(&text).unwrap_or(text);

@@ -146,6 +146,10 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
         }
         warnings.extend(disagreements(study, name, effect));
     }
+    // Indices of factors that depend on each other sum to anything.
+    if study.space.copula().is_some() {
+        return warnings;
+    }
     if indices.sum_first_order.interval.is_some_and(|interval| interval.low <= 0.0) {
         warnings.push(
             "the sum of the first-order indices may be 0: the output comes from interactions, or the samples are too few; \

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use apportion::MOST_ROWS_OF_MEASURES;
 use apportion::design::{Companions, Design};
 use apportion::estimate::{FirstOrder, ShapleyMethod, Total};
 use apportion::report::significant;
 use apportion::run::{BLOCK, FailurePolicy, Pilot};
 use apportion::study::{Study, Target};
 use apportion::uncertainty::IntervalMethod;
+use apportion::{Dependence, MOST_ROWS_OF_MEASURES};
 
 /// The rows of the design, what is asked of them, and what they cost by the first runs.
 pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
@@ -42,7 +42,7 @@ pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String 
         }
     };
     let mut text = format!(
-        "\ndesign: {} points, {size}{} base samples in {} replicate{} of {}, seed {}\n{}{}\
+        "\ndesign: {} points, {size}{} base samples in {} replicate{} of {}, seed {}\n{}{}{}\
          cost: {size}{} base samples x {} = {} model runs, {time}\n{stopping}",
         settings.sampler.name(),
         settings.base_samples,
@@ -50,6 +50,7 @@ pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String 
         if settings.replicates == 1 { "" } else { "s" },
         design.points_per_replicate(),
         settings.seed,
+        dependent(study),
         asked(study),
         rows(study),
         settings.base_samples,
@@ -134,6 +135,18 @@ fn methods(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
          from {few}: indices of smooth models: {random}\n  \
          from {many}: indices of rough models too: {rough}\n{accurate}"
     )
+}
+
+/// The factors that depend on each other, and how.
+fn dependent(study: &Study) -> String {
+    let line = |dependence: &Dependence| {
+        let how = match dependence.kernel_width().filter(|width| *width < 1.0) {
+            Some(width) => format!("by kernels of width {width:.3} around joint measurements"),
+            None => format!("by a Gaussian copula (correlations: {})", dependence.measure_in_force().name()),
+        };
+        format!("dependent: {} {how}\n", dependence.factors().join(", "))
+    };
+    study.space().dependences().iter().map(line).collect()
 }
 
 /// What is estimated, and what the intervals are.

@@ -50,7 +50,7 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
 
 pub fn trade(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
-    if study.space().copula().is_some() {
+    if !study.space().dependences().is_empty() {
         return Err(Failure::Input(anyhow!(
             "factors of this study depend on each other, and what is compared here, surrogates, cheaper models and other samplers, \
              serves independent ones: expected a study without [[dependence]]"

@@ -5,14 +5,15 @@
 //! 2021, Reliab. Eng. Syst. Saf. 213, 107702). Where factors depend on each other these are drawn anew given all others (Song,
 //! Nelson and Staum 2016, SIAM/ASA J. Uncertain. Quantif. 4, 1060-1083). In normal scores that is linear: with the correlations of
 //! the players from the last to the first as L L', and the innovations e_A = L^-1 a and e_B = L^-1 b, the scores are L e, where e
-//! comes from B for the players that are swapped, and from A for the others, which come before them.
+//! comes from B for the players that are swapped, and from A for the others, which come before them. In a kernel copula innovations are
+//! the normal scores of conditional distribution functions.
 
 use std::sync::Arc;
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::space::{GaussianCopula, from_score, normal_scores};
+use crate::space::{Chain, Copula, GaussianCopula, KernelCopula, from_score};
 
 /// Orders have a stream of their own, of every sampler.
 const ORDER_STREAM: u64 = 1 << 60;
@@ -25,7 +26,7 @@ pub(super) struct OrderColumns {
     /// The number of the first of the columns among those of the base points.
     pub first: usize,
     pub factors: usize,
-    pub copula: Option<Arc<GaussianCopula>>,
+    pub copula: Option<Arc<Copula>>,
 }
 
 impl OrderColumns {
@@ -48,9 +49,8 @@ impl OrderColumns {
     pub fn fill(&self, orders: &Orders, first_point: u64, columns: &mut [Vec<f64>]) {
         let (own, steps) = columns.split_at_mut(self.first.min(columns.len()));
         let Some(points) = steps.first().map(Vec::len) else { return };
-        let dependent = self.copula.as_ref().map_or(&[][..], |copula| copula.dependent());
-        let scores = |matrix: usize| dependent.iter().map(|j| normal_scores(&own[matrix + j])).collect::<Vec<_>>();
-        let (a, b) = (scores(0), scores(self.factors));
+        let scores = |matrix: &[Vec<f64>]| self.copula.as_ref().map(|copula| copula.scores(matrix)).unwrap_or_default();
+        let (a, b) = (scores(&own[..self.factors]), scores(&own[self.factors..2 * self.factors]));
         let mut stream = orders.at(first_point);
         let mut places = vec![0; self.factors];
         for point in 0..points {
@@ -64,10 +64,21 @@ impl OrderColumns {
                 }
             }
             if let Some(copula) = &self.copula {
-                let at_point = |scores: &[Vec<f64>]| scores.iter().map(|column| column[point]).collect::<Vec<f64>>();
-                let redrawn = Redrawn::new(copula, &places, &at_point(&a), &at_point(&b));
+                let at_point = |factors: &[usize]| -> [Vec<f64>; 2] {
+                    [&a, &b].map(|scores| factors.iter().map(|factor| scores[*factor][point]).collect())
+                };
+                let gaussian = copula.gaussian();
+                let redrawn = Redrawn::new(gaussian, &places, &at_point(gaussian.dependent()));
+                let by_kernels = copula
+                    .kernels()
+                    .iter()
+                    .map(|kernel| RedrawnByKernels::new(kernel, &places, &at_point(kernel.factors())));
+                let by_kernels: Vec<RedrawnByKernels<'_>> = by_kernels.collect();
                 for (step, columns) in steps.chunks_mut(self.factors).enumerate() {
                     redrawn.each(step, |factor, score| columns[factor][point] = from_score(score));
+                    for kernel in &by_kernels {
+                        kernel.each(step, |factor, u| columns[factor][point] = u);
+                    }
                 }
             }
         }
@@ -86,7 +97,7 @@ struct Redrawn {
 
 impl Redrawn {
     /// `places` has the place of the player of every factor in the order; `a` and `b` are the scores of the dependent factors.
-    fn new(copula: &GaussianCopula, places: &[usize], a: &[f64], b: &[f64]) -> Self {
+    fn new(copula: &GaussianCopula, places: &[usize], [a, b]: &[Vec<f64>; 2]) -> Self {
         let mut numbers: Vec<usize> = (0..a.len()).collect();
         numbers.sort_by_key(|number| std::cmp::Reverse(places[copula.dependent()[*number]]));
         let factors: Vec<usize> = numbers.iter().map(|number| copula.dependent()[*number]).collect();
@@ -122,6 +133,44 @@ impl Redrawn {
             let matrix = |other: usize| usize::from(other >= kept);
             let score = (0..=row).map(|other| self.lower[row][other] * self.innovations[other][matrix(other)]).sum();
             of_factor(self.factors[row].0, score);
+        }
+    }
+}
+
+/// The factors of a kernel copula at one base point.
+struct RedrawnByKernels<'a> {
+    kernel: &'a KernelCopula,
+    /// The places of its factors, those of the last player first.
+    order: Vec<usize>,
+    /// The places of their players in the order of players.
+    players: Vec<usize>,
+    chain: Chain,
+    /// The point of A, and the innovations of B.
+    a: Vec<f64>,
+    b: Vec<f64>,
+}
+
+impl<'a> RedrawnByKernels<'a> {
+    fn new(kernel: &'a KernelCopula, places: &[usize], scores: &[Vec<f64>; 2]) -> Self {
+        let player = |place: &usize| places[kernel.factors()[*place]];
+        let mut order: Vec<usize> = (0..kernel.factors().len()).collect();
+        order.sort_by_key(|place| std::cmp::Reverse(player(place)));
+        let chain = kernel.chain(&order);
+        let [a, b] = [0, 1]
+            .map(|matrix: usize| chain.whiten(&order.iter().map(|place| scores[matrix][*place]).collect::<Vec<f64>>()));
+        Self { kernel, players: order.iter().map(player).collect(), order, b: chain.innovations(&b, 0), chain, a }
+    }
+
+    /// The coordinate of every factor that is swapped in step `step` and drawn given others.
+    fn each(&self, step: usize, mut of_factor: impl FnMut(usize, f64)) {
+        let kept = self.players.partition_point(|player| *player > step);
+        if kept == 0 || kept == self.order.len() {
+            return;
+        }
+        let e = self.chain.point(&self.a[..kept], &self.b[kept..]);
+        for place in kept..self.order.len() {
+            let coordinate = self.kernel.coordinate(self.order[place], self.chain.score(place, &e));
+            of_factor(self.kernel.factors()[self.order[place]], coordinate);
         }
     }
 }
@@ -163,14 +212,19 @@ impl Orders {
 mod tests {
     use super::*;
     use crate::design::{Design, DesignSettings, RowKind, Rows, Sampler};
+    use crate::space::normal_scores;
     use nalgebra::DMatrix;
 
     fn design(sampler: Sampler, players: Vec<Vec<usize>>, copula: Option<GaussianCopula>) -> Design {
         let settings = DesignSettings { sampler, base_samples: 64, replicates: 4, seed: 3 };
         let swaps = (0..4).map(|factor| vec![factor]).collect();
         let redrawn = if copula.is_some() { (0..4).collect() } else { Vec::new() };
-        Design::new(settings, 4, Rows { swaps, redrawn, players, copula: copula.map(Arc::new), ..Rows::default() })
-            .unwrap()
+        Design::new(
+            settings,
+            4,
+            Rows { swaps, redrawn, players, copula: copula.map(|copula| Arc::new(copula.into())), ..Rows::default() },
+        )
+        .unwrap()
     }
 
     fn single() -> Vec<Vec<usize>> {

@@ -11,10 +11,14 @@ use std::sync::OnceLock;
 
 use super::joe_kuo::{Directions, directions};
 
-/// Most factors for which there is a table.
-pub const MAX_SEARCHED_FACTORS: usize = 64;
+/// Most factors for which there is a table. In a web page the first file has to do, since every byte is loaded.
+pub const MAX_SEARCHED_FACTORS: usize = if cfg!(target_family = "wasm") { 32 } else { 64 };
 
-const TABLE: &str = include_str!("../../assets/pick-freeze/nets.txt");
+/// Those of up to 32 factors, and those of more.
+const TABLES: [&str; 2] = [
+    include_str!("../../assets/pick-freeze/nets.32.txt"),
+    if cfg!(target_family = "wasm") { "" } else { include_str!("../../assets/pick-freeze/nets.64.txt") },
+];
 
 /// The direction numbers of one factor in A and in B, bits reversed as in [`Directions`].
 pub type Pair = [Directions; 2];
@@ -30,9 +34,13 @@ pub fn pairs(factors: usize) -> &'static [Pair] {
     assert!(factors <= MAX_SEARCHED_FACTORS, "at most {MAX_SEARCHED_FACTORS} factors");
     READ[factors].get_or_init(|| {
         let before = factors * factors.saturating_sub(1) / 2;
-        let lines = TABLE.lines().filter(|line| !line.starts_with('#')).skip(before);
-        lines.take(factors).enumerate().map(|(i, line)| pair(line, [i, factors + i])).collect()
+        lines().skip(before).take(factors).enumerate().map(|(i, line)| pair(line, [i, factors + i])).collect()
     })
+}
+
+/// A line for each factor of each number of them.
+fn lines() -> impl Iterator<Item = &'static str> {
+    TABLES.into_iter().flat_map(str::lines).filter(|line| !line.starts_with('#'))
 }
 
 /// A line of the table: d, and the bits above the diagonal of the two matrices in hexadecimal. Further columns are those

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::mixed::MixedColumns;
 use super::orders::OrderColumns;
-use crate::space::GaussianCopula;
+use crate::space::Copula;
 
 /// The columns that one row AB_s takes from B: those of one factor, or of a group of factors. An empty swap is a dummy
 /// factor: its rows repeat A, B or C but are run again, and show the noise of a model that is not deterministic.
@@ -59,7 +59,7 @@ pub struct Rows {
     /// Rows of every base point at points of their own, which only surrogates learn from ([`crate::surrogate`]).
     pub plain_rows: u32,
     /// The copula of dependent factors. A swap then takes its columns from B, and the other factors follow them.
-    pub copula: Option<Arc<GaussianCopula>>,
+    pub copula: Option<Arc<Copula>>,
     /// The swaps, by number, whose factors are drawn anew given all others instead; of independent factors that is the same.
     pub redrawn: Vec<usize>,
     /// The players whose Shapley effects are found along random orders: disjoint sets of factors, in rising order, that are all
@@ -168,7 +168,7 @@ impl Runs {
     pub fn of(rows: &Rows, factors: usize) -> Self {
         let matrices = rows.companions.matrices();
         let first = factors * (matrices + rows.plain_rows as usize);
-        let mixed = rows.copula.clone().map(|copula| MixedColumns { copula, first, columns: Vec::new() });
+        let mixed = rows.copula.clone().map(|copula| MixedColumns::new(copula, first));
         let mut unique = Unique { factors, matrices, runs: Vec::new(), numbers: BTreeMap::new(), mixed };
         unique.number(RowKind::A, Matrix::A, &[], Matrix::B);
         unique.number(RowKind::B, Matrix::B, &[], Matrix::A);

@@ -5,7 +5,7 @@ use serde_json::{Map, Value};
 use super::document::{Cell, Column, Mark, Part, Section, Table};
 use super::format::{grouped, name, share_of_runs, significant, unit, value};
 use super::records::{FactorSetup, StudySetup};
-use super::result::{ConstantRecord, CorrelationRecord, ValidityRecord};
+use super::result::{ConstantRecord, CorrelationRecord, KernelsRecord, ValidityRecord};
 
 /// Most factors in the table of the study.
 const FACTORS: usize = 50;
@@ -90,7 +90,24 @@ pub(crate) fn study_section(study: &StudySetup) -> Section {
             })
         });
         let columns = Column::list(2, &["factors", "correlation"]);
-        let caption = "Factors that depend on each other, by a Gaussian copula.".to_owned();
+        let by_kernels = study.dependences.iter().filter_map(|record| Some((record, record.kernels.as_ref()?)));
+        let mut caption = "Factors that depend on each other, by a Gaussian copula.".to_owned();
+        for (record, kernels) in by_kernels {
+            let names = record.factors.iter().map(|factor| name(factor)).collect::<Vec<String>>().join(", ");
+            let KernelsRecord { measurements, width, log_likelihood_gain: gain } = kernels;
+            let how = match *width < 1.0 {
+                true => format!(
+                    "by kernels of width {} around {measurements} joint measurements, each of which is likelier by a factor of {} than under \
+                     the Gaussian copula (geometric mean, each left out)",
+                    significant(*width),
+                    significant(libm::exp(*gain))
+                ),
+                false => format!(
+                    "by the Gaussian copula: no narrower kernels describe the {measurements} joint measurements better"
+                ),
+            };
+            caption.push_str(&format!(" {names}: {how}."));
+        }
         parts.push(Part::Table(Table::new(caption, columns).with_rows(pairs)));
     }
     let mut choices = vec![("model".to_owned(), format!("`{}`", study.model))];

@@ -1,14 +1,15 @@
 //! Dependent factors as they are stated: correlations by one of several measures, and how they become those of normal scores.
 
-use std::f64::consts::PI;
+mod nataf;
 
 use nalgebra::DMatrix;
 use thiserror::Error;
 
-use super::copula::{GaussianCopula, from_score};
+use super::copula::{Copula, GaussianCopula, Joint, KernelCopula};
 use super::distribution::Distribution;
 use super::{Factor, Space};
 use crate::special::normal_quantile;
+use nataf::of_normal_scores;
 
 /// What a correlation is a correlation of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -40,7 +41,7 @@ impl CorrelationMeasure {
     }
 }
 
-/// Factors that depend on each other, by a Gaussian copula with these correlations.
+/// Factors that depend on each other, by a Gaussian copula with these correlations, or by kernels around joint measurements.
 ///
 /// ```
 /// use apportion::{CorrelationMeasure, Dependence};
@@ -54,6 +55,7 @@ pub struct Dependence {
     factors: Vec<String>,
     correlation: Vec<Vec<f64>>,
     measure: CorrelationMeasure,
+    joint: Option<Joint>,
 }
 
 /// Why factors cannot depend on each other as stated.
@@ -65,6 +67,18 @@ pub enum DependenceError {
     /// A factor twice, or fewer than two.
     #[error("a dependence is one of two factors or more, each named once")]
     Factors,
+    /// Joint measurements that are too few, too many, or not as many of each factor.
+    #[error(
+        "kernels are put around 10 to 4096 joint measurements, as many of each factor, and here are {found:?}: of more take every other \
+         one, for instance"
+    )]
+    Measurements {
+        /// How many there are of each factor.
+        found: Vec<usize>,
+    },
+    /// A factor in a dependence by kernels and in another one.
+    #[error("`{0}` depends on others by kernels around joint measurements: it can be in no other dependence")]
+    KernelsAndMore(String),
     /// Two factors in more than one dependence.
     #[error("the correlation of `{0}` and `{1}` is stated twice")]
     Repeated(String, String),
@@ -128,7 +142,7 @@ impl Dependence {
     /// [`measure`](Self::measure) is set.
     pub fn new(factors: &[&str], correlation: Vec<Vec<f64>>) -> Self {
         let factors = factors.iter().map(|&factor| factor.to_owned()).collect();
-        Self { factors, correlation, measure: CorrelationMeasure::default() }
+        Self { factors, correlation, measure: CorrelationMeasure::default(), joint: None }
     }
 
     /// Two factors with this correlation.
@@ -140,7 +154,39 @@ impl Dependence {
     /// measurement. The correlations are those of the normal scores of the ranks (van der Waerden scores, ranks of equal values
     /// being averaged); the distributions of the factors are stated apart.
     pub fn from_measurements(factors: &[&str], columns: &[Vec<f64>]) -> Self {
+        Self::from_scores(factors, &columns.iter().map(|column| rank_scores(column)).collect::<Vec<_>>())
+    }
+
+    /// The dependence of factors that were measured together, as it is, beyond correlations: tails that are tied, clouds that are bent
+    /// or in parts. The copula is a mixture of kernels around the normal scores of the measurements, each of which is a row of
+    /// `columns`; of its width, between the measurements themselves and the Gaussian copula, that one is taken under which each
+    /// measurement is likeliest given all others. Such factors are in no other dependence. The time of a row grows with the number of
+    /// measurements, of which there are 10 to 4096.
+    ///
+    /// ```
+    /// use apportion::Dependence;
+    ///
+    /// // A width that is near its lower or its upper bound, whatever the length.
+    /// let length: Vec<f64> = (0..200).map(|k| f64::from(k * 37 % 200)).collect();
+    /// let width: Vec<f64> = length.iter().enumerate().map(|(k, l)| l / 50.0 + 10.0 * (k % 2) as f64).collect();
+    /// let dependence = Dependence::kernels(&["length", "width"], &[length, width]);
+    /// assert!(dependence.kernel_width().unwrap() < 0.5);
+    /// ```
+    pub fn kernels(factors: &[&str], columns: &[Vec<f64>]) -> Self {
         let scores: Vec<Vec<f64>> = columns.iter().map(|column| rank_scores(column)).collect();
+        let dependence = Self::from_scores(factors, &scores);
+        let rows = scores.first().map_or(0, Vec::len);
+        let n = scores.len();
+        if scores.iter().any(|column| column.len() != rows) || !MEASUREMENTS.contains(&rows) {
+            // Refused with the space that it is for.
+            let joint = Joint { scores: scores.into(), width: 1.0, gain: 0.0 };
+            return Self { joint: Some(joint), ..dependence };
+        }
+        let correlation = DMatrix::from_fn(n, n, |i, j| dependence.correlation[i][j]);
+        Self { joint: Some(Joint::new(scores, &correlation)), ..dependence }
+    }
+
+    fn from_scores(factors: &[&str], scores: &[Vec<f64>]) -> Self {
         let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let correlation = |i: usize, j: usize| match i == j {
             true => 1.0,
@@ -167,6 +213,17 @@ impl Dependence {
     /// The matrix of correlations.
     pub fn correlation(&self) -> &[Vec<f64>] {
         &self.correlation
+    }
+
+    /// The width of the kernels in normal scores, 1 being that of the Gaussian copula; `None` if the dependence is one of correlations.
+    pub fn kernel_width(&self) -> Option<f64> {
+        self.joint.as_ref().map(|joint| joint.width)
+    }
+
+    /// How many measurements the kernels lie around, their width, and the mean logarithm of how much likelier a measurement is than
+    /// under the Gaussian copula.
+    pub(crate) fn kernels_made(&self) -> Option<(usize, f64, f64)> {
+        self.joint.as_ref().map(|joint| (joint.scores.first().map_or(0, Vec::len), joint.width, joint.gain))
     }
 
     /// What its numbers are correlations of.
@@ -202,19 +259,36 @@ impl Dependence {
             let [a, b] = [i, j].map(|k| self.factors[k].clone());
             return Err(DependenceError::Entry { a, b, found, expected });
         }
+        if let Some(joint) = &self.joint {
+            let found: Vec<usize> = joint.scores.iter().map(Vec::len).collect();
+            if found.iter().any(|rows| *rows != found[0] || !MEASUREMENTS.contains(rows)) {
+                return Err(DependenceError::Measurements { found });
+            }
+        }
         Ok(numbers)
     }
 }
 
+/// Joint measurements that kernels are put around: fewer tell of no copula, and of more each row would cost too much.
+const MEASUREMENTS: std::ops::RangeInclusive<usize> = 10..=4096;
+
 /// The copula of `space` with these dependences; `None` without any.
-pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option<GaussianCopula>, DependenceError> {
+pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option<Copula>, DependenceError> {
     let factors = space.factors();
     let mut scores = DMatrix::identity(factors.len(), factors.len());
     let mut stated = DMatrix::from_element(factors.len(), factors.len(), false);
+    // Whether a factor is in a dependence, and whether that is one by kernels.
+    let mut by_kernels: Vec<Option<bool>> = vec![None; factors.len()];
+    let mut kernels = Vec::new();
     for dependence in dependences {
         let numbers = dependence.checked(space)?;
         for &number in &numbers {
             refuse_uncorrelated(&factors[number])?;
+            let has_kernels = dependence.joint.is_some();
+            if by_kernels[number].is_some_and(|before| before || has_kernels) {
+                return Err(DependenceError::KernelsAndMore(factors[number].name.clone()));
+            }
+            by_kernels[number] = Some(has_kernels);
         }
         let pairs = (0..numbers.len()).flat_map(|i| (i + 1..numbers.len()).map(move |j| (i, j)));
         for (i, j) in pairs {
@@ -227,11 +301,15 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
             let of_scores = of_normal_scores(dependence.measure, dependence.correlation[i][j], first, second)?;
             (scores[(a, b)], scores[(b, a)]) = (of_scores, of_scores);
         }
+        // Kernels as wide as the Gaussian copula are that.
+        kernels.extend(
+            dependence.joint.as_ref().filter(|joint| joint.width < 1.0).map(|joint| (numbers, joint, dependence)),
+        );
     }
     if dependences.is_empty() {
         return Ok(None);
     }
-    GaussianCopula::new(scores.clone()).map(Some).map_err(|nearest| {
+    let all = GaussianCopula::new(scores.clone()).map_err(|nearest| {
         let is_tied = |i: &usize| (0..factors.len()).any(|j| j != *i && stated[(*i, j)]);
         let tied: Vec<usize> = (0..factors.len()).filter(is_tied).collect();
         let row = |i: &usize| tied.iter().map(|j| nearest[(*i, *j)]).collect();
@@ -239,7 +317,21 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
             factors: tied.iter().map(|&i| factors[i].name.clone()).collect(),
             nearest: tied.iter().map(row).collect(),
         }
-    })
+    })?;
+    if kernels.is_empty() {
+        return Ok(Some(Copula::new(all, Vec::new())));
+    }
+    // To the Gaussian copula factors with kernels are independent ones.
+    for (i, j) in (0..factors.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
+        let has_kernels = kernels.iter().any(|(numbers, ..)| numbers.contains(&i));
+        if has_kernels {
+            (scores[(i, j)], scores[(j, i)]) = (0.0, 0.0);
+        }
+    }
+    let others = GaussianCopula::new(scores).unwrap_or(all);
+    let kernels =
+        kernels.into_iter().map(|(numbers, joint, stated)| KernelCopula::new(&numbers, joint, &stated.correlation));
+    Ok(Some(Copula::new(others, kernels.collect())))
 }
 
 fn refuse_uncorrelated(factor: &Factor) -> Result<(), DependenceError> {
@@ -249,74 +341,6 @@ fn refuse_uncorrelated(factor: &Factor) -> Result<(), DependenceError> {
         _ => return Ok(()),
     };
     Err(DependenceError::Uncorrelated { factor: factor.name.clone(), kind })
-}
-
-/// The correlation of normal scores that brings about the correlation `stated` by `measure`.
-fn of_normal_scores(measure: CorrelationMeasure, stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> {
-    match measure {
-        CorrelationMeasure::Normal => Ok(stated),
-        CorrelationMeasure::Spearman => Ok(2.0 * libm::sin(PI / 6.0 * stated)),
-        CorrelationMeasure::Kendall => Ok(libm::sin(PI / 2.0 * stated)),
-        CorrelationMeasure::Pearson => pearson(stated, a, b),
-    }
-}
-
-/// Nodes of the quadrature of a line of normal scores, and of the plane of two.
-const LINE: usize = 4000;
-const PLANE: usize = 240;
-
-/// The quadrature leaves out scores beyond this.
-const FARTHEST: f64 = 8.5;
-
-/// Nodes of the midpoint rule over normal scores with their weights, which sum to 1: its error falls faster than any power of the
-/// distance of nodes where the integrand is smooth.
-fn nodes(count: usize) -> Vec<(f64, f64)> {
-    let step = 2.0 * FARTHEST / count as f64;
-    let place = |k: usize| -FARTHEST + step * (k as f64 + 0.5);
-    let weights: Vec<f64> = (0..count).map(|k| libm::exp(-0.5 * place(k) * place(k))).collect();
-    let sum: f64 = weights.iter().sum();
-    weights.iter().enumerate().map(|(k, weight)| (place(k), weight / sum)).collect()
-}
-
-fn pearson(stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> {
-    let [x, y] = [a, b].map(Factor::distribution);
-    if stated == 0.0 || matches!((x, y), (Distribution::Normal(_), Distribution::Normal(_))) {
-        return Ok(stated);
-    }
-    let standard = |law: &Distribution, score: f64| (law.quantile(from_score(score)) - law.mean()) / law.sd();
-    let line = nodes(LINE);
-    let extreme = |sign: f64| line.iter().map(|(z, w)| w * standard(x, *z) * standard(y, sign * z)).sum::<f64>();
-    let (low, high) = (extreme(-1.0), extreme(1.0));
-    if !(low < stated && stated < high) {
-        let [a, b] = [a, b].map(|factor| factor.name.clone());
-        return Err(DependenceError::Unattainable { a, b, found: stated, low, high });
-    }
-    let plane = nodes(PLANE);
-    let of_x: Vec<f64> = plane.iter().map(|(z, _)| standard(x, *z)).collect();
-    let correlation = |r: f64| {
-        let rest = (1.0 - r * r).sqrt();
-        let inner = |z: f64| plane.iter().map(|(v, w)| w * standard(y, r * z + rest * v)).sum::<f64>();
-        plane.iter().zip(&of_x).map(|((z, w), x)| w * x * inner(*z)).sum::<f64>()
-    };
-    // The correlation rises with r (Lancaster 1957): a secant that keeps its bracket, the end that stays twice counting half.
-    let (mut left, mut right) = ((-1.0, low - stated), (1.0, high - stated));
-    let mut last = 0.0;
-    for _ in 0..60 {
-        let r: f64 = (left.0 - left.1 * (right.0 - left.0) / (right.1 - left.1)).clamp(left.0, right.0);
-        let gap = correlation(r) - stated;
-        if gap.abs() < 1e-9 || right.0 - left.0 < 1e-9 {
-            return Ok(r);
-        }
-        if gap < 0.0 {
-            left = (r, gap);
-            right.1 *= if last < 0.0 { 0.5 } else { 1.0 };
-        } else {
-            right = (r, gap);
-            left.1 *= if last > 0.0 { 0.5 } else { 1.0 };
-        }
-        last = gap;
-    }
-    Ok(0.5 * (left.0 + right.0))
 }
 
 /// Phi^-1(rank / (n + 1)) of every value, the mean of all of them 0.

@@ -8,8 +8,8 @@ pub mod distribution;
 
 use std::sync::Arc;
 
-pub use copula::GaussianCopula;
-pub(crate) use copula::{from_score, normal_scores};
+pub use copula::Copula;
+pub(crate) use copula::{Chain, GaussianCopula, KernelCopula, from_score, normal_scores};
 pub use dependence::{CorrelationMeasure, Dependence, DependenceError};
 pub use distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
 
@@ -79,7 +79,7 @@ pub struct Group {
 pub struct Space {
     factors: Vec<Factor>,
     dependences: Vec<Dependence>,
-    copula: Option<Arc<GaussianCopula>>,
+    copula: Option<Arc<Copula>>,
 }
 
 impl Space {
@@ -112,7 +112,7 @@ impl Space {
     }
 
     /// The copula of the factors; `None` if they are independent.
-    pub fn copula(&self) -> Option<&Arc<GaussianCopula>> {
+    pub(crate) fn copula(&self) -> Option<&Arc<Copula>> {
         self.copula.as_ref()
     }
 

@@ -13,6 +13,7 @@ mod common;
 mod corpus;
 mod degenerate;
 mod dependent;
+mod dependent_kernels;
 mod distributions;
 mod endless;
 mod estimators;

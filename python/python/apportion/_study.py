@@ -64,7 +64,8 @@ class Study:
     `threshold`, `dummy`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
     `expression={...}`, `fidelity={...}`. Factors that depend on each other, by a Gaussian copula:
     `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of tables as in a study file, as in
-    `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`.
+    `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`; as an array of joint measurements has them, a row
+    each: `[{"factors": ["a", "b"], "measurements": array, "copula": "kernel"}]`.
     """
 
     def __init__(
@@ -365,10 +366,12 @@ def _dependence(asked: Any, factors: Mapping[str, Factor]) -> list[dict[str, Any
         asked = [{"factors": list(pair), "correlation": correlation} for pair, correlation in asked.items()]
     tables = [dict(table) for table in asked]
     for table in tables:
-        if isinstance(table.get("correlation"), np.ndarray):
-            table["correlation"] = table["correlation"].tolist()
+        for key in ("correlation", "measurements"):
+            if hasattr(table.get(key), "__array__"):
+                table[key] = np.asarray(table[key], dtype=float).tolist()
         by_quantile = [n for n in table.get("factors", ()) if n in factors and factors[n].quantile is not None]
-        if by_quantile and table.get("measure", "pearson") == "pearson" and "file" not in table:
+        is_measured = "file" in table or "measurements" in table
+        if by_quantile and table.get("measure", "pearson") == "pearson" and not is_measured:
             raise StudyError(
                 f"{', '.join(by_quantile)}: Pearson's correlations of factors by their quantile functions are not known: expected "
                 'measure="spearman", "kendall" or "normal"'

@@ -8,6 +8,8 @@ mod csv_rows;
 mod error;
 mod npy;
 #[cfg(feature = "parquet")]
+mod parquet_pages;
+#[cfg(feature = "parquet")]
 mod parquet_rows;
 mod plain_lines;
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Once};
 
 use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
-use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType};
 use parquet::errors::ParquetError;
@@ -15,6 +15,7 @@ use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{ColumnDescriptor, Type};
 
+use super::parquet_pages::CheckedPages;
 use super::{ColumnKind, RowReader, RowWriter, RowsError, check_names};
 
 /// Rows of a row group that is written: some megabytes of a dozen columns.
@@ -94,7 +95,10 @@ impl ParquetRows {
                         "it is compressed by {name}: write it uncompressed or with snappy"
                     )));
                 }
-                Ok(group.get_column_reader(*place)?)
+                let column = group.metadata().schema_descr().column(*place);
+                let has_levels = column.max_def_level() > 0;
+                let pages = CheckedPages { pages: group.get_column_page_reader(*place)?, has_levels };
+                Ok(get_column_reader(column, Box::new(pages)))
             });
             self.current = Some((readers.collect::<Result<_, RowsError>>()?, rows));
         }

@@ -1,3 +1,10 @@
+use std::sync::Arc;
+
+use parquet::basic::{Encoding, Repetition, Type};
+use parquet::data_type::{ByteArray, ByteArrayType, Int64Type};
+use parquet::file::properties::{WriterProperties, WriterVersion};
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::Type as SchemaType;
 use proptest::prelude::*;
 
 use super::*;
@@ -199,6 +206,67 @@ fn pages_of_parquet_are_read_with_their_checksums() {
         let refused = read(Format::Parquet, &damaged, &[], 300);
         let message = refused.map(|_| "accepted".to_owned()).unwrap_or_else(|error| error.to_string());
         assert!(message.contains("Page CRC checksum mismatch"), "byte {}: {message}", 300 + 600 * number);
+    }
+}
+
+/// A Parquet file of whole numbers and of the same ones as text, some of them null, in these encodings.
+fn delta_encoded(count: usize, of_text: Encoding, version: WriterVersion) -> Vec<u8> {
+    let optional = |name: &str, of: Type| {
+        Arc::new(SchemaType::primitive_type_builder(name, of).with_repetition(Repetition::OPTIONAL).build().unwrap())
+    };
+    let fields = vec![optional("a", Type::INT64), optional("b", Type::BYTE_ARRAY)];
+    let schema = Arc::new(SchemaType::group_type_builder("schema").with_fields(fields).build().unwrap());
+    let properties = WriterProperties::builder()
+        .set_dictionary_enabled(false)
+        .set_writer_version(version)
+        .set_column_encoding("a".into(), Encoding::DELTA_BINARY_PACKED)
+        .set_column_encoding("b".into(), of_text);
+    let mut file = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties.build())).unwrap();
+    let present: Vec<i16> = (0..count).map(|k| i16::from(k % 5 != 3)).collect();
+    let numbers: Vec<i64> = (0..count).filter(|k| k % 5 != 3).map(whole).collect();
+    let texts: Vec<ByteArray> = numbers.iter().map(|number| number.to_string().as_str().into()).collect();
+    let mut group = file.next_row_group().unwrap();
+    let mut column = group.next_column().unwrap().unwrap();
+    column.typed::<Int64Type>().write_batch(&numbers, Some(&present), None).unwrap();
+    column.close().unwrap();
+    let mut column = group.next_column().unwrap().unwrap();
+    column.typed::<ByteArrayType>().write_batch(&texts, Some(&present), None).unwrap();
+    column.close().unwrap();
+    group.close().unwrap();
+    file.into_inner().unwrap()
+}
+
+fn whole(k: usize) -> i64 {
+    (k as i64 * 7919 % 1000) * 1_000_003
+}
+
+#[test]
+fn differences_in_parquet_are_read_and_their_damage_is_noticed() {
+    for version in [WriterVersion::PARQUET_1_0, WriterVersion::PARQUET_2_0] {
+        for of_text in [Encoding::DELTA_LENGTH_BYTE_ARRAY, Encoding::DELTA_BYTE_ARRAY] {
+            for count in [1, 2, 4, 33, 129, 1000] {
+                let bytes = delta_encoded(count, of_text, version);
+                let found = read(Format::Parquet, &bytes, &[optional("a"), optional("b")], 300).unwrap();
+                for (k, (a, b)) in found[0].iter().zip(&found[1]).enumerate() {
+                    let expected = if k % 5 == 3 { f64::NAN } else { whole(k) as f64 };
+                    assert_eq!(
+                        [a.to_bits(), b.to_bits()],
+                        [expected.to_bits(); 2],
+                        "{version:?} {of_text} {count} {k}"
+                    );
+                }
+                assert_eq!(found[1].len(), count);
+            }
+            let bytes = delta_encoded(40, of_text, version);
+            for place in 0..bytes.len() {
+                for change in [0x80, 0xff, 0x7f] {
+                    let mut damaged = bytes.clone();
+                    damaged[place] ^= change;
+                    // Whatever it says: that it says it, and does not ask for memory by the petabyte.
+                    let _ = read(Format::Parquet, &damaged, &[optional("a"), optional("b")], 300);
+                }
+            }
+        }
     }
 }
 

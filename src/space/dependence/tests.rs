@@ -1,5 +1,6 @@
 use super::*;
 use crate::quantity::Unit;
+use std::f64::consts::PI;
 
 fn space(laws: Vec<Distribution>) -> Space {
     let names = ["a", "b", "c", "d"];
@@ -13,7 +14,7 @@ fn uniform() -> Distribution {
 
 fn scores(space: &Space, dependence: Dependence) -> f64 {
     let copula = copula(space, &[dependence]).unwrap().unwrap();
-    copula.correlation(0, 1)
+    copula.gaussian().correlation(0, 1)
 }
 
 #[test]

@@ -40,15 +40,26 @@ pub(super) fn dependent(context: &Context<'_>, file: &StudyFile, space: Space) -
 }
 
 fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Space) -> Result<Dependence, Fault> {
-    let DependenceSection { factors, correlation, measure, file } = section.get_ref();
+    let DependenceSection { factors, correlation, measure, .. } = section.get_ref();
     let names = factor_names(context, factors, space)?;
+    let measured = measured_columns(context, section.get_ref())?;
+    let text = |key: &At<String>| format!("{:?}", key.get_ref());
+    if let Some(copula) = section.get_ref().copula.as_ref().filter(|_| measured.is_none()) {
+        let expected = "it beside `file` or `measurements`: a copula is made of joint measurements";
+        return Err(context.fault(copula.span(), wrong("copula", expected, text(copula))));
+    }
     let measure = match measure {
         None => CorrelationMeasure::default(),
+        Some(measure) if measured.is_some() => {
+            let expected =
+                "nothing beside joint measurements, whose correlations are those of the normal scores of their ranks";
+            return Err(context.fault(measure.span(), wrong("measure", expected, text(measure))));
+        }
         Some(name) => {
             choice(context, name, "measure of correlation", &CorrelationMeasure::ALL, CorrelationMeasure::name)?
         }
     };
-    match (correlation, file) {
+    match (correlation, measured) {
         (Some(correlation), None) => {
             let matrix = match correlation.get_ref() {
                 Correlation::Matrix(matrix) => matrix.clone(),
@@ -59,29 +70,75 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
             };
             Ok(Dependence::new(&names, matrix).measure(measure))
         }
-        (None, Some(file)) => {
-            if let Some(measure) = &section.get_ref().measure {
-                let expected = "nothing beside `file`, whose correlations are those of the normal scores of its ranks";
-                return Err(
-                    context.fault(measure.span(), wrong("measure", expected, format!("{:?}", measure.get_ref())))
-                );
-            }
-            let columns = factors.get_ref().iter().map(|name| Ok(measured::read(context, file, Some(name))?.0));
-            let columns = columns.collect::<Result<Vec<Vec<f64>>, Fault>>()?;
-            if columns.iter().any(|column| column.len() < FEWEST_MEASUREMENTS) {
-                let expected = format!("a file of at least {FEWEST_MEASUREMENTS} joint measurements");
-                let found = format!("{}", columns[0].len());
-                return Err(context.fault(file.span(), wrong("file", &expected, found)));
-            }
-            Ok(Dependence::from_measurements(&names, &columns))
+        (None, Some(columns)) => {
+            let copula = match &section.get_ref().copula {
+                None => CopulaChoice::default(),
+                Some(name) => choice(context, name, "copula", &CopulaChoice::ALL, CopulaChoice::name)?,
+            };
+            Ok(match copula {
+                CopulaChoice::Gaussian => Dependence::from_measurements(&names, &columns),
+                CopulaChoice::Kernel => Dependence::kernels(&names, &columns),
+            })
         }
-        _ => {
+        (_, measured) => {
             let problem = wrong(
                 "dependence",
-                "a table with `factors` and either `correlation`, as in correlation = 0.6, or `file`",
-                if file.is_some() { "one with both".to_owned() } else { "one with neither".to_owned() },
+                "a table with `factors` and one of `correlation`, as in correlation = 0.6, `file` and `measurements`",
+                if measured.is_some() { "one with both".to_owned() } else { "one with neither".to_owned() },
             );
             Err(context.fault(section.span(), problem))
+        }
+    }
+}
+
+/// The joint measurements of a dependence, a column for each of its factors; `None` if it has none.
+fn measured_columns(context: &Context<'_>, section: &DependenceSection) -> Result<Option<Vec<Vec<f64>>>, Fault> {
+    let names = section.factors.get_ref();
+    let (columns, span) = match (&section.file, &section.measurements) {
+        (Some(file), None) => {
+            let column = |name: &At<String>| Ok(measured::read(context, file, Some(name))?.0);
+            (names.iter().map(column).collect::<Result<Vec<Vec<f64>>, Fault>>()?, file.span())
+        }
+        (None, Some(rows)) => {
+            if rows.get_ref().iter().any(|row| row.len() != names.len() || row.iter().any(|x| !x.is_finite())) {
+                let expected = "lists of one finite number for each of `factors`";
+                return Err(context.fault(rows.span(), wrong("measurements", expected, "others among them".to_owned())));
+            }
+            let column = |place: usize| rows.get_ref().iter().map(|row| row[place]).collect();
+            ((0..names.len()).map(column).collect(), rows.span())
+        }
+        (Some(_), Some(rows)) => {
+            let expected = "either `file` or `measurements`";
+            return Err(context.fault(rows.span(), wrong("measurements", expected, "both".to_owned())));
+        }
+        (None, None) => return Ok(None),
+    };
+    let fewest = columns.iter().map(Vec::len).min().unwrap_or(0);
+    if fewest < FEWEST_MEASUREMENTS {
+        let expected = format!("at least {FEWEST_MEASUREMENTS} joint measurements");
+        return Err(context.fault(span, wrong("measurements", &expected, fewest.to_string())));
+    }
+    Ok(Some(columns))
+}
+
+/// What is made of joint measurements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum CopulaChoice {
+    /// The Gaussian copula of their correlations.
+    #[default]
+    Gaussian,
+    /// Kernels around them.
+    Kernel,
+}
+
+impl CopulaChoice {
+    pub(super) const ALL: [Self; 2] = [Self::Gaussian, Self::Kernel];
+
+    /// The name in study files.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Gaussian => "gaussian",
+            Self::Kernel => "kernel",
         }
     }
 }

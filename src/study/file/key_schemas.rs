@@ -3,6 +3,7 @@
 use schemars::{Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
+use super::dependence::CopulaChoice;
 use super::distribution_forms::FORMS;
 use super::sections::NoiseSection;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
@@ -53,6 +54,10 @@ pub(super) fn measures() -> Value {
 
 pub(super) fn correlation_measures() -> Vec<&'static str> {
     names(&CorrelationMeasure::ALL, CorrelationMeasure::name)
+}
+
+pub(super) fn copulas() -> Vec<&'static str> {
+    names(&CopulaChoice::ALL, CopulaChoice::name)
 }
 
 pub(super) fn surrogates() -> Vec<&'static str> {

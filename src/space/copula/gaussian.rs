@@ -2,8 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::distribution::{LARGEST_U, SMALLEST_U};
-use crate::special::{normal_below, normal_quantile};
+use super::{from_score, normal_scores};
 
 /// A Gaussian copula of all factors of a space: the normal scores Phi^-1(u) of the factors have a joint normal distribution.
 ///
@@ -61,11 +60,6 @@ impl GaussianCopula {
         &self.dependent
     }
 
-    /// Whether the factors `set` are independent of all others.
-    pub fn is_independent(&self, set: &[usize]) -> bool {
-        set.iter().all(|&i| self.dependent.iter().all(|j| set.contains(j) || self.correlation[(i, *j)] == 0.0))
-    }
-
     /// Points of the unit cube, a column for each factor, whose coordinates are independent, become dependent: the first of
     /// the dependent factors keeps its coordinates.
     pub fn correlate(&self, columns: &mut [Vec<f64>]) {
@@ -104,16 +98,6 @@ impl GaussianCopula {
         };
         given.iter().map(|j| coefficient(j).unwrap_or(0.0)).collect()
     }
-}
-
-/// Normal scores of coordinates of the unit cube.
-pub(crate) fn normal_scores(u: &[f64]) -> Vec<f64> {
-    u.iter().map(|&u| normal_quantile(u)).collect()
-}
-
-/// The coordinate of the unit cube with this normal score, inside the range of all coordinates.
-pub(crate) fn from_score(score: f64) -> f64 {
-    normal_below(score).clamp(SMALLEST_U, LARGEST_U)
 }
 
 fn part(matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
@@ -201,7 +185,6 @@ mod tests {
         let chain = GaussianCopula::new(matrix(3, &[0.5, 0.0, 0.5])).unwrap();
         assert_eq!(chain.regression(0, &[2]), [0.0]);
         assert!(chain.regression(0, &[1, 2])[1] < -0.1);
-        assert!(chain.is_independent(&[0, 1, 2]) && !chain.is_independent(&[0, 2]));
     }
 
     #[test]
