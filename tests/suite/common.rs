@@ -1,8 +1,10 @@
 //! What several test files share.
 
 use std::collections::BTreeSet;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
-use std::process::Output;
+use std::process::{Command, Output};
+use std::sync::LazyLock;
 
 use apportion::report::{IndexRecord, OutputRecord, ResultFile};
 use apportion::study::Study;
@@ -32,6 +34,23 @@ impl Folder {
 /// Runs the program and returns what it printed and how it ended.
 pub fn apportion(arguments: &[&str]) -> Output {
     assert_cmd::Command::cargo_bin("apportion").unwrap().args(arguments).output().unwrap()
+}
+
+/// Where programs are looked for: as ever, but the interpreter itself before a script that stands for it, such as pyenv's, which
+/// takes five times as long to start it, some hundred times a test.
+pub fn search_path() -> &'static OsStr {
+    static PATH: LazyLock<OsString> = LazyLock::new(|| {
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let found = std::env::split_paths(&path).map(|folder| folder.join("python3")).find(|file| file.is_file());
+        if !found.is_some_and(|file| std::fs::read(file).is_ok_and(|content| content.starts_with(b"#!"))) {
+            return path;
+        }
+        let asked = Command::new("python3").args(["-c", "import sys; print(sys.executable)"]).output().unwrap();
+        let interpreter = PathBuf::from(String::from_utf8(asked.stdout).unwrap().trim_end());
+        let first = interpreter.parent().map(Path::to_path_buf);
+        std::env::join_paths(first.into_iter().chain(std::env::split_paths(&path))).unwrap()
+    });
+    &PATH
 }
 
 /// Standard error of a program run as text.

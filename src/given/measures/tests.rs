@@ -79,7 +79,7 @@ fn the_interval_of_delta_ends_at_1() {
     let found = measured(&inputs, output(&inputs, |x| x[0] + 1e-6 * x[1]), 0);
     let delta = found[0].get(Measure::Delta).estimate;
     let interval = delta.interval.unwrap();
-    assert!(delta.estimate > 0.9 && interval.high == delta.estimate.max(1.0), "{delta:?}");
+    assert!(delta.estimate > 0.7 && interval.high == 1.0, "{delta:?}");
 }
 
 #[test]

@@ -90,8 +90,10 @@ pub(super) fn of_distributions(
         quantiles(&input.values, order, distribution, far)
             .ok_or_else(|| SurrogateRefusal::OtherDistribution { input: input.name.clone() })
     };
-    let values: Vec<Vec<f64>> =
-        inputs.par_iter().zip(orders).zip(distributions).map(quantiles).collect::<Result<_, _>>()?;
+    // All of them before the first refusal, which would otherwise be that of the quickest thread.
+    let values: Vec<Result<Vec<f64>, SurrogateRefusal>> =
+        inputs.par_iter().zip(orders).zip(distributions).map(quantiles).collect();
+    let values: Vec<Vec<f64>> = values.into_iter().collect::<Result<_, _>>()?;
     let families: Vec<Family> = distributions.iter().map(Family::new).collect();
     let of = |trial: Trial| Coordinates { trial, values: values.clone(), name: "the given distributions" };
     Ok(trials(&families).into_iter().map(of).collect())

@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::page::{Block, Page, Role};
 use super::update;
-use crate::common::{Folder, succeed, text};
+use crate::common::{Folder, search_path, succeed, text};
 
 /// What is wrong with a page, each with its place. `BOOK=update` in the environment puts outputs that differ into the page.
 pub fn faults(page: &Page) -> Vec<String> {
@@ -67,7 +67,7 @@ fn write(folder: &Folder, name: &str, content: &str) -> Option<String> {
 
 fn run(folder: &Folder, block: &Block, code: i32, printed: &mut Option<String>) -> Option<String> {
     let program = Path::new(assert_cmd::cargo::cargo_bin!("apportion")).parent().unwrap().to_owned();
-    let path = format!("{}:{}", text(&program), std::env::var("PATH").unwrap());
+    let path = format!("{}:{}", text(&program), search_path().to_str().unwrap());
     let script = format!("exec 2>&1\n{}", block.text);
     let mut shell = Command::new("sh");
     let output = shell.args(["-euc", &script]).env("PATH", path).current_dir(folder.path("")).output().unwrap();

@@ -16,7 +16,7 @@ use std::time::Duration;
 use apportion::report::{OutputRecord, ResultFile, read_result};
 use tempfile::TempDir;
 
-use crate::common::{stderr, text};
+use crate::common::{search_path, stderr, text};
 
 /// A study of a program in a folder of its own.
 pub struct Case {
@@ -87,7 +87,13 @@ impl Case {
         let (study, out) = (self.path("study.toml"), self.path("out"));
         let arguments = ["run", text(&study), "--out", text(&out)];
         let mut command = assert_cmd::Command::cargo_bin("apportion").unwrap();
-        command.args(arguments).args(more).timeout(Duration::from_secs(240)).output().unwrap()
+        command
+            .env("PATH", search_path())
+            .args(arguments)
+            .args(more)
+            .timeout(Duration::from_secs(240))
+            .output()
+            .unwrap()
     }
 
     /// The result of a run that ends well, and what it said on standard error.

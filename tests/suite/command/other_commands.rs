@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::processes::{is_alive, processes, signal, spawn, within};
 use super::{Case, contains};
-use crate::common::{files, stderr, text};
+use crate::common::{files, search_path, stderr, text};
 
 impl Case {
     /// `command STUDY more...`, in which names that begin with @ are files in the folder.
@@ -20,7 +20,7 @@ impl Case {
     fn other(&self, command: &str, more: &[&str]) -> Output {
         let arguments = self.arguments(command, more);
         let mut command = assert_cmd::Command::cargo_bin("apportion").unwrap();
-        command.args(arguments).timeout(Duration::from_secs(60)).output().unwrap()
+        command.env("PATH", search_path()).args(arguments).timeout(Duration::from_secs(60)).output().unwrap()
     }
 
     fn remove_pids(&self) {

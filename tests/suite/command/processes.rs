@@ -5,7 +5,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use super::Case;
-use crate::common::text;
+use crate::common::{search_path, text};
 
 /// Writes the numbers of its processes to files, answers a few rows, and then does `what`, with a child.
 fn worker(what: &str) -> Case {
@@ -25,7 +25,7 @@ fn started(case: &Case) -> Child {
 /// The program on its way.
 pub fn spawn(arguments: &[&str]) -> Child {
     let mut command = Command::new(assert_cmd::cargo::cargo_bin("apportion"));
-    command.args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+    command.env("PATH", search_path()).args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
 /// The numbers of processes that wrote them to files.
