@@ -26,7 +26,8 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     Ok(Critical { cost: Cost { evaluations: spent + found.cost.evaluations }, ..found })
 }
 
-/// The error that the dynamic rung has in common with the quasi-static one: on bristles neither follows the swing.
+/// The error that the dynamic rung has in common with the quasi-static one: on bristles neither follows the swing, unless it is slow,
+/// nor what it shakes loose.
 fn left_to_dynamic(exact: &Critical, scene: &Scene, options: &Options) -> f64 {
     if options.friction != FrictionLaw::LuGre {
         return 0.0;
@@ -35,5 +36,11 @@ fn left_to_dynamic(exact: &Critical, scene: &Scene, options: &Options) -> f64 {
     let contact = Contact { radius: exact.contact_radius, indentation: exact.indentation };
     let probe = Probe::new(scene, options.torsion);
     let slip = Slip { normal_force, lateral_force, travel, twist, contact };
-    Swing::new(scene, &probe).left_out(&slip, &Substrate::new(scene, options, (&probe, LuGreForm::Ramp))).of(&slip)
+    let substrate = Substrate::new(scene, options, (&probe, LuGreForm::Ramp));
+    let swing = Swing::new(scene, &probe);
+    let mut error = swing.left_out(&slip, &substrate);
+    if !swing.is_followed(travel, scene.velocity) {
+        error.lateral += quasi_static::overshoot(&slip, &substrate);
+    }
+    error.of(&slip)
 }

@@ -25,9 +25,6 @@ pub(super) struct Bristles<'a> {
     viscosity: f64,
 }
 
-/// Most of the swing that is followed, from start to slip (rad): steps by the thousand, not by the million.
-const MOST_TURNS: f64 = 1e3;
-
 impl<'a> Bristles<'a> {
     /// Bristles of a contact of `radius` (m).
     pub fn new(motion: &'a Motion<'a>, substrate: &'a Substrate<'a>, radius: f64) -> Self {
@@ -53,7 +50,7 @@ impl<'a> Bristles<'a> {
     /// bristles still stretch or the dashpots are still to come up to V. With viscous friction that comes long after the
     /// bristles have given way, a few sigma2/k_lat.
     pub fn slip(&self) -> Result<(Slip, u64), Failure> {
-        let followed = self.motion.frequency() < MOST_TURNS;
+        let followed = self.motion.swing().is_followed(self.motion.length, self.velocity);
         let swing = if followed { 0.0 } else { self.motion.swing().spring / self.motion.force };
         // In vain finer than a tenth of the swing that is not followed. And not coarse: where the bristles give way at once, a
         // long step does not see it.

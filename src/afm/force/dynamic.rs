@@ -51,7 +51,11 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         error.lateral += missed.lateral;
     }
     if options.friction == FrictionLaw::LuGre {
-        error = error + Swing::new(scene, &probe).left_out(&slip, &substrate);
+        let swing = Swing::new(scene, &probe);
+        error = error + swing.left_out(&slip, &substrate);
+        if !swing.is_followed(limit.travel, scene.velocity) {
+            error.lateral += quasi_static::overshoot(&slip, &substrate);
+        }
     }
     let critical = slip.critical(&substrate, Fidelity::Dynamic);
     Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })

@@ -38,11 +38,17 @@ pub(super) fn left_out(slip: &Slip, scene: &Scene, substrate: &Substrate, probe:
     error.lateral += slip.lateral_force * substrate.error();
     if substrate.options.friction == FrictionLaw::LuGre {
         // How far a particle that breaks loose overshoots depends on how fast the tip can follow.
-        let law = LuGre::with(scene, substrate.options.lugre, slip.contact.radius);
-        let steady = law.steady_force(slip.normal_force + substrate.adhesive_load, scene.velocity);
-        error.lateral += (slip.lateral_force - steady).max(0.0);
+        error.lateral += overshoot(slip, substrate);
     }
     error
+}
+
+/// How far the peak on LuGre bristles exceeds the force of steady sliding (N). Where friction weakens as the particle speeds up, the
+/// swing of the tip, however small, may shake it loose anywhere between the two.
+pub(super) fn overshoot(slip: &Slip, substrate: &Substrate) -> f64 {
+    let law = LuGre::with(substrate.scene, substrate.options.lugre, slip.contact.radius);
+    let steady = law.steady_force(slip.normal_force + substrate.adhesive_load, substrate.scene.velocity);
+    (slip.lateral_force - steady).max(0.0)
 }
 
 /// The probe in equilibrium.

@@ -30,6 +30,9 @@ pub(super) fn inertia_about_apex(scene: &Scene) -> f64 {
     scene.effective_tip_inertia() + 0.25 * scene.effective_tip_mass() * scene.height * scene.height
 }
 
+/// Most of the swing that is followed on bristles, from start to slip (rad): steps by the thousand, not by the million.
+const MOST_TURNS: f64 = 1e3;
+
 impl Swing {
     #[inline(always)]
     pub fn new(scene: &Scene, probe: &Probe) -> Self {
@@ -56,6 +59,11 @@ impl Swing {
     #[inline(always)]
     pub fn normal(&self, twist: f64) -> f64 {
         self.centrifugal + twist * self.normal_per_twist
+    }
+
+    /// Whether the dynamic rung follows it on bristles, up to a slip after the travel (m) at the velocity (m/s).
+    pub fn is_followed(&self, travel: f64, velocity: f64) -> bool {
+        self.frequency * (travel / velocity) < MOST_TURNS
     }
 
     /// What is left out where the swing is: F_Z swings, and friction with it. The lateral force at the slip is the

@@ -174,6 +174,29 @@ fn both_methods_follow_a_heavy_tip() {
     assert!((found.travel / limit.travel - 1.0).abs() > 1e-3, "the swing is visible");
 }
 
+/// Where friction weakens as the particle speeds up, the swing of the tip shakes it loose before the peak of a motion without it:
+/// steps so fine that they keep part of the swing gave 6.185056e-7 N here, 1.6e-4 less than any rung finds.
+#[test]
+fn what_the_swing_may_shake_loose_is_in_the_estimate() {
+    let scene = Scene {
+        bristle_stiffness: 294.585_744_801_317_6,
+        bristle_damping: 1.6e-6,
+        viscous_friction: 3e-10,
+        stribeck_velocity: 1.898_296_363_660_551_4e-7,
+        static_friction: 0.827_747_605_545_141_9,
+        dynamic_friction: 0.6,
+        ..Scene::default()
+    };
+    for fidelity in [Fidelity::Dynamic, Fidelity::QuasiStatic, Fidelity::Auto] {
+        for tolerance in [1e-4, 1e-6, 1e-7] {
+            let options = Options { tolerance, ..at(fidelity, FrictionLaw::LuGre) };
+            let found = critical_force(&scene, &options).unwrap();
+            let shaken = (found.critical_force / 6.185_056e-7 - 1.0).abs();
+            assert!((1e-4..=found.error_estimate).contains(&shaken), "{fidelity:?} {tolerance}: {found:?}");
+        }
+    }
+}
+
 /// Central differences of the scaled motion; 1e-5 for their curvature and rounding.
 #[test]
 fn the_jacobian_of_the_motion_is_the_derivative() {
