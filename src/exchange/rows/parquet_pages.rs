@@ -1,9 +1,44 @@
-//! Pages of Parquet files whose counts are checked before the reader allocates for them: of a count of 2^50 in a damaged page it
-//! would ask for as much memory, and a failed allocation ends the program.
+//! What the reader of Parquet does not check of damaged files: counts of values before it allocates for them (of 2^50 in a page it
+//! would ask for as much memory, and a failed allocation ends the program), and the end of the file where it skips over fields
+//! of a header (a list of 2^31 numbers in a file that ends there would be skipped one by one).
 
+use std::io::{self, Read};
+
+use bytes::Bytes;
 use parquet::basic::Encoding;
 use parquet::column::page::{Page, PageMetadata, PageReader};
 use parquet::errors::{ParquetError, Result};
+use parquet::file::reader::{ChunkReader, Length};
+
+/// A file whose end is an error to whoever reads on.
+pub(super) struct Ending<R>(pub R);
+
+impl<R: Length> Length for Ending<R> {
+    fn len(&self) -> u64 {
+        self.0.len()
+    }
+}
+
+impl<R: ChunkReader> ChunkReader for Ending<R> {
+    type T = Ending<R::T>;
+
+    fn get_read(&self, start: u64) -> Result<Self::T> {
+        Ok(Ending(self.0.get_read(start)?))
+    }
+
+    fn get_bytes(&self, start: u64, length: usize) -> Result<Bytes> {
+        self.0.get_bytes(start, length)
+    }
+}
+
+impl<R: Read> Read for Ending<R> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        match self.0.read(into)? {
+            0 if !into.is_empty() => Err(io::ErrorKind::UnexpectedEof.into()),
+            count => Ok(count),
+        }
+    }
+}
 
 /// The pages of a column, none of which claims more values than it can have.
 pub(super) struct CheckedPages {

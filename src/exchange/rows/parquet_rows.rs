@@ -15,7 +15,7 @@ use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{ColumnDescriptor, Type};
 
-use super::parquet_pages::CheckedPages;
+use super::parquet_pages::{CheckedPages, Ending};
 use super::{ColumnKind, RowReader, RowWriter, RowsError, check_names};
 
 /// Rows of a row group that is written: some megabytes of a dozen columns.
@@ -66,7 +66,7 @@ pub(super) struct ParquetRows {
 impl ParquetRows {
     pub(super) fn new<R: ChunkReader + 'static>(file: R) -> Result<Self, RowsError> {
         guarded(|| {
-            let file: Box<dyn FileReader> = Box::new(SerializedFileReader::new(file)?);
+            let file: Box<dyn FileReader> = Box::new(SerializedFileReader::new(Ending(file))?);
             let schema = file.metadata().file_metadata().schema_descr();
             let names: Vec<String> = schema.columns().iter().map(|column| column.path().parts().join(".")).collect();
             check_names(&names)?;
