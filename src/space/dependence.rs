@@ -175,9 +175,12 @@ impl Dependence {
     pub fn kernels(factors: &[&str], columns: &[Vec<f64>]) -> Self {
         let scores: Vec<Vec<f64>> = columns.iter().map(|column| rank_scores(column)).collect();
         let dependence = Self::from_scores(factors, &scores);
-        let rows = scores.first().map_or(0, Vec::len);
-        let n = scores.len();
-        if scores.iter().any(|column| column.len() != rows) || !MEASUREMENTS.contains(&rows) {
+        let (rows, n) = (scores.first().map_or(0, Vec::len), scores.len());
+        let is_correlation = |(i, j): (usize, usize)| i == j || dependence.correlation[i][j].abs() < 1.0;
+        let is_sound = scores.iter().all(|column| column.len() == rows)
+            && MEASUREMENTS.contains(&rows)
+            && (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).all(is_correlation);
+        if !is_sound {
             // Refused with the space that it is for.
             let joint = Joint { scores: scores.into(), width: 1.0, gain: 0.0 };
             return Self { joint: Some(joint), ..dependence };

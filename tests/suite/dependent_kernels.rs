@@ -291,7 +291,9 @@ fn the_program_takes_a_copula_from_a_table() {
         "{kernels}"
     );
     let page = std::fs::read_to_string(out.join("bent.html")).unwrap();
-    assert!(page.contains("around 60 joint measurements"));
+    assert!(page.contains("Factors that depend on each other. a and b: by kernels of width 0."), "the caption");
+    // No page of its own without the table.
+    assert!(page.contains("around 60 joint measurements") && !page.contains("Try your own ranges"));
     // The same bits on another number of threads, and from a result that is read again.
     let again = folder.path("again");
     succeed(&["run", text(&path), "--threads", "1", "--out", text(&again)]);
@@ -331,8 +333,10 @@ fn the_program_takes_a_copula_from_a_table() {
         ("measurements = [[1, 2]]\nfile = \"short.csv\"", "either `file`"),
         ("file = \"short.csv\"\ncorrelation = 0.5", "one of `correlation`"),
         ("file = \"line.csv\"\ncopula = \"kernel\"", "between -1 and 1"),
+        ("file = \"still.csv\"\ncopula = \"kernel\"", "between -1 and 1"),
     ] {
         folder.with("short.csv", "a,b\n1,2\n2,1\n3,4\n5,3\n4,4\n");
+        folder.with("still.csv", "a,b\n".to_owned() + &(0..20).map(|k| format!("{k},1\n")).collect::<String>());
         folder.with("line.csv", "a,b\n".to_owned() + &(0..20).map(|k| format!("{k},{}\n", 3 * k)).collect::<String>());
         let path = folder.with("wrong.toml", study(dependence));
         let output = apportion(&["check", text(&path)]);

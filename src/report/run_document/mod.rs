@@ -235,7 +235,7 @@ fn chosen(result: &ResultFile, spending: &SpendingRecord) -> Vec<String> {
     texts
 }
 
-/// How to try other ranges: of a study in a file whose model computes in a page.
+/// How to try other ranges: of a study in a file, without others beside it, whose model computes in a page.
 fn own_ranges(study: &StudySetup) -> Option<Section> {
     let kind = ModelKind::from_name(&study.model)?;
     let computes = kind == ModelKind::AFM || kind == ModelKind::EXPRESSION || kind.known.is_some();
@@ -246,7 +246,18 @@ fn own_ranges(study: &StudySetup) -> Option<Section> {
         study.name
     );
     let parts = vec![Part::OnPage(vec![Part::Text(text)])];
-    (computes && !study.source.is_empty()).then(|| Section::new("try", "Try your own ranges", parts))
+    let is_whole =
+        !study.source.is_empty() && study.source.parse().is_ok_and(|table| !names_files(&toml::Value::Table(table)));
+    (computes && is_whole).then(|| Section::new("try", "Try your own ranges", parts))
+}
+
+/// Whether a part of a study names a file of measured values.
+fn names_files(part: &toml::Value) -> bool {
+    match part {
+        toml::Value::Table(table) => table.iter().any(|(key, value)| key == "file" || names_files(value)),
+        toml::Value::Array(parts) => parts.iter().any(names_files),
+        _ => false,
+    }
 }
 
 /// How the answer came about.
