@@ -4,6 +4,7 @@ use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
 use ::apportion::{
     AnalysisOptions, CorrelationMeasure, Dependence, Distribution, EffectEstimates, Estimate, Study, function_model,
 };
+use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Normal factors with standard deviations `sd` and correlations `r`, and the output sum b x.
 pub struct Linear {
@@ -215,13 +216,53 @@ fn independent_factors_are_a_special_case() {
     for (found, exact) in zero.iter().zip([s1 + s13 / 2.0, s2, s13 / 2.0]) {
         assert!((found.shapley.unwrap().estimate - exact).abs() < 0.01, "{:?} {exact}", found.shapley);
     }
-    // x1 and x3 correlated: x2 has the same part of another variance. Kucherenko et al. (2012), test 3: at r = 0 and beyond, the
-    // total index of x2 equals its first-order index.
-    let tied = study(Some(Dependence::pair("x1", "x3", 0.7).measure(CorrelationMeasure::Normal)), true);
-    let tied = &tied.output("y").unwrap().indices.as_ref().unwrap().factors;
-    assert!((tied[1].first_order.estimate - tied[1].total.estimate).abs() < 0.01);
-    assert_eq!(tied[1].total, tied[1].dependent.unwrap().full_total);
-    assert!(tied[2].total.estimate < tied[2].dependent.unwrap().full_total.estimate);
+}
+
+/// Ishigami's function with x1 and x3 correlated (Kucherenko et al. 2012, test 3), by a midpoint rule over both normal scores.
+#[test]
+fn ishigami_with_correlated_factors_has_the_indices_of_quadrature() {
+    let pi = std::f64::consts::PI;
+    let model =
+        function_model("y", |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin());
+    let r: f64 = 0.7;
+    let options = AnalysisOptions { shapley: Some(true), ..AnalysisOptions::for_sampler(::apportion::Sampler::Sobol) };
+    let study = ["x1", "x2", "x3"]
+        .iter()
+        .fold(Study::builder("ishigami", model).base_samples(1 << 14).analysis(options), |builder, name| {
+            builder.factor(name, Distribution::uniform(-pi, pi).unwrap())
+        })
+        .dependence(Dependence::pair("x1", "x3", r).measure(CorrelationMeasure::Normal))
+        .build()
+        .unwrap();
+    let analysis = study.run().unwrap();
+    let cells = 400;
+    let score = |k: usize| 16.0 * (k as f64 + 0.5) / f64::from(cells as u32) - 8.0;
+    let value = |z: f64| pi * (2.0 * Normal::standard().cdf(z) - 1.0);
+    let nodes: Vec<(f64, f64)> = (0..cells).map(|k| (score(k), (-0.5 * score(k).powi(2)).exp())).collect();
+    let sum: f64 = nodes.iter().map(|(_, weight)| weight).sum();
+    let mean = |f: &dyn Fn(f64) -> f64| nodes.iter().map(|(z, weight)| weight * f(*z)).sum::<f64>() / sum;
+    // Of a function of one factor given the score of the other one.
+    let given = |f: &dyn Fn(f64) -> f64, z: f64| mean(&|e| f(value(r * z + (1.0 - r * r).sqrt() * e)));
+    let (sine, bend) = (|x: f64| x.sin(), |x: f64| 1.0 + 0.1 * x.powi(4));
+    let of_x1 = mean(&|z| (sine(value(z)) * given(&bend, z)).powi(2));
+    let of_x3 = mean(&|z| (given(&sine, z) * bend(value(z))).powi(2));
+    let product = mean(&|z| given(&|x| bend(x).powi(2), z) * sine(value(z)).powi(2));
+    // The mean of the product is 0, since the sine is odd.
+    let (of_x2, variance) = (49.0 / 8.0, product + 49.0 / 8.0);
+    let exact = [
+        ("x1", of_x1, product - of_x3, 0.5 * (of_x1 + product - of_x3)),
+        ("x2", of_x2, of_x2, of_x2),
+        ("x3", of_x3, product - of_x1, 0.5 * (of_x3 + product - of_x1)),
+    ];
+    for (name, first, total, shapley) in exact {
+        let effect = analysis.output("y").unwrap().factor(name).unwrap();
+        let found = [effect.first_order, effect.total, effect.shapley.unwrap()];
+        for (found, exact) in found.iter().zip([first, total, shapley]) {
+            assert!((found.estimate - exact / variance).abs() < 5e-3, "{name}: {found:?} {}", exact / variance);
+        }
+    }
+    let tied = analysis.output("y").unwrap().factor("x2").unwrap();
+    assert_eq!(tied.total, tied.dependent.unwrap().full_total);
 }
 
 /// 95 % intervals hold the truth in 92 to 98 % of the seeds: `cargo test --release -- --ignored intervals_of_dependent` prints the
