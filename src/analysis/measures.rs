@@ -38,8 +38,7 @@ impl FirstRows {
         let mut factors: Vec<Column> =
             known().map(|(_, factor)| Column { name: factor.name.clone(), values: Vec::new() }).collect();
         for replicate in 0..replicates {
-            let mut columns = vec![vec![0.0; points]; design.columns()];
-            design.replicate(replicate).fill(0, &mut columns);
+            let columns = design.first_points(replicate, points);
             for ((number, factor), column) in known().zip(&mut factors) {
                 let rows = columns[number].iter().zip(&columns[space.factors().len() + number]);
                 column.values.extend(rows.flat_map(|(a, b)| [*a, *b]).map(|u| factor.distribution().quantile(u)));

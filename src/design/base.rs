@@ -75,7 +75,8 @@ impl BasePoints {
         Self { steps, ..self }
     }
 
-    /// The points `first`, `first + 1`, ... into `columns`: one per dimension, all of one length; values in (0, 1).
+    /// The points `first`, `first + 1`, ... into `columns`, all of one length: one per dimension, or those of A and B alone; values in
+    /// (0, 1).
     pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
         self.fill_independent(first, columns);
         if let Some(mixed) = &self.mixed {

@@ -375,6 +375,13 @@ impl Design {
         (base / self.points_per_replicate(), base % self.points_per_replicate(), self.runs.runs[run as usize].kind)
     }
 
+    /// The first `points` base points of `replicate`: the columns of A, then those of B.
+    pub(crate) fn first_points(&self, replicate: u64, points: usize) -> Vec<Vec<f64>> {
+        let mut columns = vec![vec![0.0; points]; 2 * self.factors()];
+        self.replicate(replicate).fill(0, &mut columns);
+        columns
+    }
+
     /// Row number `row` of the design as a point of the unit cube: `u` has one entry per factor.
     pub fn point(&self, row: u64, u: &mut [f64]) {
         let (replicate, point, _) = self.locate(row);

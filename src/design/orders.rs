@@ -13,7 +13,7 @@ use std::sync::Arc;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::space::{Chain, Copula, GaussianCopula, KernelCopula, from_score};
+use crate::space::{Chain, CholeskyFactor, Copula, GaussianCopula, KernelCopula, from_score};
 
 /// Orders have a stream of their own, of every sampler.
 const ORDER_STREAM: u64 = 1 << 60;
@@ -89,10 +89,9 @@ impl OrderColumns {
 struct Redrawn {
     /// Those of the last player first, and the place of its player in the order.
     factors: Vec<(usize, usize)>,
-    /// Lower triangle, row by row.
-    lower: Vec<Vec<f64>>,
-    /// Innovations of A and of B.
-    innovations: Vec<[f64; 2]>,
+    lower: CholeskyFactor,
+    /// Those of A and of B.
+    innovations: [Vec<f64>; 2],
 }
 
 impl Redrawn {
@@ -101,25 +100,14 @@ impl Redrawn {
         let mut numbers: Vec<usize> = (0..a.len()).collect();
         numbers.sort_by_key(|number| std::cmp::Reverse(places[copula.dependent()[*number]]));
         let factors: Vec<usize> = numbers.iter().map(|number| copula.dependent()[*number]).collect();
-        let mut lower: Vec<Vec<f64>> = Vec::with_capacity(factors.len());
-        let mut innovations: Vec<[f64; 2]> = Vec::with_capacity(factors.len());
-        for (row, &factor) in factors.iter().enumerate() {
-            let mut of_row: Vec<f64> = Vec::with_capacity(row + 1);
-            for column in 0..row {
-                let known: f64 = (0..column).map(|k| of_row[k] * lower[column][k]).sum();
-                of_row.push((copula.correlation(factor, factors[column]) - known) / lower[column][column]);
-            }
-            // Above 0: the least eigenvalue of the matrix is.
-            let diagonal = (1.0 - of_row.iter().map(|l| l * l).sum::<f64>()).max(f64::MIN_POSITIVE).sqrt();
-            let rest = |scores: &[f64], matrix: usize| {
-                let known: f64 = of_row.iter().zip(&innovations).map(|(l, e)| l * e[matrix]).sum();
-                (scores[numbers[row]] - known) / diagonal
-            };
-            innovations.push([rest(a, 0), rest(b, 1)]);
-            of_row.push(diagonal);
-            lower.push(of_row);
+        let lower = CholeskyFactor::new(factors.len(), |row, column| copula.correlation(factors[row], factors[column]));
+        let [a, b] =
+            [a, b].map(|scores| lower.whiten(&numbers.iter().map(|number| scores[*number]).collect::<Vec<f64>>()));
+        Self {
+            factors: factors.into_iter().map(|factor| (factor, places[factor])).collect(),
+            lower,
+            innovations: [a, b],
         }
-        Self { factors: factors.into_iter().map(|factor| (factor, places[factor])).collect(), lower, innovations }
     }
 
     /// The score of every factor that is swapped in step `step` and drawn given others.
@@ -129,10 +117,10 @@ impl Redrawn {
             // Given nothing they are those of B, to the last bit.
             return;
         }
+        let [a, b] = &self.innovations;
+        let e = [&a[..kept], &b[kept..]].concat();
         for row in kept..self.factors.len() {
-            let matrix = |other: usize| usize::from(other >= kept);
-            let score = (0..=row).map(|other| self.lower[row][other] * self.innovations[other][matrix(other)]).sum();
-            of_factor(self.factors[row].0, score);
+            of_factor(self.factors[row].0, self.lower.score(row, &e));
         }
     }
 }

@@ -111,6 +111,10 @@ fn a_third_matrix_leaves_a_and_b_as_they_are_and_is_another_one() {
         plain.replicate(1).fill(0, &mut two);
         more.replicate(1).fill(0, &mut three);
         assert_eq!(two[..], three[..6], "{sampler:?}");
+        assert_eq!(
+            (plain.first_points(1, 16), more.first_points(1, 9)[5][..].to_vec()),
+            (two.clone(), two[5][..9].to_vec())
+        );
         assert!(three[6..].iter().flatten().all(|u| *u > 0.0 && *u < 1.0 && !two.concat().contains(u)));
     }
 }

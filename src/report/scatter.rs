@@ -39,12 +39,7 @@ impl FirstRows {
         let replicates = design.settings().replicates;
         let most = (NUMBERS / design.columns().max(1) as u64).clamp(FEWEST, MOST).min(SAMPLE);
         let points = (most / replicates).max(1).min(design.points_per_replicate()) as usize;
-        let rows = |replicate: u64| {
-            let mut columns = vec![vec![0.0; points]; design.columns()];
-            design.replicate(replicate).fill(0, &mut columns);
-            columns.truncate(2 * design.factors());
-            columns
-        };
+        let rows = |replicate: u64| design.first_points(replicate, points);
         Self { factors: design.factors(), replicates: (0..replicates).map(rows).collect() }
     }
 

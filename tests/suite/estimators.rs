@@ -45,7 +45,7 @@ fn every_estimator_is_within_its_error_of_every_closed_form_on_every_sampler() {
         let text = format!("model = \"{}\"", answer.name());
         let study = Study::parse(&text, Path::new("estimators.toml"), &[]).unwrap();
         for sampler in Sampler::ALL {
-            for base_samples in [512, 2048] {
+            for base_samples in [256, 1024] {
                 let all = estimates(&study, sampler, base_samples);
                 for (place, exact) in expected.iter().enumerate() {
                     let n = SEEDS as f64;

@@ -3,11 +3,13 @@
 use std::f64::consts::PI;
 
 use super::{BandwidthRule, Density, Sample};
+use crate::sum::product;
 
-/// Cells into which values are binned before any sum over kernels.
-const CELLS: usize = 1000;
 /// Intervals between the places at which the density is given.
 const STEPS: usize = 256;
+/// Cells in each of them, into which values are binned before any sum over kernels.
+const STEP: usize = 4;
+const CELLS: usize = STEPS * STEP;
 /// Fewest values for the plug-in rule.
 const FEWEST: usize = 20;
 /// Kernels are taken for zero this many bandwidths away.
@@ -24,9 +26,14 @@ pub(super) fn of(sample: &Sample<'_>) -> Density {
     let bandwidth = bandwidth.max(cells.width);
     let (low, high) = sample.reach;
     let ends = (sample.sorted[0], sample.sorted[sample.sorted.len() - 1]);
-    let x: Vec<f64> = (0..=STEPS).map(|k| low + (high - low) * k as f64 / STEPS as f64).collect();
+    let x = (0..=STEPS).map(|k| low + (high - low) * k as f64 / STEPS as f64).collect();
     let factor = 1.0 / (sample.n() * bandwidth * (2.0 * PI).sqrt());
-    let density = x.iter().map(|&x| factor * cells.kernel_sum(x, bandwidth, ends)).collect();
+    let mut density = vec![0.0; STEPS + 1];
+    cells.add_kernels(bandwidth, 0.0, 1, &mut density);
+    for end in [ends.0, ends.1] {
+        cells.add_kernels(bandwidth, 2.0 * (end - low) / cells.width, -1, &mut density);
+    }
+    density.iter_mut().for_each(|sum| *sum *= factor);
     Density { bandwidth, rule, x, density }
 }
 
@@ -38,7 +45,6 @@ fn silverman(sample: &Sample<'_>) -> f64 {
 /// Values counted in equal cells over the reach of the sample, each shared between the middles of the two cells next to
 /// it.
 struct Cells {
-    low: f64,
     width: f64,
     weights: Vec<f64>,
     count: usize,
@@ -56,30 +62,36 @@ impl Cells {
             weights[cell] += 1.0 - (place - cell as f64);
             weights[cell + 1] += place - cell as f64;
         }
-        Self { low, width, weights, count: values.len() }
+        Self { width, weights, count: values.len() }
     }
 
-    /// Sum of unnormalised kernels at `x`, with those of the values mirrored in both `ends`.
-    fn kernel_sum(&self, x: f64, bandwidth: f64, ends: (f64, f64)) -> f64 {
-        [x, 2.0 * ends.0 - x, 2.0 * ends.1 - x].into_iter().map(|x| self.plain_kernel_sum(x, bandwidth)).sum()
-    }
-
-    fn plain_kernel_sum(&self, x: f64, bandwidth: f64) -> f64 {
-        let place = |x: f64| ((x - self.low) / self.width).clamp(0.0, CELLS as f64);
-        let from = place(x - KERNEL_REACH * bandwidth).floor() as usize;
-        let to = place(x + KERNEL_REACH * bandwidth).ceil() as usize;
-        let kernel = |k: usize| {
-            let t = (x - self.low - k as f64 * self.width) / bandwidth;
-            self.weights[k] * libm::exp(-0.5 * t * t)
-        };
-        (from..=to).map(kernel).sum()
+    /// Adds the sums of unnormalised kernels at the places `first`, `first` + `direction` [`STEP`] and so on, in cells.
+    ///
+    /// All places are as far from the cells next to them, so that one table of the kernel is enough.
+    fn add_kernels(&self, bandwidth: f64, first: f64, direction: isize, sums: &mut [f64]) {
+        // Mirrored in an end far beyond the cells.
+        let farthest = 3 * CELLS as isize;
+        if first.abs() > farthest as f64 {
+            return;
+        }
+        let whole = first.floor() as isize;
+        let apart = |cells: isize| (first - whole as f64 - cells as f64) * self.width / bandwidth;
+        let reach = ((KERNEL_REACH * bandwidth / self.width).ceil() as isize + 1).min(2 * farthest);
+        let kernel: Vec<f64> = (-reach..=reach).map(|cells| libm::exp(-0.5 * apart(cells) * apart(cells))).collect();
+        for (k, sum) in sums.iter_mut().enumerate() {
+            let middle = whole + direction * (STEP * k) as isize;
+            let (from, to) = ((middle - reach).max(0), (middle + reach).min(CELLS as isize));
+            if from <= to {
+                let kernel = &kernel[(from - middle + reach) as usize..];
+                *sum += product(&self.weights[from as usize..=to as usize], kernel);
+            }
+        }
     }
 
     /// Number of pairs of values by their distance in cells, from 0.
     fn pairs_by_lag(&self) -> Vec<f64> {
         let w = &self.weights;
-        let at = |lag: usize| w.iter().zip(&w[lag..]).map(|(a, b)| a * b).sum::<f64>();
-        let mut pairs: Vec<f64> = (0..w.len()).map(at).collect();
+        let mut pairs: Vec<f64> = (0..w.len()).map(|lag| product(w, &w[lag..])).collect();
         pairs[0] = 0.5 * (pairs[0] - self.count as f64);
         pairs
     }
@@ -124,6 +136,30 @@ fn plug_in(sample: &Sample<'_>, cells: &Cells) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn densities_are_the_sums_over_all_cells_and_their_images() {
+        // Mirrors between the cells, at them, and far away; kernels from narrow to wide.
+        let sorted: Vec<f64> = (0..60).map(|k| libm::sinh(f64::from(k) * 0.1) / 10.0).collect();
+        let sample = Sample::of(&sorted, 5.0);
+        let cells = Cells::of(&sample);
+        for (first, direction) in [(0.0, 1), (0.0, -1), (-3.25, -1), (1024.6, -1), (2048.0, -1), (1e300, -1)] {
+            for bandwidth in [1.0, 30.0, 5000.0].map(|cell| cell * cells.width) {
+                let mut sums = vec![0.5; STEPS + 1];
+                cells.add_kernels(bandwidth, first, direction, &mut sums);
+                for (k, sum) in sums.into_iter().enumerate() {
+                    let place = first + direction as f64 * (STEP * k) as f64;
+                    let kernel = |cell: usize| {
+                        let t = (place - cell as f64) * cells.width / bandwidth;
+                        cells.weights[cell] * libm::exp(-0.5 * t * t)
+                    };
+                    let expected: f64 = 0.5 + (0..=CELLS).map(kernel).sum::<f64>();
+                    // Kernels end where they are 1e-14.
+                    assert!((sum - expected).abs() < 1e-11, "{first} {bandwidth} {k}: {sum} {expected}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn the_functionals_are_the_sums_over_all_pairs() {

@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 
 use nalgebra::DMatrix;
 
+use super::CholeskyFactor;
 use crate::special::{normal_below, normal_quantile};
 
 /// A mixture of normal distributions of one covariance `width`^2 S around centres, its factors in some order.
@@ -14,8 +15,7 @@ use crate::special::{normal_below, normal_quantile};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Chain {
     width: f64,
-    /// L, row by row.
-    lower: Vec<Vec<f64>>,
+    lower: CholeskyFactor,
     /// e of the centres, a list for each factor.
     centres: Vec<Vec<f64>>,
 }
@@ -26,24 +26,15 @@ const LEAST_LOG_WEIGHT: f64 = -42.0;
 impl Chain {
     /// The mixture with these centres, a list of scores for each factor, taken in `order`. `correlation` is S, positive definite.
     pub fn new(width: f64, correlation: &DMatrix<f64>, centres: &[Vec<f64>], order: &[usize]) -> Self {
-        let mut lower: Vec<Vec<f64>> = Vec::with_capacity(order.len());
-        for (row, &factor) in order.iter().enumerate() {
-            let mut of_row: Vec<f64> = Vec::with_capacity(row + 1);
-            for column in 0..row {
-                let known: f64 = (0..column).map(|k| of_row[k] * lower[column][k]).sum();
-                of_row.push((correlation[(factor, order[column])] - known) / lower[column][column]);
-            }
-            // Above 0: the least eigenvalue of the matrix is.
-            of_row.push((1.0 - of_row.iter().map(|l| l * l).sum::<f64>()).max(f64::MIN_POSITIVE).sqrt());
-            lower.push(of_row);
-        }
+        let lower = CholeskyFactor::new(order.len(), |row, column| correlation[(order[row], order[column])]);
         let mut whitened: Vec<Vec<f64>> = Vec::with_capacity(order.len());
         for (row, &factor) in order.iter().enumerate() {
             let mut own = centres[factor].clone();
-            for (before, weight) in whitened.iter().zip(&lower[row]) {
+            let weights = lower.row(row);
+            for (before, weight) in whitened.iter().zip(weights) {
                 own.iter_mut().zip(before).for_each(|(own, before)| *own -= weight * before);
             }
-            own.iter_mut().for_each(|own| *own /= lower[row][row]);
+            own.iter_mut().for_each(|own| *own /= weights[row]);
             whitened.push(own);
         }
         Self { width, lower, centres: whitened }
@@ -51,17 +42,12 @@ impl Chain {
 
     /// e of the scores of the first factors, in the order of the chain.
     pub fn whiten(&self, scores: &[f64]) -> Vec<f64> {
-        let mut e: Vec<f64> = Vec::with_capacity(scores.len());
-        for (score, lower) in scores.iter().zip(&self.lower) {
-            let known: f64 = e.iter().zip(lower).map(|(e, l)| e * l).sum();
-            e.push((score - known) / lower[e.len()]);
-        }
-        e
+        self.lower.whiten(scores)
     }
 
     /// The score of the factor at `place` of a point with this e, which may end there.
     pub fn score(&self, place: usize, e: &[f64]) -> f64 {
-        self.lower[place].iter().zip(e).map(|(l, e)| l * e).sum()
+        self.lower.score(place, e)
     }
 
     /// What the factors from place `given` on have beside those before them: normal scores that are independent of these and of each
@@ -124,16 +110,16 @@ impl Weights {
         weights.extend(logarithms.iter().map(|&logarithm| libm::exp(logarithm)));
     }
 
-    fn mixture(&self, centres: &[f64], width: f64) -> Mixture {
+    fn mixture(&self, centres: &[f64], width: f64) -> Mixture<'_> {
         let centres = self.kernels.iter().map(|&kernel| centres[kernel]).collect();
-        Mixture { centres, weights: self.weights.clone(), width }
+        Mixture { centres, weights: &self.weights, width }
     }
 }
 
 /// A mixture of normal distributions of one width on a line.
-pub(super) struct Mixture {
+pub(super) struct Mixture<'a> {
     pub centres: Vec<f64>,
-    pub weights: Vec<f64>,
+    pub weights: &'a [f64],
     pub width: f64,
 }
 
@@ -181,12 +167,12 @@ const LAST_STEP: f64 = 1e-7;
 /// Beyond this score double precision knows no probabilities.
 const LARGEST_SCORE: f64 = 37.0;
 
-impl Mixture {
+impl Mixture<'_> {
     /// Its distribution function at `x` and its density, both times the sum of the weights. `sign` -1 is that of the mixture seen in
     /// a mirror.
     fn below(&self, x: f64, sign: f64) -> (f64, f64) {
         let (mut below, mut density) = (0.0, 0.0);
-        for (centre, weight) in self.centres.iter().zip(&self.weights) {
+        for (centre, weight) in self.centres.iter().zip(self.weights) {
             let z = (x - sign * centre) / self.width;
             if z > FARTHEST {
                 below += weight;
@@ -225,7 +211,7 @@ impl Mixture {
         let target = normal_below(score) * sum;
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut mean, mut squares) = (0.0, 0.0);
-        for (centre, weight) in self.centres.iter().zip(&self.weights) {
+        for (centre, weight) in self.centres.iter().zip(self.weights) {
             let centre = sign * centre;
             (low, high) = (low.min(centre), high.max(centre));
             mean += weight * centre;
@@ -283,7 +269,7 @@ mod tests {
             ((0..500).map(|k| normal_quantile((f64::from(k) + 0.5) / 500.0)).collect(), vec![1.0; 500], 0.3),
         ];
         for (centres, weights, width) in mixtures {
-            let mixture = Mixture { centres, weights, width };
+            let mixture = Mixture { centres, weights: &weights, width };
             for score in [-9.0, -8.0, -3.0, -0.8, 0.0, 1e-9, 0.5, 2.0, 7.0, 8.1] {
                 let x = mixture.quantile(score);
                 let again = mixture.normal_score(x);

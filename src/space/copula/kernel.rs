@@ -171,7 +171,7 @@ impl Margin {
     fn new(centres: &[f64], width: f64) -> Self {
         let low = centres.iter().copied().fold(f64::INFINITY, f64::min) - MARGIN * width;
         let high = centres.iter().copied().fold(f64::NEG_INFINITY, f64::max) + MARGIN * width;
-        let mixture = Mixture { centres: centres.to_vec(), weights: vec![1.0; centres.len()], width };
+        let mixture = Mixture { centres: centres.to_vec(), weights: &vec![1.0; centres.len()], width };
         let step = (high - low) / STEPS as f64;
         let point = |k: usize| {
             let x = low + step * k as f64;
@@ -286,7 +286,7 @@ mod tests {
         let centres: Vec<f64> = (0..40).map(|k| libm::sin(f64::from(k)) * 2.0).collect();
         for width in [0.088, 0.5, 1.0] {
             let margin = Margin::new(&centres, width);
-            let mixture = Mixture { centres: centres.clone(), weights: vec![1.0; 40], width };
+            let mixture = Mixture { centres: centres.clone(), weights: &[1.0; 40], width };
             for k in -90..=81 {
                 let score = f64::from(k) / 10.0 + 0.0137;
                 let x = margin.inverse(score);

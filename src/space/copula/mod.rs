@@ -1,10 +1,12 @@
 //! How factors depend on each other: by a Gaussian copula, and by kernels around joint measurements.
 
 mod chain;
+mod cholesky;
 mod gaussian;
 mod kernel;
 
 pub(crate) use chain::Chain;
+pub(crate) use cholesky::CholeskyFactor;
 pub(crate) use gaussian::GaussianCopula;
 pub(crate) use kernel::{Joint, KernelCopula};
 

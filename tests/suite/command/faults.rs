@@ -134,13 +134,13 @@ fn a_line_too_many_is_not_taken_for_the_next_answer() {
 fn a_hanging_program_is_ended_and_started_again() {
     // A child of it would hold the pipes, were it not ended too.
     let hangs =
-        "    if 0.98 < x[0]:\n        import subprocess; subprocess.run(['sleep', '1000'])\n    print(y, flush=True)\n";
+        "    if 0.99 < x[0]:\n        import subprocess; subprocess.run(['sleep', '1000'])\n    print(y, flush=True)\n";
     // Long enough for a very busy machine to start Python.
-    let case = Case::each_row("timeout = \"5 s\"\nretries = 0", hangs);
+    let case = Case::each_row("timeout = \"3 s\"\nretries = 0", hangs);
     let (result, _) = case.result();
-    let bad = rows_where(|x| x > 0.98);
+    let bad = rows_where(|x| x > 0.99);
     assert!(bad > 0);
-    assert_eq!(failures(&result.outputs[0]), [("no answer within 5 s", bad)]);
+    assert_eq!(failures(&result.outputs[0]), [("no answer within 3 s", bad)]);
 }
 
 #[test]
@@ -199,12 +199,12 @@ fn check_tells_of_rows_that_fail() {
 
 #[test]
 fn check_tells_the_start_of_a_program_from_its_runs() {
-    let slow = Case::new("", &format!("import time\ntime.sleep(2.5)\n{}    print(y, flush=True)\n", super::LOOP));
+    let slow = Case::new("", &format!("import time\ntime.sleep(1.2)\n{}    print(y, flush=True)\n", super::LOOP));
     let told = succeed(&["check", text(&slow.path("study.toml"))]);
     let cost = told.lines().find(|line| line.starts_with("cost: ")).unwrap();
-    // 160 rows at 2.5 s would be minutes.
+    // 160 rows at 1.2 s would be minutes.
     let about: f64 = cost.split("about ").nth(1).unwrap().split(" s").next().unwrap().parse().unwrap();
-    assert!((2.0..30.0).contains(&about), "{cost}");
+    assert!((1.0..30.0).contains(&about), "{cost}");
     assert!(cost.contains(" s of that to start the program"), "{cost}");
     let quick =
         Case::each_row("", "    print(y, flush=True)\n    n = globals().get('n', 0) + 1\n    if n == 30: print(y)\n");
