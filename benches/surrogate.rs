@@ -1,6 +1,6 @@
 //! What surrogates do for the indices: errors and coverage, plain and corrected, at equal runs.
 //!
-//! `cargo bench --bench surrogate` writes `docs/accuracy/surrogate.csv` and `docs/accuracy/surrogate.md` (some 8 minutes on two cores);
+//! `cargo bench --bench surrogate` writes `docs/accuracy/surrogate.csv` and `docs/accuracy/surrogate.md` (some half an hour on two cores);
 //! `cargo bench --bench surrogate -- 40 64,256 ishigami,borehole` takes 40 seeds, those sizes and functions, and writes
 //! nothing.
 //!
@@ -15,7 +15,7 @@ use apportion::{Estimate, OutputIndices, Study};
 use rayon::prelude::*;
 
 /// Base samples in all and seeds.
-const SIZES: [(u64, u64); 4] = [(16, 40), (64, 100), (256, 40), (1024, 8)];
+const SIZES: [(u64, u64); 5] = [(16, 200), (64, 200), (256, 200), (1024, 40), (4096, 8)];
 
 /// Base samples up to which split designs of as many runs are measured.
 const MOST_SPLIT: u64 = 64;

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, LazyLock};
 
+use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, PixelDimensions, Unit};
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb, roxmltree};
 use thiserror::Error;
@@ -100,23 +101,25 @@ pub fn png(svg: &str) -> Result<Png, PngError> {
     let mut pixels = Pixmap::new(width as u32, height as u32).ok_or_else(too_large)?;
     pixels.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale as f32, scale as f32), &mut pixels.as_mut());
-    let bytes = pixels.encode_png().map_err(|error| PngError::Encode(error.to_string()))?;
-    let bytes = with_density(bytes, scale * CSS_DPI);
+    let bytes = encoded(&pixels, scale * CSS_DPI).map_err(|error| PngError::Encode(error.to_string()))?;
     Ok(Png { bytes, width: pixels.width(), height: pixels.height(), missing })
 }
 
-/// The file with its pixels per inch, in a chunk pHYs behind the first one, IHDR (PNG, third edition, 11.3.4.3).
-fn with_density(mut png: Vec<u8>, dpi: f64) -> Vec<u8> {
-    // Signature of 8 bytes; length, name, 13 bytes and checksum of IHDR.
-    const BEFORE: usize = 8 + 4 + 4 + 13 + 4;
+/// The file of an opaque picture with its pixels per inch. Lines on plain ground repeat themselves: filters, which guess a pixel from
+/// its neighbours, make the files of charts larger; higher levels take longer and save little.
+fn encoded(pixels: &Pixmap, dpi: f64) -> Result<Vec<u8>, EncodingError> {
     const METRE: f64 = 39.370_078_740_157_48;
-    let per_metre = ((dpi * METRE).round() as u32).to_be_bytes();
-    let named = [&b"pHYs"[..], &per_metre, &per_metre, &[1]].concat();
-    let chunk = [&9_u32.to_be_bytes()[..], &named, &crc32fast::hash(&named).to_be_bytes()].concat();
-    if png.len() >= BEFORE {
-        png.splice(BEFORE..BEFORE, chunk);
-    }
-    png
+    let per_metre = (dpi * METRE).round() as u32;
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, pixels.width(), pixels.height());
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_deflate_compression(DeflateCompression::Level(3));
+    encoder.set_filter(Filter::NoFilter);
+    encoder.set_pixel_dims(Some(PixelDimensions { xppu: per_metre, yppu: per_metre, unit: Unit::Meter }));
+    let colours: Vec<u8> = pixels.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    encoder.write_header()?.write_image_data(&colours)?;
+    Ok(file)
 }
 
 /// The smallest rectangle that holds every mark and letter, as (left, top, right, bottom), px, and the size of the view.
