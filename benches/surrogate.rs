@@ -1,6 +1,7 @@
 //! What surrogates do for the indices: errors and coverage, plain and corrected, at equal runs.
 //!
-//! `cargo bench --bench surrogate` writes `docs/accuracy/surrogate.csv` and `docs/accuracy/surrogate.md` (some half an hour on two cores);
+//! `cargo bench --bench surrogate` writes `docs/accuracy/surrogate.csv` and `docs/accuracy/surrogate.md` (some half an hour on two
+//! cores);
 //! `cargo bench --bench surrogate -- 40 64,256 ishigami,borehole` takes 40 seeds, those sizes and functions, and writes
 //! nothing.
 //!

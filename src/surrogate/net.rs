@@ -112,13 +112,17 @@ impl Net {
         (0..count).map(row).map(|row| (row / self.points, row % self.points)).collect()
     }
 
-    /// The values of `term` at some rows.
+    /// The values of `term` at some rows, in the order of the runs.
     pub fn at(&self, term: &Term, rows: &[(usize, usize)]) -> Vec<f64> {
         let mut values = vec![1.0; rows.len()];
-        for (factor, degree) in term {
-            for (value, (run, point)) in values.iter_mut().zip(rows) {
-                *value *= self.column(*run, *factor, *degree)[*point];
+        let mut rest = &mut values[..];
+        for rows in rows.chunk_by(|a, b| a.0 == b.0) {
+            let (of_run, after) = rest.split_at_mut(rows.len());
+            for (factor, degree) in term {
+                let column = self.column(rows[0].0, *factor, *degree);
+                of_run.iter_mut().zip(rows).for_each(|(value, (_, point))| *value *= column[*point]);
             }
+            rest = after;
         }
         values
     }

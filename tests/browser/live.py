@@ -1,12 +1,13 @@
 """Tries pages of `apportion live` in a headless Chromium against the program.
 
-    python tests/browser/live.py PROGRAM [--browser PATH] [--engine FILE] [--shots DIR] [--drags N]
+    python tests/browser/live.py PROGRAM [--browser PATH] [--engine FILE] [--shots DIR] [--drags N] [--bits]
 
 Of five studies (three laws of friction, formulas, a known function): every number of the result of the page equals that of the
 program, bit for bit. Of one: sliders by keyboard and by pointer, fixing, undo, a link that restores, "copy as study.toml" that runs in
 the program, a damaged link, no request beyond the page, no message on the console, and what the page shows without scripts.
 With `--engine` the pages have that engine (gzip in base64) in the place of their own. Times are printed, not judged; `--drags`
-moves a slider so many times and prints the memory of the page before and after. Exit code 1 if anything is wrong.
+moves a slider so many times and prints the memory of the page before and after; with `--bits` numbers are compared and nothing else.
+Exit code 1 if anything is wrong.
 """
 
 import argparse
@@ -247,6 +248,7 @@ def main():
     parser.add_argument("--engine", type=Path)
     parser.add_argument("--shots", type=Path)
     parser.add_argument("--drags", type=int, default=0)
+    parser.add_argument("--bits", action="store_true", help="compare the numbers alone")
     arguments = parser.parse_args()
     arguments.program = str(Path(arguments.program).resolve())
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
@@ -264,9 +266,10 @@ def main():
             expect(size <= LARGEST_PAGE, f"{name}: the page has {size} bytes, more than {LARGEST_PAGE}")
         browser = Browser(playwright, arguments.browser)
         same_bits(arguments, browser, pages, folder)
-        page = behaviour(arguments, browser, pages["coulomb-general"], folder)
-        if arguments.drags:
-            drags(page, arguments.drags)
+        if not arguments.bits:
+            page = behaviour(arguments, browser, pages["coulomb-general"], folder)
+            if arguments.drags:
+                drags(page, arguments.drags)
         if arguments.shots:
             arguments.shots.mkdir(parents=True, exist_ok=True)
             for width, height in ((1280, 900), (390, 844)):
