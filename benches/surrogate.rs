@@ -1,13 +1,14 @@
 //! What surrogates do for the indices: errors and coverage, plain and corrected, at equal runs.
 //!
-//! `cargo bench --bench surrogate` writes `docs/accuracy/surrogate.csv` and `docs/accuracy/surrogate.md` (some half an hour on two
-//! cores);
-//! `cargo bench --bench surrogate -- 40 64,256 ishigami,borehole` takes 40 seeds, those sizes and functions, and writes
-//! nothing.
+//! `cargo bench --bench surrogate` measures all of it and writes `docs/accuracy/surrogate.csv` and
+//! `docs/accuracy/surrogate.md` (some forty minutes on two cores). `cargo bench --bench surrogate -- 40 64,256
+//! ishigami,borehole` takes 40 seeds, those sizes and functions, and writes nothing; with `write` as a fourth argument their
+//! rows take the place of those in the table, function by function, and the others stay (`all` stands for every function).
 //!
 //! The plain indices are today's default ones without surrogates. Those of before are of four nets by the formulas of Saltelli
 //! (2010) and Jansen, those of one net are what other programs do, and those of a split design have the same number of runs.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -28,6 +29,7 @@ const SMOOTH: [&str; 9] =
 const ROUGH: [&str; 7] = ["sobol-g", "g-star", "steps", "minimum", "simplex", "morris", "oakley-ohagan"];
 /// Rare, large outputs, and one of 0 and 1.
 const SKEWED: [&str; 4] = ["sobol-g, a = 0", "log-normal product", "rare corner", "0 and 1"];
+const KINDS: [(&str, &[&str]); 3] = [("smooth", &SMOOTH), ("rough", &ROUGH), ("skewed", &SKEWED)];
 const PRODUCT_FORM: &str = "afm product form";
 
 struct Case {
@@ -193,11 +195,78 @@ fn measured(case: &Case, size: u64, seeds: u64) -> (Row, f64, f64) {
     (row.expect("seeds"), explained, used)
 }
 
-/// Gains of one function and size: over the default of before, over one net, and of a split design over the unsplit one.
-struct Gain {
-    kind: &'static str,
+/// One row of the table: a function, a size and a kind of index, by every method.
+struct Cell {
+    kind: String,
+    function: String,
     size: u64,
-    of: [f64; 3],
+    seeds: u64,
+    index: String,
+    rmse: [f64; METHODS.len()],
+    coverage: [f64; METHODS.len()],
+    width: [f64; METHODS.len()],
+    explained: f64,
+    used: f64,
+}
+
+impl Cell {
+    fn header() -> String {
+        let columns = |what: &str| METHODS.map(|method| format!("{what}_{method}")).join(",");
+        let [rmse, coverage, width] = ["rmse", "coverage", "width"].map(columns);
+        format!("kind,function,base_samples,seeds,index,{rmse},{coverage},{width},explained,used\n")
+    }
+
+    fn to_line(&self) -> String {
+        let Self { kind, function, size, seeds, index, explained, used, .. } = self;
+        let rmse = self.rmse.map(|value| format!("{value:.3e}")).join(",");
+        let coverage = self.coverage.map(|value| format!("{value:.4}")).join(",");
+        let width = self.width.map(|value| format!("{value:.3}")).join(",");
+        format!("{kind},\"{function}\",{size},{seeds},{index},{rmse},{coverage},{width},{explained:.5},{used:.3}\n")
+    }
+
+    fn from_record(record: &csv::StringRecord) -> Self {
+        let number = |place: usize| record[place].parse::<f64>().expect("a number");
+        let methods = |place: usize| std::array::from_fn(|method| number(5 + place * METHODS.len() + method));
+        let last = 5 + 3 * METHODS.len();
+        Self {
+            kind: record[0].to_owned(),
+            function: record[1].to_owned(),
+            size: number(2) as u64,
+            seeds: number(3) as u64,
+            index: record[4].to_owned(),
+            rmse: methods(0),
+            coverage: methods(1),
+            width: methods(2),
+            explained: number(last),
+            used: number(last + 1),
+        }
+    }
+}
+
+/// The rows of the table as it was written before; none if it is not there.
+fn written_before(path: &Path) -> Vec<Cell> {
+    let Ok(mut reader) = csv::Reader::from_path(path) else { return Vec::new() };
+    reader.records().map(|record| Cell::from_record(&record.expect("a row"))).collect()
+}
+
+/// First-order and total indices of one function at one size.
+fn measured_cells(kind: &str, function: &str, (size, seeds): (u64, u64)) -> [Cell; 2] {
+    let (row, explained, used) = measured(&case(function), size, seeds);
+    [("S", 0), ("ST", 1)].map(|(index, place)| {
+        let of = row.map(|errors| errors[place]);
+        Cell {
+            kind: kind.to_owned(),
+            function: function.to_owned(),
+            size,
+            seeds,
+            index: index.to_owned(),
+            rmse: of.map(|errors| errors.rmse()),
+            coverage: of.map(|errors| errors.coverage()),
+            width: of.map(|errors| errors.relative_width()),
+            explained,
+            used,
+        }
+    })
 }
 
 /// Geometric mean and least of some gains.
@@ -210,68 +279,14 @@ fn mean_and_least(gains: &[f64]) -> String {
     format!("{mean:.2}, {least:.2}")
 }
 
-/// Cells (function, size, index) whose coverage is below .92, from .92 to .98, and above.
-fn cells(coverages: &[f64]) -> [usize; 3] {
-    let count = |fits: fn(f64) -> bool| coverages.iter().filter(|coverage| fits(**coverage)).count();
-    [count(|c| c < 0.92), count(|c| (0.92..=0.98).contains(&c)), count(|c| c > 0.98)]
+/// How many coverages are below .92, from .92 to .98, and above.
+fn counts(coverages: &[f64]) -> String {
+    let count = |fits: fn(f64) -> bool| coverages.iter().filter(|coverage| fits(**coverage)).count().to_string();
+    [count(|c| c < 0.92), count(|c| (0.92..=0.98).contains(&c)), count(|c| c > 0.98)].join(", ")
 }
 
-fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|text| text != "--bench").collect();
-    let seeds: Option<u64> = arguments.first().and_then(|text| text.parse().ok());
-    let asked: Option<Vec<u64>> =
-        arguments.get(1).map(|text| text.split(',').filter_map(|size| size.parse().ok()).collect());
-    let sizes: Vec<(u64, u64)> = match asked {
-        None => SIZES.iter().map(|(size, usual)| (*size, seeds.unwrap_or(*usual))).collect(),
-        Some(sizes) => sizes.into_iter().map(|size| (size, seeds.unwrap_or(40))).collect(),
-    };
-    let all = [("smooth", &SMOOTH[..]), ("rough", &ROUGH[..]), ("skewed", &SKEWED[..])];
-    let columns = |what: &str| METHODS.map(|method| format!("{what}_{method}")).join(",");
-    let mut csv = format!(
-        "kind,function,base_samples,seeds,index,{},{},{},explained,used\n",
-        columns("rmse"),
-        columns("coverage"),
-        columns("width")
-    );
-    let mut gains: Vec<Gain> = Vec::new();
-    let mut coverages: Vec<(u64, f64, f64)> = Vec::new();
-    for (kind, names) in all {
-        for name in names.iter().filter(|name| arguments.get(2).is_none_or(|list| list.split(',').any(|n| n == **name)))
-        {
-            let case = case(name);
-            for &(size, seeds) in &sizes {
-                let (row, explained, used) = measured(&case, size, seeds);
-                for (index, place) in [("S", 0), ("ST", 1)] {
-                    let of = row.map(|errors| errors[place]);
-                    let over = |method: usize| of[method].rmse() / of[0].rmse();
-                    gains.push(Gain { kind, size, of: [over(3), over(4), of[0].rmse() / of[1].rmse()] });
-                    coverages.push((size, of[0].coverage(), of[2].coverage()));
-                    println!(
-                        "{name:18} {size:5} {index:2} rmse {:.1e} split {:.1e} plain {:.1e} before {:.1e} one {:.1e} coverage \
-                         {:.3} {:.3} {:.3} width {:.2} {:.2} Q2 {explained:.4} used {used:.2}",
-                        of[0].rmse(),
-                        of[1].rmse(),
-                        of[2].rmse(),
-                        of[3].rmse(),
-                        of[4].rmse(),
-                        of[0].coverage(),
-                        of[1].coverage(),
-                        of[2].coverage(),
-                        of[0].relative_width(),
-                        of[2].relative_width(),
-                    );
-                    let list = |value: &dyn Fn(&Errors) -> String| of.each_ref().map(value).join(",");
-                    let _ = writeln!(
-                        csv,
-                        "{kind},\"{name}\",{size},{seeds},{index},{},{},{},{explained:.5},{used:.3}",
-                        list(&|errors| format!("{:.3e}", errors.rmse())),
-                        list(&|errors| format!("{:.4}", errors.coverage())),
-                        list(&|errors| format!("{:.3}", errors.relative_width())),
-                    );
-                }
-            }
-        }
-    }
+/// Gains by kind of function and size, and coverages by size.
+fn summary(cells: &[Cell]) -> String {
     let mut text = "# Indices corrected by surrogates\n\nRoot mean square errors of all first-order and total indices at equal \
                     runs, N base samples in all: how many times smaller with surrogates than those of the default of before \
                     (four nets, formulas of Saltelli 2010 and Jansen 1999), and than those of a single Saltelli net by the \
@@ -282,34 +297,61 @@ fn main() {
                     | functions | N | seeds | gain over the default of before: geometric mean, least | over one net | of a split design |\n\
                     |---|---|---|---|---|---|\n"
         .to_owned();
-    for (kind, _) in all {
-        for (size, seeds) in &sizes {
-            let of = |which: usize| -> Vec<f64> {
-                let here = gains.iter().filter(|gain| gain.kind == kind && gain.size == *size);
-                here.map(|gain| gain.of[which]).collect()
+    let sizes: BTreeSet<u64> = cells.iter().map(|cell| cell.size).collect();
+    for (kind, _) in KINDS {
+        for &size in &sizes {
+            let here = || cells.iter().filter(|cell| cell.kind == kind && cell.size == size);
+            let Some(seeds) = here().map(|cell| cell.seeds).min() else { continue };
+            let gains = |of: fn(&[f64; METHODS.len()]) -> f64| {
+                mean_and_least(&here().map(|cell| of(&cell.rmse)).collect::<Vec<_>>())
             };
-            let [before, one, split] = [0, 1, 2].map(|which| mean_and_least(&of(which)));
-            let line = format!("| {kind} | {size} | {seeds} | {before} | {one} | {split} |");
-            println!("{line}");
-            text.push_str(&format!("{line}\n"));
+            let [before, one, split] =
+                [gains(|rmse| rmse[3] / rmse[0]), gains(|rmse| rmse[4] / rmse[0]), gains(|rmse| rmse[0] / rmse[1])];
+            let _ = writeln!(text, "| {kind} | {size} | {seeds} | {before} | {one} | {split} |");
         }
     }
     text.push_str(
         "\nCoverage of the 95 % intervals: cells (function and kind of index) below .92, from .92 to .98, and above; with \
          surrogates, and without.\n\n| N | with | without |\n|---|---|---|\n",
     );
-    for (size, _) in &sizes {
-        let here = || coverages.iter().filter(|cell| cell.0 == *size);
-        let [with, without] = [here().map(|cell| cell.1).collect(), here().map(|cell| cell.2).collect()]
-            .map(|list: Vec<f64>| cells(&list).map(|count| count.to_string()).join(", "));
-        let line = format!("| {size} | {with} | {without} |");
-        println!("{line}");
-        text.push_str(&format!("{line}\n"));
+    for size in sizes {
+        let coverages = |method: usize| {
+            counts(&cells.iter().filter(|cell| cell.size == size).map(|cell| cell.coverage[method]).collect::<Vec<_>>())
+        };
+        let _ = writeln!(text, "| {size} | {} | {} |", coverages(0), coverages(2));
     }
-    if arguments.is_empty() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy");
-        std::fs::create_dir_all(&folder).expect("a folder");
-        std::fs::write(folder.join("surrogate.csv"), csv).expect("a file");
-        std::fs::write(folder.join("surrogate.md"), text).expect("a file");
+    text
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|text| text != "--bench").collect();
+    let seeds: Option<u64> = arguments.first().and_then(|text| text.parse().ok());
+    let sizes: Vec<(u64, u64)> = match arguments.get(1) {
+        None => SIZES.iter().map(|(size, usual)| (*size, seeds.unwrap_or(*usual))).collect(),
+        Some(list) => list.split(',').map(|size| (size.parse().expect("a size"), seeds.unwrap_or(40))).collect(),
+    };
+    let is_asked = |name: &str| arguments.get(2).is_none_or(|list| list == "all" || list.split(',').any(|n| n == name));
+    let writes = arguments.is_empty() || arguments.get(3).is_some_and(|word| word == "write");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy");
+    let table = folder.join("surrogate.csv");
+    let mut cells = if arguments.len() == 4 { written_before(&table) } else { Vec::new() };
+    let order: Vec<&str> = KINDS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+    for (kind, name) in KINDS.iter().flat_map(|(kind, names)| names.iter().map(move |name| (kind, name))) {
+        for &size in sizes.iter().filter(|_| is_asked(name)) {
+            cells.retain(|cell| !(cell.function == *name && cell.size == size.0));
+            for cell in measured_cells(kind, name, size) {
+                print!("{}", cell.to_line());
+                cells.push(cell);
+            }
+        }
+        if writes {
+            let place = |cell: &Cell| (order.iter().position(|name| **name == cell.function), cell.size);
+            cells.sort_by_key(place);
+            std::fs::create_dir_all(&folder).expect("a folder");
+            let lines: String = cells.iter().map(Cell::to_line).collect();
+            std::fs::write(&table, Cell::header() + &lines).expect("a file");
+            std::fs::write(folder.join("surrogate.md"), summary(&cells)).expect("a file");
+        }
     }
+    println!("{}", summary(&cells));
 }
