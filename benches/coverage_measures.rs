@@ -138,7 +138,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-fn study(case: &Case, method: ShapleyMethod, (base_samples, seed): (u64, u64)) -> Study {
+fn study(case: &Case, method: ShapleyMethod, base_samples: u64, seed: u64) -> Study {
     let options = AnalysisOptions {
         shapley_method: Some(method),
         surrogate: SurrogateChoice::Off,
@@ -192,7 +192,7 @@ fn shapley(text: &mut String, seeds: u64) {
             let cell = |n: u64| {
                 let mut held = Held::default();
                 for seed in 0..seeds {
-                    let study = study(&case, method, (n, seed));
+                    let study = study(&case, method, n, seed);
                     if study.design().rows() > MOST_RUNS {
                         return "–".to_owned();
                     }

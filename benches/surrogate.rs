@@ -250,7 +250,7 @@ fn written_before(path: &Path) -> Vec<Cell> {
 }
 
 /// First-order and total indices of one function at one size.
-fn measured_cells(kind: &str, function: &str, (size, seeds): (u64, u64)) -> [Cell; 2] {
+fn measured_cells(kind: &str, function: &str, size: u64, seeds: u64) -> [Cell; 2] {
     let (row, explained, used) = measured(&case(function), size, seeds);
     [("S", 0), ("ST", 1)].map(|(index, place)| {
         let of = row.map(|errors| errors[place]);
@@ -339,7 +339,7 @@ fn main() {
     for (kind, name) in KINDS.iter().flat_map(|(kind, names)| names.iter().map(move |name| (kind, name))) {
         for &size in sizes.iter().filter(|_| is_asked(name)) {
             cells.retain(|cell| !(cell.function == *name && cell.size == size.0));
-            for cell in measured_cells(kind, name, size) {
+            for cell in measured_cells(kind, name, size.0, size.1) {
                 print!("{}", cell.to_line());
                 cells.push(cell);
             }

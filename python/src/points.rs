@@ -45,7 +45,7 @@ pub fn given_data(
         let indices = analyse(&inputs, &outputs, method, seed).map_err(input)?;
         let surrogates = surrogate.then(|| surrogate_indices(&inputs, &outputs, &indices, laws.as_deref()));
         let facts = GivenFacts { file: name.to_owned(), sha256, dropped: None, method, seed };
-        let mut result = build_given(&indices, surrogates.as_ref(), (&inputs, &outputs), &facts);
+        let mut result = build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts);
         if measures {
             result = result.with_measures(&measured(&inputs, &outputs, &indices, seed));
         }
@@ -76,7 +76,7 @@ pub fn salib_indices(
     if let Some(row) = y.iter().position(|y| !y.is_finite()) {
         return Err(input(format!("output {row} (from 0) is not finite")));
     }
-    let found = py.detach(|| indices_of(&y, (d, layout), (resamples, seed))).map_err(input)?;
+    let found = py.detach(|| indices_of(&y, d, layout, resamples, seed)).map_err(input)?;
     let triple = |of: apportion::Estimate| {
         let interval = of.interval.map_or((f64::NAN, f64::NAN), |interval| (interval.low, interval.high));
         (of.estimate, interval.0, interval.1)

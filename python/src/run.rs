@@ -74,7 +74,8 @@ impl Drop for End {
 pub fn attend<R: Send>(
     py: Python<'_>,
     duty: Duty,
-    (told, listeners): (&Told, &Listeners),
+    told: &Told,
+    listeners: &Listeners,
     work: impl FnOnce() -> R + Send,
 ) -> PyResult<R> {
     let (done, error) = py.detach(|| {

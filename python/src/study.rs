@@ -187,7 +187,7 @@ impl Study {
             _ => return Err(input("resume: expected \"if-there\", \"require\", \"retry-failed\" or \"never\"")),
         };
         let listeners = Listeners { progress, message };
-        self.with_function(py, function, (stop, &listeners), |study, told| {
+        self.with_function(py, function, stop, &listeners, |study, told| {
             let (progress, messages) = (Arc::clone(told), Arc::clone(told));
             let mut runner: Runner<'_> = study.runner().threads(threads).resume(resume).stop(stop.flag());
             runner = runner.on_progress(move |now| progress.progress(now));
@@ -257,7 +257,7 @@ impl Study {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Document> {
         let listeners = Listeners { progress, message: None };
-        self.with_function(py, function, (stop, &listeners), |study, told| {
+        self.with_function(py, function, stop, &listeners, |study, told| {
             let in_study = study.design().settings();
             let design = match levels {
                 None if derivatives => ScreeningDesign::Derivative { sampler: in_study.sampler },
@@ -299,7 +299,7 @@ impl Study {
         let against = against.map(|text| FactorValues::parse(&text, space)).transpose().map_err(input)?;
         let request = SweepRequest { factors: factors.map_err(input)?, against };
         request.check(space).map_err(input)?;
-        self.with_function(py, function, (stop, &Listeners::default()), |study, _| {
+        self.with_function(py, function, stop, &Listeners::default(), |study, _| {
             let (model, context) = (study.model(), RunContext::new(Some(stop.flag()), |_| ()));
             let sweeps = sweep_in(study.space(), model.as_ref(), &request, &context).map_err(failed)?;
             let file = build_sweep(study, model.as_ref(), &sweeps);
@@ -326,7 +326,8 @@ impl Study {
         &self,
         py: Python<'_>,
         function: Option<Function>,
-        (stop, listeners): (&Stop, &Listeners),
+        stop: &Stop,
+        listeners: &Listeners,
         work: impl FnOnce(&apportion::Study, &Arc<Told>) -> PyResult<Document> + Send,
     ) -> PyResult<Document> {
         let (finished, events) = channel();
@@ -352,7 +353,7 @@ impl Study {
         };
         let duty = Duty { events, finished, model, stop: stop.clone() };
         // An interruption is told before what came of it elsewhere.
-        let result = attend(py, duty, (&told, listeners), || work(&study, &told))?;
+        let result = attend(py, duty, &told, listeners, || work(&study, &told))?;
         let first_error = first_error.lock().unwrap_or_else(PoisonError::into_inner).take();
         first_error.map_or(result, Err)
     }

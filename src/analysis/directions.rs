@@ -61,7 +61,8 @@ struct Block<'a> {
 pub(super) fn directions(
     run: &FinishedRun<'_>,
     series: &OutputSeries,
-    (whole, analyses): (&Totals, OutputAnalyses<'_>),
+    whole: &Totals,
+    analyses: OutputAnalyses<'_>,
 ) -> Result<Vec<Direction>, NoDirections> {
     let kept: Vec<Vec<&PointOutputs>> = series.places().map(|place| outputs_kept(run.replicates, place)).collect();
     if kept.iter().flatten().any(|outputs| outputs.points() == 0) {
@@ -70,7 +71,7 @@ pub(super) fn directions(
     let replicates: Vec<Vec<Block<'_>>> = (0..run.replicates.len()).map(|replicate| blocks(&kept, replicate)).collect();
     let found = components(&centred_rows(replicates.iter().flatten(), series.places().len())?)?;
     let derived: Vec<Totals> =
-        replicates.iter().zip(0..).map(|(blocks, replicate)| scores(run, blocks, (replicate, &found))).collect();
+        replicates.iter().zip(0..).map(|(blocks, replicate)| scores(run, blocks, replicate, &found)).collect();
     let unit = &run.model.outputs()[series.first].unit;
     let names = (1..=found.vectors.len()).map(|number| format!("{}, direction {number}", series.name));
     let model = ExternalModel::new(names.map(|name| Output::new(name, unit.clone(), "a score")).collect());
@@ -186,7 +187,7 @@ fn components(centred: &Centred) -> Result<Components, NoDirections> {
 }
 
 /// The totals of the scores of all rows of one replicate.
-fn scores(run: &FinishedRun<'_>, blocks: &[Block<'_>], (replicate, found): (u64, &Components)) -> Totals {
+fn scores(run: &FinishedRun<'_>, blocks: &[Block<'_>], replicate: u64, found: &Components) -> Totals {
     let runs = run.design.runs().len();
     let mut totals = Totals {
         runs: 0,

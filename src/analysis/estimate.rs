@@ -28,7 +28,7 @@ pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
     replicates.iter().for_each(|totals| whole.add_counts(totals));
     let corrected = Corrections::of(run);
     let of_scores = |run: &FinishedRun<'_>, whole: &Totals| output_analyses(run, whole, &Corrections::of(run));
-    let series = series(run, (&whole, &corrected.whole), &of_scores);
+    let series = series(run, &whole, &corrected.whole, &of_scores);
     Analysis {
         design: run.design.clone(),
         outputs: output_analyses(run, &whole, &corrected),
@@ -49,7 +49,7 @@ pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
 fn output_analyses(run: &FinishedRun<'_>, whole: &Totals, corrected: &Corrections) -> Vec<OutputAnalysis> {
     let outputs = run.model.outputs().par_iter().enumerate();
     let mut analyses: Vec<OutputAnalysis> =
-        outputs.map(|(number, output)| output_analysis(run, output, number, (whole, corrected))).collect();
+        outputs.map(|(number, output)| output_analysis(run, output, number, whole, corrected)).collect();
     let wanted = &run.study.analysis.measures;
     if !wanted.is_empty() {
         let rows = FirstRows::of(run.design, &run.study.space);
@@ -142,7 +142,8 @@ fn output_analysis(
     run: &FinishedRun<'_>,
     output: &Output,
     number: usize,
-    (whole, corrected): (&Totals, &Corrections),
+    whole: &Totals,
+    corrected: &Corrections,
 ) -> OutputAnalysis {
     let study = run.study;
     let totals = &whole.outputs[number];
@@ -232,5 +233,5 @@ fn aggregate(run: &FinishedRun<'_>) -> Option<Aggregate> {
     let same_unit = places.iter().all(|&place| outputs[place].unit.compatible(&outputs[places[0]].unit));
     let scaling = if same_unit { Scaling::Plain } else { Scaling::Standardised };
     let names = places.iter().map(|&place| outputs[place].name.to_string()).collect();
-    Some(Aggregate { outputs: names, scaling, indices: together(replicates, places.into_iter(), (scaling, run)) })
+    Some(Aggregate { outputs: names, scaling, indices: together(replicates, places.into_iter(), scaling, run) })
 }

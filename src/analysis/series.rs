@@ -24,11 +24,12 @@ pub struct SeriesAnalysis {
 /// every output.
 pub(super) fn series(
     run: &FinishedRun<'_>,
-    (whole, surrogates): (&Totals, &[Option<SurrogateEstimates>]),
+    whole: &Totals,
+    surrogates: &[Option<SurrogateEstimates>],
     analyses: OutputAnalyses<'_>,
 ) -> Vec<SeriesAnalysis> {
     let of_series = |series: &OutputSeries| {
-        let plain = together(run.replicates, series.places(), (Scaling::Plain, run));
+        let plain = together(run.replicates, series.places(), Scaling::Plain, run);
         let varies = |place: &usize| whole.outputs[*place].values.range().is_some_and(|(low, high)| low < high);
         let corrected: Option<Vec<&SurrogateEstimates>> =
             series.places().filter(varies).map(|place| surrogates.get(place)?.as_ref()).collect();
@@ -38,7 +39,7 @@ pub(super) fn series(
                 Some(corrected) => plain.map(|plain| plain.corrected(&corrected)),
                 None => plain,
             },
-            directions: directions(run, series, (whole, analyses)),
+            directions: directions(run, series, whole, analyses),
         }
     };
     run.model.series().iter().map(of_series).collect()
@@ -48,7 +49,8 @@ pub(super) fn series(
 pub(super) fn together(
     replicates: &[Totals],
     places: impl Iterator<Item = usize>,
-    (scaling, run): (Scaling, &FinishedRun<'_>),
+    scaling: Scaling,
+    run: &FinishedRun<'_>,
 ) -> Result<AggregateIndices, Undefined> {
     let of_output = |place: usize| replicates.iter().map(|totals| &totals.outputs[place].moments).collect();
     let parts: Vec<Vec<&MomentParts>> = places.map(of_output).collect();

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::report::comparison::{compare_results, comparison_document};
+use apportion::report::comparison::{NamedResult, compare_results, comparison_document};
 use apportion::report::{file_part, read_result, refused_name};
 
 use super::Failure;
@@ -41,7 +41,12 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
     let label_a = arguments.label_a.as_deref().unwrap_or(&told_a);
     let label_b = arguments.label_b.as_deref().unwrap_or(&told_b);
     let files = [&arguments.a, &arguments.b].map(|path| path.display().to_string());
-    let file = compare_results((&a, label_a, &files[0]), (&b, label_b, &files[1]))
+    let [a, b] = [(&a, label_a, &files[0]), (&b, label_b, &files[1])].map(|(result, label, file)| NamedResult {
+        result,
+        label,
+        file,
+    });
+    let file = compare_results(&a, &b)
         .map_err(|error| Failure::Input(anyhow!("A is {}, B is {}: {error}", files[0], files[1])))?;
     let name = format!("{}-vs-{}", file_part(&told_a), file_part(&told_b));
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&name));

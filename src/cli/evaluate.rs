@@ -58,7 +58,7 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn report(evaluated: &Evaluated, arguments: &Arguments) {
-    say_of_table(&arguments.points, (&evaluated.skipped, evaluated.unended));
+    say_of_table(&arguments.points, &evaluated.skipped, evaluated.unended);
     for ((output, failure), (count, first)) in &evaluated.failures {
         say(&format!("warning: {output} is empty at {count} points: {failure} (first at point {first})"));
     }
@@ -69,7 +69,7 @@ fn report(evaluated: &Evaluated, arguments: &Arguments) {
 }
 
 /// Says which columns of a table were not read, and that it may have been cut short.
-pub fn say_of_table(path: &Path, (skipped, unended): (&[String], bool)) {
+pub fn say_of_table(path: &Path, skipped: &[String], unended: bool) {
     let path = path.display();
     if !skipped.is_empty() {
         say(&format!("note: {path}: columns of text are skipped: {}", skipped.join(", ")));

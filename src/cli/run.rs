@@ -149,8 +149,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     let result = ResultFile::new(&study, &analysis);
     drop(analysis);
     meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
-    if let Some((target, store)) = saved.zip(store.as_ref()) {
-        save(&study, &result, store, target)?;
+    if let Some(((path, format), store)) = saved.zip(store.as_ref()) {
+        save(&study, &result, store, path, format)?;
     }
     let live = arguments.live.then(|| live_page(&study, arguments.threads.number(), stop)).transpose()?;
     deliver(&study, &artefacts, &result, live)
@@ -172,11 +172,11 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
 }
 
 /// Writes points and outputs of all runs, which may be more than the study began with.
-fn save(study: &Study, result: &ResultFile, store: &Store, (path, format): (&Path, Format)) -> Result<(), Failure> {
+fn save(study: &Study, result: &ResultFile, store: &Store, path: &Path, format: Format) -> Result<(), Failure> {
     let settings = study.design().settings();
     let points = result.provenance.base_samples / settings.replicates;
     let design = study.design().with_points(points).map_err(|error| Failure::Run(error.into()))?;
-    stream_atomically(path, |out| Ok(save_outputs(study, (&design, store), format, &mut Stoppable::new(out))?))?;
+    stream_atomically(path, |out| Ok(save_outputs(study, &design, store, format, &mut Stoppable::new(out))?))?;
     say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
     Ok(())
 }

@@ -80,7 +80,7 @@ impl BasePoints {
     pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
         self.fill_independent(first, columns);
         if let Some(mixed) = &self.mixed {
-            mixed.fill(columns, (self.factors, self.matrices));
+            mixed.fill(columns, self.factors, self.matrices);
         }
         if let Some((steps, orders)) = &self.steps {
             steps.fill(orders, first, columns);

@@ -59,7 +59,7 @@ impl MixedColumns {
     /// The columns in which a row differs from `base` with the columns `swap` of `from`, as (factor, column), in rising order;
     /// `redrawn` tells whether the factors of the swap are drawn given the others, or else the others follow them. `base` and
     /// `from` are the numbers of the first columns of the two matrices.
-    pub fn of_row(&mut self, swap: &[usize], redrawn: bool, (base, from): (usize, usize)) -> Vec<(usize, usize)> {
+    pub fn of_row(&mut self, swap: &[usize], redrawn: bool, base: usize, from: usize) -> Vec<(usize, usize)> {
         let copula = Arc::clone(&self.copula);
         let gaussian = copula.gaussian();
         let (swapped, others): (Vec<usize>, Vec<usize>) = gaussian.dependent().iter().partition(|j| swap.contains(j));
@@ -114,7 +114,7 @@ impl MixedColumns {
     }
 
     /// Makes the columns of `matrices` matrices dependent, `factors` each, and fills the mixed ones behind all others.
-    pub fn fill(&self, columns: &mut [Vec<f64>], (factors, matrices): (usize, usize)) {
+    pub fn fill(&self, columns: &mut [Vec<f64>], factors: usize, matrices: usize) {
         let (own, mixed) = columns.split_at_mut(self.first.min(columns.len()));
         own.chunks_mut(factors).take(matrices).for_each(|matrix| self.copula.correlate(matrix));
         if mixed.is_empty() {

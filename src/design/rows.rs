@@ -175,7 +175,7 @@ impl Runs {
         let mut series = |asked: bool, kind: fn(usize) -> RowKind, base, from| -> Vec<usize> {
             let swaps = rows.swaps.iter().enumerate().filter(|_| asked);
             let redrawn = |number: usize| rows.redrawn.contains(&number);
-            swaps.map(|(number, swap)| unique.swapped(kind(number), base, (swap, redrawn(number)), from)).collect()
+            swaps.map(|(number, swap)| unique.swapped(kind(number), base, swap, redrawn(number), from)).collect()
         };
         let Companions { ba, bc, cb } = rows.companions;
         let ab = series(true, RowKind::Ab, Matrix::A, Matrix::B);
@@ -215,7 +215,7 @@ struct Unique {
 }
 
 impl Unique {
-    fn swapped(&mut self, kind: RowKind, base: Matrix, (swap, redrawn): (&Swap, bool), from: Matrix) -> usize {
+    fn swapped(&mut self, kind: RowKind, base: Matrix, swap: &Swap, redrawn: bool, from: Matrix) -> usize {
         if swap.is_empty() {
             self.runs.push(Run::of(kind, base, Vec::new(), from));
             return self.runs.len() - 1;
@@ -224,7 +224,7 @@ impl Unique {
         columns.sort_unstable();
         columns.dedup();
         let firsts = [base, from].map(|matrix| self.factors * matrix.place(self.matrices));
-        let of_row = |mixed: &mut MixedColumns| mixed.of_row(&columns, redrawn, (firsts[0], firsts[1]));
+        let of_row = |mixed: &mut MixedColumns| mixed.of_row(&columns, redrawn, firsts[0], firsts[1]);
         let mixed = self.mixed.as_mut().map(of_row).unwrap_or_default();
         let number = self.numbered((key(self.factors, base, &columns, from), mixed.clone()));
         if number == self.runs.len() {

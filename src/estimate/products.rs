@@ -101,7 +101,7 @@ impl Products {
     }
 
     /// Writes the products of the base points of `block`: product c of point i to `out[c * stride + i]`.
-    pub fn fill(&self, block: &BlockOutputs<'_>, (out, stride): (&mut [f64], usize), work: &mut ProductWork) {
+    pub fn fill(&self, block: &BlockOutputs<'_>, out: &mut [f64], stride: usize, work: &mut ProductWork) {
         let ProductWork { base: letters, swap: of_swap, differences } = work;
         let points = block.a.len();
         let mut columns = out.chunks_mut(stride).map(|column| &mut column[..points]);
@@ -112,8 +112,8 @@ impl Products {
         };
         let base = self.whole.base();
         set_mask(&mut letters[ONE], points, &[block.a, block.b]);
-        set_centred(letters, A, (block.a, None), base.mean_a);
-        set_centred(letters, B, (block.b, None), base.mean_b);
+        set_centred(letters, A, block.a, None, base.mean_a);
+        set_centred(letters, B, block.b, None, base.mean_b);
         put(letters, &BASE);
         for (swap, own) in self.own.iter().enumerate() {
             let moments = self.whole.swap(swap);
@@ -121,8 +121,8 @@ impl Products {
             let letters = if *own {
                 let asked: Vec<&[f64]> = [block.a, block.b].into_iter().chain(rows.into_iter().flatten()).collect();
                 set_mask(&mut of_swap[ONE], points, &asked);
-                set_centred(of_swap, A, (block.a, None), moments.base.mean_a);
-                set_centred(of_swap, B, (block.b, None), moments.base.mean_b);
+                set_centred(of_swap, A, block.a, None, moments.base.mean_a);
+                set_centred(of_swap, B, block.b, None, moments.base.mean_b);
                 put(of_swap, &BASE);
                 &mut *of_swap
             } else {
@@ -139,7 +139,7 @@ impl Products {
                 [(ab, block.a), (ba, block.b), (bc, block.b), (cb, block.b)].into_iter().enumerate()
             {
                 match row {
-                    Some(row) => set_centred(letters, D + place, (row, Some(origin)), means[place]),
+                    Some(row) => set_centred(letters, D + place, row, Some(origin), means[place]),
                     None => {
                         letters[D + place].clear();
                         letters[D + place].resize(points, 0.0);
@@ -148,7 +148,7 @@ impl Products {
             }
             put(letters, &self.of_swap);
         }
-        self.fill_pairs(block, (&letters[ONE], differences), &mut columns);
+        self.fill_pairs(block, &letters[ONE], differences, &mut columns);
         // Whether a base point counts is the same for all players.
         let adds = |player: usize, i: usize| Some(block.shapley[player][i]).filter(|added| added.is_finite());
         if let Some(column) = columns.next().filter(|_| self.players > 0) {
@@ -163,7 +163,8 @@ impl Products {
     fn fill_pairs<'c>(
         &self,
         block: &BlockOutputs<'_>,
-        (mask, differences): (&[f64], &mut Vec<[Vec<f64>; 2]>),
+        mask: &[f64],
+        differences: &mut Vec<[Vec<f64>; 2]>,
         columns: &mut impl Iterator<Item = &'c mut [f64]>,
     ) {
         if self.pairs.is_empty() {
@@ -224,7 +225,7 @@ fn set_mask(mask: &mut Vec<f64>, points: usize, columns: &[&[f64]]) {
 }
 
 /// A letter: `y`, or `y` less `origin`, less `mean`; 0 where the mask is.
-fn set_centred(letters: &mut [Vec<f64>; LETTERS], letter: usize, (y, origin): (&[f64], Option<&[f64]>), mean: f64) {
+fn set_centred(letters: &mut [Vec<f64>; LETTERS], letter: usize, y: &[f64], origin: Option<&[f64]>, mean: f64) {
     let (mask, rest) = letters.split_at_mut(1);
     let (mask, into) = (&mask[0], &mut rest[letter - 1]);
     into.clear();

@@ -48,7 +48,7 @@ impl ShapleyMoments {
 /// is estimated by (y_k - y_0)^2/2 (Jansen 1999; Goda 2021, Reliab. Eng. Syst. Saf. 213, 107702, algorithm 1), so that number k adds
 /// (y_k - y_(k-1)) (y_k + y_(k-1) - 2 y_0)/2. Where factors are independent the same rows are a walk from B to A in the reverse order;
 /// the mean of both is (y_k - y_(k-1)) (y_d - y_0)/2, of about half the variance. The sum over the players is (y_d - y_0)^2/2 in both.
-pub fn contributions(design: &Design, (replicate, first): (u64, u64), runs: &[&[f64]]) -> Vec<Vec<f64>> {
+pub fn contributions(design: &Design, replicate: u64, first: u64, runs: &[&[f64]]) -> Vec<Vec<f64>> {
     let players = design.asked().players.len();
     let [a, b, ..] = runs else { return Vec::new() };
     if players == 0 {
@@ -87,7 +87,7 @@ mod tests {
         assert_eq!(design.step_runs(), [2, 3]);
         // A, B and two steps, at two base points, the second of which lacks a step.
         let runs: [&[f64]; 4] = [&[1.0, 1.0], &[7.0, 7.0], &[2.0, 2.0], &[5.0, f64::NAN]];
-        let added = contributions(&design, (1, 2), &runs);
+        let added = contributions(&design, 1, 2, &runs);
         let order = design.orders(1, 2, 1).remove(0);
         let of_first: Vec<f64> = order.iter().map(|player| added[*player][0]).collect();
         assert_eq!(of_first, [3.0, 9.0, 6.0], "half of 6 times the steps of 1, 3 and 2");

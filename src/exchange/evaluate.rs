@@ -102,7 +102,7 @@ pub fn evaluate_in(
         let points = evaluated.points;
         executor.run_table(&inputs, &mut batch).map_err(|halt| EvaluateError::Halted { points, halt })?;
         evaluated.count(model.outputs(), &batch);
-        write_rows(&mut out, (copied, &typed), model.outputs(), &batch)?;
+        write_rows(&mut out, copied, &typed, model.outputs(), &batch)?;
     }
     out.flush()?;
     context.messages().finish();
@@ -112,7 +112,8 @@ pub fn evaluate_in(
 
 fn write_rows(
     out: &mut impl Write,
-    (factors, points): (&[Factor], &[Vec<f64>]),
+    factors: &[Factor],
+    points: &[Vec<f64>],
     outputs: &[Output],
     batch: &Batch,
 ) -> std::io::Result<()> {

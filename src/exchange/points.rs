@@ -135,7 +135,7 @@ impl<'a> PointsReader<'a> {
                 let factor = self.wanted.iter().position(|(place, _)| place + 1 == column).map(|k| self.factors[k]);
                 let place = in_words(line, row);
                 let found = format!("{found:?}");
-                factor.map_or(PointsError::Rows(RowsError::Empty), |k| wrong_cell(&factors[k], (place, column), found))
+                factor.map_or(PointsError::Rows(RowsError::Empty), |k| wrong_cell(&factors[k], place, column, found))
             }
             error => error.into(),
         })?;
@@ -147,7 +147,7 @@ impl<'a> PointsReader<'a> {
             if let Some(row) = cells.iter().position(|value| !value.is_finite()) {
                 let found = if cells[row].is_nan() { "nothing".to_owned() } else { cells[row].to_string() };
                 let at = in_words(self.rows.line(row), self.read + row as u64 + 1);
-                return Err(wrong_cell(&factors[*factor], (at, place + 1), found));
+                return Err(wrong_cell(&factors[*factor], at, place + 1, found));
             }
             columns[*factor].copy_from_slice(cells);
         }
@@ -161,7 +161,7 @@ pub(super) fn in_words(line: Option<u64>, row: u64) -> String {
     line.map_or_else(|| format!("row {row}"), |line| format!("line {line}"))
 }
 
-fn wrong_cell(factor: &Factor, (place, column): (String, usize), found: String) -> PointsError {
+fn wrong_cell(factor: &Factor, place: String, column: usize, found: String) -> PointsError {
     let name = factor.name.clone();
     match factor.distribution().labels() {
         Some(labels) => PointsError::NoCategory { place, column, name, known: labels.join(", "), found },

@@ -41,7 +41,8 @@ impl From<SaveError> for std::io::Error {
 /// [`SaveError`] if the file cannot be written, or rows are missing in the store.
 pub fn save_outputs(
     study: &Study,
-    (design, store): (&Design, &Store),
+    design: &Design,
+    store: &Store,
     format: Format,
     out: &mut (dyn Write + Send),
 ) -> Result<(), SaveError> {

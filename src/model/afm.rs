@@ -226,7 +226,7 @@ impl AfmWorker<'_> {
     fn run_histories(&mut self, inputs: &[&[f64]], row: usize, batch: &mut Batch) {
         self.set_scene(inputs, row);
         let model = self.model;
-        if let Err(failure) = model.histories.write((&self.scene, &model.options), row, batch) {
+        if let Err(failure) = model.histories.write(&self.scene, &model.options, row, batch) {
             let reason = self.reason(failure);
             model.histories.columns().for_each(|column| batch.fail(row, column, reason.clone()));
         }

@@ -48,7 +48,7 @@ where
     /// ```
     /// use apportion::{FunctionModel, Model, SeriesAxis, Unit};
     ///
-    /// let time = SeriesAxis::even("time", "s", 100, (0.0, 0.1))?;
+    /// let time = SeriesAxis::even("time", "s", 100, 0.0, 0.1)?;
     /// let positions = time.positions().to_vec();
     /// let cooling = FunctionModel::new(Vec::new(), move |x: &[f64], y: &mut [f64]| {
     ///     y.iter_mut().zip(&positions).for_each(|(y, t)| *y = x[0] * (-t / x[1]).exp());

@@ -61,7 +61,7 @@ impl SeriesAxis {
     ///
     /// # Errors
     /// As for [`new`](Self::new).
-    pub fn even(label: &str, unit: &str, length: usize, (start, step): (f64, f64)) -> Result<Self, SeriesError> {
+    pub fn even(label: &str, unit: &str, length: usize, start: f64, step: f64) -> Result<Self, SeriesError> {
         if length > MOST_VALUES {
             return Err(SeriesError::Length { found: length });
         }
@@ -156,21 +156,21 @@ mod tests {
 
     #[test]
     fn positions_are_finite_and_rise() {
-        let axis = SeriesAxis::even("time", "ms", 3, (1.0, 0.5)).unwrap();
+        let axis = SeriesAxis::even("time", "ms", 3, 1.0, 0.5).unwrap();
         assert_eq!(axis.positions(), [1.0, 1.5, 2.0]);
         let refused = |positions: &[f64]| SeriesAxis::new("t", "", positions.to_vec()).unwrap_err().to_string();
         assert_eq!(refused(&[1.0]), "a series has 2 to 10000 values, not 1");
         assert!(refused(&[0.0, 1.0, 1.0]).ends_with("position 2 is 1"));
         assert!(refused(&[f64::NEG_INFINITY, 1.0]).ends_with("position 0 is -inf"));
         assert!(refused(&[0.0, f64::NAN]).ends_with("position 1 is NaN"));
-        assert!(SeriesAxis::even("t", "", usize::MAX, (0.0, 1.0)).is_err());
-        assert!(SeriesAxis::even("t", "", 3, (0.0, -1.0)).is_err());
+        assert!(SeriesAxis::even("t", "", usize::MAX, 0.0, 1.0).is_err());
+        assert!(SeriesAxis::even("t", "", 3, 0.0, -1.0).is_err());
     }
 
     #[test]
     #[cfg(feature = "study")]
     fn a_series_is_chosen_whole_or_not_at_all() {
-        let axis = SeriesAxis::even("t", "", 3, (0.0, 1.0)).unwrap();
+        let axis = SeriesAxis::even("t", "", 3, 0.0, 1.0).unwrap();
         let series = OutputSeries { name: "y".to_owned(), first: 1, axis };
         let first =
             |chosen: &[usize]| OutputSeries::chosen(std::slice::from_ref(&series), chosen).first().map(|s| s.first);

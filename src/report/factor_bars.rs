@@ -45,7 +45,7 @@ pub(super) fn pair_panel(
 ) -> Panel {
     let with_others = Series::new("S_T − S_1: only together with others", Colour::Series(5));
     let alone: Vec<Option<f64>> = first_order.iter().map(|index| index.map(|index| index.estimate)).collect();
-    bars((INDEX, INDICES), factors, both_orders(first_order, total), keys, &|bar, (number, rows)| {
+    bars(INDEX, INDICES, factors, both_orders(first_order, total), keys, &|bar, (number, rows)| {
         // That of the last row is of the sums.
         let split: f64 = rows.iter().filter_map(|&factor| alone[factor]).sum();
         (number == 1).then(|| (split.max(0.0).min(bar.to.max(0.0)), with_others.clone()))
@@ -60,7 +60,7 @@ pub(super) fn index_panel(
     series: impl IntoIterator<Item = IndexSeries>,
     keys: &[f64],
 ) -> Panel {
-    bars((label, INDICES), factors, series, keys, &|_, _| None)
+    bars(label, INDICES, factors, series, keys, &|_, _| None)
 }
 
 /// The same of differences of indices.
@@ -70,7 +70,7 @@ pub(super) fn difference_panel(
     series: impl IntoIterator<Item = IndexSeries>,
     keys: &[f64],
 ) -> Panel {
-    bars((label, DIFFERENCES), factors, series, keys, &|_, _| None)
+    bars(label, DIFFERENCES, factors, series, keys, &|_, _| None)
 }
 
 /// What a bar is of: the number of its series, and the factors that it sums.
@@ -80,7 +80,8 @@ type Of<'a> = (usize, &'a [usize]);
 type Beyond<'a> = dyn Fn(&Bar, Of<'_>) -> Option<(f64, Series)> + 'a;
 
 fn bars(
-    (label, possible): (&str, (f64, f64)),
+    label: &str,
+    possible: (f64, f64),
     factors: Vec<String>,
     series: impl IntoIterator<Item = IndexSeries>,
     keys: &[f64],

@@ -101,7 +101,7 @@ pub(super) fn scatter_record(
     let means_of = |&factor: &usize| {
         let known = rows.coordinates(factor).zip(&all).filter(|(_, y)| y.is_finite());
         let rows: Vec<(f64, f64)> = known.map(|(u, _)| u).zip(scaled.iter().copied()).collect();
-        conditional_means(&factors[factor], unit, (&rows, exponent))
+        conditional_means(&factors[factor], unit, &rows, exponent)
     };
     let record = ScatterRecord {
         factors: chosen.iter().map(|&factor| factors[factor].name.clone()).collect(),
@@ -161,7 +161,7 @@ impl<'a> Slices<'a> {
 }
 
 /// `rows` are (coordinate, output times 2^-exponent), for outputs with a value.
-fn conditional_means(factor: &Factor, unit: &Unit, (rows, exponent): (&[(f64, f64)], i32)) -> ConditionalMeansRecord {
+fn conditional_means(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent: i32) -> ConditionalMeansRecord {
     let slices = Slices::of(factor.distribution());
     let mut values = vec![Vec::new(); slices.middles().len()];
     for (u, y) in rows {

@@ -252,7 +252,7 @@ impl Task for Blocks<'_> {
             let recalled = self.store.is_some_and(|store| scratch.recall(store, place, points));
             if !recalled {
                 self.points[strip.replicate].fill(block.start, scratch.unit_columns(points));
-                let given_up = scratch.run_rows(self.job, (worker, self.context), on_rows);
+                let given_up = scratch.run_rows(self.job, worker, self.context, on_rows);
                 if given_up.is_some() {
                     return Evaluated { output: None, standing, given_up, is_urgent: false };
                 }

@@ -20,7 +20,7 @@ pub fn run_each<T: Send>(
     count: u64,
     evaluate: impl Fn(&mut dyn Worker, u64) -> T + Sync,
 ) -> Result<Vec<T>, RunError> {
-    run_each_in(model, (threads, &RunContext::default()), count, evaluate, &|_| ())
+    run_each_in(model, threads, &RunContext::default(), count, evaluate, &|_| ())
 }
 
 /// The same in the run of a context, which may be ended; `on_progress` is told of it.
@@ -29,7 +29,8 @@ pub fn run_each<T: Send>(
 /// [`RunError::Interrupted`] if the run is asked to end.
 pub fn run_each_in<T: Send>(
     model: &dyn Model,
-    (threads, context): (usize, &RunContext<'_>),
+    threads: usize,
+    context: &RunContext<'_>,
     count: u64,
     evaluate: impl Fn(&mut dyn Worker, u64) -> T + Sync,
     on_progress: &(dyn Fn(Progress) + Sync),
@@ -37,7 +38,7 @@ pub fn run_each_in<T: Send>(
     let sink = (0..count).map(|_| None).collect();
     let each = Each { evaluate, count, sink: Mutex::new((0, sink)) };
     let before = Progress { done: 0, recalled: 0, total: count, failed: 0, elapsed: Duration::ZERO };
-    Executor::new(model, context, threads).execute(&each, (before, Instant::now()), on_progress)?;
+    Executor::new(model, context, threads).execute(&each, before, Instant::now(), on_progress)?;
     let (_, outputs) = each.sink.into_inner().unwrap_or_else(PoisonError::into_inner);
     Ok(outputs.into_iter().flatten().collect())
 }

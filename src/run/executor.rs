@@ -78,7 +78,8 @@ impl<'a> Executor<'a> {
     pub fn execute<T: Task>(
         &self,
         task: &T,
-        (before, start): (Progress, Instant),
+        before: Progress,
+        start: Instant,
         on_progress: &(dyn Fn(Progress) + Sync),
     ) -> Result<Progress, RunError> {
         let [done, failed] = [before.done, before.failed].map(AtomicU64::new);

@@ -172,9 +172,9 @@ impl<'a> GrowingRun<'a> {
         let blocks = Blocks::new(self.job, self.executor.context(), Fold::new(sums), points, options);
         let outcome = if self.store.is_some() {
             // The rows were counted when they were evaluated.
-            self.executor.execute(&blocks, (before, self.start), &|_| ())
+            self.executor.execute(&blocks, before, self.start, &|_| ())
         } else {
-            self.executor.execute(&blocks, (before, self.start), on_progress)
+            self.executor.execute(&blocks, before, self.start, on_progress)
         };
         let fold = blocks.into_fold();
         if self.checkpoint.is_some() {
@@ -214,7 +214,7 @@ impl<'a> GrowingRun<'a> {
             on_progress(before);
         }
         if done < total {
-            self.executor.execute(&task, (before, self.start), on_progress)?;
+            self.executor.execute(&task, before, self.start, on_progress)?;
         }
         Ok(())
     }

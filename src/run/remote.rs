@@ -222,7 +222,8 @@ pub trait Requests {
 pub(crate) fn serve(
     job: Job<'_>,
     bytes: Vec<u8>,
-    (worker, context): (&mut dyn Worker, &RunContext<'_>),
+    worker: &mut dyn Worker,
+    context: &RunContext<'_>,
     requests: &mut dyn Requests,
 ) -> Option<Vec<u8>> {
     let Some(errand) = Request::read(&bytes).and_then(|request| request.errand) else {

@@ -68,7 +68,8 @@ impl Scratch {
     pub fn run_rows(
         &mut self,
         job: Job<'_>,
-        (worker, context): (&mut dyn Worker, &RunContext<'_>),
+        worker: &mut dyn Worker,
+        context: &RunContext<'_>,
         on_rows: &dyn Fn(u64),
     ) -> Option<RowFailure> {
         let factors = job.design.factors();
@@ -130,7 +131,7 @@ impl OutputTotals {
         let (a, b) = (runs[0], runs[1]);
         let (ab, ba) = (columns(design.ab_runs()), columns(design.ba_runs()));
         let (bc, cb) = (columns(design.bc_runs()), columns(design.cb_runs()));
-        let shapley = contributions(design, (place.first.replicate, place.first.point), runs);
+        let shapley = contributions(design, place.first.replicate, place.first.point, runs);
         let shapley: Vec<&[f64]> = shapley.iter().map(Vec::as_slice).collect();
         let length = place.part_length as usize;
         let mut parts = Vec::with_capacity(a.len().div_ceil(length));

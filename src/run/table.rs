@@ -46,7 +46,7 @@ impl Executor<'_> {
         let is_quick = self.model().concurrency().is_none();
         let sink = Mutex::new((0, batch));
         let table = Table { model: self.model(), inputs, is_quick, sink };
-        self.execute(&table, (before, Instant::now()), &|_| ()).map_err(|error| match error {
+        self.execute(&table, before, Instant::now(), &|_| ()).map_err(|error| match error {
             RunError::GaveUp { reason } => Halt::GaveUp(reason),
             // A table has no failures that end it, and no sink that fails.
             _ => Halt::Interrupted,

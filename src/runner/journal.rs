@@ -173,7 +173,7 @@ pub(super) fn open(
         return Err(refused(path, why.clone()));
     }
     if let Some(sums) = contents.sums.take() {
-        return open_sums(study, path, (journal, sums, other), request, messages);
+        return open_sums(study, path, journal, sums, other, request, messages);
     }
     let files = ModelFiles::new(study);
     let recalled = recall(study, &contents, files.begun(), resume);
@@ -185,7 +185,7 @@ pub(super) fn open(
     };
     if why.is_some() || contents.pieces.is_empty() && !request.needs_outputs {
         drop(journal);
-        return anew(study, path, request, contents.pieces.is_empty(), (why, messages));
+        return anew(study, path, request, contents.pieces.is_empty(), why, messages);
     }
     if contents.cut_off > 0 {
         let what = "behind its last whole record, of runs that are evaluated again";
@@ -223,7 +223,9 @@ pub(super) fn open(
 fn open_sums(
     study: &Study,
     path: &Path,
-    (journal, sums, other): (Journal, Sums, Option<String>),
+    journal: Journal,
+    sums: Sums,
+    other: Option<String>,
     request: JournalRequest,
     messages: &Messages,
 ) -> Result<OpenJournal, RunError> {
@@ -270,7 +272,7 @@ fn open_sums(
         None if !needs_outputs => (),
         why => {
             drop(journal);
-            return anew(study, path, request, is_empty, (why, messages));
+            return anew(study, path, request, is_empty, why, messages);
         }
     }
     let header = header(study, None, &ModelFiles::new(study));
@@ -296,7 +298,8 @@ fn anew(
     path: &Path,
     request: JournalRequest,
     is_empty: bool,
-    (why, messages): (Option<String>, &Messages),
+    why: Option<String>,
+    messages: &Messages,
 ) -> Result<OpenJournal, RunError> {
     if is_empty {
         std::fs::remove_file(path).map_err(|error| in_the_way(path, &error))?;

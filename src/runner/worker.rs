@@ -43,7 +43,7 @@ impl WorkerStudy {
             };
             let worker = workers.entry(number).or_insert_with(|| model.worker(context));
             let job = Job { design: &self.study.design, space: &self.study.space, model };
-            next = serve(job, bytes, (&mut **worker, context), requests);
+            next = serve(job, bytes, &mut **worker, context, requests);
         }
         context.messages().finish();
     }

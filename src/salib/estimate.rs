@@ -55,7 +55,7 @@ struct Rows {
 ///
 /// // y = x1 + 2 x2 at two base points: rows A, AB_1, AB_2, B of each.
 /// let y = [0.1 + 0.4, 0.9 + 0.4, 0.1 + 1.2, 0.9 + 1.2, 0.7 + 1.6, 0.3 + 1.6, 0.7 + 0.2, 0.3 + 0.2];
-/// let indices = salib_indices(&y, (2, SalibLayout::FirstOrder), (0, 0))?;
+/// let indices = salib_indices(&y, 2, SalibLayout::FirstOrder, 0, 0)?;
 /// assert_eq!(indices.indices.len(), 2);
 /// # Ok::<(), apportion::given::NoVariance>(())
 /// ```
@@ -64,8 +64,10 @@ struct Rows {
 /// [`NoVariance`] if the output does not vary.
 pub fn salib_indices(
     y: &[f64],
-    (d, layout): (usize, SalibLayout),
-    (resamples, seed): (usize, u64),
+    d: usize,
+    layout: SalibLayout,
+    resamples: usize,
+    seed: u64,
 ) -> Result<SalibIndices, NoVariance> {
     let y = centred(y)?;
     let step = layout.rows_per_point(d);

@@ -128,7 +128,8 @@ pub struct WrongRow {
 /// # Errors
 /// [`LayoutError`] if the number fits none, or both and nothing tells which.
 pub fn recognise(
-    (rows, d): (usize, usize),
+    rows: usize,
+    d: usize,
     asked: Option<SalibLayout>,
     fits: Option<&dyn Fn(SalibLayout) -> Result<(), LayoutError>>,
 ) -> Result<SalibLayout, LayoutError> {

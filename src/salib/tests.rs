@@ -33,13 +33,13 @@ fn both_layouts_are_recognised_by_their_points() {
         // 12 base points of 4 rows are 8 of 6 rows.
         let columns = points(2, 48 / layout.rows_per_point(2), layout);
         let fits = |layout| check_points(&columns, &members, layout);
-        assert_eq!(recognise((48, 2), None, Some(&fits)), Ok(layout));
-        assert_eq!(recognise((48, 2), None, None), Err(LayoutError::Ambiguous { rows: 48, d: 2 }));
-        assert_eq!(recognise((48, 2), Some(layout), None), Ok(layout));
+        assert_eq!(recognise(48, 2, None, Some(&fits)), Ok(layout));
+        assert_eq!(recognise(48, 2, None, None), Err(LayoutError::Ambiguous { rows: 48, d: 2 }));
+        assert_eq!(recognise(48, 2, Some(layout), None), Ok(layout));
     }
-    assert_eq!(recognise((18, 2), None, None), Ok(SalibLayout::SecondOrder));
-    assert!(matches!(recognise((7, 2), None, None), Err(LayoutError::NoMultiple { .. })));
-    assert_eq!(recognise((4, 2), None, None), Err(LayoutError::OnePoint { rows: 4 }));
+    assert_eq!(recognise(18, 2, None, None), Ok(SalibLayout::SecondOrder));
+    assert!(matches!(recognise(7, 2, None, None), Err(LayoutError::NoMultiple { .. })));
+    assert_eq!(recognise(4, 2, None, None), Err(LayoutError::OnePoint { rows: 4 }));
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn estimates_are_those_of_the_formulas() {
     let columns = points(d, n, SalibLayout::SecondOrder);
     let y: Vec<f64> =
         (0..columns[0].1.len()).map(|row| columns[0].1[row] + 2.0 * columns[1].1[row] * columns[2].1[row]).collect();
-    let indices = salib_indices(&y, (d, SalibLayout::SecondOrder), (0, 0)).unwrap();
+    let indices = salib_indices(&y, d, SalibLayout::SecondOrder, 0, 0).unwrap();
     let mean = y.iter().sum::<f64>() / y.len() as f64;
     let row = |k: usize| -> Vec<f64> { y.iter().skip(k).step_by(8).map(|y| y - mean).collect() };
     let both = [row(0), row(7)].concat();
@@ -73,7 +73,7 @@ fn estimates_are_those_of_the_formulas() {
     assert_eq!(indices.pairs[2].pair, (1, 2));
     close(indices.pairs[2].second_order.estimate, closed - s1(1) - s1(2));
     assert_eq!(indices.indices[0].total.interval, None);
-    assert!(salib_indices(&[1.0; 16], (3, SalibLayout::SecondOrder), (0, 0)).is_err());
+    assert!(salib_indices(&[1.0; 16], 3, SalibLayout::SecondOrder, 0, 0).is_err());
 }
 
 #[test]
@@ -96,7 +96,7 @@ proptest! {
         let y: Vec<f64> = columns[0].1.iter().zip(&columns[1].1).map(|(a, b)| a + a * b).collect();
         let scale = 2f64.powi(exponent);
         let other: Vec<f64> = y.iter().map(|y| (y + offset) * scale).collect();
-        let of = |y: &[f64]| salib_indices(y, (2, SalibLayout::FirstOrder), (20, 1)).unwrap();
+        let of = |y: &[f64]| salib_indices(y, 2, SalibLayout::FirstOrder, 20, 1).unwrap();
         // Rounding of y + offset: 1e6 eps.
         for (a, b) in of(&y).indices.iter().zip(&of(&other).indices) {
             prop_assert!((a.first_order.estimate - b.first_order.estimate).abs() < 1e-8);

@@ -58,9 +58,11 @@ pub fn poincare_constant(distribution: &Distribution) -> Option<f64> {
 /// The measures of `effects`, derivatives per `range` of the factor (NaN where there is none), whose base points have the outputs
 /// `base`; both stand in `parts` independent parts of equal length. `None` with fewer than two effects, or if they overflow.
 pub(super) fn derivative_measures(
-    (effects, base): (&[f64], &[f64]),
+    effects: &[f64],
+    base: &[f64],
     parts: usize,
-    (range, constant): (f64, Option<f64>),
+    range: f64,
+    constant: Option<f64>,
 ) -> Option<DerivativeMeasures> {
     let part = effects.len() / parts.max(1);
     let quantities = |left_out: std::ops::Range<usize>| -> Option<Vec<f64>> {

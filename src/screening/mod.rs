@@ -162,7 +162,7 @@ pub fn screen_in(
     }
     let (settings, parts) = job.settings.in_force(factors.len())?;
     let points = Trajectories::new(job.space, &settings, parts)?;
-    let outcome = run::run(job, (&points, settings.trajectories), (threads, context), on_progress)?;
+    let outcome = run::run(job, &points, settings.trajectories, threads, context, on_progress)?;
     context.messages().finish();
     let failures = |number: usize| {
         let of_output = outcome.failures.iter().filter(|((output, _), _)| *output == number);
@@ -177,7 +177,7 @@ pub fn screen_in(
     };
     let outputs = job.model.outputs().iter().zip(&outcome.effects).enumerate();
     let outputs = outputs.map(|(number, (output, effects))| ScreenedOutput {
-        factors: screened(output, (effects, &outcome.base[number]), (factors, parts as usize)),
+        factors: screened(output, effects, &outcome.base[number], factors, parts as usize),
         failures: failures(number),
     });
     Ok(Screening {
@@ -192,11 +192,7 @@ pub fn screen_in(
 }
 
 /// The factors of one output, from its effects in SI units, factor by factor within each trajectory.
-fn screened(
-    output: &Output,
-    (effects, base): (&[f64], &[f64]),
-    (space, parts): (&[Factor], usize),
-) -> Vec<ScreenedFactor> {
+fn screened(output: &Output, effects: &[f64], base: &[f64], space: &[Factor], parts: usize) -> Vec<ScreenedFactor> {
     let factors = space.len();
     let base: Vec<f64> = base.iter().map(|y| output.unit.span_from_si(*y)).collect();
     let of_factor = |j: usize| -> Vec<f64> {
@@ -211,9 +207,7 @@ fn screened(
             let dropped = own.len() as u64 - effects;
             let distribution = space[j].distribution();
             let derivative = (!base.is_empty())
-                .then(|| {
-                    derivative_measures((&own, &base), parts, (range(distribution), poincare_constant(distribution)))
-                })
+                .then(|| derivative_measures(&own, &base, parts, range(distribution), poincare_constant(distribution)))
                 .flatten();
             ScreenedFactor { effects, dropped, measures, reading, rank: 0, could_be_fixed: None, derivative }
         })

@@ -32,8 +32,10 @@ pub(super) struct Outcome {
 /// depend on the number of threads, in any bit.
 pub(super) fn run(
     job: ScreeningJob<'_>,
-    (points, trajectories): (&Trajectories, u64),
-    (threads, context): (usize, &RunContext<'_>),
+    points: &Trajectories,
+    trajectories: u64,
+    threads: usize,
+    context: &RunContext<'_>,
     on_progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Outcome, ScreeningError> {
     let executor = Executor::new(job.model, context, threads);

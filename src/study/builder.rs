@@ -253,7 +253,7 @@ impl StudyBuilder {
             if let Some((other, _)) = others.into_iter().find(|(_, is_there)| *is_there) {
                 return Err(BuildError::BudgetRunsBeside { other });
             }
-            let split = split_design(runs, (&analysis, &space), (self.sampler, replicates)).transpose();
+            let split = split_design(runs, &analysis, &space, self.sampler, replicates).transpose();
             sizes = split.map_err(|least| BuildError::BudgetRuns { least })?.unwrap_or(sizes);
         }
         let (base_samples, plain_rows) = sizes;

@@ -270,8 +270,10 @@ const SPLIT: u64 = 3;
 /// error with the runs of the smallest such design if that takes more. `None` where there is no design of any size.
 pub(super) fn split_design(
     runs: u64,
-    (analysis, space): (&AnalysisOptions, &Space),
-    (sampler, replicates): (Sampler, u64),
+    analysis: &AnalysisOptions,
+    space: &Space,
+    sampler: Sampler,
+    replicates: u64,
 ) -> Option<Result<(u64, u32), u64>> {
     let one = DesignSettings { sampler, base_samples: 2, replicates: 1, ..DesignSettings::default() };
     let one = Design::new(one, space.factors().len(), rows(analysis, space, 0)).ok()?;

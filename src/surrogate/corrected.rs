@@ -91,8 +91,8 @@ impl Contributions {
         let (surrogate, e) = values_and_rest(net, expansion);
         let mut all = Self::zeros(swaps.len(), pairs.len(), net);
         all.residual = (mean_power(&e, 2), mean_power(&e, 4));
-        all.add_surrogate(net, expansion, &e, (swaps, pairs));
-        all.add_residual(design, net, &surrogate, &e, (swaps.len(), pairs));
+        all.add_surrogate(net, expansion, &e, swaps, pairs);
+        all.add_residual(design, net, &surrogate, &e, swaps.len(), pairs);
         all
     }
 
@@ -102,7 +102,8 @@ impl Contributions {
         net: &Net,
         expansion: &Expansion,
         e: &[Vec<f64>],
-        (swaps, pairs): (&[Vec<usize>], &[(usize, usize)]),
+        swaps: &[Vec<usize>],
+        pairs: &[(usize, usize)],
     ) {
         let runs = net.runs() as f64;
         let mut values = Vec::new();
@@ -117,7 +118,7 @@ impl Contributions {
                 continue;
             }
             let contributions: Vec<f64> = products.iter().map(|sum| b * b + 2.0 * b * sum / runs).collect();
-            self.add_term((swaps, pairs), term, [&|p| contributions[p], &|_| b * b]);
+            self.add_term(swaps, pairs, term, [&|p| contributions[p], &|_| b * b]);
         }
     }
 
@@ -125,7 +126,8 @@ impl Contributions {
     /// total indices.
     pub(super) fn add_term(
         &mut self,
-        (swaps, pairs): (&[Vec<usize>], &[(usize, usize)]),
+        swaps: &[Vec<usize>],
+        pairs: &[(usize, usize)],
         term: &[(usize, usize)],
         [first, second]: [&dyn Fn(usize) -> f64; 2],
     ) {
@@ -174,7 +176,8 @@ impl Contributions {
         net: &Net,
         surrogate: &[Vec<f64>],
         e: &[Vec<f64>],
-        (swaps, pairs): (usize, &[(usize, usize)]),
+        swaps: usize,
+        pairs: &[(usize, usize)],
     ) {
         let points = net.points();
         let mean = |columns: &[&Vec<f64>]| {

@@ -121,12 +121,12 @@ pub fn low_fidelity_estimates(
     }
     let pairs = if layout.second_order { layout.pair_list() } else { Vec::new() };
     let swaps = sorted_swaps(design);
-    let stand_ins: Vec<StandIn> = (0..dear.len()).into_par_iter().map(|k| stand_in((&dear, &cheap), k, caps)).collect();
+    let stand_ins: Vec<StandIn> = (0..dear.len()).into_par_iter().map(|k| stand_in(&dear, &cheap, k, caps)).collect();
     let nets: Vec<Contributions> = (0..dear.len())
         .into_par_iter()
-        .map(|k| differences(design, (&dear[k], &cheap[k]), &stand_ins[k], (&swaps, &pairs)))
+        .map(|k| differences(design, &dear[k], &cheap[k], &stand_ins[k], &swaps, &pairs))
         .collect();
-    let of_low = own_contributions(low.own, families, &stand_ins, (&swaps, &pairs));
+    let of_low = own_contributions(low.own, families, &stand_ins, &swaps, &pairs);
     let slope = stand_ins.iter().map(|of| of.slope).sum::<f64>() / stand_ins.len() as f64;
     let used = LowFidelityUse {
         name: low.name.to_owned(),
@@ -137,7 +137,7 @@ pub fn low_fidelity_estimates(
     };
     let expansions = stand_ins.into_iter().map(|of| of.rest).collect();
     let corrected = Corrected { nets, expansions };
-    let mut all = estimates(&corrected, &of_low, (swaps.len(), pairs.len()), scale);
+    let mut all = estimates(&corrected, &of_low, scale);
     all.low = Some(used);
     Some(all)
 }
@@ -155,7 +155,7 @@ fn leave_out_points_that_failed(f: &mut [Vec<Vec<f64>>], g: &[Vec<Vec<f64>>]) {
 }
 
 /// Fitted to all nets but number `k`.
-fn stand_in((dear, cheap): (&[Net], &[Net]), k: usize, caps: Caps<'_>) -> StandIn {
+fn stand_in(dear: &[Net], cheap: &[Net], k: usize, caps: Caps<'_>) -> StandIn {
     let others = |nets: &[Net]| -> Vec<f64> {
         let of_others = nets.iter().enumerate().filter(|(place, _)| *place != k);
         of_others.flat_map(|(_, net)| net.outputs.iter().flatten().copied()).collect()
@@ -186,9 +186,11 @@ fn alone(dear: &[Net], cheap: &[Net], stand_ins: &[StandIn]) -> f64 {
 /// What every base point of a net contributes to Q(f) - Q(h), and what is exact of Q(h).
 fn differences(
     design: &Design,
-    (dear, cheap): (&Net, &Net),
+    dear: &Net,
+    cheap: &Net,
     stand_in: &StandIn,
-    (swaps, pairs): (&[Vec<usize>], &[(usize, usize)]),
+    swaps: &[Vec<usize>],
+    pairs: &[(usize, usize)],
 ) -> Contributions {
     let StandIn { slope, offset, rest: expansion } = stand_in;
     let left = dear.with_outputs(rest(dear, cheap, *slope, *offset));
@@ -228,7 +230,7 @@ fn differences(
         if term.is_empty() {
             all.mean.iter_mut().for_each(|mean| *mean += b);
         } else {
-            all.add_term((swaps, pairs), term, [&|_| b * b; 2]);
+            all.add_term(swaps, pairs, term, [&|_| b * b; 2]);
         }
     }
     all
@@ -239,7 +241,8 @@ fn own_contributions(
     own: &OwnOutputs,
     families: &[Family],
     stand_ins: &[StandIn],
-    (swaps, pairs): (&[Vec<usize>], &[(usize, usize)]),
+    swaps: &[Vec<usize>],
+    pairs: &[(usize, usize)],
 ) -> Vec<Contributions> {
     let count = stand_ins.len() as f64;
     let square_of_slope = stand_ins.iter().map(|of| of.slope * of.slope).sum::<f64>() / count;
@@ -271,7 +274,7 @@ fn own_contributions(
                 net.fill(term, run, &mut column);
                 means.iter_mut().zip(&column).zip(e).for_each(|((sum, phi), e)| *sum += phi * e / runs);
             }
-            all.add_term((swaps, pairs), term, [&|p| weight * means[p]; 2]);
+            all.add_term(swaps, pairs, term, [&|p| weight * means[p]; 2]);
         }
         all
     };
@@ -286,7 +289,7 @@ fn own_contributions(
         let mut whole: Option<Contributions> = None;
         for first in (0..points).step_by(CHUNK) {
             let part: Vec<&[f64]> = outputs.iter().map(|run| &run[first..points.min(first + CHUNK)]).collect();
-            let net = Net::of_points(&own.design, (number as u64, first as u64), families, degree, &part);
+            let net = Net::of_points(&own.design, number as u64, first as u64, families, degree, &part);
             let part = of_chunk(&net, &nothing);
             match &mut whole {
                 Some(whole) => whole.append(part),

@@ -76,7 +76,7 @@ pub fn surrogate_estimates(
     for Trial { families, hermite_degree, ratio } in trials(families) {
         best = Corrected::better(best, job.corrected(&families, hermite_degree)?, ratio);
     }
-    Some(estimates(&best?, &[], (design.swaps().len(), pairs.len()), scale))
+    Some(estimates(&best?, &[], scale))
 }
 
 /// Whether there are enough nets, and points that are nets.
@@ -257,12 +257,7 @@ fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
 }
 
 /// The means over all points, and what each part does to them; those of `low`, the runs of a cheaper model, are added.
-fn estimates(
-    corrected: &Corrected,
-    low: &[Contributions],
-    (swaps, pairs): (usize, usize),
-    (mean, sd): (f64, f64),
-) -> SurrogateEstimates {
+fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64)) -> SurrogateEstimates {
     let Corrected { nets, expansions } = corrected;
     let of_nets = |nets: &[Contributions], column: &dyn Fn(&Contributions) -> &Vec<f64>| {
         let columns: Vec<Vec<f64>> = nets.iter().map(|net| column(net).clone()).collect();
@@ -282,10 +277,13 @@ fn estimates(
         let scale = 1.0 / variance.estimate;
         Influenced { estimate, ..Influenced::combined(&[(scale, numerator), (-estimate * scale, &variance)]) }
     };
-    let first_order: Vec<Influenced> = (0..swaps).map(|swap| index(&gathered(&|net| &net.first_order[swap]))).collect();
-    let second_order: Vec<Influenced> = (0..pairs).map(|pair| index(&gathered(&|net| &net.pairs[pair]))).collect();
-    let forms: [Vec<Influenced>; 2] =
-        [0, 1].map(|form| (0..swaps).map(|swap| index(&gathered(&|net| &net.total[form][swap]))).collect());
+    let first_order: Vec<Influenced> =
+        (0..nets[0].first_order.len()).map(|swap| index(&gathered(&|net| &net.first_order[swap]))).collect();
+    let second_order: Vec<Influenced> =
+        (0..nets[0].pairs.len()).map(|pair| index(&gathered(&|net| &net.pairs[pair]))).collect();
+    let forms: [Vec<Influenced>; 2] = [0, 1].map(|form| {
+        (0..nets[0].total[form].len()).map(|swap| index(&gathered(&|net| &net.total[form][swap]))).collect()
+    });
     let weight = weight_of_second(&forms);
     let mixed = |(a, b): (&Influenced, &Influenced)| Influenced::combined(&[(1.0 - weight, a), (weight, b)]);
     let total = forms[0].iter().zip(&forms[1]).map(mixed).collect();

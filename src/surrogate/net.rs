@@ -22,13 +22,14 @@ impl Net {
     /// The first base points of `replicate`, those of them whose `outputs`, a column for each run, are all finite.
     pub fn new(design: &Design, replicate: u64, families: &[Family], degree: usize, outputs: &[Vec<f64>]) -> Self {
         let outputs: Vec<&[f64]> = outputs.iter().map(Vec::as_slice).collect();
-        Self::of_points(design, (replicate, 0), families, degree, &outputs)
+        Self::of_points(design, replicate, 0, families, degree, &outputs)
     }
 
     /// The same from base point number `first` on.
     pub fn of_points(
         design: &Design,
-        (replicate, first): (u64, u64),
+        replicate: u64,
+        first: u64,
         families: &[Family],
         degree: usize,
         outputs: &[&[f64]],

@@ -53,7 +53,7 @@ pub fn surrogates_together(
                 members.par_iter().map(|&number| alone(&outputs[number])).collect()
             } else {
                 let scaled: Vec<&Scaled> = members.iter().filter_map(|&number| all[number].as_ref()).collect();
-                of_neighbours((design, families, layout), &good, &scaled)
+                of_neighbours(design, families, layout, &good, &scaled)
             };
             members.iter().zip(of_members).for_each(|(number, of)| found[*number] = of);
         }
@@ -69,7 +69,9 @@ fn good_points(runs: &[Vec<f64>]) -> Vec<usize> {
 
 /// Of outputs that have values at the `good` points of every replicate.
 fn of_neighbours(
-    (design, families, layout): (&Design, &[Family], &Layout),
+    design: &Design,
+    families: &[Family],
+    layout: &Layout,
     good: &[Vec<usize>],
     outputs: &[&Scaled],
 ) -> Vec<Option<SurrogateEstimates>> {
@@ -83,8 +85,7 @@ fn of_neighbours(
         output.0.iter().zip(good).map(of_replicate).collect()
     };
     let runs: Vec<Vec<Vec<Vec<f64>>>> = outputs.par_iter().map(at_good).collect();
-    let fits: Vec<Fit> =
-        trials(families).into_iter().map(|trial| Fit::new(design, trial, (outputs[0], &runs))).collect();
+    let fits: Vec<Fit> = trials(families).into_iter().map(|trial| Fit::new(design, trial, outputs[0], &runs)).collect();
     let (swaps, pairs) = (sorted_swaps(design), if layout.second_order { layout.pair_list() } else { Vec::new() });
     let of_output = |number: usize| {
         let mut best: Option<Corrected> = None;
@@ -96,7 +97,7 @@ fn of_neighbours(
             let nets = nets.iter().zip(&runs[number]).zip(&expansions).map(of_net).collect();
             best = Corrected::better(best, Corrected { nets, expansions }, *ratio);
         }
-        Some(estimates(&best?, &[], (swaps.len(), pairs.len()), outputs[number].1))
+        Some(estimates(&best?, &[], outputs[number].1))
     };
     (0..outputs.len()).into_par_iter().map(of_output).collect()
 }
@@ -110,7 +111,7 @@ struct Fit {
 
 impl Fit {
     /// `first` is one of the outputs, all points included; `runs` has all of them at the good ones.
-    fn new(design: &Design, trial: Trial, (first, runs): (&Scaled, &[Vec<Vec<Vec<f64>>>])) -> Self {
+    fn new(design: &Design, trial: Trial, first: &Scaled, runs: &[Vec<Vec<Vec<f64>>>]) -> Self {
         let caps = Caps::new(&trial.families, trial.hermite_degree);
         let net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
             Net::new(design, number as u64, &trial.families, caps.degree, outputs)

@@ -48,7 +48,8 @@ pub enum NoDerivative {
 /// range, of order h^3.
 pub(super) fn local(
     bench: &mut Bench<'_>,
-    (number, factor): (usize, &Factor),
+    number: usize,
+    factor: &Factor,
 ) -> Result<Vec<Result<LocalSensitivity, NoDerivative>>, Halt> {
     let distribution = factor.distribution();
     let x = factor.nominal;
@@ -63,7 +64,7 @@ pub(super) fn local(
         _ => Some(Points::of(x, distribution)),
     };
     let values = points.as_ref().map_or_else(|| vec![x], |points| points.values.clone());
-    let curves = bench.curve((number, &values), None)?;
+    let curves = bench.curve(number, &values, None)?;
     let of_output = |curve: super::CurveOutput| {
         let Some(points) = &points else { return Err(NoDerivative::NotContinuous(distribution.name())) };
         if let Some((_, reason)) = curve.failures.first() {

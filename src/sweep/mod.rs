@@ -132,8 +132,8 @@ pub fn sweep_in(
     let mut bench = Bench::new(space, model, context);
     let first = space.factors().first().map_or(f64::NAN, |factor| factor.nominal);
     let nominal: Vec<Result<f64, RowFailure>> =
-        bench.curve((0, &[first]), None)?.into_iter().map(CurveOutput::single).collect();
-    let sweeps = request.factors.iter().map(|asked| one(&mut bench, (space, asked), (&nominal, request)));
+        bench.curve(0, &[first], None)?.into_iter().map(CurveOutput::single).collect();
+    let sweeps = request.factors.iter().map(|asked| one(&mut bench, space, asked, &nominal, request));
     let sweeps = sweeps.collect::<Result<_, _>>()?;
     context.messages().finish();
     Ok(Sweeps { nominal, sweeps, runs: bench.runs, flags: bench.flags })
@@ -141,16 +141,18 @@ pub fn sweep_in(
 
 fn one(
     bench: &mut Bench<'_>,
-    (space, asked): (&Space, &FactorValues),
-    (nominal, request): (&[Result<f64, RowFailure>], &SweepRequest),
+    space: &Space,
+    asked: &FactorValues,
+    nominal: &[Result<f64, RowFailure>],
+    request: &SweepRequest,
 ) -> Result<Sweep, Halt> {
     let FactorValues { factor, values } = asked.clone();
-    let curves = bench.curve((factor, &values), None)?;
+    let curves = bench.curve(factor, &values, None)?;
     let against = request.against.iter().filter(|against| against.factor != factor);
     let family = against.flat_map(|against| against.values.iter().map(|value| (against.factor, *value)));
     let family = family
         .map(|(other, value)| {
-            let outputs = bench.curve((factor, &values), Some((other, value)))?;
+            let outputs = bench.curve(factor, &values, Some((other, value)))?;
             Ok(FamilyCurve { factor: other, value, outputs })
         })
         .collect::<Result<_, Halt>>()?;
@@ -163,7 +165,7 @@ fn one(
         factor,
         extents: extents.collect(),
         family,
-        local: local::local(bench, (factor, &space.factors()[factor]))?,
+        local: local::local(bench, factor, &space.factors()[factor])?,
         nominal: curves,
         values,
     })

@@ -39,7 +39,8 @@ impl<'a> Bench<'a> {
     /// [`Halt`] if the model gives up or is stopped.
     pub fn curve(
         &mut self,
-        (factor, values): (usize, &[f64]),
+        factor: usize,
+        values: &[f64],
         moved: Option<(usize, f64)>,
     ) -> Result<Vec<CurveOutput>, Halt> {
         let unit = self.space.factors()[factor].unit();

@@ -43,7 +43,7 @@ impl Worker for Row {
     }
 }
 
-fn factor(name: &str, unit: &str, (distribution, nominal): (Distribution, f64)) -> Factor {
+fn factor(name: &str, unit: &str, distribution: Distribution, nominal: f64) -> Factor {
     let mut factor = Factor::new(name, Unit::parse(unit).unwrap(), distribution).unwrap();
     factor.nominal = nominal;
     factor
@@ -51,9 +51,9 @@ fn factor(name: &str, unit: &str, (distribution, nominal): (Distribution, f64)) 
 
 fn space() -> Space {
     Space::new(vec![
-        factor("length", "um", (Distribution::uniform(100.0, 300.0).unwrap(), 200.0)),
-        factor("stiffness", "N/m", (Distribution::log_uniform(0.1, 10.0).unwrap(), 2.0)),
-        factor("share", "1", (Distribution::uniform(0.0, 1.0).unwrap(), 0.0)),
+        factor("length", "um", Distribution::uniform(100.0, 300.0).unwrap(), 200.0),
+        factor("stiffness", "N/m", Distribution::log_uniform(0.1, 10.0).unwrap(), 2.0),
+        factor("share", "1", Distribution::uniform(0.0, 1.0).unwrap(), 0.0),
     ])
 }
 
@@ -134,7 +134,7 @@ fn a_family_moves_one_more_factor() {
 
 #[test]
 fn ranges_end_where_the_distribution_does() {
-    let law = |distribution| Space::new(vec![factor("x", "1", (distribution, 1.0))]);
+    let law = |distribution| Space::new(vec![factor("x", "1", distribution, 1.0)]);
     let values = |distribution, points| FactorValues::over_range(&law(distribution), 0, points).unwrap().values;
     let normal = values(Distribution::normal(0.0, 1.0).unwrap(), 3);
     // The quantile of 0.001 from tables.

@@ -57,9 +57,9 @@ pub fn aggregate_indices(
     let without = (0..parts).map(|part| aggregated(all.iter().map(|output| &output.without[part]), scaling).ok());
     let without: Vec<Option<Vec<f64>>> = without.collect();
     let replicates = outputs.first().ok_or(Undefined::NoRuns)?;
-    let influences = Influences::new(replicates, whole, &without, (largest(&|output| output.points), &points));
+    let influences = Influences::new(replicates, whole, &without, largest(&|output| output.points), &points);
     let pooled = vec![true; influences.whole.len()];
-    let mut first_order = Judged::of(influences, method, (&pooled, 0..0), &|_| Side::Above).estimates;
+    let mut first_order = Judged::of(influences, method, &pooled, 0..0, &|_| Side::Above).estimates;
     let total = first_order.split_off(first_order.len() / 2);
     let both = first_order.into_iter().zip(total).map(|(first, total)| agreeing(first, total));
     let (first_order, total) = both.map(|(first, total, _)| (first, total)).unzip();

@@ -25,7 +25,8 @@ const ROUND: usize = 1 << 12;
 pub(super) fn resampled<Q>(
     points: KeptPoints<'_>,
     products: &Products,
-    (seed, resamples): (u64, usize),
+    seed: u64,
+    resamples: usize,
     quantities: &(dyn Fn(&Moments) -> Option<Q> + Sync),
 ) -> Vec<Option<Q>>
 where
@@ -87,9 +88,9 @@ impl Batch {
         for (place, left) in self.left.iter_mut().enumerate() {
             let mut stream = random.clone();
             stream.set_stream(stream_of(self.first + place, chunk.1));
-            let drawn = drawn_here(*left, (points, self.points), &mut stream);
+            let drawn = drawn_here(*left, points, self.points, &mut stream);
             *left -= drawn;
-            count(&mut work.one, (drawn, points), &mut stream);
+            count(&mut work.one, drawn, points, &mut stream);
             work.all.extend(work.one.iter().map(|count| f64::from(*count)));
         }
         self.points -= points;
@@ -104,7 +105,7 @@ fn stream_of(resample: usize, chunk: usize) -> u64 {
 }
 
 /// How many of `left` draws fall on `points` of the `of` points.
-fn drawn_here(left: u64, (points, of): (usize, usize), random: &mut ChaCha8Rng) -> u64 {
+fn drawn_here(left: u64, points: usize, of: usize, random: &mut ChaCha8Rng) -> u64 {
     if points >= of {
         return left;
     }
@@ -113,7 +114,7 @@ fn drawn_here(left: u64, (points, of): (usize, usize), random: &mut ChaCha8Rng) 
 }
 
 /// How often each of `points` points (at most 2^16) is drawn in `draws` draws, to `counts`.
-fn count(counts: &mut Vec<u8>, (draws, points): (u64, usize), random: &mut ChaCha8Rng) {
+fn count(counts: &mut Vec<u8>, draws: u64, points: usize, random: &mut ChaCha8Rng) {
     counts.clear();
     counts.resize(points, 0);
     // Lemire (2019, ACM Trans. Model. Comput. Simul. 29(1), 3) on 16-bit words: no point is likelier than another.
@@ -145,8 +146,8 @@ pub(super) fn counts_of(points: KeptPoints<'_>, seed: u64, resample: usize) -> V
         let mut stream = random.clone();
         stream.set_stream(stream_of(resample, number));
         let here = chunk.points.len();
-        let drawn = drawn_here(left, (here, of - chunk.points.start), &mut stream);
-        count(&mut one, (drawn, here), &mut stream);
+        let drawn = drawn_here(left, here, of - chunk.points.start, &mut stream);
+        count(&mut one, drawn, here, &mut stream);
         left -= drawn;
         all.extend_from_slice(&one);
     }
@@ -166,7 +167,7 @@ mod tests {
         for resample in 0..resamples {
             let mut random = ChaCha8Rng::seed_from_u64(3);
             random.set_stream(resample);
-            count(&mut counts, (points as u64, points), &mut random);
+            count(&mut counts, points as u64, points, &mut random);
             assert_eq!(counts.iter().map(|c| u64::from(*c)).sum::<u64>(), points as u64);
             totals.iter_mut().zip(&counts).for_each(|(total, count)| *total += u64::from(*count));
             squares += counts.iter().map(|c| u64::from(*c).pow(2)).sum::<u64>();

@@ -45,7 +45,7 @@ impl ByPoints<'_> {
             all.resize(estimates.len(), none);
             return all;
         }
-        let values = resampled(self.points, &products, (self.seed, self.resamples), quantities);
+        let values = resampled(self.points, &products, self.seed, self.resamples, quantities);
         let freedom = self.points.count() as f64 - 1.0;
         let of_quantity = |(q, estimate): (usize, &f64)| {
             let mut sorted: Vec<f64> =

@@ -154,7 +154,8 @@ impl SurrogateEstimates {
     pub(super) fn corrections(
         &self,
         layout: &Layout,
-        (plain, errors): (&[Estimate], &[StandardError]),
+        plain: &[Estimate],
+        errors: &[StandardError],
         settled: &[bool],
     ) -> Corrections {
         let real = layout.swaps() - usize::from(layout.dummy);
@@ -179,7 +180,7 @@ impl SurrogateEstimates {
         let mut put = |place: usize, noise: Noise, of: &Influenced| replacements.push((place, replacement(noise, of)));
         if corrects_first_order {
             let places = [Number::FirstOrder, Number::ShareFirstOrder];
-            indices(layout, (&first_order, settled), places, &mut |place, is_share, of| {
+            indices(layout, &first_order, settled, places, &mut |place, is_share, of| {
                 put(place, if is_share { first.even() } else { first }, of);
             });
             let pairs = layout.pair_list().into_iter().zip(&self.second_order).enumerate();
@@ -189,7 +190,7 @@ impl SurrogateEstimates {
         }
         if corrects_total {
             let places = [Number::Total, Number::ShareTotal];
-            indices(layout, (&all_total, settled), places, &mut |place, is_share, of| {
+            indices(layout, &all_total, settled, places, &mut |place, is_share, of| {
                 put(place, if is_share { total.even() } else { total }, of);
             });
         }
@@ -219,7 +220,7 @@ impl SurrogateEstimates {
             total: corrects_total.then_some((&all_total, total)),
         };
         let plain_first = |swap| plain[layout.place(swap, Number::FirstOrder)];
-        mean::corrected(layout, &kinds, (plain, errors), &plain_first, &mut |place, of| replacements.push((place, of)));
+        mean::corrected(layout, &kinds, plain, errors, &plain_first, &mut |place, of| replacements.push((place, of)));
         if self.is_heavy_tailed {
             for (place, (estimate, error, parts)) in &mut replacements {
                 estimate.interval = hull(estimate.interval, plain[*place].interval);
@@ -264,7 +265,8 @@ impl SurrogateEstimates {
 /// `settled` swaps.
 fn indices(
     layout: &Layout,
-    (list, settled): (&[Influenced], &[bool]),
+    list: &[Influenced],
+    settled: &[bool],
     [index, share_of]: [Number; 2],
     put: &mut dyn FnMut(usize, bool, &Influenced),
 ) {

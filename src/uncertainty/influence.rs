@@ -19,7 +19,7 @@ impl Influences {
     pub fn of(replicates: &[MomentParts], quantities: &dyn Fn(&Moments) -> Option<Vec<f64>>) -> Option<Self> {
         let replicates: Vec<&MomentParts> = replicates.iter().collect();
         let LeftOut { whole, without, points, points_of_parts } = LeftOut::of(&replicates, quantities);
-        Some(Self::new(&replicates, whole?, &without, (points, &points_of_parts)))
+        Some(Self::new(&replicates, whole?, &without, points, &points_of_parts))
     }
 
     /// From the quantities of the whole and those `without` each part of the replicates.
@@ -30,9 +30,10 @@ impl Influences {
         replicates: &[&MomentParts],
         whole: Vec<f64>,
         without: &[Option<Vec<f64>>],
-        (n, of_parts): (f64, &[f64]),
+        n: f64,
+        of_parts: &[f64],
     ) -> Self {
-        let columns = without.iter().zip(of_parts).map(|(without, n_p)| influence(&whole, without.as_ref(), (n, *n_p)));
+        let columns = without.iter().zip(of_parts).map(|(without, n_p)| influence(&whole, without.as_ref(), n, *n_p));
         let columns: Vec<Vec<f64>> = columns.collect();
         let parts = (0..whole.len()).map(|q| by_replicate(replicates, &columns, q)).collect();
         Self { whole, parts }
@@ -80,7 +81,7 @@ impl<T> LeftOut<T> {
     }
 }
 
-fn influence(whole: &[f64], without: Option<&Vec<f64>>, (n, n_p): (f64, f64)) -> Vec<f64> {
+fn influence(whole: &[f64], without: Option<&Vec<f64>>, n: f64, n_p: f64) -> Vec<f64> {
     if n_p == 0.0 {
         return vec![0.0; whole.len()];
     }

@@ -45,7 +45,8 @@ pub(super) struct Corrected<'a> {
 pub(super) fn corrected(
     layout: &Layout,
     corrected: &Corrected<'_>,
-    (plain, errors): (&[Estimate], &[StandardError]),
+    plain: &[Estimate],
+    errors: &[StandardError],
     plain_first: &dyn Fn(usize) -> Estimate,
     put: &mut dyn FnMut(usize, Replacement),
 ) {

@@ -57,7 +57,7 @@ pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>)
         // The mean may be missed on both sides, the variance above.
         None => {
             let sides = |place| if place == 0 { Side::Both } else { Side::Above };
-            Judged::of(influences, options.method, (&[true, true], 0..0), &sides)
+            Judged::of(influences, options.method, &[true, true], 0..0, &sides)
         }
     };
     let mut estimates = [judged.estimates[0], judged.estimates[1]];
@@ -97,7 +97,7 @@ pub fn output_indices(
         None => {
             // Rounding says nothing of how errors decay.
             let pooled: Vec<bool> = pooled.iter().zip(&still).map(|(pooled, still)| *pooled && !still).collect();
-            Judged::of(influences, options.method, (&pooled, layout.random()), &|place| layout.side(place))
+            Judged::of(influences, options.method, &pooled, layout.random(), &|place| layout.side(place))
         }
     };
     let allowed = judged.allow_for_unseen(&unseen, &still);
@@ -152,7 +152,8 @@ impl Judged {
     pub fn of(
         influences: Influences,
         method: IntervalMethod,
-        (pooled, random): (&[bool], Range<usize>),
+        pooled: &[bool],
+        random: Range<usize>,
         side: &dyn Fn(usize) -> Side,
     ) -> Self {
         let Influences { whole, parts } = influences;
@@ -188,8 +189,7 @@ impl Judged {
     /// Puts what the surrogate has corrected in the place of the plain estimates, where its errors are smaller; the indices of
     /// `settled` swaps stay.
     fn correct(&mut self, layout: &Layout, surrogate: &SurrogateEstimates, settled: &[bool]) -> SurrogateUse {
-        let Corrections { replacements, used } =
-            surrogate.corrections(layout, (&self.estimates, &self.errors), settled);
+        let Corrections { replacements, used } = surrogate.corrections(layout, &self.estimates, &self.errors, settled);
         for (place, (estimate, error, parts)) in replacements {
             self.estimates[place] = estimate;
             self.errors[place] = error;

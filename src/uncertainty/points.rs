@@ -88,7 +88,7 @@ impl Chunk<'_> {
             let rows = |runs: &[usize]| runs.iter().map(|run| columns[*run]).collect::<Vec<&[f64]>>();
             let (ab, ba) = (rows(design.ab_runs()), rows(design.ba_runs()));
             let (bc, cb) = (rows(design.bc_runs()), rows(design.cb_runs()));
-            let shapley = contributions(design, *place, columns);
+            let shapley = contributions(design, place.0, place.1, columns);
             let shapley: Vec<&[f64]> = shapley.iter().map(Vec::as_slice).collect();
             let block = BlockOutputs {
                 a: columns[0],
@@ -100,7 +100,7 @@ impl Chunk<'_> {
                 paired: design.paired(),
                 shapley: &shapley,
             };
-            products.fill(&block, (&mut matrix.as_mut_slice()[first..], points), &mut work);
+            products.fill(&block, &mut matrix.as_mut_slice()[first..], points, &mut work);
             first += columns[0].len();
         }
         matrix

@@ -58,7 +58,7 @@ fn scene(factors: [f64; 8]) -> Scene {
     }
 }
 
-fn found(scene: &Scene, friction: FrictionLaw, (fidelity, tolerance): (Fidelity, f64)) -> Result<Critical, Failure> {
+fn found(scene: &Scene, friction: FrictionLaw, fidelity: Fidelity, tolerance: f64) -> Result<Critical, Failure> {
     critical_force(scene, &Options { friction, fidelity, tolerance, ..Options::default() })
 }
 
@@ -77,7 +77,7 @@ fn every_rung_finds_the_largest_force_of_lugre_friction() {
     for ramp in &ramps {
         let scene = Scene { viscous_friction: ramp.sigma2, ..scene(ramp.factors) };
         for tolerance in [1e-3, 1e-6, 1e-9] {
-            let run = |fidelity| found(&scene, FrictionLaw::LuGre, (fidelity, tolerance));
+            let run = |fidelity| found(&scene, FrictionLaw::LuGre, fidelity, tolerance);
             if ramp.lifted == 1 {
                 assert_eq!(run(Fidelity::ClosedForm).unwrap().error_estimate, 1.0, "claims nothing: {scene:?}");
                 for fidelity in &RUNGS[1..] {
@@ -131,7 +131,7 @@ fn the_dynamic_rung_follows_the_swing_of_a_stuck_tip() {
         let scene = scene(swing.factors);
         let expected = swing.normal_force.hypot(swing.lateral_force);
         for fidelity in RUNGS {
-            let critical = found(&scene, law, (fidelity, 1e-6)).unwrap();
+            let critical = found(&scene, law, fidelity, 1e-6).unwrap();
             let error = off(critical.critical_force, expected);
             assert!(
                 error < critical.error_estimate + OF_ORACLE,
@@ -140,7 +140,7 @@ fn the_dynamic_rung_follows_the_swing_of_a_stuck_tip() {
             );
         }
         for tolerance in [1e-6, 1e-9] {
-            let dynamic = found(&scene, law, (Fidelity::Dynamic, tolerance)).unwrap();
+            let dynamic = found(&scene, law, Fidelity::Dynamic, tolerance).unwrap();
             let late = off(dynamic.critical_time.unwrap(), swing.critical_time);
             let error = off(dynamic.critical_force, expected);
             assert!(error < tolerance && late < tolerance, "{tolerance:e} {error:e} {late:e} {:?}", swing.factors);

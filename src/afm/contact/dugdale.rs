@@ -138,7 +138,7 @@ impl Zone {
         let share = lambda / (lambda + 0.6);
         let radius = libm::cbrt(lift + share * (1.0 + (6.0 * lift - 3.0).max(0.0).sqrt()));
         let start = approximate_extent(lambda, radius).min(0.9 * limit);
-        let extent = descend((start, limit), |s| {
+        let extent = descend(start, limit, |s| {
             let zone = Self::new(lambda, s);
             let value = zone.lift();
             (libm::log(value / lift), zone.slope() * (zone.radius * zone.radius) / value)
@@ -148,7 +148,7 @@ impl Zone {
 
     /// The zone around a contact of this abar.
     pub fn at_radius(lambda: f64, radius: f64) -> Self {
-        let extent = descend((approximate_extent(lambda, radius), f64::INFINITY), |s| {
+        let extent = descend(approximate_extent(lambda, radius), f64::INFINITY, |s| {
             let zone = Self::new(lambda, s);
             (libm::log(zone.radius / radius), -1.0 - zone.excess())
         });
@@ -171,7 +171,7 @@ fn approximate_extent(lambda: f64, radius: f64) -> f64 {
 ///
 /// Newton's method in ln s, which the power laws at either end make all but exact, inside a bracket that halves
 /// whenever a step would leave it: it ends whatever the start.
-fn descend((start, limit): (f64, f64), function: impl Fn(f64) -> (f64, f64)) -> f64 {
+fn descend(start: f64, limit: f64, function: impl Fn(f64) -> (f64, f64)) -> f64 {
     const FACTOR: f64 = 16.0;
     let (mut low, mut high, mut s) = (0.0, limit, start);
     let mut last = f64::NAN;
@@ -247,7 +247,7 @@ mod tests {
     fn descend_arrives_from_anywhere() {
         for start in [1e-200, 1e-3, 0.5, 1.9, 3.0, 1e200] {
             // (ln s)^2 - 1 falls through zero at 1/e and has its minimum at 1.
-            let root = descend((start, f64::INFINITY), |s| (libm::log(s).powi(2) - 1.0, 2.0 * libm::log(s)));
+            let root = descend(start, f64::INFINITY, |s| (libm::log(s).powi(2) - 1.0, 2.0 * libm::log(s)));
             assert!((root * libm::exp(1.0) - 1.0).abs() < 1e-14, "{start}: {root}");
         }
     }

@@ -36,7 +36,7 @@ fn left_to_dynamic(exact: &Critical, scene: &Scene, options: &Options) -> f64 {
     let contact = Contact { radius: exact.contact_radius, indentation: exact.indentation };
     let probe = Probe::new(scene, options.torsion);
     let slip = Slip { normal_force, lateral_force, travel, twist, contact };
-    let substrate = Substrate::new(scene, options, (&probe, LuGreForm::Ramp));
+    let substrate = Substrate::new(scene, options, &probe, LuGreForm::Ramp);
     let swing = Swing::new(scene, &probe);
     let mut error = swing.left_out(&slip, &substrate);
     if !swing.is_followed(travel, scene.velocity) {

@@ -14,13 +14,13 @@ use crate::afm::{Failure, Fidelity, Flag, Flags, FrictionLaw, Scene};
 #[inline]
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
     let probe = Probe::new(scene, options.torsion);
-    let substrate = Substrate::new(scene, options, (&probe, LuGreForm::Fast));
+    let substrate = Substrate::new(scene, options, &probe, LuGreForm::Fast);
     let hold = substrate.hold(probe.preload_force)?;
-    let slip = slip(&probe, scene.height, (hold.capacity, hold.contact));
+    let slip = slip(&probe, scene.height, hold.capacity, hold.contact);
     let of_law = of_law(&substrate, probe.preload_force, hold.capacity);
     Ok(Critical {
         flags: flags(&slip, scene, options),
-        error_estimate: error(&substrate, (&probe, &slip), of_law),
+        error_estimate: error(&substrate, &probe, &slip, of_law),
         cost: Cost { evaluations: hold.evaluations },
         ..slip.critical(&substrate, Fidelity::ClosedForm)
     })
@@ -28,7 +28,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
 
 /// The slip of a contact that holds `lateral_force` (N).
 #[inline(always)]
-pub(super) fn slip(probe: &Probe, height: f64, (lateral_force, contact): (f64, Contact)) -> Slip {
+pub(super) fn slip(probe: &Probe, height: f64, lateral_force: f64, contact: Contact) -> Slip {
     Slip {
         normal_force: probe.preload_force,
         lateral_force,
@@ -60,7 +60,7 @@ pub(super) fn flags(slip: &Slip, scene: &Scene, options: &Options) -> Flags {
 
 /// The relative error of F_cr by what is left out, the twist and the swing of the tip, and by the [law](of_law).
 #[inline(always)]
-pub(super) fn error(substrate: &Substrate, (probe, slip): (&Probe, &Slip), of_law: f64) -> f64 {
+pub(super) fn error(substrate: &Substrate, probe: &Probe, slip: &Slip, of_law: f64) -> f64 {
     let mut error = twisting(substrate, probe, slip) + Swing::new(substrate.scene, probe).left_out(slip, substrate);
     error.lateral += of_law;
     error.of(slip)

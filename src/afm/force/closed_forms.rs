@@ -106,7 +106,7 @@ impl ClosedForms {
             return None;
         }
         let probe = Probe::new(scene, options.torsion);
-        let drive = Substrate::new(scene, options, (&probe, LuGreForm::Fast)).drive;
+        let drive = Substrate::new(scene, options, &probe, LuGreForm::Fast).drive;
         let (probes, slips, flags) = (Probes::none(), Slips::none(), [Flags::NONE; AT_ONCE]);
         Some(Self { scene: *scene, options: *options, drive, columns, probes, slips, flags })
     }
@@ -302,13 +302,13 @@ fn finish(rest: &Scene, options: &Options, drive: &Drive, columns: &Columns, pro
         let scene = columns.scene(i, rest);
         let (probe, substrate) = (probes.probe(i), probes.substrate(i, &scene, options, *drive));
         let contact = Contact { radius: slips.contact_radius[i], indentation: 0.0 };
-        let slip: Slip = closed_form::slip(&probe, scene.height, (slips.lateral_force[i], contact));
+        let slip: Slip = closed_form::slip(&probe, scene.height, slips.lateral_force[i], contact);
         let squared = slip.squared();
         slips.normal_force[i] = slip.normal_force;
         slips.critical_force[i] = squared.sqrt();
         slips.travel[i] = slip.travel;
         slips.twist[i] = slip.twist;
-        slips.error_estimate[i] = closed_form::error(&substrate, (&probe, &slip), probes.of_law[i]);
+        slips.error_estimate[i] = closed_form::error(&substrate, &probe, &slip, probes.of_law[i]);
     }
 }
 

@@ -26,7 +26,7 @@ use crate::afm::{Failure, Fidelity, FrictionLaw, Scene};
 /// The critical force. At rest, and where nothing holds the particle, there is no motion: the quasi-static limit.
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
     let probe = Probe::new(scene, options.torsion);
-    let substrate = Substrate::new(scene, options, (&probe, LuGreForm::Ramp));
+    let substrate = Substrate::new(scene, options, &probe, LuGreForm::Ramp);
     let statics = Statics::new(scene, &probe)?;
     let (limit, mut evaluations) = statics.slip(&substrate)?;
     let mut slip = limit;
@@ -74,7 +74,7 @@ fn stuck(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, 
     let (end, spent) = if swing <= SMALL * substrate.options.tolerance {
         damped(motion, substrate, limit)?
     } else {
-        swinging(motion, substrate, (limit, swing))?
+        swinging(motion, substrate, limit, swing)?
     };
     let tip = motion.tip(end.t, &end.y);
     let hold = substrate.hold(tip.normal_force)?;
@@ -116,7 +116,7 @@ fn damped(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(End<2
 
 /// By the explicit method, which keeps the swing, over its last turns before the slip; over all of them where they
 /// change on the way. `swing` is its amplitude in F_Y - F_Y*, in units of the slip.
-fn swinging(motion: &Motion, substrate: &Substrate, (limit, swing): (&Slip, f64)) -> Result<(End<2>, u64), Failure> {
+fn swinging(motion: &Motion, substrate: &Substrate, limit: &Slip, swing: f64) -> Result<(End<2>, u64), Failure> {
     let tolerance = substrate.options.tolerance;
     let frequency = motion.frequency();
     // The force rises by more than 1 in a unit of time. The first crossing comes before the mean by the amplitude at most.

@@ -15,7 +15,7 @@ use crate::afm::{Failure, Fidelity, Scene};
 /// of the stiff method, since no explicit one survives them. At rest the slip is never passed: the quasi-static limit.
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
     let probe = Probe::new(scene, options.torsion);
-    let substrate = Substrate::new(scene, options, (&probe, LuGreForm::Ramp));
+    let substrate = Substrate::new(scene, options, &probe, LuGreForm::Ramp);
     let statics = Statics::new(scene, &probe)?;
     let (limit, mut evaluations) = statics.slip(&substrate)?;
     let mut slip = limit;

@@ -24,7 +24,7 @@ use crate::afm::{Failure, Fidelity, FrictionLaw, Scene};
 /// The critical force, LuGre friction by the peak of its ramp.
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
     let probe = Probe::new(scene, options.torsion);
-    let substrate = Substrate::new(scene, options, (&probe, LuGreForm::Ramp));
+    let substrate = Substrate::new(scene, options, &probe, LuGreForm::Ramp);
     let statics = Statics::new(scene, &probe)?;
     let (slip, evaluations) = statics.slip(&substrate)?;
     let error = left_out(&slip, scene, &substrate, &probe);

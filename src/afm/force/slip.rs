@@ -108,7 +108,7 @@ impl Slip {
         Critical {
             normal_force,
             lateral_force,
-            critical_force: magnitude(self.squared(), (normal_force, lateral_force)),
+            critical_force: magnitude(self.squared(), normal_force, lateral_force),
             travel,
             critical_time: critical_time(travel, substrate.scene.velocity),
             contact_radius: contact.radius,
@@ -138,7 +138,7 @@ pub(super) const ORDINARY_SQUARES: RangeInclusive<f64> = 1e-200..=1e200;
 
 /// F_cr from its square, or from its parts (F_Z, F_Y) where the square left the numbers.
 #[inline]
-fn magnitude(squared: f64, (normal_force, lateral_force): (f64, f64)) -> f64 {
+fn magnitude(squared: f64, normal_force: f64, lateral_force: f64) -> f64 {
     if ORDINARY_SQUARES.contains(&squared) { squared.sqrt() } else { libm::hypot(normal_force, lateral_force) }
 }
 

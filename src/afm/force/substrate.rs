@@ -30,7 +30,7 @@ pub(super) struct Hold {
 
 impl<'a> Substrate<'a> {
     #[inline]
-    pub fn new(scene: &'a Scene, options: &'a Options, (probe, form): (&Probe, LuGreForm)) -> Self {
+    pub fn new(scene: &'a Scene, options: &'a Options, probe: &Probe, form: LuGreForm) -> Self {
         let pair = Pair::substrate(scene);
         let (adhesive_load, support) = adhesion(options, &pair);
         // With longer steps a Lemaitre-Carlson layer that is sheared slowly has lost its first peak by a tenth.

@@ -61,7 +61,7 @@ impl Armstrong {
 
     /// Friction of sliding at `velocity` (m/s), >= 0, under `load` (N), where `lagged` is the velocity one lag ago and
     /// `dwell` (s) the rest before it slid.
-    pub fn sliding_force(&self, load: f64, velocity: f64, (lagged, dwell): (f64, f64)) -> f64 {
+    pub fn sliding_force(&self, load: f64, velocity: f64, lagged: f64, dwell: f64) -> f64 {
         let coulomb = self.dynamic_friction * load;
         let ratio = lagged / self.stribeck_velocity;
         let excess = self.static_force(load, dwell) - coulomb;
@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn sliding_starts_at_static_friction_and_ends_at_coulomb() {
-        let at = |velocity| law().sliding_force(1.0, velocity, (velocity, 1.0));
+        let at = |velocity| law().sliding_force(1.0, velocity, velocity, 1.0);
         assert!((at(0.0) - 0.775).abs() < 1e-15);
         assert!((at(1e-3) - (0.7 + 0.0375 + 1e-10)).abs() < 1e-15);
         assert!((at(1e3) - (0.7 + 1e-4)).abs() < 1e-12);
@@ -116,7 +116,7 @@ mod tests {
     /// Friction answers the velocity of one lag ago: the same velocity, slower before, holds more.
     #[test]
     fn friction_lags() {
-        let at = |lagged| law().sliding_force(1.0, 1e-3, (lagged, 1.0));
+        let at = |lagged| law().sliding_force(1.0, 1e-3, lagged, 1.0);
         assert!(at(0.5e-3) > at(1e-3) && at(1e-3) > at(2e-3));
     }
 

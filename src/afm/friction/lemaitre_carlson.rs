@@ -56,7 +56,7 @@ impl LemaitreCarlson {
 
     /// The layer over the area (m2) pulled at `velocity` (m/s), > 0, through a spring of `stiffness` (N/m), which may be
     /// infinite.
-    pub(super) fn sheared(&self, area: f64, (velocity, stiffness): (f64, f64)) -> Sheared {
+    pub(super) fn sheared(&self, area: f64, velocity: f64, stiffness: f64) -> Sheared {
         let thickness = 2.0 * self.half_thickness;
         let modulus = 1.0 / (1.0 / self.modulus + area / (thickness * stiffness));
         Sheared { law: *self, rate: velocity / thickness, modulus: modulus / self.stress }
@@ -74,7 +74,7 @@ impl LemaitreCarlson {
         if area == 0.0 {
             return Ok(Held { force: 0.0, evaluations: 0 });
         }
-        let layer = self.sheared(area, (drive.velocity, drive.stiffness));
+        let layer = self.sheared(area, drive.velocity, drive.stiffness);
         let mut march = March::<Rodas, _, 2>::new(&layer, (0.0, [0.0, self.initial_disorder]), layer.control(drive));
         // Near enough to gam' = V/(2h) that the rise left is below the tolerance, reached or only approached.
         let near = drive.tolerance * (1.0 / layer.modulus).min(1.0);
@@ -178,7 +178,7 @@ mod tests {
     /// least and largest.
     fn swing(velocity: f64, stiffness: f64, strain: f64) -> (f64, f64) {
         let drive = Drive { tolerance: 1e-6, ..Drive::of(&Scene::default(), stiffness) };
-        let layer = law().sheared(PI * PRESSED.radius.powi(2), (velocity, stiffness));
+        let layer = law().sheared(PI * PRESSED.radius.powi(2), velocity, stiffness);
         let mut march = March::<Rodas, _, 2>::new(&layer, (0.0, [0.0, 0.06]), layer.control(&drive));
         let (mut least, mut largest) = (f64::INFINITY, 0.0_f64);
         while march.state().t < strain {
@@ -231,7 +231,7 @@ mod tests {
     /// Central differences, 1e-6 for their curvature.
     #[test]
     fn the_jacobian_is_the_derivative() {
-        let layer = law().sheared(2.6e-16, (1e-7, 30.0));
+        let layer = law().sheared(2.6e-16, 1e-7, 30.0);
         let y = [2.5, 0.11];
         let jacobian = layer.jacobian(0.0, &y);
         for j in 0..2 {

@@ -58,7 +58,7 @@ pub fn against_velocity(specimen: &Specimen, velocity: f64) -> Result<f64, Failu
         FrictionLaw::LuGre => LuGre::of(scene).steady_force(load, velocity),
         FrictionLaw::Dahl => Dahl::of(scene).capacity(load),
         FrictionLaw::Stribeck => Stribeck::of(scene).force(load, velocity),
-        FrictionLaw::Armstrong => Armstrong::of(scene).sliding_force(load, velocity, (velocity, scene.rest_time)),
+        FrictionLaw::Armstrong => Armstrong::of(scene).sliding_force(load, velocity, velocity, scene.rest_time),
         FrictionLaw::LemaitreCarlson => {
             PI * pressed.radius * pressed.radius * LemaitreCarlson::of(scene).steady_stress(velocity)?
         }
@@ -91,7 +91,7 @@ pub fn against_displacement(specimen: &Specimen, motion: &Motion) -> Result<Vec<
             let rate = |v: f64, &[p]: &[f64; 1]| [v * law.slope(load, p * load, v.signum()) / load];
             follow(motion, &rate, [0.0], |_, &[p]| p * load)
         }
-        FrictionLaw::Armstrong => Ok(armstrong(&Armstrong::of(scene), (load, scene.rest_time), motion)),
+        FrictionLaw::Armstrong => Ok(armstrong(&Armstrong::of(scene), load, scene.rest_time, motion)),
         FrictionLaw::LemaitreCarlson => {
             let law = LemaitreCarlson::of(scene);
             let area = PI * pressed.radius * pressed.radius;
@@ -173,7 +173,7 @@ enum Mode {
     Sliding { direction: f64, rest: f64 },
 }
 
-fn armstrong(law: &Armstrong, (load, rest): (f64, f64), motion: &Motion) -> Vec<Sample> {
+fn armstrong(law: &Armstrong, load: f64, rest: f64, motion: &Motion) -> Vec<Sample> {
     let mut mode = Mode::Sticking { slack: 0.0, since: -rest };
     let mut last = 0.0;
     let force = |at: Sample| {
@@ -193,7 +193,7 @@ fn armstrong(law: &Armstrong, (load, rest): (f64, f64), motion: &Motion) -> Vec<
         }
         if let Mode::Sliding { direction, rest } = mode {
             let lagged = (motion.velocity)(at.time - law.lag).abs();
-            last = direction * law.sliding_force(load, at.velocity.abs(), (lagged, rest));
+            last = direction * law.sliding_force(load, at.velocity.abs(), lagged, rest);
         }
         at.with(last)
     };

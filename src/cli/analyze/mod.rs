@@ -75,7 +75,7 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
         AnswersError::MissingRows { .. } | AnswersError::UnknownOutput { .. } => wrong(&format!("{error}{header}")),
         _ => wrong(&error),
     })?;
-    say_of_table(&arguments.data, (&[], reader.is_unended()));
+    say_of_table(&arguments.data, &[], reader.is_unended());
     let study = &answers.study;
     say_notes(study);
     match answers.compared.len() {

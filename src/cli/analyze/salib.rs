@@ -71,7 +71,7 @@ pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
     };
     let fits = inputs.as_ref().map(|inputs| |layout| check_points(inputs, &problem.members, layout));
     let fits = fits.as_ref().map(|fits| fits as &dyn Fn(SalibLayout) -> _);
-    let layout = recognise((rows, d), asked, fits).map_err(|error| match error {
+    let layout = recognise(rows, d, asked, fits).map_err(|error| match error {
         LayoutError::NoMultiple { .. } => wrong(&format!("{error}{header}")),
         _ => wrong(&error),
     })?;
@@ -81,7 +81,7 @@ pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
     artefacts.check(&file_names(&name, &outputs.iter().map(|column| column.name.as_str()).collect::<Vec<_>>()))?;
     let names: Vec<String> = problem.members.iter().map(|(name, _)| name.clone()).collect();
     let analysed = outputs.into_iter().map(|column| {
-        let indices = salib_indices(&column.values, (d, layout), (resamples, seed));
+        let indices = salib_indices(&column.values, d, layout, resamples, seed);
         (column, indices)
     });
     let file = arguments.data.display().to_string();
@@ -132,7 +132,7 @@ fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
     while reader.read(&wanted, 1 << 13, &mut part).map_err(|error| wrong(&error))? > 0 {
         all.iter_mut().zip(&part).for_each(|(all, part)| all.extend_from_slice(part));
     }
-    say_of_table(&arguments.data, (&[], reader.is_unended()));
+    say_of_table(&arguments.data, &[], reader.is_unended());
     for ((_, kind), column) in wanted.iter().zip(&all) {
         if let Some(row) = column.iter().position(|value| !value.is_finite()) {
             let found = if column[row].is_nan() { "the value is missing" } else { "the value is infinite" };

@@ -34,9 +34,9 @@ impl Densities {
         for ((&label, z), &weight) in labels.iter().zip(z).zip(weights) {
             if weight > 0.0 {
                 let place = (z - self.low) / self.step;
-                add_kernel(&mut density, (place, of_all), weight);
+                add_kernel(&mut density, place, of_all, weight);
                 if widths[label] > 0.0 {
-                    add_kernel(&mut densities[label], (place, widths[label]), weight);
+                    add_kernel(&mut densities[label], place, widths[label], weight);
                 }
             }
         }
@@ -56,7 +56,7 @@ impl Densities {
 }
 
 /// Adds the kernel at `place` of that `width`, both in steps of the grid, times its weight and the root of 2 pi times its width.
-pub(super) fn add_kernel<const POINTS: usize>(density: &mut [f64; POINTS], (place, width): (f64, f64), weight: f64) {
+pub(super) fn add_kernel<const POINTS: usize>(density: &mut [f64; POINTS], place: f64, width: f64, weight: f64) {
     let nearest = place.round().clamp(0.0, (POINTS - 1) as f64);
     let (centre, away, step) = (nearest as usize, (nearest - place) / width, 1.0 / width);
     let top = weight * libm::exp(-away * away / 2.0);
@@ -112,7 +112,7 @@ mod tests {
     fn kernels_are_those_of_the_exponential() {
         for (place, width) in [(0.0, 3.0), (17.4, 0.4), (98.9, 25.0), (50.5, 0.02)] {
             let mut density = [0.0; GRID];
-            add_kernel(&mut density, (place, width), 2.0);
+            add_kernel(&mut density, place, width, 2.0);
             for (k, got) in density.iter().enumerate() {
                 let expected = 2.0 * libm::exp(-((k as f64 - place) / width).powi(2) / 2.0);
                 // The error of a ratio counts as often as there are steps.

@@ -96,7 +96,7 @@ impl<'a> Twin<'a> {
                 let fitted = line.at(line.ranks[(2 * node + 1) * rows / (2 * NODES)]);
                 let mut density = [0.0; GRID];
                 for residual in &line.residuals {
-                    add_kernel(&mut density, ((fitted + residual - low) / step, width), weight);
+                    add_kernel(&mut density, (fitted + residual - low) / step, width, weight);
                 }
                 let share = rows as f64 / (self.labels.len() * NODES) as f64;
                 all.iter_mut().zip(&density).for_each(|(all, own)| *all += share * own);

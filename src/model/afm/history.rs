@@ -72,7 +72,7 @@ impl AfmMoments {
     /// [`SeriesError`] unless there are 2 to 10,000 points and the duration is a positive number.
     pub fn new(duration: f64, points: usize) -> Result<Self, SeriesError> {
         let step = duration / points.max(1) as f64;
-        let axis = SeriesAxis::even("time", "s", points, (step, step))?;
+        let axis = SeriesAxis::even("time", "s", points, step, step)?;
         if step > 0.0 { Ok(Self { duration, axis }) } else { Err(SeriesError::Position { place: 0, found: step }) }
     }
 
@@ -137,7 +137,7 @@ impl Histories {
     }
 
     /// Writes the values of a row.
-    pub fn write(&self, (scene, options): (&Scene, &Options), row: usize, batch: &mut Batch) -> Result<(), Failure> {
+    pub fn write(&self, scene: &Scene, options: &Options, row: usize, batch: &mut Batch) -> Result<(), Failure> {
         at_times(scene, options, &self.times, |place, sample| {
             for (history, series) in self.which.iter().zip(&self.series) {
                 batch.set(row, series.first + place, history.of(sample));

@@ -68,7 +68,7 @@ impl SecondCalculation for AfmSecond {
             let formula = formula.as_ref().map(|formula| reference(formula, &inputs)).transpose()?;
             match formula.filter(|formula| is_contradicted(value, formula)) {
                 Some(formula) => Ok(formula),
-                None => against(*output, (value, own_error), &other),
+                None => against(*output, value, own_error, &other),
             }
         });
         checked.collect()
@@ -84,7 +84,8 @@ fn is_contradicted(value: f64, formula: &Reference) -> bool {
 /// An output of the model, with the error that it estimates, by another rung.
 fn against(
     output: AfmOutput,
-    (value, own_error): (f64, f64),
+    value: f64,
+    own_error: f64,
     other: &Result<Critical, Failure>,
 ) -> Result<Reference, Unchecked> {
     let other = match other {
@@ -100,7 +101,7 @@ fn against(
         Err(failure) => return Err(Unchecked::NotAvailable(failure.to_string())),
     };
     let expected = output.of(other).map_err(|failure| Unchecked::NotAvailable(failure.to_string()))?;
-    let stated = stated(output, (value, own_error), other);
+    let stated = stated(output, value, own_error, other);
     let covered = match stated {
         None => "another rung differs by more than 0.1 %, and no error of this output is stated",
         Some(f64::INFINITY) => "the error estimate is 100 %, which claims nothing",
@@ -111,7 +112,7 @@ fn against(
 
 /// How far an output of the two may differ by their estimates of the relative error of F_cr, e = (F_Z dF_Z + F_Y dF_Y)/F_cr^2:
 /// dF_Z is at most e F_cr^2/F_Z, and dF_Y at most e F_cr^2/F_Y. `None` of the time, of which no error is estimated.
-fn stated(output: AfmOutput, (value, own_error): (f64, f64), other: &Critical) -> Option<f64> {
+fn stated(output: AfmOutput, value: f64, own_error: f64, other: &Critical) -> Option<f64> {
     if output == AfmOutput::CriticalTime {
         return None;
     }

@@ -182,7 +182,7 @@ impl<'a> KeptAliveWorker<'a> {
                 && may_send(sent, session.answered)
                 && let Some(row) = piece.send_next()
             {
-                self.writer.write(piece.inputs, (row, number_of(sent)), &mut text);
+                self.writer.write(piece.inputs, row, number_of(sent), &mut text);
                 sent += 1;
             }
             talk.credit -= 1;

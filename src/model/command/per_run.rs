@@ -90,7 +90,7 @@ impl<'a> PerRunWorker<'a> {
             return Ok(Directory::Temporary(tempfile::Builder::new().prefix("apportion-run-").tempdir()?));
         };
         let mut text = self.rows.header();
-        self.rows.write(inputs, (row, 0), &mut text);
+        self.rows.write(inputs, row, 0, &mut text);
         // The same point has the same directory, whatever the order of runs.
         let digest = Sha256::digest(text.as_bytes());
         let name: String = digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect();

@@ -62,7 +62,7 @@ impl RowWriter {
     }
 
     /// One row of SI values as a line; `number` is written if rows have numbers.
-    pub(super) fn write(&self, inputs: &[&[f64]], (row, number): (usize, u64), out: &mut String) {
+    pub(super) fn write(&self, inputs: &[&[f64]], row: usize, number: u64, out: &mut String) {
         let (open, close) = if self.protocol == Protocol::JsonLines { ("{", "}\n") } else { ("", "\n") };
         out.push_str(open);
         if self.numbered {
@@ -163,8 +163,8 @@ mod tests {
         let writer = RowWriter::new(protocol, &factors());
         let mut text = writer.header();
         let inputs: [&[f64]; 4] = [&[225e-6, 1e-13], &[3.0, 4.0], &[0.0, 1.0], &[1.0, 0.0]];
-        writer.write(&inputs, (0, 0), &mut text);
-        writer.write(&inputs, (1, 0), &mut text);
+        writer.write(&inputs, 0, 0, &mut text);
+        writer.write(&inputs, 1, 0, &mut text);
         text
     }
 
@@ -176,7 +176,7 @@ mod tests {
         {
             let writer = RowWriter::new(protocol, factors).with_numbers(true);
             let mut text = writer.header();
-            writer.write(&[&[225e-6]], (0, 711_953), &mut text);
+            writer.write(&[&[225e-6]], 0, 711_953, &mut text);
             assert_eq!(text, expected);
         }
     }
@@ -200,7 +200,7 @@ mod tests {
             let factor = Factor::new("x", Unit::dimensionless(), Distribution::uniform(0.0, 1.0).unwrap()).unwrap();
             for protocol in Protocol::ALL {
                 let mut text = String::new();
-                RowWriter::new(protocol, std::slice::from_ref(&factor)).write(&[&[value]], (0, 0), &mut text);
+                RowWriter::new(protocol, std::slice::from_ref(&factor)).write(&[&[value]], 0, 0, &mut text);
                 let number = text.trim().trim_start_matches("{\"x\":").trim_end_matches('}');
                 proptest::prop_assert_eq!(number.parse::<f64>().unwrap().to_bits(), value.to_bits());
             }

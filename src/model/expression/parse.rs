@@ -169,14 +169,14 @@ impl Parser<'_> {
                     return self.name(&name, place);
                 }
                 let function = self.function(&name, place.clone())?;
-                self.call((&name, function), place)
+                self.call(&name, function, place)
             }
             Token::Member(name) => {
                 let place = self.place();
                 self.advance();
                 let is_call = self.take("(");
                 let problem = match functions::member(&name) {
-                    Some(Member::Function(function)) if is_call => return self.call((&name, function), place),
+                    Some(Member::Function(function)) if is_call => return self.call(&name, function, place),
                     Some(Member::Number(number)) if !is_call => {
                         self.program.push(Step::Number(number));
                         return Ok(());
@@ -232,7 +232,7 @@ impl Parser<'_> {
     }
 
     /// The arguments of a function, after `(`.
-    fn call(&mut self, (name, function): (&str, Function), place: Range<usize>) -> Parsed {
+    fn call(&mut self, name: &str, function: Function, place: Range<usize>) -> Parsed {
         let mut count = 0;
         if !self.take(")") {
             loop {

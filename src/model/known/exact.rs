@@ -114,7 +114,8 @@ impl Exact {
 
     /// From the indices themselves.
     pub(super) fn of_indices(
-        (mean, variance): (f64, f64),
+        mean: f64,
+        variance: f64,
         first: Vec<f64>,
         total: Vec<f64>,
         second: impl Fn(usize, usize) -> f64,

@@ -84,9 +84,9 @@ impl Function for Product {
         };
         let varying = if zeros > 0 { 1.0 } else { -libm::expm1(logs) };
         let squares: f64 = self.sigma.iter().zip(&self.mu).map(|(sigma, mu)| mu * mu + sigma * sigma).product();
-        let moments = (self.mu.iter().product(), squares * varying);
+        let mean = self.mu.iter().product();
         let first = (0..r.len()).map(|i| t[i] * others(&[i]) / varying).collect();
         let total = t.iter().map(|t| t / varying).collect();
-        Exact::of_indices(moments, first, total, |i, j| t[i] * t[j] * others(&[i, j]) / varying)
+        Exact::of_indices(mean, squares * varying, first, total, |i, j| t[i] * t[j] * others(&[i, j]) / varying)
     }
 }

@@ -127,7 +127,7 @@ impl<'a> Sheet<'a> {
     fn new(chart: &'a Chart, layout: &'a Layout<'a>, cell: &'a Cell<'a>, column: usize) -> Self {
         let left = layout.left + column as f64 * (layout.width + layout.gap);
         let plot = Plot { left, top: 0.0, width: layout.width, height: cell.height };
-        let flags = flags::place(cell.panel.rules(), &cell.x, (&plot, layout.page));
+        let flags = flags::place(cell.panel.rules(), &cell.x, &plot, layout.page);
         Self { chart, layout, cell, plot, is_first_column: column == 0, flags }
     }
 
@@ -152,7 +152,7 @@ impl<'a> Sheet<'a> {
         canvas.open("g", &[("class", &"panel")]);
         if self.is_titled() {
             let page = if self.layout.columns == 1 { self.layout.page } else { ChartWidth::Wide };
-            plot.title(canvas, &panel.title, (self.rise(), page));
+            plot.title(canvas, &panel.title, self.rise(), page);
         }
         if panel.tiles().next().is_none() {
             plot.x_grid(canvas, x);
@@ -188,8 +188,8 @@ impl<'a> Sheet<'a> {
         for Mark { series, shape } in marks {
             match shape {
                 // The rim of a band has the contrast that its light filling lacks; a white one parts layers of like lightness.
-                Shape::Band(edges) => self.band(canvas, (series, "band", "0.18", series.colour.hex()), edges),
-                Shape::Layer(edges) => self.band(canvas, (series, "layer", "1", PAPER), edges),
+                Shape::Band(edges) => self.band(canvas, series, "band", "0.18", series.colour.hex(), edges),
+                Shape::Layer(edges) => self.band(canvas, series, "layer", "1", PAPER, edges),
                 _ => (),
             }
         }
@@ -229,7 +229,10 @@ impl<'a> Sheet<'a> {
     fn band(
         &self,
         canvas: &mut Canvas,
-        (series, kind, opacity, rim): (&Series, &str, &str, &str),
+        series: &Series,
+        kind: &str,
+        opacity: &str,
+        rim: &str,
         edges: &[(f64, f64, f64)],
     ) {
         for run in runs(edges.iter().map(|edges| self.edges(edges))) {

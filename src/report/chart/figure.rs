@@ -131,7 +131,7 @@ impl<'a> Figure<'a> {
         for entry in entries {
             let key = entry.key.width() + KEY_GAP;
             let most = self.medium.width.choose(1, 3);
-            let name = wrap_within(&entry.name, (right - MARGIN - key, most), BODY);
+            let name = wrap_within(&entry.name, right - MARGIN - key, most, BODY);
             let length = key + name.iter().map(|line| BODY.width(line)).fold(0.0, f64::max);
             if x > MARGIN && x + length > right {
                 (x, y) = (MARGIN, y + ROW);

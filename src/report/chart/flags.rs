@@ -43,7 +43,8 @@ impl Flag<'_> {
 pub(super) fn place<'a>(
     rules: impl Iterator<Item = (f64, &'a str)>,
     x: &Scale,
-    (plot, page): (&Plot, ChartWidth),
+    plot: &Plot,
+    page: ChartWidth,
 ) -> Vec<Flag<'a>> {
     let longest = LONGEST.min(plot.width / page.choose(3.0, 2.0));
     let mut shown: Vec<_> = rules.filter_map(|(at, label)| Some((plot.x(x, at)?, label))).collect();
@@ -107,7 +108,7 @@ mod tests {
     fn flags<'a>(rules: &[(f64, &'a str)]) -> Vec<Flag<'a>> {
         let x = Scale::over([0.0, 100.0], ScaleOptions { spacing: Spacing::Linear, air: 0.0, steps: 5 });
         let plot = Plot { left: 0.0, top: 100.0, width: 600.0, height: 50.0 };
-        place(rules.iter().copied(), &x, (&plot, ChartWidth::Wide))
+        place(rules.iter().copied(), &x, &plot, ChartWidth::Wide)
     }
 
     #[test]

@@ -70,7 +70,7 @@ impl<'a> Layout<'a> {
         let panels = chart.all_panels();
         let columns = columns(chart, page);
         let rows = Rows::new(panels, page);
-        let heights: Vec<f64> = panels.iter().map(|panel| height(panel, panels.len() == 1, (rows, page))).collect();
+        let heights: Vec<f64> = panels.iter().map(|panel| height(panel, panels.len() == 1, rows, page)).collect();
         let y = y_scales(chart, &heights);
         let with_numbers = || panels.iter().zip(&y).zip(&heights).filter(|((panel, _), _)| !panel.has_rows());
         let titles = with_numbers().map(|((panel, y), height)| title_room(&panel.y.title(y.exponent), *height));
@@ -229,7 +229,7 @@ fn columns(chart: &Chart, page: ChartWidth) -> usize {
     if count == 4 { 2 } else { count.min(page.choose(3, 2)) }
 }
 
-fn height(panel: &Panel, alone: bool, (rows, page): (Rows, ChartWidth)) -> f64 {
+fn height(panel: &Panel, alone: bool, rows: Rows, page: ChartWidth) -> f64 {
     let (lone, several) = page.choose(HEIGHTS, NARROW_HEIGHTS);
     match alone {
         _ if panel.has_rows() => rows.pitch * panel.y.names.len() as f64,
@@ -265,7 +265,7 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
         () if marks().any(|mark| mark.series.stroke.has_points()) => 0.02,
         () => 0.0,
     };
-    let options = ScaleOptions { spacing: first.x.spacing, air, steps: steps(width, (50.0, 7)) };
+    let options = ScaleOptions { spacing: first.x.spacing, air, steps: steps(width, 50.0, 7) };
     Scale::over(values, options).with_room(width)
 }
 
@@ -310,11 +310,11 @@ fn y_scale(first: &Panel, panels: &[Panel], height: f64) -> Scale {
     // Zero belongs to the picture unless it would take much of it. A logarithmic scale passes over it.
     values.extend((low > 0.0 && low < NEAR_ZERO * high).then_some(0.0));
     let air = if first.has_slopes() { 0.06 } else { 0.05 };
-    Scale::over(values, ScaleOptions { spacing: first.y.spacing, air, steps: steps(height, (45.0, 6)) })
+    Scale::over(values, ScaleOptions { spacing: first.y.spacing, air, steps: steps(height, 45.0, 6) })
 }
 
 /// About how many steps between ticks an axis of a length has: one for so many px, but at most so many.
-fn steps(length: f64, (px, most): (f64, usize)) -> usize {
+fn steps(length: f64, px: f64, most: usize) -> usize {
     ((length / px).round() as usize).clamp(3, most)
 }
 

@@ -39,7 +39,7 @@ impl Plot {
     }
 
     /// The panel's title over the upper left corner, `rise` px above the rectangle; on a phone from edge to edge.
-    pub fn title(&self, canvas: &mut Canvas, title: &str, (rise, width): (f64, ChartWidth)) {
+    pub fn title(&self, canvas: &mut Canvas, title: &str, rise: f64, width: ChartWidth) {
         let (left, room) = width.choose((self.left, self.width), (MARGIN, width.px() - 2.0 * MARGIN));
         let line = shorten(title, room, PANEL_TITLE);
         canvas.text(&Text::new(&line, (left, self.top - rise), PANEL_TITLE).whole(title));
@@ -105,7 +105,7 @@ impl Plot {
 
     /// The title of the vertical axis, turned, its last line's baseline at `x`.
     pub fn y_title(&self, canvas: &mut Canvas, title: &str, x: f64) {
-        let lines = wrap_within(title, (self.height, TITLE_LINES), BODY);
+        let lines = wrap_within(title, self.height, TITLE_LINES, BODY);
         let middle = self.top + self.height / 2.0;
         for (back, line) in lines.iter().rev().enumerate() {
             let at = (x - back as f64 * BODY.leading(), middle);
@@ -136,7 +136,7 @@ pub(super) fn tick_room(scale: &Scale) -> f64 {
 
 /// Width that a turned axis title takes beside a plot of this height, px.
 pub(super) fn title_room(title: &str, height: f64) -> f64 {
-    let lines = wrap_within(title, (height, TITLE_LINES), BODY).len() as f64;
+    let lines = wrap_within(title, height, TITLE_LINES, BODY).len() as f64;
     if lines == 0.0 { 0.0 } else { lines * BODY.leading() + 4.0 }
 }
 

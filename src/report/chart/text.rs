@@ -46,7 +46,7 @@ pub(super) fn shorten(text: &str, width: f64, face: Face) -> String {
 }
 
 /// At most `most` lines no wider than `width` px, the last one shortened if there is more.
-pub(super) fn wrap_within(text: &str, (width, most): (f64, usize), face: Face) -> Vec<String> {
+pub(super) fn wrap_within(text: &str, width: f64, most: usize, face: Face) -> Vec<String> {
     let mut lines = wrap(text, width, face);
     if lines.len() > most {
         let rest = lines.split_off(most.saturating_sub(1)).join(" ");
@@ -103,8 +103,8 @@ mod tests {
     #[test]
     fn lines_beyond_the_most_end_in_an_ellipsis() {
         let width = FACE.width("surface energy");
-        assert_eq!(wrap_within("surface energy of tip", (width, 2), FACE), ["surface energy", "of tip"]);
-        let three = wrap_within("surface energy of tip and particle and more", (width, 2), FACE);
+        assert_eq!(wrap_within("surface energy of tip", width, 2, FACE), ["surface energy", "of tip"]);
+        let three = wrap_within("surface energy of tip and particle and more", width, 2, FACE);
         assert_eq!(three[0], "surface energy");
         assert!(three.len() == 2 && three[1].starts_with("of tip") && three[1].ends_with('…'), "{three:?}");
     }

@@ -14,7 +14,7 @@ pub use document::comparison_document;
 pub use error::CompareError;
 pub use index::{ComparedIndex, difference};
 pub use record::{
-    ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile, OneSided, compare_results, shared_points,
+    ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile, NamedResult, OneSided, compare_results, shared_points,
 };
 pub use settings::SettingDifference;
 

@@ -85,11 +85,22 @@ pub struct ComparedFactor {
     pub total: ComparedIndex,
 }
 
+/// A result to compare, and what it is called.
+#[derive(Debug, Clone, Copy)]
+pub struct NamedResult<'a> {
+    /// The result.
+    pub result: &'a ResultFile,
+    /// Its label in tables and charts.
+    pub label: &'a str,
+    /// The name of its file, which the record of the comparison holds.
+    pub file: &'a str,
+}
+
 /// Compares two results, output by output and factor by factor.
 ///
 /// ```
 /// use std::path::Path;
-/// use apportion::report::comparison::{ComparedSide, compare_results};
+/// use apportion::report::comparison::{NamedResult, compare_results};
 /// use apportion::report::ResultFile;
 /// use apportion::Study;
 ///
@@ -99,7 +110,8 @@ pub struct ComparedFactor {
 ///     Ok(ResultFile::new(&study, &study.run()?))
 /// };
 /// let (a, b) = (result("b = 0.1")?, result("b = 0.2")?);
-/// let file = compare_results((&a, "A", "a.json"), (&b, "B", "b.json"))?;
+/// let named = |result, label, file| NamedResult { result, label, file };
+/// let file = compare_results(&named(&a, "A", "a.json"), &named(&b, "B", "b.json"))?;
 /// // x3 acts only together with x1, the more so the larger b is.
 /// let x3 = &file.outputs[0].factors[2];
 /// assert_eq!((x3.first_order.differs, x3.total.differs), (Some(false), Some(true)));
@@ -107,15 +119,10 @@ pub struct ComparedFactor {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Each result comes with its label for tables and charts and with the name of its file.
-///
 /// # Errors
 /// [`CompareError`] if they have no output or no factor in common, or an output of one name is a quantity of another kind.
-pub fn compare_results(
-    a: (&ResultFile, &str, &str),
-    b: (&ResultFile, &str, &str),
-) -> Result<ComparisonFile, CompareError> {
-    let (first, second) = (a.0, b.0);
+pub fn compare_results(a: &NamedResult<'_>, b: &NamedResult<'_>) -> Result<ComparisonFile, CompareError> {
+    let (first, second) = (a.result, b.result);
     let outputs_left_out = one_sided(&output_names(first), &output_names(second));
     let factors_left_out = one_sided(&factor_names(first), &factor_names(second));
     if outputs_left_out.a.len() == first.outputs.len() {
@@ -155,7 +162,7 @@ pub fn shared_points(a: &ResultFile, b: &ResultFile) -> bool {
     design(a) == design(b)
 }
 
-fn side((result, label, file): (&ResultFile, &str, &str)) -> ComparedSide {
+fn side(&NamedResult { result, label, file }: &NamedResult<'_>) -> ComparedSide {
     ComparedSide {
         label: label.to_owned(),
         study: result.study.name.clone(),
@@ -198,13 +205,13 @@ fn compared(names: &[String], a: &OutputRecord, b: &OutputRecord) -> Result<Comp
         let of = |output: &OutputRecord| {
             output.indices.iter().flatten().find(|index| index.factor == *name).map(|index| index.effect)
         };
-        factor((name, false), of(a), of(b))
+        factor(name, false, of(a), of(b))
     };
     let group = |name: &String| {
         let of = |output: &OutputRecord| {
             output.groups.iter().flatten().find(|group| group.group == *name).map(|group| group.effect)
         };
-        of(b).is_some().then(|| self::factor((name, true), of(a), of(b)))
+        of(b).is_some().then(|| self::factor(name, true, of(a), of(b)))
     };
     let factors = names.iter().map(factor);
     let groups = a.groups.iter().flatten().filter_map(|record| group(&record.group));
@@ -222,7 +229,7 @@ fn reason(output: &OutputRecord) -> String {
     output.reason.clone().unwrap_or_else(|| "the result holds none".to_owned())
 }
 
-fn factor((name, group): (&str, bool), a: Option<EffectRecord>, b: Option<EffectRecord>) -> ComparedFactor {
+fn factor(name: &str, group: bool, a: Option<EffectRecord>, b: Option<EffectRecord>) -> ComparedFactor {
     ComparedFactor {
         name: name.to_owned(),
         group,

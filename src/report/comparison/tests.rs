@@ -16,7 +16,12 @@ fn linear(coefficients: &str, design: &str) -> ResultFile {
 }
 
 fn compared(a: &ResultFile, b: &ResultFile) -> Result<ComparisonFile, CompareError> {
-    compare_results((a, "before", "a.json"), (b, "after", "b.json"))
+    let [a, b] = [(a, "before", "a.json"), (b, "after", "b.json")].map(|(result, label, file)| NamedResult {
+        result,
+        label,
+        file,
+    });
+    compare_results(&a, &b)
 }
 
 #[test]

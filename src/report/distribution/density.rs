@@ -108,7 +108,7 @@ const FOURTH: Functional = Functional { order: 4, hermite: |s| s * s - 6.0 * s +
 const SIXTH: Functional = Functional { order: 6, hermite: |s| s * s * s - 15.0 * s * s + 45.0 * s - 15.0 };
 
 impl Functional {
-    fn at(&self, pairs: &[f64], (n, cell, h): (f64, f64, f64)) -> f64 {
+    fn at(&self, pairs: &[f64], n: f64, cell: f64, h: f64) -> f64 {
         let term = |lag: usize| {
             let s = (lag as f64 * cell / h).powi(2);
             libm::exp(-0.5 * s) * (self.hermite)(s)
@@ -126,9 +126,9 @@ fn plug_in(sample: &Sample<'_>, cells: &Cells) -> Option<f64> {
     let n = cells.count as f64;
     let spread = sample.sd.min(sample.iqr / 1.349);
     let pairs = cells.pairs_by_lag();
-    let sixth = -SIXTH.at(&pairs, (n, cells.width, 1.23 * spread * libm::pow(n, -1.0 / 9.0)));
+    let sixth = -SIXTH.at(&pairs, n, cells.width, 1.23 * spread * libm::pow(n, -1.0 / 9.0));
     let pilot = libm::pow(2.394 / (n * sixth), 1.0 / 7.0);
-    let fourth = FOURTH.at(&pairs, (n, cells.width, pilot));
+    let fourth = FOURTH.at(&pairs, n, cells.width, pilot);
     let bandwidth = libm::pow(1.0 / (2.0 * PI.sqrt() * n * fourth), 0.2);
     (sixth > 0.0 && fourth > 0.0 && bandwidth.is_finite()).then_some(bandwidth)
 }
@@ -176,7 +176,7 @@ mod tests {
             };
             let all: f64 = values.iter().map(|a| values.iter().map(|b| term(a, b)).sum::<f64>()).sum();
             let expected = all / (n * (n - 1.0) * h.powi(functional.order + 1) * (2.0 * PI).sqrt());
-            let got = functional.at(&cells.pairs_by_lag(), (n, cells.width, h));
+            let got = functional.at(&cells.pairs_by_lag(), n, cells.width, h);
             // Cells are 1/150 of the bandwidth wide.
             assert!((got / expected - 1.0).abs() < 1e-3, "{got} {expected}");
         }

@@ -178,7 +178,8 @@ pub type SurrogateResult = Result<Surrogates, SurrogateRefusal>;
 pub fn build_given(
     indices: &GivenIndices,
     surrogates: Option<&SurrogateResult>,
-    (inputs, outputs): (&[Column], &[Column]),
+    inputs: &[Column],
+    outputs: &[Column],
     facts: &GivenFacts,
 ) -> GivenFile {
     let of_output = |(number, (indices, column)): (usize, (&OutputIndices, &Column))| {

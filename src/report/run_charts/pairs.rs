@@ -50,7 +50,7 @@ pub fn pairs_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let columns =
         Axis::from_names("the factors by their numbers", (1..=factors.len()).map(|n| n.to_string()).collect());
     let panel = Panel::new(columns, rows).with(marks);
-    Chart::new(title, caption(output, (all, drawn - shown))).panels([panel])
+    Chart::new(title, caption(output, all, drawn - shown)).panels([panel])
 }
 
 /// The second-order index of two factors in any order.
@@ -67,7 +67,7 @@ fn shade(index: EstimateRecord) -> usize {
 
 /// Which two factors act together most, if any are sure to, and which of all are not drawn since there are many, or since they
 /// show nothing.
-fn caption(output: &OutputRecord, (all, idle): (usize, usize)) -> String {
+fn caption(output: &OutputRecord, all: usize, idle: usize) -> String {
     let Some(pairs) = &output.second_order else {
         return match output.indices {
             Some(_) => format!("No second-order indices of {}: the study does not ask for them.", name(&output.name)),

@@ -226,14 +226,14 @@ pub(super) fn every_output(result: &ResultFile, bytes: usize) -> Vec<Part> {
     let mut parts = vec![Part::Text(text)];
     for some in shown.chunks(FOLDED) {
         let ends = [some.first(), some.last()].map(|end| end.map_or_else(String::new, |output| name(&output.name)));
-        let tables = [true, false].map(|is_total| Part::Table(of_outputs(result, some, (&factors, is_total))));
+        let tables = [true, false].map(|is_total| Part::Table(of_outputs(result, some, &factors, is_total)));
         parts.push(Part::Details { summary: format!("{} to {}", ends[0], ends[1]), parts: tables.to_vec() });
     }
     vec![Part::OnPage(parts)]
 }
 
 /// Total or first-order indices of some outputs, a row each.
-fn of_outputs(result: &ResultFile, outputs: &[&OutputRecord], (factors, is_total): (&[usize], bool)) -> Table {
+fn of_outputs(result: &ResultFile, outputs: &[&OutputRecord], factors: &[usize], is_total: bool) -> Table {
     let of = |index: &IndexRecord| if is_total { index.effect.total } else { index.effect.first_order };
     let row = |output: &&OutputRecord| -> Vec<Cell> {
         let mut row: Vec<Cell> = vec![name(&output.name).into()];

@@ -75,7 +75,7 @@ pub(super) fn sections(result: &ResultFile, stems: &[[String; SERIES_SUFFIXES.le
         let mut drawn = Figures::of_series(&alone, number + 1, figures);
         let parts = if number < IN_FULL {
             let few = result.series.len().min(IN_FULL);
-            in_full(of, &mut drawn, &stems[number], (number == 0, BYTES / few))
+            in_full(of, &mut drawn, &stems[number], number == 0, BYTES / few)
         } else {
             let text = format!("Its single values are in `{}.csv`, and all else in the JSON file.", result.study.name);
             vec![Part::Text(text), overview::factors(&alone).into()]
@@ -91,7 +91,8 @@ fn in_full(
     of: SeriesOf<'_>,
     figures: &mut Figures<'_>,
     stems: &[String; SERIES_SUFFIXES.len()],
-    (is_first, bytes): (bool, usize),
+    is_first: bool,
+    bytes: usize,
 ) -> Vec<Part> {
     let (alone, study) = (figures.result, &of.result.study.name);
     let [along, layers, together, map, directions] = stems;

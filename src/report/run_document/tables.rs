@@ -38,12 +38,12 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part
     let order = by_total(output)?;
     let indices = output.indices.iter().flatten();
     let rows = indices.map(|index| {
-        let mut row = effect_row((&output.name, "factor"), (name(&index.factor), &index.factor), &index.effect);
+        let mut row = effect_row(&output.name, "factor", name(&index.factor), &index.factor, &index.effect);
         row.extend(of_player(output, &index.factor, std::slice::from_ref(&index.factor)));
         row
     });
     let noise = output.noise.as_ref();
-    let of_noise = noise.map(|noise| effect_row((&output.name, "noise"), (label(noise), &noise.name), &noise.effect));
+    let of_noise = noise.map(|noise| effect_row(&output.name, "noise", label(noise), &noise.name, &noise.effect));
     let sum = |sum: Option<EstimateRecord>| sum.map_or_else(Cell::default, Cell::from);
     let all = if noise.is_some() { "sum of all factors and the noise" } else { "sum of all factors" };
     let mut sums: Vec<Cell> = vec![Cell::default(), Cell::default(), all.into()];
@@ -118,7 +118,7 @@ fn with_effects(table: Table, rows: impl IntoIterator<Item = Vec<Cell>>) -> Tabl
     }))
 }
 
-fn effect_row((output, kind): (&str, &str), (label, name): (String, &str), effect: &EffectRecord) -> Vec<Cell> {
+fn effect_row(output: &str, kind: &str, label: String, name: &str, effect: &EffectRecord) -> Vec<Cell> {
     let chance = |probability| Cell::valued(chance(probability).replace('-', "–"), probability.into());
     let share = |share: Option<f64>, interval: Option<IntervalRecord>| {
         let bounds =
@@ -203,16 +203,16 @@ pub(super) fn joint(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
     let names = |factors: &[String]| factors.iter().map(|factor| name(factor)).collect::<Vec<_>>().join(" + ");
     let groups = output.groups.iter().flatten().map(|group| {
         let label = format!("{}: {}", name(&group.group), names(&group.factors));
-        let mut row = effect_row((&output.name, "group"), (label, &group.group), &group.effect);
+        let mut row = effect_row(&output.name, "group", label, &group.group, &group.effect);
         row.extend(of_player(output, &group.group, &group.factors));
         row
     });
     let subsets = output.subsets.iter().flatten().map(|subset| {
         let in_file = subset.factors.join(" + ");
-        effect_row((&output.name, "subset"), (names(&subset.factors), &in_file), &subset.effect)
+        effect_row(&output.name, "subset", names(&subset.factors), &in_file, &subset.effect)
     });
     let dummy = "dummy, which does nothing";
-    let dummy = output.dummy.iter().map(|e| effect_row((&output.name, "dummy"), (dummy.to_owned(), "dummy"), e));
+    let dummy = output.dummy.iter().map(|e| effect_row(&output.name, "dummy", dummy.to_owned(), "dummy", e));
     let of_subsets = match output.subsets.iter().flatten().count() {
         0 => "Indices of a factor that does nothing, run along: what is not 0 is noise.",
         _ => "Joint indices of subsets of the factors: S_1 includes the interactions inside them.",

@@ -140,7 +140,7 @@ pub fn build_screening(study: &Study, model: &dyn Model, screening: &Screening, 
         version: 1,
         study: study_setup(study),
         provenance: provenance(screening, facts),
-        outputs: outputs.map(|(output, screened)| output_record(study, output, (screening, screened))).collect(),
+        outputs: outputs.map(|(output, screened)| output_record(study, output, screening, screened)).collect(),
         validity: validity(model, &screening.flags, screening.runs),
         notes: notes(study, screening.settings.design),
     }
@@ -177,7 +177,8 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
 fn output_record(
     study: &Study,
     output: &Output,
-    (screening, screened): (&Screening, &ScreenedOutput),
+    screening: &Screening,
+    screened: &ScreenedOutput,
 ) -> OutputScreeningRecord {
     let names = || study.space.factors().iter().map(|factor| factor.name.clone());
     let factors = names().zip(&screened.factors).zip(&screening.idle);

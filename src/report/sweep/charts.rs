@@ -24,7 +24,7 @@ pub fn sweep_charts(file: &SweepFile) -> Vec<Drawing> {
     let factors: Vec<&str> = file.sweeps.iter().map(|sweep| sweep.factor.as_str()).collect();
     let outputs: Vec<&str> = file.nominal.iter().map(|nominal| nominal.output.as_str()).collect();
     let charts = file.sweeps.iter().map(|sweep| lines(file, sweep));
-    let of_outputs = file.nominal.iter().enumerate().map(|nominal| ranges(file, nominal));
+    let of_outputs = file.nominal.iter().enumerate().map(|(number, nominal)| ranges(file, number, nominal));
     let suffixes = sweep_suffixes(&factors, &outputs);
     charts.chain(of_outputs).zip(suffixes).map(|(chart, suffix)| Drawing { suffix, chart }).collect()
 }
@@ -55,7 +55,7 @@ fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> Chart {
     let panel = |(number, nominal): (usize, &NominalRecord)| {
         let spacing = if is_wide(drawn, number) { Spacing::Logarithmic } else { Spacing::Linear };
         let y = Axis::new(words(&nominal.output), axis_unit(&nominal.unit)).spaced(spacing);
-        let curves = drawn.iter().enumerate().map(|(place, curve)| line(sweep, curve, (place, number)));
+        let curves = drawn.iter().enumerate().map(|(place, curve)| line(sweep, curve, place, number));
         let rule = place_of(sweep, sweep.nominal).filter(|_| number == 0).map(|x| Mark::rule(x, "nominal"));
         Panel::new(x.clone(), y).with(curves).with(rule)
     };
@@ -79,7 +79,7 @@ fn is_wide(curves: &[CurveRecord], number: usize) -> bool {
 }
 
 /// The curve at `place` of an output by its number.
-fn line(sweep: &FactorSweepRecord, curve: &CurveRecord, (place, number): (usize, usize)) -> Mark {
+fn line(sweep: &FactorSweepRecord, curve: &CurveRecord, place: usize, number: usize) -> Mark {
     let points = sweep.values.iter().zip(&curve.outputs[number].values);
     let points = points.filter_map(|(x, y)| Some((place_of(sweep, *x)?, y.unwrap_or(f64::NAN))));
     let (name, stroke) = match &curve.against {
@@ -156,7 +156,7 @@ fn signed(value: f64) -> String {
     if value > 0.0 { format!("+{}", printed(value)) } else { printed(value) }
 }
 
-fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> Chart {
+fn ranges(file: &SweepFile, number: usize, nominal: &NominalRecord) -> Chart {
     let mut sweeps: Vec<(&FactorSweepRecord, &SweepEffectRecord)> =
         file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
     sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
@@ -186,7 +186,8 @@ fn ranges(file: &SweepFile, (number, nominal): (usize, &NominalRecord)) -> Chart
     let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
     let rows = Axis::from_names("", sweeps.iter().map(|(sweep, _)| words(&sweep.factor)).collect());
     let label = |value| format!("nominal: {}", short_with_unit(value, &nominal.unit));
-    let marks = sweeps.iter().enumerate().flat_map(|(row, of_row)| row_marks(row, *of_row, (number, nominal.value)));
+    let marks = sweeps.iter().enumerate();
+    let marks = marks.flat_map(|(row, (sweep, effect))| row_marks(row, sweep, effect, number, nominal.value));
     let panel = Panel::new(x, rows).with(nominal.value.map(|value| Mark::rule(value, label(value)))).with(marks);
     Chart::new(format!("{}: how far each factor moves {output}", file.study.headline()), caption)
         .interval_name("whole range, where the ends are not the extremes")
@@ -205,8 +206,10 @@ fn extreme_labels(sweep: &FactorSweepRecord, number: usize) -> Option<(&str, &st
 /// The bars of a factor, its whole range if the ends are not the extremes, and how far it moves the output.
 fn row_marks(
     row: usize,
-    (sweep, effect): (&FactorSweepRecord, &SweepEffectRecord),
-    (number, nominal): (usize, Option<f64>),
+    sweep: &FactorSweepRecord,
+    effect: &SweepEffectRecord,
+    number: usize,
+    nominal: Option<f64>,
 ) -> Vec<Mark> {
     let bar = |name: &str, colour, from, to| {
         Series::new(name, colour).mark(Shape::Bar(Bar { row, from, to, ..Bar::default() }))

@@ -41,7 +41,8 @@ fn under_each(bench: &Bench<'_>, sweep: &Sweep, shape: &dyn Fn(&Curve) -> bool) 
 pub(super) fn nominal_curves(
     bench: &Bench<'_>,
     sweep: &Sweep,
-    (options, words): (OptionsOf, Words<'_>),
+    options: OptionsOf,
+    words: Words<'_>,
 ) -> Result<String, Failure> {
     let each: Result<Vec<String>, Failure> = LAWS
         .iter()
@@ -80,7 +81,7 @@ pub(super) fn from_to(curve: &Curve) -> String {
 fn length(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let sweep = bench.over("length")?;
     let holdings = under_each(bench, &sweep, &|curve| curve.falls() && curve.steepens() <= STEEPENING)?;
-    let ends = nominal_curves(bench, &sweep, (closed, &from_to))?;
+    let ends = nominal_curves(bench, &sweep, closed, &from_to)?;
     Ok(Claim {
         number: 8,
         source: "CHK fig. 6, LG fig. 2a",
@@ -100,7 +101,7 @@ fn length(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
 fn width(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let sweep = bench.over("width")?;
     let holdings = under_each(bench, &sweep, &|curve| curve.rises() && curve.bend().0 <= STRAIGHT)?;
-    let bends = nominal_curves(bench, &sweep, (closed, &straightness))?;
+    let bends = nominal_curves(bench, &sweep, closed, &straightness)?;
     Ok(Claim {
         number: 9,
         source: "CHK fig. 7, LG fig. 2b",
@@ -127,11 +128,9 @@ pub(super) fn straightness(curve: &Curve) -> String {
 fn thickness(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let sweep = bench.over("thickness")?;
     let holdings = under_each(bench, &sweep, &|curve| curve.rises() && curve.elasticity() > 1.0)?;
-    let powers = nominal_curves(
-        bench,
-        &sweep,
-        (closed, &|curve| format!("{}, as t^{}", from_to(curve), number(curve.elasticity(), ""))),
-    )?;
+    let powers = nominal_curves(bench, &sweep, closed, &|curve| {
+        format!("{}, as t^{}", from_to(curve), number(curve.elasticity(), ""))
+    })?;
     Ok(Claim {
         number: 10,
         source: "CHK fig. 8, LG fig. 2c",
@@ -150,7 +149,7 @@ fn thickness(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
 fn height(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let sweep = Sweep { count: 4, ..bench.over("height")? };
     let holdings = without_effect(bench, &sweep, exact)?;
-    let spreads = nominal_curves(bench, &sweep, (exact, &|curve| change(curve.spread())))?;
+    let spreads = nominal_curves(bench, &sweep, exact, &|curve| change(curve.spread()))?;
     Ok(Claim {
         number: 11,
         source: "CHK fig. 9, LG fig. 2d",

@@ -29,8 +29,8 @@ fn velocity(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
     let holdings = without_effect(bench, &slow, in_motion)?;
     let spread = |curve: &super::curve::Curve| change(curve.spread());
-    let spreads = nominal_curves(bench, &slow, (in_motion, &spread))?;
-    let beyond = nominal_curves(bench, &whole, (in_motion, &spread))?;
+    let spreads = nominal_curves(bench, &slow, in_motion, &spread)?;
+    let beyond = nominal_curves(bench, &whole, in_motion, &spread)?;
     let nominal = Scene::default();
     let viscous = Scene { viscous_friction: VISCOUS, ..nominal };
     let viscous = bench.curve(&slow, &viscous, &exact(FrictionLaw::LuGre))?;
@@ -83,7 +83,7 @@ fn elastic_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         finding: format!(
             "From {} F_cr rises {} at the nominal scene, and the gap of Coulomb to Hurtado-Kim goes {}.",
             sweep.words(),
-            nominal_curves(bench, &sweep, (closed, &straightness))?,
+            nominal_curves(bench, &sweep, closed, &straightness)?,
             from_to(&nominal_gap)
         ),
         setting: format!(

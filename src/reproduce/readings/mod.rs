@@ -157,13 +157,15 @@ pub fn readings(
     threads: usize,
     on_progress: &(dyn Fn(&str, f64) + Sync),
 ) -> Result<Readings, ReadingsError> {
-    compute((VARIANTS, &SMALL_SAMPLE_VARIANTS), (effort, threads), on_progress)
+    compute(VARIANTS, &SMALL_SAMPLE_VARIANTS, effort, threads, on_progress)
 }
 
 /// The readings of some variants, and the small samples of others.
 fn compute(
-    (variants, small): (&'static [Variant], &[&'static str]),
-    (effort, threads): (Effort, usize),
+    variants: &'static [Variant],
+    small: &[&'static str],
+    effort: Effort,
+    threads: usize,
     on_progress: &(dyn Fn(&str, f64) + Sync),
 ) -> Result<Readings, ReadingsError> {
     let start = Instant::now();
@@ -174,7 +176,7 @@ fn compute(
     for (number, variant) in variants.iter().enumerate() {
         on_progress(variant.name, part(number));
         let of_groups: Vec<Vec<Reading>> =
-            GROUPS.iter().map(|group| of_variant(variant, (group.key, effort), threads)).collect::<Result<_, _>>()?;
+            GROUPS.iter().map(|group| of_variant(variant, group.key, effort, threads)).collect::<Result<_, _>>()?;
         let readings = of_groups.first().map_or(0, Vec::len);
         rows.extend(
             (0..readings).flat_map(|reading| of_groups.iter().filter_map(move |rows| rows.get(reading)).cloned()),
@@ -187,7 +189,7 @@ fn compute(
             let done = (number * GROUPS.len() + group_number) as f64 / count as f64;
             on_progress("small samples", part(variants.len()) + (1.0 - part(variants.len())) * done);
             let study = study(variant, group.key, &[])?;
-            small_samples.extend(small_samples::of_study(&study, (variant.id, group.key), (effort, threads))?);
+            small_samples.extend(small_samples::of_study(&study, variant.id, group.key, effort, threads)?);
         }
     }
     on_progress("readings", 1.0);
@@ -198,7 +200,8 @@ fn compute(
 /// The readings of one variant of one group, in the order output, effect.
 fn of_variant(
     variant: &'static Variant,
-    (group, effort): (&'static str, Effort),
+    group: &'static str,
+    effort: Effort,
     threads: usize,
 ) -> Result<Vec<Reading>, ReadingsError> {
     let overrides = match effort {
@@ -218,12 +221,12 @@ fn of_variant(
                 |reason: &str| ReadingsError::NoShares { reading: id.clone(), group, reason: reason.to_owned() };
             let (shares, runs, runs_failed) = match effect {
                 Effect::VarianceAlone | Effect::RangeAlone => {
-                    let (shares, runs) = one_at_a_time::shares(&study, (group, number), effect)?;
+                    let (shares, runs) = one_at_a_time::shares(&study, group, number, effect)?;
                     (shares.ok_or_else(|| no_shares("the output does not vary"))?, runs, 0)
                 }
                 _ => {
                     let record = &result.outputs[number];
-                    let shares = shares::of_record(record, (group, effect)).map_err(|reason| no_shares(&reason))?;
+                    let shares = shares::of_record(record, group, effect).map_err(|reason| no_shares(&reason))?;
                     (shares, result.provenance.model_runs, record.runs_failed)
                 }
             };

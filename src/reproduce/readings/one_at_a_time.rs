@@ -18,7 +18,8 @@ const ENDS: [f64; 2] = [f64::EPSILON / 4096.0, 1.0 - f64::EPSILON / 2.0];
 /// runs that took; `None` if no factor by itself moves the output.
 pub(super) fn shares(
     study: &Study,
-    (group, output): (&'static str, usize),
+    group: &'static str,
+    output: usize,
     effect: Effect,
 ) -> Result<(Option<Vec<Share>>, u64), ReadingsError> {
     let model = study.model();

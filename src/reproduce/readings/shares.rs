@@ -10,7 +10,7 @@ pub(super) fn printed(group: &str, factor: &str) -> Option<f64> {
 }
 
 /// The percentages of all factors of an output by an effect that is read from indices; or why there are none.
-pub(super) fn of_record(record: &OutputRecord, (group, effect): (&str, Effect)) -> Result<Vec<Share>, String> {
+pub(super) fn of_record(record: &OutputRecord, group: &str, effect: Effect) -> Result<Vec<Share>, String> {
     let Some(indices) = &record.indices else {
         return Err(record.reason.clone().unwrap_or_else(|| "there are no indices".to_owned()));
     };

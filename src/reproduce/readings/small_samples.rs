@@ -128,13 +128,15 @@ impl Chance {
     }
 }
 
-/// The distributions of the percentages of `study`, `(variant, group)` by name, for every sample size, pair of
+/// The distributions of the percentages of `study`, `variant` and `group` by name, for every sample size, pair of
 /// estimators, output and effect. Every repetition has a random stream of its own, and smaller samples are the beginnings
 /// of larger ones.
 pub(super) fn of_study(
     study: &Study,
-    (variant, group): (&'static str, &'static str),
-    (effort, threads): (Effort, usize),
+    variant: &'static str,
+    group: &'static str,
+    effort: Effort,
+    threads: usize,
 ) -> Result<Vec<SmallSample>, ReadingsError> {
     let repetitions: u64 = match effort {
         Effort::Full => 1000,
@@ -148,7 +150,7 @@ pub(super) fn of_study(
     let model = study.model();
     let moments: Vec<[SampleMoments; SMALL_SAMPLES.len()]> =
         run_each(model.as_ref(), threads, repetitions, |worker, number| {
-            repetition(study, (model.as_ref(), worker), &design.replicate(number))
+            repetition(study, model.as_ref(), worker, &design.replicate(number))
         })?;
     let of_size = |(size, &base_samples): (usize, &u64)| {
         let moments: Vec<&SampleMoments> = moments.iter().map(|sizes| &sizes[size]).collect();
@@ -163,7 +165,8 @@ type SampleMoments = [Moments; BOTH.len()];
 /// The moments of one repetition at every size of [`SMALL_SAMPLES`].
 fn repetition(
     study: &Study,
-    (model, worker): (&dyn Model, &mut dyn Worker),
+    model: &dyn Model,
+    worker: &mut dyn Worker,
     points: &BasePoints,
 ) -> [SampleMoments; SMALL_SAMPLES.len()] {
     let factors = study.space().factors();
@@ -217,7 +220,7 @@ impl Sample<'_> {
                         .iter()
                         .filter_map(|moments| shares(&estimators.indices(&moments[number], effect)))
                         .collect();
-                    samples.push(self.distribution((estimators, output, effect), &percents, repetitions.len() as u64));
+                    samples.push(self.distribution(estimators, output, effect, &percents, repetitions.len() as u64));
                 }
             }
         }
@@ -226,7 +229,9 @@ impl Sample<'_> {
 
     fn distribution(
         self,
-        (estimators, output, effect): (Estimators, AfmOutput, Effect),
+        estimators: Estimators,
+        output: AfmOutput,
+        effect: Effect,
         percents: &[Vec<f64>],
         repetitions: u64,
     ) -> SmallSample {

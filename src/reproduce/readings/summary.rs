@@ -169,10 +169,10 @@ pub fn chances(readings: &Readings) -> Vec<String> {
 fn chances_of(readings: &Readings, group: &str) -> Vec<String> {
     let mut variants: Vec<&str> = readings.small_samples.iter().map(|sample| sample.variant).collect();
     variants.dedup();
-    variants.iter().filter_map(|id| chance_sentence(readings, (group, id))).collect()
+    variants.iter().filter_map(|id| chance_sentence(readings, group, id)).collect()
 }
 
-fn chance_sentence(readings: &Readings, (group, id): (&str, &str)) -> Option<String> {
+fn chance_sentence(readings: &Readings, group: &str, id: &str) -> Option<String> {
     let of_output = |output: AfmOutput| {
         let samples =
             || readings.small_samples.iter().filter(|s| (s.group, s.variant, s.output) == (group, id, output));

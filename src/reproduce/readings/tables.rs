@@ -26,7 +26,7 @@ pub fn readings_csv(readings: &Readings) -> String {
                 reading.effect.name().into(),
                 reading.output.name().into(),
                 (&share.factor).into(),
-                estimate((share.share, share.interval)),
+                estimate(share.share, share.interval),
                 share.published.into(),
                 reading.distance.into(),
                 reading.distance_error.into(),
@@ -38,7 +38,7 @@ pub fn readings_csv(readings: &Readings) -> String {
     csv.text()
 }
 
-fn estimate((estimate, interval): (f64, Option<(f64, f64)>)) -> Value {
+fn estimate(estimate: f64, interval: Option<(f64, f64)>) -> Value {
     EstimateRecord { estimate, low: interval.map(|i| i.0), high: interval.map(|i| i.1) }.into()
 }
 
@@ -67,7 +67,7 @@ pub fn small_samples_csv(readings: &Readings) -> String {
             values.extend((0..QUANTILES.len()).map(quantile));
             values.extend([factor.published.into(), factor.published_quantile.into()]);
             for chance in [sample.within_1, sample.within_3] {
-                values.push(estimate((chance.share, Some((chance.low, chance.high)))));
+                values.push(estimate(chance.share, Some((chance.low, chance.high))));
             }
             csv.row(values);
         }

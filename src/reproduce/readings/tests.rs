@@ -25,8 +25,8 @@ fn in_percent(sizes: [f64; 3]) -> [f64; 3] {
     sizes.map(|size| 100.0 * size / sizes.iter().sum::<f64>())
 }
 
-fn of(id: &str, (group, effort): (&'static str, Effort)) -> Vec<Reading> {
-    of_variant(variant(id).unwrap(), (group, effort), 0).unwrap()
+fn of(id: &str, group: &'static str, effort: Effort) -> Vec<Reading> {
+    of_variant(variant(id).unwrap(), group, effort, 0).unwrap()
 }
 
 fn share(reading: &Reading, factor: &str) -> f64 {
@@ -57,7 +57,7 @@ fn the_catalogue_is_in_order() {
 
 #[test]
 fn shares_of_the_base_reading_are_those_of_a_product() {
-    let readings = of("lugre", ("dimensional", Effort::Full));
+    let readings = of("lugre", "dimensional", Effort::Full);
     let v = DIMENSIONS.map(|(_, a, b, p)| moment((a, b), 2.0 * p) / moment((a, b), p).powi(2) - 1.0);
     let all: f64 = v.iter().map(|v| 1.0 + v).product();
     let first = in_percent(v);
@@ -79,7 +79,7 @@ fn shares_of_the_base_reading_are_those_of_a_product() {
 
 #[test]
 fn shares_of_the_logarithm_are_those_of_a_sum() {
-    let readings = of("lugre", ("dimensional", Effort::Full));
+    let readings = of("lugre", "dimensional", Effort::Full);
     let expected = in_percent(DIMENSIONS.map(|(_, a, b, p)| p * p * log_variance((a, b))));
     // Of a sum every measure of variance is the same; one factor at a time has no sampling error, and the viscous term of
     // 1e-14 N beside forces from 1e-9 N on moves its shares by less than 1e-3.
@@ -100,7 +100,7 @@ fn shares_of_the_logarithm_are_those_of_a_sum() {
 
 #[test]
 fn one_factor_at_a_time_is_exact() {
-    let readings = of("lugre", ("dimensional", Effort::Quick));
+    let readings = of("lugre", "dimensional", Effort::Quick);
     let nominal = [225.0, 48.0, 1.0];
     let at = |place: usize, x: f64| libm::pow(x / nominal[place], DIMENSIONS[place].3);
     let variances = [0, 1, 2].map(|place| {
@@ -119,16 +119,16 @@ fn one_factor_at_a_time_is_exact() {
 
 #[test]
 fn viscous_friction_and_steps_of_14_ms_make_velocity_act() {
-    for reading in of("lugre-viscous", ("environmental", Effort::Quick)) {
+    for reading in of("lugre-viscous", "environmental", Effort::Quick) {
         assert!((share(&reading, "velocity") - 26.0).abs() < 1.0, "{}: {}", reading.id, share(&reading, "velocity"));
         assert!((share(&reading, "elastic_modulus") - 74.0).abs() < 1.0);
         assert!(reading.distance < 1.0);
     }
-    for reading in of("step-14", ("environmental", Effort::Quick)) {
+    for reading in of("step-14", "environmental", Effort::Quick) {
         // 256 base points of a function with jumps: an interval of some 3.5.
         assert!((share(&reading, "velocity") - 25.0).abs() < 5.0, "{}: {}", reading.id, share(&reading, "velocity"));
     }
-    for reading in of("lugre", ("environmental", Effort::Quick)) {
+    for reading in of("lugre", "environmental", Effort::Quick) {
         assert!(share(&reading, "velocity").abs() < 0.01, "{}", reading.id);
     }
 }
@@ -164,7 +164,7 @@ fn held_friction_is_that_of_lugre() {
 #[test]
 fn small_samples_scatter_about_the_shares_of_large_ones() {
     let study = study(variant("lugre").unwrap(), "dimensional", &[]).unwrap();
-    let samples = small_samples::of_study(&study, ("lugre", "dimensional"), (Effort::Quick, 2)).unwrap();
+    let samples = small_samples::of_study(&study, "lugre", "dimensional", Effort::Quick, 2).unwrap();
     assert_eq!(samples.len(), 4 * 2 * 2 * 2);
     let exact = in_percent(DIMENSIONS.map(|(_, a, b, p)| p * p * log_variance((a, b))));
     let of = |base_samples: u64| {
@@ -207,7 +207,7 @@ fn the_interval_of_a_chance_is_where_it_is_barely_compatible() {
 #[test]
 fn the_same_on_any_number_of_threads() {
     let some = || &VARIANTS[..2];
-    let computed = |threads| compute((some(), &["lugre"]), (Effort::Quick, threads), &|_, _| ()).unwrap();
+    let computed = |threads| compute(some(), &["lugre"], Effort::Quick, threads, &|_, _| ()).unwrap();
     let (one, three) = (computed(1), computed(3));
     assert_eq!(one.rows, three.rows);
     assert_eq!(one.small_samples, three.small_samples);

@@ -31,7 +31,7 @@ fn counted(rows: &AtomicU64) -> impl Model + '_ {
     })
 }
 
-fn with_store(design: &Design, model: &dyn Model, (store, points): (&Store, u64)) -> Result<Vec<Totals>, RunError> {
+fn with_store(design: &Design, model: &dyn Model, store: &Store, points: u64) -> Result<Vec<Totals>, RunError> {
     let space = space();
     let context = RunContext::default();
     let mut run = GrowingRun::new(Job { design, space: &space, model }, &context, 2)?.with_store(store, None);
@@ -48,10 +48,10 @@ fn totals_from_a_store_are_those_of_a_plain_run() {
         let plain = run(Job { design: &design, space: &space(), model: &model }, 1, &|_| ()).unwrap();
         rows.store(0, Ordering::Relaxed);
         let store = Store::new(&design, &model);
-        assert!(with_store(&design, &model, (&store, u64::MAX)).unwrap() == plain, "{base_samples}");
+        assert!(with_store(&design, &model, &store, u64::MAX).unwrap() == plain, "{base_samples}");
         assert_eq!(rows.load(Ordering::Relaxed), design.rows());
         // Nothing is evaluated twice.
-        assert!(with_store(&design, &model, (&store, u64::MAX)).unwrap() == plain);
+        assert!(with_store(&design, &model, &store, u64::MAX).unwrap() == plain);
         assert_eq!(rows.load(Ordering::Relaxed), design.rows());
     }
 }
@@ -82,8 +82,8 @@ fn a_longer_run_keeps_the_rows_of_the_shorter_one() {
     let plain = run(Job { design: &long, space: &space(), model: &model }, 1, &|_| ()).unwrap();
     rows.store(0, Ordering::Relaxed);
     let store = Store::new(&short, &model);
-    with_store(&short, &model, (&store, u64::MAX)).unwrap();
-    assert!(with_store(&long, &model, (&store, u64::MAX)).unwrap() == plain);
+    with_store(&short, &model, &store, u64::MAX).unwrap();
+    assert!(with_store(&long, &model, &store, u64::MAX).unwrap() == plain);
     assert_eq!(rows.load(Ordering::Relaxed), long.rows());
 }
 
@@ -111,7 +111,7 @@ fn shards_make_up_the_whole_run() {
         });
     }
     rows.store(0, Ordering::Relaxed);
-    assert!(with_store(&design, &model, (&whole, u64::MAX)).unwrap() == plain);
+    assert!(with_store(&design, &model, &whole, u64::MAX).unwrap() == plain);
     assert_eq!(rows.load(Ordering::Relaxed), 0);
 }
 
@@ -138,7 +138,7 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
     let evaluated = rows.load(Ordering::Relaxed);
     let plain = run(job, 1, &|_| ()).unwrap();
     rows.store(evaluated, Ordering::Relaxed);
-    assert!(with_store(&design, &model, (&store, u64::MAX)).unwrap() == plain);
+    assert!(with_store(&design, &model, &store, u64::MAX).unwrap() == plain);
     assert_eq!(rows.load(Ordering::Relaxed), design.rows());
 }
 
@@ -192,7 +192,7 @@ fn a_model_that_gives_up_ends_the_run_but_loses_no_answer() {
     let model = Tired([Output::new("y", Unit::dimensionless(), "")], AtomicU64::new(0));
     let design = design(4 * BLOCK, 1);
     let store = Store::new(&design, &model);
-    let error = with_store(&design, &model, (&store, u64::MAX)).unwrap_err();
+    let error = with_store(&design, &model, &store, u64::MAX).unwrap_err();
     assert_eq!(error.to_string(), "the model cannot go on: no more");
     let (present, failed) = store.count(0, 0..design.rows());
     assert_eq!((present, failed), (500, 0));

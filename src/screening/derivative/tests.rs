@@ -16,7 +16,9 @@ fn space(distributions: &[Distribution]) -> Space {
 
 fn screened(
     distributions: &[Distribution],
-    (sampler, trajectories, seed): (Sampler, u64, u64),
+    sampler: Sampler,
+    trajectories: u64,
+    seed: u64,
     f: impl Fn(&[f64]) -> f64 + Send + Sync + 'static,
 ) -> Result<Vec<ScreenedFactor>, ScreeningError> {
     let settings = ScreeningSettings { design: ScreeningDesign::Derivative { sampler }, trajectories, seed };
@@ -55,7 +57,7 @@ fn a_linear_function_has_the_squares_of_its_slopes() {
     let slopes = [3.0, -2.0, 4.0, 1.0, 0.0, 7.0];
     let linear = move |x: &[f64]| x.iter().zip(slopes).map(|(x, c)| c * x).sum();
     for sampler in [Sampler::Sobol, Sampler::Random, Sampler::LatinHypercube] {
-        let screened = screened(&factors, (sampler, 4096, 1), linear).unwrap();
+        let screened = screened(&factors, sampler, 4096, 1, linear).unwrap();
         let variance = 9.0 * 16.0 / 12.0 + 4.0 * 4.0 + 16.0 * 0.25 + factors[3].sd().powi(2);
         // That of the variance of 4096 points.
         let slack = if sampler == Sampler::Sobol { 0.02 } else { 0.1 };
@@ -84,7 +86,7 @@ fn ishigami_and_sobol_g_have_their_closed_forms() {
     let factors = [uniform(-PI, PI), uniform(-PI, PI), uniform(-PI, PI)];
     let exact = [0.5 * (1.0 + 0.04 * PI.powi(4) + 0.01 * PI.powi(8) / 9.0), 24.5, 0.08 * PI.powi(6) / 7.0];
     let variance = 0.5 + 49.0 / 8.0 + PI.powi(4) / 50.0 + PI.powi(8) / 1800.0;
-    let screened_at = |seed| screened(&factors, (Sampler::Sobol, 8192, seed), ishigami).unwrap();
+    let screened_at = |seed| screened(&factors, Sampler::Sobol, 8192, seed, ishigami).unwrap();
     for ([nu, bound], exact) in found(&screened_at(0)).into_iter().zip(exact) {
         near(nu, exact, 0.01);
         near(bound, 4.0 * exact / variance, 0.02);
@@ -94,7 +96,7 @@ fn ishigami_and_sobol_g_have_their_closed_forms() {
     let factors = [0.0; 4].map(|_| uniform(0.0, 1.0));
     let part = |a: f64| 1.0 + 1.0 / (3.0 * (1.0 + a) * (1.0 + a));
     let all: f64 = a.iter().map(|a| part(*a)).product();
-    let screened = screened(&factors, (Sampler::Sobol, 8192, 0), g).unwrap();
+    let screened = screened(&factors, Sampler::Sobol, 8192, 0, g).unwrap();
     for ([nu, bound], a) in found(&screened).into_iter().zip(a) {
         let exact = 16.0 / (1.0 + a).powi(2) * all / part(a);
         near(nu, exact, 0.01);
@@ -111,7 +113,7 @@ fn intervals_hold_the_truth() {
     for sampler in [Sampler::Sobol, Sampler::Random] {
         let mut held = [0; 2];
         for seed in 0..100 {
-            for factor in screened(&factors, (sampler, 128, seed), |x| x[0] * x[1]).unwrap() {
+            for factor in screened(&factors, sampler, 128, seed, |x| x[0] * x[1]).unwrap() {
                 let DerivativeMeasures { nu, total_bound } = factor.derivative.unwrap();
                 for (held, (estimate, exact)) in
                     held.iter_mut().zip([(nu, 1.0 / 3.0), (total_bound.unwrap(), 12.0 / PI.powi(2))])
@@ -162,6 +164,6 @@ fn constants_of_poincare_are_those_that_are_known() {
 #[test]
 fn separate_values_have_no_derivative() {
     let factors = [uniform(0.0, 1.0), Distribution::discrete(&[1.0, 2.0], None).unwrap()];
-    let error = screened(&factors, (Sampler::Sobol, 16, 0), |x| x[0]).unwrap_err().to_string();
+    let error = screened(&factors, Sampler::Sobol, 16, 0, |x| x[0]).unwrap_err().to_string();
     assert!(error.contains("factor `x2` takes separate values"), "{error}");
 }

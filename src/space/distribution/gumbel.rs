@@ -47,7 +47,7 @@ impl Distribution {
 
 impl Gumbel {
     pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
-        Distribution::gumbel_between((self.location, self.scale), (min, max))
+        Distribution::gumbel_between(self.location, self.scale, (min, max))
     }
 }
 

@@ -42,7 +42,7 @@ impl Distribution {
 
 impl Normal {
     pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
-        Distribution::normal_between((self.mean, self.sd), (min, max))
+        Distribution::normal_between(self.mean, self.sd, (min, max))
     }
 }
 

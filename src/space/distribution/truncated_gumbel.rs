@@ -55,14 +55,11 @@ impl Distribution {
         finite("location", location)?;
         positive("scale", scale)?;
         bounds(min, max, "truncated-gumbel")?;
-        Self::gumbel_between((location, scale), (min, max))
+        Self::gumbel_between(location, scale, (min, max))
     }
 
     /// The same with bounds of which one or both may be infinite.
-    pub(super) fn gumbel_between(
-        (location, scale): (f64, f64),
-        (min, max): (f64, f64),
-    ) -> Result<Self, DistributionError> {
+    pub(super) fn gumbel_between(location: f64, scale: f64, (min, max): (f64, f64)) -> Result<Self, DistributionError> {
         let width = (max - min) / scale;
         let [log_min, log_max] = [min, max].map(|bound| libm::exp(-(bound - location) / scale));
         // exp(-a) - exp(-b), which cancels nothing; where exp(-a) overflows, F(min) is 0.
@@ -78,7 +75,7 @@ impl Distribution {
 
 impl TruncatedGumbel {
     pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
-        Distribution::gumbel_between((self.location, self.scale), (min, max))
+        Distribution::gumbel_between(self.location, self.scale, (min, max))
     }
 
     /// The value of highest density, and mean and standard deviation relative to it, by quadrature.
@@ -160,6 +157,6 @@ impl Family for TruncatedGumbel {
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
         let location = finite("location", unit.to_si(self.location))?;
         let scale = positive("scale", unit.span_to_si(self.scale))?;
-        Distribution::gumbel_between((location, scale), bounds_to_si((self.min, self.max), unit)?)
+        Distribution::gumbel_between(location, scale, bounds_to_si((self.min, self.max), unit)?)
     }
 }

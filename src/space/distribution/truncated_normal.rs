@@ -74,11 +74,11 @@ impl Distribution {
         finite("mean", mean)?;
         positive("sd", sd)?;
         bounds(min, max, "truncated-normal")?;
-        Self::normal_between((mean, sd), (min, max))
+        Self::normal_between(mean, sd, (min, max))
     }
 
     /// The same with bounds of which one or both may be infinite.
-    pub(super) fn normal_between((mean, sd): (f64, f64), (min, max): (f64, f64)) -> Result<Self, DistributionError> {
+    pub(super) fn normal_between(mean: f64, sd: f64, (min, max): (f64, f64)) -> Result<Self, DistributionError> {
         let (a, b) = ((min - mean) / sd, (max - mean) / sd);
         let mass = between(a, b);
         // Also refused when the bounds are one number as seen from the mean, or overflow.
@@ -92,7 +92,7 @@ impl Distribution {
 
 impl TruncatedNormal {
     pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
-        Distribution::normal_between((self.mean, self.sd), (min, max))
+        Distribution::normal_between(self.mean, self.sd, (min, max))
     }
 
     /// The standardised value at `u`, from the tail or the centre where the probability has the most digits.
@@ -166,6 +166,6 @@ impl Family for TruncatedNormal {
     fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
         let mean = finite("mean", unit.to_si(self.mean))?;
         let sd = positive("sd", unit.span_to_si(self.sd))?;
-        Distribution::normal_between((mean, sd), bounds_to_si((self.min, self.max), unit)?)
+        Distribution::normal_between(mean, sd, bounds_to_si((self.min, self.max), unit)?)
     }
 }

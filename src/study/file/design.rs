@@ -37,12 +37,12 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
         }
     }
     let target = analysis::target(context, section, sampler)?;
-    let target = fidelity::accuracy(context, file, (target, sampler))?;
+    let target = fidelity::accuracy(context, file, target, sampler)?;
     let or = |value: &Option<At<u64>>, default| value.as_ref().map_or(default, |value| *value.get_ref());
     let has_plain_rows =
         section.budget_runs.is_some() || section.plain_rows.as_ref().is_some_and(|rows| *rows.get_ref() > 0);
     let replicates = or(&section.replicates, analysis.default_replicates(sampler, has_plain_rows));
-    let split = sizes_within_budget(context, section, (&analysis, space), (sampler, replicates))?;
+    let split = sizes_within_budget(context, section, &analysis, space, sampler, replicates)?;
     let (base_samples, plain_rows) =
         split.unwrap_or_else(|| (or(&section.base_samples, target.base_samples(replicates)), 0));
     let plain_rows = section.plain_rows.as_ref().map_or(plain_rows, |rows| *rows.get_ref());
@@ -104,8 +104,10 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
 fn sizes_within_budget(
     context: &Context<'_>,
     section: &DesignSection,
-    (analysis, space): (&AnalysisOptions, &Space),
-    (sampler, replicates): (Sampler, u64),
+    analysis: &AnalysisOptions,
+    space: &Space,
+    sampler: Sampler,
+    replicates: u64,
 ) -> Result<Option<(u64, u32)>, Fault> {
     let wrong = |key: &str, expected: &str, found: String| Problem::WrongType {
         key: key.to_owned(),
@@ -134,7 +136,7 @@ fn sizes_within_budget(
         return Err(context.fault(runs.span(), wrong(key, expected, format!("beside `{other}`"))));
     }
     // What is wrong with the rows is told of when the design is made.
-    let split = split_design(*runs.get_ref(), (analysis, space), (sampler, replicates)).transpose();
+    let split = split_design(*runs.get_ref(), analysis, space, sampler, replicates).transpose();
     split.map_err(|least| {
         let expected = format!(
             "{least} or more, the runs of 2 base samples in each of {replicates} replicates (fewer runs tell most as random \

@@ -50,7 +50,7 @@ pub(super) fn subject(
     let constants = constants(context, &section.constants, space)?;
     let mut formulas = Vec::with_capacity(entries.len());
     for (name, value) in entries {
-        formulas.push(formula(context, (name, value), space, &constants)?);
+        formulas.push(formula(context, name, value, space, &constants)?);
     }
     let notes = notes(&formulas, section, space);
     if let Some(asked) = asked {
@@ -93,7 +93,8 @@ fn constants(context: &Context<'_>, table: &Choices, space: &Space) -> Result<Ve
 
 fn formula(
     context: &Context<'_>,
-    (name, value): (&At<String>, &At<Value>),
+    name: &At<String>,
+    value: &At<Value>,
     space: &Space,
     constants: &[ExpressionConstant],
 ) -> Result<Formula, Fault> {

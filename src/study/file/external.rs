@@ -46,7 +46,7 @@ pub(super) fn subject(
         [] => asked.get_ref().iter().map(|name| name.get_ref().as_str()).collect(),
         outputs => outputs.iter().map(|output| &*output.name).collect(),
     };
-    let places = places(context, (&names, &stated.series), asked)?;
+    let places = places(context, &names, &stated.series, asked)?;
     let output = |&place: &usize| match stated.outputs.get(place) {
         Some(output) => output.clone(),
         None => external_output(names[place], Unit::dimensionless()),

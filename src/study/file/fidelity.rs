@@ -19,7 +19,8 @@ use crate::study::{LowFidelity, Subject, Target};
 pub(super) fn accuracy(
     context: &Context<'_>,
     file: &StudyFile,
-    (target, sampler): (Target, Sampler),
+    target: Target,
+    sampler: Sampler,
 ) -> Result<Target, Fault> {
     let Some(accuracy) = &file.accuracy else { return Ok(target) };
     let value = *accuracy.get_ref();
@@ -49,7 +50,8 @@ pub(super) fn accuracy(
 pub(super) fn lows(
     context: &Context<'_>,
     file: &StudyFile,
-    (subject, space): (&dyn Subject, &Space),
+    subject: &dyn Subject,
+    space: &Space,
     target: &Target,
 ) -> Result<Vec<LowFidelity>, Fault> {
     let Some(section) = &file.fidelity else { return Ok(Vec::new()) };

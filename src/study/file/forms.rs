@@ -137,17 +137,13 @@ fn distributions(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fa
     for factor in factors.iter_mut() {
         let name = name_of(factor).unwrap_or_default();
         if let DeValue::Table(fields) = factor.get_mut() {
-            distribution(context, fields, (&name, &names))?;
+            distribution(context, fields, &name, &names)?;
         }
     }
     Ok(())
 }
 
-fn distribution(
-    context: &Context<'_>,
-    fields: &mut DeTable<'_>,
-    (name, names): (&str, &[String]),
-) -> Result<(), Fault> {
+fn distribution(context: &Context<'_>, fields: &mut DeTable<'_>, name: &str, names: &[String]) -> Result<(), Fault> {
     const WORDS: [&str; 5] = ["name", "distribution", "unit", "group", "nominal"];
     for (key, value) in fields.iter().filter(|(key, _)| !WORDS.contains(&&**key.get_ref())) {
         let list = std::slice::from_ref(value);
@@ -176,7 +172,7 @@ fn distribution(
             let problem = Problem::Misplaced { name: "name".to_owned(), right: right.to_owned() };
             return Err(context.fault(name.span(), problem));
         }
-        distribution(context, fields, (name, names))?;
+        distribution(context, fields, name, names)?;
         let inside = Spanned::new(span.clone(), DeValue::String(Cow::Owned(name.to_owned())));
         fields.insert(key("name", span), inside);
     }

@@ -31,14 +31,14 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let (subject, unused) = (table.subject)(&reading, &space)?;
     let subject = noise::repeated(context, &file, subject, &space)?;
     names::refuse_output_names(context, &*subject, &space)?;
-    refuse_outputs_of_factors(context, &*subject, (&space, &file.factor))?;
+    refuse_outputs_of_factors(context, &*subject, &space, &file.factor)?;
     let Plan { design, analysis, target, mut notes } =
         plan(context, &file, &space, subject.model(&space).outputs().len())?;
     notes.extend(unused);
     let name = name(context, file.name.as_ref())?;
     let (overrides, source, sha256) = Default::default();
     let title = file.title.as_ref().map(|title| title.get_ref().clone());
-    let lows = super::fidelity::lows(context, &file, (&*subject, &space), &target)?;
+    let lows = super::fidelity::lows(context, &file, &*subject, &space, &target)?;
     Ok(Study { name, title, subject, space, design, analysis, target, lows, overrides, source, sha256, notes })
 }
 
@@ -46,7 +46,8 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
 fn refuse_outputs_of_factors(
     context: &Context<'_>,
     subject: &dyn Subject,
-    (space, sections): (&Space, &[At<FactorSection>]),
+    space: &Space,
+    sections: &[At<FactorSection>],
 ) -> Result<(), Fault> {
     let model = subject.model(space);
     let outputs = model.outputs();

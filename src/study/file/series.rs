@@ -44,8 +44,8 @@ pub(super) fn axis(key: &str, table: &toml::Table) -> Result<Option<SeriesAxis>,
         wrong(&format!("{key}.{name}"), expected, found)
     };
     let axis = match (positions(key, table)?, length) {
-        (None, Some(length)) => SeriesAxis::even(label, unit, length, (0.0, 1.0)),
-        (Some(pair), Some(length)) if pair.len() == 2 => SeriesAxis::even(label, unit, length, (pair[0], pair[1])),
+        (None, Some(length)) => SeriesAxis::even(label, unit, length, 0.0, 1.0),
+        (Some(pair), Some(length)) if pair.len() == 2 => SeriesAxis::even(label, unit, length, pair[0], pair[1]),
         (Some(list), length) if list.len() != 2 && length.is_none_or(|length| length == list.len()) => {
             SeriesAxis::new(label, unit, list)
         }
@@ -76,7 +76,8 @@ fn positions(key: &str, table: &toml::Table) -> Result<Option<Vec<f64>>, Problem
 /// its values.
 pub(super) fn places(
     context: &Context<'_>,
-    (names, series): (&[&str], &[OutputSeries]),
+    names: &[&str],
+    series: &[OutputSeries],
     asked: &At<Vec<At<String>>>,
 ) -> Result<Vec<usize>, Fault> {
     let single = |place: &usize| !series.iter().any(|series| series.places().contains(place));

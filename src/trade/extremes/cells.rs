@@ -29,7 +29,8 @@ pub(super) fn explore(
     let nothing = |why: &&str| vec![Err(Unchecked::NotAvailable((*why).to_owned())); model.outputs().len()];
     let found = run_each_in(
         model.as_ref(),
-        (job.threads, context),
+        job.threads,
+        context,
         points.len() as u64,
         |worker, number| {
             let x = &points[number as usize].x;

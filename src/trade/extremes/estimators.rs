@@ -82,8 +82,8 @@ fn transformed(job: &ExtremesJob<'_>, map: &mut Collector) -> Result<(), RunErro
     let (scale, offset) =
         ("powers of ten that outputs are multiplied by", "powers of ten of standard deviations added to outputs");
     let grids = [
-        map.grid(Grid::new("-scale", "Indices of scaled outputs", scale, (rows.clone(), columns(&SCALES)))),
-        map.grid(Grid::new("-offset", "Indices of shifted outputs", offset, (rows, columns(&OFFSETS)))),
+        map.grid(Grid::new("-scale", "Indices of scaled outputs", scale, rows.clone(), columns(&SCALES))),
+        map.grid(Grid::new("-offset", "Indices of shifted outputs", offset, rows, columns(&OFFSETS))),
     ];
     let spreads: Vec<f64> = plain.outputs.iter().map(spread).collect();
     let exact: Vec<Option<Indices>> =
@@ -103,7 +103,7 @@ fn transformed(job: &ExtremesJob<'_>, map: &mut Collector) -> Result<(), RunErro
             let rounded = Columns::new(&small.design, &changed, number).indices();
             let finding = of_engine(output).map_or_else(
                 |refused| refused,
-                |found| of_transformed(output, &found, (rounded.as_ref(), exact[number].as_ref())),
+                |found| of_transformed(output, &found, rounded.as_ref(), exact[number].as_ref()),
             );
             let done = if kind == Kind::Scale {
                 format!("times 1e{power}")
@@ -142,7 +142,8 @@ fn with_values(piece: &Piece, outputs: usize, change: &dyn Fn(usize, f64) -> f64
 fn of_transformed(
     output: &OutputAnalysis,
     found: &Indices,
-    (rounded, before): (Option<&Indices>, Option<&Indices>),
+    rounded: Option<&Indices>,
+    before: Option<&Indices>,
 ) -> Finding {
     let (Some(rounded), Some(before)) = (rounded, before) else {
         return Finding::new(Outcome::Wrong, "indices where twice the precision finds none");
@@ -180,7 +181,7 @@ fn long(job: &ExtremesJob<'_>, map: &mut Collector) -> Result<(), RunError> {
     let rows = ["indices", "points", "memory"].map(str::to_owned).to_vec();
     let columns: Vec<String> = LENGTHS.iter().map(ToString::to_string).collect();
     let axis = "base samples, as a power of two";
-    let grid = map.grid(Grid::new("-length", "Designs from 2 to 2^30 base samples", axis, (rows, columns)));
+    let grid = map.grid(Grid::new("-length", "Designs from 2 to 2^30 base samples", axis, rows, columns));
     let outputs = study.model().outputs().to_vec();
     for (column, power) in LENGTHS.into_iter().enumerate() {
         let place = |output: &str| Example {

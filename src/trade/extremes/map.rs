@@ -206,12 +206,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    pub(super) fn new(
-        suffix: &'static str,
-        title: &str,
-        axis: &str,
-        (rows, columns): (Vec<String>, Vec<String>),
-    ) -> Self {
+    pub(super) fn new(suffix: &'static str, title: &str, axis: &str, rows: Vec<String>, columns: Vec<String>) -> Self {
         let cells = vec![Tally::default(); rows.len() * columns.len()];
         Self { suffix, title: title.to_owned(), axis: axis.to_owned(), rows, columns, cells }
     }

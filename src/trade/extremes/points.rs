@@ -93,8 +93,8 @@ pub(super) fn grids(space: &Space) -> [Grid; 2] {
     let powers: Vec<String> = POWERS.iter().map(ToString::to_string).collect();
     let below = powers.iter().cloned().chain(BELOW_ALL.map(str::to_owned)).collect();
     [
-        Grid::new("-below", "Below the lower bounds", "powers of ten below the lower bound", (rows.clone(), below)),
-        Grid::new("-above", "Above the upper bounds", "powers of ten above the upper bound", (rows, powers)),
+        Grid::new("-below", "Below the lower bounds", "powers of ten below the lower bound", rows.clone(), below),
+        Grid::new("-above", "Above the upper bounds", "powers of ten above the upper bound", rows, powers),
     ]
 }
 

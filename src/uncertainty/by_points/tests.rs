@@ -74,7 +74,7 @@ impl Sample {
             (rows(design.ab_runs()), rows(design.ba_runs()), rows(design.bc_runs()), rows(design.cb_runs()));
         let (a, b) = (&columns[0], &columns[1]);
         let whole: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
-        let added: Vec<Vec<f64>> = contributions(design, (0, 0), &whole).iter().map(repeated).collect();
+        let added: Vec<Vec<f64>> = contributions(design, 0, 0, &whole).iter().map(repeated).collect();
         let added: Vec<&[f64]> = added.iter().map(Vec::as_slice).collect();
         let block = BlockOutputs { a, b, ab: &ab, ba: &ba, bc: &bc, cb: &cb, paired: design.paired(), shapley: &added };
         Moments::of_block(block, &mut Workspace::default())
@@ -123,7 +123,7 @@ fn resampled_moments_are_those_of_resampled_rows() {
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();
         let products = Products::of(sample.whole());
         let list = |moments: &Moments| quantities(&sample.layout, moments);
-        let got = resampled(points, &products, (9, 40), &list);
+        let got = resampled(points, &products, 9, 40, &list);
         assert_eq!(got.len(), 40);
         for (resample, got) in got.iter().enumerate() {
             let counts = counts_of(points, 9, resample);

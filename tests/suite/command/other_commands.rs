@@ -110,14 +110,14 @@ fn interrupted_commands_leave_neither_files_nor_processes() {
     let case = Case::each_row("", hangs);
     case.points(100);
     for (command, more) in &COMMANDS[..3] {
-        is_interrupted(&case, (command, more));
+        is_interrupted(&case, command, more);
         case.remove_pids();
     }
 }
 
 /// A command that hangs in two workers ends on a signal.
 #[cfg(unix)]
-fn is_interrupted(case: &Case, (command, more): (&str, &[&str])) {
+fn is_interrupted(case: &Case, command: &str, more: &[&str]) {
     let arguments = case.arguments(command, more);
     let mut run = spawn(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
     within(60, "two workers hang", || processes(case).len() >= 2);

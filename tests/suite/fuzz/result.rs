@@ -1,6 +1,6 @@
 //! Result files: whatever is read as one can be drawn.
 
-use apportion::report::comparison::{compare_results, comparison_document};
+use apportion::report::comparison::{NamedResult, compare_results, comparison_document};
 use apportion::report::document::Document;
 use apportion::report::{ResultFile, parse_result, result_json, run_document};
 
@@ -16,7 +16,8 @@ pub fn run(bytes: &[u8]) {
 /// Draws everything that can be drawn of a result.
 pub fn drawn(result: &ResultFile) {
     written(&run_document(result));
-    if let Ok(file) = compare_results((result, "A", "a.json"), (result, "B", "b.json")) {
+    let [a, b] = [("A", "a.json"), ("B", "b.json")].map(|(label, file)| NamedResult { result, label, file });
+    if let Ok(file) = compare_results(&a, &b) {
         written(&comparison_document(&file, "a-vs-b"));
     }
 }

@@ -76,6 +76,6 @@ fn analysed(table: &Table) {
         method,
         seed: 0,
     };
-    let result = build_given(&indices, None, (inputs, outputs), &facts);
+    let result = build_given(&indices, None, inputs, outputs, &facts);
     super::result::written(&given_document(&result, "table"));
 }

@@ -153,7 +153,7 @@ fn both_methods_follow_a_heavy_tip() {
     let options = Options { tolerance: 1e-8, ..at(Fidelity::Dynamic, FrictionLaw::Coulomb) };
     let found = critical_force(&scene, &options).unwrap();
     let probe = Probe::new(&scene, Torsion::ThinStrip);
-    let substrate = Substrate::new(&scene, &options, (&probe, LuGreForm::Ramp));
+    let substrate = Substrate::new(&scene, &options, &probe, LuGreForm::Ramp);
     let statics = Statics::new(&scene, &probe).unwrap();
     let (limit, _) = statics.slip(&substrate).unwrap();
     let motion = Motion::new(&scene, &statics, &limit);
@@ -203,7 +203,7 @@ fn the_jacobian_of_the_motion_is_the_derivative() {
     let scene = Scene { static_friction: 20.0, ..Scene::default() };
     let options = at(Fidelity::Dynamic, FrictionLaw::Coulomb);
     let probe = Probe::new(&scene, Torsion::ThinStrip);
-    let substrate = Substrate::new(&scene, &options, (&probe, LuGreForm::Ramp));
+    let substrate = Substrate::new(&scene, &options, &probe, LuGreForm::Ramp);
     let statics = Statics::new(&scene, &probe).unwrap();
     let (limit, _) = statics.slip(&substrate).unwrap();
     let motion = Motion::new(&scene, &statics, &limit);

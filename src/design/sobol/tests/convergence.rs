@@ -6,7 +6,8 @@ use super::*;
 fn errors(
     function: &dyn Fn(&[f64]) -> f64,
     exact: f64,
-    (dimensions, m): (usize, usize),
+    dimensions: usize,
+    m: usize,
     replicates: std::ops::Range<u64>,
 ) -> Vec<f64> {
     let mean = |replicate| {
@@ -32,7 +33,7 @@ fn in_one_dimension_the_error_is_that_of_stratified_points() {
     // The mean of x over one random point in each of N cells has the variance 1 / (12 N^3); 256 squares of errors estimate
     // it to 9 %, five times of which are allowed.
     for m in [1, 4, 8, 12, 16] {
-        let e = errors(&|x| x[0], 0.5, (1, m), 0..256);
+        let e = errors(&|x| x[0], 0.5, 1, m, 0..256);
         let expected = 1.0 / (12.0 * 2f64.powi(3 * m as i32));
         let ratio = rms(&e).powi(2) / expected;
         assert!((ratio - 1.0).abs() < 0.45, "m = {m}: {ratio}");
@@ -57,7 +58,7 @@ fn means_converge_at_the_rates_of_scrambled_nets() {
         ("half plane", |x| f64::from(u8::from(x[0] + x[1] < 1.0)), 0.5, 2, -0.66),
     ];
     for (name, function, exact, dimensions, slope) in rates {
-        let [coarse, fine] = [6, 12].map(|m| errors(&function, exact, (dimensions, m), 0..128));
+        let [coarse, fine] = [6, 12].map(|m| errors(&function, exact, dimensions, m, 0..128));
         let found = libm::log2(rms(&fine) / rms(&coarse)) / 6.0;
         assert!(found < slope + 0.08, "{name}: a slope of {found}");
         // No bias: the mean of 128 errors within four of its standard errors.
@@ -74,8 +75,8 @@ fn variances_converge_like_means() {
     let f: fn(&[f64]) -> f64 = |x| x.iter().map(|x| 0.5 + x).product();
     let exact = (13f64 / 12.0).powi(3);
     let [coarse, fine] = [6, 12].map(|m| {
-        let squares = errors(&|x| f(x).powi(2), exact, (3, m), 0..128);
-        let means = errors(&f, 1.0, (3, m), 0..128);
+        let squares = errors(&|x| f(x).powi(2), exact, 3, m, 0..128);
+        let means = errors(&f, 1.0, 3, m, 0..128);
         let variances: Vec<f64> = squares.iter().zip(&means).map(|(s, m)| s - 2.0 * m - m * m).collect();
         rms(&variances)
     });
@@ -87,7 +88,7 @@ fn variances_converge_like_means() {
 fn replicates_and_seeds_are_independent() {
     // Correlations of 512 errors with those of later replicates: a standard error of 0.044 each, four of which are allowed.
     let f: &dyn Fn(&[f64]) -> f64 = &|x| libm::exp(x[0] + 2.0 * x[1] * x[2]);
-    let e = errors(f, 0.0, (3, 6), 0..512);
+    let e = errors(f, 0.0, 3, 6, 0..512);
     let mean = e.iter().sum::<f64>() / 512.0;
     let e: Vec<f64> = e.iter().map(|e| e - mean).collect();
     for lag in [1, 2, 3, 16, 256] {

@@ -29,9 +29,9 @@ impl KeptAliveWorker<'_> {
                  print one line for each row"
             )));
         }
-        let reason = self.reason(fault, (&ending, &session));
+        let reason = self.reason(fault, &ending, &session);
         if self.form.row_numbers {
-            return self.suspect(piece, (&session, &reason)).map(|()| Standing::Pending);
+            return self.suspect(piece, &session, &reason).map(|()| Standing::Pending);
         }
         let standing = if piece.base > 0 { Standing::Revoked } else { Standing::Pending };
         piece.rewind();
@@ -67,13 +67,13 @@ impl KeptAliveWorker<'_> {
                 )));
             }
         } else {
-            self.suspect(piece, (&session, &reason))?;
+            self.suspect(piece, &session, &reason)?;
         }
         Ok(standing)
     }
 
     /// The first row under way without an answer is tried alone, or fails if it has been.
-    fn suspect(&mut self, piece: &mut Piece<'_>, (session, reason): (&Session, &str)) -> Result<(), RowFailure> {
+    fn suspect(&mut self, piece: &mut Piece<'_>, session: &Session, reason: &str) -> Result<(), RowFailure> {
         // Its only answer may be no answer, if it died.
         let ahead = if session.most == 1 { 1 } else { session.under_way() };
         let Some(row) = piece.first_open().filter(|_| ahead > 0) else { return Ok(()) };
@@ -101,7 +101,7 @@ impl KeptAliveWorker<'_> {
         ));
     }
 
-    fn reason(&self, fault: &Fault, (ending, session): (&Ending, &Session)) -> String {
+    fn reason(&self, fault: &Fault, ending: &Ending, session: &Session) -> String {
         match fault {
             Fault::Closed if ending.by_itself && session.closed.is_some() && is_success(ending.status) => {
                 match &session.stray {

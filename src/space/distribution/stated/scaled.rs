@@ -18,7 +18,7 @@ pub(super) fn solve(law: Law, stated: &[Statement]) -> Option<Distribution> {
     }
     let accept = |shape: f64| {
         let (location, scale) = Lines::of(law, shape, stated)?.located()?;
-        let found = made(law, (location, scale, shape), stated)?;
+        let found = made(law, location, scale, shape, stated)?;
         is_as_stated(&found, |statistic| statistic_of(law, &found, statistic, shape), stated).then_some(found)
     };
     if let Some((_, shape)) = stated.iter().find(|(statistic, _)| statistic.is_shape()) {
@@ -178,7 +178,7 @@ fn determinant(law: Law, shape: f64, stated: &[Statement]) -> f64 {
 }
 
 /// The distribution, its own parameters as stated where they are stated.
-fn made(law: Law, (location, scale, shape): (f64, f64, f64), stated: &[Statement]) -> Option<Distribution> {
+fn made(law: Law, location: f64, scale: f64, shape: f64, stated: &[Statement]) -> Option<Distribution> {
     let or = |statistic: Statistic, value: f64| {
         stated.iter().find(|(other, _)| *other == statistic).map_or(value, |(_, stated)| *stated)
     };

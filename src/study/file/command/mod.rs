@@ -74,7 +74,7 @@ pub(super) fn subject(
     let (form, notes) = match &section.template {
         None => {
             let form = KeptAlive { protocol: protocol(context, section, &all.picks)?, row_numbers: numbers(section) };
-            refuse_number(context, section, form, (space, outputs))?;
+            refuse_number(context, section, form, space, outputs)?;
             (Form::KeptAlive(form), Vec::new())
         }
         Some(template) => {
@@ -178,7 +178,8 @@ fn refuse_number(
     context: &Context<'_>,
     section: &CommandSection,
     form: KeptAlive,
-    (space, outputs): (&Space, &[CommandOutput]),
+    space: &Space,
+    outputs: &[CommandOutput],
 ) -> Result<(), Fault> {
     let Some(typed) = section.row_numbers.as_ref().filter(|_| form.row_numbers) else { return Ok(()) };
     let is_factor = space.factors().iter().any(|factor| factor.name == "id");

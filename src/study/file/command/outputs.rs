@@ -101,7 +101,7 @@ pub(super) fn places(
         // They are what was asked for, apart from repetitions.
         names.dedup();
     }
-    series::places(context, (&names, series), asked)
+    series::places(context, &names, series, asked)
 }
 
 /// Of a program that runs once for each row, every output says where it stands.

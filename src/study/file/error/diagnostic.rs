@@ -34,7 +34,7 @@ impl Diagnostic {
         let before = text[line_start..start].chars().count();
         let width = text[start..end].trim_end().chars().count().max(1);
         let whole = printable(text[line_start..line_end].trim_end_matches('\r'));
-        let (source_line, mark) = excerpt(&whole, (before, width));
+        let (source_line, mark) = excerpt(&whole, before, width);
         Self {
             path: path.to_owned(),
             line: text[..start].matches('\n').count() + 1,
@@ -48,7 +48,7 @@ impl Diagnostic {
 }
 
 /// The part of a long line around the `width` characters after the first `before` ones, and where they stand in it.
-fn excerpt(line: &str, (before, width): (usize, usize)) -> (String, (usize, usize)) {
+fn excerpt(line: &str, before: usize, width: usize) -> (String, (usize, usize)) {
     const MOST: usize = 160;
     const LEAD: usize = 40;
     const MORE: &str = "...";

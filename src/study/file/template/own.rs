@@ -42,7 +42,7 @@ pub(in crate::study::file) fn external_template(request: &TemplateRequest) -> Re
 /// Name and length of a series, which is asked for as `infected[0..60]`; `None` of a single output.
 pub(super) fn series_of(output: &str) -> Option<(&str, usize)> {
     let (name, length) = output.strip_suffix(']')?.rsplit_once("[0..")?;
-    let length = length.parse().ok().filter(|length| SeriesAxis::even("", "", *length, (0.0, 1.0)).is_ok())?;
+    let length = length.parse().ok().filter(|length| SeriesAxis::even("", "", *length, 0.0, 1.0).is_ok())?;
     (!name.is_empty()).then_some((name, length))
 }
 
