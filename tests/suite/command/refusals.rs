@@ -104,8 +104,9 @@ fn a_new_study_comes_with_its_program() {
 fn labels_integers_and_units_reach_the_program() {
     let case = Case::new(
         "outputs.y = \"mm\"",
-        "import csv, json, sys\nseen = []\nfor row in csv.DictReader(sys.stdin):\n    \
-        seen.append(row)\n    json.dump(seen[:40], open('seen.json', 'w'))\n    print(float(row['x1']), flush=True)\n",
+        "import csv, json, sys\nfor row in csv.DictReader(sys.stdin):\n    \
+        with open('seen', 'a') as seen:\n        print(json.dumps(row), file=seen)\n    \
+        print(float(row['x1']), flush=True)\n",
     );
     let study = std::fs::read_to_string(case.path("study.toml")).unwrap();
     let start = study.find("[[factor]]").unwrap();
@@ -116,7 +117,9 @@ fn labels_integers_and_units_reach_the_program() {
     let (result, _) = case.result();
     let mean = result.outputs[0].mean.unwrap();
     assert!((mean - 1.5).abs() < 0.05, "{mean} mm");
-    let seen: Vec<serde_json::Value> = serde_json::from_slice(&std::fs::read(case.path("seen.json")).unwrap()).unwrap();
+    // By any of the processes that were started in turn, how many depends on the load of the machine.
+    let seen = std::fs::read_to_string(case.path("seen")).unwrap();
+    let seen: Vec<serde_json::Value> = seen.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     for row in &seen {
         let x1: f64 = row["x1"].as_str().unwrap().parse().unwrap();
         assert!((1.0..2.0).contains(&x1), "{row}");
@@ -124,5 +127,5 @@ fn labels_integers_and_units_reach_the_program() {
         assert!(["steel", "glass, thin"].contains(&row["made of"].as_str().unwrap()), "{row}");
         assert!(["true", "false"].contains(&row["wet"].as_str().unwrap()), "{row}");
     }
-    assert!(seen.len() == 40);
+    assert!(seen.len() as u64 >= result.provenance.model_runs, "{} rows", seen.len());
 }
