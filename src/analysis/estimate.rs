@@ -13,7 +13,7 @@ use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs, Scaling, merged};
 use crate::model::{MANY_OUTPUTS, Output, RowFailure};
 use crate::run::{Tally, Totals};
-use crate::study::Study;
+use crate::study::{Study, SurrogateChoice};
 use crate::surrogate::low_fidelity::{LowOutputs, low_fidelity_estimates};
 use crate::surrogate::{families, surrogates_together};
 use crate::uncertainty::{
@@ -96,8 +96,20 @@ pub(crate) fn surrogates(
     }
     let kept: Vec<Vec<&PointOutputs>> = kept.iter().map(|replicates| replicates.iter().collect()).collect();
     let (families, layout) = (families(&study.space), study.layout());
-    let alone = surrogates_together(design, &families, &layout, &kept);
+    // Polynomials go on where runs fail, and the numbers are those of the part of the space where they succeed.
+    let is_left_out = |outputs: &Vec<&PointOutputs>| {
+        study.analysis.surrogate != SurrogateChoice::On && outputs.iter().any(|outputs| outputs.has_failures())
+    };
+    let left_out: Vec<bool> = kept.iter().map(is_left_out).collect();
+    let whole: Vec<Vec<&PointOutputs>> =
+        kept.iter().zip(&left_out).filter(|(_, left_out)| !**left_out).map(|(outputs, _)| outputs.clone()).collect();
+    let mut of_whole = surrogates_together(design, &families, &layout, &whole).into_iter();
+    let alone: Vec<Option<SurrogateEstimates>> =
+        left_out.iter().map(|left_out| if *left_out { None } else { of_whole.next().flatten() }).collect();
     let best = |(number, alone): (usize, Option<SurrogateEstimates>)| {
+        if left_out[number] {
+            return None;
+        }
         let of_low = |low: &LowTotals<'_>| {
             let own = low.outputs.get(number)?.as_ref()?;
             let shared = first(low.shared, number);

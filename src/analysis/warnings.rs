@@ -91,6 +91,25 @@ pub(super) fn of_digits(values: &CentralMoments) -> Option<String> {
     })
 }
 
+/// A warning of factors that take single values and depend on others: what is held fixed is the normal score behind a value.
+fn of_dependent_steps(study: &Study) -> Option<String> {
+    let space = study.space();
+    let depends =
+        |name: &str| space.dependences().iter().any(|dependence| dependence.factors().iter().any(|of| of == name));
+    let steps = space.factors().iter().filter(|factor| {
+        depends(&factor.name) && (factor.distribution().levels().is_some() || factor.distribution().is_whole())
+    });
+    let names: Vec<&str> = steps.map(|factor| factor.name.as_str()).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "{}: single values that depend on other factors: to fix the factor here is to fix the normal score behind its value, \
+             which says more of the others than the value does; its own indices are too large by that, and those of its \
+             partners too small",
+            names.join(", ")
+        )
+    })
+}
+
 /// Warnings about indices that cannot all be right. Each compares an estimate with its interval, so that the noise of
 /// a small sample does not raise it.
 pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> {
@@ -120,6 +139,7 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
             (100.0 * used.explained).max(0.0)
         ));
     }
+    warnings.extend(of_dependent_steps(study));
     warnings.extend(indices.noise.as_ref().and_then(|noise| of_noise(study, indices, noise)));
     for (name, effect) in names_of_swaps(study).iter().zip(indices.effects()) {
         let total = effect.dependent.map_or(effect.total, |dependent| dependent.full_total).estimate;

@@ -39,6 +39,11 @@ impl PointOutputs {
         self.points
     }
 
+    /// Whether a run of a base point has no value.
+    pub fn has_failures(&self) -> bool {
+        self.blocks.iter().any(|block| block.outputs.iter().any(|y| !y.is_finite()))
+    }
+
     /// The first `end` base points alone; blocks that end there are shared.
     #[must_use]
     pub fn prefix(&self, end: u64) -> Self {

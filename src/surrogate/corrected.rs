@@ -35,11 +35,11 @@ pub struct Contributions {
 }
 
 /// How the factors of a term stand to those of a swap.
-fn within(term: &[(usize, usize)], swap: &[usize]) -> bool {
+pub(super) fn within(term: &[(usize, usize)], swap: &[usize]) -> bool {
     !term.is_empty() && term.iter().all(|(factor, _)| swap.binary_search(factor).is_ok())
 }
 
-fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
+pub(super) fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
     term.iter().any(|(factor, _)| swap.binary_search(factor).is_ok())
 }
 

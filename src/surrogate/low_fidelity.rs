@@ -136,7 +136,7 @@ pub fn low_fidelity_estimates(
         own_runs: low.own.design.rows(),
     };
     let expansions = stand_ins.into_iter().map(|of| of.rest).collect();
-    let corrected = Corrected { nets, expansions };
+    let corrected = Corrected::new(design, nets, expansions, families, &pairs);
     let mut all = estimates(&corrected, &of_low, scale);
     all.low = Some(used);
     Some(all)

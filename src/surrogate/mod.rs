@@ -5,6 +5,7 @@
 //! corrected by an expansion that has seen it, so that a poor surrogate costs accuracy and no honesty.
 
 pub mod basis;
+pub mod beyond;
 pub mod corrected;
 pub mod fit;
 pub mod gram;
@@ -22,6 +23,7 @@ use crate::estimate::PointOutputs;
 use crate::space::Space;
 use crate::uncertainty::{Influenced, Layout, PartInfluences, SurrogateEstimates, SurrogateTerm, in_parts};
 use basis::{Caps, Family, Term};
+use beyond::Beyond;
 use corrected::Contributions;
 use fit::{Expansion, Expansions, NetSums, Training, first_candidates, fit, selection_rows};
 use net::Net;
@@ -128,30 +130,43 @@ struct Job<'a> {
 struct Corrected {
     nets: Vec<Contributions>,
     expansions: Vec<Expansion>,
+    beyond: Beyond,
 }
 
 impl Corrected {
+    /// The `nets` of `design` corrected by `expansions` in polynomials of `families`.
+    fn new(
+        design: &Design,
+        nets: Vec<Contributions>,
+        expansions: Vec<Expansion>,
+        families: &[Family],
+        pairs: &[(usize, usize)],
+    ) -> Self {
+        let (rest, _) = residual_powers(&nets);
+        let points = design.settings().base_samples;
+        let beyond = Beyond::new(&expansions, families, points, rest, &sorted_swaps(design), pairs);
+        Self { nets, expansions, beyond }
+    }
+
     /// The `next` of two trials if it leaves less than `ratio` times what the `best` one does.
     fn better(best: Option<Self>, next: Self, ratio: f64) -> Option<Self> {
-        let is_better = best.as_ref().is_none_or(|best| next.residual() < ratio * best.residual());
+        let is_better = best.as_ref().is_none_or(|best| next.unknown() < ratio * best.unknown());
         if is_better { Some(next) } else { best }
     }
 
     /// Mean square of what the surrogates leave.
     fn residual(&self) -> f64 {
-        self.residual_powers().0
+        residual_powers(&self.nets).0
     }
 
-    /// Mean square and mean fourth power of it.
-    fn residual_powers(&self) -> (f64, f64) {
-        let (two, four) =
-            self.nets.iter().fold((0.0, 0.0), |sum, net| (sum.0 + net.residual.0, sum.1 + net.residual.1));
-        (two / self.nets.len() as f64, four / self.nets.len() as f64)
+    /// The same, and what no runs show.
+    fn unknown(&self) -> f64 {
+        self.residual() + self.beyond.variance
     }
 
     /// Whether a few rows carry what the surrogates leave, and it matters.
     fn is_heavy_tailed(&self) -> bool {
-        let (two, four) = self.residual_powers();
+        let (two, four) = residual_powers(&self.nets);
         let rows: usize = self.nets.iter().map(|net| net.rows).sum();
         // Outputs have variance 1.
         two > RESIDUAL && 3.0 * rows as f64 * two * two < FEW_ROWS * four
@@ -172,8 +187,14 @@ impl Job<'_> {
         let contributions =
             |net: &Net, expansion: &Expansion| Contributions::new(design, net, expansion, &swaps, self.pairs);
         let (nets, expansions) = cross_fitted(&nets, caps, contributions).into_iter().unzip();
-        Some(Corrected { nets, expansions })
+        Some(Corrected::new(design, nets, expansions, families, self.pairs))
     }
+}
+
+/// Mean square and mean fourth power of what surrogates leave of `nets`.
+fn residual_powers(nets: &[Contributions]) -> (f64, f64) {
+    let (two, four) = nets.iter().fold((0.0, 0.0), |sum, net| (sum.0 + net.residual.0, sum.1 + net.residual.1));
+    (two / nets.len() as f64, four / nets.len() as f64)
 }
 
 /// For every net the expansion fitted to the others, and what `of` makes of both.
@@ -258,7 +279,7 @@ fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
 
 /// The means over all points, and what each part does to them; those of `low`, the runs of a cheaper model, are added.
 fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64)) -> SurrogateEstimates {
-    let Corrected { nets, expansions } = corrected;
+    let Corrected { nets, expansions, beyond } = corrected;
     let of_nets = |nets: &[Contributions], column: &dyn Fn(&Contributions) -> &Vec<f64>| {
         let columns: Vec<Vec<f64>> = nets.iter().map(|net| column(net).clone()).collect();
         let count: usize = columns.iter().map(Vec::len).sum();
@@ -267,22 +288,25 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
             in_parts(&columns).into_iter().map(|net| net.into_iter().map(|x| x - mean).collect()).collect();
         (mean, parts)
     };
-    let gathered = |column: &dyn Fn(&Contributions) -> &Vec<f64>| {
+    let gathered = |column: &dyn Fn(&Contributions) -> &Vec<f64>, beyond: f64| {
         let ((mean, parts), (of_low, low)) = (of_nets(nets, column), of_nets(low, column));
-        Influenced { estimate: mean + of_low, parts, low }
+        Influenced { estimate: mean + of_low, parts, low, beyond }
     };
-    let variance = gathered(&|net| &net.variance);
+    let variance = gathered(&|net| &net.variance, beyond.variance);
     let index = |numerator: &Influenced| {
         let estimate = numerator.estimate / variance.estimate;
         let scale = 1.0 / variance.estimate;
         Influenced { estimate, ..Influenced::combined(&[(scale, numerator), (-estimate * scale, &variance)]) }
     };
-    let first_order: Vec<Influenced> =
-        (0..nets[0].first_order.len()).map(|swap| index(&gathered(&|net| &net.first_order[swap]))).collect();
+    let first_order: Vec<Influenced> = (0..nets[0].first_order.len())
+        .map(|swap| index(&gathered(&|net| &net.first_order[swap], beyond.first_order[swap])))
+        .collect();
     let second_order: Vec<Influenced> =
-        (0..nets[0].pairs.len()).map(|pair| index(&gathered(&|net| &net.pairs[pair]))).collect();
+        (0..nets[0].pairs.len()).map(|pair| index(&gathered(&|net| &net.pairs[pair], beyond.pairs[pair]))).collect();
     let forms: [Vec<Influenced>; 2] = [0, 1].map(|form| {
-        (0..nets[0].total[form].len()).map(|swap| index(&gathered(&|net| &net.total[form][swap]))).collect()
+        (0..nets[0].total[form].len())
+            .map(|swap| index(&gathered(&|net| &net.total[form][swap], beyond.total[swap])))
+            .collect()
     });
     let weight = weight_of_second(&forms);
     let mixed = |(a, b): (&Influenced, &Influenced)| Influenced::combined(&[(1.0 - weight, a), (weight, b)]);
@@ -295,7 +319,7 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
         first_order,
         total,
         second_order,
-        mean: scaled(gathered(&|net| &net.mean), mean, sd),
+        mean: scaled(gathered(&|net| &net.mean, beyond.mean), mean, sd),
         explained: 1.0 - corrected.residual() / variance.estimate,
         is_heavy_tailed: corrected.is_heavy_tailed(),
         terms: told_terms(expansions, variance.estimate),

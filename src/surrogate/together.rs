@@ -89,13 +89,13 @@ fn of_neighbours(
     let (swaps, pairs) = (sorted_swaps(design), if layout.second_order { layout.pair_list() } else { Vec::new() });
     let of_output = |number: usize| {
         let mut best: Option<Corrected> = None;
-        for Fit { nets, expansions, ratio } in &fits {
+        for Fit { nets, families, expansions, ratio } in &fits {
             let expansions: Vec<_> = expansions.iter().map(|of_net| of_net.of_output(number)).collect();
             let of_net = |((net, runs), expansion): ((&Net, &Vec<Vec<f64>>), _)| {
                 Contributions::new(design, &net.with_outputs(runs.clone()), expansion, &swaps, &pairs)
             };
             let nets = nets.iter().zip(&runs[number]).zip(&expansions).map(of_net).collect();
-            best = Corrected::better(best, Corrected { nets, expansions }, *ratio);
+            best = Corrected::better(best, Corrected::new(design, nets, expansions, families, &pairs), *ratio);
         }
         Some(estimates(&best?, &[], outputs[number].1))
     };
@@ -105,6 +105,7 @@ fn of_neighbours(
 /// A trial fitted to all outputs: for every net the expansions of the others.
 struct Fit {
     nets: Vec<Net>,
+    families: Vec<Family>,
     expansions: Vec<Expansions>,
     ratio: f64,
 }
@@ -122,7 +123,7 @@ impl Fit {
         let training: Vec<Training<'_>> = training.collect();
         let expansions = fitted_to_others(&nets, &training, caps);
         drop(training);
-        Self { nets, expansions, ratio: trial.ratio }
+        Self { nets, families: trial.families, expansions, ratio: trial.ratio }
     }
 }
 

@@ -15,12 +15,14 @@ pub struct Influenced {
     pub parts: PartInfluences,
     /// The same of the runs of a cheaper model, which are independent of the others; empty without one.
     pub low: PartInfluences,
+    /// Standard error by what no runs show: what a surrogate says of tails beyond them.
+    pub beyond: f64,
 }
 
 impl Influenced {
     /// The number is `estimate`, whatever the rows.
     fn settled(&self, estimate: f64) -> Self {
-        Self { estimate, parts: still(&self.parts), low: still(&self.low) }
+        Self { estimate, parts: still(&self.parts), low: still(&self.low), beyond: 0.0 }
     }
 
     /// A sum of numbers with weights.
@@ -35,7 +37,9 @@ impl Influenced {
             }
             sums
         };
-        Self { estimate, parts: of(|of| &of.parts), low: of(|of| &of.low) }
+        // These errors have one cause, and add up.
+        let beyond = list.iter().map(|(weight, of)| weight.abs() * of.beyond).sum();
+        Self { estimate, parts: of(|of| &of.parts), low: of(|of| &of.low), beyond }
     }
 }
 

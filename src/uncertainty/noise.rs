@@ -100,7 +100,8 @@ impl Noise {
 
     /// The standard error of the number.
     pub fn error(&self, of: &Influenced) -> StandardError {
-        let own = self.error_of_parts(&of.parts);
+        let mut own = self.error_of_parts(&of.parts);
+        own.error = libm::hypot(own.error, of.beyond);
         if of.low.is_empty() {
             return own;
         }

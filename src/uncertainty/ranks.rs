@@ -39,7 +39,7 @@ pub fn probability_first(
     let directions = coordinates(rivals.iter().map(|&k| direction(parts[k])).collect());
     let chi_squared = ChiSquared::new(errors[lead].freedom).ok()?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut wins = vec![0usize; estimates.len()];
+    let mut wins = vec![0.0; estimates.len()];
     let mut normals = vec![0.0; directions.iter().map(Vec::len).max().unwrap_or(0)];
     for _ in 0..DRAWS {
         normals.iter_mut().for_each(|z| *z = StandardNormal.sample(&mut rng));
@@ -48,11 +48,13 @@ pub fn probability_first(
             let z: f64 = directions[place].iter().zip(&normals).map(|(weight, z)| weight * z).sum();
             (k, estimates[k] + errors[k].error * widening * z)
         };
-        // Equal values go to the first of them.
-        let best = rivals.iter().enumerate().map(drawn).reduce(|best, next| if next.1 > best.1 { next } else { best });
-        wins[best?.0] += 1;
+        let values: Vec<(usize, f64)> = rivals.iter().enumerate().map(drawn).collect();
+        let best = values.iter().fold(f64::NEG_INFINITY, |best, (_, value)| best.max(*value));
+        // Equal values share the draw.
+        let share = 1.0 / values.iter().filter(|(_, value)| *value == best).count() as f64;
+        values.iter().filter(|(_, value)| *value == best).for_each(|(k, _)| wins[*k] += share);
     }
-    Some(wins.into_iter().map(|wins| wins as f64 / DRAWS as f64).collect())
+    Some(wins.into_iter().map(|wins| wins / DRAWS as f64).collect())
 }
 
 /// The influences of all parts, scaled to unit length; all zero for a quantity without any.
@@ -134,6 +136,8 @@ mod tests {
         let none = vec![vec![0.0, 0.0]];
         let got = probability_first(&[0.2, 0.5, 0.1], &[error(0.0, 3.0); 3], &[&none; 3], 0).unwrap();
         assert_eq!(got, [0.0, 1.0, 0.0]);
+        let tied = probability_first(&[0.0, 0.0], &[error(0.0, 3.0); 2], &[&none; 2], 0).unwrap();
+        assert_eq!(tied, [0.5, 0.5]);
         assert_eq!(probability_first(&[0.2, 0.5], &[error(f64::NAN, 0.0); 2], &[&none; 2], 0), None);
         assert_eq!(probability_above(0.2, error(0.0, 1.0), 0.1), Some(1.0));
         assert_eq!(probability_above(0.1, error(0.1, 4.0), 0.1), Some(0.5));

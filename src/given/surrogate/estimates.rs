@@ -6,10 +6,10 @@ use crate::uncertainty::{Estimate, Influenced, Interval, Noise};
 
 /// What all folds say of the indices of `inputs` inputs.
 pub(super) fn of(fitted: &Fitted, inputs: usize) -> SurrogateOutput {
-    let Fitted { folds, expansions, polynomials_of } = fitted;
+    let Fitted { folds, expansions, beyond, polynomials_of } = fitted;
     let rows = folds.iter().map(|fold| fold.rows).sum::<usize>() as f64;
     let left_mean = folds.iter().map(|fold| fold.left.0).sum::<f64>() / rows;
-    let mut variance = gathered(folds, rows, |fold| Some(&fold.variance));
+    let mut variance = gathered(folds, rows, beyond.variance, |fold| Some(&fold.variance));
     variance.estimate -= left_mean * left_mean;
     if !(variance.estimate > 0.0 && variance.estimate.is_finite()) {
         // What is left is then larger than all there is; the outputs have variance 1.
@@ -19,10 +19,11 @@ pub(super) fn of(fitted: &Fitted, inputs: usize) -> SurrogateOutput {
         let (estimate, scale) = (numerator.estimate / variance.estimate, 1.0 / variance.estimate);
         Influenced { estimate, ..Influenced::combined(&[(scale, numerator), (-estimate * scale, &variance)]) }
     };
-    let first_order: Vec<Influenced> =
-        (0..inputs).map(|input| index(&gathered(folds, rows, |fold| fold.first_order.get(&input)))).collect();
-    let total: Vec<Influenced> =
-        (0..inputs).map(|input| index(&gathered(folds, rows, |fold| fold.total.get(&input)))).collect();
+    let of_first_order =
+        |input: usize| gathered(folds, rows, beyond.first_order[input], |fold| fold.first_order.get(&input));
+    let of_total = |input: usize| gathered(folds, rows, beyond.total[input], |fold| fold.total.get(&input));
+    let first_order: Vec<Influenced> = (0..inputs).map(|input| index(&of_first_order(input))).collect();
+    let total: Vec<Influenced> = (0..inputs).map(|input| index(&of_total(input))).collect();
     let left = fitted.left_square() / variance.estimate;
     let unknown = left.clamp(0.0, 1.0);
     let noise = |list: &[Influenced], skewed: bool| {
@@ -48,12 +49,17 @@ pub(super) fn of(fitted: &Fitted, inputs: usize) -> SurrogateOutput {
     }
 }
 
-/// The mean over all rows, with the influences of the parts of every fold.
-fn gathered<'a>(folds: &'a [FoldSums], rows: f64, of: impl Fn(&'a FoldSums) -> Option<&'a Folded>) -> Influenced {
+/// The mean over all rows, with the influences of the parts of every fold and the error `beyond` the rows.
+fn gathered<'a>(
+    folds: &'a [FoldSums],
+    rows: f64,
+    beyond: f64,
+    of: impl Fn(&'a FoldSums) -> Option<&'a Folded>,
+) -> Influenced {
     let estimate = folds.iter().filter_map(&of).map(|fold| fold.sum).sum::<f64>() / rows;
     let parts = |fold: &'a FoldSums| match of(fold) {
         Some(folded) => folded.parts.iter().map(|x| x - estimate).collect(),
         None => vec![-estimate; fold.variance.parts.len()],
     };
-    Influenced { estimate, parts: folds.iter().map(parts).collect(), low: Vec::new() }
+    Influenced { estimate, parts: folds.iter().map(parts).collect(), low: Vec::new(), beyond }
 }

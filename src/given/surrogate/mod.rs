@@ -19,6 +19,7 @@ use super::order::Order;
 use super::{Column, Dependence, GivenIndices, NoVariance, centred};
 use crate::space::Distribution;
 use crate::surrogate::basis::{Caps, polynomials};
+use crate::surrogate::beyond::Beyond;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
 use crate::surrogate::{cross_fitted, told_terms};
@@ -193,15 +194,25 @@ struct Job<'a> {
 struct Fitted {
     folds: Vec<FoldSums>,
     expansions: Vec<Expansion>,
+    beyond: Beyond,
     polynomials_of: &'static str,
 }
 
 impl Fitted {
     /// Mean square of what the expansions leave.
     fn left_square(&self) -> f64 {
-        let rows: usize = self.folds.iter().map(|fold| fold.rows).sum();
-        self.folds.iter().map(|fold| fold.left.1).sum::<f64>() / rows as f64
+        left_square(&self.folds)
     }
+
+    /// The same, and what no rows show.
+    fn unknown(&self) -> f64 {
+        self.left_square() + self.beyond.variance
+    }
+}
+
+fn left_square(folds: &[FoldSums]) -> f64 {
+    let rows: usize = folds.iter().map(|fold| fold.rows).sum();
+    folds.iter().map(|fold| fold.left.1).sum::<f64>() / rows as f64
 }
 
 impl Job<'_> {
@@ -212,7 +223,7 @@ impl Job<'_> {
         let mut best = self.fitted(&self.coordinates[0], &z);
         for coordinates in &self.coordinates[1..] {
             let fitted = self.fitted(coordinates, &z);
-            if fitted.left_square() < coordinates.trial.ratio * best.left_square() {
+            if fitted.unknown() < coordinates.trial.ratio * best.unknown() {
                 best = fitted;
             }
         }
@@ -243,7 +254,12 @@ impl Job<'_> {
             }
             contributions.in_parts()
         };
-        let (folds, expansions) = cross_fitted(&nets, caps, of_fold).into_iter().unzip();
-        Fitted { folds, expansions, polynomials_of: coordinates.name }
+        let (folds, expansions): (Vec<FoldSums>, Vec<Expansion>) =
+            cross_fitted(&nets, caps, of_fold).into_iter().unzip();
+        let (rows, inputs) =
+            (self.folds.iter().sum::<usize>() as u64, (0..caps.families.len()).map(|input| vec![input]));
+        let beyond =
+            Beyond::new(&expansions, caps.families, rows, left_square(&folds), &inputs.collect::<Vec<_>>(), &[]);
+        Fitted { folds, expansions, beyond, polynomials_of: coordinates.name }
     }
 }

@@ -82,6 +82,11 @@ pub(super) fn answer(result: &ResultFile, output: &OutputRecord) -> String {
         return format!("There are no indices of {}: {reason}.", name(&output.name));
     };
     let order: Vec<&IndexRecord> = order.into_iter().map(|(_, index)| index).collect();
+    let largest = order[0].effect.weight();
+    if largest.estimate == 0.0 && largest.high == Some(0.0) {
+        let nothing = format!("No factor acts on {}: every {} is 0.", name(&output.name), weight_name(&order));
+        return [nothing, super::noise::sentence(result, output)].join(" ").trim_end().to_owned();
+    }
     let tied = tied(&order);
     let first = if tied.len() > 1 { tie(output, &order, &tied) } else { leader(output, &order) };
     let sentences =
@@ -196,6 +201,16 @@ fn trust(result: &ResultFile, warned: &[&[OutputRecord]]) -> String {
     let mut sentences = vec![settled(result)];
     let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);
     sentences.extend(validity::of_failures(failed, result.provenance.model_runs));
+    let is_corrected = |output: &&OutputRecord| {
+        let used = output.surrogate.as_ref();
+        output.runs_failed > 0 && used.is_some_and(|used| used.corrects_first_order || used.corrects_total)
+    };
+    if let Some(output) = result.outputs.iter().find(is_corrected) {
+        sentences.push(format!(
+            "Indices of {} corrected by surrogates take the failed runs as missing by chance.",
+            name(&output.name)
+        ));
+    }
     let warnings: usize = warned.iter().map(|outputs| folded(outputs).len()).sum();
     sentences.push(match warnings {
         0 => "There are no warnings.".to_owned(),

@@ -1,0 +1,253 @@
+//! What expansions say of the tails of their factors, where no run is.
+//!
+//! An expansion is known exactly, and so counts also where no run shows whether it is right. A polynomial of high degree in an
+//! unbounded variable has most of its variance there. How far it departs in the tails from its own tangents at their edges is
+//! therefore a part of the error of every number that it enters; less of it the better the expansion fits and the lower its
+//! degree is, since what is close to a polynomial of low degree goes on like one.
+
+use std::collections::BTreeMap;
+
+use super::basis::{Family, Term, polynomials};
+use super::corrected::{touches, within};
+use super::fit::Expansion;
+
+/// Width of the panels of the midpoint rule in ln u, and their number, to 1e-17 of the edge.
+const STEP: f64 = 0.25;
+const PANELS: usize = 160;
+
+/// Distance of two values of u about the edge over that of the edge, for slopes.
+const NEAR: f64 = 1e-5;
+
+/// How many times the root mean square of the rest counts for every degree of a polynomial, times its departure; at most all of
+/// that does. Polynomials that are small where the runs are grow so fast beyond them, as those of Chebyshev do. Measured on
+/// sines, exponentials and powers of normal factors.
+const GROWTH: f64 = 3.2;
+
+/// One tail of a factor, from its edge outwards.
+struct Tail {
+    /// Probabilities of the nodes.
+    weights: Vec<f64>,
+    /// The polynomials of degree 1, 2, ... at the nodes.
+    values: Vec<Vec<f64>>,
+    /// Their tangents at the edge, at the nodes.
+    tangents: Vec<Vec<f64>>,
+}
+
+impl Tail {
+    /// Both tails of a factor with polynomials of `family`, each of the probability `mass`; none where polynomials have no tails.
+    fn both(family: &Family, mass: f64, degree: usize) -> Vec<Self> {
+        let is_upper: &[bool] = match family {
+            Family::Hermite | Family::Own(_) => &[false, true],
+            Family::Legendre | Family::Column(_) => &[],
+        };
+        let logarithms = (0..PANELS).map(|k| STEP * (k as f64 + 0.5));
+        let nodes: Vec<f64> = logarithms.map(|s| mass * libm::exp(-s)).collect();
+        let weights: Vec<f64> = nodes.iter().map(|u| u * STEP).collect();
+        let points: Vec<f64> = nodes.into_iter().chain([mass, mass * (1.0 + NEAR)]).collect();
+        let tail = |&upper: &bool| {
+            let mut values = match family {
+                // Hermite polynomials are even or odd, and 1 - u has no digits far out.
+                Family::Hermite => polynomials(family, &points, degree),
+                _ if upper => polynomials(family, &points.iter().map(|u| 1.0 - u).collect::<Vec<_>>(), degree),
+                _ => polynomials(family, &points, degree),
+            };
+            if upper && *family == Family::Hermite {
+                values.iter_mut().step_by(2).flatten().for_each(|value| *value = -*value);
+            }
+            let [edge, near] = [PANELS, PANELS + 1];
+            let x = values.first().cloned().unwrap_or_default();
+            let tangent = |of: &Vec<f64>| -> Vec<f64> {
+                let slope = (of[edge] - of[near]) / (x[edge] - x[near]);
+                // Between two levels of a discrete distribution there is none.
+                let slope = if slope.is_finite() { slope } else { 0.0 };
+                x[..PANELS].iter().map(|x_node| of[edge] + slope * (x_node - x[edge])).collect()
+            };
+            let tangents = values.iter().map(tangent).collect();
+            values.iter_mut().for_each(|of| of.truncate(PANELS));
+            Self { weights: weights.clone(), values, tangents }
+        };
+        is_upper.iter().map(tail).collect()
+    }
+
+    /// How far the polynomial with `coefficients` (degree, coefficient) and the constant `offset` departs from its tangent: the
+    /// means of the absolute differences, and of those of the squares.
+    fn departure(&self, coefficients: &[(usize, f64)], offset: f64) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for (node, weight) in self.weights.iter().enumerate() {
+            let sum = |columns: &[Vec<f64>]| -> f64 {
+                offset + coefficients.iter().map(|&(degree, b)| b * columns[degree - 1][node]).sum::<f64>()
+            };
+            let (p, q) = (sum(&self.values), sum(&self.tangents));
+            sums[0] += weight * (p - q).abs();
+            sums[1] += weight * (p * p - q * q).abs();
+        }
+        sums
+    }
+}
+
+/// The errors by what expansions say of tails, of an output scaled to variance 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Beyond {
+    /// Of the mean.
+    pub mean: f64,
+    /// Of the variance.
+    pub variance: f64,
+    /// Of V S of every swap.
+    pub first_order: Vec<f64>,
+    /// Of V ST of every swap.
+    pub total: Vec<f64>,
+    /// Of V S_jk of the pairs of factors.
+    pub pairs: Vec<f64>,
+}
+
+impl Beyond {
+    /// Of the mean of `expansions` in polynomials of `families`, fitted to runs at `points` points, of which they leave the mean
+    /// square `rest`.
+    pub fn new(
+        expansions: &[Expansion],
+        families: &[Family],
+        points: u64,
+        rest: f64,
+        swaps: &[Vec<usize>],
+        pairs: &[(usize, usize)],
+    ) -> Self {
+        let mut all = Self {
+            mean: 0.0,
+            variance: 0.0,
+            first_order: vec![0.0; swaps.len()],
+            total: vec![0.0; swaps.len()],
+            pairs: vec![0.0; pairs.len()],
+        };
+        let mass = 1.0 / points.max(2) as f64;
+        let rest = rest.max(0.0).sqrt();
+        for (factor, family) in families.iter().enumerate() {
+            let degree_of = |expansion: &Expansion| degree(&expansion.terms, factor);
+            let degree = expansions.iter().map(degree_of).max().unwrap_or(0);
+            let tails = if degree > 1 { Tail::both(family, mass, degree) } else { Vec::new() };
+            for expansion in expansions.iter().filter(|_| !tails.is_empty()) {
+                for (others, Group { coefficients, offset }) in groups(expansion, factor) {
+                    let highest = coefficients.iter().map(|(degree, _)| *degree).max().unwrap_or(0);
+                    let weight = (libm::pow(GROWTH, highest as f64) * rest).min(1.0) / expansions.len() as f64;
+                    let sum = |[a, b]: [f64; 2], tail: &Tail| {
+                        let [more_a, more_b] = tail.departure(&coefficients, offset);
+                        [a + more_a, b + more_b]
+                    };
+                    let [of_mean, of_square] = tails.iter().fold([0.0; 2], sum).map(|sum| weight * sum);
+                    if others.is_empty() {
+                        all.mean += of_mean;
+                    }
+                    all.add(&with(&others, factor), of_square, swaps, pairs);
+                }
+            }
+        }
+        all
+    }
+
+    fn add(&mut self, term: &[(usize, usize)], error: f64, swaps: &[Vec<usize>], pairs: &[(usize, usize)]) {
+        self.variance += error;
+        for (number, swap) in swaps.iter().enumerate() {
+            self.first_order[number] += if within(term, swap) { error } else { 0.0 };
+            self.total[number] += if touches(term, swap) { error } else { 0.0 };
+        }
+        for (of_pair, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
+            *of_pair += if matches!(*term, [(a, _), (b, _)] if a == j && b == k) { error } else { 0.0 };
+        }
+    }
+}
+
+/// The largest degree of a factor in `terms`.
+fn degree(terms: &[Term], factor: usize) -> usize {
+    terms.iter().flatten().filter(|(of, _)| *of == factor).map(|(_, degree)| *degree).max().unwrap_or(0)
+}
+
+/// `rest` with the factor of any degree.
+fn with(rest: &[(usize, usize)], factor: usize) -> Term {
+    let mut term = rest.to_vec();
+    term.insert(term.partition_point(|(other, _)| *other < factor), (factor, 1));
+    term
+}
+
+/// The polynomial of one factor beside the same polynomials of the others.
+#[derive(Default)]
+struct Group {
+    /// Degrees and coefficients.
+    coefficients: Vec<(usize, f64)>,
+    /// The coefficient of the term without the factor.
+    offset: f64,
+}
+
+/// The polynomials of `factor` by what stands beside them.
+fn groups(expansion: &Expansion, factor: usize) -> BTreeMap<Term, Group> {
+    let mut groups: BTreeMap<Term, Group> = BTreeMap::new();
+    let terms = || expansion.terms.iter().zip(&expansion.coefficients);
+    for (term, b) in terms() {
+        if let Ok(place) = term.binary_search_by_key(&factor, |(factor, _)| *factor) {
+            let mut rest = term.clone();
+            let (_, degree) = rest.remove(place);
+            groups.entry(rest).or_default().coefficients.push((degree, *b));
+        }
+    }
+    // The mean is no part of the variance.
+    for (term, b) in terms().filter(|(term, _)| !term.is_empty()) {
+        if let Some(group) = groups.get_mut(term) {
+            group.offset = *b;
+        }
+    }
+    groups
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::Distribution;
+    use crate::special::{normal_below, normal_quantile};
+
+    fn beyond(family: Family, terms: Vec<Term>, coefficients: Vec<f64>, rest: f64) -> Beyond {
+        let families = [family, Family::Legendre];
+        Beyond::new(&[Expansion { terms, coefficients }], &families, 100, rest, &[vec![0], vec![1]], &[(0, 1)])
+    }
+
+    #[test]
+    fn a_square_departs_from_its_tangents_as_integrals_say() {
+        // p = (z^2 - 1)/sqrt 2 less its tangent is (z - c)^2/sqrt 2; its mean in both tails is by parts, with c at 1/100.
+        let found = beyond(Family::Hermite, vec![vec![], vec![(0, 2)]], vec![5.0, 1.0], 1.0);
+        let c = -normal_quantile(0.01);
+        let density = libm::exp(-c * c / 2.0) / (2.0 * std::f64::consts::PI).sqrt();
+        let exact = 2.0_f64.sqrt() * ((1.0 + c * c) * normal_below(-c) - c * density);
+        assert!((found.mean / exact - 1.0).abs() < 2e-3, "{} {exact}", found.mean);
+        assert_eq!((found.variance, found.variance), (found.first_order[0], found.total[0]));
+        assert_eq!([found.first_order[1], found.total[1], found.pairs[0]], [0.0; 3]);
+        // Well fitted, it goes on like that.
+        let fitted = beyond(Family::Hermite, vec![vec![(0, 2)]], vec![1.0], 1e-12);
+        assert!((fitted.variance / (found.variance * 3.2_f64.powi(2) * 1e-6) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn lines_and_bounded_polynomials_do_not_depart() {
+        let of = |family, term: Term| beyond(family, vec![term], vec![1.0], 1.0).variance;
+        assert_eq!(of(Family::Hermite, vec![(0, 1)]), 0.0);
+        assert_eq!(of(Family::Legendre, vec![(0, 9)]), 0.0);
+        let [uniform, normal] = [
+            Distribution::triangular(0.0, 0.4, 1.0).unwrap(),
+            Distribution::truncated_normal(0.0, 1.0, -6.0, 6.0).unwrap(),
+        ];
+        let [bounded, long] = [&uniform, &normal].map(|law| of(Family::new(law), vec![(0, 8)]));
+        assert!(bounded < 0.3 && long > 0.5, "{bounded} {long}");
+        // Most of a polynomial of high degree lies where no run is.
+        let high = of(Family::Hermite, vec![(0, 10)]);
+        assert!((0.5..1.0).contains(&high), "{high}");
+    }
+
+    #[test]
+    fn products_belong_to_all_their_factors() {
+        let terms = vec![vec![(0, 3), (1, 2)], vec![(1, 2)]];
+        let found = beyond(Family::Hermite, terms.clone(), vec![0.5, 0.2], 1.0);
+        assert!(found.variance > 0.0 && found.mean == 0.0);
+        let of_pair = [found.total[0], found.total[1], found.pairs[0]];
+        assert_eq!(of_pair, [found.variance; 3]);
+        assert_eq!(found.first_order, [0.0; 2]);
+        // Both tails, of which each has a half by symmetry of the odd polynomial but for what stands beside it.
+        let alone = beyond(Family::Hermite, terms, vec![0.5, 0.0], 1.0);
+        assert!(alone.variance < found.variance);
+    }
+}
