@@ -165,7 +165,7 @@ fn output_analysis(
     let options = IntervalOptions { points: KeptPoints::all(run.design, &kept), surrogate, ..interval_options(study) };
     let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>());
     let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &options), used.count());
-    let failure = |(failure, tally): (&RowFailure, &Tally)| failure_count(run, failure, *tally);
+    let failure = |(failure, tally): (RowFailure, Tally)| failure_count(run, &failure, tally);
     let share = totals.runs_failed as f64 / run.design.rows() as f64;
     let layout = study.layout();
     let indices = if share > study.analysis.max_failed {

@@ -3,7 +3,7 @@
 //! The rows A and B are draws from the distributions of the factors, as those of a table of given data are. A run keeps the outputs of
 //! the first of them, and their inputs are a function of their numbers, so that its memory does not grow with its size.
 
-use crate::design::Design;
+use crate::design::{Design, DesignSettings, Sampler};
 use crate::given::{Column, FEWEST_ROWS, InputMeasures, Measure, measures_of_rows};
 use crate::run::SAMPLE;
 use crate::space::Space;
@@ -27,6 +27,8 @@ pub(super) struct FirstRows {
     points: usize,
     factors: Vec<Column>,
     seed: u64,
+    /// Whether the rows are independent draws.
+    independent: bool,
 }
 
 impl FirstRows {
@@ -44,14 +46,15 @@ impl FirstRows {
                 column.values.extend(rows.flat_map(|(a, b)| [*a, *b]).map(|u| factor.distribution().quantile(u)));
             }
         }
-        Self { points, factors, seed: design.settings().seed }
+        let DesignSettings { seed, sampler, .. } = *design.settings();
+        Self { points, factors, seed, independent: sampler == Sampler::Random }
     }
 
     /// The measures `wanted` of output number `number`, of which every replicate has kept these rows; `None` if too few have a value,
     /// or all the same.
     ///
-    /// Intervals and p-values are those of independent rows. Points of nets and Latin hypercubes are spread more evenly, which lets
-    /// what chance does look larger than it is: both are on the safe side there.
+    /// Points of nets and Latin hypercubes are spread more evenly than independent draws: what permutations say of chance is far too
+    /// much there, and only rows of random points have p-values. Intervals are a little wide on nets, and hold.
     pub fn measures(&self, wanted: &[Measure], number: usize, samples: &[Vec<f64>]) -> Option<RunMeasures> {
         let kept = samples.iter().flat_map(|rows| {
             let rows = rows.iter().copied().chain(std::iter::repeat(f64::NAN));
@@ -68,7 +71,7 @@ impl FirstRows {
         }
         let of_factor = |column: &Column| Column { name: column.name.clone(), values: kept(&column.values) };
         let inputs: Vec<Column> = self.factors.iter().map(of_factor).collect();
-        let factors = measures_of_rows(&inputs, &outputs, wanted, [self.seed, number as u64]).ok()?;
+        let factors = measures_of_rows(&inputs, &outputs, wanted, [self.seed, number as u64], self.independent).ok()?;
         Some(RunMeasures { rows: outputs.len(), factors })
     }
 }

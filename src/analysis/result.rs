@@ -230,8 +230,11 @@ pub enum StopReason {
         /// The half width that was asked for.
         target: f64,
     },
-    /// An output has no indices or no intervals.
-    NoIntervals,
+    /// An output has no indices or no intervals, and nothing says that more runs would bring them.
+    NoIntervals {
+        /// Base samples that it has none of.
+        base_samples: u64,
+    },
     /// There are no more points.
     EndOfSequence,
     /// The outputs of twice the runs would not fit into memory.
@@ -258,9 +261,11 @@ impl fmt::Display for StopReason {
             Self::TargetMet { widest, target } => {
                 write!(f, "every half width is {widest:.2e} or less: the target of {target} is met")
             }
-            Self::NoIntervals => {
-                f.write_str("there are indices or intervals missing: no number of runs would meet the target")
-            }
+            Self::NoIntervals { base_samples } => write!(
+                f,
+                "there are indices or intervals missing with {base_samples} base samples, and nothing says that more runs would bring \
+                 them: see what is said of the outputs, or begin with more base samples"
+            ),
             Self::EndOfSequence => f.write_str("the sequence of points has come to its end"),
             Self::Memory => {
                 f.write_str("the outputs of twice the runs would not fit: these intervals need all of them at once")

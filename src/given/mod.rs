@@ -17,6 +17,8 @@ mod rank;
 mod repeats;
 mod surrogate;
 
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 
 #[doc(hidden)]
@@ -214,6 +216,17 @@ pub fn analyse(inputs: &[Column], outputs: &[Column], method: Method, seed: u64)
     };
     let outputs = outputs.iter().map(|output| outcome::of_output(output, inputs, &orders, settings)).collect();
     Ok(GivenIndices { rows, points, dependence, outputs })
+}
+
+/// The numbers of `most` of `rows` rows, of all if there are no more, in random order.
+fn drawn_rows(rows: usize, most: usize, seed: u64) -> Vec<usize> {
+    let mut all: Vec<usize> = (0..rows).collect();
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    for k in (1..rows).rev() {
+        all.swap(k, rng.random_range(0..=k as u64) as usize);
+    }
+    all.truncate(most);
+    all
 }
 
 /// The number of rows, if the table can be analysed at all.

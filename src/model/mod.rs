@@ -19,6 +19,7 @@ mod repeated;
 #[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only subjects of study files have a second calculation"))]
 mod second;
 mod series;
+pub(crate) mod shorten;
 
 #[cfg(feature = "study")]
 pub(crate) use afm::AfmSecond;

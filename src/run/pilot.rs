@@ -50,7 +50,8 @@ impl Pilot {
             let seconds = start.elapsed().as_secs_f64();
             if seconds >= ENOUGH || points >= design.settings().base_samples {
                 let share = design.rows() as f64 / part.rows() as f64;
-                let failures = totals.iter().flat_map(|totals| &totals.outputs).flat_map(|output| &output.failures);
+                let failures =
+                    totals.iter().flat_map(|totals| &totals.outputs).filter_map(|output| output.failures.first());
                 let first = failures.min_by_key(|(_, tally)| tally.first);
                 return Ok(Self {
                     runs: part.rows(),

@@ -111,7 +111,7 @@ impl Scratch {
             for (row, failure) in failures {
                 let first = Place { point: place.first.point + row as u64, run: run as u64, ..place.first };
                 totals.runs_failed += 1;
-                totals.count(failure.clone(), Tally { count: 1, first });
+                totals.failures.count(failure, Tally { count: 1, first });
             }
             // Whatever the model left there: it says that it failed.
             for row in failed {

@@ -64,8 +64,25 @@ impl Piece {
 pub struct Store {
     outputs: usize,
     rows_per_point: u64,
+    held: Mutex<Held>,
+}
+
+#[derive(Debug, Default)]
+struct Held {
     /// By replicate and block of base points.
-    chunks: Mutex<BTreeMap<(u64, u64), Chunk>>,
+    chunks: BTreeMap<(u64, u64), Chunk>,
+    /// What was counted over consecutive rows, by replicate and first row. They do not overlap, and all their rows are
+    /// there: counts cannot be divided, so that they go with the first row that does.
+    counted: BTreeMap<(u64, u64), Counted>,
+}
+
+/// Flags and counts of the rows of one piece.
+#[derive(Debug)]
+struct Counted {
+    /// The row behind the last one.
+    end: u64,
+    flags: Vec<u64>,
+    counts: Counts,
 }
 
 /// Outputs of the rows of one block.
@@ -74,15 +91,13 @@ struct Chunk {
     values: Vec<f64>,
     present: Vec<bool>,
     failures: BTreeMap<(u32, u32), RowFailure>,
-    /// Flags and counts of every piece, by its first row.
-    counts: Vec<(u32, Vec<u64>, Counts)>,
 }
 
 impl Store {
     /// Nothing yet of the rows of `design` through `model`.
     pub fn new(design: &Design, model: &dyn Model) -> Self {
         let (outputs, rows_per_point) = (model.outputs().len(), design.rows_per_point());
-        Self { outputs, rows_per_point, chunks: Mutex::default() }
+        Self { outputs, rows_per_point, held: Mutex::default() }
     }
 
     /// Outputs of every row.
@@ -90,43 +105,59 @@ impl Store {
         self.outputs
     }
 
-    fn chunks(&self) -> MutexGuard<'_, BTreeMap<(u64, u64), Chunk>> {
+    fn held(&self) -> MutexGuard<'_, Held> {
         // A thread that panicked has ended the run; chunks are never left half changed in a way that matters then.
-        self.chunks.lock().unwrap_or_else(PoisonError::into_inner)
+        self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn chunk_rows(&self) -> u64 {
         BLOCK * self.rows_per_point
     }
 
-    /// Puts the rows of `piece` in the store, in place of those that are there; returns how many were new.
+    /// Puts the rows of `piece` in the store, in place of those that are there; returns how many were new. Rows that were
+    /// counted together with one of those are then missing, unless `piece` has them too.
     pub fn insert(&self, piece: &Piece) -> u64 {
         let rows = piece.rows(self.outputs);
         let mut new = 0;
-        let mut counts = Some((&piece.flags, &piece.counts));
-        let is_counted = piece.is_counted();
-        let mut chunks = self.chunks();
-        for (block, range) in self.by_block(piece.first..piece.first + rows) {
+        let mut held = self.held();
+        let all = piece.first..piece.first + rows;
+        for counted in held.take_counted(piece.replicate, all.clone()) {
+            for beside in [counted.start..all.start, all.end..counted.end] {
+                self.remove(&mut held, piece.replicate, beside);
+            }
+        }
+        if piece.is_counted() && rows > 0 {
+            let (flags, counts) = (piece.flags.clone(), piece.counts.clone());
+            held.counted.insert((piece.replicate, all.start), Counted { end: all.end, flags, counts });
+        }
+        for (block, range) in self.by_block(all) {
             let length = self.chunk_rows() as usize;
-            let chunk = chunks.entry((piece.replicate, block)).or_insert_with(|| Chunk::empty(length, self.outputs));
+            let chunk =
+                held.chunks.entry((piece.replicate, block)).or_insert_with(|| Chunk::empty(length, self.outputs));
             let at = (range.start - block * self.chunk_rows()) as usize;
             let (from, count) = ((range.start - piece.first) as usize, (range.end - range.start) as usize);
             new += chunk.present[at..at + count].iter().filter(|present| !**present).count() as u64;
             chunk.present[at..at + count].fill(true);
             let values = &piece.values[from * self.outputs..][..count * self.outputs];
             chunk.values[at * self.outputs..][..values.len()].copy_from_slice(values);
-            if !chunk.failures.is_empty() {
-                chunk.failures.retain(|(row, _), _| !(at..at + count).contains(&(*row as usize)));
-            }
+            chunk.forget_failures(at..at + count);
             let here = |row: u32| (from..from + count).contains(&(row as usize));
             for (row, output, why) in piece.failures.iter().filter(|(row, ..)| here(*row)) {
                 chunk.failures.insert(((*row as usize - from + at) as u32, *output), why.clone());
             }
-            if let Some((flags, counts)) = counts.take().filter(|_| is_counted) {
-                chunk.counts.push((at as u32, flags.clone(), counts.clone()));
-            }
         }
         new
+    }
+
+    /// Makes the rows `rows` of `replicate` missing; an empty range, however it came about, none.
+    fn remove(&self, held: &mut Held, replicate: u64, rows: Range<u64>) {
+        for (block, range) in self.by_block(rows) {
+            let Some(chunk) = held.chunks.get_mut(&(replicate, block)) else { continue };
+            let start = block * self.chunk_rows();
+            let here = (range.start - start) as usize..(range.end - start) as usize;
+            chunk.present[here.clone()].fill(false);
+            chunk.forget_failures(here);
+        }
     }
 
     /// The rows `rows` of `replicate`, cut where one block ends and the next begins.
@@ -138,10 +169,10 @@ impl Store {
 
     /// The rows among `rows` of `replicate` that are not there, as ranges in order, each within one block.
     pub fn missing(&self, replicate: u64, rows: Range<u64>) -> Vec<Range<u64>> {
-        let chunks = self.chunks();
+        let held = self.held();
         let mut missing: Vec<Range<u64>> = Vec::new();
         for (block, range) in self.by_block(rows) {
-            let Some(chunk) = chunks.get(&(replicate, block)) else {
+            let Some(chunk) = held.chunks.get(&(replicate, block)) else {
                 missing.push(range);
                 continue;
             };
@@ -159,10 +190,10 @@ impl Store {
 
     /// Rows of `replicate` among `rows` that are there, and how many of them failed in an output.
     pub fn count(&self, replicate: u64, rows: Range<u64>) -> (u64, u64) {
-        let chunks = self.chunks();
+        let held = self.held();
         let (mut present, mut failed) = (0, 0);
         for (block, range) in self.by_block(rows) {
-            let Some(chunk) = chunks.get(&(replicate, block)) else { continue };
+            let Some(chunk) = held.chunks.get(&(replicate, block)) else { continue };
             let start = block * self.chunk_rows();
             let here = (range.start - start) as usize..(range.end - start) as usize;
             present += chunk.present[here.clone()].iter().filter(|present| **present).count() as u64;
@@ -174,27 +205,35 @@ impl Store {
     /// Rows that are there, of all replicates.
     pub fn rows(&self) -> u64 {
         let present = |chunk: &Chunk| chunk.present.iter().filter(|present| **present).count() as u64;
-        self.chunks().values().map(present).sum()
+        self.held().chunks.values().map(present).sum()
     }
 
-    /// Forgets the rows that failed in an output, so that they are missing; returns how many.
+    /// Forgets the rows that failed in an output, so that they are missing, and with them those that were counted together
+    /// with one; returns how many failed.
     pub fn forget_failures(&self) -> u64 {
-        let mut forgotten = 0;
-        for chunk in self.chunks().values_mut() {
-            for (row, _) in std::mem::take(&mut chunk.failures).into_keys() {
-                forgotten += u64::from(std::mem::replace(&mut chunk.present[row as usize], false));
-            }
+        let mut held = self.held();
+        let mut failed: Vec<(u64, u64)> = Vec::new();
+        for ((replicate, block), chunk) in &held.chunks {
+            let row = |row: &u32| (*replicate, block * self.chunk_rows() + u64::from(*row));
+            failed.extend(chunk.failures.keys().map(|(at, _)| row(at)));
         }
-        forgotten
+        failed.dedup();
+        for (replicate, row) in &failed {
+            for rows in held.take_counted(*replicate, *row..row + 1) {
+                self.remove(&mut held, *replicate, rows);
+            }
+            self.remove(&mut held, *replicate, *row..row + 1);
+        }
+        failed.len() as u64
     }
 
     /// The rows `rows` of `replicate` as one piece; `None` if one of them is missing. Flags and counts are those of the
     /// pieces that began among them.
     pub fn piece(&self, replicate: u64, rows: Range<u64>) -> Option<Piece> {
-        let chunks = self.chunks();
+        let held = self.held();
         let mut piece = Piece { replicate, first: rows.start, ..Piece::default() };
         for (block, range) in self.by_block(rows.clone()) {
-            let chunk = chunks.get(&(replicate, block))?;
+            let chunk = held.chunks.get(&(replicate, block))?;
             let start = block * self.chunk_rows();
             let here = (range.start - start) as usize..(range.end - start) as usize;
             if chunk.present[here.clone()].contains(&false) {
@@ -204,13 +243,13 @@ impl Store {
             for ((row, output), why) in chunk.failures_among(here.clone()) {
                 piece.failures.push(((start + u64::from(row) - rows.start) as u32, output, why.clone()));
             }
-            for (flags, counts) in chunk.counts_among(here) {
-                if piece.flags.is_empty() {
-                    (piece.flags, piece.counts) = (flags.clone(), counts.clone());
-                } else {
-                    piece.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
-                    piece.counts.merge(counts);
-                }
+        }
+        for Counted { flags, counts, .. } in held.counted_from(replicate, rows) {
+            if piece.flags.is_empty() {
+                (piece.flags, piece.counts) = (flags.clone(), counts.clone());
+            } else {
+                piece.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
+                piece.counts.merge(counts);
             }
         }
         Some(piece)
@@ -219,7 +258,7 @@ impl Store {
     /// All rows that are there, as pieces in order, each within one block.
     pub fn pieces(&self) -> Vec<Piece> {
         let length = self.chunk_rows();
-        let blocks: Vec<(u64, u64)> = self.chunks().keys().copied().collect();
+        let blocks: Vec<(u64, u64)> = self.held().chunks.keys().copied().collect();
         let present = |(replicate, block): (u64, u64)| {
             let rows = block * length..(block + 1) * length;
             let mut first = rows.start;
@@ -237,8 +276,8 @@ impl Store {
     /// Sets `batches`, one for each run, to the base points from `point` on, as many as the batches have rows, all in one
     /// block. False, with batches of no meaning, if a row is missing.
     pub(super) fn recall(&self, replicate: u64, point: u64, batches: &mut [Batch]) -> bool {
-        let chunks = self.chunks();
-        let Some(chunk) = chunks.get(&(replicate, point / BLOCK)) else { return false };
+        let held = self.held();
+        let Some(chunk) = held.chunks.get(&(replicate, point / BLOCK)) else { return false };
         let runs = batches.len();
         let points = batches.first().map_or(0, Batch::rows);
         let first = (point % BLOCK) as usize * runs;
@@ -255,12 +294,13 @@ impl Store {
                 }
             }
         }
-        for ((row, output), why) in chunk.failures_among(here.clone()) {
+        for ((row, output), why) in chunk.failures_among(here) {
             let row = row as usize - first;
             batches[row % runs].fail(row / runs, output as usize, why.clone());
         }
         // Counts are summed over all runs of a block: any batch may hold them.
-        for (flags, counts) in chunk.counts_among(here) {
+        let rows = point * self.rows_per_point;
+        for Counted { flags, counts, .. } in held.counted_from(replicate, rows..rows + (points * runs) as u64) {
             batches[0].add_counts(flags, counts);
         }
         batches.iter_mut().for_each(Batch::settle);
@@ -271,7 +311,13 @@ impl Store {
 impl Chunk {
     fn empty(rows: usize, outputs: usize) -> Self {
         let (values, present) = (vec![f64::NAN; rows * outputs], vec![false; rows]);
-        Self { values, present, failures: BTreeMap::new(), counts: Vec::new() }
+        Self { values, present, failures: BTreeMap::new() }
+    }
+
+    fn forget_failures(&mut self, rows: Range<usize>) {
+        if !self.failures.is_empty() {
+            self.failures.retain(|(row, _), _| !rows.contains(&(*row as usize)));
+        }
     }
 
     fn failures_among(&self, rows: Range<usize>) -> impl Iterator<Item = ((u32, u32), &RowFailure)> {
@@ -282,10 +328,23 @@ impl Chunk {
         let mut last = None;
         self.failures_among(rows).filter(|((row, _), _)| last.replace(*row) != Some(*row)).count() as u64
     }
+}
 
-    fn counts_among(&self, rows: Range<usize>) -> impl Iterator<Item = (&Vec<u64>, &Counts)> {
-        let here = move |first: u32| rows.contains(&(first as usize));
-        self.counts.iter().filter(move |(first, ..)| here(*first)).map(|(_, flags, counts)| (flags, counts))
+impl Held {
+    /// What was counted from one of the rows `rows` of `replicate` on.
+    fn counted_from(&self, replicate: u64, rows: Range<u64>) -> impl Iterator<Item = &Counted> {
+        self.counted.range((replicate, rows.start)..(replicate, rows.end)).map(|(_, counted)| counted)
+    }
+
+    /// Takes out what was counted over one of the rows `rows` of `replicate`; returns over which.
+    fn take_counted(&mut self, replicate: u64, rows: Range<u64>) -> Vec<Range<u64>> {
+        let before = self.counted.range((replicate, 0)..(replicate, rows.end)).rev();
+        let found = before.map(|((_, first), counted)| *first..counted.end);
+        let found: Vec<Range<u64>> = found.take_while(|counted| counted.end > rows.start).collect();
+        for counted in &found {
+            self.counted.remove(&(replicate, counted.start));
+        }
+        found
     }
 }
 

@@ -1,7 +1,6 @@
 //! What a run leaves behind: constant in size unless outputs are kept, merged in a fixed tree.
 
-use std::collections::BTreeMap;
-
+use super::failures::Failures;
 use crate::binary::{Binary, Reader, binary_fields};
 use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs};
@@ -34,6 +33,14 @@ pub struct Tally {
     pub first: Place,
 }
 
+impl Tally {
+    /// Adds what happened in other rows.
+    pub fn add(&mut self, other: Self) {
+        self.count += other.count;
+        self.first = self.first.min(other.first);
+    }
+}
+
 /// Base points of a design, over all replicates, whose outputs are kept in [`OutputTotals::sample`].
 pub const SAMPLE: u64 = 1 << 15;
 
@@ -52,7 +59,7 @@ pub struct OutputTotals {
     /// Rows without a value.
     pub runs_failed: u64,
     /// Why, and how often each.
-    pub failures: BTreeMap<RowFailure, Tally>,
+    pub failures: Failures,
 }
 
 /// Equal in every bit; the NaNs of failed runs in the sample are equal to each other.
@@ -106,7 +113,7 @@ impl Binary for OutputTotals {
             sample: Vec::read(from)?,
             point_outputs: PointOutputs::default(),
             runs_failed: u64::read(from)?,
-            failures: BTreeMap::read(from)?,
+            failures: Failures::read(from)?,
         })
     }
 }
@@ -125,9 +132,9 @@ impl Totals {
 
     /// The first row that failed, and why.
     pub(super) fn first_failure(&self) -> Option<(Place, RowFailure)> {
-        let failures = self.outputs.iter().flat_map(|output| &output.failures);
+        let failures = self.outputs.iter().filter_map(|output| output.failures.first());
         let (reason, tally) = failures.min_by_key(|(_, tally)| tally.first)?;
-        Some((tally.first, reason.clone()))
+        Some((tally.first, reason))
     }
 
     /// Whether they may be totals of rows of `design` through `model`.
@@ -179,19 +186,6 @@ impl OutputTotals {
     fn add_counts(&mut self, other: &Self) {
         self.values.merge(&other.values);
         self.runs_failed += other.runs_failed;
-        for (failure, tally) in &other.failures {
-            self.count(failure.clone(), *tally);
-        }
-    }
-
-    /// Adds `tally` to the count of `failure`.
-    pub fn count(&mut self, failure: RowFailure, tally: Tally) {
-        self.failures
-            .entry(failure)
-            .and_modify(|mine| {
-                mine.count += tally.count;
-                mine.first = mine.first.min(tally.first);
-            })
-            .or_insert(tally);
+        self.failures.merge(&other.failures);
     }
 }

@@ -6,10 +6,11 @@ use crate::design::{Design, MAX_POINTS};
 use crate::estimate::{MomentParts, PointOutputs, Undefined};
 use crate::run::GrowingRun;
 use crate::study::{Study, Target};
-use crate::uncertainty::{IntervalOptions, KeptPoints, SurrogateEstimates, output_indices};
+use crate::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, SurrogateEstimates, output_indices};
 
-/// Base samples below which missing intervals say nothing of those of more runs.
-const FEW_BASE_SAMPLES: u64 = 256;
+/// Base samples below which missing intervals say nothing of those of more runs: an output that is rarely anything but 0 may not vary
+/// in a net of few points.
+const FEW_BASE_SAMPLES: u64 = 1 << 12;
 
 /// The longest design that a run of `design` can grow into.
 pub(super) fn longest(design: &Design) -> Design {
@@ -70,16 +71,19 @@ pub(super) fn reason_to_stop(
     longest: &Design,
     widest: Option<f64>,
 ) -> Option<Stopped> {
-    let Target { half_width, budget, max_runs, is_free } = study.target;
+    let Target { half_width, budget, max_runs, .. } = study.target;
     let met = half_width.map(|target| widest.is_some_and(|widest| widest <= target));
     let next = run.points_per_replicate() * 2;
     let replicates = longest.settings().replicates;
     let runs = u128::from(next) * u128::from(replicates) * u128::from(longest.rows_per_point());
     let seconds = 2.0 * run.elapsed().as_secs_f64();
-    let is_small = is_free && run.points_per_replicate() * replicates < FEW_BASE_SAMPLES;
+    let base_samples = run.points_per_replicate() * replicates;
+    // Whatever the points, one replicate has no spread.
+    let has_none =
+        replicates < 2 && matches!(study.analysis.intervals, IntervalMethod::Nets | IntervalMethod::Replicates);
     let reason = match (half_width, widest) {
         (Some(target), Some(widest)) if widest <= target => StopReason::TargetMet { widest, target },
-        (Some(_), None) if !is_small => StopReason::NoIntervals,
+        (Some(_), None) if has_none || base_samples >= FEW_BASE_SAMPLES => StopReason::NoIntervals { base_samples },
         _ if next > longest.points_per_replicate() => StopReason::EndOfSequence,
         _ if run.room_for(next).is_err() => StopReason::Memory,
         _ => match (max_runs, budget) {

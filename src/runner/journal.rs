@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::Resume;
 use super::model_files::{ModelFiles, differing};
 use crate::model::Messages;
-use crate::run::journal::{Checkpoint, Contents, Journal, JournalError, differences, read_journal_file};
+use crate::run::journal::{Checkpoint, Contents, Journal, JournalError, differences, read_journal_file, with_ending};
 use crate::run::{Piece, RunError, Shard, Store, Sums};
 use crate::study::Study;
 pub(super) use recall::{Foreign, part};
@@ -357,9 +357,9 @@ fn another_study(study: &Study, header: &Value) -> Option<String> {
 
 /// Moves a journal out of the way, to a name that no other has.
 fn move_aside(path: &Path, why: &str, messages: &Messages) -> Result<(), RunError> {
-    let more = (2..).map(|number| format!("journal.old{number}"));
-    let mut names = std::iter::once("journal.old".to_owned()).chain(more).map(|ending| path.with_extension(ending));
-    let aside: PathBuf = names.find(|name| !name.exists()).unwrap_or_else(|| path.with_extension("journal.old"));
+    let more = (2..).map(|number| format!(".old{number}"));
+    let mut names = std::iter::once(".old".to_owned()).chain(more).map(|ending| with_ending(path, &ending));
+    let aside: PathBuf = names.find(|name| !name.exists()).unwrap_or_else(|| with_ending(path, ".old"));
     std::fs::rename(path, &aside).map_err(|error| in_the_way(path, &error))?;
     messages.send(&format!("note: {why}: the journal was moved to {}, and its runs are not used", aside.display()));
     Ok(())

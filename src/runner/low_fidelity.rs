@@ -9,6 +9,7 @@ use crate::analysis::{LowTotals, outputs_kept};
 use crate::clock::Instant;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Model, RunContext};
+use crate::run::journal::with_ending;
 use crate::run::{GrowingRun, Job, Piece, RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::surrogate::families;
@@ -102,10 +103,12 @@ impl LowPart {
     }
 }
 
-/// `NAME-KIND.journal` for `NAME.journal`.
+/// `NAME-KIND.journal` for `NAME.journal`, and `NAME-KIND` for any other name: what stands behind its last dot tells journals apart.
 pub(super) fn beside(path: &Path, kind: &str) -> std::path::PathBuf {
-    let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    path.with_file_name(format!("{stem}-{kind}.journal"))
+    match path.extension() {
+        Some(ending) if ending == "journal" => with_ending(&path.with_extension(""), &format!("-{kind}.journal")),
+        _ => with_ending(path, &format!("-{kind}")),
+    }
 }
 
 /// Takes the pieces of one part.
@@ -230,5 +233,18 @@ impl<'a> LowRun<'a> {
         let [(shared, _), (own, _)] = &self.runs;
         let (design, outputs) = &self.own;
         LowTotals { name: &self.study.name, shared: shared.totals(), design, own: own.totals(), outputs }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn journals_of_different_names_have_others_beside_them_of_different_names() {
+        let of = |name: &str| beside(Path::new(name), "split").display().to_string();
+        assert_eq!(of("results/s.journal"), "results/s-split.journal");
+        assert_eq!((of("jr/j_0.1"), of("jr/j_0.2")), ("jr/j_0.1-split".to_owned(), "jr/j_0.2-split".to_owned()));
+        assert_eq!((of("a.b.journal"), of("a.b")), ("a.b-split.journal".to_owned(), "a.b-split".to_owned()));
     }
 }

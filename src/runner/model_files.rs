@@ -1,6 +1,6 @@
 //! The user's files that the outputs of a study depend on, by their digests: which model answered.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock};
 use std::time::SystemTime;
@@ -21,17 +21,27 @@ fn digests(paths: &[PathBuf]) -> Value {
 }
 
 /// The names of files (path: digest) that are not the same before and now, if any. They are known by their names, so that a
-/// study may move, and be called by any path.
+/// study may move, and be called by any path; several of one name by the order of their paths.
 pub(super) fn differing(before: &Value, now: &Value) -> Option<String> {
-    let known = |files: &Value| -> BTreeSet<(String, String)> {
-        let name = |path: &String| Path::new(path).file_name().map(|name| name.to_string_lossy().into_owned());
-        let entries = files.as_object().into_iter().flatten();
-        entries.filter_map(|(path, digest)| Some((name(path)?, digest.as_str()?.to_owned()))).collect()
-    };
-    let (before, now) = (known(before), known(now));
-    let names: BTreeSet<&str> = before.symmetric_difference(&now).map(|(name, _)| name.as_str()).collect();
-    let names: Vec<&str> = names.into_iter().collect();
+    let (before, now) = (by_name(before), by_name(now));
+    let names: BTreeSet<&String> = before.keys().chain(now.keys()).collect();
+    let names: Vec<&str> =
+        names.into_iter().filter(|name| before.get(*name) != now.get(*name)).map(String::as_str).collect();
     (!names.is_empty()).then(|| names.join(", "))
+}
+
+/// The digests of the files of every name, in the order of their paths.
+fn by_name(files: &Value) -> BTreeMap<String, Vec<String>> {
+    let mut entries: Vec<(&String, &str)> =
+        files.as_object().into_iter().flatten().filter_map(|(path, digest)| Some((path, digest.as_str()?))).collect();
+    entries.sort_unstable();
+    let mut known: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (path, digest) in entries {
+        if let Some(name) = Path::new(path).file_name() {
+            known.entry(name.to_string_lossy().into_owned()).or_default().push(digest.to_owned());
+        }
+    }
+    known
 }
 
 /// What tells at a glance that a file may have changed.
@@ -94,4 +104,20 @@ fn stamps(paths: &[PathBuf]) -> Vec<Stamp> {
         Some((about.modified().ok()?, about.len()))
     };
     paths.iter().map(stamp).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_known_by_name_wherever_they_are_and_those_of_one_name_apart() {
+        let before = json!({ "study/a/table.csv": "1", "study/b/table.csv": "2", "study/model": "3" });
+        let moved = json!({ "/far/study/model": "3", "/far/study/b/table.csv": "2", "/far/study/a/table.csv": "1" });
+        assert_eq!(differing(&before, &moved), None);
+        let swapped = json!({ "study/a/table.csv": "2", "study/b/table.csv": "1", "study/model": "3" });
+        assert_eq!(differing(&before, &swapped).as_deref(), Some("table.csv"));
+        let fewer = json!({ "study/a/table.csv": "1", "study/model": "4" });
+        assert_eq!(differing(&before, &fewer).as_deref(), Some("model, table.csv"));
+    }
 }

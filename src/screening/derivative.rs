@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::ScreenedFactor;
 use super::points::TAIL;
 use crate::space::Distribution;
 use crate::space::distribution::Parameter;
@@ -53,6 +54,18 @@ pub fn poincare_constant(distribution: &Distribution) -> Option<f64> {
         Distribution::Exponential(_) => Some(4.0 * distribution.sd().powi(2)),
         _ => None,
     }
+}
+
+/// The sum of what the total indices of all factors are at most, by the upper ends of the intervals; `None` if one of them has no bound.
+///
+/// Total indices of independent factors sum to at least 1: a sum below that says that the derivatives at the base points have missed
+/// what the output varies by, a step or a steep place between them.
+pub(super) fn sum_of_bounds(factors: &[ScreenedFactor]) -> Option<f64> {
+    let high = |factor: &ScreenedFactor| {
+        let Estimate { estimate, interval } = factor.derivative?.total_bound?;
+        Some(interval.map_or(estimate, |interval| interval.high))
+    };
+    factors.iter().map(high).sum()
 }
 
 /// The measures of `effects`, derivatives per `range` of the factor (NaN where there is none), whose base points have the outputs

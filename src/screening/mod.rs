@@ -38,7 +38,7 @@ pub use settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
 use crate::model::{Model, Output, RowFailure, RunContext};
 use crate::run::Progress;
 use crate::space::{Factor, Space};
-use derivative::{derivative_measures, range};
+use derivative::{derivative_measures, range, sum_of_bounds};
 use points::Trajectories;
 
 /// What is screened.
@@ -76,6 +76,9 @@ pub struct Screening {
 pub struct ScreenedOutput {
     /// One entry per factor, in the order of the space.
     pub factors: Vec<ScreenedFactor>,
+    /// Of a derivative design: the sum of the upper ends of what total indices are at most, if it is below 1. Total indices of
+    /// independent factors sum to at least that, so that the derivatives have missed what the output varies by.
+    pub missed: Option<f64>,
     /// Why runs failed.
     pub failures: Vec<ScreeningFailure>,
 }
@@ -95,7 +98,8 @@ pub struct ScreenedFactor {
     /// Place by mu*, from 1; factors without measures come last.
     pub rank: usize,
     /// Whether the upper bound of mu* is below [`FIXABLE`] times the largest mu*, by at least half of the effects.
-    /// `None` where nothing can be said: without measures or an interval, or where no factor has any effect.
+    /// `None` where nothing can be said: without measures or an interval, where no factor has any effect, or where the derivatives
+    /// have [missed something](ScreenedOutput::missed).
     pub could_be_fixed: Option<bool>,
     /// What its derivatives say; `None` in other designs than that of derivatives, with fewer than two effects, or if they overflow.
     pub derivative: Option<DerivativeMeasures>,
@@ -176,9 +180,13 @@ pub fn screen_in(
             .collect()
     };
     let outputs = job.model.outputs().iter().zip(&outcome.effects).enumerate();
-    let outputs = outputs.map(|(number, (output, effects))| ScreenedOutput {
-        factors: screened(output, effects, &outcome.base[number], factors, parts as usize),
-        failures: failures(number),
+    let outputs = outputs.map(|(number, (output, effects))| {
+        let mut screened = screened(output, effects, &outcome.base[number], factors, parts as usize);
+        let missed = sum_of_bounds(&screened).filter(|sum| *sum < 1.0);
+        if missed.is_some() {
+            screened.iter_mut().for_each(|factor| factor.could_be_fixed = None);
+        }
+        ScreenedOutput { factors: screened, missed, failures: failures(number) }
     });
     Ok(Screening {
         settings,

@@ -55,6 +55,8 @@ pub struct Dependence {
     factors: Vec<String>,
     correlation: Vec<Vec<f64>>,
     measure: CorrelationMeasure,
+    /// Whether the correlations are those of joint measurements, and not stated; that of a column with one value is NaN on the diagonal too.
+    is_measured: bool,
     joint: Option<Joint>,
 }
 
@@ -75,6 +77,25 @@ pub enum DependenceError {
     Measurements {
         /// How many there are of each factor.
         found: Vec<usize>,
+    },
+    /// Joint measurements of a factor that are all the same.
+    #[error(
+        "the joint measurements of `{0}` are all the same, so that they say of no other factor how it goes with this one: leave it out \
+         of the dependence"
+    )]
+    ConstantMeasurements(String),
+    /// Joint measurements of which one column is a function of another.
+    #[error(
+        "the joint measurements of `{a}` and `{b}` have the {order} order, so that each is a function of the other: no factors that vary \
+         by themselves. Leave one of them out of the study, and let the model compute it from the other"
+    )]
+    EqualRanks {
+        /// One factor.
+        a: String,
+        /// The other one.
+        b: String,
+        /// `same` or `opposite`.
+        order: &'static str,
     },
     /// A factor in a dependence by kernels and in another one.
     #[error("`{0}` depends on others by kernels around joint measurements: it can be in no other dependence")]
@@ -142,7 +163,7 @@ impl Dependence {
     /// [`measure`](Self::measure) is set.
     pub fn new(factors: &[&str], correlation: Vec<Vec<f64>>) -> Self {
         let factors = factors.iter().map(|&factor| factor.to_owned()).collect();
-        Self { factors, correlation, measure: CorrelationMeasure::default(), joint: None }
+        Self { factors, correlation, measure: CorrelationMeasure::default(), is_measured: false, joint: None }
     }
 
     /// Two factors with this correlation.
@@ -192,14 +213,14 @@ impl Dependence {
     fn from_scores(factors: &[&str], scores: &[Vec<f64>]) -> Self {
         let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let correlation = |i: usize, j: usize| match i == j {
-            true => 1.0,
-            false => {
+            true if product(&scores[i], &scores[i]) > 0.0 => 1.0,
+            _ => {
                 product(&scores[i], &scores[j])
                     / (product(&scores[i], &scores[i]) * product(&scores[j], &scores[j])).sqrt()
             }
         };
         let rows = (0..scores.len()).map(|i| (0..scores.len()).map(|j| correlation(i, j)).collect()).collect();
-        Self::new(factors, rows).measure(CorrelationMeasure::Normal)
+        Self { is_measured: true, ..Self::new(factors, rows).measure(CorrelationMeasure::Normal) }
     }
 
     /// What the numbers are correlations of.
@@ -251,8 +272,15 @@ impl Dependence {
         if self.correlation.len() != n || self.correlation.iter().any(|row| row.len() != n) {
             return Err(DependenceError::Shape { factors: n });
         }
+        if let Some(number) = (0..n).find(|&i| self.is_measured && self.correlation[i][i].is_nan()) {
+            return Err(DependenceError::ConstantMeasurements(self.factors[number].clone()));
+        }
         for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
             let found = self.correlation[i][j];
+            if self.is_measured && i != j && found.abs() > 1.0 - EQUAL_RANKS {
+                let [a, b] = [i, j].map(|k| self.factors[k].clone());
+                return Err(DependenceError::EqualRanks { a, b, order: if found > 0.0 { "same" } else { "opposite" } });
+            }
             let expected = match i == j {
                 true if found != 1.0 => "1, as on the whole diagonal",
                 false if !(found > -1.0 && found < 1.0) => "a number between -1 and 1, both excluded",
@@ -271,6 +299,9 @@ impl Dependence {
         Ok(numbers)
     }
 }
+
+/// How near to 1 the correlation of measurements may come: nearer than this they have the same ranks, but for rounding.
+const EQUAL_RANKS: f64 = 1e-12;
 
 /// Joint measurements that kernels are put around: fewer tell of no copula, and of more each row would cost too much.
 const MEASUREMENTS: std::ops::RangeInclusive<usize> = 10..=4096;
@@ -341,6 +372,7 @@ fn refuse_uncorrelated(factor: &Factor) -> Result<(), DependenceError> {
     let kind = match factor.distribution() {
         Distribution::Constant(_) => "a constant",
         law if law.labels().is_some() => "a category without an order",
+        law if law.sd() == 0.0 => "of one value",
         _ => return Ok(()),
     };
     Err(DependenceError::Uncorrelated { factor: factor.name.clone(), kind })

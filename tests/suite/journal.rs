@@ -279,6 +279,32 @@ fn failures_that_come_back_leave_the_result_as_it_was() {
 }
 
 #[test]
+fn what_is_counted_is_counted_once_however_often_failures_are_tried_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = "name = \"still\"\nmodel = \"afm\"\noutputs = [\"critical_force\"]\n[afm]\nfriction = \"lugre\"\n[design]\n\
+                 base_samples = 64\n[analysis]\nmax_failed = 0.9\n[[factor]]\nname = \"velocity\"\ndistribution = \"discrete\"\n\
+                 values = [0, 100, 200]\nunit = \"nm/s\"\n[[factor]]\nname = \"length\"\nmin = 50\nmax = 700\nunit = \"um\"\n";
+    let file = folder.path().join("still.toml");
+    std::fs::write(&file, study).unwrap();
+    let saved = folder.path().join("outputs.csv");
+    let with = |more: &[&str]| {
+        let command = ["run", text(&file), "--out", text(folder.path()), "--save-outputs", text(&saved)];
+        let output = apportion(&[&command[..], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        numbers(folder.path(), "still")
+    };
+    let first = with(&[]);
+    let most = first["provenance"]["model_runs"].as_u64().unwrap();
+    let raised = |json: &serde_json::Value| -> Vec<u64> {
+        json["validity"].as_array().unwrap().iter().filter_map(|flag| flag["runs"].as_u64()).collect()
+    };
+    assert!(raised(&first).iter().any(|runs| *runs > 0) && raised(&first).iter().all(|runs| *runs <= most));
+    for more in [&["--retry-failed"][..], &["--retry-failed"], &[]] {
+        assert!(with(more) == first, "{more:?}");
+    }
+}
+
+#[test]
 #[cfg(target_os = "linux")]
 fn a_full_disk_ends_a_run_without_loss() {
     let folder = tempfile::tempdir().unwrap();

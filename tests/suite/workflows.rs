@@ -4,7 +4,7 @@ use std::path::Path;
 
 use apportion::report::ResultFile;
 
-use crate::common::{all_files, apportion, stderr, stdout, study_path, succeed, text};
+use crate::common::{Folder, all_files, apportion, stderr, stdout, study_path, succeed, text};
 
 #[test]
 fn run_writes_what_check_announces() {
@@ -308,6 +308,18 @@ fn runs_that_grow_say_why_they_ended() {
     let (spent, _, _) = stopping(&["design.budget=0.05 s"]);
     assert!(spent.reason.contains("more than the budget of 0.05 s"), "{spent:?}");
     assert_eq!(spent.budget_seconds, Some(0.05));
+}
+
+#[test]
+fn a_run_does_not_end_where_more_runs_bring_intervals() {
+    // The output is 1 in a tenth of the square: of nets of four points some do not vary.
+    let folder = Folder::new();
+    let study = "model = \"expression\"\noutputs.y = \"(a > 0.6837722339831621)*(b > 0.6837722339831621)\"\n[design]\n\
+                 base_samples = 16\nseed = 1\ntarget = { half_width = 0.1 }\n[analysis]\nsurrogate = \"off\"\n[factors]\n\
+                 a = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
+    let out = folder.path("out");
+    let told = succeed(&["run", text(&folder.with("rare.toml", study)), "--out", text(&out)]);
+    assert!(told.contains("the target of 0.1 is met"), "{told}");
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 use statrs::distribution::{ContinuousCDF, Gamma};
 
-/// Rows that are looked at, the first of the table: the time grows with their square.
+use crate::given::drawn_rows;
+
+/// Most rows that are looked at, a random part of those of a larger table: the time grows with their square.
 pub const MOST_ROWS: usize = 4096;
 
 /// A column in Gaussian kernels of the width of its standard deviation: k(a, b) = exp(-(a - b)^2/(2 s^2)).
@@ -16,7 +18,11 @@ struct Kernel {
 }
 
 impl Kernel {
-    fn new(values: &[f64]) -> Self {
+    /// That of a column; `None` if it has one value.
+    fn new(values: &[f64]) -> Option<Self> {
+        if values.iter().all(|value| *value == values[0]) {
+            return None;
+        }
         let count = values.len() as f64;
         let scaled = crate::sum::rescaled(values).0;
         let mean = crate::sum::mean(&scaled);
@@ -25,7 +31,7 @@ impl Kernel {
         let row = |a: &f64| x.iter().map(|b| kernel(*a, *b)).sum::<f64>() / count;
         let means: Vec<f64> = x.iter().map(row).collect();
         let mean = means.iter().sum::<f64>() / count;
-        Self { x, means, mean }
+        Some(Self { x, means, mean })
     }
 
     /// The kernel of rows `i` and `j`, centred.
@@ -46,24 +52,34 @@ fn kernel(a: f64, b: f64) -> f64 {
 
 /// An output.
 pub struct Outputs {
+    /// The rows that are looked at.
+    rows: Vec<usize>,
     kernel: Kernel,
     /// The sum of the squares of its centred kernels.
     squares: f64,
 }
 
 impl Outputs {
-    pub fn new(z: &[f64]) -> Self {
-        let kernel = Kernel::new(&z[..z.len().min(MOST_ROWS)]);
+    /// At most [`MOST_ROWS`] rows of a table, by `seed`: the first ones of a sorted table would be a part of the input's range.
+    /// `None` if they have one value.
+    pub fn new(z: &[f64], seed: u64) -> Option<Self> {
+        let mut rows: Vec<usize> = (0..z.len()).collect();
+        if z.len() > MOST_ROWS {
+            rows = drawn_rows(z.len(), MOST_ROWS, seed);
+            rows.sort_unstable();
+        }
+        let kernel = Kernel::new(&taken(z, &rows))?;
         let count = kernel.x.len();
         let squares = |i: usize| (0..count).map(|j| kernel.centred(i, j).powi(2)).sum::<f64>();
         let squares = (0..count).map(squares).sum();
-        Self { kernel, squares }
+        Some(Self { rows, kernel, squares })
     }
 
     /// HSIC(X, Y)/sqrt(HSIC(X, X) HSIC(Y, Y)) by V-statistics, and the probability that independent columns reach it, by the gamma
-    /// distribution of the same mean and variance (Gretton et al. 2008, eq. 9 with its appendix).
-    pub fn with(&self, x: &[f64]) -> (f64, Option<f64>) {
-        let x = Kernel::new(&x[..x.len().min(MOST_ROWS)]);
+    /// distribution of the same mean and variance (Gretton et al. 2008, eq. 9 with its appendix). `None` if the input has one value
+    /// in the rows that are looked at.
+    pub fn with(&self, x: &[f64]) -> Option<(f64, Option<f64>)> {
+        let x = Kernel::new(&taken(x, &self.rows))?;
         let (y, count) = (&self.kernel, self.kernel.x.len());
         let (mut products, mut squares, mut pairs) = (0.0, 0.0, 0.0);
         for i in 0..count {
@@ -85,8 +101,12 @@ impl Outputs {
         let variance =
             2.0 * (2.0 * pairs / (n * (n - 1.0))) * (n - 4.0) * (n - 5.0) / (n * (n - 1.0) * (n - 2.0) * (n - 3.0));
         let gamma = Gamma::new(mean * mean / variance, mean / variance).ok();
-        (if r2.is_nan() { 0.0 } else { r2 }, gamma.map(|gamma| gamma.sf(products / (n * n))))
+        r2.is_finite().then(|| (r2, gamma.map(|gamma| gamma.sf(products / (n * n)))))
     }
+}
+
+fn taken(values: &[f64], rows: &[usize]) -> Vec<f64> {
+    rows.iter().map(|row| values[*row]).collect()
 }
 
 #[cfg(test)]
@@ -97,13 +117,38 @@ mod tests {
     fn a_column_depends_on_itself_alone() {
         let x: Vec<f64> = (0..200).map(|k| f64::from(k * 37 % 200)).collect();
         let y: Vec<f64> = (0..200).map(|k| f64::from(k * k % 193)).collect();
-        let outputs = Outputs::new(&x);
-        let (itself, p_value) = outputs.with(&x);
+        let outputs = Outputs::new(&x, 0).unwrap();
+        let (itself, p_value) = outputs.with(&x).unwrap();
         assert!((itself - 1.0).abs() < 1e-12 && p_value.unwrap() < 1e-10);
         // Neither scale nor offset count.
         let moved: Vec<f64> = x.iter().map(|x| 3e200 * (x - 7.0)).collect();
-        assert!((outputs.with(&moved).0 - 1.0).abs() < 1e-12);
-        let (other, p_value) = outputs.with(&y);
+        assert!((outputs.with(&moved).unwrap().0 - 1.0).abs() < 1e-12);
+        let (other, p_value) = outputs.with(&y).unwrap();
         assert!(other < 0.1 && p_value.unwrap() > 0.01, "{other} {p_value:?}");
+    }
+
+    #[test]
+    fn a_sorted_table_says_what_it_says_in_any_order() {
+        let rows = 3 * MOST_ROWS;
+        let a: Vec<f64> = (0..rows).map(|k| k as f64 / rows as f64).collect();
+        let b: Vec<f64> = (0..rows).map(|k| (k * 7919 % rows) as f64 / rows as f64).collect();
+        let y: Vec<f64> = a.iter().zip(&b).map(|(a, b)| f64::from(u8::from(*a > 0.5)) + 0.2 * b).collect();
+        let outputs = Outputs::new(&y, 3).unwrap();
+        let [of_a, of_b] = [&a, &b].map(|x| outputs.with(x).unwrap().0);
+        assert!(of_a > 0.5 && of_b < 0.1, "{of_a} {of_b}");
+        // The same rows again, and others by another seed.
+        assert_eq!(Outputs::new(&y, 3).unwrap().rows, outputs.rows);
+        assert_ne!(Outputs::new(&y, 4).unwrap().rows, outputs.rows);
+    }
+
+    #[test]
+    fn one_value_in_the_rows_that_are_looked_at_gives_no_number() {
+        let rows = 2 * MOST_ROWS;
+        let x: Vec<f64> = (0..rows).map(|k| k as f64).collect();
+        let mut one = vec![1.0; rows];
+        let outputs = Outputs::new(&x, 0).unwrap();
+        let left_out = (0..rows).find(|row| outputs.rows.binary_search(row).is_err()).unwrap();
+        one[left_out] = 2.0;
+        assert!(Outputs::new(&one, 0).is_none() && outputs.with(&one).is_none());
     }
 }

@@ -86,10 +86,11 @@ impl Measure {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Measured {
-    /// The measure, with its interval where it has one: of delta, of independent rows.
+    /// The measure, with its interval where it has one: of delta, of independent rows and those of a run.
     pub estimate: Estimate,
-    /// The probability of a measure so large, or larger, of an input without influence; `None` where rows are not independent, or
-    /// the input has one value. By [`PERMUTATIONS`] permutations of the output, of the kernels by a gamma distribution (Gretton
+    /// The probability of a measure so large, or larger, of an input without influence; `None` where rows are not independent draws
+    /// (those of nets and Latin hypercubes are spread more evenly, and p-values would be far too large there), or the input has
+    /// one value. By [`PERMUTATIONS`] permutations of the output, of the kernels by a gamma distribution (Gretton
     /// et al. 2008).
     pub p_value: Option<f64>,
 }
@@ -100,7 +101,8 @@ pub struct Measured {
 pub struct InputMeasures {
     /// The input.
     pub input: String,
-    /// One entry per measure; NaN where it was not asked for.
+    /// One entry per measure; NaN where it was not asked for, and of the kernels where the input or the output has one value in
+    /// the rows that they look at.
     pub values: [Measured; 7],
 }
 
@@ -133,8 +135,9 @@ const PERMUTED: usize = 6;
 
 /// The measures of every output with respect to every input, of the columns that gave `indices`.
 ///
-/// Costs O(N log N) for each input and permutation, and O(N^2) for the kernels, of at most [`MOST_ROWS_OF_KERNELS`] rows. `seed` is
-/// that of permutations, resamples, and the order of equal inputs in the spectrum.
+/// Costs O(N log N) for each input and permutation, and O(N^2) for the kernels, of at most [`MOST_ROWS_OF_KERNELS`] rows, a
+/// random part of a larger table. `seed` is that of these rows, permutations, resamples, and the order of equal inputs in the
+/// spectrum.
 pub fn measures(
     inputs: &[Column],
     outputs: &[Column],
@@ -146,22 +149,33 @@ pub fn measures(
     let of_output = |(number, output): (usize, &Column)| {
         let z = centred(&output.values)?;
         let job = Job::new(&z, &Measure::ALL, [seed, number as u64]);
-        Ok(job.measures(inputs, &orders, is_random))
+        Ok(job.measures(inputs, &orders, Known { has_p_values: is_random, has_intervals: is_random }))
     };
     outputs.iter().enumerate().map(of_output).collect()
 }
 
 /// The measures `wanted` of one output with respect to every input, of rows that are known to be draws from the distributions of the
-/// inputs: with intervals and p-values. Measures that are not wanted are NaN.
+/// inputs: with the intervals of delta, which were measured to hold of nets and Latin hypercubes too (docs/coverage-measures.md), and
+/// with p-values if they are `independent` draws. Measures that are not wanted are NaN.
 pub(crate) fn measures_of_rows(
     inputs: &[Column],
     output: &[f64],
     wanted: &[Measure],
     seed: [u64; 2],
+    independent: bool,
 ) -> Result<Vec<InputMeasures>, NoVariance> {
     let z = centred(output)?;
     let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
-    Ok(Job::new(&z, wanted, seed).measures(inputs, &orders, true))
+    let known = Known { has_p_values: independent, has_intervals: true };
+    Ok(Job::new(&z, wanted, seed).measures(inputs, &orders, known))
+}
+
+/// What the rows say beside the measures themselves.
+#[derive(Clone, Copy)]
+struct Known {
+    has_p_values: bool,
+    /// Of delta.
+    has_intervals: bool,
 }
 
 /// One output.
@@ -231,15 +245,17 @@ impl<'a> Job<'a> {
         random
     }
 
-    fn measures(&self, inputs: &[Column], orders: &[Order], is_random: bool) -> Vec<InputMeasures> {
+    fn measures(&self, inputs: &[Column], orders: &[Order], known: Known) -> Vec<InputMeasures> {
         let classes: Vec<Classes> = orders.iter().map(|order| Classes::new(order, self.z.len())).collect();
         let mut chance: BTreeMap<[Vec<usize>; 2], Vec<[f64; PERMUTED]>> = BTreeMap::new();
-        if is_random {
+        let has_interval = known.has_intervals && self.wants(Measure::Delta);
+        // An interval asks what chance does too.
+        if known.has_p_values || has_interval {
             for classes in &classes {
                 chance.entry(classes.sizes()).or_insert_with(|| self.by_chance(classes));
             }
         }
-        let outputs = self.wants(Measure::Hsic).then(|| hsic::Outputs::new(self.z));
+        let outputs = if self.wants(Measure::Hsic) { hsic::Outputs::new(self.z, self.seed[0]) } else { None };
         let of_input = |number: usize| {
             let (classes, order) = (&classes[number], &orders[number]);
             let values = match order.groups() {
@@ -248,7 +264,7 @@ impl<'a> Job<'a> {
                     let rows = order.shuffled(self.seed[0], number as u64);
                     let chance = chance.get(&classes.sizes()).map_or(&[][..], Vec::as_slice);
                     let mut values = self.judged(self.plain(classes, &rows), chance);
-                    if is_random && self.wants(Measure::Delta) {
+                    if has_interval {
                         let delta = &mut values[Measure::Delta as usize];
                         delta.estimate = self.delta(classes, &order.centred_ranks(), number as u64);
                         if let (Some(interval), Some(LEVEL..)) = (&mut delta.estimate.interval, delta.p_value) {
@@ -256,10 +272,12 @@ impl<'a> Job<'a> {
                             interval.low = interval.low.min(0.0);
                         }
                     }
-                    if let Some(outputs) = &outputs {
-                        let (r2, p_value) = outputs.with(&inputs[number].values);
-                        let estimate = Estimate { estimate: r2, interval: None };
-                        values[Measure::Hsic as usize] = Measured { estimate, p_value: p_value.filter(|_| is_random) };
+                    let kernels = outputs.as_ref().and_then(|outputs| outputs.with(&inputs[number].values));
+                    let (r2, p_value) = kernels.unwrap_or((f64::NAN, None));
+                    let estimate = Estimate { estimate: r2, interval: None };
+                    values[Measure::Hsic as usize] = Measured { estimate, p_value };
+                    if !known.has_p_values {
+                        values.iter_mut().for_each(|measured| measured.p_value = None);
                     }
                     values
                 }

@@ -48,7 +48,7 @@ fn other_programs_have_the_same_numbers() {
         for (found, expected) in found.iter().zip(expected) {
             assert!((found - expected).abs() < 1e-12, "{}: {found} {expected}", input.name);
         }
-        let (r2, p_value) = hsic::Outputs::new(&z).with(&input.values);
+        let (r2, p_value) = hsic::Outputs::new(&z, 0).unwrap().with(&input.values).unwrap();
         assert!((r2 - expected[6]).abs() < 1e-12, "{}: {r2}", input.name);
         let p_value = p_value.unwrap();
         assert!((p_value / expected[7] - 1.0).abs() < 1e-8, "{}: {p_value}", input.name);

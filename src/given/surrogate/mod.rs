@@ -10,13 +10,11 @@ mod coordinates;
 mod estimates;
 mod marginals;
 
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use thiserror::Error;
 
 use super::order::Order;
-use super::{Column, Dependence, GivenIndices, NoVariance, centred};
+use super::{Column, Dependence, GivenIndices, NoVariance, centred, drawn_rows};
 use crate::space::Distribution;
 use crate::surrogate::basis::{Caps, polynomials};
 use crate::surrogate::beyond::Beyond;
@@ -168,12 +166,7 @@ pub fn surrogate_indices(
 /// Sobol' points that are at equal distances in their order fill a part of the space only.
 fn used_rows(rows: usize, inputs: usize) -> Vec<Vec<usize>> {
     let most = MOST_ROWS.min(MOST_VALUES / (inputs * Caps::degree_of(inputs))).max(super::FEWEST_ROWS);
-    let mut all: Vec<usize> = (0..rows).collect();
-    let mut rng = ChaCha8Rng::seed_from_u64(0);
-    for k in (1..rows).rev() {
-        all.swap(k, rng.random_range(0..=k as u64) as usize);
-    }
-    all.truncate(most);
+    let all = drawn_rows(rows, most, 0);
     let mut folds = vec![Vec::new(); FOLDS];
     all.into_iter().enumerate().for_each(|(place, row)| folds[place % FOLDS].push(row));
     folds.iter_mut().for_each(|fold| fold.sort_unstable());

@@ -3,8 +3,8 @@
 use serde_json::Value;
 
 use super::protocol::{Answer, failed};
-use super::shorten::masked;
 use crate::model::item_of_list;
+use crate::model::shorten::masked;
 
 /// What an object holds under one key: a single output, or a list of several.
 struct Key<'a> {

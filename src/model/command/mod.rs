@@ -12,7 +12,6 @@ mod process;
 mod program;
 mod protocol;
 mod row;
-mod shorten;
 mod standard_error;
 mod template;
 

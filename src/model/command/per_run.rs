@@ -13,10 +13,10 @@ use tempfile::TempDir;
 use super::pick::{MOST_BYTES, PickError, Source, Texts};
 use super::program::{Running, status_in_words};
 use super::row::{RowWriter, ValueWriter};
-use super::shorten::{masked, seconds};
 use super::standard_error::listen;
 use super::template::InputTemplate;
 use super::{CommandModel, Protocol, not_a_value};
+use crate::model::shorten::{masked, seconds};
 use crate::model::{Batch, RowFailure, RunContext, Worker};
 
 /// How a program runs once for each row.

@@ -6,8 +6,8 @@ use regex::Regex;
 use serde_json::Value;
 use thiserror::Error;
 
-use super::shorten::masked;
 use crate::files::read_whole;
+use crate::model::shorten::masked;
 
 /// Where the number stands, and how it is found.
 #[derive(Debug, Clone, PartialEq)]

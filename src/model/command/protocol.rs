@@ -4,7 +4,7 @@
 use serde_json::Value;
 
 use super::json_answer::{json, json_answer, keys_in_words};
-use super::shorten::{masked, shortened};
+use crate::model::shorten::{masked, shortened};
 
 /// How rows and answers are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

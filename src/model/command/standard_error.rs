@@ -3,8 +3,8 @@
 use std::io::Read;
 use std::sync::{Mutex, PoisonError};
 
-use super::shorten::cut;
 use crate::model::Messages;
+use crate::model::shorten::cut;
 
 /// Characters of a line that are passed on.
 const MOST_LETTERS: usize = 400;

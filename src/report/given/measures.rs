@@ -53,14 +53,15 @@ fn record(of: &InputMeasures) -> GivenMeasuresRecord {
 }
 
 impl GivenMeasuresRecord {
-    /// Those of `wanted` measures.
+    /// Those of `wanted` measures that are known.
     pub(in crate::report) fn of(of: &InputMeasures, wanted: &[Measure]) -> Self {
         let measured = |measure: &Measure| {
             let found = of.get(*measure);
             let record = MeasuredRecord { estimate: estimate_record(found.estimate), p_value: found.p_value };
             (measure.name().to_owned(), record)
         };
-        Self { input: of.input.clone(), measures: wanted.iter().map(measured).collect() }
+        let known = wanted.iter().filter(|measure| of.get(**measure).estimate.estimate.is_finite());
+        Self { input: of.input.clone(), measures: known.map(measured).collect() }
     }
 }
 
@@ -109,7 +110,9 @@ fn ranks(inputs: &[GivenMeasuresRecord], measure: Measure) -> Vec<usize> {
 /// Whether the measures agree on the input that matters most, and which inputs none of them tells from chance.
 pub(in crate::report) fn agreement(output: &str, inputs: &[GivenMeasuresRecord], measures: &[Measure]) -> String {
     let mut first: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
-    for &measure in measures {
+    let is_known = |measure: &&Measure| inputs.iter().any(|of| of.get(**measure).is_some());
+    let measures: Vec<Measure> = measures.iter().filter(is_known).copied().collect();
+    for &measure in &measures {
         if let Some(lead) = ranks(inputs, measure).iter().position(|rank| *rank == 1) {
             first.entry(lead).or_default().push(measure.heading());
         }
@@ -118,6 +121,7 @@ pub(in crate::report) fn agreement(output: &str, inputs: &[GivenMeasuresRecord],
     leads.sort_by_key(|(_, by)| std::cmp::Reverse(by.len()));
     let mut text = match &leads[..] {
         [(lead, _)] if measures.len() > 1 => format!("All measures put {} first for {output}.", inputs[*lead].input),
+        [] => String::new(),
         [(lead, _)] => format!("{} comes first for {output}.", inputs[*lead].input),
         leads => {
             let one = |(lead, by): &(usize, Vec<&str>)| format!("{} by {}", inputs[*lead].input, by.join(", "));
@@ -166,15 +170,23 @@ pub(in crate::report) fn table(
         (false, false) => format!("by {PERMUTATIONS} permutations of the output"),
     };
     let article = if what == "input" { "an" } else { "a" };
-    let mut caption = format!(
-        "In brackets is what {article} {what} without influence reaches in more than {:.0} of 100 tables: {chance}.",
-        100.0 * SIGNIFICANT
-    );
-    if has(Measure::Delta) {
+    let found = || inputs.iter().flat_map(|of| of.measures.values());
+    let mut caption = if found().any(|found| found.p_value.is_some()) {
+        format!(
+            "In brackets is what {article} {what} without influence reaches in more than {:.0} of 100 tables: {chance}.",
+            100.0 * SIGNIFICANT
+        )
+    } else {
+        "The rows are no independent draws, so that nothing is said of chance: there are no p-values.".to_owned()
+    };
+    if found().any(|found| found.estimate.low.is_some()) {
         caption.push_str(" Delta has its 95 % interval.");
     }
     if has(Measure::Hsic) {
-        caption.push_str(&format!(" R2-HSIC is of the first {MOST_ROWS_OF_KERNELS} rows at most."));
+        caption.push_str(&format!(" R2-HSIC is of {MOST_ROWS_OF_KERNELS} rows at most, drawn at random from more."));
+        if inputs.iter().any(|of| of.get(Measure::Hsic).is_none()) {
+            caption.push_str(" It is empty where these rows have one value only.");
+        }
     }
     Table::new(caption, columns).with_rows(inputs.iter().map(row))
 }

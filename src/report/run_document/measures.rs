@@ -12,8 +12,7 @@ pub(super) fn measures(result: &ResultFile, output: &OutputRecord) -> Vec<Part> 
     let Some(record) = &output.measures else { return Vec::new() };
     let wanted = wanted(record);
     let text = format!(
-        "{} They are taken from {} rows A and B, the first of the run, as from given data; where points are not independent but spread \
-         evenly, intervals and what passes for chance are on the safe side.",
+        "{} They are taken from {} rows A and B, the first of the run, as from given data.",
         agreement(&output.name, &record.factors, &wanted),
         grouped(record.rows)
     );

@@ -141,7 +141,11 @@ fn fixable(output: &OutputScreeningRecord) -> String {
     let fixable: Vec<String> = fixable.collect();
     let rule =
         format!("the upper bound of μ* below {} % of the largest μ*, by at least half of the effects", 100.0 * FIXABLE);
+    let has_effect = |factor: &FactorScreeningRecord| factor.mu_star.is_some_and(|mu_star| mu_star.estimate > 0.0);
     if output.factors.iter().all(|factor| factor.could_be_fixed.is_none()) {
+        if output.factors.iter().any(has_effect) {
+            return format!("Nothing says which factors could be fixed for {}.", name(&output.name));
+        }
         return format!("No factor has any effect on {} here: nothing to rank.", name(&output.name));
     }
     match &fixable[..] {

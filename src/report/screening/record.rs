@@ -184,16 +184,25 @@ fn output_record(
     let factors = names().zip(&screened.factors).zip(&screening.idle);
     let dropped: u64 = screened.factors.iter().map(|factor| factor.dropped).sum();
     let all = screening.settings.trajectories * screened.factors.len() as u64;
-    let warning = format!(
-        "{dropped} of {all} elementary effects are dropped because a run failed: the measures describe the part of the \
-         factor space where runs succeed"
-    );
+    let dropped = (dropped > 0).then(|| {
+        format!(
+            "{dropped} of {all} elementary effects are dropped because a run failed: the measures describe the part of the \
+             factor space where runs succeed"
+        )
+    });
+    let missed = screened.missed.map(|sum| {
+        format!(
+            "what total indices are at most sums to {sum:.2}, but total indices of independent factors sum to at least 1: the derivatives \
+             have missed what the output varies by, a step or a steep place between the base points, so that no bound holds and no \
+             factor is said to be one that could be fixed. Screen with the radial design, or run the study"
+        )
+    });
     OutputScreeningRecord {
         name: output.name.to_string(),
         unit: output.unit.to_string(),
         factors: factors.map(|((name, factor), &idle)| factor_record(name, factor, idle)).collect(),
         failures: screened.failures.iter().map(|failure| failure_record(study, failure)).collect(),
-        warnings: if dropped > 0 { vec![warning] } else { Vec::new() },
+        warnings: dropped.into_iter().chain(missed).collect(),
     }
 }
 
@@ -247,6 +256,11 @@ fn notes(study: &Study, design: ScreeningDesign) -> Vec<String> {
         .collect();
     let mut notes = Vec::new();
     if is_derivative {
+        notes.push(
+            "derivatives see the base points and nothing between them: a model with jumps has no bounds, and a steep place that is \
+             narrower than the points are apart is missed"
+                .to_owned(),
+        );
         let unknown = factors.iter().filter(|factor| poincare_constant(factor.distribution()).is_none());
         let unknown: Vec<String> =
             unknown.map(|factor| format!("{} ({})", factor.name, factor.distribution().name())).collect();

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use serde_json::Value;
 
-use super::{Journal, JournalError, format, lock, refuse_no_file};
+use super::{Journal, JournalError, format, lock, refuse_no_file, with_ending};
 use crate::binary::Binary;
 use crate::run::Sums;
 
@@ -52,11 +52,13 @@ impl Checkpoint {
     /// What the operating system says; the sums before are then still there.
     pub(crate) fn write(&self, sums: &[u8]) -> std::io::Result<()> {
         let mut locked = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        let next = self.path.with_extension("journal.new");
+        let next = with_ending(&self.path, ".new");
         refuse_no_file(&next).map_err(std::io::Error::other)?;
-        let mut file = OpenOptions::new().create(true).truncate(true).read(true).write(true).open(&next)?;
+        // Neither emptied nor removed unless the lock is held: the file may be another run's.
+        let mut file = OpenOptions::new().create(true).truncate(false).read(true).write(true).open(&next)?;
+        lock(&next, &file).map_err(std::io::Error::other)?;
         let written = (|| {
-            lock(&next, &file).map_err(std::io::Error::other)?;
+            file.set_len(0)?;
             let mut bytes = self.header.clone();
             format::write_sums(&mut bytes, sums);
             file.write_all(&bytes)?;

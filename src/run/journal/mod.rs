@@ -166,6 +166,13 @@ impl Writer {
     }
 }
 
+/// The path with `ending` behind its whole name: journals whose names differ have others beside them whose names differ.
+pub(crate) fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(ending);
+    path.with_file_name(name)
+}
+
 /// Opening a pipe waits for somebody at its other end, and a device keeps nothing.
 fn refuse_no_file(path: &Path) -> Result<(), JournalError> {
     match std::fs::metadata(path) {

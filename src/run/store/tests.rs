@@ -107,7 +107,7 @@ fn the_runs_of_base_points_are_recalled_as_batches() {
 #[test]
 fn failures_can_be_forgotten_and_rows_replaced() {
     let store = Store::new(&design(), &described());
-    store.insert(&piece(1270..1300));
+    store.insert(&Piece { flags: vec![0], ..piece(1270..1300) });
     let failing: Vec<u64> = (1270..1300).filter(|row| row % 7 == 0).collect();
     assert_eq!(store.forget_failures(), failing.len() as u64);
     assert_eq!(store.forget_failures(), 0);
@@ -121,4 +121,34 @@ fn failures_can_be_forgotten_and_rows_replaced() {
     // A row that is there is replaced, with its failure.
     assert_eq!(store.insert(&piece(1274..1276)), 0);
     assert_eq!(store.count(0, 1270..1300), (30, 1));
+}
+
+/// What was counted over a piece cannot be divided: it goes with the first of its rows that is replaced or forgotten.
+#[test]
+fn every_row_is_counted_once() {
+    let raised = |store: &Store| store.pieces().iter().flat_map(|piece| piece.flags.clone()).sum::<u64>();
+    let store = Store::new(&design(), &described());
+    // The second piece has no row that fails.
+    for rows in [0..100, 100..104, 104..300] {
+        store.insert(&piece(rows));
+    }
+    assert_eq!(store.forget_failures(), 43);
+    assert_eq!((store.rows(), raised(&store)), (4, 4));
+    assert_eq!(store.missing(0, 0..300), [0..100, 104..300]);
+    for _ in 0..2 {
+        for rows in [0..100, 104..300] {
+            store.insert(&piece(rows));
+        }
+        assert_eq!((store.rows(), raised(&store)), (300, 300));
+    }
+    // As journals of before have it: the rows that failed, one by one behind the pieces that they were in.
+    store.insert(&piece(0..300));
+    (0..300).step_by(7).for_each(|row| _ = store.insert(&piece(row..row + 1)));
+    assert_eq!((store.rows(), raised(&store), store.count(0, 0..300).1), (43, 43, 43));
+    // Over the end of a block, and by a piece over which nothing was counted.
+    let store = Store::new(&design(), &described());
+    store.insert(&piece(1200..1400));
+    let alone = Piece { first: 1390, values: vec![1.0, 2.0], ..Piece::default() };
+    store.insert(&alone);
+    assert_eq!((store.rows(), raised(&store), store.count(0, 1200..1400)), (1, 0, (1, 0)));
 }

@@ -38,15 +38,16 @@ pub(super) fn recall(study: &Study, contents: &Contents, files: &Value, resume: 
     for (_, before) in contents.pieces_with_files() {
         names = names.or_else(|| differing(before, files));
     }
-    let own = filled_by(study, contents, &is_own);
+    let empty = || Store::new(&study.design, study.model().as_ref());
+    let own = empty();
+    fill(&own, study, contents, &is_own);
     let Some(names) = names else {
         let forgotten = again(&own);
         return Recalled { own, all: None, foreign: None, forgotten };
     };
-    let all = filled_by(study, contents, &|before| !is_own(before));
-    own.pieces().iter().for_each(|piece| {
-        all.insert(piece);
-    });
+    let all = empty();
+    fill(&all, study, contents, &|before| !is_own(before));
+    fill(&all, study, contents, &is_own);
     let forgotten = again(&all);
     again(&own);
     let rows = all.rows().saturating_sub(own.rows());
@@ -104,9 +105,8 @@ pub(in crate::runner) fn part(study: &Study, path: &Path, contents: &Contents) -
     }
 }
 
-fn filled_by(study: &Study, contents: &Contents, wanted: &dyn Fn(&Value) -> bool) -> Store {
-    let model = study.model();
-    let store = Store::new(&study.design, model.as_ref());
+/// Puts the pieces of a journal that were evaluated with `wanted` files in `store`.
+fn fill(store: &Store, study: &Study, contents: &Contents, wanted: &dyn Fn(&Value) -> bool) {
     let outputs = store.outputs();
     let fits = |piece: &Piece| {
         let rows = piece.rows(outputs);
@@ -121,7 +121,6 @@ fn filled_by(study: &Study, contents: &Contents, wanted: &dyn Fn(&Value) -> bool
             store.insert(piece);
         }
     }
-    store
 }
 
 /// Rows of the design that are in `store`.

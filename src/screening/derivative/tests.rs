@@ -162,6 +162,26 @@ fn constants_of_poincare_are_those_that_are_known() {
 }
 
 #[test]
+fn a_step_between_the_base_points_frees_no_factor() {
+    // x2 has a total index of 0.98, at a step that no difference of 0.001 meets.
+    let step = |x: &[f64]| x[0] + 2.0 * libm::tanh(2000.0 * (x[1] - 0.3));
+    let settings = ScreeningSettings {
+        design: ScreeningDesign::Derivative { sampler: Sampler::Sobol },
+        trajectories: 128,
+        seed: 0,
+    };
+    let screening = |f: fn(&[f64]) -> f64| {
+        let (space, model) = (space(&[uniform(0.0, 1.0), uniform(0.0, 1.0)]), function_model("y", f));
+        screen(ScreeningJob { space: &space, model: &model, settings }, 0, &|_| ()).unwrap().outputs.remove(0)
+    };
+    let found = screening(step);
+    assert!(found.missed.is_some_and(|sum| sum < 0.1), "{:?}", found.missed);
+    assert!(found.factors.iter().all(|factor| factor.could_be_fixed.is_none()));
+    let smooth = screening(|x| x[0] + 1e-3 * x[1]);
+    assert_eq!((smooth.missed, smooth.factors[1].could_be_fixed), (None, Some(true)));
+}
+
+#[test]
 fn separate_values_have_no_derivative() {
     let factors = [uniform(0.0, 1.0), Distribution::discrete(&[1.0, 2.0], None).unwrap()];
     let error = screened(&factors, Sampler::Sobol, 16, 0, |x| x[0]).unwrap_err().to_string();

@@ -84,6 +84,23 @@ fn what_cannot_be_is_refused_with_what_would_be_right() {
 }
 
 #[test]
+fn joint_measurements_that_say_nothing_are_refused_by_name() {
+    let space = space(vec![uniform(), uniform(), Distribution::discrete(&[1.0], None).unwrap()]);
+    let rising: Vec<f64> = (0..20).map(f64::from).collect();
+    let columns = |other: fn(f64) -> f64| vec![rising.clone(), rising.iter().map(|x| other(*x)).collect()];
+    for make in [Dependence::from_measurements, Dependence::kernels] {
+        let message = |other| copula(&space, &[make(&["a", "b"], &columns(other))]).unwrap_err().to_string();
+        assert!(message(|_| 3.0).contains("measurements of `b` are all the same"), "{}", message(|_| 3.0));
+        assert!(message(|x| x * x).contains("`a` and `b` have the same order"));
+        assert!(message(|x| -x).contains("`a` and `b` have the opposite order"));
+    }
+    for measure in CorrelationMeasure::ALL {
+        let error = copula(&space, &[Dependence::pair("a", "c", 0.5).measure(measure)]).unwrap_err().to_string();
+        assert!(error.contains("`c` is of one value"), "{error}");
+    }
+}
+
+#[test]
 fn joint_measurements_give_the_correlation_of_their_scores() {
     let space = space(vec![uniform(), uniform()]);
     let copula = GaussianCopula::new(DMatrix::from_row_slice(2, 2, &[1.0, -0.7, -0.7, 1.0])).unwrap();

@@ -79,7 +79,7 @@ impl Discrete {
             return Err(DistributionError::ZeroWeights);
         }
         if total.is_infinite() {
-            return Err(DistributionError::Overflow { distribution: "discrete" });
+            return Err(DistributionError::WeightSum);
         }
         Ok(Self {
             values: values.to_vec(),

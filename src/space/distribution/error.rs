@@ -113,6 +113,9 @@ pub enum DistributionError {
     /// All weights are zero.
     #[error("all `weights` are 0, but at least one must be greater")]
     ZeroWeights,
+    /// Weights whose sum is no number.
+    #[error("`weights` sum to more than 1.8e308: divide all of them by the same number, such as the largest")]
+    WeightSum,
     /// A bound of whole numbers that is none.
     #[error("`{parameter}` is {value:?}, but must be a whole number between -2^53 and 2^53")]
     NotWhole {

@@ -58,6 +58,9 @@ impl Distribution {
         if total == 0.0 {
             return Err(DistributionError::ZeroWeights);
         }
+        if total.is_infinite() {
+            return Err(DistributionError::WeightSum);
+        }
         let mut before = 0.0;
         let mut bins: Vec<Bin> = Vec::with_capacity(weights.len());
         for (edges, weight) in edges.windows(2).zip(weights).filter(|(_, weight)| **weight > 0.0) {

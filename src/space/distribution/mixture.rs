@@ -60,6 +60,9 @@ impl Distribution {
         if total == 0.0 {
             return Err(DistributionError::ZeroWeights);
         }
+        if total.is_infinite() {
+            return Err(DistributionError::WeightSum);
+        }
         let shares = weights.iter().map(|weight| weight / total).collect();
         Self::Mixture(Mixture { components: components.to_vec(), weights, shares }).finite()
     }

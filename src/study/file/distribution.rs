@@ -330,7 +330,8 @@ fn blamed_key(error: &DistributionError) -> Option<&'static str> {
         DistributionError::Lengths { .. }
         | DistributionError::Components { .. }
         | DistributionError::NegativeWeight { .. }
-        | DistributionError::ZeroWeights => Some("weights"),
+        | DistributionError::ZeroWeights
+        | DistributionError::WeightSum => Some("weights"),
         DistributionError::Overflow { .. }
         | DistributionError::Determined { .. }
         | DistributionError::UnitOfSeed { .. }

@@ -5,10 +5,10 @@ use std::sync::atomic::Ordering;
 
 use super::super::process::Ending;
 use super::super::program::status_in_words;
-use super::super::shorten::{masked, seconds};
 use super::piece::Piece;
 use super::talk::{Session, Talk};
 use super::{Fault, KeptAliveWorker};
+use crate::model::shorten::{masked, seconds};
 use crate::model::{RowFailure, Standing};
 
 /// What helps against answers whose rows are unknown.

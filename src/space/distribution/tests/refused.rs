@@ -31,7 +31,7 @@ fn what_cannot_be_is_refused_by_name() {
         (Distribution::discrete(&[1.0, 2.0], Some(&[1.0])), Error::Lengths { values: 2, weights: 1 }),
         (Distribution::discrete(&[1.0, 2.0], Some(&[1.0, -2.0])), Error::NegativeWeight { index: 1, value: -2.0 }),
         (Distribution::discrete(&[1.0, 2.0], Some(&[0.0, 0.0])), Error::ZeroWeights),
-        (Distribution::discrete(&[1.0, 2.0], Some(&[1e308, 1e308])), Error::Overflow { distribution: "discrete" }),
+        (Distribution::discrete(&[1.0, 2.0], Some(&[1e308, 1e308])), Error::WeightSum),
         (Distribution::discrete(&[-1e200, 1e200], None), Error::Overflow { distribution: "discrete" }),
         (Distribution::integer(0.5, 2.0), Error::NotWhole { parameter: "min", value: 0.5 }),
         (Distribution::integer(3.0, 2.0), Error::Bounds { min: 3.0, max: 2.0 }),
@@ -65,6 +65,14 @@ fn what_cannot_be_is_refused_by_name() {
             Error::NotRising { list: "edges", index: 2, value: 2.0, before: 2.0 },
         ),
         (Distribution::histogram(&[1.0, 2.0], &[0.0]), Error::ZeroWeights),
+        (Distribution::histogram(&[0.0, 1.0, 3.0], &[1e308, 1e308]), Error::WeightSum),
+        (
+            Distribution::mixture(
+                &[Distribution::constant(1.0).unwrap(), Distribution::constant(2.0).unwrap()],
+                Some(&[1e308, 1e308]),
+            ),
+            Error::WeightSum,
+        ),
         (
             Distribution::histogram_of_quantiles(&[(0.0, 1.0), (0.5, 2.0)]),
             Error::Quantiles { found: "no value for the probability 1".to_owned() },

@@ -4,12 +4,12 @@
 const MOST: usize = 120;
 
 /// One line of a program's own words, shortened, for reasons.
-pub(super) fn shortened(text: &str) -> String {
+pub(crate) fn shortened(text: &str) -> String {
     cut(text.trim(), MOST)
 }
 
 /// The text on one line of at most `most` characters, without those that would change the terminal.
-pub(super) fn cut(text: &str, most: usize) -> String {
+pub(crate) fn cut(text: &str, most: usize) -> String {
     let clean = text.trim_end().chars().map(|c| if c.is_control() { ' ' } else { c });
     let mut short: String = clean.take(most).collect();
     if text.trim_end().chars().nth(most).is_some() {
@@ -19,7 +19,7 @@ pub(super) fn cut(text: &str, most: usize) -> String {
 }
 
 /// The same with every number as `#`: reasons that differ by the numbers of their rows alone are counted together.
-pub(super) fn masked(text: &str) -> String {
+pub(crate) fn masked(text: &str) -> String {
     let mut out = String::new();
     let mut letters = text.trim().chars().peekable();
     let mut before = ' ';
@@ -51,7 +51,8 @@ pub(super) fn masked(text: &str) -> String {
 }
 
 /// A duration as people write it.
-pub(super) fn seconds(duration: std::time::Duration) -> String {
+#[cfg(feature = "study")]
+pub(crate) fn seconds(duration: std::time::Duration) -> String {
     format!("{} s", duration.as_secs_f64())
 }
 
