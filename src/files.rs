@@ -21,7 +21,9 @@ pub fn read_whole(path: &Path) -> Result<Vec<u8>> {
 /// As for [`read_whole`], and [`ErrorKind::InvalidData`] for other bytes than text.
 pub fn read_text(path: &Path) -> Result<String> {
     String::from_utf8(read_whole(path)?).map_err(|error| {
-        Error::new(ErrorKind::InvalidData, format!("it is not text in UTF-8 ({})", error.utf8_error()))
+        let valid = error.utf8_error().valid_up_to();
+        let line = 1 + error.as_bytes()[..valid].iter().filter(|byte| **byte == b'\n').count();
+        Error::new(ErrorKind::InvalidData, format!("line {line} is not text in UTF-8: save it as UTF-8"))
     })
 }
 
@@ -74,7 +76,9 @@ mod tests {
         assert_eq!(read_text(&path).unwrap(), "µ");
         std::fs::write(&path, b"\xff").unwrap();
         assert_eq!(read_text(&path).unwrap_err().kind(), ErrorKind::InvalidData);
-        assert_eq!(read_whole(&path).unwrap(), b"\xff");
+        std::fs::write(&path, b"a\nb\nc\xff\n").unwrap();
+        assert_eq!(read_text(&path).unwrap_err().to_string(), "line 3 is not text in UTF-8: save it as UTF-8");
+        assert_eq!(read_whole(&path).unwrap(), b"a\nb\nc\xff\n");
         assert!(read_whole(folder.path()).is_err());
         assert_eq!(read_whole(&folder.path().join("none")).unwrap_err().kind(), ErrorKind::NotFound);
     }

@@ -15,7 +15,9 @@ pub(super) fn of_runs(run: &FinishedRun<'_>, runs_failed: u64, base_points_used:
     let mut warnings = Vec::new();
     let design = run.design;
     let settings = design.settings();
-    if runs_failed > 0 {
+    if runs_failed > 0 && runs_failed == design.rows() {
+        warnings.push(format!("all {runs_failed} runs failed"));
+    } else if runs_failed > 0 {
         let left_out = settings.base_samples - base_points_used;
         warnings.push(format!(
             "{} of {} runs failed: every index does without the base points at which one of its own runs failed (at most \

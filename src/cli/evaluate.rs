@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use apportion::exchange::{EvaluateError, Evaluated, evaluate_in, open_table};
 use apportion::model::RunContext;
-use apportion::report::{prepare_file, stream_atomically};
+use apportion::report::{prepare_file, significant, stream_atomically};
+use apportion::space::Space;
 
 use super::stop::{Stoppable, on_signal};
-use super::{Failure, StudyArguments, say};
+use super::{Failure, StudyArguments, same_file, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -34,6 +35,14 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     let names: Vec<String> = arguments.names.iter().map(|name| name.trim().to_owned()).collect();
     let mut rows =
         open_table(&arguments.points, &names).map_err(|error| Failure::Input(anyhow!("{points}: {error}")))?;
+    for input in [&arguments.points, &arguments.study.study] {
+        if same_file(input, &arguments.output) {
+            let output = arguments.output.display();
+            return Err(Failure::Input(anyhow!(
+                "--output {output}: this file is read, and would be overwritten: give another name"
+            )));
+        }
+    }
     prepare_file(&arguments.output)?;
     let context = RunContext::new(Some(on_signal()), say);
     let mut outcome = None;
@@ -50,15 +59,28 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
         Some(Err(error)) => Err(Failure::Run(anyhow!("{}: {error}", arguments.output.display()))),
         Some(Ok(evaluated)) => {
             written?;
-            report(&evaluated, arguments);
+            report(&evaluated, arguments, study.space());
             Ok(())
         }
         None => Ok(written?),
     }
 }
 
-fn report(evaluated: &Evaluated, arguments: &Arguments) {
+fn report(evaluated: &Evaluated, arguments: &Arguments, space: &Space) {
     say_of_table(&arguments.points, &evaluated.skipped, evaluated.unended);
+    if !evaluated.nominal.is_empty() {
+        let value = |&number: &usize| {
+            let factor = &space.factors()[number];
+            let unit = match factor.unit().symbol() {
+                "" | "1" => String::new(),
+                symbol => format!(" {symbol}"),
+            };
+            format!("{} = {}{unit}", factor.name, factor.in_words(factor.nominal, significant))
+        };
+        let values: Vec<String> = evaluated.nominal.iter().map(value).collect();
+        let points = arguments.points.display();
+        say(&format!("note: {points}: factors without a column stand at their nominal values: {}", values.join(", ")));
+    }
     for ((output, failure), (count, first)) in &evaluated.failures {
         say(&format!("warning: {output} is empty at {count} points: {failure} (first at point {first})"));
     }

@@ -47,7 +47,7 @@ fn pages() -> Result<Vec<(String, Vec<u8>)>, Failure> {
     for command in std::iter::once(program).chain(subcommands) {
         let name = command.get_display_name().unwrap_or(command.get_name()).to_owned();
         let mut page = Vec::new();
-        Man::new(command).render(&mut page)?;
+        Man::new(command).source(format!("apportion {}", env!("CARGO_PKG_VERSION"))).render(&mut page)?;
         pages.push((name, page));
     }
     Ok(pages)

@@ -9,7 +9,7 @@ use apportion::run::RunError;
 
 use super::output::{ChartArguments, default_folder};
 use super::run::{deliver, file_names, journal_path};
-use super::{DesignChanges, Failure, StudyArguments, Threads, say};
+use super::{DesignChanges, Failure, StudyArguments, Threads, quoted, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -41,9 +41,9 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     let result = runner.merge(&journals).map_err(|error| match error {
         RunError::Incomplete { .. } => Failure::Run(anyhow!(
             "{error}\nthose that are there are kept in {}: merge again with the missing parts, or let \
-             `apportion run {} --resume` evaluate them here",
+             `{}` evaluate them here",
             path.display(),
-            arguments.study.study.display(),
+            going_on(arguments),
         )),
         error => error.into(),
     })?;
@@ -55,6 +55,16 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         path.display()
     ));
     deliver(&study, &artefacts, &ResultFile::new(&study, &result), None)
+}
+
+/// The command that evaluates here what the parts lack.
+fn going_on(arguments: &Arguments) -> String {
+    let Arguments { study: StudyArguments { study, set }, design, out, .. } = arguments;
+    let changes = set.iter().cloned().chain(design.overrides());
+    let changes = changes.map(|change| format!(" --set {}", quoted(&change)));
+    let out = out.iter().map(|folder| format!(" --out {}", quoted(&folder.display().to_string())));
+    let changes: String = changes.chain(out).collect();
+    format!("apportion run {}{changes} --resume", quoted(&study.display().to_string()))
 }
 
 /// The journals of shards in `folder`, in the order of their names.

@@ -28,8 +28,8 @@ mod sweep;
 mod trade;
 mod trade_extremes;
 
-use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use std::io::{Error, ErrorKind, IsTerminal, Write};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
@@ -118,7 +118,7 @@ struct DesignChanges {
     #[arg(long, value_name = "N", value_parser = whole_number, conflicts_with = "base_samples")]
     budget_runs: Option<u64>,
     /// Seed of the design (the same as --set design.seed=S)
-    #[arg(long, value_name = "S", value_parser = whole_number)]
+    #[arg(long, value_name = "S", value_parser = whole_number, allow_negative_numbers = true)]
     seed: Option<u64>,
 }
 
@@ -229,7 +229,11 @@ impl From<RunError> for Failure {
 
 impl From<WriteError> for Failure {
     fn from(error: WriteError) -> Self {
-        Self::Run(error.into())
+        // The path that was given, and not what became of it.
+        match error.source.kind() {
+            ErrorKind::NotADirectory => Self::Input(error.into()),
+            _ => Self::Run(error.into()),
+        }
     }
 }
 
@@ -301,7 +305,22 @@ fn fail(error: &anyhow::Error, code: u8) -> ExitCode {
 }
 
 fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    error.downcast_ref::<std::io::Error>().is_some_and(|e| e.kind() == std::io::ErrorKind::BrokenPipe)
+    error.downcast_ref::<Error>().is_some_and(|e| e.kind() == ErrorKind::BrokenPipe)
+}
+
+/// Whether two paths lead to one file.
+fn same_file(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+/// A path or an argument as it is typed in a shell.
+fn quoted(text: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%=".contains(c);
+    if !text.is_empty() && text.chars().all(plain) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
 }
 
 /// The command line as clap knows it.
@@ -311,14 +330,19 @@ fn command() -> clap::Command {
 
 /// Writes what the program itself has made, for other programs, to standard output.
 fn print_raw(bytes: &[u8]) -> Result<(), Failure> {
-    std::io::stdout().write_all(bytes)?;
+    std::io::stdout().write_all(bytes).map_err(unprinted)?;
     Ok(())
 }
 
 /// Writes `text` to standard output without panicking when nobody reads it.
 fn print(text: &str) -> Result<(), Failure> {
-    std::io::stdout().write_all(fitted(printable(text), stdout_width()).as_bytes())?;
+    std::io::stdout().write_all(fitted(printable(text), stdout_width()).as_bytes()).map_err(unprinted)?;
     Ok(())
+}
+
+/// An error of standard output, which the operating system does not name.
+fn unprinted(error: Error) -> Error {
+    Error::new(error.kind(), format!("cannot write to standard output: {error}"))
 }
 
 /// Writes a line to standard error; there is nowhere to complain if that fails.
@@ -353,4 +377,22 @@ fn printable(text: &str) -> String {
 
 fn stderr_is_terminal() -> bool {
     std::io::stderr().is_terminal()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arguments_are_typed_as_a_shell_reads_them() {
+        for (text, typed) in [
+            ("studies/my-study.toml", "studies/my-study.toml"),
+            ("design.seed=3", "design.seed=3"),
+            ("my study.toml", "'my study.toml'"),
+            ("it's $HOME.toml", r"'it'\''s $HOME.toml'"),
+            ("", "''"),
+        ] {
+            assert_eq!(quoted(text), typed);
+        }
+    }
 }

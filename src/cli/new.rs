@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::model::ModelKind;
-use apportion::report::write_atomically;
+use apportion::report::{prepare_file, write_atomically};
 use apportion::study::{NEW_PROGRAM, Problem, Study, TemplateRequest, new_program, template};
 
 use super::models::find_model;
-use super::{Failure, say};
+use super::{Failure, quoted, say};
 
 #[derive(clap::Args)]
 #[command(after_help = "Example: apportion new my-study.toml --factors thickness,velocity --outputs critical_force")]
@@ -51,6 +51,7 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.force && path.exists() {
         return Err(Failure::Input(anyhow!("{} exists already: give another name, or add --force", path.display())));
     }
+    prepare_file(path)?;
     write_atomically(path, text.as_bytes())?;
     let (factors, runs) = (study.space().factors().len(), study.design().rows());
     let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
@@ -59,15 +60,11 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
         write_program(&path.with_file_name(NEW_PROGRAM), &program)?;
     }
     let step = if model == ModelKind::EXTERNAL { "sample" } else { "run" };
-    say(&format!("next: edit it, then `apportion check {0}` and `apportion {step} {0}`", quoted(path)));
+    say(&format!(
+        "next: edit it, then `apportion check {0}` and `apportion {step} {0}`",
+        quoted(&path.display().to_string())
+    ));
     Ok(())
-}
-
-/// A path as it is typed in a shell.
-fn quoted(path: &Path) -> String {
-    let path = path.display().to_string();
-    let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%".contains(c);
-    if path.chars().all(plain) { path } else { format!("'{}'", path.replace('\'', r"'\''")) }
 }
 
 /// Writes the program beside its study, unless there is one: it may be somebody's work.
@@ -88,20 +85,4 @@ fn wrong(problem: &Problem, model: ModelKind) -> Failure {
     };
     let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
     Failure::Input(anyhow!("{option}: {problem} (model {}){help}", model.name))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn paths_are_typed_as_a_shell_reads_them() {
-        for (path, typed) in [
-            ("studies/my-study.toml", "studies/my-study.toml"),
-            ("my study.toml", "'my study.toml'"),
-            ("it's $HOME.toml", r"'it'\''s $HOME.toml'"),
-        ] {
-            assert_eq!(quoted(Path::new(path)), typed);
-        }
-    }
 }

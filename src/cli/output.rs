@@ -49,6 +49,7 @@ impl From<ArtefactError> for Failure {
     fn from(error: ArtefactError) -> Self {
         match error {
             ArtefactError::Input { .. } => Self::Input(error.into()),
+            ArtefactError::Write(error) => error.into(),
             _ => Self::Run(error.into()),
         }
     }

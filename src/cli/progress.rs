@@ -80,11 +80,21 @@ impl Meter {
     /// Ends the display with one line that stays, about those of `runs` that were not on record.
     pub fn finish(&self, runs: u64, seconds: f64) {
         let runs = runs.saturating_sub(self.recalled.load(Ordering::Relaxed));
+        let rate = rate(runs as f64 / seconds);
+        self.end(&format!("{runs} model runs in {seconds:.2} s ({rate})"));
+    }
+
+    /// The same about the `runs` of a result, which may be those of earlier `trials` in part, and about these.
+    pub fn finish_after(&self, trials: u64, runs: u64, seconds: f64) {
+        let before = if trials > 0 { format!(", after {trials} in trials") } else { String::new() };
+        self.end(&format!("{runs} model runs in {seconds:.2} s{before}"));
+    }
+
+    fn end(&self, line: &str) {
         if let Display::Bar(bar) = &self.display {
             bar.finish_and_clear();
         }
-        let rate = rate(runs as f64 / seconds);
-        super::say(&format!("{}: {runs} model runs in {seconds:.2} s ({rate})", self.label));
+        super::say(&format!("{}: {line}", self.label));
     }
 
     fn line(&self, progress: Progress) -> String {

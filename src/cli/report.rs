@@ -7,7 +7,7 @@ use apportion::files::read_whole;
 use apportion::report::{ReadError, ReadProblem, parse_result, run_document};
 
 use super::output::{ChartArguments, deliver};
-use super::{Failure, say};
+use super::{Failure, same_file, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -41,10 +41,6 @@ pub fn report(arguments: &Arguments) -> Result<(), Failure> {
         say(&format!("note: the numbers are those of apportion {version}; only the drawing is this version's"));
     }
     deliver(&arguments.charts.artefacts(folder), &document)
-}
-
-fn same_file(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Charts of one result must not come to lie beside the JSON of another.

@@ -63,7 +63,7 @@ struct RecordArguments {
     #[arg(long)]
     no_journal: bool,
     /// Twice the base samples of the result in the folder, whose runs are kept
-    #[arg(long, conflicts_with_all = ["base_samples", "shard"])]
+    #[arg(long, conflicts_with_all = ["base_samples", "accuracy", "shard"])]
     double: bool,
     /// Evaluate one of N parts of the runs into a journal of its own, for `apportion merge`
     #[arg(long, value_name = "I/N", conflicts_with_all = ["no_journal", "retry_failed"])]
@@ -76,6 +76,7 @@ impl RecordArguments {
             Self { retry_failed: true, .. } => Resume::RetryFailed,
             Self { resume: true, .. } => Resume::Require,
             Self { restart: true, .. } => Resume::Never,
+            Self { double: true, .. } => Resume::Double,
             _ => Resume::IfThere,
         }
     }
@@ -148,7 +149,11 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     stop::writing()?;
     let result = ResultFile::new(&study, &analysis);
     drop(analysis);
-    meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
+    let (runs, seconds) = (result.provenance.model_runs, result.provenance.wall_seconds);
+    match &result.spending {
+        Some(spending) => meter.finish_after(spending.runs.saturating_sub(runs), runs, seconds),
+        None => meter.finish(runs, seconds),
+    }
     if let Some(((path, format), store)) = saved.zip(store.as_ref()) {
         save(&study, &result, store, path, format)?;
     }
@@ -190,16 +195,37 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
         return Ok(study);
     }
     let json = folder_of(arguments, &study).join(format!("{}.json", study.name()));
-    let base_samples = match read_result(&json) {
-        Ok(result) => result.provenance.base_samples,
-        Err(_) if retry_failed && !double => return Ok(study),
+    let result = match read_result(&json) {
+        Ok(result) => result,
+        Err(_) if !double => return Ok(study),
         Err(error) => return Err(Failure::Input(anyhow!("--double: there is no result to double: {error}"))),
     };
+    let (base_samples, plain_rows) = (result.provenance.base_samples, result.provenance.plain_rows);
     let wanted = if double { base_samples.saturating_mul(2) } else { base_samples };
-    if wanted == study.design().settings().base_samples {
+    if wanted == study.design().settings().base_samples && plain_rows == study.design().plain_rows() {
         return Ok(study);
     }
-    let study = arguments.study.load_with(&[changes, vec![format!("design.base_samples={wanted}")]].concat())?;
+    match &result.spending {
+        Some(_) if !double && study.target().is_free => return Ok(study),
+        Some(spending) => {
+            let (option, accuracy) =
+                if double { ("--double", spending.accuracy / 2.0) } else { ("--retry-failed", spending.accuracy) };
+            let what = "a run that was asked for an accuracy, and chose its design by itself";
+            let right = if double {
+                "ask for a smaller one in its place, which goes on with its runs"
+            } else {
+                "ask for it again"
+            };
+            return Err(Failure::Input(anyhow!(
+                "{option}: {} is of {what}: {right}: --accuracy {accuracy}",
+                json.display()
+            )));
+        }
+        None => (),
+    }
+    // The design of the result, whatever the study says now: `budget_runs` would make another one.
+    let size = vec![format!("design.base_samples={wanted}"), format!("design.plain_rows={plain_rows}")];
+    let study = arguments.study.load_with(&[changes, size].concat())?;
     let settings = study.design().settings();
     if double && settings.base_samples < wanted {
         let runs = u128::from(wanted) * u128::from(study.design().rows_per_point());
@@ -246,14 +272,17 @@ pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile, live: 
     let more = lost.len().saturating_sub(NAMED);
     let more = if more > 0 { format!(" and {more} more outputs") } else { String::new() };
     Err(Failure::Run(anyhow!(
-        "no indices of {}{more}: too many runs failed (the result says which and why)",
-        lost[..lost.len().min(NAMED)].join(", ")
+        "no indices of {}{more}: too many runs failed, more than max_failed = {} of them in [analysis] (the result says which and why)",
+        lost[..lost.len().min(NAMED)].join(", "),
+        study.analysis().max_failed
     )))
 }
 
 /// What was done before an error is of use to the user.
 fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failure {
+    let nothing = |journal: &Path| study.runner().journal(journal).recorded_runs().is_ok_and(|runs| runs == 0);
     let kept = match (&error, journal) {
+        (RunError::Interrupted { .. } | RunError::GaveUp { .. }, Some(journal)) if nothing(journal) => String::new(),
         (RunError::Interrupted { .. } | RunError::GaveUp { .. } | RunError::NotKept { .. }, Some(journal)) => {
             // What failed before the model gave up is no answer of a model that has been mended.
             let (option, again) = match error {

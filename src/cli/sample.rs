@@ -1,9 +1,10 @@
 //! `apportion sample`: the points of a study as a file, for a model outside.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::exchange::{Format, Manifest, random_points, sample as write_sample};
+use apportion::exchange::{Format, Manifest, open_rows, random_points, sample as write_sample};
+use apportion::files::read_text;
 use apportion::report::{prepare_file, stream_atomically, write_atomically};
 
 use super::stop::Stoppable;
@@ -25,6 +26,9 @@ pub struct Arguments {
     /// Random points instead of those of the design, so many: for few runs, whose table `apportion given-data` reads
     #[arg(long, value_name = "N", conflicts_with_all = ["base_samples", "accuracy", "budget_runs"], value_parser = clap::value_parser!(u64).range(1..=MAX_RANDOM))]
     random: Option<u64>,
+    /// Overwrite a file that exists and is no design of this study
+    #[arg(long)]
+    force: bool,
     /// The file for the points, .csv, .parquet or .npy [default: NAME-design.csv, or NAME-random.csv]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -38,6 +42,10 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     let path = arguments.output.clone().unwrap_or_else(default);
     let format = Format::of(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
     let beside = Manifest::path_beside(&path);
+    if !arguments.force && path.is_file() && !is_own(&path, study.name()) {
+        let what = "exists already, and is no design that `sample` wrote of this study";
+        return Err(Failure::Input(anyhow!("{} {what}: give another name, or add --force", path.display())));
+    }
     prepare_file(&path)?;
     prepare_file(&beside)?;
     if arguments.random.is_none() && study.target().grows() {
@@ -79,4 +87,14 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     say(&format!("wrote {rows} points of {factors} to {}", path.display()));
     say(&format!("wrote {}", beside.display()));
     Ok(())
+}
+
+/// Whether the file at `path` is a design of the study called `name` as `sample` wrote it: the manifest beside it says so, and no
+/// outputs have been put in.
+fn is_own(path: &Path, name: &str) -> bool {
+    let manifest = read_text(&Manifest::path_beside(path)).ok().and_then(|text| Manifest::parse(&text).ok());
+    let width = open_rows(path).map(|rows| rows.width());
+    manifest
+        .zip(width.ok())
+        .is_some_and(|(manifest, width)| manifest.study.name == name && manifest.factors.len() == width)
 }

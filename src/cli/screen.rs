@@ -22,7 +22,7 @@ pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     /// Trajectories; each costs one run more than there are factors
-    #[arg(long, value_name = "R", default_value_t = 32, value_parser = clap::value_parser!(u64).range(MIN_TRAJECTORIES..))]
+    #[arg(long, value_name = "R", default_value_t = 32, value_parser = trajectories, allow_negative_numbers = true)]
     trajectories: u64,
     /// How the points are laid out: radial (Campolongo et al. 2011, by the study's sampler), trajectory (Morris 1991), or derivative
     /// (Sobol' and Kucherenko 2009: short steps, with bounds on total indices)
@@ -32,7 +32,7 @@ pub struct Arguments {
     #[arg(long, value_name = "P", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_LEVELS)))]
     levels: Option<u32>,
     /// Seed of the points [default: the study's]
-    #[arg(long, value_name = "S", value_parser = whole_number)]
+    #[arg(long, value_name = "S", value_parser = whole_number, allow_negative_numbers = true)]
     seed: Option<u64>,
     /// Folder for the results [default: results/NAME]
     #[arg(long, value_name = "DIR")]
@@ -57,6 +57,11 @@ impl From<ScreeningError> for Failure {
             _ => Self::Input(error.into()),
         }
     }
+}
+
+fn trajectories(text: &str) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|number| *number >= MIN_TRAJECTORIES);
+    number.ok_or_else(|| format!("expected a whole number, at least {MIN_TRAJECTORIES}"))
 }
 
 impl Arguments {

@@ -66,10 +66,25 @@ impl Arguments {
 
     fn swept(&self, text: &str, space: &Space) -> Result<FactorValues, SweepError> {
         if text.contains('=') {
-            FactorValues::parse(text, space)
+            FactorValues::parse(text, space).inspect(|asked| tell_of_others(asked, space))
         } else {
             FactorValues::over_range(space, find(space, text)?, self.points)
         }
+    }
+}
+
+/// Says which of the values asked for the factor does not take.
+fn tell_of_others(asked: &FactorValues, space: &Space) {
+    let factor = &space.factors()[asked.factor];
+    let (low, high) = factor.distribution().support();
+    let outside: Vec<String> =
+        asked.values.iter().filter(|value| !(low..=high).contains(value)).map(f64::to_string).collect();
+    if !outside.is_empty() {
+        let range = format!("its range in the study, from {low} to {high}");
+        let values = outside.join(", ");
+        let unit = factor.unit();
+        let lie = if outside.len() == 1 { "lies" } else { "lie" };
+        say(&format!("note: {} = {values} (in {unit}) {lie} outside of {range}", factor.name));
     }
 }
 

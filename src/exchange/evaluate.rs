@@ -41,6 +41,8 @@ pub struct Evaluated {
     pub failures: BTreeMap<(String, RowFailure), (u64, u64)>,
     /// Names of the columns of text that are no factors, and were not read.
     pub skipped: Vec<String>,
+    /// The factors without a column, by number, which stand at their nominal values.
+    pub nominal: Vec<usize>,
     /// Whether the points are a text whose last line has no end: it may have been cut short, within a number too.
     pub unended: bool,
 }
@@ -80,7 +82,11 @@ pub fn evaluate_in(
     let most = executor.rows_at_once();
     let mut batch = Batch::new(model.as_ref());
     let mut columns = vec![Vec::with_capacity(most); factors.len()];
-    let mut evaluated = Evaluated { skipped: reader.skipped().to_vec(), ..Evaluated::default() };
+    let mut evaluated = Evaluated {
+        skipped: reader.skipped().to_vec(),
+        nominal: reader.missing(factors.len()),
+        ..Evaluated::default()
+    };
     let mut out = std::io::BufWriter::new(outputs);
     let copied: &[Factor] = if with_points { factors } else { &[] };
     let names = copied.iter().map(|factor| csv_field(&factor.name));

@@ -119,6 +119,11 @@ impl<'a> PointsReader<'a> {
         &self.skipped
     }
 
+    /// Those of the first `factors` factors that have no column.
+    pub fn missing(&self, factors: usize) -> Vec<usize> {
+        (0..factors).filter(|factor| !self.factors.contains(factor)).collect()
+    }
+
     /// Whether the file, read to its end, lacks the end of its last line.
     pub fn is_unended(&self) -> bool {
         self.rows.is_unended()

@@ -272,6 +272,16 @@ impl Unit {
         self.dimension
     }
 
+    /// Whether it is a label, which is none of the units that are known.
+    pub(crate) fn is_label(&self) -> bool {
+        self.is_label
+    }
+
+    /// Whether it measures something: it is neither a label nor that of pure numbers, which stands where nobody has said a unit.
+    pub(crate) fn is_of_kind(&self) -> bool {
+        !self.is_label && self.dimension != Dimension::NUMBER
+    }
+
     /// Whether values in one unit can be turned into the other: the same dimension, and the same label if they have one.
     pub fn compatible(&self, other: &Self) -> bool {
         let is_label = self.is_label || other.is_label;

@@ -103,6 +103,9 @@ fn path_in(folder: &Path, name: &str) -> Result<PathBuf, WriteError> {
 /// [`WriteError`] if the folder cannot be made or written to.
 pub fn prepare_folder(folder: &Path) -> Result<(), WriteError> {
     let attempt = || {
+        if let Some(file) = folder.ancestors().find(|part| part.exists()).filter(|part| !part.is_dir()) {
+            return Err(no_folder(format!("{} is a file, and a folder is needed", file.display())));
+        }
         std::fs::create_dir_all(folder)?;
         remove_left_overs(folder);
         temporary_in(folder)?.close()
@@ -122,13 +125,22 @@ pub fn prepare_file(path: &Path) -> Result<(), WriteError> {
     }
     let attempt = || {
         let target = followed(path)?;
+        let folder = folder_of(&target);
+        if !folder.exists() {
+            return Err(no_folder(format!("the folder {} does not exist", folder.display())));
+        }
         match std::fs::metadata(&target) {
             Ok(metadata) if !metadata.is_file() => Ok(()),
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
-            _ => temporary_in(folder_of(&target))?.close(),
+            _ => temporary_in(folder)?.close(),
         }
     };
     attempt().map_err(|source| WriteError { path: path.to_owned(), source })
+}
+
+/// What the user has named as a folder, or as one of a file, is none.
+fn no_folder(why: String) -> std::io::Error {
+    std::io::Error::new(std::io::ErrorKind::NotADirectory, why)
 }
 
 /// Where `path` leads: the end of a chain of links, or `path` itself.
@@ -253,11 +265,12 @@ mod tests {
         prepare_folder(&deep).unwrap();
         assert_eq!(std::fs::read_dir(&deep).unwrap().count(), 0);
         write_atomically(&deep.join("f"), b"").unwrap();
-        assert!(prepare_folder(&deep.join("f")).is_err());
+        let file = prepare_folder(&deep.join("f/g")).unwrap_err().to_string();
+        assert!(file.ends_with("a/b/f is a file, and a folder is needed"), "{file}");
         assert!(prepare_file(&deep).is_err());
         assert!(prepare_file(&deep.join("f")).is_ok());
         let nowhere = prepare_file(&folder.path().join("none/f")).unwrap_err().to_string();
-        assert!(nowhere.ends_with("none/f: No such file or directory (os error 2)"), "{nowhere}");
+        assert!(nowhere.contains("none/f: the folder ") && nowhere.ends_with("none does not exist"), "{nowhere}");
         assert!(prepare_file(&folder.path().join("n".repeat(300))).is_err());
     }
 

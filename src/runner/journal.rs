@@ -22,11 +22,15 @@ const LARGE: u64 = 64 << 20;
 impl Resume {
     /// The option that asks for it.
     fn option(self) -> &'static str {
-        if self == Self::RetryFailed { "--retry-failed" } else { "--resume" }
+        match self {
+            Self::RetryFailed => "--retry-failed",
+            Self::Double => "--double",
+            _ => "--resume",
+        }
     }
 
     fn is_required(self) -> bool {
-        matches!(self, Self::Require | Self::RetryFailed)
+        matches!(self, Self::Require | Self::RetryFailed | Self::Double)
     }
 }
 
@@ -153,7 +157,8 @@ pub(super) fn open(
 ) -> Result<OpenJournal, RunError> {
     let JournalRequest { resume, mixes_models, .. } = request;
     if !path.exists() {
-        if resume.is_required() {
+        // Quick runs with many outputs are not recorded: a result of theirs is doubled by evaluating all of them.
+        if resume.is_required() && resume != Resume::Double {
             return Err(refused(path, "there is no journal here: nothing is on record to go on with".to_owned()));
         }
         return fresh(study, path, request);
@@ -180,8 +185,8 @@ pub(super) fn open(
     let why = match resume {
         Resume::Never => Some("--restart".to_owned()),
         _ if mixes_models => other,
-        Resume::Require | Resume::RetryFailed => recalled.refuse(path, resume).map(|()| None)?,
-        Resume::IfThere => other.or_else(|| recalled.of_another_model()),
+        _ if resume.is_required() => recalled.refuse(path, resume).map(|()| None)?,
+        _ => other.or_else(|| recalled.of_another_model()),
     };
     if why.is_some() || contents.pieces.is_empty() && !request.needs_outputs {
         drop(journal);

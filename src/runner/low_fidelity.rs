@@ -88,7 +88,10 @@ impl LowPart {
         let record = match runner.journal.as_deref().filter(|_| takes_its_time) {
             None => OpenJournal::none(),
             Some(path) => {
-                let resume = if runner.resume == Resume::Require { Resume::IfThere } else { runner.resume };
+                let resume = match runner.resume {
+                    Resume::Require | Resume::Double => Resume::IfThere,
+                    other => other,
+                };
                 let request =
                     JournalRequest { resume, mixes_models: runner.mixes_models, shard: None, needs_outputs: true };
                 journal::open(&study, &beside(path, kind), request, context.messages())?

@@ -72,6 +72,8 @@ pub enum Resume {
     Require,
     /// The same, but evaluate those that failed again.
     RetryFailed,
+    /// Refuse to run without them where there is a journal: the run is a finished one made longer.
+    Double,
     /// Begin anew.
     Never,
 }

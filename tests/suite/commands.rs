@@ -247,12 +247,9 @@ fn new_overwrites_nothing_and_names_what_it_does_not_know() {
     assert!(message.contains("--factors: a name is empty: expected names separated by commas"), "{message}");
     assert!(!other.exists());
     let nowhere = apportion(&["new", text(&folder.path().join("none/study.toml"))]);
-    assert_eq!(nowhere.status.code(), Some(1));
+    assert_eq!(nowhere.status.code(), Some(2));
     let message = stderr(&nowhere);
-    assert!(
-        message.contains("cannot write") && message.ends_with("No such file or directory (os error 2)\n"),
-        "{message}"
-    );
+    assert!(message.contains("cannot write") && message.ends_with("none does not exist\n"), "{message}");
     // What is said to be typed next can be typed.
     let spaced = folder.path().join("it's mine.toml");
     let said = stderr(&apportion(&["new", text(&spaced), "--model", "expression"]));

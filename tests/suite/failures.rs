@@ -244,7 +244,12 @@ fn an_output_lost_to_failed_runs_is_a_failed_run() {
     let (study, out) = (folder.with("holes.toml", holes("max_failed = 0")), folder.path("out"));
     let output = apportion(&["run", text(&study), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    assert!(stderr(&output).contains("no indices of y: too many runs failed"), "{}", stderr(&output));
+    assert!(
+        stderr(&output)
+            .contains("no indices of y: too many runs failed, more than max_failed = 0 of them in [analysis]"),
+        "{}",
+        stderr(&output)
+    );
     let json = std::fs::read_to_string(out.join("holes.json")).unwrap();
     let result: apportion::report::ResultFile = serde_json::from_str(&json).unwrap();
     assert!(result.outputs[0].reason.as_ref().unwrap().contains("max_failed = 0"), "{json}");
@@ -328,7 +333,7 @@ fn results_that_cannot_be_written_are_found_before_the_run() {
     let file = folder.with("file", "");
     let study = study_path("coulomb-dimensional");
     let output = apportion(&["run", text(&study), "--out", text(&file.join("out"))]);
-    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(stderr(&output).contains("cannot write"));
     assert!(!stderr(&output).contains("model runs"), "the run must not start");
 }

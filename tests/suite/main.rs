@@ -33,6 +33,7 @@ mod given_data;
 mod given_surrogate;
 mod intervals;
 mod journal;
+mod kept;
 mod known;
 mod live;
 mod many_outputs;

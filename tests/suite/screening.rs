@@ -7,7 +7,7 @@ use apportion::report::screening::{ScreeningFile, screening_json};
 use apportion::report::sweep::{SweepFile, sweep_json};
 use apportion::screening::Reading;
 
-use crate::common::{all_files, apportion, files, stderr, study_path, succeed, text};
+use crate::common::{Folder, all_files, apportion, files, stderr, stdout, study_path, succeed, text};
 
 fn read(folder: &Path, name: &str) -> String {
     std::fs::read_to_string(folder.join(name)).unwrap()
@@ -183,7 +183,7 @@ fn bad_requests_are_refused_before_anything_is_written() {
         assert!(message.contains(expected), "{command} {more:?}: no {expected:?} in:\n{message}");
         assert!(!out.exists(), "{command} {more:?}");
     };
-    refused("screen", &["--trajectories", "3"], "3 is not in 4..");
+    refused("screen", &["--trajectories", "3"], "expected a whole number, at least 4");
     refused("screen", &["--trajectories", "18446744073709551615"], "more than 134217728 model runs");
     refused(
         "screen",
@@ -222,4 +222,34 @@ fn targets_are_checked_before_the_run() {
         assert!(stderr(&output).contains(blocked), "{}", stderr(&output));
         assert_eq!(files(&out).len(), 1, "nothing was written");
     }
+}
+
+#[test]
+fn values_outside_of_the_range_are_told_as_such() {
+    let folder = Folder::new();
+    let (study, out) = (study_path("soft-cantilever"), folder.path("out"));
+    let sweep = |factor: &str| {
+        let output = apportion(&[
+            "sweep",
+            text(&study),
+            "--factor",
+            factor,
+            "--points",
+            "3",
+            "--out",
+            text(&out),
+            "--charts",
+            "none",
+        ]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        (stdout(&output), stderr(&output))
+    };
+    let (said, notes) = sweep("thickness=0.01,2,500 um");
+    assert!(said.contains("Over the given values, ") && !said.contains("Over its range"), "{said}");
+    assert!(
+        notes.contains("note: thickness = 0.01, 500 (in um) lie outside of its range in the study, from "),
+        "{notes}"
+    );
+    let (said, notes) = sweep("thickness");
+    assert!(said.contains("Over its range, ") && !notes.contains("outside"), "{said}{notes}");
 }

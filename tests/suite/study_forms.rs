@@ -184,6 +184,43 @@ fn formulas_of_python_are_understood() {
     refused(&study("np.sinn(x1)"), &["s.toml:2:14:", "no function `np.sinn`", "functions: sin, cos"]);
 }
 
+#[test]
+fn a_key_mistyped_is_not_mistaken_for_a_fault_of_another() {
+    let rest = "outputs.y = \"x1\"\n[factor.x1]\nmin = 0\nmax = 1\n";
+    for typed in ["modle", "Model", "models"] {
+        let study = format!("{typed} = \"expression\"\n{rest}");
+        refused(&study, &["s.toml:1:1:", &format!("unknown key `{typed}`: did you mean `model`?")]);
+    }
+    let factors = |line: &str| format!("model = \"expression\"\noutputs.y = \"a\"\n[factors]\n{line}\n");
+    refused(
+        &factors("a = [0, 1.5]"),
+        &["s.toml:4:5:", "`a` must be a table, as a factor is written: { min = 0, max = 1.5 }"],
+    );
+    refused(&factors("a = 3\nb = { min = 0, max = 1 }"), &["s.toml:4:5:", "{ min = .., max = .. }"]);
+    refused(&factors("größe = { min = 0, max = 1 }"), &["s.toml:4:", "stands in quotes, as in \"größe\" = 2"]);
+}
+
+/// The scaffold of `new --model command` has such a table as a comment.
+#[test]
+fn a_table_of_a_programs_outputs_takes_the_place_of_their_list() {
+    let study = "model = \"command\"\noutputs = [\"force\", \"z\"]\n[command]\nprogram = [\"x\"]\noutputs.force = \"nN\"\n\
+                 [factor.a]\nmin = 0\nmax = 1\n";
+    refused(
+        study,
+        &[
+            "s.toml:2:21: unknown output `z`: the table of outputs in [command] takes the place of this list, and has force alone",
+            "outputs.z = \"1\", or its unit",
+        ],
+    );
+    let listed = study.replace("outputs.force = \"nN\"\n", "");
+    let set = ["command.outputs.force=nN".to_owned()];
+    let error = Study::parse(&listed, Path::new("s.toml"), &set).unwrap_err().to_string();
+    assert!(
+        error.contains("takes the place of this list") && error.contains("--set command.outputs.force=nN"),
+        "{error}"
+    );
+}
+
 /// Editors are told of every form that is read.
 #[test]
 fn the_schema_knows_the_forms() {

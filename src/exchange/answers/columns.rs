@@ -89,6 +89,15 @@ pub(super) fn subject(
     if request.units.is_empty() && names.clone().eq(own.iter().map(|output| &*output.name)) {
         return Ok(study.subject.clone());
     }
+    for (name, unit) in request.units {
+        let stated = own.iter().find(|output| output.name == *name).map(|output| &output.unit);
+        if let Some(own) = stated.filter(|own| own.is_of_kind() && !own.compatible(unit)) {
+            let kind =
+                if unit.is_label() { "is not known".to_owned() } else { format!("measures {}", unit.dimension()) };
+            let (name, unit, own_kind) = (name.clone(), unit.to_string(), own.dimension().to_string());
+            return Err(AnswersError::OtherUnit { name, unit, kind, own: own.to_string(), own_kind });
+        }
+    }
     let output = |name: &String| {
         let stated = own.iter().find(|output| output.name == *name);
         let unit = request.units.iter().find(|(known, _)| known == name).map(|(_, unit)| unit.clone());

@@ -53,6 +53,22 @@ pub enum AnswersError {
         /// The outputs.
         known: String,
     },
+    /// A unit of another kind than the one that the study says.
+    #[error(
+        "the unit `{unit}` is given for `{name}`, and {kind}: the study says `{own}`, so expected a unit of the same kind ({own_kind})"
+    )]
+    OtherUnit {
+        /// The output.
+        name: String,
+        /// The unit given.
+        unit: String,
+        /// What it measures, in words.
+        kind: String,
+        /// The unit of the study.
+        own: String,
+        /// What that measures.
+        own_kind: String,
+    },
     /// A file without names of another width.
     #[error(
         "the file has {width} columns, without names: expected {outputs} (the outputs) or {} (the {factors} factors, then \

@@ -109,7 +109,7 @@ impl Reading<'_> {
             store.insert(&self.piece(block, answers, missing)?);
             self.row += count as u64;
         }
-        let more = self.count_rest();
+        let more = self.count_rest()?;
         if more > 0 {
             let (found, expected) = (self.row + more, design.rows());
             let place = format!("row {} is the first of them", expected + 1);
@@ -164,7 +164,7 @@ impl Reading<'_> {
         let there: Vec<f64> = found.iter().map(|column| column[row]).collect();
         let Some(is) = self.find(&there) else { return Err(changed) };
         let (row, is) = (self.row + row as u64 + 1, is + 1);
-        let (total, expected) = (self.row + count as u64 + self.count_rest(), self.study.design.rows());
+        let (total, expected) = (self.row + count as u64 + self.count_rest()?, self.study.design.rows());
         let words = format!("row {row} of the file is row {is} of the design");
         Err(match total.cmp(&expected) {
             std::cmp::Ordering::Less if is > row => AnswersError::MissingRows {
@@ -200,12 +200,14 @@ impl Reading<'_> {
         None
     }
 
-    /// Rows of the file that have not been read, as far as they can be.
-    fn count_rest(&mut self) -> u64 {
+    /// Rows of the file that have not been read.
+    fn count_rest(&mut self) -> Result<u64, AnswersError> {
         let (mut rest, mut cells) = (0, vec![Vec::new(); self.wanted.len()]);
-        while let Ok(rows @ 1..) = self.reader.read(&self.wanted, COUNTED, &mut cells) {
-            rest += rows as u64;
+        loop {
+            match self.reader.read(&self.wanted, COUNTED, &mut cells)? {
+                0 => return Ok(rest),
+                rows => rest += rows as u64,
+            }
         }
-        rest
     }
 }

@@ -186,7 +186,13 @@ impl<R: Read> RowReader for CsvRows<R> {
 }
 
 fn wrong_record(source: csv::Error, line: u64) -> RowsError {
-    RowsError::NoCsv { line, source: source.into() }
+    // The reader counts records and bytes from its own beginning, which are of no use to the user.
+    match source.kind() {
+        csv::ErrorKind::Utf8 { .. } => {
+            RowsError::NoCsv { line, source: "it is not text in UTF-8: save the file as UTF-8".into() }
+        }
+        _ => RowsError::NoCsv { line, source: source.into() },
+    }
 }
 
 /// Writes CSV, every number with as many digits as it takes to read the same bits back.

@@ -94,7 +94,7 @@ pub enum Part {
         /// The sentences, a paragraph each.
         texts: Vec<String>,
     },
-    /// Lines to be read as they were typed, such as a study file; terminals do not show them.
+    /// Lines to be read as they were typed, such as a study file.
     Code(String),
     /// Another page set into this one, such as an animation, in a frame as high as its content; not printed.
     Frame {

@@ -33,14 +33,10 @@ impl<'a> Terminal<'a> {
                 Part::Notice { kind, texts, .. } => {
                     texts.iter().for_each(|text| self.line(&format!("{}: {text}", kind.to_lowercase())));
                 }
+                Part::Code(text) => text.lines().for_each(|line| self.line(format!("    {line}").trim_end())),
                 Part::Table(table) => self.table(table),
                 Part::Details { parts, .. } | Part::OnScreen { parts, .. } => self.parts(parts),
-                Part::Figure(_)
-                | Part::Gallery(_)
-                | Part::Links(_)
-                | Part::Code(_)
-                | Part::Frame { .. }
-                | Part::OnPage(_) => (),
+                Part::Figure(_) | Part::Gallery(_) | Part::Links(_) | Part::Frame { .. } | Part::OnPage(_) => (),
             }
         }
     }

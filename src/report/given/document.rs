@@ -54,12 +54,15 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
 fn left(output: &GivenOutputRecord) -> String {
     let sum = output.served().map(|of| of.sum_first_order).or(output.sum_first_order);
     sum.map_or_else(String::new, |sum| {
-        let missing = if sum < 1.0 {
+        let said = three(sum);
+        let missing = if said.parse() == Ok(1.0) {
+            return " The first-order indices sum to 1.".to_owned();
+        } else if sum < 1.0 {
             "what is missing to 1 may be interactions, noise, or inputs that are not there"
         } else {
             "beyond 1 by error, or by inputs that go together"
         };
-        format!(" The first-order indices sum to {}: {missing}.", three(sum))
+        format!(" The first-order indices sum to {}: {missing}.", said)
     })
 }
 

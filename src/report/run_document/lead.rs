@@ -217,11 +217,15 @@ fn trust(result: &ResultFile, warned: &[&[OutputRecord]]) -> String {
         1 => "Mind the warning below.".to_owned(),
         _ => format!("Mind the {warnings} warnings below."),
     });
-    if warnings == 0 && (failed > 0 || result.validity.iter().any(|flag| flag.runs > 0)) {
+    let lacks = result.series.is_empty() && result.outputs.iter().any(|output| output.indices.is_none());
+    if warnings == 0 && (lacks || failed > 0 || result.validity.iter().any(|flag| flag.runs > 0)) {
         sentences.pop();
     }
     sentences.join(" ")
 }
+
+/// Half width from which an interval says nothing of a share of the variance: it may be as long as all of it.
+pub(super) const WIDE: f64 = 0.5;
 
 fn settled(result: &ResultFile) -> String {
     let runs = grouped(result.provenance.model_runs);
@@ -230,12 +234,15 @@ fn settled(result: &ResultFile) -> String {
         let error = if found { "; nothing is known of the error of the indices" } else { "" };
         return format!("The study took {runs} model runs{error}.");
     };
-    let mut sentence = format!("After {runs} model runs every index is known to ± {} or better", half_width(widest));
+    let mut sentence = match widest < WIDE {
+        true => format!("After {runs} model runs every index is known to ± {} or better", half_width(widest)),
+        false => format!("After {runs} model runs the intervals are too wide to tell the indices"),
+    };
     if let Some(met) = result.stopping.as_ref().and_then(|stopping| stopping.target_met) {
         sentence.push_str(if met { "; the target is met" } else { "; the target is not met" });
     }
     let doubled = result.outputs.iter().filter_map(|output| width_after_doubling(&output.convergence));
-    if let Some(doubled) = doubled.reduce(f64::max) {
+    if let Some(doubled) = doubled.reduce(f64::max).filter(|width| *width < WIDE) {
         sentence.push_str(&format!("; twice the runs would bring about ± {}", half_width(doubled)));
     }
     sentence + "."

@@ -1,7 +1,7 @@
 //! What the document says about one output, topic by topic.
 
 use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, Numbered, PAIRS, SCATTER, SHARES};
-use super::lead::{by_total, widest};
+use super::lead::{WIDE, by_total, widest};
 use super::measures::measures;
 use super::noise::noise;
 use super::{tables, values};
@@ -254,7 +254,7 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     if output.surrogate.is_some() {
         sentences.push("The surrogate was fitted anew to the runs of every stage.".to_owned());
     }
-    if let Some(width) = widest(output) {
+    if let Some(width) = widest(output).filter(|width| *width < WIDE) {
         sentences.push(format!("In the end every index is known to ± {} or better.", half_width(width)));
     }
     match (width_after_doubling(&output.convergence), output.convergence.last()) {

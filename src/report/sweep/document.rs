@@ -76,7 +76,8 @@ fn widest(file: &SweepFile, nominal: &NominalRecord, number: usize) -> String {
     let output = name(&nominal.output);
     match by_width(file, number).first() {
         Some((sweep, SweepEffectRecord { low: Some(low), high: Some(high), .. })) if high > low => format!(
-            "Over its range, with all others nominal, {} moves {output} most: from {} to {}.",
+            "Over {}, with all others nominal, {} moves {output} most: from {} to {}.",
+            if sweep.given { "the given values" } else { "its range" },
             name(&sweep.factor),
             value(*low, ""),
             value(*high, &nominal.unit)

@@ -10,7 +10,7 @@ use super::super::records::{StudySetup, study_setup, validity};
 use super::super::result::ValidityRecord;
 use crate::model::Model;
 use crate::study::Study;
-use crate::sweep::{CurveOutput, Sweep, Sweeps, is_logarithmic};
+use crate::sweep::{CurveOutput, FactorValues, Sweep, Sweeps, is_logarithmic};
 
 /// All sweeps of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -66,6 +66,9 @@ pub struct FactorSweepRecord {
     pub spacing: String,
     /// Its values in `unit`.
     pub values: Vec<f64>,
+    /// Whether these were asked for, and are not those over its range.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub given: bool,
     /// What the values stand for, of a factor of categories.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub labels: Option<Vec<String>>,
@@ -228,11 +231,18 @@ fn factor_record(study: &Study, model: &dyn Model, sweep: &Sweep) -> FactorSweep
         unit: factor.unit().to_string(),
         nominal: factor.nominal,
         spacing: spacing.to_owned(),
+        given: is_given(study, sweep),
         values: sweep.values.clone(),
         labels: sweep.values.iter().map(|value| factor.distribution().label(*value).map(str::to_owned)).collect(),
         curves: std::iter::once(at_nominal).chain(family).collect(),
         effects: (0..model.outputs().len()).map(|number| effect(model, sweep, number)).collect(),
     }
+}
+
+/// Whether the values of a sweep are others than so many over the range of its factor.
+fn is_given(study: &Study, sweep: &Sweep) -> bool {
+    let over_range = FactorValues::over_range(&study.space, sweep.factor, sweep.values.len().max(2));
+    over_range.map_or(true, |range| range.values != sweep.values)
 }
 
 fn effect(model: &dyn Model, sweep: &Sweep, number: usize) -> SweepEffectRecord {

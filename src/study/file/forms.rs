@@ -9,7 +9,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 
 use super::context::wrong;
 use super::context::{Context, Fault};
-use super::error::Problem;
+use super::error::{Problem, meant};
 use crate::names::nearest;
 
 /// Brings `root`, a study file, to the form that `StudyFile` has.
@@ -51,7 +51,9 @@ fn factors(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
     let span = value.span();
     let DeValue::Table(table) = value.get_mut() else { return Ok(()) };
     let table = std::mem::take(table);
-    let by_name = table.iter().any(|(_, value)| value.get_ref().is_table());
+    let is_list = |value: &Spanned<DeValue<'_>>| value.get_ref().is_array();
+    let lists_alone = !table.is_empty() && table.values().all(is_list);
+    let by_name = lists_alone || table.values().any(|value| value.get_ref().is_table());
     let factors = if by_name { by_order(context, table)? } else { vec![Spanned::new(span, DeValue::Table(table))] };
     *value.get_mut() = DeValue::Array(DeArray::from_iter(factors));
     Ok(())
@@ -63,7 +65,12 @@ fn by_order<'a>(context: &Context<'_>, table: DeTable<'a>) -> Result<Vec<Spanned
     entries.sort_by_key(|(name, _)| name.span().start);
     let mut factors = Vec::with_capacity(entries.len());
     for (name, mut value) in entries {
+        let place = value.span();
         let DeValue::Table(fields) = value.get_mut() else {
+            if let found @ (DeValue::Array(_) | DeValue::Integer(_) | DeValue::Float(_)) = value.get_ref() {
+                let expected = format!("a table, as a factor is written: {{ {} }}", range_of(context, found));
+                return Err(context.fault(place, wrong(name.get_ref(), &expected, type_of(found))));
+            }
             let right = "beside [factor.NAME] every factor is such a table, with its own keys";
             let problem = Problem::Misplaced { name: name.get_ref().to_string(), right: right.to_owned() };
             return Err(context.fault(name.span(), problem));
@@ -82,6 +89,16 @@ fn by_order<'a>(context: &Context<'_>, table: DeTable<'a>) -> Result<Vec<Spanned
         factors.push(value);
     }
     Ok(factors)
+}
+
+/// The keys of a range, with the numbers of a list of two.
+fn range_of(context: &Context<'_>, list: &DeValue<'_>) -> String {
+    let text = |end: &Spanned<DeValue<'_>>| context.text.get(end.span()).unwrap_or_default().to_owned();
+    let [min, max] = match list.as_array().map(|ends| ends.iter().map(text).collect::<Vec<_>>()).as_deref() {
+        Some([min, max]) => [min.clone(), max.clone()],
+        _ => ["..".to_owned(), "..".to_owned()],
+    };
+    format!("min = {min}, max = {max}")
 }
 
 /// `noise = "seed"`, or a table: one more factor, the last one, of the distribution `seed`.
@@ -183,6 +200,12 @@ fn distribution(context: &Context<'_>, fields: &mut DeTable<'_>, name: &str, nam
 fn outputs_above(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
     let Some(value) = root.get("outputs").filter(|value| value.get_ref().is_table()) else { return Ok(()) };
     let place = value.span();
+    let is_model = |key: &str| meant(key, ["model"]).is_some();
+    if !root.contains_key("model") && root.keys().any(|key| is_model(key.get_ref())) {
+        // The reader tells of a `modle`, without which the outputs have no meaning.
+        root.remove("outputs");
+        return Ok(());
+    }
     let model = root.get("model").and_then(|model| model.get_ref().as_str()).unwrap_or_default();
     let Some(section) = ["expression", "command", "external"].into_iter().find(|section| *section == model) else {
         let expected =

@@ -25,12 +25,19 @@ fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
             let right = "of several factors each is a table [[factor]], with two brackets, or [factor.NAME]";
             Problem::Syntax(format!("the table [factor] stands here twice: {right}"))
         }
+        _ if message.contains("unquoted key") && !is_ascii(context.text.get(span.clone())) => {
+            Problem::Syntax(format!("{message}: a key of other letters stands in quotes, as in \"größe\" = 2"))
+        }
         _ if message.contains("dotted key") => {
             Problem::Syntax(format!("{message}: a key that has a dot itself stands in quotes, as in \"0.5\" = 2"))
         }
         _ => Problem::Syntax(in_words(message)),
     };
     context.fault(span, problem)
+}
+
+fn is_ascii(text: Option<&str>) -> bool {
+    text.is_none_or(str::is_ascii)
 }
 
 fn is_factor(key: Option<&str>) -> bool {

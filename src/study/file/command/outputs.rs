@@ -101,7 +101,15 @@ pub(super) fn places(
         // They are what was asked for, apart from repetitions.
         names.dedup();
     }
-    series::places(context, &names, series, asked)
+    series::places(context, &names, series, asked).map_err(|mut fault| {
+        // The nearest name is what was meant, if there is one.
+        if let Problem::UnknownName { what: "output", name, nearest: None, .. } = &fault.problem
+            && !section.outputs.is_empty()
+        {
+            fault.problem = Problem::NotInTable { name: name.clone(), known: names.join(", ") };
+        }
+        fault
+    })
 }
 
 /// Of a program that runs once for each row, every output says where it stands.

@@ -116,6 +116,16 @@ pub enum Problem {
         /// All names that could stand here; empty where no name is wrong.
         expected: String,
     },
+    /// An output in the list that the table of a program's outputs lacks.
+    #[error(
+        "unknown output `{name}`: the table of outputs in [command] takes the place of this list, and has {known} alone"
+    )]
+    NotInTable {
+        /// The output.
+        name: String,
+        /// The outputs of the table.
+        known: String,
+    },
     /// The list of outputs is empty.
     #[error("`outputs` is empty: there is nothing to study")]
     NoOutputs,
@@ -268,6 +278,9 @@ impl Problem {
                     .to_owned(),
             ),
             Self::ProgramFile { help, .. } => Some(help.clone()),
+            Self::NotInTable { name, .. } => Some(format!(
+                "give every output that the program prints a line in that table, in its order: outputs.{name} = \"1\", or its unit"
+            )),
             Self::NoOutputs => Some("name at least one output, or leave `outputs` out".to_owned()),
             Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => {
                 Some(format!("it takes {takes}"))
