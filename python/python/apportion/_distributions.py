@@ -41,8 +41,7 @@ __all__ = [
     "from_scipy",
 ]
 
-# Nearest numbers to 0 and 1 at which a quantile function is asked.
-_LEAST, _MOST = 2.0**-54, 1.0 - 2.0**-53
+_LEAST, _MOST = 2.0**-54, 1.0 - 2.0**-53  # nearest numbers to 0 and 1 at which a quantile function is asked
 
 
 class Factor:
@@ -386,9 +385,16 @@ def _of_engine(name: str, frozen: Any) -> Factor | None:
 
 class _Quantile:
     """A quantile function; a class, so that it goes to other processes."""
-
     def __init__(self, distribution: Any):
         self.distribution = distribution
+
+    def identity(self) -> tuple[Any, ...]:
+        """What tells it from others in journals: its parameters, the data of a histogram, the functions of a class of one's own."""
+        dist, of = self.distribution.dist, type(self.distribution.dist)
+        made = getattr(dist, "_updated_ctor_param", dict)()
+        made = {key: value for key, value in made.items() if key not in ("seed", "longname", "extradoc")}
+        own = () if of.__module__.startswith("scipy.") else [vars(of).get(name) for name in ("_ppf", "_cdf", "_pdf", "_pmf")]
+        return of.__module__, of.__qualname__, dist.name, self.distribution.args, self.distribution.kwds, made, own
 
     def __call__(self, u: np.ndarray) -> np.ndarray:
         return np.asarray(self.distribution.ppf(np.clip(u, _LEAST, _MOST)), dtype=float)
