@@ -346,10 +346,8 @@ def _of_engine(name: str, frozen: Any) -> Factor | None:
     except (AttributeError, TypeError, ValueError):
         return None
     at_zero = loc == 0.0
-    if name == "uniform":
-        return Uniform(loc, loc + s)
-    if name == "norm":
-        return Normal(loc, s)
+    if name in ("uniform", "norm"):
+        return Uniform(loc, loc + s) if name == "uniform" else Normal(loc, s)
     if name in ("loguniform", "reciprocal") and at_zero:
         return LogUniform(a[0] * s, a[1] * s)
     if name == "lognorm" and at_zero:
@@ -385,6 +383,7 @@ def _of_engine(name: str, frozen: Any) -> Factor | None:
 
 class _Quantile:
     """A quantile function; a class, so that it goes to other processes."""
+
     def __init__(self, distribution: Any):
         self.distribution = distribution
 

@@ -167,5 +167,16 @@ def reason_of(error: BaseException) -> str:
     return traceback.format_exception_only(type(error), error)[-1].strip()
 
 
+def with_hint(error: Exception, vectorised: bool) -> Exception:
+    """What to raise for an exception at every row: one that speaks of a function of numbers that got arrays says so."""
+    of_arrays = isinstance(error, IndexError) or isinstance(error, (TypeError, ValueError)) and "array" in str(error)
+    if not vectorised or not of_arrays:
+        return error
+    words = f"the function failed with arrays of several rows: {reason_of(error)}"
+    hinted = StudyError(f"{words}: if it is a function of one row, say vectorised=False")
+    hinted.__cause__ = error
+    return hinted
+
+
 def _values(length: int | None) -> str:
     return "one value" if length is None else f"{length} values"

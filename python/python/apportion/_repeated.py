@@ -57,6 +57,10 @@ class RepeatedCall:
         return self.call.function
 
     @property
+    def names(self) -> list[str]:
+        return self.call.names
+
+    @property
     def vectorised(self) -> bool:
         return self.call.vectorised
 

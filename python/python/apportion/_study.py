@@ -16,7 +16,7 @@ from ._checks import MOST_SEED, MOST_THREADS, whole
 from ._distributions import Seed
 from ._engine import StudyError
 from ._executors import called_elsewhere, workers_of
-from ._functions import Call, reason_of
+from ._functions import Call, reason_of, with_hint
 from ._keys import ANALYSIS, DESIGN, dependence_tables, factors_of, lengths_of, overridden, said, stated_outputs
 from ._progress import Progress, say
 from ._repeated import RepeatedCall, outputs_of, taken_out
@@ -370,7 +370,7 @@ class Study:
             if has_answered:
                 break
         if first is not None and not has_answered:
-            raise _with_hint(first, call)
+            raise with_hint(first, call.vectorised)
         self._tried = tried
         if call.columns == self.outputs:
             return
@@ -389,14 +389,3 @@ def analyse(model: Callable[..., Any] | str | None, factors: Mapping[str, Any] |
     running = ("threads", "executor", "in_flight", "journal", "resume", "progress")
     of_run = {key: options.pop(key) for key in running if key in options}
     return Study(model, factors, **options).run(**of_run)
-
-
-def _with_hint(error: Exception, call: Call | RepeatedCall) -> Exception:
-    """What to raise for an exception at every row: one that speaks of a function of numbers that got arrays says so."""
-    of_arrays = isinstance(error, IndexError) or isinstance(error, (TypeError, ValueError)) and "array" in str(error)
-    if call.vectorised and of_arrays:
-        words = f"the function failed with arrays of several rows: {reason_of(error)}"
-        hinted = StudyError(f"{words}: if it is a function of one row, say vectorised=False")
-        hinted.__cause__ = error
-        return hinted
-    return error
