@@ -1,6 +1,9 @@
 """What functions may do, hold and return."""
 
 import functools
+import os
+import subprocess
+import sys
 
 import apportion as ap
 import numpy as np
@@ -222,6 +225,11 @@ def test_a_row_that_fails_first_is_a_row_that_fails():
     # Rows of the trial are not asked again.
     assert len(calls) == result.runs
 
+    study = ap.Study(changed := Linear(1.0), UNIT, base_samples=16, vectorised=False)
+    study.run()
+    changed.k = 5.0
+    assert dict(study.run().total) == dict(ap.analyse(Linear(5.0), UNIT, base_samples=16, vectorised=False).total)
+
     def all_fail(x1, x2):
         calls.append(1)
         raise RuntimeError(f"call {len(calls)}")
@@ -271,6 +279,7 @@ def test_points_and_outputs_go_by_the_names_of_their_columns():
         (pandas.DataFrame(np.column_stack([x1, x2]), columns=["a", "a"]), "two columns of the name 'a'"),
         ({"a": x1, "b": x2[:-1]}, "output b has the shape"),
         ({}, "no columns"),
+        (np.ones((64, 3)), r"outputs of shape \(64, 3\): expected \(64, 2\), of a, b"),
         (3.0, "expected 64 rows"),
         (np.empty((0, 2)), "expected 64 rows"),
         ("abc", "expected real numbers"),
@@ -336,3 +345,55 @@ def test_numbers_are_floats_whatever_the_factor():
 
     ap.analyse(f, {"n": ap.Integer(0, 2), "x": (0, 1)}, base_samples=16, vectorised=False)
     assert set(kinds) == {float}
+
+
+HELD = """
+import functools, decimal, pathlib, threading
+import numpy as np, apportion as ap
+
+class Slots:
+    __slots__ = ("a",)
+    def __init__(self):
+        self.a = {"left", "right", "middle"}
+
+class Model:
+    def __init__(self):
+        self.lock, self.kinds = threading.Lock(), {"x", "y", "z"}
+        self.parts = [Slots(), pathlib.PurePosixPath("a/b"), decimal.Decimal("0.1"), np.float32(3), np.dtype("f8"), np.random.default_rng(3)]
+        self.table = {("a", 1): np.arange(3), ("b", 2): np.ma.masked_equal([1, 2], 2), None: np.array([{1, 2}, None], dtype=object)}
+        try:
+            import pandas
+            self.frame = pandas.DataFrame({"a": [1.0, 2.0], "b": ["u", "v"]})
+        except ImportError:
+            pass
+
+    @functools.lru_cache
+    def cached(self, x1, x2):
+        return x1
+
+    def __call__(self, x1, x2):
+        return x1
+
+model = Model()
+
+def kept():
+    def f(x1, x2, where=frozenset({"here", "there"})):
+        return model(x1, x2) if held else x1
+    held = model, np.sin, np.vectorize(lambda x: x), f
+    return f
+
+for f in (model, kept(), np.vectorize(model), functools.partial(kept(), where={"p", "q", "r"}), functools.lru_cache(kept())):
+    study = ap.Study(f, {"x1": (0, 1), "x2": (0, 1)}, base_samples=16, call="columns", vectorised=False)
+    study._learn()
+    print(study._call.fingerprint())
+"""
+
+
+def test_fingerprints_are_the_same_in_every_process():
+    found = set()
+    for seed in ("1", "2"):
+        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        done = subprocess.run([sys.executable, "-c", HELD], capture_output=True, text=True, env=environment, timeout=120)
+        assert done.returncode == 0, done.stderr
+        found.add(done.stdout)
+    assert len(found) == 1 and len(set(found.pop().split("\n"))) == 6

@@ -187,18 +187,21 @@ class Study:
         missing, says that a run failed."""
         if self._study.grows:
             raise StudyError("a study with an accuracy or a target chooses its runs as they go on: give it base_samples")
+        # Nobody has said what the outputs are.
+        is_unnamed = self._study.is_external and self._table.get("outputs") == ["y"]
         columns = named(outputs, "the outputs have")
         if columns is None:
             y = numbers(outputs, "the outputs are")
             if y.ndim == 0 or y.size == 0:
                 raise StudyError(f"outputs of shape {y.shape}: expected {self.runs} rows, (rows,) or (rows, outputs)")
             y = y.reshape(len(y), -1)
+            if y.shape[1] != len(self.outputs) and not is_unnamed:
+                raise StudyError(f"outputs of shape {y.shape}: expected ({self.runs}, {len(self.outputs)}), of {', '.join(self.outputs)}")
             names = self.outputs if y.shape[1] == len(self.outputs) else [f"y{k + 1}" for k in range(y.shape[1])]
             columns = dict(zip(names, y.T))
         else:
             columns = self._split(columns)
-        if set(columns) != set(self.outputs) and self._study.is_external and self._table.get("outputs") == ["y"]:
-            # Nobody has named the only output of this study.
+        if is_unnamed and set(columns) != set(self.outputs):
             self._table["outputs"] = list(columns)
             self._parse()
         return Result(self._study.analyse(np.column_stack(placed(columns, self.outputs, "the outputs come"))))
@@ -323,11 +326,11 @@ class Study:
         return {"call": call, "version": version, "workers": workers, "takes_its_time": takes_its_time}
 
     def _here(self, columns: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
-        """Calls the function on columns (factors, rows); rows that it was tried with are not asked again."""
+        """Calls the function on columns (factors, rows); what it was tried with counts as the first call of these rows."""
         assert self._call is not None
         x = columns.T
         tried = self._tried or {}
-        known = [(row, tried[of.tobytes()]) for row, of in enumerate(x) if of.tobytes() in tried] if tried else []
+        known = [(row, tried.pop(of.tobytes())) for row, of in enumerate(x) if of.tobytes() in tried] if tried else []
         if not known:
             return self._call.evaluate(self._call.rows(x))
         values = np.full((len(x), len(self._call.columns)), np.nan)
