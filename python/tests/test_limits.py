@@ -56,6 +56,8 @@ def test_factors_that_are_none_say_what_would_be_one():
     ]:
         with pytest.raises(ap.StudyError, match=words):
             ap.Study(None, factors)
+    with pytest.raises(ap.StudyError, match="dependence=0.5: expected correlations by pairs"):
+        ap.Study(None, UNIT, dependence=0.5)
     # A bound may be an array of no dimensions.
     study = ap.Study(None, {"x": (np.array(0), np.array(2.0)), "z": (0, 1)}, base_samples=16)
     assert 1.5 < study.sample()[:, 0].max() <= 2.0
