@@ -41,12 +41,12 @@ def expanded(names: Sequence[str], lengths: Mapping[str, int | None]) -> list[st
 
 
 def read(answer: Any, rows: int, vectorised: bool, expected: Sequence[str] | None, hint: bool) -> Answer:
-    """What a function returned for `rows` rows. Outputs by name come in the order of `expected`, if they are the same ones; with
-    `hint` the words about a wrong shape say what a function of one row has to say."""
+    """What a function returned for `rows` rows, or an `AnswerError`. Outputs by name come in the order of `expected`, if they are
+    the same ones; with `hint` the words about a wrong shape say what a function of one row has to say."""
     if answer is None:
-        raise NoAnswer("the function returned None") if not vectorised else AnswerError(
-            f"the function returned None for {rows} rows: expected its outputs, as an array, a tuple of arrays or a dict"
-        )
+        if not vectorised:
+            raise NoAnswer("the function returned None")
+        raise AnswerError(f"the function returned None for {rows} rows: expected an array, a tuple of arrays or a dict")
     table = named(answer, "the function returned", AnswerError)
     if table is not None:
         names = list(expected) if expected is not None and sorted(expected) == sorted(table) else list(table)

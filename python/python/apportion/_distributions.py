@@ -390,8 +390,8 @@ class _Quantile:
     def identity(self) -> tuple[Any, ...]:
         """What tells it from others in journals: its parameters, the data of a histogram, the functions of a class of one's own."""
         dist, of = self.distribution.dist, type(self.distribution.dist)
-        made = getattr(dist, "_updated_ctor_param", dict)()
-        made = {key: value for key, value in made.items() if key not in ("seed", "longname", "extradoc")}
+        parameters: dict[str, Any] = getattr(dist, "_updated_ctor_param", dict)()
+        made = {key: value for key, value in parameters.items() if key not in ("seed", "longname", "extradoc")}
         own = () if of.__module__.startswith("scipy.") else [vars(of).get(name) for name in ("_ppf", "_cdf", "_pdf", "_pmf")]
         return of.__module__, of.__qualname__, dist.name, self.distribution.args, self.distribution.kwds, made, own
 

@@ -143,7 +143,7 @@ class _Walk:
         digest.update(_words(function.__defaults__).encode())
         self.parts[f"{path}.code"] = digest.hexdigest()
 
-    def _function(self, function: types.FunctionType, path: str, inside: tuple[int, ...]) -> None:
+    def _function(self, function: Any, path: str, inside: tuple[int, ...]) -> None:
         for place, default in enumerate(function.__defaults__ or ()):
             if not _are_words(default):
                 self.split(default, f"{path}.default {place}", inside)
@@ -237,7 +237,19 @@ class _Walk:
         return digest.hexdigest()
 
 
-_CONTAINERS = (list, tuple, set, frozenset, dict, types.MappingProxyType, bytearray, memoryview, np.ndarray, np.generic, types.CodeType)
+_CONTAINERS = (
+    list,
+    tuple,
+    set,
+    frozenset,
+    dict,
+    types.MappingProxyType,
+    bytearray,
+    memoryview,
+    np.ndarray,
+    np.generic,
+    types.CodeType,
+)
 
 
 def _is_split(value: Any) -> bool:

@@ -57,7 +57,9 @@ def _table(data: Any, letter: str, what: str) -> tuple[list[str], np.ndarray]:
             raise StudyError(f"{what} have an array of shape {column.shape} in {name!r}: expected (rows,)")
     lengths = {len(column) for column in columns.values()}
     if lengths in (set(), {0}):
-        raise StudyError(f"{what} have no rows: expected a mapping from names to (rows,), a frame, or an array of (rows, columns)")
+        raise StudyError(
+            f"{what} have no rows: expected a mapping from names to (rows,), a frame, or an array of (rows, columns)"
+        )
     if len(lengths) > 1:
         found = ", ".join(f"{len(column)} in {name!r}" for name, column in columns.items())
         raise StudyError(f"{what} have different numbers of rows: {found}")

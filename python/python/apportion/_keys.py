@@ -78,7 +78,9 @@ def dependence_tables(asked: Any, factors: Mapping[str, Factor]) -> list[dict[st
     elif isinstance(asked, Mapping):
         asked = [{"factors": list(pair), "correlation": correlation} for pair, correlation in asked.items()]
     if not isinstance(asked, (list, tuple)) or not all(isinstance(table, Mapping) for table in asked):
-        raise StudyError(f'dependence={asked!r:.80}: expected correlations by pairs, as {{("a", "b"): 0.6}}, or a list of tables')
+        raise StudyError(
+            f'dependence={asked!r:.80}: expected correlations by pairs, as {{("a", "b"): 0.6}}, or a list of tables'
+        )
     tables = [dict(table) for table in asked]
     for table in tables:
         for key in ("correlation", "measurements"):

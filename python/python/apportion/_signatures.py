@@ -12,7 +12,9 @@ import numpy as np
 from ._engine import StudyError
 
 STYLES = ("columns", "keywords", "matrix")
-_SAY = 'say call="columns" (one argument per factor, in their order), "keywords" (by name) or "matrix" (all factors in one array)'
+_SAY = (
+    'say call="columns" (one argument per factor, in their order), "keywords" (by name) or "matrix" (all factors in one array)'
+)
 
 
 def style_of(function: Callable[..., Any], names: list[str]) -> str:
