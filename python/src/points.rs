@@ -8,6 +8,8 @@ use pyo3::prelude::*;
 
 use crate::document::Document;
 use crate::errors::input;
+use crate::function::Stop;
+use crate::run::watched;
 
 /// The columns of an array of (rows, columns).
 pub fn columns(names: Vec<String>, values: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Column>> {
@@ -41,16 +43,22 @@ pub fn given_data(
     let method = method.ok_or_else(|| input(format!("method: expected one of {names}")))?;
     let (inputs, outputs) = (columns(inputs.0, &inputs.1)?, columns(outputs.0, &outputs.1)?);
     let laws = distributions.map(|study| study.distributions_of(&inputs)).transpose()?;
-    py.detach(|| {
-        let indices = analyse(&inputs, &outputs, method, seed).map_err(input)?;
+    let name = name.to_owned();
+    let work = move |stop: &Stop| {
+        let going_on = || if stop.is_set() { Err("interrupted".to_owned()) } else { Ok(()) };
+        let indices = analyse(&inputs, &outputs, method, seed).map_err(|error| error.to_string())?;
+        going_on()?;
         let surrogates = surrogate.then(|| surrogate_indices(&inputs, &outputs, &indices, laws.as_deref()));
-        let facts = GivenFacts { file: name.to_owned(), sha256, dropped: None, method, seed };
+        going_on()?;
+        let facts = GivenFacts { file: name.clone(), sha256, dropped: None, method, seed };
         let mut result = build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts);
         if measures {
             result = result.with_measures(&measured(&inputs, &outputs, &indices, seed));
         }
-        Ok(Document::new(given_document(&result, name)))
-    })
+        going_on()?;
+        Ok(Document::new(given_document(&result, &name)))
+    };
+    watched(py, work)?.map_err(|reason: String| input(reason))
 }
 
 /// An estimate with the ends of its interval.
@@ -76,7 +84,7 @@ pub fn salib_indices(
     if let Some(row) = y.iter().position(|y| !y.is_finite()) {
         return Err(input(format!("output {row} (from 0) is not finite")));
     }
-    let found = py.detach(|| indices_of(&y, d, layout, resamples, seed)).map_err(input)?;
+    let found = watched(py, move |_| indices_of(&y, d, layout, resamples, seed))?.map_err(input)?;
     let triple = |of: apportion::Estimate| {
         let interval = of.interval.map_or((f64::NAN, f64::NAN), |interval| (interval.low, interval.high));
         (of.estimate, interval.0, interval.1)

@@ -1,12 +1,13 @@
 //! A run in a thread of its own, while the thread that started it answers calls, watches for signals and tells progress.
 
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use apportion::Progress;
 use pyo3::prelude::*;
 
+use crate::errors::failed;
 use crate::function::{Event, PythonModel, Stop};
 
 /// How long signals and progress may wait.
@@ -115,4 +116,27 @@ pub fn attend<R: Send>(
     }
     told.tell(py, listeners)?;
     done.map_err(|panic| std::panic::resume_unwind(panic))
+}
+
+/// What `work` returns, done in a thread of its own while this one watches for signals. An interruption is told at once: `work`,
+/// which owns all that it needs and has nothing of Python, then ends by itself where it next looks at `stop`.
+pub fn watched<R: Send + 'static>(py: Python<'_>, work: impl FnOnce(&Stop) -> R + Send + 'static) -> PyResult<R> {
+    let (stop, (sender, receiver)) = (Stop::default(), channel());
+    let seen = stop.clone();
+    let handle = std::thread::Builder::new().spawn(move || drop(sender.send(work(&seen)))).map_err(failed)?;
+    py.detach(move || {
+        loop {
+            match receiver.recv_timeout(LOOK) {
+                Ok(result) => return Ok(result),
+                Err(RecvTimeoutError::Timeout) => {
+                    Python::attach(|py| py.check_signals()).inspect_err(|_| stop.set())?
+                }
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+        }
+        match handle.join() {
+            Err(panic) => std::panic::resume_unwind(panic),
+            Ok(()) => Err(failed("the computation ended without a result")),
+        }
+    })
 }

@@ -13,6 +13,7 @@ use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, scr
 use apportion::sweep::{FactorValues, SweepRequest, find, sweep_in};
 use apportion::{Analysis, Batch, Distribution, Resume, RowFailure, RunContext, Runner};
 use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
 use crate::document::Document;
@@ -110,18 +111,28 @@ impl Study {
         self.study.subject().is_external()
     }
 
-    /// Rows `first` to `last` of the design: an array of (rows, factors) in the units of the factors.
+    /// Rows `first` to `last` of the design: an array of (rows, factors) in the units of the factors. `MemoryError` if there is no
+    /// room for them.
     fn sample<'py>(&self, py: Python<'py>, first: u64, last: u64) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let (space, design) = (self.study.space(), self.study.design());
         let factors = space.factors().len();
-        let rows: Vec<f64> = py.detach(|| {
+        let last = last.min(design.rows());
+        let count = last.saturating_sub(first);
+        let mut rows: Vec<f64> = Vec::new();
+        let numbers = usize::try_from(count).unwrap_or(usize::MAX).saturating_mul(factors);
+        rows.try_reserve_exact(numbers).map_err(|_| {
+            let gigabytes = 8e-9 * count as f64 * factors as f64;
+            PyMemoryError::new_err(format!(
+                "{count} points of {factors} factors need {gigabytes:.0} GB: lower base_samples"
+            ))
+        })?;
+        let rows = py.detach(|| {
             let mut u = vec![0.0; factors];
-            let mut values = Vec::with_capacity((last.saturating_sub(first)) as usize * factors);
-            for row in first..last.min(design.rows()) {
+            for row in first..last {
                 design.point(row, &mut u);
-                values.extend(space.values_at(&u));
+                rows.extend(space.values_at(&u));
             }
-            values
+            rows
         });
         let count = rows.len() / factors.max(1);
         numpy::PyArray1::from_vec(py, rows).reshape([count, factors])

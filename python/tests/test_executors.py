@@ -2,10 +2,11 @@ import multiprocessing
 import shutil
 import subprocess
 import sys
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
 import apportion as ap
+import numpy as np
 import pytest
 from conftest import polynomial
 from functions_elsewhere import DiesOnce, row, slow_row
@@ -38,7 +39,7 @@ def test_a_broken_pool_ends_the_run_and_its_journal_goes_on(cube, tmp_path):
     function = DiesOnce(str(tmp_path / "mark"))
     options = {"base_samples": 64, "outputs": ["y"], "call": "columns", "journal": journal}
     study = ap.Study(function, cube, **{key: options[key] for key in ("base_samples", "outputs", "call")})
-    study._first = (None, None)
+    study._tried = {}
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as executor:
         with pytest.raises(ap.RunError, match="the executor failed"):
             study.run(executor=executor, journal=journal)
@@ -53,7 +54,7 @@ def test_dask_loses_a_worker_and_no_row(cube, tmp_path):
         client = distributed.Client(cluster)
         client.run(lambda: sys.path.insert(0, str(HERE)))
         study = ap.Study(DiesOnce(str(tmp_path / "mark")), cube, base_samples=64, outputs=["y"], call="columns")
-        study._first = (None, None)
+        study._tried = {}
         assert dict(study.run(executor=client.get_executor()).total) == expected(cube, 64)
         assert (tmp_path / "mark").exists()
         client.close()
@@ -83,3 +84,84 @@ def test_mpi4py_futures(cube, tmp_path):
 
 def test_slow_rows_one_at_a_time(cube):
     assert dict(ap.analyse(slow_row, cube, base_samples=16, vectorised=False).total)
+
+
+MAIN = """
+import functools, multiprocessing
+from concurrent.futures import Future, ProcessPoolExecutor
+import apportion as ap, numpy as np
+
+def model(x1, x2, k=1.0):
+    return x1 + k * x2
+
+def decorated(f):
+    @functools.wraps(f)
+    def inner(x1, x2):
+        return f(x1, x2, 2.0)
+    return inner
+
+class Model:
+    def __call__(self, x1, x2):
+        return model(x1, x2, 2.0)
+
+if __name__ == "__main__":
+    factors = {"x1": (0, 1), "x2": (0, 1)}
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as executor:
+        for f in (functools.partial(model, k=2.0), np.vectorize(lambda x1, x2: x1 + 2 * x2), np.vectorize(functools.partial(model, k=2.0)),
+                  decorated(model), Model(), Model().__call__):
+            found = ap.analyse(f, factors, base_samples=16, executor=executor, call="columns")
+            print(round(found.total["x2"].estimate, 6))
+"""
+
+
+def test_functions_of_a_script_reach_new_processes(tmp_path):
+    pytest.importorskip("cloudpickle")
+    # The workers do not find the functions by themselves: they run another file of that name.
+    script = tmp_path / "script.py"
+    script.write_text(f"import sys\ncode = {MAIN!r}\nif __name__ == '__main__':\n    exec(code)\n")
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["0.8"] * 6
+
+
+def test_an_executor_that_is_gone_is_not_asked_again(cube):
+    executor = ProcessPoolExecutor(1)
+    executor.shutdown()
+    with pytest.raises(ap.RunError, match="over a block of .* rows: it takes no more work: cannot schedule"):
+        ap.analyse(polynomial, cube, base_samples=64, executor=executor)
+
+
+def test_what_cannot_go_to_another_process_says_so(cube):
+    import threading
+
+    lock = threading.Lock()
+
+    def locked(x1, x2, x3):
+        with lock:
+            return polynomial(x1, x2, x3)
+
+    with ProcessPoolExecutor(1) as executor:
+        with pytest.raises(ap.RunError, match="cannot go to another process .*lock"):
+            ap.analyse(locked, cube, base_samples=64, executor=executor)
+    with ThreadPoolExecutor(2) as executor:
+        assert dict(ap.analyse(locked, cube, base_samples=64, executor=executor).total) == dict(
+            ap.analyse(polynomial, cube, base_samples=64).total
+        )
+
+
+class Unaligned:
+    """Answers with arrays as they may come out of a message: one byte beside where numbers lie."""
+
+    def submit(self, function, *arguments):
+        values, failures = function(*arguments)
+        buffer = np.zeros(values.nbytes + 1, dtype=np.uint8)
+        moved = buffer[1:].view(float).reshape(values.shape)
+        moved[:] = values
+        assert not moved.flags.aligned
+        future = Future()
+        future.set_result((moved, failures))
+        return future
+
+
+def test_answers_may_lie_anywhere(cube):
+    assert dict(ap.analyse(polynomial, cube, base_samples=64, executor=Unaligned(), in_flight=1).total) == expected(cube, 64)

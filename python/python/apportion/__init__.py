@@ -9,12 +9,13 @@
 """
 
 from . import salib
+from ._answers import AnswerError
 from ._distributions import *  # noqa: F403
 from ._distributions import __all__ as _distributions
 from ._engine import RunError, StudyError, __version__
-from ._functions import AnswerError
 from ._given import given_data
-from ._result import Document, Index, Indices, OutputResult, Result, SeriesResult, load_result
+from ._indices import Index, Indices, OutputResult, SeriesResult
+from ._result import Document, Result, load_result
 from ._study import Study, analyse
 from .salib import from_problem as from_salib
 

@@ -41,8 +41,7 @@ __all__ = [
     "from_scipy",
 ]
 
-# Nearest numbers to 0 and 1 at which a quantile function is asked.
-_LEAST, _MOST = 2.0**-54, 1.0 - 2.0**-53
+_LEAST, _MOST = 2.0**-54, 1.0 - 2.0**-53  # nearest numbers to 0 and 1 at which a quantile function is asked
 
 
 class Factor:
@@ -347,10 +346,8 @@ def _of_engine(name: str, frozen: Any) -> Factor | None:
     except (AttributeError, TypeError, ValueError):
         return None
     at_zero = loc == 0.0
-    if name == "uniform":
-        return Uniform(loc, loc + s)
-    if name == "norm":
-        return Normal(loc, s)
+    if name in ("uniform", "norm"):
+        return Uniform(loc, loc + s) if name == "uniform" else Normal(loc, s)
     if name in ("loguniform", "reciprocal") and at_zero:
         return LogUniform(a[0] * s, a[1] * s)
     if name == "lognorm" and at_zero:
@@ -389,6 +386,14 @@ class _Quantile:
 
     def __init__(self, distribution: Any):
         self.distribution = distribution
+
+    def identity(self) -> tuple[Any, ...]:
+        """What tells it from others in journals: its parameters, the data of a histogram, the functions of a class of one's own."""
+        dist, of = self.distribution.dist, type(self.distribution.dist)
+        parameters: dict[str, Any] = getattr(dist, "_updated_ctor_param", dict)()
+        made = {key: value for key, value in parameters.items() if key not in ("seed", "longname", "extradoc")}
+        own = () if of.__module__.startswith("scipy.") else [vars(of).get(name) for name in ("_ppf", "_cdf", "_pdf", "_pmf")]
+        return of.__module__, of.__qualname__, dist.name, self.distribution.args, self.distribution.kwds, made, own
 
     def __call__(self, u: np.ndarray) -> np.ndarray:
         return np.asarray(self.distribution.ppf(np.clip(u, _LEAST, _MOST)), dtype=float)

@@ -11,26 +11,47 @@ from typing import Any
 
 import numpy as np
 
-from ._engine import RunError, Stop
-from ._functions import AnswerError, Call
+from ._answers import AnswerError
+from ._checks import whole
+from ._engine import RunError, Stop, StudyError
+from ._functions import Call
 from ._repeated import RepeatedCall
 
 # How often a block is handed out before the run gives up.
 ATTEMPTS = 4
 # Blocks under way for each worker, so that none waits for the next one.
 AHEAD = 2
+# A thread of the engine waits for each.
+MOST_IN_FLIGHT = 8192
 
 
-def workers_of(executor: Any) -> int:
-    """How many workers an executor has, as far as it tells."""
+def workers_of(executor: Any, in_flight: int | None) -> int:
+    """How many blocks are handed to an executor at a time: `in_flight`, or as many as it tells of its workers.
+
+    A `StudyError` says what was expected if it is no executor.
+    """
+    if isinstance(executor, type) or not callable(getattr(executor, "submit", None)):
+        raise StudyError(
+            f"executor={executor!r}: expected an executor of concurrent.futures or of its kind, which has submit(), such as "
+            "ProcessPoolExecutor(8)"
+        )
+    if in_flight is not None:
+        return whole("in_flight", in_flight, 1, MOST_IN_FLIGHT)
     client = getattr(executor, "_client", None)
+    count = os.cpu_count() or 1
     if client is not None and hasattr(client, "nthreads"):
-        return max(1, sum(client.nthreads().values()))
-    for name in ("_max_workers", "num_workers", "max_workers"):
-        count = getattr(executor, name, None)
-        if isinstance(count, int) and count > 0:
-            return count
-    return os.cpu_count() or 1
+        count = max(1, sum(client.nthreads().values()))
+    else:
+        for name in ("_max_workers", "num_workers", "max_workers"):
+            told = getattr(executor, name, None)
+            if isinstance(told, int) and told > 0:
+                count = told
+                break
+    return min(AHEAD * count, MOST_IN_FLIGHT)
+
+
+class _Closed(Exception):
+    """The executor is broken or shut down: asking again is of no use."""
 
 
 class Blocks:
@@ -39,26 +60,34 @@ class Blocks:
     def __init__(self, executor: Any, call: Call | RepeatedCall, stop: Stop):
         self.executor = executor
         self.stop = stop
-        self.call = _portable(call)
+        # Threads need no copy.
+        is_here = isinstance(executor, concurrent.futures.ThreadPoolExecutor)
+        self.call = call if is_here else _portable(call)
 
     def __call__(self, columns: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
         x = np.ascontiguousarray(columns.T)
         for attempt in range(1, ATTEMPTS + 1):
             try:
-                return self._once(x)
+                values, failures = self._once(x)
+                # What comes from other processes may lie anywhere in a buffer; the engine reads aligned numbers.
+                return np.require(values, float, ["C", "ALIGNED"]), failures
             except (AnswerError, KeyboardInterrupt, pickle.PicklingError):
                 raise
             except Exception as error:
                 # The function's own exceptions are answers: this is one of the workers, or the way to them.
-                if self.stop.is_set() or attempt == ATTEMPTS:
-                    raise RunError(
-                        f"the executor failed {attempt} times over a block of {len(x)} rows: {type(error).__name__}: {error}"
-                    ) from error
+                is_gone = isinstance(error, (_Closed, concurrent.futures.BrokenExecutor))
+                if is_gone or self.stop.is_set() or attempt == ATTEMPTS:
+                    often = "" if is_gone else f" {attempt} times"
+                    words = str(error) if isinstance(error, _Closed) else f"{type(error).__name__}: {error}"
+                    raise RunError(f"the executor failed{often} over a block of {len(x)} rows: {words}") from error
                 time.sleep(0.1 * attempt)
         raise AssertionError("unreachable")
 
     def _once(self, x: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
-        future = self.executor.submit(_evaluate, self.call, x)
+        try:
+            future = self.executor.submit(_evaluate, self.call, x)
+        except RuntimeError as error:
+            raise _Closed(f"it takes no more work: {error}") from error
         while True:
             try:
                 return future.result(timeout=0.2)
@@ -72,7 +101,8 @@ class Blocks:
 
 def _evaluate(call: Any, x: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
     """In the worker."""
-    return (call.load() if isinstance(call, _ByValue) else call).evaluate(x)
+    call = call.load() if isinstance(call, _ByValue) else call
+    return call.evaluate(call.rows(x))
 
 
 class _ByValue:
@@ -96,27 +126,31 @@ class _ByValue:
 
 
 def _portable(call: Call | RepeatedCall) -> Any:
-    module = getattr(call.function, "__module__", None)
+    """The call as it goes to another process: by reference where that finds all of it there, else with its code."""
     try:
-        if module != "__main__":
-            pickle.dumps(call)
-            return call
-    except Exception:
-        pass
+        data, reason = pickle.dumps(call), None
+    except Exception as error:
+        data, reason = b"", error
+    # What refers to the script or notebook, wherever in the function it stands, is not found by workers that begin anew.
+    if reason is None and b"__main__" not in data:
+        return call
     try:
         import cloudpickle
     except ImportError:
-        try:
-            pickle.dumps(call)
-        except Exception as error:
-            raise RunError(
-                f"the function cannot go to another process ({error}): define it in a module, or install cloudpickle"
-            ) from error
-        return call
-    return _ByValue(cloudpickle.dumps(call))
+        if reason is None:
+            return call
+        raise RunError(_words(reason) + ": define it in a module, or install cloudpickle") from reason
+    try:
+        return _ByValue(cloudpickle.dumps(call))
+    except Exception as error:
+        words = "make what cannot go (a lock, a file, a connection) inside of the function, or use a ThreadPoolExecutor"
+        raise RunError(f"{_words(error)}: {words}") from error
 
 
-def called_elsewhere(executor: Any, call: Call | RepeatedCall, stop: Stop, workers: int | None) -> tuple[Callable[..., Any], int]:
-    """What the engine calls, and from how many threads."""
-    count = workers if workers is not None else AHEAD * workers_of(executor)
-    return Blocks(executor, call, stop), max(1, count)
+def _words(error: Exception) -> str:
+    return f"the function cannot go to another process ({type(error).__name__}: {error})"
+
+
+def called_elsewhere(executor: Any, call: Call | RepeatedCall, stop: Stop) -> Callable[..., Any]:
+    """What the engine calls."""
+    return Blocks(executor, call, stop)

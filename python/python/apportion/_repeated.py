@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ._engine import StudyError
-from ._functions import Call, expanded
+from ._answers import expanded
+from ._checks import whole
+from ._functions import Call
 
 _MOST = 1000
 _PARTS = ("mean", "variance")
@@ -17,10 +18,7 @@ _PARTS = ("mean", "variance")
 def taken_out(noise: Mapping[str, Any]) -> tuple[dict[str, Any], int]:
     """The table without its repetitions, and how many there are."""
     table = dict(noise)
-    repetitions = table.pop("repetitions", 1)
-    if isinstance(repetitions, bool) or not isinstance(repetitions, (int, np.integer)) or not 1 <= repetitions <= _MOST:
-        raise StudyError(f"repetitions must be a whole number from 1 to {_MOST}, not {repetitions!r}")
-    return table, int(repetitions)
+    return table, whole("repetitions", table.pop("repetitions", 1), 1, _MOST)
 
 
 def outputs_of(outputs: Any) -> Any:
@@ -59,6 +57,10 @@ class RepeatedCall:
         return self.call.function
 
     @property
+    def names(self) -> list[str]:
+        return self.call.names
+
+    @property
     def vectorised(self) -> bool:
         return self.call.vectorised
 
@@ -79,21 +81,21 @@ class RepeatedCall:
         """What the function gets at the first of its calls for the rows `x`."""
         return self.call.rows(x)
 
-    def probe(self, x: np.ndarray) -> np.ndarray:
-        """The outputs of the rows `x`, which must answer and show the names of the outputs."""
-        self.call.probe(x)
-        values, failures = self.evaluate(x)
+    def probe(self, rows: np.ndarray) -> np.ndarray:
+        """The outputs of `rows`, which must answer and show the names of the outputs."""
+        self.call.probe(rows)
+        values, failures = self.evaluate(rows)
         if failures:
             raise RuntimeError(failures[0][1])
         return values
 
-    def evaluate(self, x: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
-        """Outputs of the rows `x`, and (row, reason) of rows that failed: those without one of their repetitions."""
-        calls = np.tile(x, (self.repetitions, 1))
-        numbers = np.repeat(np.arange(self.repetitions, dtype=np.uint64), len(x))
+    def evaluate(self, rows: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
+        """Outputs of `rows`, and (row, reason) of rows that failed: those without one of their repetitions."""
+        calls = np.tile(rows, (self.repetitions, 1))
+        numbers = np.repeat(np.arange(self.repetitions, dtype=np.uint64), len(rows))
         calls[:, self.seed] = _seeds(calls[:, self.seed], numbers)
         values, failed = self.call.evaluate(calls)
-        values = values.reshape(self.repetitions, len(x), -1)
+        values = values.reshape(self.repetitions, len(rows), -1)
         mean, squares = np.zeros(values.shape[1:]), np.zeros(values.shape[1:])
         # One by one (Welford 1962, Technometrics 4, 419-420), so that large values lose no digits.
         for number, value in enumerate(values):
@@ -109,7 +111,7 @@ class RepeatedCall:
         ]
         first: dict[int, str] = {}
         for place, reason in failed:
-            first.setdefault(place % len(x), reason)
+            first.setdefault(place % len(rows), reason)
         return np.column_stack(own), sorted(first.items())
 
     def fingerprint(self) -> str:

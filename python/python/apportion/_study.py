@@ -3,44 +3,28 @@
 from __future__ import annotations
 
 import os
-import sys
-import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from . import _engine, _toml
-from ._distributions import Factor, Seed
-from ._engine import RunError, StudyError
-from ._executors import called_elsewhere
-from ._functions import Call, expanded
+from ._answers import AnswerError, NoAnswer, expanded
+from ._checks import MOST_SEED, MOST_THREADS, whole
+from ._distributions import Seed
+from ._engine import StudyError
+from ._executors import called_elsewhere, workers_of
+from ._functions import Call, reason_of, with_hint
+from ._keys import ANALYSIS, DESIGN, dependence_tables, factors_of, lengths_of, overridden, said, stated_outputs
+from ._progress import Progress, say
 from ._repeated import RepeatedCall, outputs_of, taken_out
 from ._result import Document, Result
+from ._tables import named, numbers, placed
 
-# Keys of `Study` by the table of the study file that they belong to.
-_DESIGN = ("sampler", "base_samples", "replicates", "plain_rows", "budget_runs", "seed", "max_runs")
-_ANALYSIS = (
-    "estimators",
-    "second_order",
-    "subsets",
-    "shapley",
-    "shapley_method",
-    "shapley_players",
-    "measures",
-    "aggregate",
-    "dummy",
-    "intervals",
-    "surrogate",
-    "resamples",
-    "threshold",
-    "failures",
-    "max_failed",
-)
-# Rows of a vectorised function that show what it returns.
-_PROBED = 2
+# Base points at which a function is tried, until it answers.
+_TRIED = 8
+_MOST_TRAJECTORIES, _MOST_LEVELS, _MOST_POINTS = 2**32, 2**16, 10**6
 
 
 class Study:
@@ -86,7 +70,7 @@ class Study:
     ):
         if isinstance(outputs, str):
             outputs = [outputs]
-        made = {key: Factor.of(value) for key, value in (factors or {}).items()}
+        made = factors_of(factors)
         repetitions = 1
         if isinstance(noise, Mapping):
             if callable(model):
@@ -98,16 +82,16 @@ class Study:
             made |= {} if noise is None else {noise: Seed()}
             stated = made
         table: dict[str, Any] = {"name": name, "title": title, "accuracy": accuracy}
-        design = {key: options.pop(key, None) for key in _DESIGN}
+        design = {key: options.pop(key, None) for key in DESIGN}
         design |= {"target": None if target is None else {"half_width": target}}
         design |= {"budget": None if budget is None else f"{budget} s"}
-        analysis = {key: options.pop(key, None) for key in _ANALYSIS}
-        options["dependence"] = _dependence(options.get("dependence"), made)
+        analysis = {key: options.pop(key, None) for key in ANALYSIS}
+        options["dependence"] = dependence_tables(options.get("dependence"), made)
         self._call: Call | RepeatedCall | None = None
         if callable(model):
             quantiles = {place: f.quantile for place, f in enumerate(made.values()) if f.quantile is not None}
             names = list(outputs) if outputs is not None else None
-            lengths = _lengths(outputs) if isinstance(outputs, Mapping) else None
+            lengths = lengths_of(outputs) if isinstance(outputs, Mapping) else None
             self._call = Call(
                 model, list(made), vectorised=vectorised, style=call, outputs=names, lengths=lengths, quantiles=quantiles
             )
@@ -118,37 +102,48 @@ class Study:
             raise StudyError("factors by their quantile functions serve functions of Python alone")
         table["model"] = "external" if callable(model) or model is None else model
         if isinstance(outputs, Mapping):
-            options["external"] = {"outputs": _stated(outputs, {})}
+            options["external"] = {"outputs": stated_outputs(outputs, {})}
         elif outputs is not None:
             table["outputs"] = list(outputs)
         elif table["model"] == "external":
             table["outputs"] = ["y"]
-        tables = {"design": _said(design), "analysis": _said(analysis), **options}
+        tables = {"design": said(design), "analysis": said(analysis), **options}
         tables = {key: value for key, value in tables.items() if value}
         tables["factor"] = [{"name": key, **factor.keys} for key, factor in stated.items()]
-        self._table = {**_said(table), **tables}
-        self._study = self._parsed()
-        # Rows that the function was tried with, and its answer.
-        self._first: tuple[np.ndarray, np.ndarray] | None = None
+        self._table = {**said(table), **tables}
+        self._parse()
+        # Rows that a function of one row was tried with, as bytes, and its answers or why there is none; None before.
+        self._tried: dict[bytes, np.ndarray | str] | None = None
 
-    def _parsed(self) -> _engine.Study:
+    def _parse(self) -> None:
         table = {key: value for key, value in self._table.items() if value != []}
-        return _engine.Study.parse(_toml.dumps(table), f"{self._table['name']}.toml", [])
+        self._made_from: tuple[str, str, list[str]] = (_toml.dumps(table), f"{self._table['name']}.toml", [])
+        self._study = _engine.Study.parse(*self._made_from)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {key: value for key, value in vars(self).items() if key != "_study"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state)
+        self._study = _engine.Study.parse(*self._made_from)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], **overrides: Any) -> "Study":
         """The study of a file of the program, with changes by dotted keys: `load(path, **{"design.seed": 1})`."""
-        return cls._of(_engine.Study.load(os.fspath(path), _overridden(overrides)))
+        path, changes = os.fspath(path), overridden(overrides)
+        study = _engine.Study.load(path, changes)
+        return cls._of(study, (study.source, os.path.abspath(path), changes))
 
     @classmethod
     def parse(cls, text: str, name: str = "study", **overrides: Any) -> "Study":
         """The study of a text in the format of study files."""
-        return cls._of(_engine.Study.parse(text, f"{name}.toml", _overridden(overrides)))
+        made_from = (text, f"{name}.toml", overridden(overrides))
+        return cls._of(_engine.Study.parse(*made_from), made_from)
 
     @classmethod
-    def _of(cls, study: _engine.Study) -> "Study":
+    def _of(cls, study: _engine.Study, made_from: tuple[str, str, list[str]]) -> "Study":
         made = cls.__new__(cls)
-        made._table, made._call, made._study, made._first = {}, None, study, None
+        made._table, made._call, made._study, made._made_from, made._tried = {}, None, study, made_from, None
         return made
 
     def __repr__(self) -> str:
@@ -186,30 +181,54 @@ class Study:
         return self._call.rows(points) if self._call is not None else points
 
     def analyse(self, outputs: Any) -> Result:
-        """The result from outputs at the points of `sample`, in their order: (rows,) or (rows, outputs), or a mapping from
-        names to (rows,), or to (rows, values) of a series. NaN says that a run failed."""
+        """The result from outputs at the points of `sample`, in their order: (rows,) or (rows, outputs), or a mapping or frame of
+        (rows,) by the names of the outputs, in any order, in a mapping also of (rows, values) of a series. NaN, and what is masked or
+        missing, says that a run failed."""
         if self._study.grows:
             raise StudyError("a study with an accuracy or a target chooses its runs as they go on: give it base_samples")
-        if isinstance(outputs, Mapping):
-            parts = {name: np.asarray(y, dtype=float) for name, y in outputs.items()}
-            names = expanded(list(parts), {name: y.shape[1] for name, y in parts.items() if y.ndim == 2})
-            outputs = np.column_stack(list(parts.values()))
+        # Nobody has said what the outputs are.
+        is_unnamed = self._study.is_external and self._table.get("outputs") == ["y"]
+        columns = named(outputs, "the outputs have")
+        if columns is None:
+            y = numbers(outputs, "the outputs are")
+            if y.ndim == 0 or y.size == 0:
+                raise StudyError(f"outputs of shape {y.shape}: expected {self.runs} rows, (rows,) or (rows, outputs)")
+            y = y.reshape(len(y), -1)
+            if y.shape[1] != len(self.outputs) and not is_unnamed:
+                raise StudyError(f"outputs of shape {y.shape}: expected ({self.runs}, {len(self.outputs)}), of {', '.join(self.outputs)}")
+            names = self.outputs if y.shape[1] == len(self.outputs) else [f"y{k + 1}" for k in range(y.shape[1])]
+            columns = dict(zip(names, y.T))
         else:
-            outputs = np.asarray(outputs, dtype=float)
-            outputs = outputs.reshape(len(outputs), -1)
-            names = None
-        if names is None and outputs.shape[1] != len(self.outputs):
-            names = [f"y{k + 1}" for k in range(outputs.shape[1])]
-        if names is not None and names != self.outputs:
-            if not self._study.is_external or "outputs" not in self._table or self._table["outputs"] != ["y"]:
-                raise StudyError(f"the outputs are {names}, and those of the study are {self.outputs}")
-            self._table["outputs"] = names
-            self._study = self._parsed()
-        return Result(self._study.analyse(np.ascontiguousarray(outputs)))
+            columns = self._split(columns)
+        if is_unnamed and set(columns) != set(self.outputs):
+            self._table["outputs"] = list(columns)
+            self._parse()
+        return Result(self._study.analyse(np.column_stack(placed(columns, self.outputs, "the outputs come"))))
+
+    def _split(self, columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """The columns of the engine: those of series one by one."""
+        split: dict[str, np.ndarray] = {}
+        for name, y in columns.items():
+            if y.ndim not in (1, 2) or len(y) != self.runs:
+                raise StudyError(f"the output {name} has the shape {y.shape}: expected ({self.runs},), or ({self.runs}, values)")
+            of = expanded([name], {name: y.shape[1]}) if y.ndim == 2 else [name]
+            split |= zip(of, y.reshape(len(y), -1).T)
+        if not split:
+            raise StudyError("the outputs have no columns")
+        return split
 
     def evaluate(self, points: Any) -> np.ndarray:
-        """The outputs of the model at `points` (rows, factors), in their units: (rows, outputs), NaN where a run failed."""
-        points = np.atleast_2d(np.asarray(points, dtype=float))
+        """The outputs of the model at `points`, in the units of the factors: (rows, outputs), NaN where a run failed.
+
+        `points` are an array of (rows, factors), or a mapping or frame whose columns have the names of the factors, in any order.
+        """
+        columns = named(points, "the points have")
+        if columns is None:
+            points = np.atleast_2d(numbers(points, "the points are"))
+        else:
+            points = np.column_stack(placed(columns, self.factors, "the points come"))
+        if points.ndim != 2 or points.shape[1] != len(self.factors):
+            raise StudyError(f"points of shape {points.shape}: expected (rows, {len(self.factors)}), of {', '.join(self.factors)}")
         failed: list[tuple[int, str]]
         if self._call is None:
             values, of_outputs = self._study.evaluate(points)
@@ -239,12 +258,13 @@ class Study:
         where it was interrupted (`resume` may also be "require", "retry-failed" or "never"). `progress`: True for a bar by
         tqdm, a function of (done, total), False for nothing; by default a bar, if tqdm is there and somebody looks.
         """
+        threads = whole("threads", threads, 0, MOST_THREADS)
         stop = _engine.Stop()
         function = self._function(stop, executor, in_flight)
         path = None if journal is None else os.fspath(journal)
-        with _Progress(progress, self.name) as bar:
+        with Progress(progress, self.name) as bar:
             result = self._study.run(
-                function, stop, threads=threads, journal=path, resume=resume, progress=bar.callback, message=_say
+                function, stop, threads=threads, journal=path, resume=resume, progress=bar.callback, message=say
             )
         return Result(result)
 
@@ -262,6 +282,10 @@ class Study:
         what total indices are at most (Sobol' and Kucherenko 2009)."""
         if derivatives and levels is not None:
             raise StudyError("levels are of no account to derivatives: leave out one of them")
+        trajectories = whole("trajectories", trajectories, 1, _MOST_TRAJECTORIES)
+        levels = None if levels is None else whole("levels", levels, 2, _MOST_LEVELS)
+        seed = None if seed is None else whole("seed", seed, 0, MOST_SEED)
+        threads = whole("threads", threads, 0, MOST_THREADS)
         stop = _engine.Stop()
         function = self._function(stop, None, None)
         document = self._study.screen(
@@ -278,6 +302,7 @@ class Study:
 
     def sweep(self, *factors: str, points: int = 101, against: str | None = None) -> Document:
         """One factor at a time over its range, every other at its nominal value; all of them if none is named."""
+        points = whole("points", points, 2, _MOST_POINTS)
         stop = _engine.Stop()
         return Document(self._study.sweep(self._function(stop, None, None), stop, list(factors), points, against))
 
@@ -289,39 +314,76 @@ class Study:
             if self._study.is_external:
                 raise StudyError("the study has no model: evaluate its sample() and pass the outputs to analyse()")
             return None
+        if executor is not None:
+            in_flight = workers_of(executor, in_flight)
         self._learn()
         call, workers = self._here, 0
         if executor is not None:
-            call, workers = called_elsewhere(executor, self._call, stop, in_flight)
+            call, workers = called_elsewhere(executor, self._call, stop), in_flight or 1
         takes_its_time = executor is not None or not self._call.vectorised
         version = self._call.fingerprint()
         return {"call": call, "version": version, "workers": workers, "takes_its_time": takes_its_time}
 
     def _here(self, columns: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
-        """Calls the function on columns (factors, rows); the row that showed what it returns is not asked again."""
+        """Calls the function on columns (factors, rows); what it was tried with counts as the first call of these rows."""
         assert self._call is not None
         x = columns.T
-        if self._first is not None and not self._call.vectorised and np.array_equal(x, self._first[0]):
-            return self._first[1], []
-        return self._call.evaluate(x)
+        tried = self._tried or {}
+        known = [(row, tried.pop(of.tobytes())) for row, of in enumerate(x) if of.tobytes() in tried] if tried else []
+        if not known:
+            return self._call.evaluate(self._call.rows(x))
+        values = np.full((len(x), len(self._call.columns)), np.nan)
+        others = np.setdiff1d(np.arange(len(x)), [row for row, _ in known])
+        failures: list[tuple[int, str]] = []
+        if len(others):
+            values[others], failed = self._call.evaluate(self._call.rows(x[others]))
+            failures = [(int(others[row]), reason) for row, reason in failed]
+        for row, answer in known:
+            if isinstance(answer, str):
+                failures.append((row, answer))
+            else:
+                values[row] = answer
+        return values, sorted(failures)
 
     def _learn(self) -> None:
-        """Calls the function once, which shows the names of its outputs; its exceptions are the caller's."""
+        """Calls the function until it shows the names of its outputs, at rows of several base points: rows that fail before have
+        failed. If all do, the first exception is the caller's."""
         call = self._call
-        if call is None or self._first is not None:
+        if call is None or self._tried is not None:
             return
-        x = self._study.sample(0, _PROBED if call.vectorised else 1)
-        self._first = (x, call.probe(x))
+        tried: dict[bytes, np.ndarray | str] = {}
+        first: Exception | None = None
+        has_answered = False
+        # As many rows as factors would hide a function of one row in an array.
+        count = (2 if len(call.names) != 2 else 3) if call.vectorised else 1
+        rows_per_point = self._study.rows_per_point
+        for row in range(0, min(_TRIED * rows_per_point, self.runs), rows_per_point):
+            x = self._study.sample(row, row + count)
+            try:
+                answer = call.probe(call.rows(x))[0]
+                has_answered = True
+            except Exception as error:
+                if isinstance(error, AnswerError) and not isinstance(error, NoAnswer):
+                    raise
+                first = first or error
+                answer = reason_of(error)
+            if not call.vectorised:
+                tried[x.tobytes()] = answer
+            if has_answered:
+                break
+        if first is not None and not has_answered:
+            raise with_hint(first, call.vectorised)
+        self._tried = tried
         if call.columns == self.outputs:
             return
         if call.lengths:
             stated = self._table.pop("external", {"outputs": {}})["outputs"]
             stated = {name: stated.get(name, "1") for name in call.outputs or []}
             self._table.pop("outputs", None)
-            self._table["external"] = {"outputs": _stated(stated, call.lengths)}
+            self._table["external"] = {"outputs": stated_outputs(stated, call.lengths)}
         else:
             self._table["outputs"] = call.outputs
-        self._study = self._parsed()
+        self._parse()
 
 
 def analyse(model: Callable[..., Any] | str | None, factors: Mapping[str, Any] | None = None, **options: Any) -> Result:
@@ -329,110 +391,3 @@ def analyse(model: Callable[..., Any] | str | None, factors: Mapping[str, Any] |
     running = ("threads", "executor", "in_flight", "journal", "resume", "progress")
     of_run = {key: options.pop(key) for key in running if key in options}
     return Study(model, factors, **options).run(**of_run)
-
-
-def _lengths(outputs: Mapping[str, Any]) -> dict[str, int | None]:
-    """Of the outputs that are series how many values they have, as far as that is said."""
-    lengths: dict[str, int | None] = {}
-    for name, of in outputs.items():
-        if isinstance(of, Mapping) and set(of) - {"unit"}:
-            positions = np.atleast_1d(of.get("positions", ()))
-            lengths[name] = of.get("length", len(positions) if len(positions) > 2 else None)
-    return lengths
-
-
-def _stated(outputs: Mapping[str, Any], lengths: Mapping[str, int | None]) -> dict[str, Any]:
-    """The outputs of the study file; a series whose length is not known yet has two values."""
-    lengths = {**{name: length or 2 for name, length in _lengths(outputs).items()}, **lengths}
-    stated: dict[str, Any] = {}
-    for name, of in outputs.items():
-        if name not in lengths:
-            stated[name] = of
-            continue
-        of = {"unit": of} if isinstance(of, str) else dict(of)
-        positions = of.pop("positions", None)
-        of |= {} if positions is None else {"positions": np.asarray(positions, dtype=float).tolist()}
-        stated[name] = {**of, "length": lengths[name]}
-    return stated
-
-
-def _dependence(asked: Any, factors: Mapping[str, Factor]) -> list[dict[str, Any]]:
-    """The tables of `dependence`, from these or from correlations by pairs of factors."""
-    if asked is None:
-        return []
-    if isinstance(asked, Mapping) and "factors" in asked:
-        asked = [asked]
-    elif isinstance(asked, Mapping):
-        asked = [{"factors": list(pair), "correlation": correlation} for pair, correlation in asked.items()]
-    tables = [dict(table) for table in asked]
-    for table in tables:
-        for key in ("correlation", "measurements"):
-            if hasattr(table.get(key), "__array__"):
-                table[key] = np.asarray(table[key], dtype=float).tolist()
-        by_quantile = [n for n in table.get("factors", ()) if n in factors and factors[n].quantile is not None]
-        is_measured = "file" in table or "measurements" in table
-        if by_quantile and table.get("measure", "pearson") == "pearson" and not is_measured:
-            raise StudyError(
-                f"{', '.join(by_quantile)}: Pearson's correlations of factors by their quantile functions are not known: expected "
-                'measure="spearman", "kendall" or "normal"'
-            )
-    return tables
-
-
-def _said(table: Mapping[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in table.items() if value is not None}
-
-
-def _overridden(overrides: Mapping[str, Any]) -> list[str]:
-    return [f"{key}={_toml._value(value)}" for key, value in overrides.items()]
-
-
-def _say(line: str) -> None:
-    if line.startswith("warning: "):
-        warnings.warn(line.removeprefix("warning: "), stacklevel=4)
-    else:
-        print(line, file=sys.stderr)
-
-
-class _Progress:
-    """Tells how far a run has come."""
-
-    def __init__(self, asked: bool | Callable[[int, int], None] | None, name: str):
-        self.asked, self.name = asked, name
-        self.begun = time.monotonic()
-        self.bar: Any = None
-        self.make: Any = None
-        if asked is True or asked is None and _is_watched():
-            try:
-                from tqdm.auto import tqdm
-
-                self.make = tqdm
-            except ImportError:
-                if asked is True:
-                    raise ImportError("progress=True needs tqdm: pip install tqdm") from None
-
-    @property
-    def callback(self) -> Callable[[int, int, int, int], None] | None:
-        if callable(self.asked):
-            return lambda done, total, failed, recalled: self.asked(done, total)  # type: ignore[operator, misc]
-        return self._draw if self.make is not None else None
-
-    def _draw(self, done: int, total: int, failed: int, recalled: int) -> None:
-        # Short runs need no bar.
-        if self.bar is None and time.monotonic() - self.begun < 1.0:
-            return
-        if self.bar is None:
-            self.bar = self.make(total=total, desc=self.name, unit="run", unit_scale=True)
-        self.bar.total = total
-        self.bar.update(done - self.bar.n)
-
-    def __enter__(self) -> "_Progress":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        if self.bar is not None:
-            self.bar.close()
-
-
-def _is_watched() -> bool:
-    return "ipykernel" in sys.modules or bool(getattr(sys.stderr, "isatty", lambda: False)())

@@ -15,11 +15,11 @@ from ._engine import StudyError
 
 def dumps(table: Mapping[str, Any]) -> str:
     """The text of a study file: simple keys, then tables, then lists of tables."""
-    lines = [f"{_key(key)} = {_value(value)}" for key, value in table.items() if not _is_table(value)]
+    lines = [f"{_key(key)} = {value_of(value)}" for key, value in table.items() if not _is_table(value)]
     for key, value in table.items():
         for part in value if _is_tables(value) else [value] if isinstance(value, Mapping) else []:
             lines += ["", f"[[{_key(key)}]]" if _is_tables(value) else f"[{_key(key)}]"]
-            lines += [f"{_key(name)} = {_value(inner)}" for name, inner in part.items()]
+            lines += [f"{_key(name)} = {value_of(inner)}" for name, inner in part.items()]
     return "\n".join(lines) + "\n"
 
 
@@ -35,7 +35,10 @@ def _key(key: str) -> str:
     return key if re.fullmatch("[A-Za-z0-9_-]+", key) else json.dumps(key)
 
 
-def _value(value: Any) -> str:
+def value_of(value: Any) -> str:
+    """A value as it stands in a study file."""
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, (int, np.integer)):
@@ -47,9 +50,9 @@ def _value(value: Any) -> str:
         # Escapes of JSON are escapes of TOML, but for the one that it does not need.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{_key(key)} = {_value(inner)}" for key, inner in value.items()) + " }"
+        return "{ " + ", ".join(f"{_key(key)} = {value_of(inner)}" for key, inner in value.items()) + " }"
     if isinstance(value, (list, tuple, set, frozenset, np.ndarray)):
-        return "[" + ", ".join(_value(inner) for inner in value) + "]"
+        return "[" + ", ".join(value_of(inner) for inner in value) + "]"
     raise StudyError(
         f"{value!r} cannot stand in a study: expected a number, a text, true or false, a list or a table of these"
     )

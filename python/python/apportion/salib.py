@@ -17,11 +17,16 @@ from typing import Any
 import numpy as np
 
 from . import _engine
+from ._checks import MOST_SEED, whole
 from ._distributions import Factor, LogNormal, LogUniform, Normal, Triangular, TruncatedNormal, Uniform
 from ._engine import StudyError
 from ._study import Study
+from ._tables import numbers
 
 __all__ = ["Sensitivities", "analyze", "from_problem", "sample"]
+
+# As the program has it.
+_MOST_RESAMPLES = 10**6
 
 
 def from_problem(problem: Mapping[str, Any]) -> dict[str, Factor]:
@@ -69,6 +74,7 @@ def sample(problem: Mapping[str, Any], N: int, *, calc_second_order: bool = True
 
     Scrambled Sobol' points of the engine, randomised by `seed`; N is best a power of two.
     """
+    N, seed = whole("N", N, 1, 2**53), whole("seed", seed, 0, 2**63 - 1)
     factors = from_problem(problem)
     d = len(factors)
     base = {f"{half}{k}": f for half in "ab" for k, f in enumerate(factors.values())}
@@ -125,10 +131,12 @@ def analyze(
 
     `*_conf` are half widths of the percentile bootstrap's 95 % intervals; other levels are not offered.
     """
+    num_resamples = whole("num_resamples", num_resamples, 0, _MOST_RESAMPLES)
+    seed = whole("seed", seed, 0, MOST_SEED)
     if conf_level != 0.95:
         raise StudyError("conf_level: the intervals are those of 95 %")
     names = [member for member, _ in _members(problem)]
-    y = np.ascontiguousarray(np.asarray(Y, dtype=float).ravel())
+    y = numbers(Y, "the outputs are").ravel()
     first, total, pairs = _engine.salib_indices(
         y, len(names), second_order=calc_second_order, resamples=num_resamples, seed=seed
     )

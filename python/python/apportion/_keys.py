@@ -1,0 +1,104 @@
+"""The tables of a study file, from keywords."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ._distributions import Factor
+from ._engine import StudyError
+from ._toml import value_of
+
+# Keys of `Study` by the table of the study file that they belong to.
+DESIGN = ("sampler", "base_samples", "replicates", "plain_rows", "budget_runs", "seed", "max_runs")
+ANALYSIS = (
+    "estimators",
+    "second_order",
+    "subsets",
+    "shapley",
+    "shapley_method",
+    "shapley_players",
+    "measures",
+    "aggregate",
+    "dummy",
+    "intervals",
+    "surrogate",
+    "resamples",
+    "threshold",
+    "failures",
+    "max_failed",
+)
+
+
+def factors_of(factors: Any) -> dict[str, Factor]:
+    """The factors by their names, whatever stands for each."""
+    if factors is None:
+        return {}
+    if not isinstance(factors, Mapping):
+        raise StudyError(f'factors: {factors!r:.80} is no mapping from names to distributions, as {{"x1": (0, 1)}} is one')
+    for name in factors:
+        if not isinstance(name, str):
+            raise StudyError(f"factors: the name {name!r} is no text: expected one such as {str(name)!r}")
+    return {str(name): Factor.of(value) for name, value in factors.items()}
+
+
+def lengths_of(outputs: Mapping[str, Any]) -> dict[str, int | None]:
+    """Of the outputs that are series how many values they have, as far as that is said."""
+    lengths: dict[str, int | None] = {}
+    for name, of in outputs.items():
+        if isinstance(of, Mapping) and set(of) - {"unit"}:
+            positions = np.atleast_1d(of.get("positions", ()))
+            lengths[name] = of.get("length", len(positions) if len(positions) > 2 else None)
+    return lengths
+
+
+def stated_outputs(outputs: Mapping[str, Any], lengths: Mapping[str, int | None]) -> dict[str, Any]:
+    """The outputs of the study file; a series whose length is not known yet has two values."""
+    lengths = {**{name: length or 2 for name, length in lengths_of(outputs).items()}, **lengths}
+    stated: dict[str, Any] = {}
+    for name, of in outputs.items():
+        if name not in lengths:
+            stated[name] = of
+            continue
+        of = {"unit": of} if isinstance(of, str) else dict(of)
+        positions = of.pop("positions", None)
+        of |= {} if positions is None else {"positions": np.asarray(positions, dtype=float).tolist()}
+        stated[name] = {**of, "length": lengths[name]}
+    return stated
+
+
+def dependence_tables(asked: Any, factors: Mapping[str, Factor]) -> list[dict[str, Any]]:
+    """The tables of `dependence`, from these or from correlations by pairs of factors."""
+    if asked is None:
+        return []
+    if isinstance(asked, Mapping) and "factors" in asked:
+        asked = [asked]
+    elif isinstance(asked, Mapping):
+        asked = [{"factors": list(pair), "correlation": correlation} for pair, correlation in asked.items()]
+    if not isinstance(asked, (list, tuple)) or not all(isinstance(table, Mapping) for table in asked):
+        raise StudyError(
+            f'dependence={asked!r:.80}: expected correlations by pairs, as {{("a", "b"): 0.6}}, or a list of tables'
+        )
+    tables = [dict(table) for table in asked]
+    for table in tables:
+        for key in ("correlation", "measurements"):
+            if hasattr(table.get(key), "__array__"):
+                table[key] = np.asarray(table[key], dtype=float).tolist()
+        by_quantile = [n for n in table.get("factors", ()) if n in factors and factors[n].quantile is not None]
+        is_measured = "file" in table or "measurements" in table
+        if by_quantile and table.get("measure", "pearson") == "pearson" and not is_measured:
+            raise StudyError(
+                f"{', '.join(by_quantile)}: Pearson's correlations of factors by their quantile functions are not known: expected "
+                'measure="spearman", "kendall" or "normal"'
+            )
+    return tables
+
+
+def said(table: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in table.items() if value is not None}
+
+
+def overridden(overrides: Mapping[str, Any]) -> list[str]:
+    return [f"{key}={value_of(value)}" for key, value in overrides.items()]

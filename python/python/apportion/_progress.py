@@ -1,0 +1,60 @@
+"""How far a run has come, and what it has to say."""
+
+from __future__ import annotations
+
+import sys
+import time
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+
+def say(line: str) -> None:
+    if line.startswith("warning: "):
+        warnings.warn(line.removeprefix("warning: "), stacklevel=4)
+    else:
+        print(line, file=sys.stderr)
+
+
+class Progress:
+    """Tells how far a run has come."""
+
+    def __init__(self, asked: bool | Callable[[int, int], None] | None, name: str):
+        self.asked, self.name = asked, name
+        self.begun = time.monotonic()
+        self.bar: Any = None
+        self.make: Any = None
+        if asked is True or asked is None and _is_watched():
+            try:
+                from tqdm.auto import tqdm
+
+                self.make = tqdm
+            except ImportError:
+                if asked is True:
+                    raise ImportError("progress=True needs tqdm: pip install tqdm") from None
+
+    @property
+    def callback(self) -> Callable[[int, int, int, int], None] | None:
+        if callable(self.asked):
+            return lambda done, total, failed, recalled: self.asked(done, total)  # type: ignore[operator, misc]
+        return self._draw if self.make is not None else None
+
+    def _draw(self, done: int, total: int, failed: int, recalled: int) -> None:
+        # Short runs need no bar.
+        if self.bar is None and time.monotonic() - self.begun < 1.0:
+            return
+        if self.bar is None:
+            self.bar = self.make(total=total, desc=self.name, unit="run", unit_scale=True)
+        self.bar.total = total
+        self.bar.update(done - self.bar.n)
+
+    def __enter__(self) -> "Progress":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self.bar is not None:
+            self.bar.close()
+
+
+def _is_watched() -> bool:
+    return "ipykernel" in sys.modules or bool(getattr(sys.stderr, "isatty", lambda: False)())

@@ -1,0 +1,399 @@
+"""What functions may do, hold and return."""
+
+import functools
+import os
+import subprocess
+import sys
+
+import apportion as ap
+import numpy as np
+import pytest
+
+UNIT = {"x1": (0, 1), "x2": (0, 1)}
+PROBED = [[0.5, 0.25], [0.75, 0.5]]
+
+
+def linear(x1, x2, k=1.0):
+    return x1 + k * x2
+
+
+class Linear:
+    def __init__(self, k):
+        self.k = k
+        self.calls = 0
+
+    def __call__(self, x1, x2):
+        self.calls += 1
+        return x1 + self.k * x2
+
+    def method(self, x1, x2):
+        self.calls += 1
+        return x1 + self.k * x2
+
+
+def with_closure(k):
+    calls = []
+
+    def f(x1, x2):
+        calls.append(1)
+        return x1 + k * x2
+
+    return f
+
+
+def with_keyword(k):
+    def f(x1, x2, *, c=k):
+        return x1 + c * x2
+
+    return f
+
+
+def with_array(k):
+    def f(x1, x2, c=np.array([0.0, k])):
+        return x1 + c[1] * x2
+
+    return f
+
+
+def with_decorator(k):
+    def scaled(f):
+        @functools.wraps(f)
+        def inner(x1, x2):
+            return f(x1, k * x2)
+
+        return inner
+
+    return scaled(linear)
+
+
+WAYS = {
+    "partial keyword": lambda k: functools.partial(linear, k=k),
+    "partial argument": lambda k: functools.partial(lambda c, x1, x2: x1 + c[0] * x2, np.array([k])),
+    "partial method": lambda k: functools.partial(Linear(k).method),
+    "closure": with_closure,
+    "keyword default": with_keyword,
+    "array default": with_array,
+    "instance": Linear,
+    "method": lambda k: Linear(k).method,
+    "decorator": with_decorator,
+    "nested": lambda k: with_nested({"deep": [Linear(k)]}),
+}
+
+
+def with_nested(held):
+    return lambda x1, x2: held["deep"][0](x1, x2)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_journal_knows_what_a_function_holds(way, tmp_path):
+    made = {}
+    for k in (1.0, 5.0, 1.0):
+        options = {"base_samples": 16, "vectorised": False, "call": "columns", "journal": tmp_path / f"{k}.journal"}
+        result = ap.analyse(WAYS[way](k), UNIT, **options)
+        assert made.setdefault(k, dict(result.total)) == dict(result.total)
+    same = ap.analyse(WAYS[way](1.0), UNIT, base_samples=16, vectorised=False, call="columns", journal=tmp_path / "5.0.journal")
+    assert dict(same.total) == made[1.0] != made[5.0]
+    # The runs of the other one are kept aside.
+    assert len(list(tmp_path.iterdir())) == 3
+
+
+def fingerprints(make):
+    found = []
+    for _ in range(2):
+        study = ap.Study(make(), UNIT, base_samples=16, call="columns", vectorised=False)
+        study._learn()
+        found.append(study._call.fingerprint())
+        study.evaluate([[0.5, 0.5]] * 3)
+        found.append(study._call.fingerprint())
+    return found
+
+
+def test_what_calls_change_is_no_other_function():
+    """Counters, caches, generators and the like, which would make a journal useless."""
+
+    def with_cache():
+        cache, rng = {}, np.random.default_rng()
+        return lambda x1, x2: cache.setdefault((x1, x2), rng.normal()) + x1
+
+    class Itself:
+        def __init__(self):
+            self.me, self.all = self, {"me": self}
+
+        def __call__(self, x1, x2):
+            return x1
+
+    for make in (lambda: Linear(2.0), lambda: with_closure(2.0), with_cache, Itself):
+        assert len(set(fingerprints(make))) == 1
+
+
+def test_the_fingerprint_of_a_plain_function_is_that_of_its_code():
+    from apportion._fingerprint import holdings
+
+    assert holdings(linear) == {}
+    assert fingerprints(lambda: linear)[0].startswith(f"{__name__}.linear ")
+
+
+def test_a_journal_knows_the_distributions_of_scipy(tmp_path):
+    stats = pytest.importorskip("scipy.stats")
+    histograms = [stats.rv_histogram(np.histogram([1.0, 2.0, shift], bins=4))() for shift in (5.0, 9.0)]
+    for name, pair in {"skew": (stats.skewnorm(1), stats.skewnorm(1, scale=20)), "data": histograms}.items():
+        means = []
+        for law in pair:
+            result = ap.analyse(linear, {"x1": (0, 1), "x2": law}, base_samples=16, vectorised=False, journal=tmp_path / name)
+            means.append(result["y"].mean)
+            alone = ap.analyse(linear, {"x1": (0, 1), "x2": law}, base_samples=16, vectorised=False)
+            assert alone["y"].mean == means[-1]
+        assert means[0] != means[1]
+
+
+@pytest.mark.parametrize("style", ["columns", "matrix"])
+def test_a_function_may_change_its_arguments(style):
+    def good(x1, x2):
+        if np.any(x2 > 0.9):
+            raise ValueError("too large")
+        return (x1 + 1) ** 2 + x2
+
+    def in_place(*arguments):
+        x1, x2 = arguments if style == "columns" else arguments[0].T
+        is_bad = np.any(x2 > 0.9)
+        x1 += 1
+        if is_bad:
+            raise ValueError("too large")
+        return x1**2 + x2
+
+    one, two = (ap.analyse(f, UNIT, base_samples=64, call=call) for f, call in ((good, "columns"), (in_place, style)))
+    assert one["y"].runs_failed == two["y"].runs_failed > 0
+    assert dict(one.total) == dict(two.total) and one["y"].mean == two["y"].mean
+
+
+def test_points_of_the_user_are_in_units_whatever_the_distribution():
+    stats = pytest.importorskip("scipy.stats")
+    study = ap.Study(linear, {"x1": stats.skewnorm(3, loc=10), "x2": (0, 1)}, base_samples=16)
+    points = study.sample()
+    assert points[:, 0].min() > 9
+    assert np.array_equal(study.evaluate(points)[:, 0], linear(*points.T))
+
+
+def masked(x1, x2):
+    return np.ma.masked_where(np.asarray(x1) > 0.8, x1 + x2)
+
+
+def missing(x1, x2):
+    return np.where(np.asarray(x1) > 0.8, np.nan, x1 + x2)
+
+
+def test_masked_and_missing_values_fail_their_rows():
+    pandas = pytest.importorskip("pandas")
+    expected = ap.analyse(missing, UNIT, base_samples=64)
+
+    def with_na(x1, x2):
+        return pandas.Series(x1 + x2, dtype="Float64").mask(x1 > 0.8)
+
+    for f in (masked, lambda x1, x2: {"y": masked(x1, x2)}, lambda x1, x2: (masked(x1, x2),), with_na):
+        result = ap.analyse(f, UNIT, base_samples=64)
+        assert result["y"].runs_failed == expected["y"].runs_failed > 0 and dict(result.total) == dict(expected.total)
+    one_by_one = ap.analyse(lambda x1, x2: np.ma.masked if x1 > 0.8 else x1 + x2, UNIT, base_samples=64, vectorised=False)
+    assert dict(one_by_one.total) == dict(expected.total)
+    study = ap.Study(None, UNIT, base_samples=64)
+    told = study.analyse(masked(*study.sample().T))
+    assert told["y"].runs_failed == expected["y"].runs_failed and dict(told.total) == dict(expected.total)
+
+
+def test_none_fails_one_row_of_a_function_of_one_row():
+    result = ap.analyse(lambda x1, x2: None if x1 > 0.8 else x1 + x2, UNIT, base_samples=64, vectorised=False)
+    expected = ap.analyse(missing, UNIT, base_samples=64)
+    assert dict(result.total) == dict(expected.total)
+    assert result["y"].record["failures"][0]["reason"] == "the function returned None"
+    with pytest.raises(ap.AnswerError, match="returned None for 3 rows"):
+        ap.analyse(lambda x1, x2: None, UNIT, base_samples=16)
+    with pytest.raises(ap.AnswerError, match="the function returned None"):
+        ap.analyse(lambda x1, x2: None, UNIT, base_samples=16, vectorised=False)
+
+
+def test_a_row_that_fails_first_is_a_row_that_fails():
+    calls = []
+
+    def first_fails(x1, x2):
+        calls.append((x1, x2))
+        if len(calls) == 1:
+            raise RuntimeError("the simulator has crashed")
+        return x1 + x2
+
+    result = ap.analyse(first_fails, UNIT, base_samples=64, vectorised=False)
+    assert result["y"].runs_failed == 1
+    assert result["y"].record["failures"][0]["reason"] == "RuntimeError: the simulator has crashed"
+    # Rows of the trial are not asked again.
+    assert len(calls) == result.runs
+
+    study = ap.Study(changed := Linear(1.0), UNIT, base_samples=16, vectorised=False)
+    study.run()
+    changed.k = 5.0
+    assert dict(study.run().total) == dict(ap.analyse(Linear(5.0), UNIT, base_samples=16, vectorised=False).total)
+
+    def all_fail(x1, x2):
+        calls.append(1)
+        raise RuntimeError(f"call {len(calls)}")
+
+    calls.clear()
+    with pytest.raises(RuntimeError, match="^call 1$"):
+        ap.analyse(all_fail, UNIT, base_samples=64, vectorised=False)
+
+    def in_blocks(x1, x2):
+        calls.append(1)
+        if len(calls) == 1:
+            raise RuntimeError("not yet")
+        return x1 + x2
+
+    calls.clear()
+    assert ap.analyse(in_blocks, UNIT, base_samples=64)["y"].runs_failed == 0
+
+
+def test_outputs_by_name_come_in_any_order():
+    pandas = pytest.importorskip("pandas")
+
+    def swapping(x1, x2):
+        return {"a": x1, "b": x2} if x1 > 0.5 else {"b": x2, "a": x1}
+
+    result = ap.analyse(swapping, UNIT, base_samples=64, vectorised=False)
+    assert result["a"].total["x1"].estimate > 0.99 and result["b"].total["x2"].estimate > 0.99
+    framed = ap.analyse(lambda x1, x2: pandas.DataFrame({"b": x2, "a": x1}), UNIT, outputs=["a", "b"], base_samples=64)
+    assert framed["a"].mean == result["a"].mean and framed["b"].mean == result["b"].mean
+    numbered = ap.analyse(lambda x1, x2: pandas.DataFrame(np.column_stack([x1, x2])), UNIT, base_samples=64)
+    assert list(numbered.outputs) == ["y1", "y2"]
+    with pytest.raises(ap.AnswerError, match=r"\['a', 'c'\], and \['a', 'b'\] were expected"):
+        ap.analyse(lambda x1, x2: {"a": x1, "c": x2}, UNIT, outputs=["a", "b"], base_samples=64)
+    polars = pytest.importorskip("polars")
+    assert list(ap.analyse(lambda x1, x2: polars.DataFrame({"a": x1}), UNIT, base_samples=64).outputs) == ["a"]
+
+
+def test_points_and_outputs_go_by_the_names_of_their_columns():
+    pandas = pytest.importorskip("pandas")
+    study = ap.Study(None, UNIT, outputs=["a", "b"], base_samples=16)
+    x1, x2 = study.sample().T
+    expected = study.analyse(np.column_stack([x1, x2]))
+    for table in ({"b": x2, "a": x1}, pandas.DataFrame({"b": x2, "a": x1}), pandas.DataFrame(np.column_stack([x1, x2]))):
+        assert study.analyse(table).to_dict()["outputs"] == expected.to_dict()["outputs"]
+    for wrong, words in [
+        ({"a": x1}, "without b: expected the columns a, b"),
+        ({"a": x1, "b": x2, "c": x1}, "with c"),
+        (pandas.DataFrame(np.column_stack([x1, x2]), columns=["a", "a"]), "two columns of the name 'a'"),
+        ({"a": x1, "b": x2[:-1]}, "output b has the shape"),
+        ({}, "no columns"),
+        (np.ones((64, 3)), r"outputs of shape \(64, 3\): expected \(64, 2\), of a, b"),
+        (3.0, "expected 64 rows"),
+        (np.empty((0, 2)), "expected 64 rows"),
+        ("abc", "expected real numbers"),
+        (np.arange(64) * 1j, "expected real numbers"),
+    ]:
+        with pytest.raises(ap.StudyError, match=words):
+            study.analyse(wrong)
+    model = ap.Study(lambda x1, x2: x1 - 2 * x2, UNIT)
+    engine = ap.Study("ishigami")
+    frame = pandas.DataFrame({"x3": [0.0], "x2": [np.pi / 2], "x1": [0.0]})
+    assert engine.evaluate(frame) == pytest.approx(7.0)
+    assert model.evaluate(pandas.DataFrame({"x2": [1.0], "x1": [5.0]})) == 3.0
+    assert model.evaluate(pandas.DataFrame([[5.0, 1.0]])) == 3.0 and model.evaluate([5.0, 1.0]) == 3.0
+    for wrong, words in [({"x2": [1.0]}, "without x1"), ([[1.0, 2.0, 3.0]], r"\(1, 3\)"), ("abc", "real numbers")]:
+        with pytest.raises(ap.StudyError, match=words):
+            model.evaluate(wrong)
+
+
+def test_what_a_signature_does_not_tell_is_asked():
+    ab = {"a": (0, 1), "b": (0, 1)}
+    for function in (lambda x, scale=1.0: x, lambda x=0, y=0: x, lambda b, c: b):
+        with pytest.raises(ap.StudyError, match='call="columns"'):
+            ap.Study(function, ab)
+    whole = ap.analyse(lambda x, scale=2.0: scale * x[:, 0], ab, call="matrix", base_samples=64)
+    assert whole.total["a"].estimate > 0.99
+    assert ap.analyse(lambda x, scale=1.0: x * scale, ab, call="columns", base_samples=64).total["b"].estimate > 0.5
+    # These can be told.
+    for function in (
+        lambda p, q, scale=1.0: p,
+        lambda b, a: a,
+        lambda a, b=2.0: a,
+        lambda a, b, verbose=False: a,
+        lambda x, k=1.0, m=2.0: x[:, 0],
+        lambda x: x[:, 0],
+        lambda a, other: a,
+    ):
+        assert ap.analyse(function, ab, base_samples=64).total["a"].estimate > 0.99
+
+
+def test_a_function_of_numbers_that_gets_arrays_is_told_so():
+    import math
+
+    three = UNIT | {"x3": (0, 1)}
+    for function, factors in [
+        (lambda x1, x2: math.sin(x1), UNIT),
+        (lambda x1, x2: x1 if x1 > x2 else x2, UNIT),
+        (lambda x1, x2: [1, 2, 3][x1], UNIT),
+        (lambda x: x[0] + x[1] + x[2] + x[5], three),
+    ]:
+        with pytest.raises(ap.StudyError, match="vectorised=False"):
+            ap.analyse(function, factors, base_samples=16)
+    for function, factors in [(lambda x: x[0] + 2 * x[1], UNIT), (lambda x: x[0] + x[1], three)]:
+        with pytest.raises(ap.AnswerError, match="vectorised=False"):
+            ap.analyse(function, factors, base_samples=16)
+
+
+def test_numbers_are_floats_whatever_the_factor():
+    kinds = []
+
+    def f(n, x):
+        kinds.append(type(n))
+        return n * x
+
+    ap.analyse(f, {"n": ap.Integer(0, 2), "x": (0, 1)}, base_samples=16, vectorised=False)
+    assert set(kinds) == {float}
+
+
+HELD = """
+import functools, decimal, pathlib, threading
+import numpy as np, apportion as ap
+
+class Slots:
+    __slots__ = ("a",)
+    def __init__(self):
+        self.a = {"left", "right", "middle"}
+
+class Model:
+    def __init__(self):
+        self.lock, self.kinds = threading.Lock(), {"x", "y", "z"}
+        self.parts = [Slots(), pathlib.PurePosixPath("a/b"), decimal.Decimal("0.1"), np.float32(3), np.dtype("f8"), np.random.default_rng(3)]
+        self.table = {("a", 1): np.arange(3), ("b", 2): np.ma.masked_equal([1, 2], 2), None: np.array([{1, 2}, None], dtype=object)}
+        try:
+            import pandas
+            self.frame = pandas.DataFrame({"a": [1.0, 2.0], "b": ["u", "v"]})
+        except ImportError:
+            pass
+
+    @functools.lru_cache
+    def cached(self, x1, x2):
+        return x1
+
+    def __call__(self, x1, x2):
+        return x1
+
+model = Model()
+
+def kept():
+    def f(x1, x2, where=frozenset({"here", "there"})):
+        return model(x1, x2) if held else x1
+    held = model, np.sin, np.vectorize(lambda x: x), f
+    return f
+
+for f in (model, kept(), np.vectorize(model), functools.partial(kept(), where={"p", "q", "r"}), functools.lru_cache(kept())):
+    study = ap.Study(f, {"x1": (0, 1), "x2": (0, 1)}, base_samples=16, call="columns", vectorised=False)
+    study._learn()
+    print(study._call.fingerprint())
+"""
+
+
+def test_fingerprints_are_the_same_in_every_process():
+    found = set()
+    for seed in ("1", "2"):
+        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        done = subprocess.run([sys.executable, "-c", HELD], capture_output=True, text=True, env=environment, timeout=120)
+        assert done.returncode == 0, done.stderr
+        found.add(done.stdout)
+    assert len(found) == 1 and len(set(found.pop().split("\n"))) == 6

@@ -1,0 +1,117 @@
+"""Wrong sizes, wrong input and signals: what is said, and when."""
+
+import os
+import subprocess
+import sys
+import time
+
+import apportion as ap
+import numpy as np
+import pytest
+
+UNIT = {"x1": (0, 1), "x2": (0, 1)}
+PROBLEM = {"names": ["a"], "bounds": [[0, 1]]}
+
+
+def add(x1, x2):
+    return x1 + x2
+
+
+def test_what_has_no_room_is_refused():
+    study = ap.Study(None, UNIT, base_samples=2**34)
+    with pytest.raises(MemoryError, match="68719476736 points of 2 factors need 1100 GB"):
+        study.sample()
+
+
+def test_numbers_that_make_no_sense_are_refused():
+    study = ap.Study(add, UNIT, base_samples=16)
+    y = list(range(8))
+    cases = [
+        (lambda: study.run(threads=-1), "threads must be a whole number from 0 to 1024, not -1"),
+        (lambda: study.run(threads=1025), "threads must"),
+        (lambda: study.run(threads="4"), "threads must"),
+        (lambda: study.screen(-1), "trajectories must"),
+        (lambda: study.screen(4, levels=-2), "levels must"),
+        (lambda: study.screen(4, seed=-1), r"seed must be a whole number from 0 to 2\*\*64 - 1"),
+        (lambda: study.sweep("x1", points=-1), "points must"),
+        (lambda: study.sweep("x1", points=2**40), "points must"),
+        (lambda: ap.given_data(np.ones((30, 1)), np.ones(30), seed=-1), "seed must"),
+        (lambda: ap.salib.analyze(PROBLEM, y, num_resamples=2**40), "num_resamples must be a whole number from 0 to 1000000"),
+        (lambda: ap.salib.analyze(PROBLEM, y, num_resamples=-1), "num_resamples must"),
+        (lambda: ap.salib.analyze(PROBLEM, y, seed=-1), "seed must"),
+        (lambda: ap.salib.sample(PROBLEM, -8), "N must"),
+        (lambda: ap.salib.sample(PROBLEM, 8, seed=-1), "seed must"),
+        (lambda: study.run(executor=3), r"executor=3: expected an executor of concurrent\.futures"),
+    ]
+    for wrong, words in cases:
+        with pytest.raises(ap.StudyError, match=words):
+            wrong()
+
+
+def test_factors_that_are_none_say_what_would_be_one():
+    for factors, words in [
+        ({1: (0, 1)}, "the name 1 is no text: expected one such as '1'"),
+        ([(0, 1), (0, 1)], "no mapping from names to distributions"),
+        ("x1", "no mapping from names"),
+    ]:
+        with pytest.raises(ap.StudyError, match=words):
+            ap.Study(None, factors)
+    with pytest.raises(ap.StudyError, match="dependence=0.5: expected correlations by pairs"):
+        ap.Study(None, UNIT, dependence=0.5)
+    # A bound may be an array of no dimensions.
+    study = ap.Study(None, {"x": (np.array(0), np.array(2.0)), "z": (0, 1)}, base_samples=16)
+    assert 1.5 < study.sample()[:, 0].max() <= 2.0
+
+
+def test_tables_that_cannot_be_used_name_the_column():
+    pandas = pytest.importorskip("pandas")
+    rng = np.random.default_rng(1)
+    x = rng.uniform(size=(40, 2))
+    y = x[:, 0]
+    frame = pandas.DataFrame(x, columns=["a", "b"])
+    for inputs, outputs, words in [
+        (frame.assign(c="red"), y, "the inputs have in the column 'c'.*expected real numbers"),
+        (pandas.DataFrame(x, columns=["a", "a"]), y, "two columns of the name 'a'"),
+        (frame[:0], y[:0], "the inputs have no rows"),
+        (frame[[]], y, "the inputs have no rows"),
+        ({}, y, "the inputs have no rows"),
+        (3.0, y, "the inputs have no rows"),
+        ({"a": x[:, 0], "b": x[:-1, 1]}, y, "40 in 'a', 39 in 'b'"),
+        ({"a": x}, y, r"an array of shape \(40, 2\) in 'a'"),
+        (x, "red", "the outputs are 'red'"),
+        # What is masked or missing is NaN, which a table of rows cannot have.
+        (np.ma.masked_where(x > 0.9, x), y, "x1"),
+        (frame.assign(a=frame.a.astype("Float64").mask(frame.a > 0.9)), y, "`a`"),
+        (x, np.ma.masked_where(y > 0.9, y), "`y`"),
+    ]:
+        with pytest.raises(ap.StudyError, match=words):
+            ap.given_data(inputs, outputs)
+    numbered = ap.given_data(pandas.DataFrame(x), y)
+    assert numbered.to_json() == ap.given_data(x, y).to_json()
+
+
+SIGNALLED = """
+import signal, sys, time
+import numpy as np, apportion as ap
+signal.signal(signal.SIGINT, signal.default_int_handler)
+x = np.random.default_rng(1).uniform(size=(200000, 6))
+print("begun", flush=True)
+try:
+    ap.given_data(x, x[:, 0], measures=True, surrogate=True)
+except KeyboardInterrupt:
+    print("heard", flush=True)
+    sys.exit(7)
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of the keyboard are others there")
+def test_given_data_hears_an_interrupt():
+    process = subprocess.Popen([sys.executable, "-c", SIGNALLED], stdout=subprocess.PIPE)
+    assert process.stdout.readline() == b"begun\n"
+    time.sleep(1.0)
+    begun = time.monotonic()
+    process.send_signal(2)
+    assert process.stdout.readline() == b"heard\n"
+    assert time.monotonic() - begun < 3
+    # The process ends, although the computation has not.
+    assert process.wait(timeout=20) == 7

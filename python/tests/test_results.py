@@ -1,0 +1,64 @@
+"""Results and studies as objects of Python."""
+
+import copy
+import pickle
+
+import apportion as ap
+import numpy as np
+import pytest
+from conftest import polynomial
+
+UNIT = {"x1": (0, 1), "x2": (0, 1)}
+
+
+def two(x1, x2):
+    return {"a": x1 + x2, "b": 0 * x1 + 3}
+
+
+@pytest.fixture(scope="module")
+def result():
+    return ap.analyse(two, UNIT, base_samples=64)
+
+
+def test_results_are_copied_and_pickled(result):
+    for again in (pickle.loads(pickle.dumps(result)), copy.copy(result), copy.deepcopy(result)):
+        assert isinstance(again, ap.Result) and again.to_json() == result.to_json()
+        assert repr(again) == repr(result) and again.to_html() == result.to_html()
+    output = pickle.loads(pickle.dumps(result["a"]))
+    assert dict(output.total) == dict(result["a"].total)
+    screening = ap.Study(two, UNIT, outputs=["a", "b"]).screen(4)
+    assert copy.deepcopy(screening).to_json() == screening.to_json()
+    with pytest.raises(TypeError, match="only results of runs can be pickled"):
+        pickle.dumps(screening)
+
+
+def test_studies_are_copied_and_pickled(cube, studies):
+    study = ap.Study(polynomial, cube, base_samples=64)
+    total = dict(study.run().total)
+    for again in (pickle.loads(pickle.dumps(study)), copy.deepcopy(study), copy.copy(study)):
+        assert dict(again.run().total) == total and again.source == study.source
+    loaded = ap.Study.load(studies / "ishigami.toml", **{"design.base_samples": 64})
+    again = pickle.loads(pickle.dumps(loaded))
+    assert again.runs == loaded.runs and np.array_equal(again.sample(), loaded.sample())
+    assert copy.copy(ap.Study.parse('model = "ishigami"', **{"design.base_samples": 64})).runs == loaded.runs
+    with pytest.raises((pickle.PicklingError, AttributeError), match="lambda"):
+        pickle.dumps(ap.Study(lambda x1, x2: x1, UNIT))
+
+
+def test_what_is_not_there_is_told_with_what_is(result):
+    assert list(result) == ["a", "b"] and len(result) == 2 and "a" in result and "x1" not in result
+    with pytest.raises(KeyError, match="'zz': the indices are those of 'x1', 'x2'"):
+        result["a"].total["zz"]
+    with pytest.raises(KeyError, match="the indices are those of none at all"):
+        result["a"].second_order["x1", "x2"]
+    assert "zz" not in result["a"].total and result["a"].total.get("zz") is None
+
+
+def test_an_output_without_indices_is_nan_in_arrays(result):
+    pytest.importorskip("xarray")
+    data = result.to_xarray()
+    assert data.total.shape == (2, 2, 3)
+    assert data.total.sel(output="a", factor="x1", bound="estimate") == result["a"].total["x1"].estimate
+    assert np.isnan(data.total.sel(output="b")).all()
+    none = ap.analyse(lambda x1, x2: x1 * np.nan, UNIT, base_samples=16, max_failed=1.0)
+    assert none.to_xarray().total.shape == (1, 0, 3)
