@@ -294,9 +294,12 @@ fn range(output: &OutputRecord) -> String {
         (Some(mean), None) => format!("Mean {mean}"),
         _ => return format!("There is no mean of {}.", name(&output.name)),
     };
-    let quantile = |percent| sample.and_then(|sample| sample.quantile(percent)).map(value);
-    if let (Some(low), Some(median), Some(high)) = (quantile(2.5), quantile(50.0), quantile(97.5)) {
-        text.push_str(&format!("; median {median}, 95 % of the values from {low} to {high}"));
+    if let Some((sample, median)) = sample.and_then(|sample| Some((sample, sample.quantile(50.0)?))) {
+        let (whose, (low, high)) = match sample.central() {
+            Some(ends) => ("95 % of the values".to_owned(), ends),
+            None => (count(sample.count, "value", "values"), (sample.min, sample.max)),
+        };
+        text.push_str(&format!("; median {}, {whose} from {} to {}", value(median), value(low), value(high)));
     }
     crate::report::format::minus(&text) + "."
 }
