@@ -43,12 +43,14 @@ impl TextKind {
     /// That of a cell which is no number.
     pub fn of(cell: &str) -> Self {
         let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
-        let end = cell.find(|c: char| !(c.is_ascii_digit() || "+-.,".contains(c))).unwrap_or(cell.len());
-        let behind = cell[end..].trim();
-        let exponent = cell.replacen(',', ".", 1);
-        if cell.matches(',').count() == 1 && is_number(&exponent) {
+        let with_point = |text: &str| text.replacen(',', ".", 1);
+        let (number, behind) = cell.split_once(' ').unwrap_or_else(|| {
+            let end = cell.find(|c: char| !(c.is_ascii_digit() || "+-.,".contains(c)));
+            cell.split_at(end.unwrap_or(cell.len()))
+        });
+        if cell.contains(',') && is_number(&with_point(cell)) {
             Self::DecimalComma
-        } else if is_number(&cell[..end].replacen(',', ".", 1)) && is_unit(behind) {
+        } else if is_number(&with_point(number)) && is_unit(behind.trim()) {
             Self::Unit
         } else {
             Self::Text

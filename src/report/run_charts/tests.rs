@@ -145,7 +145,7 @@ fn captions_name_no_winner_of_a_tie_as_the_lead_does() {
             // What may exceed the threshold is not said to be below it.
             let interactions = interactions_chart(&result, output).caption().to_owned();
             for index in output.indices.as_ref().unwrap() {
-                let chance = index.effect.probability_above_threshold.unwrap();
+                let Some(chance) = index.effect.probability_above_threshold else { continue };
                 let below = interactions.split("; ").find(|part| part.contains("total index of at most"));
                 let is_said = below.is_some_and(|part| part.split(' ').any(|word| word == index.factor));
                 assert!(!is_said || chance < 0.05, "{formula} {samples}: {interactions} {chance}");
