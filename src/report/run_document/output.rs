@@ -4,6 +4,7 @@ use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, 
 use super::lead::{by_total, widest};
 use super::measures::measures;
 use super::noise::noise;
+use super::warnings::folded;
 use super::{tables, values};
 use crate::estimate::ShapleyMethod;
 use crate::report::document::Part;
@@ -55,7 +56,7 @@ fn mind(output: &OutputRecord, is_only: bool) -> Vec<Part> {
     if let (None, Some(reason)) = (&output.indices, &output.reason) {
         parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", name(&output.name))));
     }
-    parts.extend(Part::warnings(&output.warnings).filter(|_| is_only));
+    parts.extend(Part::warnings(&folded(std::slice::from_ref(output))).filter(|_| is_only));
     if output.runs_failed > 0 {
         let all = output.runs_ok + output.runs_failed;
         let share = share_of_runs(output.runs_failed as f64 / all as f64);

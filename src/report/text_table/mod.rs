@@ -123,7 +123,7 @@ mod tests {
         for width in [30, 40, 64, 72, 80, 100] {
             let drawn = lines(width);
             assert!(drawn.lines().all(|line| line.width() <= width), "{width}:\n{drawn}");
-            for word in ["static_friction", "contact_modulus", "0.3374 ", "0.4374", "± 0.0124", "P(first)", ">0.999"] {
+            for word in ["static_friction", "contact_modulus", "0.3374", "0.4374", "± 0.0124", "P(first)", ">0.999"] {
                 assert!(drawn.contains(word), "no {word} at {width}:\n{drawn}");
             }
         }
