@@ -117,7 +117,7 @@ pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<Str
     // One output at a time.
     result.outputs.truncate(1);
     result.aggregate = None;
-    page(&study, &text, &run_document(&result), result.provenance.model_runs)
+    page(&study, &text, run_document(&result), result.provenance.model_runs)
 }
 
 /// The name of the live page of the study called `name`.
@@ -177,19 +177,21 @@ fn without_target(text: &str) -> Option<String> {
     Some(document.to_string())
 }
 
-fn page(study: &Study, text: &str, document: &Document, runs: u64) -> Result<String, LiveError> {
+fn page(study: &Study, text: &str, document: Document, runs: u64) -> Result<String, LiveError> {
     let title = study.title().unwrap_or(study.name());
-    let mut presets = vec![json!({ "title": title, "text": text })];
+    let preset = |title: &str, text: &str| json!({ "title": title, "heading": symbols(title), "text": text });
+    let mut presets = vec![preset(title, text)];
     if study.subject().name() == ModelKind::AFM.name {
-        for preset in PRESETS {
-            let Some(text) = without_target(preset) else { continue };
+        for other in PRESETS {
+            let Some(text) = without_target(other) else { continue };
             let other = Study::parse(&text, Path::new("preset.toml"), &[])?;
             if other.title() != study.title() {
-                presets.push(json!({ "title": other.title(), "text": text }));
+                presets.push(preset(other.title().unwrap_or(other.name()), &text));
             }
         }
     }
     let mut sections = Vec::new();
+    let document = document.excerpt(&SECTIONS);
     for id in SECTIONS {
         let body = document.section_html(id)?;
         let title = document.sections.iter().find(|section| section.id == id).map(|section| symbols(&section.title));

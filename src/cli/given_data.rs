@@ -74,8 +74,9 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     let mut rows = table_of_bytes(bytes, &arguments.names).map_err(|error| wrong(&error))?;
     let table = read_table(rows.as_mut(), &selection).map_err(|error| wrong(&error))?;
-    say_of_table(&arguments.table, &table.skipped, rows.is_unended());
-    let Table { inputs, outputs, dropped, .. } = table;
+    let Table { inputs, outputs, dropped, skipped } = table;
+    let names: Vec<String> = skipped.iter().map(|column| column.name.clone()).collect();
+    say_of_table(&arguments.table, &names, rows.is_unended());
     let indices = analyse(&inputs, &outputs, arguments.method, arguments.seed).map_err(|error| wrong(&error))?;
     let distributions = arguments.study.as_deref().map(|study| distributions(study, &inputs)).transpose()?;
     let fit = || surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());
@@ -90,7 +91,7 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
         method: arguments.method,
         seed: arguments.seed,
     };
-    let mut result = build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts);
+    let mut result = build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts).without(&skipped);
     if arguments.measures {
         result = result.with_measures(&measures(&inputs, &outputs, &indices, arguments.seed));
     }

@@ -13,6 +13,7 @@ mod rows;
 mod sample;
 mod save;
 mod table;
+mod text_column;
 
 pub use answers::{AnswersError, AnswersRequest, MissingOutputs, read_answers};
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
@@ -21,6 +22,7 @@ pub use rows::{Format, RowReader, RowsError, open_rows};
 pub use sample::{random_points, sample};
 pub use save::{SaveError, save_outputs};
 pub use table::{Missing, Selection, Table, TableError, read_table};
+pub use text_column::{LeftOut, TextColumn, TextKind};
 
 // What the program and the tests use beside it.
 #[doc(hidden)]

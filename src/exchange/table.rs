@@ -4,8 +4,10 @@ use thiserror::Error;
 
 use super::points::in_words;
 use super::rows::{ColumnKind, RowReader, RowsError};
+use super::text_column::{LeftOut, TextColumn, TextKind};
 use crate::given::Column;
 use crate::study::nearest;
+use crate::text::listed;
 
 /// What is wrong with a table.
 #[derive(Debug, Error)]
@@ -36,10 +38,12 @@ pub enum TableError {
         name: String,
     },
     /// All columns are outputs, or text.
-    #[error("no column of numbers is left as an input; the columns are {known}")]
+    #[error("no column of numbers is left as an input{}; the columns are {known}", why(.skipped))]
     NoInputs {
         /// All columns.
         known: String,
+        /// Those of text.
+        skipped: Vec<TextColumn>,
     },
     /// An empty cell, or one that says so.
     #[error("{place}: column {column} (`{name}`): the value is missing; --drop-missing leaves such rows out")]
@@ -52,7 +56,7 @@ pub enum TableError {
         name: String,
     },
     /// A cell that is not a finite number.
-    #[error("{place}: column {column} (`{name}`): expected a finite number, not {found:?}{}", advice(*.chosen))]
+    #[error("{place}: column {column} (`{name}`): expected a finite number, not {found:?}{}", advice(.found, *.chosen))]
     NotANumber {
         /// Line of the file, or row of the table, in words.
         place: String,
@@ -79,8 +83,19 @@ fn header(known: &str) -> &'static str {
     }
 }
 
-fn advice(chosen: bool) -> &'static str {
-    if chosen { "" } else { "; if the column is no input, name the inputs (--inputs)" }
+/// Why columns of text are no inputs, and what would make them so.
+fn why(skipped: &[TextColumn]) -> String {
+    let kinds = LeftOut::of(skipped);
+    let reasons: Vec<String> = kinds.iter().map(|kind| format!("{}: {}", kind.reason(), kind.remedy())).collect();
+    if reasons.is_empty() { String::new() } else { format!(": {}", listed(&reasons)) }
+}
+
+fn advice(found: &str, chosen: bool) -> String {
+    match TextKind::of(found) {
+        TextKind::Text if chosen => String::new(),
+        TextKind::Text => "; if the column is no input, name the inputs (--inputs)".to_owned(),
+        kind => format!("; {}", kind.remedy()),
+    }
 }
 
 /// What to do with rows that lack a value.
@@ -122,8 +137,8 @@ pub struct Table {
     pub outputs: Vec<Column>,
     /// Rows left out for missing values.
     pub dropped: Option<DroppedRows>,
-    /// Names of the columns of text, which are no inputs.
-    pub skipped: Vec<String>,
+    /// The columns of text, which are no inputs.
+    pub skipped: Vec<TextColumn>,
 }
 
 /// Rows read at a time.
@@ -145,11 +160,12 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
     if selection.inputs.is_empty() {
         let text = reader.text_columns()?;
         let (of_text, of_numbers): (Vec<usize>, Vec<usize>) = inputs.iter().partition(|place| text.contains(place));
-        skipped = of_text.into_iter().map(|place| names[place].clone()).collect();
+        let column = |place: usize| TextColumn { name: names[place].clone(), example: reader.text_example(place) };
+        skipped = of_text.into_iter().map(column).collect();
         inputs = of_numbers;
     }
     if inputs.is_empty() {
-        return Err(TableError::NoInputs { known: names.join(", ") });
+        return Err(TableError::NoInputs { known: names.join(", "), skipped });
     }
     let chosen: Vec<usize> = inputs.iter().chain(&outputs).copied().collect();
     let wanted: Vec<_> = chosen.iter().map(|&place| (place, ColumnKind::numbers(&names[place]))).collect();
@@ -269,7 +285,21 @@ mod tests {
             "line 3: column 1 (`a`): expected a finite number, not \"red\"; if the",
         );
         refused("1,2\n3,4\n", &["y"], &[], "the first line holds numbers: is there no header? --names");
-        refused("a;y\n1,5;2\n", &["y"], &["a"], "line 2: column 1 (`a`): expected a finite number, not \"1,5\"");
+        let comma = "line 2: column 1 (`a`): expected a finite number, not \"1,5\"; write the numbers with a point";
+        refused("a;y\n1,5;2\n", &["y"], &["a"], comma);
+        refused(
+            "a;b;y\n1,5;red;2\n",
+            &["y"],
+            &[],
+            "no column of numbers is left as an input: the column `a` holds numbers with a decimal comma (1,5): write the numbers \
+             with a point (1.5, not 1,5) and the column `b` holds text (red): if it",
+        );
+        refused(
+            "a;y\n5 mm;2\n",
+            &["y"],
+            &[],
+            "holds numbers with their unit in the cell (5 mm): leave the numbers alone",
+        );
         refused("a,y\n1,inf\n", &["y"], &["a"], "line 2: column 2 (`y`): expected a finite number, not \"inf\"");
         refused("a,y\n1,2\n3\n", &["y"], &[], "line 3: expected 2 cells as in the header, not 1");
     }
@@ -278,10 +308,9 @@ mod tests {
     fn columns_of_text_are_skipped_and_named() {
         let text = "id;a;when;y\nr1;;2026-01-01;2\nr2;0.5;2026-01-02;4\n";
         let table = read(text, &["y"], &[], Missing::Drop).unwrap();
-        assert_eq!(
-            (table.inputs.len(), &table.inputs[0].values, table.skipped),
-            (1, &vec![0.5], vec!["id".into(), "when".into()])
-        );
+        let skipped: Vec<_> = table.skipped.iter().map(|column| (&*column.name, column.example.as_deref())).collect();
+        assert_eq!((table.inputs.len(), &table.inputs[0].values), (1, &vec![0.5]));
+        assert_eq!(skipped, [("id", Some("r1")), ("when", Some("2026-01-01"))]);
         // One that is asked for is not.
         assert!(read(text, &["y"], &["id"], Missing::Drop).is_err());
         let tabs = read("a\ty\n1\t2\n", &["y"], &[], Missing::Refuse).unwrap();

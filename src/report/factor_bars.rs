@@ -2,6 +2,7 @@
 
 use super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape};
 use super::format::{fixed, index as of_error, minus, name, two_digits};
+use super::leading::{Contender, may_lead, names};
 use super::result::{EffectRecord, EstimateRecord, IntervalRecord, OutputRecord, ResultFile};
 
 /// Most factors in a chart; the rest are summed in a last row.
@@ -276,16 +277,20 @@ pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
 /// What is seen, in one sentence.
 fn caption(output: &OutputRecord) -> String {
     let output_name = name(&output.name);
-    let largest =
-        output.indices.iter().flatten().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate));
-    match (largest, &output.reason) {
-        (Some(index), _) => format!(
+    let factors: Vec<Contender> = output.indices.iter().flatten().map(Contender::of).collect();
+    let total = |contender: &Contender| of_error(contender.total);
+    match (&may_lead(&factors)[..], &output.reason) {
+        ([lead], _) => format!(
             "Of all factors, {} has the largest total effect on {output_name}: its S_T is {}.",
-            name(&index.factor),
-            of_error(index.effect.total)
+            factors[*lead].label,
+            total(&factors[*lead])
         ),
-        (None, Some(reason)) => format!("No shares of {output_name}: {reason}."),
-        (None, None) => format!("No shares of {output_name}."),
+        (tied @ [_, ..], _) => format!(
+            "Which factor has the largest total effect on {output_name} cannot be told, by S_T: {}.",
+            names(&factors, tied, &total)
+        ),
+        ([], Some(reason)) => format!("No shares of {output_name}: {reason}."),
+        ([], None) => format!("No shares of {output_name}."),
     }
 }
 

@@ -1,6 +1,7 @@
 //! What doubling the runs would bring.
 
-use super::result::{ResultFile, StageRecord};
+use super::format::printed_half_width;
+use super::result::{OutputRecord, ResultFile, StageRecord};
 
 /// Stages that the slope is read from, the last ones: earlier widths are poor guides to later ones.
 const STAGES: usize = 4;
@@ -28,8 +29,15 @@ pub fn width_after_doubling(stages: &[StageRecord]) -> Option<f64> {
 
 /// The largest half width of any first-order or total index of a result, at its end; `None` without intervals.
 pub fn widest_interval(result: &ResultFile) -> Option<f64> {
-    let widths = result.outputs.iter().filter_map(|output| output.convergence.last()?.largest_half_width);
-    widths.reduce(f64::max)
+    result.outputs.iter().filter_map(widest_of).reduce(f64::max)
+}
+
+/// The same of an output. Not less than any half width that its table prints, which is that of the longer side, rounded.
+pub fn widest_of(output: &OutputRecord) -> Option<f64> {
+    let widest = output.convergence.last()?.largest_half_width?;
+    let indices = output.indices.iter().flatten();
+    let all = indices.flat_map(|index| [index.effect.first_order, index.effect.total]);
+    Some(all.filter_map(printed_half_width).fold(widest, f64::max))
 }
 
 #[cfg(test)]

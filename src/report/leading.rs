@@ -1,8 +1,8 @@
 //! Sentences about who leads: they follow the intervals, name no winner of a tie, and state no share that none can be.
 
-use super::format::index;
+use super::format::{index, name};
 use super::listed;
-use super::result::EstimateRecord;
+use super::result::{EstimateRecord, IndexRecord};
 
 /// From this probability on a lead is taken for one.
 pub(super) const SURE: f64 = 0.95;
@@ -20,6 +20,18 @@ pub(super) struct Contender {
     pub total: EstimateRecord,
     /// Probability that it is the largest, where it is known.
     pub probability: Option<f64>,
+}
+
+impl Contender {
+    /// A factor by its indices.
+    pub fn of(index: &IndexRecord) -> Self {
+        Self {
+            label: name(&index.factor),
+            first_order: Some(index.effect.first_order),
+            total: index.effect.weight(),
+            probability: index.effect.probability_first,
+        }
+    }
 }
 
 /// The numbers of those that may be the largest, the largest estimate first: one where it is sure to be (or where nothing

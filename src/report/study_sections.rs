@@ -151,6 +151,7 @@ fn distribution(distribution: &Value, symbol: &str) -> String {
 
 /// A value of JSON as people write it.
 fn plain(json: &Value) -> String {
+    let more = |all: usize| if all > VALUES { format!("; … ({all} in all)") } else { String::new() };
     match json {
         Value::Null => "none".to_owned(),
         Value::Bool(true) => "yes".to_owned(),
@@ -158,12 +159,11 @@ fn plain(json: &Value) -> String {
         Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), |number| value(number, "")),
         Value::String(text) => text.clone(),
         Value::Array(values) => {
-            let more = if values.len() > VALUES { format!("; … ({} in all)", values.len()) } else { String::new() };
-            values.iter().take(VALUES).map(plain).collect::<Vec<_>>().join("; ") + &more
+            values.iter().take(VALUES).map(plain).collect::<Vec<_>>().join("; ") + &more(values.len())
         }
         Value::Object(keys) => {
             let pairs = keys.iter().take(VALUES).map(|(key, json)| format!("{key} {}", plain(json)));
-            pairs.collect::<Vec<_>>().join("; ")
+            pairs.collect::<Vec<_>>().join("; ") + &more(keys.len())
         }
     }
 }
@@ -180,6 +180,8 @@ mod tests {
         let many = serde_json::json!({"name": "discrete", "values": [1, 2, 3, 4, 5, 6, 7, 8, 9]});
         assert_eq!(distribution(&many, "1"), "discrete, values 1; 2; 3; 4; 5; 6; 7; 8; … (9 in all)");
         assert_eq!(distribution(&Value::Null, "1"), "unknown");
+        let formulas: Map<String, Value> = (0..12).map(|k| (format!("y{k:02}"), Value::from("a"))).collect();
+        assert!(plain(&Value::Object(formulas)).ends_with("; y07 a; … (12 in all)"));
         let mixture = serde_json::json!({"name": "mixture", "components": [uniform, {"name": "gamma", "shape": 2, "truncate": [1, "inf"]}]});
         let words = "mixture, components (uniform, min 0.25, max 2.5), (gamma, shape 2, truncate 1; inf) (µm)";
         assert_eq!(distribution(&mixture, "um"), words);

@@ -93,6 +93,20 @@ const changes = (samples) => {
   if (samples) all.push(`design.base_samples=${samples}`, "analysis.surrogate=off");
   return all;
 };
+// The title of the study names a choice, such as the law of friction, as long as it is the one.
+const NAMES = { coulomb: "Coulomb", hk: "Hurtado-Kim", lugre: "LuGre" };
+const entitle = () => {
+  let { title, heading } = given.presets[state.preset];
+  for (const { name, value } of description ? description.choices : []) {
+    const chosen = state.choices[name];
+    if (chosen === undefined) continue;
+    const titled = (choice) => `${NAMES[choice] || choice} ${words(name)}`;
+    title = title.replace(titled(String(value)), titled(chosen));
+    heading = heading.replace(titled(String(value)), titled(chosen));
+  }
+  document.title = title;
+  document.querySelector("h1").innerHTML = heading;
+};
 const request = (wanted, samples, more = {}) => ({ wanted, text: text(), changes: changes(samples), ...more });
 
 // --- What is shown ----------------------------------------------------------------------------------------------------
@@ -101,10 +115,23 @@ const QUICK = ["mind", "indices", "shares"];
 const ALL = ["mind", "indices", "shares", "interactions", "distribution", "validity"];
 let shown = { samples: 0 };
 
-const refuse = (words) => {
+// What is wrong stands beside the factor that it is about, and above the numbers, which are those of before.
+const refuse = (problem, isOld = true) => {
+  const [, factor, rest] = /^factor `([^`]+)`:? ([^]*)/.exec(problem || "") || [];
+  const plain = (text) => text.replaceAll("`", "").replaceAll(">=", "≥").replaceAll("<=", "≤");
+  let beside = false;
+  for (const note of document.querySelectorAll(".factor .wrong")) {
+    const isIts = note.closest("fieldset").dataset.factor === factor;
+    note.hidden = !isIts;
+    note.textContent = isIts ? plain(rest) : "";
+    beside = beside || isIts;
+  }
   const place = at("refused");
-  place.hidden = !words;
-  place.textContent = words || "";
+  place.hidden = !problem;
+  document.body.classList.toggle("old", Boolean(problem) && isOld);
+  const said = beside ? `${words(factor)}: ${plain(rest)}` : plain(problem || "");
+  const sentence = /[.!?]$/.test(said) ? said : `${said}.`;
+  place.textContent = problem && isOld ? `No new result: ${sentence} The numbers below are old: those before this change.` : said;
 };
 const show = (view, seconds, whole) => {
   shown = { samples: view.base_samples, lead: view.plain_lead };
@@ -230,7 +257,7 @@ const restored = () => {
     const found = JSON.parse(decodeURIComponent(escape(atob(match[1].replaceAll("-", "+").replaceAll("_", "/")))));
     if (given.presets[found.preset] && typeof found.factors === "object" && typeof found.choices === "object") state = found;
   } catch (error) {
-    refuse("The link is damaged: this is the study as it was.");
+    refuse("The link is damaged: this is the study as it was.", false);
   }
 };
 
@@ -257,10 +284,14 @@ const SLIDES = {
 };
 const between = {
   "uniform": (min, max) => ({ name: "uniform", min, max }),
-  "log-uniform": (min, max) => ({ name: "log-uniform", min, max }),
+  // From 0 it would not begin anywhere.
+  "log-uniform": (min, max) => ({ name: "log-uniform", min: min > 0 ? min : rounded(max / 1000), max }),
   "triangular": (min, max) => ({ name: "triangular", min, mode: rounded((min + max) / 2), max }),
   "normal": (min, max) => ({ name: "normal", mean: rounded((min + max) / 2), sd: rounded((max - min) / 4) }),
 };
+
+// The ends that a factor has in the study: of a distribution without any, those between which nearly all of its values lie.
+const own = (factor) => (SLIDES[factor.distribution.name] ? SLIDES[factor.distribution.name][0](factor.distribution) : [factor.low, factor.high]);
 
 const labelled = (name, field) => make("label", {}, `${words(name)} `, field);
 const card = (factor) => {
@@ -275,7 +306,7 @@ const card = (factor) => {
     const kinds = make("div", { className: "kinds" });
     const choice = make("select", { ariaLabel: `distribution of ${words(factor.name)}` });
     choice.dataset.key = "kind";
-    const names = Object.keys(between).filter((name) => name !== "log-uniform" || factor.low > 0);
+    const names = Object.keys(between).filter((name) => name !== "log-uniform" || own(factor)[0] >= 0);
     for (const name of new Set([factor.distribution.name, ...names])) choice.append(make("option", { value: name }, words(name)));
     choice.value = fixed === undefined ? distribution.name : factor.distribution.name;
     choice.disabled = fixed !== undefined;
@@ -308,6 +339,7 @@ const card = (factor) => {
     if (slides) parts.push(slider(factor, distribution, slides));
     else parts.push(make("div", { style: "clear: both" }));
     parts.push(fields(factor, { fixed, distribution }, draw));
+    parts.push(box.querySelector(".wrong") || make("p", { className: "wrong", hidden: true }));
     const old = box.querySelector(".meter");
     if (old) meter.replaceChildren(...old.childNodes);
     meter.hidden = !old || old.hidden;
@@ -317,7 +349,7 @@ const card = (factor) => {
       if (same) same.focus();
     }
   };
-  const ends = (distribution) => (SLIDES[distribution.name] ? SLIDES[distribution.name][0](distribution) : [factor.low, factor.high]);
+  const ends = (distribution) => (SLIDES[distribution.name] ? SLIDES[distribution.name][0](distribution) : own(factor));
   draw();
   return box;
 };
@@ -326,13 +358,15 @@ const card = (factor) => {
 const STEPS = 1000;
 const slider = (factor, distribution, [ends, moved]) => {
   const box = make("div", { className: "slider" });
-  const width = factor.high - factor.low;
+  const [least, most] = own(factor);
+  const width = most - least;
   const [low, high] = ends(distribution);
-  let from = factor.low > 0 ? Math.max(factor.low / 4, factor.low - width / 2) : factor.low - width / 2;
-  let to = factor.high + width / 2;
+  // What is nowhere negative in the study is not offered below 0.
+  let from = least >= 0 ? Math.max(least / 4, least - width / 2) : least - width / 2;
+  let to = most + width / 2;
   if (low < from) from = low;
   if (high > to) to = high;
-  const isLog = factor.low > 0 && factor.high / factor.low >= 100;
+  const isLog = from > 0 && most / least >= 100;
   const place = (x) => STEPS * (isLog ? Math.log(x / from) / Math.log(to / from) : (x - from) / (to - from));
   const value = (p) => rounded(isLog ? from * (to / from) ** (p / STEPS) : from + (p / STEPS) * (to - from));
   const span = make("div", { className: "span" });
@@ -454,6 +488,7 @@ const controls = () => {
 };
 const changed = () => {
   buttons();
+  entitle();
   settle();
 };
 const fresh = async () => {

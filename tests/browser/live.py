@@ -121,6 +121,14 @@ def behaviour(arguments, browser, page_file, folder):
     print(f"first result after {first:.2f} s; settled after {time.perf_counter() - begin:.2f} s: {page.locator('#state').text_content()}")
     before, lead = state(page), page.locator("#lead").inner_text()
 
+    figures = page.locator("main figcaption b").all_inner_texts()
+    expect(figures == [f"Figure {number}." for number in range(1, len(figures) + 1)] and len(figures) > 2, f"figures are numbered {figures}")
+
+    sliders(page)
+    log_uniform_from_nothing(page)
+    page.locator("#reset").click()
+    settled(page)
+
     handle = page.locator("fieldset[data-factor=thickness] input[data-key=largest]")
     handle.focus()
     for _ in range(200):
@@ -159,6 +167,8 @@ def behaviour(arguments, browser, page_file, folder):
     expect("width" not in page.locator("#indices tbody th").all_inner_texts(), "a fixed factor is still there")
     page.locator("#settings select[aria-label=friction]").select_option("hk")
     settled(page)
+    for title in (page.locator("h1").inner_text(), page.title()):
+        expect("Hurtado-Kim friction" in title and "Coulomb" not in title, f"the title of another law: {title}")
     link = page.url
     shown = state(page)
 
@@ -199,10 +209,17 @@ def behaviour(arguments, browser, page_file, folder):
     field.fill("99")
     field.press("Tab")
     page.wait_for_selector("#refused:not([hidden])")
-    expect("min" in page.locator("#refused").inner_text(), "a refusal without its reason")
+    for words in (page.locator("#refused"), page.locator("fieldset[data-factor=thickness] .wrong")):
+        expect(words.is_visible(), "a refusal that is hidden")
+        said = words.inner_text()
+        expect("min must be below max" in said and not any(word in said for word in ("--set", "study.toml", "^^")), f"refused: {said}")
+    expect(page.locator(".wrong:visible").count() == 1, "a refusal at several factors")
+    in_sight = page.evaluate("(() => { const box = document.getElementById('refused').getBoundingClientRect(); return box.top >= 0 && box.bottom <= innerHeight; })()")
+    expect(in_sight and "old" in page.locator("#refused").inner_text(), "old numbers are not said to be old")
+    expect(float(page.evaluate("getComputedStyle(document.getElementById('indices')).opacity")) < 1, "old numbers look like new ones")
     page.locator("#undo").click()
     settled(page)
-    expect(page.locator("#refused").is_hidden(), "a refusal that stays")
+    expect(page.locator("#refused").is_hidden() and page.locator(".wrong:visible").count() == 0, "a refusal that stays")
 
     damaged = browser.open(page_file, fragment="#s=%%%damaged")
     settled(damaged)
@@ -214,6 +231,31 @@ def behaviour(arguments, browser, page_file, folder):
     expect(silent.locator("noscript").count() == 1, "no word about scripts")
     silent.context.close()
     return page
+
+
+def sliders(page):
+    """Every slider moves by keyboard, and its field with it."""
+    for name in page.eval_on_selector_all("fieldset.factor", "all => all.map((box) => box.dataset.factor)"):
+        box = page.locator(f"fieldset[data-factor={name}]")
+        for key, end, arrow in (("smallest", "min", "ArrowRight"), ("largest", "max", "ArrowLeft")):
+            field = box.locator(f"input[data-parameter={end}]")
+            before = field.input_value()
+            box.locator(f"input[data-key={key}]").focus()
+            for _ in range(10):
+                page.keyboard.press(arrow)
+            after = field.input_value()
+            expect((float(after) > float(before)) == (end == "min") and after != before, f"the {key} of {name} stays at {before}")
+    settled(page)
+
+
+def log_uniform_from_nothing(page):
+    """A log-uniform factor that began at 0 begins above it."""
+    page.locator("#reset").click()
+    box = page.locator("fieldset[data-factor=adhesion]")
+    box.locator("select[data-key=kind]").select_option("log-uniform")
+    settled(page)
+    expect(float(box.locator("input[data-parameter=min]").input_value()) > 0, "log-uniform from 0")
+    expect(page.locator("#refused").is_hidden(), "a log-uniform distribution is refused")
 
 
 def drags(page, number):

@@ -263,3 +263,60 @@ fn other_measures_stand_beside_the_indices() {
     let without = Run::of(&table(&sobol(3, 512, 0)), &["--outputs", "y"]);
     assert!(!without.out().join("table-measures.csv").exists());
 }
+
+/// A table whose column `a` explains nearly all of `y`, with its cells written by `cell`.
+fn without_numbers(cell: impl Fn(f64) -> String) -> String {
+    let columns = random(2, 200, 3);
+    let rows = (0..200).map(|row| {
+        let (a, b) = (columns[0][row], columns[1][row]);
+        format!("{};{b};{}\n", cell(a), 5.0 * a + 0.1 * b)
+    });
+    "a;b;y\n".to_owned() + &rows.collect::<String>()
+}
+
+#[test]
+fn columns_of_text_are_warned_of_with_their_remedy() {
+    let cells: [(&str, fn(f64) -> String, &str); 3] = [
+        ("decimal-comma", |a| a.to_string().replace('.', ","), "write the numbers with a point (1.5, not 1,5)"),
+        ("unit", |a| format!("{a} mm"), "put the unit into the name of the column"),
+        (
+            "text",
+            |a| if a < 0.5 { "alu" } else { "steel" }.to_owned(),
+            "write a number in the place of each of its words",
+        ),
+    ];
+    for (holds, cell, remedy) in cells {
+        let run = Run::of(&without_numbers(cell), &["--outputs", "y"]);
+        let result = run.result();
+        let left_out = &result.table.columns_left_out;
+        assert_eq!((left_out.len(), left_out[0].name.as_str(), left_out[0].holds.as_str()), (1, "a", holds));
+        assert!(result.warnings[0].starts_with("the column `a` holds "), "{:?}", result.warnings);
+        let page = std::fs::read_to_string(run.out().join("table.html")).unwrap();
+        let said = stdout(&run.output);
+        for text in [&said, &page, &result.warnings[0]] {
+            assert!(text.contains(remedy), "{holds}: no {remedy:?} in {text}");
+        }
+        assert!(said.contains("The column `a` holds no plain numbers and is not among the inputs"), "{said}");
+        // b explains next to nothing, which is not most of y.
+        assert!(!said.contains("explains most") && !said.contains("all inputs"), "{said}");
+    }
+    // Nothing is left.
+    Run::of("a;y\n1,5;2\n2,5;3\n", &["--outputs", "y"])
+        .refused("no column of numbers is left as an input: the column `a` holds numbers with a decimal comma (1,5)");
+}
+
+#[test]
+fn most_of_an_output_is_half_of_it_or_more() {
+    let columns = random(4, 2000, 5);
+    let row = |row: usize| {
+        let x: Vec<f64> = columns.iter().map(|column| column[row]).collect();
+        // Shares 0.4, 0.2, 0.2, 0.2.
+        let y = 2f64.sqrt() * x[0] + x[1] + x[2] + x[3];
+        format!("{},{},{},{},{y}\n", x[0], x[1], x[2], x[3])
+    };
+    let content = "a,b,c,d,y\n".to_owned() + &(0..2000).map(row).collect::<String>();
+    let said = stdout(&Run::of(&content, &["--outputs", "y"]).output);
+    assert!(said.contains("of all inputs, a alone explains the largest part of y, "), "{said}");
+    let said = stdout(&Run::of(&table(&random(2, 500, 2)), &["--outputs", "y"]).output);
+    assert!(said.contains("of all inputs, x1 alone explains most of y, "), "{said}");
+}

@@ -105,7 +105,11 @@ fn every_command_that_draws_writes_a_page() {
     succeed(&[&["screen", text(&study), "--trajectories", "8"], &to[..]].concat());
     assert!(whole(&out, "soft-cantilever-screen").contains("critical time (s)</h2>"));
     succeed(&[&["sweep", text(&study), "--points", "5"], &to[..]].concat());
-    assert!(whole(&out, "soft-cantilever-sweep").contains("thickness moves critical force most"));
+    let sweep = whole(&out, "soft-cantilever-sweep");
+    assert!(sweep.contains("thickness moves critical force most") && !sweep.contains("critical_force ="));
+    // Captions are sentences, and say which axes are logarithmic.
+    assert!(sweep.contains("</strong> Over thickness, ") && sweep.contains(" It moves critical force by "), "{sweep}");
+    assert!(sweep.contains("The axis of critical force is logarithmic."));
     succeed(&[&["simulate", text(&study)], &to[..]].concat());
     assert!(whole(&out, "soft-cantilever-scene").contains("<iframe"));
     succeed(&[&["simulate", text(&study), "--mode-diagram"], &to[..]].concat());

@@ -102,8 +102,13 @@ impl Request {
     }
 }
 
+/// What is wrong, without its place in a file: who reads it has a page of fields.
 fn in_words(error: &StudyError) -> String {
-    error.to_string()
+    match error {
+        StudyError::Unreadable { .. } => error.to_string(),
+        StudyError::Override { problem, .. } => problem.to_string(),
+        StudyError::Invalid(diagnostic) => diagnostic.problem.to_string(),
+    }
 }
 
 /// A result as if the study had the output of that name alone.
@@ -117,7 +122,8 @@ fn one_output(mut result: ResultFile, output: Option<&str>) -> ResultFile {
 
 /// What is shown of a result: its lead and some sections as HTML, and the indices for those who read numbers.
 fn view(result: ResultFile, sections: &[String]) -> Result<Value, String> {
-    let document = run_document(&result);
+    let ids: Vec<&str> = sections.iter().map(String::as_str).collect();
+    let document = run_document(&result).excerpt(&ids);
     let section = |id: &String| {
         let html = document.section_html(id).map_err(|error| error.to_string())?;
         let title = document.sections.iter().find(|section| section.id == *id).map(|section| symbols(&section.title));

@@ -144,6 +144,12 @@ impl<R: Read> RowReader for CsvRows<R> {
         Ok((0..self.names.len()).filter(is_text).collect())
     }
 
+    fn text_example(&self, place: usize) -> Option<String> {
+        let number = ColumnKind::default();
+        let mut cells = self.ahead.iter().filter_map(|(record, _)| record.get(place));
+        cells.find(|cell| number.value(cell).is_none()).map(str::to_owned)
+    }
+
     fn line(&self, row: usize) -> Option<u64> {
         self.lines.get(row).copied()
     }

@@ -143,6 +143,11 @@ pub trait RowReader {
         Ok(Vec::new())
     }
 
+    /// The first cell of a column of text that is no number, where the cells were looked at to tell.
+    fn text_example(&self, _place: usize) -> Option<String> {
+        None
+    }
+
     /// The line of the file, from 1, on which row number `row` of the last block ends; `None` in a format without lines.
     fn line(&self, _row: usize) -> Option<u64> {
         None

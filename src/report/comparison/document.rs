@@ -74,17 +74,28 @@ fn output_parts(output: &ComparedOutput) -> Vec<Part> {
             parts.push(Part::Text(format!("{what}: A {}, B {}.", significant(a), significant(b))));
         }
     }
+    // Side by side they would be wider than a page.
+    parts.push(index_table(output, "First-order index S_1", ["S_1 of A", "S_1 of B"], |factor| &factor.first_order));
+    parts.push(index_table(output, "Total index S_T", ["S_T of A", "S_T of B"], |factor| &factor.total));
+    parts
+}
+
+fn index_table(
+    output: &ComparedOutput,
+    what: &str,
+    [a, b]: [&str; 2],
+    of: fn(&ComparedFactor) -> &ComparedIndex,
+) -> Part {
     let row = |factor: &ComparedFactor| {
         let label = if factor.group { format!("group {}", name(&factor.name)) } else { name(&factor.name) };
-        let numbers = cells(&factor.first_order).into_iter().chain(cells(&factor.total));
-        [label].into_iter().chain(numbers).map(Cell::from).collect()
+        [label].into_iter().chain(cells(of(factor))).map(Cell::from).collect()
     };
-    let headings = ["factor", "S_1 of A", "S_1 of B", "B − A", "S_T of A", "S_T of B", "B − A"];
-    let caption = "First-order index S_1 and total index S_T in both, each with the half width of its 95 % interval, and \
-                   their difference; a star marks those whose interval leaves out 0.";
-    let table = Table::new(caption, Column::list(1, &headings)).with_rows(output.factors.iter().map(row));
-    parts.push(Part::Table(table));
-    parts
+    let caption = format!(
+        "{what} in both, with the half width of its 95 % interval, and the difference; a star marks those whose interval \
+         leaves out 0."
+    );
+    let columns = Column::list(1, &["factor", a, b, "B − A"]);
+    Part::Table(Table::new(caption, columns).with_rows(output.factors.iter().map(row)))
 }
 
 fn cells(index: &ComparedIndex) -> [String; 3] {

@@ -129,6 +129,17 @@ fn moments_are_compared_in_one_unit() {
 }
 
 #[test]
+fn a_table_has_no_more_columns_than_a_page_has_room_for() {
+    let file = compared(&linear("[1.0, 4.0]", ""), &linear("[2.0, 4.0]", "")).unwrap();
+    let document = comparison_document(&file, "a-vs-b");
+    let text = document.text();
+    for heading in ["S_1 of A", "S_T of B"] {
+        let line = text.lines().find(|line| line.contains(heading)).unwrap();
+        assert!(line.matches("of A").count() == 1 && line.contains("B − A"), "{line}");
+    }
+}
+
+#[test]
 fn rounding_is_no_difference() {
     let record = |estimate: f64| Some(EstimateRecord { estimate, low: Some(estimate), high: Some(estimate) });
     assert_eq!(ComparedIndex::new(record(0.0), record(5e-15)).differs, Some(false));

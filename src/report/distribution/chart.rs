@@ -49,11 +49,12 @@ fn rules(distribution: &OutputDistribution) -> Vec<Mark> {
         return vec![Mark::rule(distribution.mean, format!("all values {}", significant(distribution.mean)))];
     }
     let edges = distribution.histogram.as_ref().map_or(&[][..], |histogram| &histogram.edges);
+    let ends = distribution.central().unzip();
     let places = [
-        (distribution.quantile(2.5), "2.5 %"),
+        (ends.0, "2.5 %"),
         (distribution.quantile(50.0), "median"),
         (Some(distribution.mean), "mean"),
-        (distribution.quantile(97.5), "97.5 %"),
+        (ends.1, "97.5 %"),
     ];
     let rule = |(x, name): (Option<f64>, &str)| {
         let x = x.filter(|x| inside(*x, edges))?;
@@ -78,13 +79,15 @@ fn caption(distribution: &OutputDistribution, output: &str, symbol: &str) -> Str
     let unit = if symbol.is_empty() { String::new() } else { format!(" {symbol}") };
     let n = distribution.count;
     let output = name(output);
-    let (Some(histogram), Some(low), Some(high)) =
-        (&distribution.histogram, distribution.quantile(2.5), distribution.quantile(97.5))
-    else {
+    let Some(histogram) = &distribution.histogram else {
         return format!("All {n} values of {output} are {}{unit}.", significant(distribution.mean));
     };
+    let (whose, (low, high)) = match distribution.central() {
+        Some(ends) => (format!("95 % of the {n} values"), ends),
+        None => (format!("The {n} values"), (distribution.min, distribution.max)),
+    };
     let mut caption = format!(
-        "95 % of the {n} values of {output} lie between {} and {}{unit}, the mean is {}{unit}",
+        "{whose} of {output} lie between {} and {}{unit}, the mean is {}{unit}",
         short(low),
         short(high),
         short(distribution.mean)

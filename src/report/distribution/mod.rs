@@ -163,6 +163,16 @@ impl OutputDistribution {
         })
     }
 
+    /// The values that leave out 2.5 % at either end; `None` of so few values that these are the smallest and the largest.
+    pub fn central(&self) -> Option<(f64, f64)> {
+        self.tells(2.5).then(|| self.quantile(2.5).zip(self.quantile(97.5))).flatten()
+    }
+
+    /// Whether a value or more lies beyond the quantile of so many percent: of fewer it would be an end of the range.
+    pub fn tells(&self, percent: f64) -> bool {
+        self.count as f64 * percent.min(100.0 - percent) >= 100.0
+    }
+
     /// The quantile at a percentage of [`PERCENTS`].
     pub fn quantile(&self, percent: f64) -> Option<f64> {
         self.quantiles.iter().find(|q| q.percent == percent).map(|q| q.value)

@@ -199,6 +199,15 @@ impl Document {
         FileNames { name: self.name.clone(), data, charts }
     }
 
+    /// These sections of it alone, with their figures numbered through.
+    #[must_use]
+    pub fn excerpt(mut self, ids: &[&str]) -> Self {
+        self.sections.retain(|section| ids.contains(&&*section.id));
+        let mut number = 0;
+        self.sections.iter_mut().for_each(|section| renumber(&mut section.parts, &mut number));
+        self
+    }
+
     fn visit<'a>(&'a self, see: &mut dyn FnMut(&'a Part)) {
         self.sections.iter().for_each(|section| visit(&section.parts, see));
     }
@@ -210,6 +219,24 @@ fn visit<'a>(parts: &'a [Part], see: &mut dyn FnMut(&'a Part)) {
         see(part);
         if let Part::Details { parts, .. } | Part::OnPage(parts) | Part::OnScreen { parts, .. } = part {
             visit(parts, see);
+        }
+    }
+}
+
+/// Numbers the figures that have a number, from the one after `number` on.
+fn renumber(parts: &mut [Part], number: &mut usize) {
+    let one = |figure: &mut Figure, number: &mut usize| {
+        if figure.label.starts_with("Figure ") {
+            *number += 1;
+            figure.label = format!("Figure {number}");
+        }
+    };
+    for part in parts {
+        match part {
+            Part::Figure(figure) => one(figure, number),
+            Part::Gallery(small) => small.iter_mut().for_each(|figure| one(figure, number)),
+            Part::Details { parts, .. } | Part::OnPage(parts) | Part::OnScreen { parts, .. } => renumber(parts, number),
+            _ => (),
         }
     }
 }

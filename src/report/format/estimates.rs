@@ -46,6 +46,11 @@ pub fn give_or_take(record: EstimateRecord) -> String {
     format!("{} [{}, {}]", at(estimate, places), at(low, places), at(high, places))
 }
 
+/// The half width that [`give_or_take`] prints; `None` where it prints none.
+pub fn printed_half_width(record: EstimateRecord) -> Option<f64> {
+    give_or_take(record).split_once(" ± ")?.1.parse().ok()
+}
+
 /// The same for sentences, with true minus signs.
 pub fn index(record: EstimateRecord) -> String {
     minus(&give_or_take(record))

@@ -7,10 +7,10 @@ use super::{measures, sentences};
 use crate::report::csv::Field;
 use crate::report::distribution::OutputDistribution;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
-use crate::report::file_stems;
 use crate::report::format::{index, name as words, significant};
 use crate::report::records::json;
 use crate::report::result::EstimateRecord;
+use crate::report::{file_stems, listed};
 
 /// The document of a result from given data, whose files begin with `name`.
 pub fn given_document(result: &GivenFile, name: &str) -> Document {
@@ -33,6 +33,7 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
     let note = Part::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts: notes };
     sections.push(Section::new("limits", "What these indices cannot say", vec![note]));
     sections.push(Section::new("table", "The table", table_parts(result)));
+    lead.extend(not_read(result));
     let mut files = vec![DataFile::new(format!("{name}.json"), json(result))];
     // Without any index the table has a header still.
     if let Some(output) = result.outputs.first().filter(|_| result.outputs.iter().all(|o| o.indices.is_none())) {
@@ -63,6 +64,19 @@ fn left(output: &GivenOutputRecord) -> String {
             "beyond 1 by error, or by inputs that go together"
         };
         format!(" The first-order indices sum to {}: {missing}.", said)
+    })
+}
+
+/// Which columns are not among the inputs although nobody left them out.
+fn not_read(result: &GivenFile) -> Option<String> {
+    let left_out = &result.table.columns_left_out;
+    let names: Vec<String> = left_out.iter().map(|column| format!("`{}`", column.name)).collect();
+    let (columns, hold, are) = if names.len() == 1 { ("column", "holds", "is") } else { ("columns", "hold", "are") };
+    (!names.is_empty()).then(|| {
+        format!(
+            "The {columns} {} {hold} no plain numbers and {are} not among the inputs: mind the warning.",
+            listed(&names)
+        )
     })
 }
 

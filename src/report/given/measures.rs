@@ -217,7 +217,13 @@ fn chart(output: &GivenOutputRecord, inputs: &[GivenMeasuresRecord]) -> Chart {
         let (words, colour) = KINDS[kind];
         Series::new(words, colour).mark(Shape::Tile(tile))
     });
-    let columns = Measure::ALL.map(|measure| measure.heading().to_owned()).to_vec();
+    // Narrow columns show the beginning of a name.
+    let column = |measure: Measure| match measure {
+        Measure::PawnMedian => "median PAWN",
+        Measure::PawnMax => "largest PAWN",
+        other => other.heading(),
+    };
+    let columns = Measure::ALL.map(|measure| column(measure).to_owned()).to_vec();
     let rows = inputs.iter().map(|of| of.input.clone()).collect();
     let keys: Vec<f64> =
         (0..inputs.len()).map(|input| -by_measure.iter().map(|ranks| ranks[input] as f64).sum::<f64>()).collect();

@@ -13,7 +13,7 @@ pub(super) use document::{file_name, moments};
 pub use measures::{GivenMeasuresRecord, MeasuredRecord};
 pub(super) use measures::{agreement, table as measures_table};
 pub use record::{
-    BinnedRecord, DependenceRecord, GivenFacts, GivenFile, GivenIndexRecord, GivenInputRecord, GivenOutputRecord,
-    GivenProvenance, SurrogateResult, TableRecord, build_given,
+    BinnedRecord, ColumnLeftOut, DependenceRecord, GivenFacts, GivenFile, GivenIndexRecord, GivenInputRecord,
+    GivenOutputRecord, GivenProvenance, SurrogateResult, TableRecord, build_given,
 };
 pub use surrogate::{GivenSurrogateIndex, GivenSurrogateOutput, GivenSurrogateRecord};

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::measures::GivenMeasuresRecord;
 use super::sentences;
 use super::surrogate::{GivenSurrogateOutput, GivenSurrogateRecord, surrogate_output, surrogate_record};
+use crate::exchange::{LeftOut, TextColumn, TextKind};
 use crate::given::{
     Binned, Column, GivenIndices, InputIndices, Method, NoVariance, OutputIndices, PointSet, SurrogateOutput,
     SurrogateRefusal, Surrogates,
@@ -72,6 +73,39 @@ pub struct TableRecord {
     pub points: String,
     /// Why the rows are not taken for independent draws, if they are not.
     pub points_reason: Option<String>,
+    /// Columns that are no inputs because they hold text.
+    #[serde(default)]
+    pub columns_left_out: Vec<ColumnLeftOut>,
+}
+
+/// A column that is no input because it holds text.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ColumnLeftOut {
+    /// Its name.
+    pub name: String,
+    /// `"decimal-comma"`, `"unit"` (a number with a unit behind it) or `"text"`.
+    pub holds: String,
+    /// Its first cell that is no number; `null` where the file says that there are none.
+    pub example: Option<String>,
+}
+
+impl GivenFile {
+    /// The result of a table in which these columns hold text: it says so first.
+    #[must_use]
+    pub fn without(mut self, columns: &[TextColumn]) -> Self {
+        self.table.columns_left_out = columns.iter().map(column_left_out).collect();
+        self.warnings.splice(0..0, LeftOut::of(columns).iter().map(ToString::to_string));
+        self
+    }
+}
+
+fn column_left_out(column: &TextColumn) -> ColumnLeftOut {
+    let holds = match column.kind() {
+        TextKind::DecimalComma => "decimal-comma",
+        TextKind::Unit => "unit",
+        TextKind::Text => "text",
+    };
+    ColumnLeftOut { name: column.name.clone(), holds: holds.to_owned(), example: column.example.clone() }
 }
 
 /// An input: indices hold for its values in the table, between these bounds.
@@ -206,6 +240,7 @@ pub fn build_given(
             first_dropped_line: facts.dropped.map(|(_, line)| line),
             points: points_name(&indices.points).to_owned(),
             points_reason: indices.points.reason(),
+            columns_left_out: Vec::new(),
         },
         inputs: inputs.iter().map(input_record).collect(),
         dependence: indices.dependence.as_ref().map(|dependence| DependenceRecord {

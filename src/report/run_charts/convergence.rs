@@ -3,6 +3,7 @@
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
 use super::super::format::name as label;
 use super::super::format::{name, two_digits};
+use super::super::interval_widths::widest_of;
 use super::super::result::{EstimateRecord, OutputRecord, ResultFile, StageIndexRecord, StageRecord};
 use super::headline;
 
@@ -82,7 +83,7 @@ fn caption(result: &ResultFile, output: &OutputRecord, lines: usize) -> String {
         let reason = output.reason.as_deref().unwrap_or("too few base samples to be looked at in parts");
         return format!("Nothing to see: {reason}.");
     };
-    let mut caption = match last.largest_half_width {
+    let mut caption = match widest_of(output) {
         Some(width) => format!(
             "After {} model runs every first-order and total index is known to ± {} or better",
             last.model_runs,

@@ -3,7 +3,7 @@
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Point, Series, Shape};
 use super::super::factor_bars::{INDEX, MOST, both_orders, index_panel, left_out, not_drawn, pair_panel};
 use super::super::format::{index, name};
-use super::super::leading::{Contender, decides_most, may_lead, names};
+use super::super::leading::{Contender, SURE, decides_most, may_lead, names};
 use super::super::result::{IndexRecord, OutputRecord, ResultFile};
 use super::{headline, no_indices};
 use crate::text::listed;
@@ -81,13 +81,7 @@ fn drawn(output: &OutputRecord) -> Vec<&IndexRecord> {
 /// What is seen, and which factors are left out.
 fn indices_caption(output: &OutputRecord) -> String {
     let indices = || output.indices.iter().flatten();
-    let contender = |index: &IndexRecord| Contender {
-        label: name(&index.factor),
-        first_order: Some(index.effect.first_order),
-        total: index.effect.weight(),
-        probability: index.effect.probability_first,
-    };
-    let contenders: Vec<Contender> = indices().map(contender).collect();
+    let contenders: Vec<Contender> = indices().map(Contender::of).collect();
     if indices().any(|index| index.effect.dependent.is_some()) {
         return dependent_caption(&contenders, &name(&output.name)) + &left_out(indices().count());
     }
@@ -120,13 +114,18 @@ fn interactions_caption(result: &ResultFile, output: &OutputRecord) -> String {
     let Some(indices) = &output.indices else { return no_indices(output) };
     let threshold = result.provenance.threshold;
     let mut kinds: [Vec<&str>; 4] = Default::default();
-    let mut idle = Vec::new();
+    let (mut idle, mut unsure) = (Vec::new(), Vec::new());
     for index in indices {
         let (first, all) = (index.effect.first_order, index.effect.total.estimate);
+        let is_idle = match index.effect.probability_above_threshold {
+            Some(above) => above < 1.0 - SURE,
+            None => index.effect.total.high.unwrap_or(all) <= threshold,
+        };
         let open =
             first.low.is_some_and(|low| low < TOGETHER * all) && first.high.is_some_and(|high| high > ALONE * all);
         match first.estimate / all {
-            _ if all <= threshold => idle.push(index.factor.as_str()),
+            _ if is_idle => idle.push(index.factor.as_str()),
+            _ if all <= threshold => unsure.push(index.factor.as_str()),
             _ if open => kinds[3].push(&index.factor),
             part if part >= ALONE => kinds[0].push(&index.factor),
             part if part >= TOGETHER => kinds[1].push(&index.factor),
@@ -144,6 +143,10 @@ fn interactions_caption(result: &ResultFile, output: &OutputRecord) -> String {
         format!("{} {} {how}", named(names), if names.len() == 1 { "acts" } else { "act" })
     };
     let mut said: Vec<String> = said.map(act).collect();
+    if !unsure.is_empty() {
+        let whose = if unsure.len() == 1 { "its total index is" } else { "their total indices are" };
+        said.push(format!("of {} the errors leave open whether {whose} above {threshold}", named(&unsure)));
+    }
     match (idle.len(), said.is_empty()) {
         (0, _) => (),
         (_, true) => said.push(format!("no factor has a total index above {threshold}")),

@@ -3,7 +3,8 @@
 use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use super::super::factor_bars::not_drawn;
 use super::super::format::{index, name, percent};
-use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
+use super::super::leading::{Contender, may_lead, names};
+use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, PairRecord, ResultFile};
 use super::map::{class, series, short};
 use super::{headline, no_indices};
 
@@ -77,17 +78,24 @@ fn caption(output: &OutputRecord, all: usize, idle: usize) -> String {
     let meaning = "Below the diagonal, what two factors do together beyond what each does alone (S_ij); on it, what each does \
                    alone (S_i).";
     let sure = pairs.iter().filter(|pair| pair.index.low.is_some_and(|low| low > 0.0));
-    let most = sure.max_by(|a, b| a.index.estimate.total_cmp(&b.index.estimate));
+    let contender = |pair: &PairRecord| Contender {
+        label: pair.factors.each_ref().map(|factor| name(factor)).join(" and "),
+        first_order: None,
+        total: pair.index,
+        probability: None,
+    };
+    let sure: Vec<Contender> = sure.map(contender).collect();
+    let part = |contender: &Contender| percent(contender.total);
     let has_intervals = pairs.iter().any(|pair| pair.index.low.is_some());
-    let seen = match most {
-        Some(most) => {
-            let [a, b] = &most.factors;
-            format!("The largest interaction of two is that of {} and {}: {}.", name(a), name(b), percent(most.index))
+    let seen = match &may_lead(&sure)[..] {
+        [most] => format!("The largest interaction of two is that of {}: {}.", sure[*most].label, part(&sure[*most])),
+        tied @ [_, ..] => {
+            format!("Which two factors interact most cannot be told: {}.", names(&sure, tied, &part))
         }
-        None if has_intervals => {
+        [] if has_intervals => {
             "No two factors are sure to act together: 0 is within the interval of every pair.".to_owned()
         }
-        None => "Without intervals, how sure the interactions are is unknown.".to_owned(),
+        [] => "Without intervals, how sure the interactions are is unknown.".to_owned(),
     };
     let idle = match idle {
         0 => String::new(),

@@ -122,3 +122,34 @@ fn pairs_stand_below_the_diagonal_in_the_order_of_all_charts() {
     let without = analysed("model = \"ishigami\"\n[design]\nbase_samples = 256");
     assert!(pairs_chart(&without, &without.outputs[0]).caption().starts_with("No second-order indices of y: "));
 }
+
+#[test]
+fn captions_name_no_winner_of_a_tie_as_the_lead_does() {
+    let text = |formula: &str, samples: u32| {
+        format!(
+            "model = \"expression\"\n[expression]\noutputs = {{ y = \"{formula}\" }}\n[factors]\na = {{ min = 0, max = 1 }}\nb = {{ \
+             min = 0, max = 1 }}\nc = {{ min = 0, max = 1 }}\n[design]\nbase_samples = {samples}\n[analysis]\nsecond_order = true\n\
+             surrogate = \"off\"\n"
+        )
+    };
+    for formula in ["a + b + 0*c", "a*b + 0*c", "sin(40*a)*sin(50*b) + c"] {
+        for samples in [16, 64, 256] {
+            let result = analysed(&text(formula, samples));
+            let output = &result.outputs[0];
+            let lead = &crate::report::run_document(&result).lead[0];
+            let is_tied = lead.contains("cannot be told apart, by the total index");
+            let shares = crate::report::study_chart(&result, output).caption().to_owned();
+            let indices = indices_chart(&result, output).caption().to_owned();
+            assert_eq!(shares.contains("cannot be told"), is_tied, "{formula} {samples}: {shares} {lead}");
+            assert_eq!(indices.contains("cannot be told apart"), is_tied, "{formula} {samples}: {indices} {lead}");
+            // What may exceed the threshold is not said to be below it.
+            let interactions = interactions_chart(&result, output).caption().to_owned();
+            for index in output.indices.as_ref().unwrap() {
+                let Some(chance) = index.effect.probability_above_threshold else { continue };
+                let below = interactions.split("; ").find(|part| part.contains("total index of at most"));
+                let is_said = below.is_some_and(|part| part.split(' ').any(|word| word == index.factor));
+                assert!(!is_said || chance < 0.05, "{formula} {samples}: {interactions} {chance}");
+            }
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 use crate::model::MANY_OUTPUTS;
 use crate::report::format::{chance, count, grouped, index, name, two_digits as half_width};
-use crate::report::interval_widths::{widest_interval, width_after_doubling};
+use crate::report::interval_widths::{widest_interval, widest_of, width_after_doubling};
 use crate::report::leading::{Contender, SURE, may_lead, names};
 use crate::report::listed;
 use crate::report::result::{IndexRecord, OutputRecord, ResultFile};
@@ -102,13 +102,7 @@ pub(super) fn by_total(output: &OutputRecord) -> Option<Vec<(usize, &IndexRecord
 }
 
 fn contenders(order: &[&IndexRecord]) -> Vec<Contender> {
-    let contender = |index: &&IndexRecord| Contender {
-        label: name(&index.factor),
-        first_order: Some(index.effect.first_order),
-        total: index.effect.weight(),
-        probability: index.effect.probability_first,
-    };
-    order.iter().map(contender).collect()
+    order.iter().map(|index| Contender::of(index)).collect()
 }
 
 /// The places of those that may have the largest total index.
@@ -250,5 +244,5 @@ fn settled(result: &ResultFile) -> String {
 
 /// Largest half width of an output's indices at the end.
 pub(super) fn widest(output: &OutputRecord) -> Option<f64> {
-    output.convergence.last()?.largest_half_width
+    widest_of(output)
 }

@@ -4,6 +4,7 @@ use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, 
 use super::lead::{WIDE, by_total, widest};
 use super::measures::measures;
 use super::noise::noise;
+use super::warnings::folded;
 use super::{tables, values};
 use crate::estimate::ShapleyMethod;
 use crate::report::document::Part;
@@ -55,7 +56,7 @@ fn mind(output: &OutputRecord, is_only: bool) -> Vec<Part> {
     if let (None, Some(reason)) = (&output.indices, &output.reason) {
         parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", name(&output.name))));
     }
-    parts.extend(Part::warnings(&output.warnings).filter(|_| is_only));
+    parts.extend(Part::warnings(&folded(std::slice::from_ref(output))).filter(|_| is_only));
     if output.runs_failed > 0 {
         let all = output.runs_ok + output.runs_failed;
         let share = share_of_runs(output.runs_failed as f64 / all as f64);
@@ -294,9 +295,12 @@ fn range(output: &OutputRecord) -> String {
         (Some(mean), None) => format!("Mean {mean}"),
         _ => return format!("There is no mean of {}.", name(&output.name)),
     };
-    let quantile = |percent| sample.and_then(|sample| sample.quantile(percent)).map(value);
-    if let (Some(low), Some(median), Some(high)) = (quantile(2.5), quantile(50.0), quantile(97.5)) {
-        text.push_str(&format!("; median {median}, 95 % of the values from {low} to {high}"));
+    if let Some((sample, median)) = sample.and_then(|sample| Some((sample, sample.quantile(50.0)?))) {
+        let (whose, (low, high)) = match sample.central() {
+            Some(ends) => ("95 % of the values".to_owned(), ends),
+            None => (count(sample.count, "value", "values"), (sample.min, sample.max)),
+        };
+        text.push_str(&format!("; median {}, {whose} from {} to {}", value(median), value(low), value(high)));
     }
     crate::report::format::minus(&text) + "."
 }

@@ -110,3 +110,45 @@ fn a_standard_deviation_has_its_error() {
     let told = super::values::sd(output).unwrap();
     assert!(told.starts_with("2.0") && told.contains('±'), "{told}");
 }
+
+#[test]
+fn an_excerpt_numbers_its_figures_through() {
+    let document = page(&result(&format!("model = \"ishigami\"{SMALL}"))).excerpt(&["indices", "distribution"]);
+    let labels: Vec<&str> =
+        document.figures().iter().map(|figure| figure.label.as_str()).filter(|l| !l.is_empty()).collect();
+    assert_eq!(labels[..2], ["Figure 1", "Figure 2"]);
+    assert_eq!(titles(&document), ["Indices", "Distribution of the output"]);
+}
+
+#[test]
+fn few_values_have_a_range_and_no_quantiles_of_it() {
+    let of = |samples: u32| {
+        let result = result(&format!("model = \"ishigami\"\n[design]\nbase_samples = {samples}\nreplicates = 1\n"));
+        (page(&result).text(), page(&result).html().unwrap())
+    };
+    let (text, html) = of(8);
+    assert!(text.contains(", 16 values from ") && !text.contains("95 % of the values"), "{text}");
+    assert!(
+        html.contains("The 16 values of ") && !html.contains(">2.5 % quantile") && !html.contains("95 % of the 16")
+    );
+    let (text, html) = of(32);
+    assert!(text.contains("95 % of the values from ") && html.contains("95 % of the 64 values"), "{text}");
+}
+
+#[test]
+fn no_index_of_the_table_is_known_worse_than_the_lead_says() {
+    for model in ["linear", "ishigami"] {
+        for samples in [64, 256, 1024] {
+            let result = result(&format!("model = \"{model}\"\n[design]\nbase_samples = {samples}\n"));
+            let lead = page(&result).lead.join(" ");
+            let Some((_, said)) = lead.split_once("every index is known to ± ") else { continue };
+            let said: f64 = said.split(' ').next().unwrap().parse().unwrap();
+            for index in result.outputs[0].indices.iter().flatten() {
+                for record in [index.effect.first_order, index.effect.total] {
+                    let printed = crate::report::format::printed_half_width(record).unwrap_or(0.0);
+                    assert!(printed <= said, "{model} {samples}: {printed} beside {said}");
+                }
+            }
+        }
+    }
+}

@@ -31,7 +31,8 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
     add("excess kurtosis", sample.excess_kurtosis.map(|x| value(x, "")));
     add("smallest", Some(number(sample.min)));
     if sample.histogram.is_some() {
-        for quantile in sample.quantiles.iter().filter(|quantile| QUANTILES.contains(&quantile.percent)) {
+        let told = |percent: f64| QUANTILES.contains(&percent) && sample.tells(percent);
+        for quantile in sample.quantiles.iter().filter(|quantile| told(quantile.percent)) {
             add(&format!("{} % quantile", significant(quantile.percent)), Some(number(quantile.value)));
         }
     }

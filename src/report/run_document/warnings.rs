@@ -10,8 +10,19 @@ const NAMES: usize = 6;
 /// The words of a warning, and its outputs with the numbers between the words.
 type Group<'a> = (Vec<&'a str>, Vec<(usize, Vec<&'a str>)>);
 
+/// What several warnings say of several factors of the same outputs.
+struct Same<'a> {
+    /// The words without the name of the factor.
+    words: Vec<&'a str>,
+    /// The factors; none of what is said of no factor.
+    subjects: Vec<&'a str>,
+    /// Outputs with the numbers.
+    all: Vec<(usize, Vec<&'a str>)>,
+}
+
 /// What is warned of, in the order of the first time. Warnings that differ in their numbers alone are one, with the range
-/// of these; one of several outputs says which. Without capitals and full stops, as they are in the file.
+/// of these; one of several outputs says which. Those that differ in the factor that they begin with are one, with the first
+/// of these. Without capitals and full stops, as they are in the file.
 pub(super) fn folded(outputs: &[OutputRecord]) -> Vec<String> {
     let said = outputs.iter().enumerate();
     let said = said.flat_map(|(place, output)| output.warnings.iter().map(move |warning| (place, warning)));
@@ -23,18 +34,56 @@ pub(super) fn folded(outputs: &[OutputRecord]) -> Vec<String> {
             None => groups.push((words, vec![(place, numbers)])),
         }
     }
-    let told = groups.into_iter().map(|(words, all)| {
-        let mut text = String::new();
+    let mut same: Vec<Same<'_>> = Vec::new();
+    for (mut words, all) in groups {
+        let subject = subject(words[0]);
+        if let Some(subject) = subject {
+            words[0] = &words[0][subject.len()..];
+        }
+        let outputs = || all.iter().map(|(place, _)| place);
+        let known = subject.and_then(|_| {
+            same.iter_mut().find(|known| {
+                !known.subjects.is_empty()
+                    && known.words == words
+                    && outputs().all(|place| known.all.iter().any(|(other, _)| other == place))
+                    && known.all.iter().all(|(other, _)| outputs().any(|place| place == other))
+            })
+        });
+        match known {
+            Some(known) => {
+                known.subjects.extend(subject);
+                known.all.extend(all);
+            }
+            None => same.push(Same { words, subjects: subject.into_iter().collect(), all }),
+        }
+    }
+    let told = same.into_iter().map(|Same { words, subjects, all }| {
+        let mut text = match &subjects[..] {
+            [] => String::new(),
+            [only] => (*only).to_owned(),
+            several => {
+                let mut names: Vec<String> = several.iter().take(NAMES).map(|own| name(own)).collect();
+                names.extend((several.len() > NAMES).then(|| format!("{} more", several.len() - NAMES)));
+                format!("in {} cases ({})", several.len(), listed(&names))
+            }
+        };
         for (number, word) in words.iter().enumerate() {
             text.push_str(word);
             let values: Vec<&str> = all.iter().filter_map(|(_, numbers)| numbers.get(number).copied()).collect();
             text.push_str(&range(&values));
         }
         let mut places: Vec<usize> = all.iter().map(|(place, _)| *place).collect();
+        places.sort_unstable();
         places.dedup();
         if outputs.len() == 1 { text } else { format!("{text} ({})", of_which(outputs, &places)) }
     });
     told.collect()
+}
+
+/// The name that a warning begins with, if it is of a factor: `x1` of `x1: too few samples`.
+fn subject(text: &str) -> Option<&str> {
+    let (name, _) = text.split_once(": ")?;
+    (!name.is_empty() && !name.contains(char::is_whitespace)).then_some(name)
 }
 
 /// A text as what stands before and between its numbers, and these; digits in names are none.
@@ -154,6 +203,13 @@ mod tests {
             ]
         );
         assert_eq!(folded(&outputs(&[&["few rows"]])), ["few rows"]);
+        let lay = |factor: usize| format!("f{factor}: the interval of {}.5 lay above", factor * 10);
+        let many: Vec<String> = (1..=9).map(lay).chain(["f3: noise".to_owned()]).collect();
+        let many: Vec<&str> = many.iter().map(String::as_str).collect();
+        assert_eq!(
+            folded(&outputs(&[&many])),
+            ["in 9 cases (f1, f2, f3, f4, f5, f6 and 3 more): the interval of 10.5 to 90.5 lay above", "f3: noise"]
+        );
         assert_eq!(folded(&outputs(&[&["few"], &["few"], &["few"]])), ["few (all 3 outputs)"]);
         assert_eq!(folded(&outputs(&[&["few"], &["few"], &["few"], &[]])), ["few (3 outputs: y[0] to y[2])"]);
     }

@@ -3,7 +3,7 @@
 use super::super::Drawing;
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
 use super::super::format::{axis_unit, name, printed, short_with_unit, words};
-use crate::report::{capitalised, file_stems};
+use crate::report::{capitalised, file_stems, listed};
 
 use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines};
 
@@ -59,7 +59,22 @@ fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> Chart {
         let rule = place_of(sweep, sweep.nominal).filter(|_| number == 0).map(|x| Mark::rule(x, "nominal"));
         Panel::new(x.clone(), y).with(curves).with(rule)
     };
-    Chart::new(format!("{}: {}", file.study.headline(), words(&sweep.factor)), caption(sweep))
+    let mut axes: Vec<String> = file
+        .nominal
+        .iter()
+        .enumerate()
+        .filter(|(number, _)| is_wide(drawn, *number))
+        .map(|(_, nominal)| name(&nominal.output))
+        .collect();
+    if logarithmic {
+        axes.insert(0, words(&sweep.factor));
+    }
+    let logarithmic_axes = match axes.len() {
+        0 => String::new(),
+        1 => format!(" The axis of {} is logarithmic.", axes[0]),
+        _ => format!(" The axes of {} are logarithmic.", listed(&axes)),
+    };
+    Chart::new(format!("{}: {}", file.study.headline(), words(&sweep.factor)), caption(sweep) + &logarithmic_axes)
         .panels(file.nominal.iter().enumerate().map(panel))
 }
 
@@ -108,25 +123,25 @@ fn caption(sweep: &FactorSweepRecord) -> String {
     let factor = words(&sweep.factor);
     let mut text = match sweep.curves.iter().find_map(|curve| curve.against.as_ref()) {
         Some(against) => format!(
-            "{factor}, {}, for {} values of {}; percentages are for its nominal value. Every other factor is nominal.",
+            "Over {factor}, {}, for {} values of {}; percentages are for its nominal value. Every other factor is nominal.",
             values_seen(sweep),
             sweep.curves.len() - 1,
             name(&against.factor)
         ),
-        None => format!("{factor}, {}; every other factor is nominal.", values_seen(sweep)),
+        None => format!("Over {factor}, {}; every other factor is nominal.", values_seen(sweep)),
     };
     for effect in &sweep.effects {
         let output = name(&effect.output);
         match (effect.percent, effect.elasticity) {
-            (Some(0.0), _) => text.push_str(&format!(" {output} does not change.")),
+            (Some(0.0), _) => text.push_str(&format!(" It does not change {output}.")),
             (Some(percent), Some(elasticity)) => text.push_str(&format!(
-                " {output} moves by {} % of its nominal value in all, and by {} % for each 1 % of the factor near the \
+                " It moves {output} by {} % of the nominal value in all, and by {} % for each 1 % of the factor near the \
                  nominal point.",
                 printed(percent),
                 signed(elasticity)
             )),
             (Some(percent), None) => {
-                text.push_str(&format!(" {output} moves by {} % of its nominal value in all.", printed(percent)));
+                text.push_str(&format!(" It moves {output} by {} % of the nominal value in all.", printed(percent)));
             }
             (None, _) => (),
         }

@@ -98,11 +98,15 @@ fn by_width(file: &SweepFile, number: usize) -> Vec<(&FactorSweepRecord, &SweepE
 fn at_nominal(nominal: &NominalRecord) -> String {
     match (nominal.value, &nominal.reason) {
         (Some(value), _) => {
-            format!("{} = {} where every factor is nominal.", nominal.output, short_with_unit(value, &nominal.unit))
+            format!(
+                "{} = {} where every factor is nominal.",
+                name(&nominal.output),
+                short_with_unit(value, &nominal.unit)
+            )
         }
         (None, reason) => format!(
             "{} has no value where every factor is nominal: {}.",
-            nominal.output,
+            name(&nominal.output),
             reason.as_deref().unwrap_or("the run failed")
         ),
     }

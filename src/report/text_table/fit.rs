@@ -55,15 +55,26 @@ pub(super) fn fitted(rows: &[Vec<String>], width: usize) -> Vec<Vec<String>> {
     rows.iter().map(|row| row.iter().zip(&widths).map(cell).collect()).collect()
 }
 
+/// Whether the columns can take no more than `width` together without a break inside a number.
+pub(super) fn keeps_numbers(rows: &[Vec<String>], width: usize) -> bool {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    least(rows, columns, Breaks::Joints).iter().sum::<usize>() <= width
+}
+
+fn longest(rows: &[Vec<String>], column: usize, of: &dyn Fn(&str) -> usize) -> usize {
+    rows.iter().filter_map(|row| row.get(column)).map(|text| of(text)).max().unwrap_or(0)
+}
+
+/// The width of the longest piece of each column.
+fn least(rows: &[Vec<String>], columns: usize, breaks: Breaks) -> Vec<usize> {
+    let longest_piece = |text: &str| pieces(text, breaks).iter().map(|piece| piece.width()).max().unwrap_or(0);
+    (0..columns).map(|column| longest(rows, column, &longest_piece)).collect()
+}
+
 fn widths(rows: &[Vec<String>], columns: usize, width: usize) -> Vec<usize> {
-    let longest = |column: usize, of: &dyn Fn(&str) -> usize| {
-        rows.iter().filter_map(|row| row.get(column)).map(|text| of(text)).max().unwrap_or(0)
-    };
+    let longest = |column: usize, of: &dyn Fn(&str) -> usize| longest(rows, column, of);
     let natural: Vec<usize> = (0..columns).map(|column| longest(column, &|text| text.width())).collect();
-    let least = |breaks: Breaks| -> Vec<usize> {
-        let longest_piece = |text: &str| pieces(text, breaks).iter().map(|piece| piece.width()).max().unwrap_or(0);
-        (0..columns).map(|column| longest(column, &longest_piece)).collect()
-    };
+    let least = |breaks: Breaks| least(rows, columns, breaks);
     let mut widths: Vec<usize> = natural.iter().map(|natural| (*natural).min(width)).collect();
     let anywhere = natural.iter().map(|natural| (*natural).min(LEAST)).collect();
     // Nothing is broken inside a word as long as something can be broken between words; the widest column gives first.

@@ -68,10 +68,39 @@ impl TextTable {
     }
 }
 
+impl TextTable {
+    /// The table, or where numbers would be broken its rows one below the other.
+    fn text(&self, width: Option<usize>) -> String {
+        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+        match width {
+            Some(width) if !fit::keeps_numbers(&self.rows, width.saturating_sub(columns + 1)) => self.stacked(width),
+            _ => self.drawn(width).to_string(),
+        }
+    }
+
+    /// Every row as a block: its first cell, and below it the others behind their headings.
+    fn stacked(&self, width: usize) -> String {
+        let rule = "─".repeat(width);
+        let mut lines = vec![rule.clone()];
+        let Some((header, rows)) = self.rows.split_first() else { return rule };
+        for row in rows {
+            let cells = row.iter().zip(header).enumerate().filter(|(place, (cell, _))| *place == 0 || !cell.is_empty());
+            lines.extend(cells.map(|(place, (cell, heading))| {
+                let margin = if place == 0 { "" } else { "  " };
+                let heading = if place == 0 || heading.is_empty() { String::new() } else { format!("{heading}: ") };
+                wrapped(&format!("{margin}{heading}{cell}"), width)
+            }));
+        }
+        lines.push(rule);
+        lines.join("\n")
+    }
+}
+
 impl fmt::Display for TextTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // Terminals that nobody looks at, such as those of mpirun, have no columns.
-        self.drawn(Table::new().width().map(usize::from).filter(|width| *width > 0)).fmt(f)
+        let width = Table::new().width().map(usize::from).filter(|width| *width > 0);
+        f.write_str(&self.text(width))
     }
 }
 
@@ -90,14 +119,16 @@ mod tests {
         result.add_row(["sum of factors", "0.9374 ± 0.0024"]);
         let wide = result.drawn(None).to_string();
         assert!(wide.contains("  static_friction   0.3374 ± 0.0024 "), "{wide}");
-        let lines = |width| result.drawn(Some(width)).to_string();
-        for width in [64, 72, 80, 100] {
+        let lines = |width| result.text(Some(width));
+        for width in [30, 40, 64, 72, 80, 100] {
             let drawn = lines(width);
             assert!(drawn.lines().all(|line| line.width() <= width), "{width}:\n{drawn}");
-            for word in ["static_friction", "contact_modulus", "0.3374", "± 0.0124", "P(first)", ">0.999"] {
+            for word in ["static_friction", "contact_modulus", "0.3374", "0.4374", "± 0.0124", "P(first)", ">0.999"] {
                 assert!(drawn.contains(word), "no {word} at {width}:\n{drawn}");
             }
         }
         assert_eq!(lines(200), wide);
+        let narrow = lines(40);
+        assert!(narrow.contains("\nstatic_friction\n  first order S1: 0.3374 ± 0.0024\n"), "{narrow}");
     }
 }
