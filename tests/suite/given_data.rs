@@ -276,7 +276,8 @@ fn without_numbers(cell: impl Fn(f64) -> String) -> String {
 
 #[test]
 fn columns_of_text_are_warned_of_with_their_remedy() {
-    let cells: [(&str, fn(f64) -> String, &str); 3] = [
+    type Cell = fn(f64) -> String;
+    let cells: [(&str, Cell, &str); 3] = [
         ("decimal-comma", |a| a.to_string().replace('.', ","), "write the numbers with a point (1.5, not 1,5)"),
         ("unit", |a| format!("{a} mm"), "put the unit into the name of the column"),
         (
