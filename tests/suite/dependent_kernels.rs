@@ -332,8 +332,8 @@ fn the_program_takes_a_copula_from_a_table() {
         ("measurements = [[1, 2], [3, 1]]", "at least 4 joint measurements"),
         ("measurements = [[1, 2]]\nfile = \"short.csv\"", "either `file`"),
         ("file = \"short.csv\"\ncorrelation = 0.5", "one of `correlation`"),
-        ("file = \"line.csv\"\ncopula = \"kernel\"", "between -1 and 1"),
-        ("file = \"still.csv\"\ncopula = \"kernel\"", "between -1 and 1"),
+        ("file = \"line.csv\"\ncopula = \"kernel\"", "have the same order"),
+        ("file = \"still.csv\"\ncopula = \"kernel\"", "of `b` are all the same"),
     ] {
         folder.with("short.csv", "a,b\n1,2\n2,1\n3,4\n5,3\n4,4\n");
         folder.with("still.csv", "a,b\n".to_owned() + &(0..20).map(|k| format!("{k},1\n")).collect::<String>());

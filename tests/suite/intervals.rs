@@ -102,7 +102,11 @@ fn a_heavy_tail_reaches_further_up_and_is_warned_of() {
 #[test]
 fn mean_and_variance_are_those_of_all_rows_that_succeeded() {
     // Rows with a < 0.05 fail: some base points lose A, some B.
-    let result = analysed("if(a < 0.05, ln(-1), a+b*c)", UNIFORM, "base_samples = 256\n[analysis]\nmax_failed = 0.2");
+    let result = analysed(
+        "if(a < 0.05, ln(-1), a+b*c)",
+        UNIFORM,
+        "base_samples = 256\n[analysis]\nsurrogate = \"on\"\nmax_failed = 0.2",
+    );
     let output = output(&result);
     let (mean, variance, distribution) =
         (output.mean.unwrap(), output.variance.unwrap(), output.distribution.as_ref().unwrap());

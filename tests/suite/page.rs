@@ -109,7 +109,7 @@ fn every_command_that_draws_writes_a_page() {
     assert!(sweep.contains("thickness moves critical force most") && !sweep.contains("critical_force ="));
     // Captions are sentences, and say which axes are logarithmic.
     assert!(sweep.contains("</strong> Over thickness, ") && sweep.contains(" It moves critical force by "), "{sweep}");
-    assert!(sweep.contains("The axis of critical force is logarithmic."));
+    assert!(sweep.contains("The axes of velocity and critical time are logarithmic."));
     succeed(&[&["simulate", text(&study)], &to[..]].concat());
     assert!(whole(&out, "soft-cantilever-scene").contains("<iframe"));
     succeed(&[&["simulate", text(&study), "--mode-diagram"], &to[..]].concat());

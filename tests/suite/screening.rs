@@ -144,7 +144,7 @@ fn a_sweep_shows_curves_ranges_and_slopes() {
     }
     assert_eq!(all_files(folder.path()).len(), 3 + 2 * (8 + 1));
     assert_eq!(read(folder.path(), "coulomb-general-sweep.csv").lines().count(), 1 + 8 * 11);
-    assert!(table.contains("critical_force = 631.3 nN where every factor is nominal"));
+    assert!(table.contains("critical force = 631.3 nN where every factor is nominal"));
 }
 
 #[test]
