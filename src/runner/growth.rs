@@ -12,6 +12,9 @@ use crate::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, SurrogateE
 /// in a net of few points.
 const FEW_BASE_SAMPLES: u64 = 1 << 12;
 
+/// The same where so many runs fail that there will be no indices: how many do is known much sooner.
+const FEW_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
+
 /// The longest design that a run of `design` can grow into.
 pub(super) fn longest(design: &Design) -> Design {
     let mut points = MAX_POINTS;
@@ -72,7 +75,6 @@ pub(super) fn reason_to_stop(
     widest: Option<f64>,
 ) -> Option<Stopped> {
     let Target { half_width, budget, max_runs, .. } = study.target;
-    let met = half_width.map(|target| widest.is_some_and(|widest| widest <= target));
     let next = run.points_per_replicate() * 2;
     let replicates = longest.settings().replicates;
     let runs = u128::from(next) * u128::from(replicates) * u128::from(longest.rows_per_point());
@@ -81,7 +83,9 @@ pub(super) fn reason_to_stop(
     // Whatever the points, one replicate has no spread.
     let has_none =
         replicates < 2 && matches!(study.analysis.intervals, IntervalMethod::Nets | IntervalMethod::Replicates);
+    let has_too_few = base_samples >= FEW_BASE_SAMPLES_OF_FAILURES && fails_too_often(study, run);
     let reason = match (half_width, widest) {
+        (Some(_), _) if has_too_few => StopReason::NoIntervals { base_samples },
         (Some(target), Some(widest)) if widest <= target => StopReason::TargetMet { widest, target },
         (Some(_), None) if has_none || base_samples >= FEW_BASE_SAMPLES => StopReason::NoIntervals { base_samples },
         _ if next > longest.points_per_replicate() => StopReason::EndOfSequence,
@@ -92,5 +96,16 @@ pub(super) fn reason_to_stop(
             _ => return None,
         },
     };
-    Some(Stopped { reason, target_met: met })
+    let target_met = half_width.map(|_| matches!(reason, StopReason::TargetMet { .. }));
+    Some(Stopped { reason, target_met })
+}
+
+/// Whether more runs failed than an output with indices may have.
+fn fails_too_often(study: &Study, run: &GrowingRun<'_>) -> bool {
+    let rows = run.points_per_replicate() * run.design().rows_per_point() * run.totals().len() as u64;
+    let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());
+    (0..outputs).any(|number| {
+        let failed: u64 = run.totals().iter().map(|totals| totals.outputs[number].runs_failed).sum();
+        failed as f64 / rows as f64 > study.analysis.max_failed
+    })
 }

@@ -323,6 +323,17 @@ fn a_run_does_not_end_where_more_runs_bring_intervals() {
 }
 
 #[test]
+fn a_run_ends_soon_where_most_runs_fail() {
+    let folder = Folder::new();
+    let study = "model = \"expression\"\noutputs.y = \"if(a < 0.5, ln(-1), a)\"\n[design]\nbase_samples = 16\n\
+                 target = { half_width = 0.001 }\n[factors]\na = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
+    let out = folder.path("out");
+    apportion(&["run", text(&folder.with("half.toml", study)), "--out", text(&out)]);
+    let file: ResultFile = serde_json::from_slice(&std::fs::read(out.join("half.json")).unwrap()).unwrap();
+    assert_eq!(file.provenance.base_samples, 256);
+}
+
+#[test]
 fn check_says_what_is_asked_and_what_it_takes() {
     let check = |study: &str, settings: &[&str]| {
         let path = study_path(study);
