@@ -551,7 +551,8 @@ const asked = async (wanted) => {
 const file = (ending, type) => async () => {
   const files = await asked("files");
   // Of several outputs each has its charts.
-  const own = `${description.name}${state.output && ending === "svg" ? `-${state.output}` : ""}.${ending}`;
+  const chosen = description.outputs.length > 1 ? `-${state.output || description.outputs[0].name}` : "";
+  const own = `${description.name}${ending === "svg" ? chosen : ""}.${ending}`;
   const names = Object.keys(files || {}).filter((name) => name.endsWith(`.${ending}`));
   const name = names.includes(own) ? own : names[0];
   if (name) save(name, type, files[name]);

@@ -4,7 +4,8 @@
 
 Of five studies (three laws of friction, formulas, a known function): every number of the result of the page equals that of the
 program, bit for bit. Of one: sliders by keyboard and by pointer, fixing, undo, a link that restores, "copy as study.toml" that runs in
-the program, a damaged link, no request beyond the page, no message on the console, and what the page shows without scripts.
+the program, a damaged link, no request beyond the page, no message on the console, and what the page shows without scripts. Of one
+with several outputs: that one of them is shown.
 With `--engine` the pages have that engine (gzip in base64) in the place of their own. Times are printed, not judged; `--drags`
 moves a slider so many times and prints the memory of the page before and after; with `--bits` numbers are compared and nothing else.
 Exit code 1 if anything is wrong.
@@ -233,6 +234,22 @@ def behaviour(arguments, browser, page_file, folder):
     return page
 
 
+def several_outputs(arguments, browser, folder):
+    """Of several outputs one is shown: the first one, or that of the menu."""
+    page_file = folder / "several.html"
+    run(arguments.program, "live", ROOT / "studies" / "soft-cantilever.toml", "--base-samples", SAMPLES, "--out", page_file)
+    page = browser.open(page_file)
+    for chosen in (None, "critical_time", "critical_force"):
+        if chosen:
+            page.locator("#settings select").nth(1).select_option(chosen)
+        settled(page)
+        words = (chosen or "critical_force").replace("_", " ")
+        lead = page.locator("#lead").inner_text()
+        expect(lead.startswith(f"For {words}, ") and lead.count("matters most") == 1, f"{chosen}: the page begins with {lead[:80]!r}")
+        expect(page.locator("main figcaption").count() > 2, f"{chosen}: {page.locator('main figcaption').count()} figures")
+    page.context.close()
+
+
 def sliders(page):
     """Every slider moves by keyboard, and its field with it."""
     for name in page.eval_on_selector_all("fieldset.factor", "all => all.map((box) => box.dataset.factor)"):
@@ -310,6 +327,7 @@ def main():
         same_bits(arguments, browser, pages, folder)
         if not arguments.bits:
             page = behaviour(arguments, browser, pages["coulomb-general"], folder)
+            several_outputs(arguments, browser, folder)
             if arguments.drags:
                 drags(page, arguments.drags)
         if arguments.shots:

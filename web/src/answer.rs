@@ -31,11 +31,11 @@ pub enum Wanted {
     Description,
     /// The text with the changes made.
     Text,
-    /// A run: its lead and these sections of its document, with one output alone if it is named.
+    /// A run: its lead and these sections of its document, with one output alone.
     Run {
         /// Anchors of sections.
         sections: Vec<String>,
-        /// The output.
+        /// The output; the first one if none is named.
         #[serde(default)]
         output: Option<String>,
     },
@@ -111,10 +111,11 @@ fn in_words(error: &StudyError) -> String {
     }
 }
 
-/// A result as if the study had the output of that name alone.
+/// A result as if the study had the output of that name alone, or its first one; a series that is named is several, and stays.
 fn one_output(mut result: ResultFile, output: Option<&str>) -> ResultFile {
-    if let Some(name) = output.filter(|name| result.outputs.iter().any(|output| output.name == *name)) {
-        result.outputs.retain(|output| output.name == name);
+    let place = output.map_or(Some(0), |name| result.outputs.iter().position(|output| output.name == name));
+    if let Some(place) = place.filter(|place| *place < result.outputs.len()) {
+        result.outputs = vec![result.outputs.swap_remove(place)];
         result.aggregate = None;
     }
     result
