@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use apportion::design::Sampler;
 use apportion::model::ModelKind;
 use apportion::report::document::{DataFile, Document, DocumentError, Link, Part, Section, symbols};
-use apportion::report::{ResultFile, run_document};
+use apportion::report::{ResultFile, one_output, run_document};
 use apportion::run::RunError;
 use apportion::study::{Study, StudyError, edited};
 use askama::Template;
@@ -77,7 +77,7 @@ const MOST_FACTORS: usize = 512;
 const MOST_SEARCHED_FACTORS: usize = 32;
 
 /// What the page shows of a result, in this order, where the result has it.
-const SECTIONS: [&str; 6] = ["mind", "indices", "shares", "interactions", "distribution", "validity"];
+const SECTIONS: [&str; 7] = ["mind", "indices", "shares", "series-1", "interactions", "distribution", "validity"];
 
 #[derive(Template)]
 #[template(path = "live/live.html")]
@@ -113,10 +113,8 @@ pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<Str
     let text = own_text(study)?;
     let study = Study::parse(&text, Path::new(&format!("{}.toml", study.name())), &[])?;
     let analysis = study.runner().threads(threads).stop(stop).run()?;
-    let mut result = ResultFile::new(&study, &analysis);
     // One output at a time.
-    result.outputs.truncate(1);
-    result.aggregate = None;
+    let result = one_output(&ResultFile::new(&study, &analysis), None);
     page(&study, &text, run_document(&result), result.provenance.model_runs)
 }
 

@@ -32,20 +32,28 @@ pub fn fixed(value: f64, digits: usize) -> String {
 
 /// `value` with six significant digits, in exponent form where it is small or huge, without zeros at the end.
 pub fn significant(value: f64) -> String {
-    const DIGITS: i32 = 6;
+    significant_to(value, SIGNIFICANT)
+}
+
+/// The digits of [`significant`].
+const SIGNIFICANT: usize = 6;
+
+/// `value` with so many significant digits, of which those before the point are all written.
+fn significant_to(value: f64, most: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { value.to_string() };
     }
-    let scientific = format!("{value:.*e}", DIGITS as usize - 1);
+    let scientific = format!("{value:.*e}", most.saturating_sub(1));
     let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let power: i32 = exponent.parse().unwrap_or(0);
     let trimmed = |text: &str| match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text.to_owned(),
     };
-    match value.abs() < estimates::SMALL || power > DIGITS + 2 {
+    let most = most as i32;
+    match value.abs() < estimates::SMALL || power > most + 2 {
         true => format!("{}e{exponent}", trimmed(digits)),
-        false => trimmed(&format!("{value:.*}", (DIGITS - 1 - power).max(0) as usize)),
+        false => trimmed(&format!("{value:.*}", (most - 1 - power).max(0) as usize)),
     }
 }
 
@@ -66,9 +74,28 @@ pub fn short(value: f64) -> String {
     estimates::rounded(value, 4)
 }
 
+/// A value with four significant digits, or as many more as tell values apart that are `spread` wide.
+pub fn short_among(value: f64, spread: f64) -> String {
+    /// Digits of the spread that are shown.
+    const TOLD: i32 = 3;
+    /// Those that a double has.
+    const MOST: i32 = 15;
+    let digits = match value != 0.0 && value.is_finite() && spread > 0.0 {
+        true => (estimates::exponent(value) - estimates::exponent(spread) + TOLD).clamp(4, MOST),
+        false => 4,
+    };
+    estimates::rounded(value, digits as usize)
+}
+
+/// The same with its unit, if it has one.
+pub fn among_with_unit(value: f64, spread: f64, unit: &str) -> String {
+    let value = short_among(value, spread);
+    if matches!(unit, "" | "1") { value } else { format!("{value} {}", self::unit(unit)) }
+}
+
 /// A value with four significant digits and its unit, if it has one.
 pub fn short_with_unit(value: f64, unit: &str) -> String {
-    if matches!(unit, "" | "1") { short(value) } else { format!("{} {}", short(value), self::unit(unit)) }
+    among_with_unit(value, 0.0, unit)
 }
 
 /// The same with a true minus sign, for sentences and pages.
@@ -209,6 +236,8 @@ mod tests {
         assert_eq!(short(0.0), "0");
         assert_eq!((short(3.072e-5), short(-1e-12)), ("0.00003072".to_owned(), "-1e-12".to_owned()));
         assert_eq!(short_with_unit(2.5, "1"), "2.5");
+        assert_eq!([1_000.000_123, 1_000.000_987].map(|x| short_among(x, 8.64e-4)), ["1000.000123", "1000.000987"]);
+        assert_eq!((short_among(1234.567, 900.0), short_among(5.0, 0.0)), ("1235".to_owned(), "5".to_owned()));
         assert_eq!(grouped(655_360), "655\u{202f}360");
         assert_eq!((grouped(1024), grouped(1_048_576)), ("1024".to_owned(), "1\u{202f}048\u{202f}576".to_owned()));
         assert_eq!((count(1, "run", "runs"), count(2, "run", "runs")), ("one run".to_owned(), "2 runs".to_owned()));

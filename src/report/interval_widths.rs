@@ -10,6 +10,9 @@ const STAGES: usize = 4;
 /// smooth functions (Owen 1997, Ann. Statist. 25, 1541-1562). Beyond them the trend is noise of the widths.
 const POWERS: (f64, f64) = (-1.5, -0.5);
 
+/// Half width from which an interval says nothing of a share of the variance: it may be as long as all of it.
+pub const WIDE: f64 = 0.5;
+
 /// The largest half width to be expected of twice the runs, from the slope of the last stages in double logarithmic
 /// scales; `None` with fewer than three stages that have intervals.
 pub fn width_after_doubling(stages: &[StageRecord]) -> Option<f64> {
@@ -27,9 +30,14 @@ pub fn width_after_doubling(stages: &[StageRecord]) -> Option<f64> {
     slope.is_finite().then(|| libm::exp(last + slope * libm::log(2.0)))
 }
 
-/// The largest half width of any first-order or total index of a result, at its end; `None` without intervals.
+/// The largest half width of any first-order or total index of a result, at its end, those of several outputs together among
+/// them; `None` without intervals.
 pub fn widest_interval(result: &ResultFile) -> Option<f64> {
-    result.outputs.iter().filter_map(widest_of).reduce(f64::max)
+    let together = result.aggregate.iter().filter_map(|aggregate| aggregate.indices.as_ref());
+    let together = together.chain(result.series.iter().filter_map(|series| series.indices.as_ref())).flatten();
+    let together = together.flat_map(|index| [index.first_order, index.total]).filter_map(printed_half_width);
+    let widest = result.outputs.iter().filter_map(widest_of).reduce(f64::max)?;
+    Some(together.fold(widest, f64::max))
 }
 
 /// The same of an output. Not less than any half width that its table prints, which is that of the longer side, rounded.

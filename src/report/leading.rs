@@ -2,7 +2,9 @@
 
 use super::format::{index, name};
 use super::listed;
-use super::result::{EstimateRecord, IndexRecord};
+use super::result::{EstimateRecord, IndexRecord, PairRecord};
+use crate::special::normal_quantile;
+use crate::uncertainty::LEVEL;
 
 /// From this probability on a lead is taken for one.
 pub(super) const SURE: f64 = 0.95;
@@ -57,6 +59,17 @@ pub(super) fn may_lead(contenders: &[Contender]) -> Vec<usize> {
         (None, None) => Vec::new(),
     };
     [vec![lead], rivals].concat()
+}
+
+/// Which of these interactions are sure to exist, all of them together: of many intervals that each hold in 95 % one in forty would
+/// exclude 0 from below by chance, so each is widened by Bonferroni's rule (Dunn 1961), with the quantiles of the normal distribution.
+pub(super) fn surely_interact(pairs: &[PairRecord]) -> Vec<bool> {
+    let quantile = |number: f64| normal_quantile(1.0 - (1.0 - LEVEL) / (2.0 * number));
+    let ratio = quantile(pairs.len().max(1) as f64) / quantile(1.0);
+    let is_sure = |EstimateRecord { estimate, low, .. }: EstimateRecord| {
+        low.is_some_and(|low| low > 0.0 && estimate - ratio * (estimate - low) > 0.0)
+    };
+    pairs.iter().map(|pair| is_sure(pair.index)).collect()
 }
 
 /// `labels` with what stands behind each in brackets, the last ones counted if they are many.
@@ -128,6 +141,26 @@ mod tests {
         let unsure =
             [contender("a", (0.0, 0.1), (0.5, 0.6), Some(0.93)), contender("b", (0.0, 0.1), (0.4, 0.5), Some(0.04))];
         assert_eq!(may_lead(&unsure), [0, 1]);
+    }
+
+    #[test]
+    fn one_of_many_interactions_is_chance() {
+        let pairs = |number: usize| -> Vec<PairRecord> {
+            let pair = |k: usize| PairRecord {
+                factors: [format!("x{k}"), "z".to_owned()],
+                // Twice its half width from 0, and at 1.2 half widths.
+                index: if k == 0 { record(0.01, 0.03) } else { record(0.002, 0.022) },
+            };
+            (0..number).map(pair).collect()
+        };
+        assert_eq!(surely_interact(&pairs(2)), [true, true]);
+        // At 45 pairs 3.26 standard errors are wanted, at 435 there are 3.86.
+        assert_eq!(surely_interact(&pairs(45))[..2], [true, false]);
+        assert!(surely_interact(&pairs(435))[0]);
+        let unknown = EstimateRecord { estimate: 0.5, low: None, high: None };
+        assert_eq!(surely_interact(&[PairRecord { factors: Default::default(), index: unknown }]), [false]);
+        let exact = PairRecord { factors: Default::default(), index: record(0.2, 0.2) };
+        assert_eq!(surely_interact(&[exact]), [true]);
     }
 
     #[test]

@@ -34,11 +34,15 @@ pub(super) fn sentence(validity: &[ValidityRecord]) -> String {
     format!("The model does not hold everywhere: {}{more}.", listed(&all))
 }
 
-/// How many runs failed, and what that means; nothing if none did.
-pub(super) fn of_failures(failed: u64, all: u64) -> Option<String> {
+/// How many runs failed, and what that means; nothing if none did. Of some of the outputs, their names say which.
+pub(super) fn of_failures(failed: u64, all: u64, outputs: Option<&str>) -> Option<String> {
     (failed > 0 && failed < all).then(|| {
+        let (of, whose) = match outputs {
+            None => (String::new(), ": the numbers describe"),
+            Some(names) => (format!(" for {names}"), ", whose numbers describe"),
+        };
         format!(
-            "{} of {} ({}) failed: the numbers describe the part of the factor space where runs succeed.",
+            "{} of {} ({}) failed{of}{whose} the part of the factor space where runs succeed.",
             grouped(failed),
             count(all, "run", "runs"),
             share_of_runs(failed as f64 / all as f64)
@@ -87,8 +91,8 @@ mod tests {
 
     #[test]
     fn runs_that_failed_are_told() {
-        assert_eq!(of_failures(0, 10), None);
-        assert_eq!(of_failures(10, 10), None);
-        assert!(of_failures(1, 10_000).unwrap().starts_with("1 of 10\u{202f}000 runs (less than 0.1 %) failed"));
+        assert_eq!(of_failures(0, 10, None), None);
+        assert_eq!(of_failures(10, 10, None), None);
+        assert!(of_failures(1, 10_000, None).unwrap().starts_with("1 of 10\u{202f}000 runs (less than 0.1 %) failed"));
     }
 }

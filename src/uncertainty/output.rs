@@ -279,7 +279,7 @@ impl Judged {
             interaction,
             contradictory,
             probability_first: None,
-            probability_above: probability_above(total.estimate, self.errors[total_place], threshold),
+            probability_above: probability_above(total, self.errors[total_place], threshold),
             others: others.collect(),
             shapley: None,
             dependent: None,

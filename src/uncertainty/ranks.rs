@@ -5,6 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{ChiSquared, Distribution, StandardNormal};
 
 use super::net_decay::{PartInfluences, StandardError};
+use super::{Estimate, NORMAL_QUANTILE, t_quantile};
 use crate::special::t_above;
 
 /// Draws behind each probability: its own error is then below 0.008.
@@ -30,7 +31,9 @@ pub fn probability_first(
     }
     let within_reach = |&k: &usize| {
         let reach = libm::hypot(errors[k].error, errors[lead].error) * OUT_OF_REACH;
-        k == lead || estimates[lead] - estimates[k] <= reach
+        // What provably does nothing is not first as long as anything does.
+        let does_nothing = estimates[k] == 0.0 && errors[k].error == 0.0 && estimates[lead] > 0.0;
+        k == lead || (estimates[lead] - estimates[k] <= reach && !does_nothing)
     };
     let rivals: Vec<usize> = (0..estimates.len()).filter(within_reach).collect();
     if rivals.len() == 1 {
@@ -89,18 +92,26 @@ fn coordinates(directions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
 }
 
 /// Probability that the true value lies above `threshold`, by Student's t about the estimate; `None` if the error is
-/// unknown.
-pub fn probability_above(estimate: f64, error: StandardError, threshold: f64) -> Option<f64> {
-    if error.error == 0.0 {
+/// unknown. Where the interval reaches further towards the threshold than the error alone says, so does the t distribution: a
+/// threshold at an end of the interval has 2.5 % beyond it.
+pub fn probability_above(estimate: Estimate, error: StandardError, threshold: f64) -> Option<f64> {
+    let Estimate { estimate, interval } = estimate;
+    let reach = interval.map_or(0.0, |i| if threshold < estimate { estimate - i.low } else { i.high - estimate });
+    if error.error == 0.0 && reach <= 0.0 {
         return Some(f64::from(u8::from(estimate > threshold)));
     }
-    let is_known = error.freedom > 0.0 && error.error.is_finite();
-    is_known.then(|| t_above((threshold - estimate) / error.error, error.freedom))
+    let freedom = if error.freedom > 0.0 { error.freedom } else { f64::INFINITY };
+    let of_interval = reach / t_quantile(freedom).unwrap_or(NORMAL_QUANTILE);
+    let is_known = (error.freedom > 0.0 || of_interval > 0.0) && error.error.is_finite();
+    // An interval that is the error's own differs from it by rounding.
+    let scale = if of_interval > error.error * (1.0 + 1e-9) { of_interval } else { error.error };
+    is_known.then(|| t_above((threshold - estimate) / scale, freedom))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::uncertainty::Interval;
 
     fn error(error: f64, freedom: f64) -> StandardError {
         StandardError { error, freedom }
@@ -136,11 +147,25 @@ mod tests {
         let none = vec![vec![0.0, 0.0]];
         let got = probability_first(&[0.2, 0.5, 0.1], &[error(0.0, 3.0); 3], &[&none; 3], 0).unwrap();
         assert_eq!(got, [0.0, 1.0, 0.0]);
+        let parts = vec![vec![1.0, -1.0]];
+        let idle = probability_first(&[0.5, 0.0], &[error(0.4, 1.0), error(0.0, 1.0)], &[&parts, &none], 0).unwrap();
+        assert_eq!(idle, [1.0, 0.0]);
         let tied = probability_first(&[0.0, 0.0], &[error(0.0, 3.0); 2], &[&none; 2], 0).unwrap();
         assert_eq!(tied, [0.5, 0.5]);
         assert_eq!(probability_first(&[0.2, 0.5], &[error(f64::NAN, 0.0); 2], &[&none; 2], 0), None);
-        assert_eq!(probability_above(0.2, error(0.0, 1.0), 0.1), Some(1.0));
-        assert_eq!(probability_above(0.1, error(0.1, 4.0), 0.1), Some(0.5));
-        assert_eq!(probability_above(0.1, error(f64::NAN, 0.0), 0.1), None);
+        let plain = |estimate: f64| Estimate { estimate, interval: None };
+        assert_eq!(probability_above(plain(0.2), error(0.0, 1.0), 0.1), Some(1.0));
+        assert_eq!(probability_above(plain(0.1), error(0.1, 4.0), 0.1), Some(0.5));
+        assert_eq!(probability_above(plain(0.1), error(f64::NAN, 0.0), 0.1), None);
+    }
+
+    #[test]
+    fn a_wide_interval_is_no_certainty() {
+        let estimate = Estimate { estimate: 0.2, interval: Some(Interval { low: 0.0, high: 0.21 }) };
+        for freedom in [3.0, 50.0, 1e9] {
+            let above = |threshold: f64| probability_above(estimate, error(0.005, freedom), threshold).unwrap();
+            assert!((above(0.0) - 0.975).abs() < 1e-6, "{freedom}: {}", above(0.0));
+            assert!(above(0.01) < 0.975 && above(0.19) > 0.5 && above(0.21) < 0.08);
+        }
     }
 }

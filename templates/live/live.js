@@ -20,7 +20,7 @@ const make = (tag, properties = {}, ...children) => {
 // Numbers as people type them: four digits, no trailing zeros.
 const rounded = (x) => Number(x.toPrecision(4));
 const words = (name) => name.replaceAll("_", " ");
-const number = (x) => Math.abs(x) >= 1e5 || (x !== 0 && Math.abs(x) < 1e-3) ? x.toExponential() : String(x);
+const number = (x) => Math.abs(x) >= 1e9 || (x !== 0 && Math.abs(x) < 1e-3) ? x.toExponential() : String(x);
 const inWords = (unit) => (unit === "1" ? "" : unit.replace(/\bu(?=[a-zA-Z])/g, "µ").replace(/([a-zA-Z])2\b/g, "$1²").replace(/([a-zA-Z])3\b/g, "$1³"));
 const grouped = (x) => x.toLocaleString("en").replaceAll(",", "\u202f");
 
@@ -111,10 +111,12 @@ const request = (wanted, samples, more = {}) => ({ wanted, text: text(), changes
 
 // --- What is shown ----------------------------------------------------------------------------------------------------
 
-const QUICK = ["mind", "indices", "shares"];
-const ALL = ["mind", "indices", "shares", "interactions", "distribution", "validity"];
+const QUICK = ["mind", "indices", "shares", "series-1"];
+const ALL = ["mind", "indices", "shares", "series-1", "interactions", "distribution", "validity"];
 let shown = { samples: 0 };
 
+// A word about the page itself, until something is changed.
+let notice = null;
 // What is wrong stands beside the factor that it is about, and above the numbers, which are those of before.
 const refuse = (problem, isOld = true) => {
   const [, factor, rest] = /^factor `([^`]+)`:? ([^]*)/.exec(problem || "") || [];
@@ -189,7 +191,8 @@ const run = async (samples, whole) => {
     refuse(`The engine stopped: ${answer.broken}`);
     return 0;
   }
-  refuse(answer.answer.refused);
+  if (notice && answer.answer.refused === undefined) refuse(notice, false);
+  else refuse(answer.answer.refused);
   if (answer.answer.done === undefined) return 0;
   show(answer.answer.done, answer.seconds, whole);
   return answer.seconds;
@@ -237,6 +240,7 @@ const settle = () => {
 // --- Controls ---------------------------------------------------------------------------------------------------------
 
 const remember = () => {
+  notice = null;
   past.push(JSON.stringify(state));
   if (past.length > 200) past.shift();
   future = [];
@@ -251,13 +255,16 @@ const buttons = () => {
   history.replaceState(null, "", location.href.split("#")[0] + fragment);
 };
 const restored = () => {
-  const match = /^#s=([\w-]+)$/.exec(location.hash);
-  if (!match) return;
+  notice = null;
+  if (!location.hash.startsWith("#s=")) return;
   try {
-    const found = JSON.parse(decodeURIComponent(escape(atob(match[1].replaceAll("-", "+").replaceAll("_", "/")))));
-    if (given.presets[found.preset] && typeof found.factors === "object" && typeof found.choices === "object") state = found;
+    const bytes = atob(location.hash.slice(3).replaceAll("-", "+").replaceAll("_", "/"));
+    const found = JSON.parse(decodeURIComponent(escape(bytes)));
+    const isWhole = given.presets[found.preset] && typeof found.factors === "object" && typeof found.choices === "object";
+    if (!isWhole) throw new Error("of another page");
+    state = found;
   } catch (error) {
-    refuse("The link is damaged: this is the study as it was.", false);
+    notice = "The link is damaged, or of another page: this is the study as it was.";
   }
 };
 
@@ -319,7 +326,7 @@ const card = (factor) => {
       changed();
     };
     kinds.append(choice);
-    if (description.can_fix) {
+    if (factor.can_fix) {
       const fix = make("input", { type: "checkbox", checked: fixed !== undefined });
       fix.dataset.key = "fix";
       fix.onchange = () => {

@@ -5,7 +5,7 @@
 Of five studies (three laws of friction, formulas, a known function): every number of the result of the page equals that of the
 program, bit for bit. Of one: sliders by keyboard and by pointer, fixing, undo, a link that restores, "copy as study.toml" that runs in
 the program, a damaged link, no request beyond the page, no message on the console, and what the page shows without scripts. Of one
-with several outputs: that one of them is shown.
+with several outputs, and of one with series: that one of them is shown.
 With `--engine` the pages have that engine (gzip in base64) in the place of their own. Times are printed, not judged; `--drags`
 moves a slider so many times and prints the memory of the page before and after; with `--bits` numbers are compared and nothing else.
 Exit code 1 if anything is wrong.
@@ -225,6 +225,7 @@ def behaviour(arguments, browser, page_file, folder):
     damaged = browser.open(page_file, fragment="#s=%%%damaged")
     settled(damaged)
     expect(state(damaged) == before, "a damaged link changes the study")
+    expect("damaged" in damaged.locator("#refused").inner_text(), "no word about a damaged link")
     damaged.context.close()
 
     silent = browser.open(page_file, scripts=False)
@@ -247,6 +248,25 @@ def several_outputs(arguments, browser, folder):
         lead = page.locator("#lead").inner_text()
         expect(lead.startswith(f"For {words}, ") and lead.count("matters most") == 1, f"{chosen}: the page begins with {lead[:80]!r}")
         expect(page.locator("main figcaption").count() > 2, f"{chosen}: {page.locator('main figcaption').count()} figures")
+    page.context.close()
+
+
+def series(arguments, browser, folder):
+    """A series is one output, with its charts and the bars beside its factors."""
+    page_file = folder / "series.html"
+    run(arguments.program, "live", ROOT / "studies" / "push-history.toml", "--base-samples", SAMPLES, "--out", page_file)
+    page = browser.open(page_file)
+    page.wait_for_function("document.body.dataset.samples >= 1024", timeout=120_000)
+    for chosen in ("position_history", "critical_force", "force_history"):
+        page.locator("#settings select[aria-label=output]").select_option(chosen)
+        page.wait_for_function("document.body.dataset.samples >= 512", timeout=120_000)
+        words = chosen.replace("_", " ")
+        is_series = chosen != "critical_force"
+        expect(words in page.locator("#lead").inner_text(), f"{chosen}: the page begins with {page.locator('#lead').inner_text()[:80]!r}")
+        expect((page.locator("#series-1").count() == 1) == is_series, f"{chosen}: sections of a series")
+        expect((page.locator("#indices").count() == 0) == is_series, f"{chosen}: sections of a single output")
+        expect(page.locator("main figcaption").count() > 2, f"{chosen}: {page.locator('main figcaption').count()} figures")
+        expect(page.locator("fieldset.factor .meter:visible").count() == 4, f"{chosen}: no bars beside the factors")
     page.context.close()
 
 
@@ -328,6 +348,7 @@ def main():
         if not arguments.bits:
             page = behaviour(arguments, browser, pages["coulomb-general"], folder)
             several_outputs(arguments, browser, folder)
+            series(arguments, browser, folder)
             if arguments.drags:
                 drags(page, arguments.drags)
         if arguments.shots:

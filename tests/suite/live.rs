@@ -42,6 +42,18 @@ fn a_page_has_the_engine_the_study_as_it_was_changed_and_its_result() {
 }
 
 #[test]
+fn a_study_of_series_has_a_page() {
+    let folder = Folder::new();
+    let page = folder.path("live.html");
+    let outputs = ["--set", "outputs=[\"force_history\", \"position_history\"]"];
+    let out = ["--base-samples", "64", "-o", text(&page)];
+    succeed(&[&["live", text(&study_path("push-history"))], &outputs[..], &out[..]].concat());
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(page.contains("<section id=\"series-1\"") && page.contains("force history as a whole (20 values)"));
+    assert!(!page.contains("position history as a whole"));
+}
+
+#[test]
 fn the_page_of_a_run_links_to_its_own() {
     let folder = Folder::new();
     let to = folder.path("out");

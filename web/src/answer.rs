@@ -5,7 +5,7 @@ use std::path::Path;
 use apportion::Study;
 use apportion::model::ModelKind;
 use apportion::report::document::{DataFile, symbols};
-use apportion::report::{ResultFile, run_document, study_setup};
+use apportion::report::{ResultFile, one_output, run_document, study_setup};
 use apportion::study::{StudyError, edited};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -71,7 +71,7 @@ impl Request {
             Wanted::Description => self.study().map(|study| description(&study)),
             Wanted::Run { sections, output } => {
                 let result = self.result()?;
-                view(one_output(result, output.as_deref()), sections)
+                view(&one_output(&result, output.as_deref()), sections)
             }
             Wanted::Files => {
                 let document = run_document(&self.result()?);
@@ -111,20 +111,10 @@ fn in_words(error: &StudyError) -> String {
     }
 }
 
-/// A result as if the study had the output of that name alone, or its first one; a series that is named is several, and stays.
-fn one_output(mut result: ResultFile, output: Option<&str>) -> ResultFile {
-    let place = output.map_or(Some(0), |name| result.outputs.iter().position(|output| output.name == name));
-    if let Some(place) = place.filter(|place| *place < result.outputs.len()) {
-        result.outputs = vec![result.outputs.swap_remove(place)];
-        result.aggregate = None;
-    }
-    result
-}
-
 /// What is shown of a result: its lead and some sections as HTML, and the indices for those who read numbers.
-fn view(result: ResultFile, sections: &[String]) -> Result<Value, String> {
+fn view(result: &ResultFile, sections: &[String]) -> Result<Value, String> {
     let ids: Vec<&str> = sections.iter().map(String::as_str).collect();
-    let document = run_document(&result).excerpt(&ids);
+    let document = run_document(result).excerpt(&ids);
     let section = |id: &String| {
         let html = document.section_html(id).map_err(|error| error.to_string())?;
         let title = document.sections.iter().find(|section| section.id == *id).map(|section| symbols(&section.title));
@@ -135,21 +125,30 @@ fn view(result: ResultFile, sections: &[String]) -> Result<Value, String> {
         "lead": document.lead.iter().map(|text| symbols(text)).collect::<Vec<_>>(),
         "plain_lead": document.lead,
         "sections": sections.into_iter().flatten().collect::<Vec<_>>(),
-        "percentages": percentages(&result),
+        "percentages": percentages(result),
         "runs": result.provenance.model_runs,
         "base_samples": result.provenance.base_samples,
     }))
 }
 
-/// Of the first output, by factor: 100 S_T and what it is of the sum of all, as far as they are known.
+/// Of the series, or the first output, by factor: 100 S_T as far as it is known.
 fn percentages(result: &ResultFile) -> Value {
-    let indices = result.outputs.first().and_then(|output| output.indices.as_ref());
-    let percent = |x: f64| x.is_finite().then_some(100.0 * x);
-    let entries = indices.into_iter().flatten().map(|index| {
-        let total = percent(index.effect.total.estimate);
-        (index.factor.clone(), json!({ "total": total, "share": index.effect.share_total }))
-    });
-    Value::Object(entries.collect())
+    let percent = |x: f64| json!({ "total": x.is_finite().then_some(100.0 * x) });
+    let entries = match result.series.first() {
+        Some(series) => {
+            let indices = series.indices.iter().flatten();
+            indices.map(|index| (index.factor.clone(), percent(index.total.estimate))).collect()
+        }
+        None => {
+            let indices = result.outputs.first().and_then(|output| output.indices.as_ref());
+            indices
+                .into_iter()
+                .flatten()
+                .map(|index| (index.factor.clone(), percent(index.effect.total.estimate)))
+                .collect()
+        }
+    };
+    Value::Object(entries)
 }
 
 /// What a page needs to offer a study for changes.
@@ -157,6 +156,9 @@ fn description(study: &Study) -> Value {
     let setup = study_setup(study);
     let kind = ModelKind::from_name(&setup.model);
     let inputs = kind.map(ModelKind::inputs).unwrap_or_default();
+    let can_fix = matches!(setup.model.as_str(), "afm" | "expression");
+    let is_dependent =
+        |name: &String| study.space().dependences().iter().any(|dependence| dependence.factors().contains(name));
     let factors = setup.factors.iter().zip(study.space().factors()).map(|(setup, factor)| {
         let input = inputs.iter().find(|input| input.name == setup.name);
         let reported = |u: f64| factor.distribution().quantile(u);
@@ -169,6 +171,7 @@ fn description(study: &Study) -> Value {
             "low": reported(0.005),
             "high": reported(0.995),
             "description": input.map(|input| &input.description),
+            "can_fix": can_fix && !is_dependent(&factor.name),
             "symbol": input.map(|input| symbols(&input.symbol)),
         })
     });
@@ -180,14 +183,19 @@ fn description(study: &Study) -> Value {
         (values.len() > 1).then(|| json!({ "name": name, "values": values, "value": value }))
     });
     let model = study.model();
-    let outputs = model.outputs().iter().map(|output| json!({ "name": output.name, "unit": output.unit.to_string() }));
+    // A series is one, at the place of its first value.
+    let outputs = model.outputs().iter().enumerate().filter_map(|(place, output)| {
+        let series = model.series().iter().find(|series| series.places().contains(&place));
+        let is_shown = series.is_none_or(|series| series.first == place);
+        let name = series.map_or(&*output.name, |series| &series.name);
+        is_shown.then(|| json!({ "name": name, "unit": output.unit.to_string() }))
+    });
     let all = kind.map(ModelKind::outputs).unwrap_or_default();
     let all = all.iter().map(|output| json!({ "name": output.name, "unit": output.unit.to_string() }));
     json!({
         "title": setup.title,
         "name": setup.name,
         "model": setup.model,
-        "can_fix": matches!(setup.model.as_str(), "afm" | "expression"),
         "factors": factors.collect::<Vec<_>>(),
         "choices": choices.collect::<Vec<_>>(),
         "outputs": outputs.collect::<Vec<_>>(),

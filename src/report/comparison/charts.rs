@@ -7,6 +7,7 @@ use crate::report::chart::{Chart, Colour, Series};
 use crate::report::factor_bars::{INDEX, both_orders, difference_panel, index_panel, left_out};
 use crate::report::file_stems;
 use crate::report::format::{index, name};
+use crate::report::listed;
 use crate::report::result::EstimateRecord;
 
 /// For every output its indices side by side, then the differences. Of more than 21 factors, those with the largest total
@@ -78,22 +79,41 @@ fn caption(output: &ComparedOutput) -> String {
             return format!("No differences of {}: {reason}.", name(&output.name));
         }
         Some((_, change)) if change.estimate == 0.0 => "No total index differs".to_owned(),
+        Some((factor, change)) if factor.total.differs == Some(false) => {
+            let surely = |factor: &&&ComparedFactor| factor.total.differs == Some(true);
+            let sure: Vec<String> = singles.iter().filter(surely).map(|factor| name(&factor.name)).collect();
+            match &sure[..] {
+                [] => format!(
+                    "No total index differs by more than the errors of both; that of {} {} most, by {}",
+                    name(&factor.name),
+                    verb(change),
+                    index(size(change))
+                ),
+                sure => format!(
+                    "Total indices that differ by more than the errors of both: {}; that of {} {} most, by {}, which may be chance",
+                    listed(sure),
+                    name(&factor.name),
+                    verb(change),
+                    index(size(change))
+                ),
+            }
+        }
         Some((factor, change)) => {
-            let verb = if change.estimate > 0.0 { "rises" } else { "falls" };
-            let certain = match factor.total.differs {
-                Some(true) => ", more than the errors of both",
-                Some(false) => ", no more than the errors of both",
-                None => "",
-            };
+            let certain = if factor.total.differs == Some(true) { ", more than the errors of both" } else { "" };
             format!(
-                "The total index of {} differs most: it {verb} by {}{certain}",
+                "The total index of {} differs most: it {} by {}{certain}",
                 name(&factor.name),
+                verb(change),
                 index(size(change))
             )
         }
     };
     caption.push('.');
     caption + &left_out(singles.len())
+}
+
+fn verb(change: EstimateRecord) -> &'static str {
+    if change.estimate > 0.0 { "rises" } else { "falls" }
 }
 
 /// How much a change is, whatever its sign.

@@ -2,7 +2,7 @@
 
 use super::OutputDistribution;
 use crate::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
-use crate::report::format::{axis_unit, minus, name};
+use crate::report::format::{axis_unit, minus, name, short_among};
 use crate::report::significant;
 
 /// The distribution of an output: the histogram as a light area of steps, the kernel density as a line, and marks at the
@@ -58,7 +58,7 @@ fn rules(distribution: &OutputDistribution) -> Vec<Mark> {
     ];
     let rule = |(x, name): (Option<f64>, &str)| {
         let x = x.filter(|x| inside(*x, edges))?;
-        Some(Mark::rule(x, format!("{name} {}", short(x))))
+        Some(Mark::rule(x, format!("{name} {}", short(x, distribution))))
     };
     places.into_iter().filter_map(rule).collect()
 }
@@ -68,10 +68,9 @@ fn inside(x: f64, edges: &[f64]) -> bool {
     edges.first().is_some_and(|low| *low <= x) && edges.last().is_some_and(|high| x <= *high)
 }
 
-/// Four significant digits, with a true minus sign.
-fn short(x: f64) -> String {
-    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    minus(&significant(rounded))
+/// The digits that tell the values apart, with a true minus sign.
+fn short(x: f64, distribution: &OutputDistribution) -> String {
+    minus(&short_among(x, distribution.spread()))
 }
 
 /// What is seen, in one sentence.
@@ -88,13 +87,13 @@ fn caption(distribution: &OutputDistribution, output: &str, symbol: &str) -> Str
     };
     let mut caption = format!(
         "{whose} of {output} lie between {} and {}{unit}, the mean is {}{unit}",
-        short(low),
-        short(high),
-        short(distribution.mean)
+        short(low, distribution),
+        short(high, distribution),
+        short(distribution.mean, distribution)
     );
     let beyond = histogram.below + histogram.above;
     if beyond > 0 {
-        let extremes = (short(distribution.min), short(distribution.max));
+        let extremes = (short(distribution.min, distribution), short(distribution.max, distribution));
         let values = if beyond == 1 { "value lies" } else { "values lie" };
         caption.push_str(&format!(
             "; {beyond} {values} outside the picture (smallest {}, largest {}{unit})",

@@ -168,6 +168,12 @@ impl OutputDistribution {
         self.tells(2.5).then(|| self.quantile(2.5).zip(self.quantile(97.5))).flatten()
     }
 
+    /// How far most values lie apart: the width of the central 95 %, or of all where that is 0 or not told.
+    pub fn spread(&self) -> f64 {
+        let central = self.central().map(|(low, high)| high - low);
+        central.filter(|width| *width > 0.0).unwrap_or(self.max - self.min)
+    }
+
     /// Whether a value or more lies beyond the quantile of so many percent: of fewer it would be an end of the range.
     pub fn tells(&self, percent: f64) -> bool {
         self.count as f64 * percent.min(100.0 - percent) >= 100.0

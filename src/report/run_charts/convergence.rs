@@ -2,8 +2,8 @@
 
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
 use super::super::format::name as label;
-use super::super::format::{name, two_digits};
-use super::super::interval_widths::widest_of;
+use super::super::format::{grouped, name, two_digits};
+use super::super::interval_widths::{WIDE, widest_of};
 use super::super::result::{EstimateRecord, OutputRecord, ResultFile, StageIndexRecord, StageRecord};
 use super::headline;
 
@@ -83,13 +83,16 @@ fn caption(result: &ResultFile, output: &OutputRecord, lines: usize) -> String {
         let reason = output.reason.as_deref().unwrap_or("too few base samples to be looked at in parts");
         return format!("Nothing to see: {reason}.");
     };
+    let runs = grouped(last.model_runs);
     let mut caption = match widest_of(output) {
-        Some(width) => format!(
-            "After {} model runs every first-order and total index is known to ± {} or better",
-            last.model_runs,
-            two_digits(width)
-        ),
-        None => format!("After {} model runs there are indices without an interval", last.model_runs),
+        Some(WIDE..) => format!("After {runs} model runs the intervals are too wide to tell the indices"),
+        Some(width) => {
+            format!(
+                "After {runs} model runs every first-order and total index is known to ± {} or better",
+                two_digits(width)
+            )
+        }
+        None => format!("After {runs} model runs there are indices without an interval"),
     };
     if let Some(stopping) = &result.stopping
         && let (Some(target), Some(met)) = (stopping.target_half_width, stopping.target_met)

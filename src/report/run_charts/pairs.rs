@@ -3,7 +3,7 @@
 use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use super::super::factor_bars::not_drawn;
 use super::super::format::{index, name, percent};
-use super::super::leading::{Contender, may_lead, names};
+use super::super::leading::{Contender, may_lead, names, surely_interact};
 use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, PairRecord, ResultFile};
 use super::map::{class, series, short};
 use super::{headline, no_indices};
@@ -23,14 +23,17 @@ pub fn pairs_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     factors.truncate(MOST);
     let mut tiles: Vec<(usize, Tile)> = Vec::new();
     let (mut shown, drawn) = (2.min(factors.len()), factors.len());
+    let sure = surely_interact(output.second_order.as_deref().unwrap_or_default());
     for (row, below) in factors.iter().enumerate() {
         for (column, left) in factors.iter().enumerate().take(row + 1) {
-            let value = match row == column {
-                true => Some(below.effect.first_order),
-                false => pair(output, [&below.factor, &left.factor]),
+            let (value, may_be_nothing) = match row == column {
+                true => (below.effect.first_order, below.effect.first_order.low.is_some_and(|low| low <= 0.0)),
+                false => {
+                    let Some((place, value)) = pair(output, [&below.factor, &left.factor]) else { continue };
+                    (value, value.low.is_some() && !sure[place])
+                }
             };
-            let Some(value) = value else { continue };
-            let class = shade(value);
+            let class = if may_be_nothing { 0 } else { class(value.estimate) };
             if class > 0 {
                 shown = shown.max(row + 1);
             }
@@ -54,16 +57,11 @@ pub fn pairs_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     Chart::new(title, caption(output, all, drawn - shown)).panels([panel])
 }
 
-/// The second-order index of two factors in any order.
-fn pair(output: &OutputRecord, [one, other]: [&str; 2]) -> Option<EstimateRecord> {
+/// The second-order index of two factors in any order, and its place.
+fn pair(output: &OutputRecord, [one, other]: [&str; 2]) -> Option<(usize, EstimateRecord)> {
     let is_theirs = |[a, b]: &[String; 2]| (a == one && b == other) || (a == other && b == one);
-    let pair = output.second_order.iter().flatten().find(|pair| is_theirs(&pair.factors))?;
-    Some(pair.index).filter(|index| index.estimate.is_finite())
-}
-
-/// The class of an index; that of nothing for one that may be 0.
-fn shade(index: EstimateRecord) -> usize {
-    if index.low.is_none_or(|low| low > 0.0) { class(index.estimate) } else { 0 }
+    let (place, pair) = output.second_order.iter().flatten().enumerate().find(|(_, pair)| is_theirs(&pair.factors))?;
+    Some((place, pair.index)).filter(|(_, index)| index.estimate.is_finite())
 }
 
 /// Which two factors act together most, if any are sure to, and which of all are not drawn since there are many, or since they
@@ -77,7 +75,7 @@ fn caption(output: &OutputRecord, all: usize, idle: usize) -> String {
     };
     let meaning = "Below the diagonal, what two factors do together beyond what each does alone (S_ij); on it, what each does \
                    alone (S_i).";
-    let sure = pairs.iter().filter(|pair| pair.index.low.is_some_and(|low| low > 0.0));
+    let sure = pairs.iter().zip(surely_interact(pairs)).filter_map(|(pair, is_sure)| is_sure.then_some(pair));
     let contender = |pair: &PairRecord| Contender {
         label: pair.factors.each_ref().map(|factor| name(factor)).join(" and "),
         first_order: None,
@@ -93,14 +91,27 @@ fn caption(output: &OutputRecord, all: usize, idle: usize) -> String {
             format!("Which two factors interact most cannot be told: {}.", names(&sure, tied, &part))
         }
         [] if has_intervals => {
-            "No two factors are sure to act together: 0 is within the interval of every pair.".to_owned()
+            let of_all = if pairs.len() > 1 { ", widened for all pairs at once" } else { "" };
+            format!("No two factors are sure to act together: 0 is within the interval of every pair{of_all}.")
         }
         [] => "Without intervals, how sure the interactions are is unknown.".to_owned(),
     };
-    let idle = match idle {
-        0 => String::new(),
-        1 => format!(" Every cell of the last factor is {NOTHING}; it is not drawn."),
-        _ => format!(" Every cell of the last {idle} factors is {NOTHING}; they are not drawn."),
+    let of = match (all > MOST, idle) {
+        (true, 1) => "one of these",
+        (true, _) => "of these",
+        (false, 1) => "factor",
+        (false, _) => "factors",
     };
-    format!("{seen} {meaning}{}{idle}", not_drawn(all, MOST))
+    let left_out = match idle {
+        0 => not_drawn(all, MOST),
+        _ => {
+            let many = match all > MOST {
+                true => format!(" Of {all} factors, the {MOST} with the largest total indices are told of."),
+                false => String::new(),
+            };
+            let which = if idle == 1 { format!("The last {of} is") } else { format!("The last {idle} {of} are") };
+            format!("{many} {which} not drawn: every cell there is {NOTHING}.")
+        }
+    };
+    format!("{seen} {meaning}{left_out}")
 }

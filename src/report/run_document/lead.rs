@@ -2,14 +2,14 @@
 
 use crate::model::MANY_OUTPUTS;
 use crate::report::format::{chance, count, grouped, index, name, two_digits as half_width};
-use crate::report::interval_widths::{widest_interval, widest_of, width_after_doubling};
+use crate::report::interval_widths::{WIDE, widest_interval, widest_of, width_after_doubling};
 use crate::report::leading::{Contender, SURE, may_lead, names};
 use crate::report::listed;
 use crate::report::result::{IndexRecord, OutputRecord, ResultFile};
 use crate::report::validity;
 
 use super::interactions::interactions;
-use super::warnings::folded;
+use super::warnings::{folded, of_which};
 
 /// Outputs with a paragraph of their own at the top.
 const OUTPUTS: usize = 6;
@@ -194,7 +194,15 @@ fn overlap(larger: &IndexRecord, smaller: &IndexRecord) -> bool {
 fn trust(result: &ResultFile, warned: &[&[OutputRecord]]) -> String {
     let mut sentences = vec![settled(result)];
     let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);
-    sentences.extend(validity::of_failures(failed, result.provenance.model_runs));
+    let failing: Vec<usize> = result
+        .outputs
+        .iter()
+        .enumerate()
+        .filter(|(_, output)| output.runs_failed > 0)
+        .map(|(place, _)| place)
+        .collect();
+    let which = (failing.len() < result.outputs.len()).then(|| of_which(&result.outputs, &failing));
+    sentences.extend(validity::of_failures(failed, result.provenance.model_runs, which.as_deref()));
     let is_corrected = |output: &&OutputRecord| {
         let used = output.surrogate.as_ref();
         output.runs_failed > 0 && used.is_some_and(|used| used.corrects_first_order || used.corrects_total)
@@ -218,9 +226,6 @@ fn trust(result: &ResultFile, warned: &[&[OutputRecord]]) -> String {
     sentences.join(" ")
 }
 
-/// Half width from which an interval says nothing of a share of the variance: it may be as long as all of it.
-pub(super) const WIDE: f64 = 0.5;
-
 fn settled(result: &ResultFile) -> String {
     let runs = grouped(result.provenance.model_runs);
     let Some(widest) = widest_interval(result) else {
@@ -229,14 +234,20 @@ fn settled(result: &ResultFile) -> String {
         return format!("The study took {runs} model runs{error}.");
     };
     let mut sentence = match widest < WIDE {
-        true => format!("After {runs} model runs every index is known to ± {} or better", half_width(widest)),
+        true => {
+            let pairs = result.outputs.iter().any(|output| output.second_order.is_some());
+            let which = if pairs { "every first-order and total index" } else { "every index" };
+            format!("After {runs} model runs {which} is known to ± {} or better", half_width(widest))
+        }
         false => format!("After {runs} model runs the intervals are too wide to tell the indices"),
     };
     if let Some(met) = result.stopping.as_ref().and_then(|stopping| stopping.target_met) {
         sentence.push_str(if met { "; the target is met" } else { "; the target is not met" });
     }
     let doubled = result.outputs.iter().filter_map(|output| width_after_doubling(&output.convergence));
-    if let Some(doubled) = doubled.reduce(f64::max).filter(|width| *width < WIDE) {
+    // What is known better than it is printed, or better than what rests on no surrogate, needs no word on more runs.
+    let is_told = |width: &f64| *width < WIDE && *width > widest / 10.0;
+    if let Some(doubled) = doubled.reduce(f64::max).filter(is_told) {
         sentence.push_str(&format!("; twice the runs would bring about ± {}", half_width(doubled)));
     }
     sentence + "."

@@ -15,6 +15,7 @@ mod warnings;
 pub use figures::OutputNames;
 use figures::{Figures, Numbered, Stems, all_stems};
 use output::Topic;
+pub use series::one_output;
 use warnings::folded;
 
 use crate::model::{MANY_OUTPUTS, ModelKind};
@@ -149,8 +150,15 @@ pub fn run_file_names(name: &str, outputs: &OutputNames<'_>, tables: RunTables) 
 
 /// The indices over all outputs together, or why there are none.
 fn together(result: &ResultFile, aggregate: &AggregateRecord) -> Vec<Part> {
-    let outputs: Vec<String> = aggregate.outputs.iter().map(|output| name(output)).collect();
-    let mut parts = vec![Part::Text(format!("Of {}: {}.", listed(&outputs), aggregate.weighting))];
+    let varies =
+        |output: &&String| !result.outputs.iter().any(|other| other.name == **output && other.variance == Some(0.0));
+    let (varying, still): (Vec<&String>, Vec<&String>) = aggregate.outputs.iter().partition(varies);
+    let names = |outputs: &[&String]| listed(&outputs.iter().map(|output| name(output)).collect::<Vec<_>>());
+    let mut text = format!("Of {}: {}.", names(&varying), aggregate.weighting);
+    if !still.is_empty() {
+        text.push_str(&format!(" What does not vary has no part in them: {}.", names(&still)));
+    }
+    let mut parts = vec![Part::Text(text)];
     match (&aggregate.indices, &aggregate.reason) {
         (Some(indices), _) => parts.push(tables::aggregate_of(result, aggregate, indices)),
         (None, Some(reason)) => parts.push(Part::no_indices(format!("There are no such indices: {reason}."))),

@@ -1,17 +1,16 @@
 //! What the document says about one output, topic by topic.
 
 use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, Numbered, PAIRS, SCATTER, SHARES};
-use super::lead::{WIDE, by_total, widest};
+use super::lead::{by_total, widest};
 use super::measures::measures;
 use super::noise::noise;
 use super::warnings::folded;
 use super::{tables, values};
 use crate::estimate::ShapleyMethod;
 use crate::report::document::Part;
-use crate::report::format::{
-    count, grouped, index, name, share_of_runs, short_with_unit, significant, two_digits as half_width,
-};
-use crate::report::interval_widths::width_after_doubling;
+use crate::report::format::{among_with_unit, count, grouped, index, name, share_of_runs, significant, two_digits};
+use crate::report::interval_widths::{WIDE, width_after_doubling};
+use crate::report::leading::{Contender, may_lead, names};
 use crate::report::listed;
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 use crate::report::study_sections::{failures, inputs};
@@ -170,6 +169,7 @@ fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     parts.push(figures.draw(of, INDICES));
     parts.extend(tables::indices(result, of.output));
     parts.extend(below_zero(of.output).map(Part::Text));
+    parts.extend(never_moved(of.output).map(Part::Text));
     parts.extend(tables::joint(result, of.output));
     parts
 }
@@ -228,18 +228,52 @@ fn below_zero(output: &OutputRecord) -> Option<String> {
     Some(text)
 }
 
+/// Factors that moved the output in no run, where so few base points leave room for an effect in a part of the factor space.
+fn never_moved(output: &OutputRecord) -> Option<String> {
+    /// A part of the factor space that is worth a word.
+    const WORTH: f64 = 0.01;
+    // An event of this probability is missed by so many points once in 20 times.
+    let unseen = 1.0 - libm::pow(0.05, 1.0 / output.base_points_used.max(1) as f64);
+    let is_still = |index: &&IndexRecord| {
+        let EstimateRecord { estimate, high, .. } = index.effect.total;
+        estimate == 0.0 && high == Some(0.0)
+    };
+    let all: Vec<&IndexRecord> = output.indices.iter().flatten().collect();
+    let names: Vec<String> = all.iter().copied().filter(is_still).map(|index| name(&index.factor)).collect();
+    if unseen < WORTH || names.is_empty() || names.len() == all.len() {
+        return None;
+    }
+    Some(format!(
+        "{} moved {} at none of the {} base points: what acts in less than {} % of the factor space may be missed.",
+        listed(&names),
+        name(&output.name),
+        grouped(output.base_points_used),
+        two_digits(100.0 * unseen)
+    ))
+}
+
 fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let output = of.output;
     let is_dependent = !figures.result.study.dependences.is_empty();
     let Some(order) = by_total(output).filter(|order| order.len() > 1 && !is_dependent) else { return Vec::new() };
     let mut text = super::interactions::interactions(figures.result, output);
-    let difference = |index: &IndexRecord| index.effect.interaction.map_or(f64::NEG_INFINITY, |i| i.estimate);
-    let most = order.iter().map(|(_, index)| *index).max_by(|a, b| difference(a).total_cmp(&difference(b)));
-    if let Some((most, gap)) = most.and_then(|most| Some((most, most.effect.interaction?)))
-        && gap.low.is_some_and(|low| low > 0.0)
-    {
-        let (factor, difference) = (name(&most.factor), index(gap));
-        text.push_str(&format!(" Most of all, {factor} acts together with others: S_T − S_1 is {difference}."));
+    let gap = |index: &IndexRecord| {
+        let total = index.effect.interaction.filter(|gap| gap.low.is_some_and(|low| low > 0.0))?;
+        Some(Contender { label: name(&index.factor), first_order: None, total, probability: None })
+    };
+    let gaps: Vec<Contender> = order.iter().filter_map(|(_, index)| gap(index)).collect();
+    let size = |contender: &Contender| index(contender.total);
+    match &may_lead(&gaps)[..] {
+        [] => (),
+        [most] => text.push_str(&format!(
+            " Most of all, {} acts together with others: S_T − S_1 is {}.",
+            gaps[*most].label,
+            size(&gaps[*most])
+        )),
+        tied => text.push_str(&format!(
+            " Which factor acts most together with others cannot be told, by S_T − S_1: {}.",
+            names(&gaps, tied, &size)
+        )),
     }
     let mut parts = vec![Part::Text(text), figures.draw(of, INTERACTIONS)];
     if output.second_order.as_ref().is_some_and(|pairs| !pairs.is_empty()) {
@@ -256,13 +290,13 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
         sentences.push("The surrogate was fitted anew to the runs of every stage.".to_owned());
     }
     if let Some(width) = widest(output).filter(|width| *width < WIDE) {
-        sentences.push(format!("In the end every index is known to ± {} or better.", half_width(width)));
+        sentences.push(format!("In the end every index is known to ± {} or better.", two_digits(width)));
     }
     match (width_after_doubling(&output.convergence), output.convergence.last()) {
         (Some(width), Some(last)) => sentences.push(format!(
             "If the trend of the last stages goes on, doubling the runs to {} would bring about ± {}.",
             grouped(2 * last.model_runs),
-            half_width(width)
+            two_digits(width)
         )),
         _ => sentences
             .push("There are too few stages with intervals to say what doubling the runs would bring.".to_owned()),
@@ -288,8 +322,9 @@ fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
 
 /// Mean, standard deviation, and the range of most values.
 fn range(output: &OutputRecord) -> String {
-    let value = |x: f64| short_with_unit(x, &output.unit);
     let sample = output.distribution.as_ref().map(|distribution| &distribution.sample);
+    let spread = sample.map_or(0.0, |sample| sample.spread());
+    let value = |x: f64| among_with_unit(x, spread, &output.unit);
     let mut text = match (values::mean(output), values::sd(output)) {
         (Some(mean), Some(sd)) => format!("Mean {mean}, standard deviation {sd}"),
         (Some(mean), None) => format!("Mean {mean}"),

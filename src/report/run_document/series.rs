@@ -7,7 +7,9 @@ use crate::report::document::{Cell, Column, Mark, Part, Section, Table};
 use crate::report::format::{fixed, give_or_take, heading, name, significant};
 use crate::report::listed;
 use crate::report::output_axis::OutputAxis;
-use crate::report::result::{AggregateIndexRecord, AggregateRecord, DirectionRecord, ResultFile, SeriesRecord};
+use crate::report::result::{
+    AggregateIndexRecord, AggregateRecord, DirectionRecord, OutputRecord, ResultFile, SeriesRecord,
+};
 use crate::report::run_charts::{SeriesOf, along_chart, directions_chart, layers_chart, map_chart, together_chart};
 
 /// Series that are told with all their charts, and whose single values are told too.
@@ -43,12 +45,27 @@ pub(super) fn single_outputs(result: &ResultFile) -> ResultFile {
     with_outputs(result, outputs.map(|(_, output)| output.clone()).collect(), result.aggregate.clone())
 }
 
+/// `result` as if the study had the output or the series of that name alone; without a name, or where there is none of it, the
+/// first one.
+pub fn one_output(result: &ResultFile, name: Option<&str>) -> ResultFile {
+    let series = |found: &dyn Fn(&SeriesRecord) -> bool| result.series.iter().find(|series| found(series));
+    let place = name.and_then(|name| result.outputs.iter().position(|output| output.name == name));
+    let named = name.and_then(|name| series(&|series| series.name == name));
+    let first = || series(&|series| series.first_output == 0);
+    match named.or_else(|| if place.is_none() { first() } else { None }) {
+        Some(series) => ResultFile {
+            series: vec![SeriesRecord { first_output: 0, ..series.clone() }],
+            ..with_outputs(result, result.outputs[series.places()].to_vec(), None)
+        },
+        None => {
+            let place = place.unwrap_or(0);
+            with_outputs(result, result.outputs.get(place).cloned().into_iter().collect(), None)
+        }
+    }
+}
+
 /// The same with other outputs, none of which is a series.
-fn with_outputs(
-    result: &ResultFile,
-    outputs: Vec<crate::report::result::OutputRecord>,
-    aggregate: Option<AggregateRecord>,
-) -> ResultFile {
+fn with_outputs(result: &ResultFile, outputs: Vec<OutputRecord>, aggregate: Option<AggregateRecord>) -> ResultFile {
     ResultFile {
         format: result.format.clone(),
         version: result.version,
@@ -73,16 +90,21 @@ pub(super) fn sections(result: &ResultFile, stems: &[[String; SERIES_SUFFIXES.le
         let of = SeriesOf { result, series };
         let alone = values_alone(of);
         let mut drawn = Figures::of_series(&alone, number + 1, figures);
-        let parts = if number < IN_FULL {
+        let (parts, values) = if number < IN_FULL {
             let few = result.series.len().min(IN_FULL);
-            in_full(of, &mut drawn, &stems[number], number == 0, BYTES / few)
+            (in_full(of, &mut drawn, &stems[number], number == 0), single_values(&mut drawn, BYTES / few))
         } else {
             let text = format!("Its single values are in `{}.csv`, and all else in the JSON file.", result.study.name);
-            vec![Part::Text(text), overview::factors(&alone).into()]
+            (vec![Part::Text(text), overview::factors(&alone).into()], Vec::new())
         };
         figures = drawn.count();
-        let axis = format!("{} along {}", heading(&series.name, &series.unit), name(&series.axis));
-        sections.push(Section::new(&format!("series-{}", number + 1), &axis, parts));
+        let (id, axis) = (format!("series-{}", number + 1), name(&series.axis));
+        let title = format!("{} along {axis}", heading(&series.name, &series.unit));
+        sections.push(Section::new(&id, &title, parts));
+        if !values.is_empty() {
+            let title = format!("{}: its values one by one", name(&series.name));
+            sections.push(Section::new(&format!("{id}-values"), &title, vec![Part::OnPage(values)]));
+        }
     }
     (sections, figures)
 }
@@ -92,7 +114,6 @@ fn in_full(
     figures: &mut Figures<'_>,
     stems: &[String; SERIES_SUFFIXES.len()],
     is_first: bool,
-    bytes: usize,
 ) -> Vec<Part> {
     let (alone, study) = (figures.result, &of.result.study.name);
     let [along, layers, together, map, directions] = stems;
@@ -132,15 +153,17 @@ fn in_full(
     parts.push(figures.add(map_chart(alone, &axis), "map", map));
     parts.push(Part::Heading("Main directions".to_owned()));
     parts.extend(main_directions(of, figures, directions));
-    for (title, told) in
-        [("Some values in full", overview::in_full(figures)), ("Every value", overview::every_output(alone, bytes))]
-    {
-        if !told.is_empty() {
-            let heading = Part::Heading(title.to_owned());
-            parts.push(Part::OnPage(std::iter::once(heading).chain(told).collect()));
-        }
-    }
     parts
+}
+
+/// Some values with all that is known of them, and the indices of every one, in about so many `bytes` of the page.
+fn single_values(figures: &mut Figures<'_>, bytes: usize) -> Vec<Part> {
+    let told = [
+        ("Some values in full", overview::in_full(figures)),
+        ("Every value", overview::every_output(figures.result, bytes)),
+    ];
+    let told = told.into_iter().filter(|(_, parts)| !parts.is_empty());
+    told.flat_map(|(title, parts)| std::iter::once(Part::Heading(title.to_owned())).chain(parts)).collect()
 }
 
 /// The principal components of the series, and what decides how far a run goes in each.

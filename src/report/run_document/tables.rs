@@ -6,6 +6,7 @@ use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, Field, fields};
 use crate::report::document::{Cell, Column, Part, Table, Value, csv};
 use crate::report::format::{chance, grouped, name, share, two_digits};
+use crate::report::leading::surely_interact;
 use crate::report::result::{
     AggregateIndexRecord, AggregateRecord, EffectRecord, EstimateRecord, EstimatorRecord, IndexRecord, IntervalRecord,
     OtherIndexRecord, OutputRecord, PairRecord, PlayerRecord, ResultFile, StageRecord,
@@ -250,9 +251,10 @@ pub(super) fn pairs(result: &ResultFile, output: &OutputRecord) -> Option<Part> 
     let pairs = output.second_order.as_ref().filter(|pairs| !pairs.is_empty())?;
     let mut order: Vec<(usize, &PairRecord)> = pairs.iter().enumerate().collect();
     order.sort_by(|a, b| b.1.index.estimate.total_cmp(&a.1.index.estimate));
-    let row = |pair: &PairRecord| {
+    let row = |(pair, is_sure): (&PairRecord, bool)| {
         let seen = match (pair.index.low, pair.index.high) {
-            (Some(low), _) if low > 0.0 => "yes",
+            _ if is_sure => "yes",
+            (Some(low), _) if low > 0.0 => "may be chance: one of many pairs",
             (Some(_), Some(high)) if high < 0.0 => "no: below 0 by chance, or too few samples",
             (Some(_), Some(_)) => "no: 0 is within the interval",
             _ => "unknown",
@@ -265,7 +267,7 @@ pub(super) fn pairs(result: &ResultFile, output: &OutputRecord) -> Option<Part> 
         "Second-order indices: what two factors do together beyond what each does alone.{}",
         largest(order.len().min(PAIRS), order.len(), "pairs, all in the CSV file")
     );
-    let table = pairs_table(result, caption).with_rows(pairs.iter().map(row));
+    let table = pairs_table(result, caption).with_rows(pairs.iter().zip(surely_interact(pairs)).map(row));
     Some(Part::Table(Table { printed: places(&order, PAIRS), ..table }))
 }
 

@@ -152,3 +152,58 @@ fn no_index_of_the_table_is_known_worse_than_the_lead_says() {
         }
     }
 }
+
+#[test]
+fn few_points_do_not_say_that_a_factor_never_acts() {
+    let said = |formula: &str, samples: u32| {
+        let study = format!(
+            "model = \"expression\"\noutputs.y = \"{formula}\"\n[design]\nbase_samples = {samples}\n[factors]\n\
+             a = {{ min = 0, max = 1 }}\nb = {{ min = 0, max = 1 }}\nc = {{ min = 0, max = 1 }}\n"
+        );
+        page(&result(&study)).text()
+    };
+    // 1 - 0.05^(1/16) = 0.17.
+    let words =
+        "b and c moved y at none of the 16 base points: what acts in less than 17 % of the factor space may be missed.";
+    assert!(said("a + 0*b + 0*c", 16).contains(words));
+    for (formula, samples) in [("a + 0*b + 0*c", 512), ("a + b + c", 16), ("0*a + 0*b + 0*c", 16)] {
+        assert!(!said(formula, samples).contains("may be missed"), "{formula} {samples}");
+    }
+}
+
+#[test]
+fn one_output_of_several_or_one_series_is_a_result_of_its_own() {
+    let text = "model = \"expression\"\noutputs = { y = \"a + b\", still = \"3\", z = \"if(a > 0.9, ln(-1), a)\" }\n\
+                [design]\nbase_samples = 64\n[analysis]\nmax_failed = 0.5\nsecond_order = true\n[factors]\n\
+                a = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
+    let several = result(text);
+    for (name, first) in [(None, "y"), (Some("z"), "z"), (Some("nothing"), "y")] {
+        let one = one_output(&several, name);
+        assert_eq!(one.outputs.iter().map(|output| output.name.as_str()).collect::<Vec<_>>(), [first]);
+        assert!(titles(&page(&one)).contains(&"Indices"));
+    }
+    let lead = page(&several).lead.join(" ");
+    assert!(lead.contains(" failed for z, whose numbers describe"), "{lead}");
+    assert!(!page(&one_output(&several, None)).lead.join(" ").contains("failed"));
+    assert!(lead.contains("every first-order and total index is known to"), "{lead}");
+    let history = include_str!("../../../studies/push-history.toml").replace("4096", "64");
+    let history = result(&history);
+    for (name, places) in [(Some("force_history"), 1..21), (Some("position_history"), 21..41)] {
+        let one = one_output(&history, name);
+        assert_eq!(one.outputs, history.outputs[places]);
+        let document = page(&one);
+        assert_eq!((one.series.len(), document.sections[0].id.as_str()), (1, "series-1"));
+        assert!(document.html().unwrap().contains("<svg"));
+    }
+    for name in [None, Some("critical_force")] {
+        assert_eq!(one_output(&history, name).outputs, history.outputs[..1]);
+    }
+}
+
+#[test]
+fn what_does_not_vary_has_no_part_in_the_whole() {
+    let text = "model = \"expression\"\noutputs = { y = \"a + b\", still = \"3\", z = \"a\" }\n[design]\n\
+                base_samples = 64\n[analysis]\naggregate = true\n[factors]\na = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
+    let said = page(&result(text)).text();
+    assert!(said.contains("Of y and z: ") && said.contains("What does not vary has no part in them: still."), "{said}");
+}

@@ -3,7 +3,7 @@
 use super::lead::by_total;
 use super::tables::{FACTORS_OF_ESTIMATORS, largest};
 use crate::report::document::{Cell, Column, Part, Table};
-use crate::report::format::{axis_unit, grouped, index, name, significant, value};
+use crate::report::format::{among_with_unit, axis_unit, grouped, index, minus, name, significant, value};
 use crate::report::result::{
     EstimateRecord, IndexRecord, IntervalRecord, OutputRecord, SurrogateRecord, SurrogateTermRecord,
 };
@@ -16,7 +16,7 @@ const LEAST_TERM: f64 = 0.01;
 /// Moments and quantiles of an output's values.
 pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
     let record = output.distribution.as_ref()?;
-    let number = |x: f64| value(x, &output.unit);
+    let number = |x: f64| minus(&among_with_unit(x, record.sample.spread(), &output.unit));
     let mut rows: Vec<(String, String)> = Vec::new();
     let mut add = |label: &str, text: Option<String>| rows.extend(text.map(|text| (label.to_owned(), text)));
     let sample = &record.sample;

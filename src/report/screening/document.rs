@@ -32,7 +32,7 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
         sections.push(Section::new(&format!("output-{}", place + 1), &heading(&output.name, &output.unit), parts));
     }
     lead.push(validity::sentence(&file.validity));
-    lead.extend(validity::of_failures(file.provenance.failed_runs, file.provenance.model_runs));
+    lead.extend(validity::of_failures(file.provenance.failed_runs, file.provenance.model_runs, None));
     if !file.notes.is_empty() {
         let texts = file.notes.iter().map(|note| format!("{}.", capitalised(note))).collect();
         let note = Part::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts };

@@ -135,6 +135,11 @@ fn fix(root: &mut Table, name: &str, value: Value) -> Result<(), OverrideProblem
         Some(kind) if kind == ModelKind::EXPRESSION => &[kind.table, "constants", name],
         _ => return Err(OverrideProblem::NotFixed { name: name.to_owned(), model: model.to_owned() }),
     };
+    let others = dependent_on(root, name);
+    if !others.is_empty() {
+        return Err(OverrideProblem::Dependent { name: name.to_owned(), others });
+    }
+    remove_from_subsets(root, name);
     let key = if root.contains_key("factor") { "factor" } else { "factors" };
     let is_named = |table: &dyn TableLike| table.get("name").and_then(Item::as_str) == Some(name);
     match root.get_mut(key) {
@@ -148,7 +153,54 @@ fn fix(root: &mut Table, name: &str, value: Value) -> Result<(), OverrideProblem
         },
         None => (),
     }
+    // A study without any factor is refused in other words than a factor without a name.
+    if root.get(key).and_then(Item::as_table_like).is_some_and(TableLike::is_empty) {
+        root.remove(key);
+    }
     set_in(root, path, value)
+}
+
+/// The factors of `[[dependence]]` tables that hold `name`, other than it.
+fn dependent_on(root: &Table, name: &str) -> Vec<String> {
+    let tables: Vec<&dyn TableLike> = match root.get("dependence") {
+        Some(Item::ArrayOfTables(tables)) => tables.iter().map(|table| table as &dyn TableLike).collect(),
+        Some(Item::Value(Value::Array(values))) => {
+            values.iter().filter_map(Value::as_inline_table).map(|table| table as &dyn TableLike).collect()
+        }
+        Some(item) => item.as_table_like().into_iter().collect(),
+        None => Vec::new(),
+    };
+    let names = |table: &dyn TableLike| -> Vec<String> {
+        let names = table.get("factors").and_then(Item::as_array);
+        names.into_iter().flatten().filter_map(|name| name.as_str().map(str::to_owned)).collect()
+    };
+    let holding = tables.into_iter().map(names).filter(|names| names.iter().any(|other| other == name));
+    holding.flatten().filter(|other| other != name).collect()
+}
+
+/// Takes `name` out of the subsets whose indices are asked for. A subset that is left empty, or like another one, goes.
+fn remove_from_subsets(root: &mut Table, name: &str) {
+    let analysis = root.get_mut("analysis").and_then(Item::as_table_like_mut);
+    let Some(subsets) = analysis.and_then(|table| table.get_mut("subsets")).and_then(Item::as_array_mut) else {
+        return;
+    };
+    let mut seen: Vec<Vec<String>> = vec![Vec::new()];
+    let is_new: Vec<bool> = subsets
+        .iter_mut()
+        .map(|subset| {
+            let Some(names) = subset.as_array_mut() else { return true };
+            names.retain(|other| other.as_str() != Some(name));
+            names.fmt();
+            let mut left: Vec<String> = names.iter().filter_map(|name| name.as_str().map(str::to_owned)).collect();
+            left.sort_unstable();
+            let is_new = !seen.contains(&left);
+            seen.push(left);
+            is_new
+        })
+        .collect();
+    let mut is_new = is_new.into_iter();
+    subsets.retain(|_| is_new.next().unwrap_or(true));
+    subsets.fmt();
 }
 
 fn set_in(table: &mut dyn TableLike, names: &[&str], value: Value) -> Result<(), OverrideProblem> {
@@ -200,6 +252,23 @@ mod tests {
         let of_function = apply("model = 'ishigami'\n[factor.x1]\nmin = 0\n", &["factor.x1=0.5".to_owned()]);
         assert!(matches!(of_function, Err((_, OverrideProblem::NotFixed { .. }))));
         assert!(matches!(applied("factor.width=1"), Err(OverrideProblem::NoFactor { .. })));
+    }
+
+    #[test]
+    fn a_fixed_factor_leaves_the_subsets_and_no_empty_table() {
+        let fixed = |text: &str, name: &str| apply(text, &[format!("factor.{name}=1")]);
+        let subsets = "model = 'expression'\n[analysis]\nsubsets = [['a', 'b'], ['b'], ['a'], ['b', 'c']]\n\
+                       [factors]\na = { min = 1 }\nb = { min = 2 }\n";
+        assert!(fixed(subsets, "a").unwrap().unwrap().contains("subsets = [['b'], ['b', 'c']]"));
+        let last = fixed("model = 'expression'\n[factors]\na = { min = 1 }\n", "a").unwrap().unwrap();
+        assert!(!last.contains("factors"), "{last}");
+        for form in ["[[dependence]]\n", "[dependence]\n"] {
+            let text =
+                format!("model = 'expression'\n[factors]\na = {{}}\nb = {{}}\nc = {{}}\n{form}factors = ['a', 'b']\n");
+            let others = vec!["b".to_owned()];
+            assert_eq!(fixed(&text, "a").unwrap_err().1, OverrideProblem::Dependent { name: "a".to_owned(), others });
+            assert!(fixed(&text, "c").is_ok());
+        }
     }
 
     #[test]

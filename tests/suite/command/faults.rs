@@ -207,7 +207,7 @@ fn check_tells_the_start_of_a_program_from_its_runs() {
     assert!((1.0..30.0).contains(&about), "{cost}");
     assert!(cost.contains(" s of that to start the program"), "{cost}");
     let quick =
-        Case::each_row("", "    print(y, flush=True)\n    n = globals().get('n', 0) + 1\n    if n == 30: print(y)\n");
+        Case::each_row("", "    print(y, flush=True)\n    n = globals().get('n', 0) + 1\n    if n == 3: print(y)\n");
     let told = succeed(&["check", text(&quick.path("study.toml"))]);
     contains(&told, &["warning: the program is out of step"]);
 }
