@@ -2,7 +2,7 @@
 
 use super::super::chart::{Axis, Chart, Panel};
 use super::super::distribution::density_chart;
-use super::super::format::{name, words};
+use super::super::format::{grouped, name, words};
 use super::super::result::{OutputRecord, ResultFile};
 use super::headline;
 
@@ -14,7 +14,12 @@ pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
         let mut sample = distribution.sample.clone();
         // That of the page, which surrogates may have corrected.
         sample.mean = output.mean.unwrap_or(sample.mean);
-        return density_chart(&sample, &title, &output_words);
+        let mut chart = density_chart(&sample, &title, &output_words);
+        if sample.count < distribution.values {
+            let caption = format!("{} These were kept of all {}.", chart.caption(), grouped(distribution.values));
+            chart.set_caption(caption);
+        }
+        return chart;
     }
     let reason = output.reason.as_deref().unwrap_or("its values are beyond double precision in this unit");
     let panel = Panel::new(Axis::new(output_words, ""), Axis::new("probability density", ""));

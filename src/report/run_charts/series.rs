@@ -50,6 +50,15 @@ impl<'a> SeriesOf<'a> {
         order
     }
 
+    /// The factors that are drawn by themselves, in order, each with its colour. Few factors have theirs by their places in the
+    /// study, so that they keep it from series to series.
+    fn drawn(self) -> Vec<(usize, Colour)> {
+        let is_few = self.result.factors.len() <= COLOURS.len();
+        let colour =
+            |(rank, factor): (usize, usize)| (factor, Colour::Series(COLOURS[if is_few { factor } else { rank }]));
+        self.order().into_iter().take(COLOURS.len()).enumerate().map(colour).collect()
+    }
+
     /// The axis with its unit.
     pub fn axis(self) -> Axis {
         Axis::new(name(&self.series.axis), axis_unit(&self.series.axis_unit))
@@ -79,12 +88,12 @@ impl<'a> SeriesOf<'a> {
 
 /// Total and first-order index of every factor against the axis, with their intervals as bands.
 pub(in crate::report) fn along_chart(of: SeriesOf<'_>) -> Chart {
-    let order = of.order();
+    let factors = of.drawn();
     let mut is_cut = false;
     let mut panel = |title: &str, read: fn(&IndexRecord) -> EstimateRecord| {
         let mut marks: Vec<Mark> = Vec::new();
-        for (&factor, colour) in order.iter().zip(COLOURS) {
-            let series = Series::new(name(&of.result.factors[factor].name), Colour::Series(colour));
+        for &(factor, colour) in &factors {
+            let series = Series::new(name(&of.result.factors[factor].name), colour);
             let curve = of.curve(factor, read);
             let mut drawn = |x: f64| {
                 is_cut |= !(DRAWN.0..=DRAWN.1).contains(&x);
@@ -132,8 +141,8 @@ pub(in crate::report) fn layers_chart(of: SeriesOf<'_>) -> Chart {
         series.mark(Shape::Layer(edges.collect()))
     };
     let mut marks: Vec<Mark> = Vec::new();
-    for (&factor, colour) in order.iter().zip(COLOURS) {
-        let series = Series::new(name(&of.result.factors[factor].name), Colour::Series(colour));
+    for (factor, colour) in of.drawn() {
+        let series = Series::new(name(&of.result.factors[factor].name), colour);
         marks.push(layer(series, &|value, _| alone(value, factor)));
     }
     if let Some(others) = order.get(COLOURS.len()..).filter(|others| !others.is_empty()) {

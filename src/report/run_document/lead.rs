@@ -170,16 +170,21 @@ fn others(result: &ResultFile, order: &[&IndexRecord], tied: &[usize]) -> String
         let no = chances.iter().filter(|chance| **chance < 1.0 - SURE).count();
         let open = chances.len() - yes - no;
         let threshold = result.provenance.threshold;
-        sentence.push_str(if sentence.is_empty() { "Of" } else { "; of" });
-        sentence.push_str(&format!(
-            " the {} factors, {yes} surely {} S_T = {threshold}, {no} surely {}",
-            chances.len(),
-            if yes == 1 { "exceeds" } else { "exceed" },
-            if no == 1 { "does not" } else { "do not" }
-        ));
-        if open > 0 {
-            sentence.push_str(&format!(", and {open} may"));
+        let verb = |number: usize, one: &'static str, several: &'static str| if number == 1 { one } else { several };
+        let mut parts = Vec::new();
+        if yes > 0 {
+            parts.push(format!("{yes} surely {} S_T = {threshold}", verb(yes, "exceeds", "exceed")));
         }
+        if no > 0 {
+            let what = if yes > 0 { String::new() } else { format!(" exceed S_T = {threshold}") };
+            parts.push(format!("{no} surely {} not{what}", verb(no, "does", "do")));
+        }
+        if open > 0 {
+            let what = if yes + no > 0 { String::new() } else { format!(" exceed S_T = {threshold}") };
+            parts.push(format!("{}{open} may{what}", if parts.is_empty() { "" } else { "and " }));
+        }
+        sentence.push_str(if sentence.is_empty() { "Of" } else { "; of" });
+        sentence.push_str(&format!(" the {} factors, {}", chances.len(), parts.join(", ")));
     }
     if sentence.is_empty() { sentence } else { sentence + "." }
 }
