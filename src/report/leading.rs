@@ -1,6 +1,6 @@
 //! Sentences about who leads: they follow the intervals, name no winner of a tie, and state no share that none can be.
 
-use super::format::{index, name};
+use super::format::{count, index, name};
 use super::listed;
 use super::result::{EstimateRecord, IndexRecord, PairRecord};
 use crate::special::normal_quantile;
@@ -82,6 +82,50 @@ pub(super) fn names(contenders: &[Contender], which: &[usize], what: &dyn Fn(&Co
     listed(&all)
 }
 
+/// The outputs at these places by name: neighbours as a stretch, the first ones of many.
+pub(super) fn of_which(outputs: &[&str], places: &[usize]) -> String {
+    if places.len() == outputs.len() && places.len() > 2 {
+        return format!("all {} outputs", places.len());
+    }
+    // No stretch goes from one series to the next.
+    let series = |name: &str| name.split_once('[').map(|(series, _)| series.to_owned());
+    let mut stretches: Vec<(usize, usize)> = Vec::new();
+    for &place in places {
+        let follows = |last: usize| last + 1 == place && series(outputs[last]) == series(outputs[place]);
+        match stretches.last_mut().filter(|(_, last)| follows(*last)) {
+            Some((_, last)) => *last = place,
+            None => stretches.push((place, place)),
+        }
+    }
+    let of = |place: usize| name(outputs[place]);
+    let stretch = |&(first, last): &(usize, usize)| match last - first {
+        0 => vec![of(first)],
+        1 => vec![of(first), of(last)],
+        _ => vec![format!("{} to {}", of(first), of(last))],
+    };
+    let mut names: Vec<String> = stretches.iter().take(NAMES).flat_map(stretch).collect();
+    if stretches.len() > NAMES {
+        let more: usize = stretches[NAMES..].iter().map(|(first, last)| last - first + 1).sum();
+        names.push(format!("{more} more"));
+    }
+    match places.len() {
+        1 => names.concat(),
+        several => format!("{}: {}", count(several as u64, "output", "outputs"), listed(&names)),
+    }
+}
+
+/// The answers that are given, each with the places of those that have it, in the order of the first time.
+pub(super) fn by_answer<T: PartialEq>(answers: impl IntoIterator<Item = T>) -> Vec<(T, Vec<usize>)> {
+    let mut found: Vec<(T, Vec<usize>)> = Vec::new();
+    for (place, answer) in answers.into_iter().enumerate() {
+        match found.iter_mut().find(|(known, _)| *known == answer) {
+            Some((_, places)) => places.push(place),
+            None => found.push((answer, vec![place])),
+        }
+    }
+    found
+}
+
 /// Which factor decides most of `output`: alone, and with all its interactions; without a full stop.
 pub(super) fn decides_most(contenders: &[Contender], output: &str) -> Option<String> {
     let leaders = may_lead(contenders);
@@ -141,6 +185,16 @@ mod tests {
         let unsure =
             [contender("a", (0.0, 0.1), (0.5, 0.6), Some(0.93)), contender("b", (0.0, 0.1), (0.4, 0.5), Some(0.04))];
         assert_eq!(may_lead(&unsure), [0, 1]);
+    }
+
+    #[test]
+    fn outputs_are_named_in_stretches() {
+        let outputs = ["force", "u[0]", "u[1]", "u[2]", "v[0]", "v[1]", "y"];
+        let said = |places: &[usize]| of_which(&outputs, places);
+        assert_eq!(said(&[0, 1, 2, 3, 4]), "5 outputs: force, u[0] to u[2] and v[0]");
+        assert_eq!((said(&[6]), said(&[0, 1, 2, 3, 4, 5, 6])), ("y".to_owned(), "all 7 outputs".to_owned()));
+        let answers = by_answer(["a", "b", "a"]);
+        assert_eq!(answers, [("a", vec![0, 2]), ("b", vec![1])]);
     }
 
     #[test]

@@ -3,28 +3,42 @@
 use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile};
 use super::{comparison_charts, comparison_json};
+use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table, Value};
 use crate::report::format::{give_or_take, heading, name, significant};
-use crate::report::leading::{Contender, may_lead};
+use crate::report::leading::{Contender, by_answer, may_lead, of_which};
 use crate::report::listed;
 use crate::report::result::EstimateRecord;
 
 /// The document of a comparison, whose files begin with `name`. A star marks the differences whose intervals leave out 0.
 pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
-    let mut lead: Vec<String> = file.outputs.iter().map(leaders).collect();
+    let mut lead: Vec<String> = match file.outputs.len() {
+        ..MANY_OUTPUTS => {
+            let said = |output: &ComparedOutput| format!("For {}, {}.", name(&output.name), leaders(output));
+            file.outputs.iter().map(said).collect()
+        }
+        _ => {
+            let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
+            let said =
+                |(leaders, places): (String, Vec<usize>)| format!("For {}, {leaders}.", of_which(&names, &places));
+            by_answer(file.outputs.iter().map(leaders)).into_iter().map(said).collect()
+        }
+    };
     lead.push(legend(file));
     let mut sections = vec![Section::new("sides", "What is compared", sides(file))];
+    let mut of_outputs = Vec::new();
     // Two charts for each output: the indices side by side, and their differences.
     let mut charts = comparison_charts(file).into_iter().enumerate().map(|(place, drawing)| {
         let (stem, data) = (format!("{files}{}", drawing.suffix), format!("{files}.csv"));
         Part::from(Figure::new(place + 1, drawing.chart, stem, data))
     });
-    for (place, output) in file.outputs.iter().enumerate() {
+    for output in &file.outputs {
         let mut parts = output_parts(output);
         parts.extend(charts.by_ref().take(2));
-        sections.push(Section::new(&format!("output-{}", place + 1), &heading(&output.name, &output.unit), parts));
+        of_outputs.push((heading(&output.name, &output.unit), parts));
     }
+    sections.extend(Document::sections_of_outputs(of_outputs));
     Document {
         name: files.to_owned(),
         kicker: "Comparison of two results".to_owned(),
@@ -104,7 +118,7 @@ fn cells(index: &ComparedIndex) -> [String; 3] {
     [said(index.a), said(index.b), said(index.difference) + star]
 }
 
-/// Which factor has the largest total index in each, as far as the intervals tell.
+/// Which factor has the largest total index in each, as far as the intervals tell, without the output and a full stop.
 fn leaders(output: &ComparedOutput) -> String {
     let leaders = |of: fn(&ComparedFactor) -> Option<EstimateRecord>| -> Option<String> {
         let contender = |factor: &ComparedFactor| {
@@ -118,11 +132,10 @@ fn leaders(output: &ComparedOutput) -> String {
             several => Some(format!("{} cannot be told apart by their total indices", listed(several))),
         }
     };
-    let output_name = name(&output.name);
     match (leaders(|f| f.total.a), leaders(|f| f.total.b)) {
-        (Some(a), Some(b)) if a == b => format!("For {output_name}, {a} in both."),
-        (Some(a), Some(b)) => format!("For {output_name}, {a} in A; {b} in B."),
-        _ => format!("One of the results has no indices of {output_name}."),
+        (Some(a), Some(b)) if a == b => format!("{a} in both"),
+        (Some(a), Some(b)) => format!("{a} in A; {b} in B"),
+        _ => "one of the results has no indices".to_owned(),
     }
 }
 

@@ -22,6 +22,7 @@ pub use symbols::symbols;
 pub(crate) use table::csv;
 pub use table::{Cell, Column, Mark, OnPhone, Table};
 
+use crate::model::MANY_OUTPUTS;
 use crate::report::chart::Chart;
 use crate::report::file_names::FileNames;
 
@@ -197,6 +198,18 @@ impl Document {
         let of_tables = self.tables_by_file().into_iter().map(|(name, _)| name.to_owned());
         let data = self.files.iter().map(|file| file.name.clone()).chain(of_tables).collect();
         FileNames { name: self.name.clone(), data, charts }
+    }
+
+    /// A section for each output, with its heading; of many outputs one section, in which each is folded.
+    pub(crate) fn sections_of_outputs(outputs: Vec<(String, Vec<Part>)>) -> Vec<Section> {
+        if outputs.len() < MANY_OUTPUTS {
+            let section = |(place, (heading, parts)): (usize, (String, Vec<Part>))| {
+                Section::new(&format!("output-{}", place + 1), &heading, parts)
+            };
+            return outputs.into_iter().enumerate().map(section).collect();
+        }
+        let folded = outputs.into_iter().map(|(summary, parts)| Part::Details { summary, parts });
+        vec![Section::new("outputs", "Output by output", folded.collect())]
     }
 
     /// These sections of it alone, with their figures numbered through.

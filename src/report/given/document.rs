@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord, given_chart};
 use super::{measures, sentences};
+use crate::model::MANY_OUTPUTS;
 use crate::report::csv::Field;
 use crate::report::distribution::OutputDistribution;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
@@ -12,6 +13,9 @@ use crate::report::records::json;
 use crate::report::result::EstimateRecord;
 use crate::report::{file_stems, listed};
 
+/// Of many outputs, those with a paragraph at the top.
+const TOLD: usize = 6;
+
 /// The document of a result from given data, whose files begin with `name`.
 pub fn given_document(result: &GivenFile, name: &str) -> Document {
     let outputs: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
@@ -19,14 +23,19 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
     let mut sections =
         vec![Section::new("mind", "What to mind", Part::warnings(&result.warnings).into_iter().collect())];
     sections.retain(|section| !section.parts.is_empty());
-    let mut lead = Vec::new();
+    let (mut lead, mut of_outputs) = (Vec::new(), Vec::new());
     for (place, (output, stem)) in result.outputs.iter().zip(stems).enumerate() {
         let chart = given_chart(result, output);
         lead.push(format!("{}{}", chart.caption(), left(output)));
         let figure = Figure::new(place + 1, chart, stem, data_name(name));
         let mut parts = output_parts(output, index_table(result, output, name));
         parts.push(figure.into());
-        sections.push(Section::new(&format!("output-{}", place + 1), &words(&output.name), parts));
+        of_outputs.push((words(&output.name), parts));
+    }
+    sections.extend(Document::sections_of_outputs(of_outputs));
+    if outputs.len() >= MANY_OUTPUTS {
+        lead.truncate(TOLD);
+        lead.push(format!("{} more outputs have theirs below.", outputs.len() - TOLD));
     }
     sections.extend(measures::section(result, name, result.outputs.len()));
     let notes = result.notes.iter().map(|note| format!("{}.", crate::report::capitalised(note))).collect();

@@ -3,13 +3,13 @@
 use crate::model::MANY_OUTPUTS;
 use crate::report::format::{chance, count, grouped, index, name, two_digits as half_width};
 use crate::report::interval_widths::{WIDE, widest_interval, widest_of, width_after_doubling};
-use crate::report::leading::{Contender, SURE, may_lead, names};
+use crate::report::leading::{Contender, SURE, may_lead, names, of_which};
 use crate::report::listed;
 use crate::report::result::{IndexRecord, OutputRecord, ResultFile};
 use crate::report::validity;
 
 use super::interactions::interactions;
-use super::warnings::{folded, of_which};
+use super::warnings::{folded, output_names};
 
 /// Outputs with a paragraph of their own at the top.
 const OUTPUTS: usize = 6;
@@ -206,7 +206,7 @@ fn trust(result: &ResultFile, warned: &[&[OutputRecord]]) -> String {
         .filter(|(_, output)| output.runs_failed > 0)
         .map(|(place, _)| place)
         .collect();
-    let which = (failing.len() < result.outputs.len()).then(|| of_which(&result.outputs, &failing));
+    let which = (failing.len() < result.outputs.len()).then(|| of_which(&output_names(&result.outputs), &failing));
     sentences.extend(validity::of_failures(failed, result.provenance.model_runs, which.as_deref()));
     let is_corrected = |output: &&OutputRecord| {
         let used = output.surrogate.as_ref();

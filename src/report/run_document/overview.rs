@@ -4,10 +4,10 @@ use super::figures::{Figures, Numbered, overview_stems};
 use super::lead::Leads;
 use super::output::{definitions, topics};
 use super::under_headings;
-use super::warnings::{folded, of_which};
+use super::warnings::{folded, output_names};
 use crate::report::document::{Cell, Column, Mark, Part, Section, Table};
 use crate::report::format::{give_or_take, grouped, heading, index, name, short, value};
-use crate::report::leading::{Contender, may_lead, names};
+use crate::report::leading::{Contender, may_lead, names, of_which};
 use crate::report::listed;
 use crate::report::output_axis::OutputAxis;
 use crate::report::result::{AggregateIndexRecord, EstimateRecord, IndexRecord, OutputRecord, ResultFile};
@@ -135,7 +135,7 @@ pub(super) fn mind(result: &ResultFile) -> Vec<Part> {
     let without = without.filter_map(|(place, output)| Some((output.reason.as_deref()?, place)));
     let mut parts: Vec<Part> = Vec::new();
     for (reason, places) in grouped_by(without).into_iter().take(WARNINGS) {
-        let text = format!("There are no indices of {}: {reason}.", of_which(&result.outputs, &places));
+        let text = format!("There are no indices of {}: {reason}.", of_which(&output_names(&result.outputs), &places));
         parts.push(Part::no_indices(text));
     }
     let warned = folded(&result.outputs);

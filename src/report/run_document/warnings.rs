@@ -1,6 +1,7 @@
 //! Warnings of several outputs, each said once with the outputs that it is of.
 
-use crate::report::format::{count, name};
+use crate::report::format::name;
+use crate::report::leading::of_which;
 use crate::report::listed;
 use crate::report::result::OutputRecord;
 
@@ -57,6 +58,7 @@ pub(super) fn folded(outputs: &[OutputRecord]) -> Vec<String> {
             None => same.push(Same { words, subjects: subject.into_iter().collect(), all }),
         }
     }
+    let names = output_names(outputs);
     let told = same.into_iter().map(|Same { words, subjects, all }| {
         let mut text = match &subjects[..] {
             [] => String::new(),
@@ -75,9 +77,14 @@ pub(super) fn folded(outputs: &[OutputRecord]) -> Vec<String> {
         let mut places: Vec<usize> = all.iter().map(|(place, _)| *place).collect();
         places.sort_unstable();
         places.dedup();
-        if outputs.len() == 1 { text } else { format!("{text} ({})", of_which(outputs, &places)) }
+        if outputs.len() == 1 { text } else { format!("{text} ({})", of_which(&names, &places)) }
     });
     told.collect()
+}
+
+/// The names of `outputs`, in order.
+pub(super) fn output_names(outputs: &[OutputRecord]) -> Vec<&str> {
+    outputs.iter().map(|output| output.name.as_str()).collect()
 }
 
 /// The name that a warning begins with, if it is of a factor: `x1` of `x1: too few samples`.
@@ -137,35 +144,6 @@ fn range(values: &[&str]) -> String {
         (Some(least), Some(most)) if least != most => format!("{least} to {most}"),
         (Some(one), _) => (*one).to_owned(),
         _ => String::new(),
-    }
-}
-
-/// Outputs by name: neighbours as a stretch, the first ones of many.
-pub(super) fn of_which(outputs: &[OutputRecord], places: &[usize]) -> String {
-    if places.len() == outputs.len() && places.len() > 2 {
-        return format!("all {} outputs", places.len());
-    }
-    let mut stretches: Vec<(usize, usize)> = Vec::new();
-    for &place in places {
-        match stretches.last_mut().filter(|(_, last)| last + 1 == place) {
-            Some((_, last)) => *last = place,
-            None => stretches.push((place, place)),
-        }
-    }
-    let of = |place: usize| name(&outputs[place].name);
-    let stretch = |&(first, last): &(usize, usize)| match last - first {
-        0 => vec![of(first)],
-        1 => vec![of(first), of(last)],
-        _ => vec![format!("{} to {}", of(first), of(last))],
-    };
-    let mut names: Vec<String> = stretches.iter().take(NAMES).flat_map(stretch).collect();
-    if stretches.len() > NAMES {
-        let more: usize = stretches[NAMES..].iter().map(|(first, last)| last - first + 1).sum();
-        names.push(format!("{more} more"));
-    }
-    match places.len() {
-        1 => names.concat(),
-        several => format!("{}: {}", count(several as u64, "output", "outputs"), listed(&names)),
     }
 }
 

@@ -155,26 +155,31 @@ fn is_derivative(file: &ScreeningFile) -> bool {
     file.provenance.derivative_step.is_some()
 }
 
-/// What is seen, in one sentence.
-pub(super) fn leader(output: &OutputScreeningRecord) -> String {
+/// The factors that may matter most for an output, the largest μ* first: one where it surely does.
+pub(super) fn leaders(output: &OutputScreeningRecord) -> Vec<Contender> {
     let contender = |factor: &FactorScreeningRecord| {
         let total = factor.mu_star.filter(|mu_star| mu_star.estimate > 0.0)?;
         Some(Contender { label: name(&factor.factor), first_order: None, total, probability: None })
     };
     let moving: Vec<Contender> = output.factors.iter().filter_map(contender).collect();
+    may_lead(&moving).into_iter().map(|place| moving[place].clone()).collect()
+}
+
+/// What is seen, in one sentence.
+pub(super) fn leader(output: &OutputScreeningRecord) -> String {
     let mu_star = |contender: &Contender| of_unit(contender.total, &output.unit);
     let output_name = name(&output.name);
-    match &may_lead(&moving)[..] {
+    match &leaders(output)[..] {
         [] => format!("No factor has any effect on {output_name}."),
         [lead] => {
-            let Contender { label, .. } = &moving[*lead];
-            let size = mu_star(&moving[*lead]);
+            let (label, size) = (&lead.label, mu_star(lead));
             format!("For {output_name}, {label} matters most: μ*, the mean size of its effects, is {size}.")
         }
         tied => {
-            let names = names(&moving, tied, &mu_star);
+            let all: Vec<usize> = (0..tied.len()).collect();
             format!(
-                "What matters most for {output_name} cannot be told apart by μ*, the mean size of effects: {names}."
+                "What matters most for {output_name} cannot be told apart by μ*, the mean size of effects: {}.",
+                names(tied, &all, &mu_star)
             )
         }
     }

@@ -1,11 +1,13 @@
 //! A screening as a document.
 
-use super::charts::{leader, screening_suffixes};
+use super::charts::{leader, leaders, screening_suffixes};
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile, screening_charts, screening_json};
+use crate::model::MANY_OUTPUTS;
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::file_names::FileNames;
 use crate::report::format::{grouped, heading, index, name, short, words};
+use crate::report::leading::{by_answer, of_which};
 use crate::report::result::EstimateRecord;
 use crate::report::study_sections::{failures, inputs, study_section, validity_section};
 use crate::report::{capitalised, listed, validity};
@@ -14,23 +16,26 @@ use crate::screening::FIXABLE;
 /// The document of a screening.
 pub fn screening_document(file: &ScreeningFile) -> Document {
     let study = &file.study.name;
-    let (mut sections, mut lead) = (Vec::new(), Vec::new());
+    let mut of_outputs = Vec::new();
     // Two charts for each output: mu* against sigma, and mu* with its intervals.
     let mut charts = screening_charts(file).into_iter().enumerate().map(|(place, drawing)| {
         Figure::new(place + 1, drawing.chart, format!("{study}{}", drawing.suffix), format!("{study}-screen.csv"))
             .below(file.study.headline())
     });
-    for (place, output) in file.outputs.iter().enumerate() {
+    for output in &file.outputs {
         let figures: Vec<Figure> = charts.by_ref().take(2).collect();
-        lead.push(leader(output));
-        lead.push(fixable(output));
         let mut parts: Vec<Part> = Part::warnings(&output.warnings).into_iter().collect();
         let failed = output.failures.iter();
         parts.extend(failures(failed.map(|f| (&*f.reason, inputs(&f.first_inputs), f.runs))));
         parts.push(Part::Table(effects(file, output)));
         parts.extend(figures.into_iter().map(|figure| figure.into()));
-        sections.push(Section::new(&format!("output-{}", place + 1), &heading(&output.name, &output.unit), parts));
+        of_outputs.push((heading(&output.name, &output.unit), parts));
     }
+    let mut sections = Document::sections_of_outputs(of_outputs);
+    let mut lead = match file.outputs.len() {
+        ..MANY_OUTPUTS => file.outputs.iter().flat_map(|output| [leader(output), fixable(output)]).collect(),
+        _ => of_many(&file.outputs),
+    };
     lead.push(validity::sentence(&file.validity));
     lead.extend(validity::of_failures(file.provenance.failed_runs, file.provenance.model_runs, None));
     if !file.notes.is_empty() {
@@ -137,10 +142,9 @@ const COLUMNS_BEFORE_NU: usize = 8;
 
 /// Which factors could be fixed, and by which rule.
 fn fixable(output: &OutputScreeningRecord) -> String {
+    let rule = fixing_rule();
     let fixable = output.factors.iter().filter(|f| f.could_be_fixed == Some(true)).map(|f| words(&f.factor));
     let fixable: Vec<String> = fixable.collect();
-    let rule =
-        format!("the upper bound of μ* below {} % of the largest μ*, by at least half of the effects", 100.0 * FIXABLE);
     let has_effect = |factor: &FactorScreeningRecord| factor.mu_star.is_some_and(|mu_star| mu_star.estimate > 0.0);
     if output.factors.iter().all(|factor| factor.could_be_fixed.is_none()) {
         if output.factors.iter().any(has_effect) {
@@ -152,6 +156,39 @@ fn fixable(output: &OutputScreeningRecord) -> String {
         [] => format!("No factor could be fixed for {} ({rule}).", name(&output.name)),
         names => format!("Could be fixed for {}: {} ({rule}).", name(&output.name), listed(names)),
     }
+}
+
+fn fixing_rule() -> String {
+    format!("the upper bound of μ* below {} % of the largest μ*, by at least half of the effects", 100.0 * FIXABLE)
+}
+
+/// Which factors lead which of many outputs, and which could be fixed for all of them.
+fn of_many(outputs: &[OutputScreeningRecord]) -> Vec<String> {
+    let all: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).collect();
+    let leading = |output: &OutputScreeningRecord| leaders(output).into_iter().map(|lead| lead.label).collect();
+    let said = |(leaders, places): (Vec<String>, Vec<usize>)| match &leaders[..] {
+        [] => format!("No factor has any effect on some of them: {}.", of_which(&all, &places)),
+        [lead] => format!("By μ*, the mean size of effects, {lead} matters most for {}.", of_which(&all, &places)),
+        tied => format!("By μ*, {} cannot be told apart for {}.", listed(tied), of_which(&all, &places)),
+    };
+    let mut lead: Vec<String> = by_answer(outputs.iter().map(leading)).into_iter().map(said).collect();
+    let factors = outputs.first().map_or(&[][..], |output| &output.factors);
+    let known = |factor: &str| {
+        let of_output =
+            |output: &OutputScreeningRecord| output.factors.iter().find(|f| f.factor == factor)?.could_be_fixed;
+        outputs.iter().filter_map(of_output).collect::<Vec<bool>>()
+    };
+    let is_fixable = |factor: &&FactorScreeningRecord| {
+        let known = known(&factor.factor);
+        !known.is_empty() && known.into_iter().all(|could| could)
+    };
+    let mut names: Vec<String> = factors.iter().filter(is_fixable).map(|factor| words(&factor.factor)).collect();
+    names.sort();
+    lead.push(match &names[..] {
+        [] => format!("No factor could be fixed for all of them ({}).", fixing_rule()),
+        names => format!("Could be fixed for all of them: {} ({}).", listed(names), fixing_rule()),
+    });
+    lead
 }
 
 /// How the answer came about.

@@ -2,10 +2,12 @@
 
 use super::charts::{sweep_charts, sweep_suffixes};
 use super::{AgainstRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines, sweep_json};
+use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::file_names::FileNames;
 use crate::report::format::{grouped, heading, name, short, short_with_unit, value};
+use crate::report::leading::{by_answer, of_which};
 use crate::report::study_sections::{study_section, validity_section};
 use crate::report::validity;
 
@@ -20,18 +22,26 @@ pub fn sweep_document(file: &SweepFile) -> Document {
         Figure::new(number + 1, drawing.chart, stem, data).below(file.study.headline())
     });
     let curves: Vec<Figure> = charts.by_ref().take(factors).collect();
-    let (mut sections, mut lead) = (Vec::new(), Vec::new());
+    let mut of_outputs = Vec::new();
     for (place, (nominal, ranges)) in file.nominal.iter().zip(charts).enumerate() {
-        lead.push(widest(file, nominal, place));
         let parts = vec![
             Part::Text(at_nominal(nominal)),
             Part::Table(effects(file, nominal, place)),
             Part::Figure(Box::new(ranges)),
         ];
-        sections.push(Section::new(&format!("output-{}", place + 1), &heading(&nominal.output, &nominal.unit), parts));
+        of_outputs.push((heading(&nominal.output, &nominal.unit), parts));
     }
+    let mut sections = Document::sections_of_outputs(of_outputs);
+    let mut lead = match outputs {
+        ..MANY_OUTPUTS => (0..outputs).map(|place| widest(file, &file.nominal[place], place)).collect(),
+        _ => widest_of_many(file),
+    };
     lead.push(validity::sentence(&file.validity));
-    let mut parts: Vec<Part> = curves.into_iter().map(|figure| figure.into()).collect();
+    let curve = |(figure, sweep): (Figure, &FactorSweepRecord)| match outputs {
+        ..MANY_OUTPUTS => figure.into(),
+        _ => Part::Details { summary: name(&sweep.factor), parts: vec![figure.into()] },
+    };
+    let mut parts: Vec<Part> = curves.into_iter().zip(&file.sweeps).map(curve).collect();
     let failed: Vec<String> = file.sweeps.iter().flat_map(gap_lines).map(|line| format!("{line}.")).collect();
     if !failed.is_empty() {
         parts.insert(0, Part::Notice { mark: Mark::Mixed, kind: "Failed".to_owned(), texts: failed });
@@ -85,6 +95,25 @@ fn widest(file: &SweepFile, nominal: &NominalRecord, number: usize) -> String {
         Some(_) => format!("No factor alone moves {output}, as far as it has values."),
         None => format!("No factor was swept for {output}."),
     }
+}
+
+/// Which factor moves which of many outputs most.
+fn widest_of_many(file: &SweepFile) -> Vec<String> {
+    let outputs: Vec<&str> = file.nominal.iter().map(|nominal| nominal.output.as_str()).collect();
+    let widest = |number: usize| {
+        let (sweep, effect) = by_width(file, number).into_iter().next()?;
+        (effect.width() > 0.0).then_some((sweep.factor.as_str(), sweep.given))
+    };
+    let said = |(widest, places): (Option<(&str, bool)>, Vec<usize>)| match widest {
+        Some((factor, given)) => format!(
+            "Over {}, with all others nominal, {} matters most for {}.",
+            if given { "the given values" } else { "its range" },
+            name(factor),
+            of_which(&outputs, &places)
+        ),
+        None => format!("No factor alone moves them, as far as they have values: {}.", of_which(&outputs, &places)),
+    };
+    by_answer((0..outputs.len()).map(widest)).into_iter().map(said).collect()
 }
 
 /// The sweeps with what they do to an output, the widest first.
