@@ -1,11 +1,9 @@
 //! Every constant of the problem.
 
-use super::{Failure, Parameter};
-
 /// Everything the physics depends on, in SI. The default is the nominal scene: a silicon cantilever
 /// pushing a gold particle of 50 nm radius on silicon oxide.
 ///
-/// [`Parameter::ALL`] lists the same fields with symbols, units and physical domains.
+/// [`Parameter::ALL`](super::Parameter::ALL) lists the same fields with symbols, units and physical domains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scene {
     /// Cantilever length L (m).
@@ -186,118 +184,11 @@ impl Scene {
         let &Self { tip_base_radius: r, height, .. } = self;
         self.tip_inertia.unwrap_or(self.effective_tip_mass() * (3.0 / 80.0) * (4.0 * r * r + height * height))
     }
-
-    /// Whether every parameter lies in its physical domain.
-    ///
-    /// # Errors
-    /// [`Failure::OutOfDomain`] names the first parameter of [`Parameter::ALL`] that does not.
-    #[inline]
-    pub fn check(&self) -> Result<(), Failure> {
-        if self.looks_physical() { Ok(()) } else { self.look_closely() }
-    }
-
-    /// A digest of the domains in [`Parameter::ALL`] without its indirect calls, for the hot path.
-    #[inline]
-    fn looks_physical(&self) -> bool {
-        let positive = [
-            self.length,
-            self.width,
-            self.thickness,
-            self.height,
-            self.elastic_modulus,
-            self.equivalent_modulus,
-            self.effective_shear_modulus(),
-            self.probe_density,
-            self.tip_base_radius,
-            self.particle_radius,
-            self.tip_radius,
-            self.particle_shear_modulus,
-            self.substrate_shear_modulus,
-            self.burgers_vector,
-            self.particle_density,
-            self.bristle_stiffness,
-            self.stribeck_velocity,
-            self.equilibrium_separation,
-            self.hardness,
-            self.dahl_exponent,
-            self.stribeck_exponent,
-            self.dwell_constant,
-            self.layer_half_thickness,
-            self.layer_modulus,
-            self.layer_stress,
-            self.rearrangement_rate,
-            self.ageing_rate,
-            self.ageing_barrier,
-            self.disorder_gain,
-            self.initial_disorder,
-            self.tip_mass.unwrap_or(1.0),
-            self.tip_inertia.unwrap_or(1.0),
-        ];
-        let not_negative = [
-            self.velocity,
-            self.adhesion,
-            self.static_friction,
-            self.dynamic_friction,
-            self.shear_strength,
-            self.bristle_damping,
-            self.viscous_friction,
-            self.fresh_friction,
-            self.rest_time,
-            self.frictional_lag,
-        ];
-        use crate::quantity::Domain::{AcuteAngle, PoissonRatio};
-        // As integers the positive finite numbers are one range, so that one comparison of the largest does for all.
-        let positive = positive.iter().fold(0, |largest, value| value.to_bits().wrapping_sub(1).max(largest));
-        // Adding zero makes minus zero zero.
-        let not_negative = not_negative.iter().fold(0, |largest, value| (value + 0.0).to_bits().max(largest));
-        (positive < f64::MAX.to_bits())
-            & (not_negative <= f64::MAX.to_bits())
-            & AcuteAngle.contains(self.contact_angle)
-            & AcuteAngle.contains(self.preload_angle)
-            & PoissonRatio.contains(self.poisson_ratio)
-            & PoissonRatio.contains(self.particle_poisson_ratio)
-            & PoissonRatio.contains(self.substrate_poisson_ratio)
-    }
-
-    #[cold]
-    fn look_closely(&self) -> Result<(), Failure> {
-        match Parameter::ALL.iter().find(|parameter| !parameter.domain.contains((parameter.get)(self))) {
-            Some(culprit) => Err(Failure::OutOfDomain { parameter: culprit.name, domain: culprit.domain }),
-            None => Ok(()),
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Each parameter alone, set to each value outside its domain: this also proves that the digest
-    /// covers the table.
-    #[test]
-    fn every_parameter_is_checked_and_named() {
-        for parameter in Parameter::ALL {
-            let outside = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, 0.6, 2.0];
-            for value in outside.into_iter().filter(|&value| !parameter.domain.contains(value)) {
-                let mut scene = Scene::default();
-                (parameter.set)(&mut scene, value);
-                let expected = Failure::OutOfDomain { parameter: parameter.name, domain: parameter.domain };
-                assert_eq!(scene.check(), Err(expected), "{} = {value}", parameter.name);
-            }
-        }
-    }
-
-    #[test]
-    fn nothing_inside_a_domain_is_refused() {
-        for parameter in Parameter::ALL {
-            for value in [0.0, 1e-300, 0.4, 0.5, 1.5, 1e300].into_iter().filter(|&v| parameter.domain.contains(v)) {
-                let mut scene =
-                    Scene { shear_modulus: Some(1.0), tip_mass: Some(1.0), tip_inertia: Some(1.0), ..Scene::default() };
-                (parameter.set)(&mut scene, value);
-                assert_eq!(scene.check(), Ok(()), "{} = {value}", parameter.name);
-            }
-        }
-    }
 
     #[test]
     fn shear_modulus_follows_young_unless_given() {
