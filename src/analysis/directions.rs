@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::finished_run::{FinishedRun, outputs_kept};
-use super::result::OutputAnalysis;
+use super::output::OutputAnalysis;
 use crate::estimate::{PointOutputs, Workspace, part_length};
 use crate::model::{ExternalModel, Output, OutputSeries};
 use crate::run::{BLOCK, BlockPlace, OutputTotals, Place, Totals};

@@ -6,7 +6,8 @@ use rayon::prelude::*;
 
 use super::finished_run::{FinishedRun, LowTotals, outputs_kept, row_inputs};
 use super::measures::FirstRows;
-use super::result::{Aggregate, Analysis, FailureCount, LowRuns, NoIndices, OutputAnalysis, Stopped};
+use super::output::{FailureCount, NoIndices, OutputAnalysis};
+use super::result::{Aggregate, Analysis, LowRuns, Stopped};
 use super::series::{series, single_outputs, together};
 use super::warnings;
 use crate::design::Design;

@@ -4,6 +4,7 @@ mod directions;
 mod estimate;
 mod finished_run;
 mod measures;
+mod output;
 mod result;
 mod series;
 mod warnings;
@@ -15,9 +16,7 @@ pub(crate) use finished_run::{FinishedRun, LowTotals, outputs_kept};
 pub(crate) use finished_run::{names_of_swaps, row_inputs};
 pub use measures::{MOST_ROWS_OF_MEASURES, RunMeasures};
 #[cfg(feature = "charts")]
-pub(crate) use result::LOST;
-pub use result::{
-    Aggregate, Analysis, FailureCount, LookupError, LowRuns, MixedModels, NoIndices, OutputAnalysis, Spending,
-    StopReason, Stopped,
-};
+pub(crate) use output::LOST;
+pub use output::{FailureCount, LookupError, NoIndices, OutputAnalysis};
+pub use result::{Aggregate, Analysis, LowRuns, MixedModels, Spending, StopReason, Stopped};
 pub use series::SeriesAnalysis;

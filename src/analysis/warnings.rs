@@ -1,7 +1,7 @@
 //! What a careful reader of a result should know, in sentences.
 
 use super::finished_run::{FinishedRun, names_of_swaps};
-use super::result::{LOST, error_of_rounding};
+use super::output::{LOST, error_of_rounding};
 use crate::estimate::CentralMoments;
 use crate::model::Model;
 use crate::run::Totals;
