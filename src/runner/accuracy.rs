@@ -11,14 +11,14 @@ use std::sync::Arc;
 use super::growth::longest;
 use super::low_fidelity::beside;
 use super::{Resume, Runner};
-use crate::analysis::{Analysis, Spending, StopReason};
+use crate::analysis::{Analysis, OutputAnalysis, Spending, StopReason};
 use crate::clock::Instant;
 use crate::design::{Design, DesignSettings, Rows, Sampler};
 use crate::model::{Batch, RunContext};
 use crate::run::{Job, RowValues, RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::surrogate::FEWEST_NETS;
-use crate::uncertainty::{IntervalMethod, OutputIndices};
+use crate::uncertainty::{Estimate, IntervalMethod, OutputIndices};
 
 /// Base points of each replicate in a trial without plain rows, the fewest that surrogates are fitted to.
 const TRIAL_POINTS: u64 = 4;
@@ -235,7 +235,7 @@ impl Attempt<'_> {
 
 /// The least share of the variance of an output that surrogates explain.
 fn explained(analysis: &Analysis) -> f64 {
-    let of_output = |output: &crate::OutputAnalysis| {
+    let of_output = |output: &OutputAnalysis| {
         let Ok(indices) = &output.indices else { return 0.0 };
         indices.surrogate.as_ref().map_or(0.0, |used| used.explained)
     };
@@ -248,7 +248,7 @@ fn plain_runs(analysis: &Analysis, accuracy: f64) -> Option<u64> {
         None => indices.largest_half_width(),
         Some(used) => {
             let plain = used.plain_first_order.iter().chain(&used.plain_total);
-            let half = |estimate: &crate::Estimate| estimate.interval.map(|i| (i.high - i.low) / 2.0);
+            let half = |estimate: &Estimate| estimate.interval.map(|i| (i.high - i.low) / 2.0);
             plain.map(half).try_fold(0.0, |widest: f64, half| Some(widest.max(half?)))
         }
     };

@@ -2,6 +2,7 @@
 
 use super::curve::rungs;
 use super::{SettingsJob, TruthFound};
+use crate::analysis::OutputAnalysis;
 use crate::clock::Instant;
 use crate::run::RunError;
 use crate::study::Target;
@@ -45,7 +46,7 @@ impl Truth {
         let analysis = runner.run()?;
         let widths = analysis.outputs.iter().filter_map(|output| output.indices.as_ref().ok());
         let error = widths.map(|indices| indices.largest_half_width().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
-        let of_output = |output: &crate::OutputAnalysis| {
+        let of_output = |output: &OutputAnalysis| {
             let indices = output.indices.as_ref().ok()?;
             Some(indices.factors.iter().map(|f| [f.first_order.estimate, f.total.estimate]).collect())
         };
