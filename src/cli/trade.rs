@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use apportion::Study;
+use apportion::report::Artefacts;
 use apportion::run::{RunError, threads_in_force};
 use apportion::trade::settings::{SettingsJob, build_settings, compare_settings, file_names, settings_document};
 
 use super::output::{ChartArguments, default_folder, deliver};
 use super::stop::on_signal;
-use super::trade_extremes::{self, ExtremesArguments};
+use super::trade_extremes::{ExtremesArguments, trade_extremes};
 use super::{Failure, StudyArguments, Threads, say};
 
 /// Seconds that a comparison takes, and a quick one.
@@ -56,17 +57,17 @@ pub fn trade(arguments: &Arguments) -> Result<(), Failure> {
              serves independent ones: expected a study without [[dependence]]"
         )));
     }
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
+    let artefacts = arguments.charts.artefacts(folder);
     if arguments.extremes {
-        trade_extremes::trade_extremes(arguments, &study)
+        trade_extremes(&study, &arguments.of_extremes, &artefacts, arguments.threads.number())
     } else {
-        trade_settings(arguments, &study)
+        trade_settings(&study, arguments, &artefacts)
     }
 }
 
 /// The settings of the study against each other.
-fn trade_settings(arguments: &Arguments, study: &Study) -> Result<(), Failure> {
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
-    let artefacts = arguments.charts.artefacts(folder);
+fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> Result<(), Failure> {
     artefacts.check(&file_names(study.name()))?;
     let usual = if arguments.quick { QUICK_SECONDS } else { SECONDS };
     let job = SettingsJob {
@@ -79,5 +80,5 @@ fn trade_settings(arguments: &Arguments, study: &Study) -> Result<(), Failure> {
     };
     let comparison = compare_settings(&job).map_err(|error: RunError| Failure::from(error))?;
     let threads = threads_in_force(arguments.threads.number());
-    deliver(&artefacts, &settings_document(&build_settings(study, threads, &comparison)))
+    deliver(artefacts, &settings_document(&build_settings(study, threads, &comparison)))
 }

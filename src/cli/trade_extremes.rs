@@ -4,14 +4,14 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use apportion::Study;
+use apportion::report::Artefacts;
 use apportion::trade::extremes::{
     ExtremesJob, ExtremesSettings, build_extremes, extremes, extremes_document, file_names,
 };
 
-use super::output::{default_folder, deliver};
+use super::output::deliver;
 use super::progress::Meter;
 use super::stop::on_signal;
-use super::trade::Arguments;
 use super::{Failure, say, whole_number};
 
 #[derive(clap::Args)]
@@ -24,18 +24,21 @@ pub struct ExtremesArguments {
     seed: Option<u64>,
 }
 
-pub fn trade_extremes(arguments: &Arguments, study: &Study) -> Result<(), Failure> {
+pub fn trade_extremes(
+    study: &Study,
+    arguments: &ExtremesArguments,
+    artefacts: &Artefacts,
+    threads: usize,
+) -> Result<(), Failure> {
     let own = ExtremesSettings::of(study);
-    let ExtremesArguments { cells, seed } = arguments.of_extremes;
+    let &ExtremesArguments { cells, seed } = arguments;
     let settings = ExtremesSettings { points: cells.unwrap_or(own.points), seed: seed.unwrap_or(own.seed), ..own };
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
-    let artefacts = arguments.charts.artefacts(folder);
     artefacts.check(&file_names(study.name()))?;
     let meter = Meter::new(study.name(), settings.points);
     let start = Instant::now();
     let job = ExtremesJob {
         settings,
-        threads: arguments.threads.number(),
+        threads,
         stop: Some(on_signal()),
         on_message: say,
         on_progress: &|progress| meter.update(progress),
@@ -43,7 +46,7 @@ pub fn trade_extremes(arguments: &Arguments, study: &Study) -> Result<(), Failur
     };
     let map = extremes(&job)?;
     meter.finish(map.points, start.elapsed().as_secs_f64());
-    deliver(&artefacts, &extremes_document(&map, &build_extremes(study, settings, &map)))?;
+    deliver(artefacts, &extremes_document(&map, &build_extremes(study, settings, &map)))?;
     match map.counts().wrong {
         0 => Ok(()),
         wrong => Err(Failure::Run(anyhow!("{wrong} numbers are wrong without a word: see the reasons"))),
