@@ -2,7 +2,6 @@
 
 use serde_json::Value;
 
-use super::protocol::{Answer, failed};
 use crate::model::item_of_list;
 use crate::model::shorten::masked;
 
@@ -41,7 +40,9 @@ pub(super) fn json(text: &str) -> Result<Value, String> {
     parsed.map_err(|_| format!("`{}`", masked(text)))
 }
 
-pub(super) fn json_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f64>) -> Result<Answer, String> {
+/// Appends the values of `parsed`, one for each of `outputs`; or gives the reason for which the row failed, as the program tells
+/// it.
+pub(super) fn json_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f64>) -> Result<Option<String>, String> {
     let number = |value: &Value, of: &str| match value {
         Value::Null => Ok(f64::NAN),
         Value::Number(number) => Ok(number.as_f64().unwrap_or(f64::NAN)),
@@ -50,7 +51,7 @@ pub(super) fn json_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f
     match parsed {
         Value::Object(object) => {
             match object.get("error") {
-                Some(Value::String(reason)) => return Ok(failed(reason)),
+                Some(Value::String(reason)) => return Ok(Some(reason.clone())),
                 None | Some(Value::Null) => (),
                 Some(_) if outputs.iter().any(|name| name == "error") => (),
                 Some(other) => return Err(format!("{} as `error`, which is a text", kind(other))),
@@ -82,7 +83,7 @@ pub(super) fn json_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f
         Value::Number(_) if outputs.len() == 1 => values.push(number(parsed, &outputs[0])?),
         other => return Err(kind(other).to_owned()),
     }
-    Ok(Answer::Values)
+    Ok(None)
 }
 
 fn kind(value: &Value) -> &'static str {

@@ -69,7 +69,7 @@ pub fn parse_answer(
         Ok(text) if text.trim().is_empty() => Err(EMPTY.to_owned()),
         Ok(text) => match protocol {
             Protocol::Csv => csv_answer(outputs, text.trim(), values),
-            Protocol::JsonLines => json(text.trim()).and_then(|parsed| json_answer(outputs, &parsed, values)),
+            Protocol::JsonLines => json(text.trim()).and_then(|parsed| json_line_answer(outputs, &parsed, values)),
         },
     };
     answer.map_err(|words| {
@@ -136,7 +136,7 @@ pub fn parse_numbered_answer(
                 _ => None,
             };
             let number = number.ok_or_else(|| found(format!("`{}`", masked(text))))?;
-            (number, json_answer(outputs, &parsed, values))
+            (number, json_line_answer(outputs, &parsed, values))
         }
     };
     let answer = answer.map_err(|words| {
@@ -171,7 +171,7 @@ fn expected(protocol: Protocol, outputs: &[String]) -> String {
     }
 }
 
-pub(super) fn failed(reason: &str) -> Answer {
+fn failed(reason: &str) -> Answer {
     let reason = shortened(reason);
     Answer::Failed(if reason.is_empty() { "the program reported an error without a reason".to_owned() } else { reason })
 }
@@ -191,6 +191,11 @@ fn csv_answer(outputs: &[String], text: &str, values: &mut Vec<f64>) -> Result<A
         return Ok(Answer::Values);
     }
     Err(format!("{cells} cell{}: `{}`", if cells == 1 { "" } else { "s" }, masked(text)))
+}
+
+fn json_line_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f64>) -> Result<Answer, String> {
+    let reason = json_answer(outputs, parsed, values)?;
+    Ok(reason.map_or(Answer::Values, |reason| failed(&reason)))
 }
 
 #[cfg(test)]
