@@ -11,7 +11,7 @@ use resvg::usvg::{
 use thiserror::Error;
 
 use super::font::Weight;
-use super::pdf_font::{PdfFont, shown};
+use super::pdf_font::{PdfFont, compressed, shown};
 use super::png::options;
 
 /// Points per px of an SVG (CSS: 96 px and 72 pt are an inch).
@@ -307,17 +307,12 @@ impl<'a> Page<'a> {
         let drawn = compressed(&self.content.finish());
         pdf.stream(content, &drawn).filter(Filter::FlateDecode);
         for (_, font, at) in used {
-            font.write(&mut pdf, at, &mut new)?;
+            font.write(&mut pdf, at, &mut new).map_err(PdfError::Font)?;
         }
         let producer = format!("apportion {}", env!("CARGO_PKG_VERSION"));
         pdf.document_info(info).title(TextStr(title)).producer(TextStr(&producer));
         Ok(pdf.finish())
     }
-}
-
-/// For the filter `FlateDecode`.
-pub(super) fn compressed(bytes: &[u8]) -> Vec<u8> {
-    miniz_oxide::deflate::compress_to_vec_zlib(bytes, 6)
 }
 
 fn colour(paint: &Paint) -> Result<[f32; 3], PdfError> {

@@ -12,7 +12,6 @@ use skrifa::{FontRef, GlyphId, MetadataProvider};
 use subsetter::GlyphRemapper;
 
 use super::font::{BOLD, FAMILY, REGULAR, Weight};
-use super::pdf::{PdfError, compressed};
 
 /// The encoding of glyphs by two bytes.
 const IDENTITY: Name<'static> = Name(b"Identity-H");
@@ -63,8 +62,8 @@ impl PdfFont {
         }
     }
 
-    fn face(&self) -> Result<FontRef<'static>, PdfError> {
-        FontRef::new(self.bytes()).map_err(|error| PdfError::Font(error.to_string()))
+    fn face(&self) -> Result<FontRef<'static>, String> {
+        FontRef::new(self.bytes()).map_err(|error| error.to_string())
     }
 
     /// Takes a glyph that stands for `text`; gives its new number.
@@ -87,10 +86,9 @@ impl PdfFont {
         *self.advances.entry(glyph).or_insert(advance.unwrap_or(0.0))
     }
 
-    /// Writes the font as object `at`; `new` gives numbers for the objects that it needs.
-    pub fn write(mut self, pdf: &mut Pdf, at: Ref, new: &mut dyn FnMut() -> Ref) -> Result<(), PdfError> {
-        let subset =
-            subsetter::subset(self.bytes(), 0, &self.glyphs).map_err(|error| PdfError::Font(error.to_string()))?;
+    /// Writes the font as object `at`; `new` gives numbers for the objects that it needs. An error says why it cannot be embedded.
+    pub fn write(mut self, pdf: &mut Pdf, at: Ref, new: &mut dyn FnMut() -> Ref) -> Result<(), String> {
+        let subset = subsetter::subset(self.bytes(), 0, &self.glyphs).map_err(|error| error.to_string())?;
         let [cid, descriptor, unicode, data] = std::array::from_fn(|_| new());
         // Subsets have six letters before their names, different ones for different subsets (ISO 32000-1, 9.6.4).
         let mut hash = crc32fast::hash(&subset);
@@ -139,6 +137,11 @@ impl PdfFont {
         stream.finish();
         Ok(())
     }
+}
+
+/// For the filter `FlateDecode`.
+pub(super) fn compressed(bytes: &[u8]) -> Vec<u8> {
+    miniz_oxide::deflate::compress_to_vec_zlib(bytes, 6)
 }
 
 /// The glyphs of a text of one look as runs, each with the number of its font among `fonts`.
