@@ -1,39 +1,14 @@
 //! A document as a page of HTML.
 
 use askama::Template;
-use thiserror::Error;
 
 use super::anchors::{check, href};
 use super::drawing::Drawings;
 use super::symbols::{clean, escaped, symbols};
-use super::{Cell, Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
+use super::{Cell, Document, DocumentError, Figure, Link, Mark, OnPhone, Part, Section, Table};
 use crate::report::chart::{Chart, ChartError};
 use crate::report::file_names::{CHARTS, ChartFormat};
 use crate::report::format::minus;
-
-/// Why a page could not be made.
-#[derive(Debug, Error)]
-pub enum DocumentError {
-    /// A template cannot be rendered.
-    #[error("cannot make the page: {0}")]
-    Template(#[from] askama::Error),
-    /// A chart cannot be drawn.
-    #[error("cannot draw figure {figure:?} of the page: {source}")]
-    Chart {
-        /// Anchor of the figure.
-        figure: String,
-        /// Why.
-        source: ChartError,
-    },
-    /// An anchor of which a browser could make nothing.
-    #[error("the anchor {id:?} of the page {problem}")]
-    Anchor {
-        /// The anchor.
-        id: String,
-        /// What is wrong with it.
-        problem: &'static str,
-    },
-}
 
 /// What the template takes as it is (`safe`) was escaped by [`symbols`], or comes from this program: style, script and
 /// charts, which escape their own texts.

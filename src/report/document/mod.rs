@@ -16,8 +16,6 @@ mod text;
 use std::borrow::Cow;
 
 pub use super::csv::Value;
-#[cfg(feature = "page")]
-pub use html::DocumentError;
 pub use symbols::symbols;
 pub(crate) use table::csv;
 pub use table::{Cell, Column, Mark, OnPhone, Table};
@@ -45,6 +43,31 @@ pub struct Document {
     pub charts: Vec<Figure>,
     /// Files for programs, beside those that its tables make.
     pub files: Vec<DataFile>,
+}
+
+/// Why a page could not be made.
+#[cfg(feature = "page")]
+#[derive(Debug, thiserror::Error)]
+pub enum DocumentError {
+    /// A template cannot be rendered.
+    #[error("cannot make the page: {0}")]
+    Template(#[from] askama::Error),
+    /// A chart cannot be drawn.
+    #[error("cannot draw figure {figure:?} of the page: {source}")]
+    Chart {
+        /// Anchor of the figure.
+        figure: String,
+        /// Why.
+        source: crate::report::chart::ChartError,
+    },
+    /// An anchor of which a browser could make nothing.
+    #[error("the anchor {id:?} of the page {problem}")]
+    Anchor {
+        /// The anchor.
+        id: String,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
 }
 
 /// A file for programs.
