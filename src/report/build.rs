@@ -4,11 +4,11 @@ use rayon::prelude::*;
 use serde_json::Value;
 
 use super::build_output::OutputRecords;
-use super::records::{dependence_record, estimate_record};
+use super::records::dependence_record;
 use super::result::{
     AggregateIndexRecord, AggregateRecord, ConstantRecord, DirectionRecord, EffortRecord, FactorRecord, LowRecord,
     MixedModels, Provenance, ResultFile, RungRecord, SeriesRecord, SpendingRecord, StoppingRecord, StudyRecord,
-    ValidityRecord,
+    ValidityRecord, estimate_record,
 };
 use crate::analysis::{Analysis, Direction, LowRuns, SeriesAnalysis, Spending};
 use crate::estimate::{FirstOrder, Scaling, Total};

@@ -3,12 +3,13 @@
 use serde_json::{Map, Value};
 
 use super::distribution::OutputDistribution;
-use super::given::GivenMeasuresRecord;
-use super::records::{estimate_record, input_value};
+use super::records::input_value;
+use super::result::measures::GivenMeasuresRecord;
 use super::result::{
     DependentRecord, DistributionRecord, EffectRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord,
     IntervalRecord, LowUseRecord, MeanIndexRecord, MeasuresRecord, NoiseRecord, OtherIndexRecord, OutputRecord,
     PairRecord, PlayerRecord, StageIndexRecord, StageRecord, SubsetRecord, SurrogateRecord, SurrogateTermRecord,
+    estimate_record,
 };
 use super::scatter::{FirstRows, scatter_record};
 use crate::analysis::{Analysis, FailureCount, OutputAnalysis, RunMeasures, names_of_swaps, row_inputs};

@@ -1,17 +1,15 @@
-//! What the records of several commands share: the study, validity flags, estimates.
+//! What the records of several commands share: the study, values of factors, validity flags.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::chart::Chart;
 use super::result::{
-    ConstantRecord, CorrelationRecord, EstimateRecord, FactorRecord, KernelsRecord, ResultFile, StudyRecord,
-    ValidityRecord,
+    ConstantRecord, CorrelationRecord, FactorRecord, KernelsRecord, ResultFile, StudyRecord, ValidityRecord,
 };
 use crate::model::Model;
 use crate::space::Dependence;
 use crate::study::Study;
-use crate::uncertainty::Estimate;
 
 /// The study as it was run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -145,9 +143,4 @@ pub(super) fn input_value(factor: &crate::space::Factor, value: f64) -> Value {
 /// JSON text of plain data, ending in a newline; a number that is not finite is null.
 pub(crate) fn json(file: &impl Serialize) -> String {
     serde_json::to_string_pretty(file).expect("plain data") + "\n"
-}
-
-/// An estimate with the bounds of its interval.
-pub(super) fn estimate_record(Estimate { estimate, interval }: Estimate) -> EstimateRecord {
-    EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) }
 }

@@ -4,6 +4,7 @@
 //! only add keys. Numbers are in the unit that stands beside them; a number that does not exist is `null`.
 
 mod indices;
+pub(super) mod measures;
 mod noise;
 mod scatter;
 mod series;
@@ -14,8 +15,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::distribution::OutputDistribution;
-use super::given::GivenMeasuresRecord;
 pub use indices::*;
+pub use measures::MeasuresRecord;
 pub use noise::{MeanIndexRecord, NoiseRecord};
 pub use scatter::*;
 pub use series::*;
@@ -267,16 +268,6 @@ pub struct OutputRecord {
     pub reason: Option<String>,
     /// What a careful reader should know.
     pub warnings: Vec<String>,
-}
-
-/// Other measures than Sobol' indices.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct MeasuresRecord {
-    /// The first rows A and B that they were taken from.
-    pub rows: u64,
-    /// One entry per factor.
-    pub factors: Vec<GivenMeasuresRecord>,
 }
 
 /// How the values of an output are distributed, as far as the rows A and B tell.

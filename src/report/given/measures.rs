@@ -1,41 +1,15 @@
-//! Other measures of influence, in the result file of given data and on its page.
+//! Other measures of influence in the document of given data, and their tables for other documents.
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::{GivenFile, GivenOutputRecord};
+use super::record::{GivenFile, GivenOutputRecord};
 use crate::given::{InputMeasures, MOST_ROWS_OF_KERNELS, Measure, NoVariance, PERMUTATIONS};
 use crate::report::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, Figure, Part, Section, Table, Value};
 use crate::report::factor_bars::MOST;
 use crate::report::format::{fixed, index as of_error};
-use crate::report::records::estimate_record;
-use crate::report::result::EstimateRecord;
-
-/// Probability below which an input is taken to have an influence.
-const SIGNIFICANT: f64 = 0.05;
-
-/// The measures of one input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct GivenMeasuresRecord {
-    /// The input.
-    pub input: String,
-    /// By the names of [`Measure`].
-    pub measures: BTreeMap<String, MeasuredRecord>,
-}
-
-/// A measure of one input.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct MeasuredRecord {
-    /// The measure, with the bounds of its interval where it has one.
-    #[serde(flatten)]
-    pub estimate: EstimateRecord,
-    /// Probability of so large a measure of an input without influence; `null` where it is not known.
-    pub p_value: Option<f64>,
-}
+use crate::report::result::measures::{GivenMeasuresRecord, SIGNIFICANT};
 
 impl GivenFile {
     /// The result with what `measures` found of each of its outputs.
@@ -50,30 +24,6 @@ impl GivenFile {
 
 fn record(of: &InputMeasures) -> GivenMeasuresRecord {
     GivenMeasuresRecord::of(of, &Measure::ALL)
-}
-
-impl GivenMeasuresRecord {
-    /// Those of `wanted` measures that are known.
-    pub(in crate::report) fn of(of: &InputMeasures, wanted: &[Measure]) -> Self {
-        let measured = |measure: &Measure| {
-            let found = of.get(*measure);
-            let record = MeasuredRecord { estimate: estimate_record(found.estimate), p_value: found.p_value };
-            (measure.name().to_owned(), record)
-        };
-        let known = wanted.iter().filter(|measure| of.get(**measure).estimate.estimate.is_finite());
-        Self { input: of.input.clone(), measures: known.map(measured).collect() }
-    }
-}
-
-impl GivenMeasuresRecord {
-    fn get(&self, measure: Measure) -> Option<MeasuredRecord> {
-        self.measures.get(measure.name()).copied()
-    }
-
-    /// Whether the measure cannot be told from that of an input without influence.
-    fn may_be_chance(&self, measure: Measure) -> bool {
-        self.get(measure).and_then(|found| found.p_value).is_some_and(|p_value| p_value > SIGNIFICANT)
-    }
 }
 
 /// The section of the measures of all outputs; `None` if there are none. `figures` counts the figures before it.

@@ -7,13 +7,13 @@ mod record;
 mod sentences;
 mod surrogate;
 
+pub use super::result::measures::{GivenMeasuresRecord, MeasuredRecord};
 pub use chart::given_chart;
 pub use document::given_document;
 pub(super) use document::{file_name, moments};
-pub use measures::{GivenMeasuresRecord, MeasuredRecord};
 pub(super) use measures::{agreement, table as measures_table};
 pub use record::{
     BinnedRecord, ColumnLeftOut, DependenceRecord, GivenFacts, GivenFile, GivenIndexRecord, GivenInputRecord,
-    GivenOutputRecord, GivenProvenance, SurrogateResult, TableRecord, build_given,
+    GivenOutputRecord, GivenProvenance, TableRecord, build_given,
 };
-pub use surrogate::{GivenSurrogateIndex, GivenSurrogateOutput, GivenSurrogateRecord};
+pub use surrogate::{GivenSurrogateIndex, GivenSurrogateOutput, GivenSurrogateRecord, SurrogateResult};

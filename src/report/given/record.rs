@@ -2,18 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::measures::GivenMeasuresRecord;
 use super::sentences;
-use super::surrogate::{GivenSurrogateOutput, GivenSurrogateRecord, surrogate_output, surrogate_record};
+use super::surrogate::{
+    GivenSurrogateOutput, GivenSurrogateRecord, SurrogateResult, surrogate_output, surrogate_record,
+};
 use crate::exchange::{LeftOut, TextColumn, TextKind};
 use crate::given::{
     Binned, Column, GivenIndices, InputIndices, Method, NoVariance, OutputIndices, PointSet, SurrogateOutput,
-    SurrogateRefusal, Surrogates,
 };
 use crate::quantity::Unit;
 use crate::report::distribution::OutputDistribution;
-use crate::report::records::estimate_record;
-use crate::report::result::EstimateRecord;
+use crate::report::result::measures::GivenMeasuresRecord;
+use crate::report::result::{EstimateRecord, estimate_record};
 
 /// A result from given data, as described in `docs/given-data-format.md`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -205,9 +205,6 @@ pub struct GivenFacts {
     pub seed: u64,
 }
 
-/// Surrogates, or why there are none.
-pub type SurrogateResult = Result<Surrogates, SurrogateRefusal>;
-
 /// The result file for `indices` of the columns they were estimated from, and what `surrogates` say of them if asked for.
 pub fn build_given(
     indices: &GivenIndices,
@@ -251,7 +248,7 @@ pub fn build_given(
         }),
         surrogate: surrogates.map(surrogate_record),
         outputs,
-        warnings: sentences::warnings(indices, surrogates, facts),
+        warnings: sentences::warnings(indices, surrogates, facts.method, facts.dropped),
         notes: sentences::notes(serves),
     }
 }

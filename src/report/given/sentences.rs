@@ -1,6 +1,6 @@
 //! What a result from given data says in sentences.
 
-use super::{GivenFacts, SurrogateResult};
+use super::surrogate::SurrogateResult;
 use crate::given::{GivenIndices, LEAST_EXPLAINED, Method, OutputIndices, PointSet, SurrogateOutput, bins_for};
 use crate::report::format::{fixed, two_digits};
 
@@ -71,7 +71,8 @@ const FEW_FOR_BINS: usize = 300;
 pub(super) fn warnings(
     indices: &GivenIndices,
     surrogates: Option<&SurrogateResult>,
-    facts: &GivenFacts,
+    method: Method,
+    dropped: Option<(u64, u64)>,
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     match surrogates {
@@ -88,7 +89,7 @@ pub(super) fn warnings(
                 .to_owned(),
         );
     }
-    if let Some((rows, line)) = facts.dropped {
+    if let Some((rows, line)) = dropped {
         let were = if rows == 1 { "row was" } else { "rows were" };
         warnings.push(format!(
             "{rows} {were} left out for missing values (the first on line {line}); if runs fail in a part of the space, the \
@@ -100,7 +101,7 @@ pub(super) fn warnings(
             "no estimate by ranks, which does not converge here, and no intervals: {reason}. The estimates by bins stand"
         ));
     }
-    if facts.method != Method::Rank && indices.points == PointSet::Independent && indices.rows < FEW_FOR_BINS {
+    if method != Method::Rank && indices.points == PointSet::Independent && indices.rows < FEW_FOR_BINS {
         warnings.push(format!(
             "fewer than {FEW_FOR_BINS} rows: the intervals by bins do not know of dependence finer than a bin, and may be too \
              narrow; those by ranks are safer"

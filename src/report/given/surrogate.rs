@@ -2,11 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::record::SurrogateResult;
-use crate::given::{InputIndices, LEAST_EXPLAINED, SurrogateOutput};
-use crate::report::records::estimate_record;
-use crate::report::result::{EstimateRecord, SurrogateTermRecord};
+use crate::given::{InputIndices, LEAST_EXPLAINED, SurrogateOutput, SurrogateRefusal, Surrogates};
+use crate::report::result::{EstimateRecord, SurrogateTermRecord, estimate_record};
 use crate::uncertainty::SurrogateTerm;
+
+/// Surrogates, or why there are none.
+pub type SurrogateResult = Result<Surrogates, SurrogateRefusal>;
 
 /// How surrogates were fitted to a table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

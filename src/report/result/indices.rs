@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::uncertainty::Estimate;
+
 /// An interval by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[doc(hidden)]
@@ -23,6 +25,11 @@ pub struct EstimateRecord {
     pub low: Option<f64>,
     /// Upper bound; `null` with a single replicate.
     pub high: Option<f64>,
+}
+
+/// An estimate with the bounds of its interval.
+pub(in crate::report) fn estimate_record(Estimate { estimate, interval }: Estimate) -> EstimateRecord {
+    EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) }
 }
 
 /// The indices of one factor.

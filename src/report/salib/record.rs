@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::given::{Column, NoVariance};
 use crate::quantity::Unit;
 use crate::report::distribution::OutputDistribution;
-use crate::report::records::estimate_record;
-use crate::report::result::EstimateRecord;
+use crate::report::result::{EstimateRecord, estimate_record};
 use crate::salib::{SalibIndex, SalibIndices, SalibLayout};
 
 /// A result at the points of SALib, as described in `docs/exchange-formats.md`.

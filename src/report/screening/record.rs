@@ -6,8 +6,8 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::super::records::{StudySetup, estimate_record, input_value, study_setup, validity};
-use super::super::result::{EstimateRecord, ValidityRecord};
+use super::super::records::{StudySetup, input_value, study_setup, validity};
+use super::super::result::{EstimateRecord, ValidityRecord, estimate_record};
 use super::super::{RunFacts, with_unit};
 use crate::design::Sampler;
 use crate::model::{Model, Output};
