@@ -20,7 +20,7 @@ pub use measures::MeasuresRecord;
 pub use noise::{MeanIndexRecord, NoiseRecord};
 pub use scatter::*;
 pub use series::*;
-pub use spending::{LowRecord, LowUseRecord, SpendingRecord};
+pub use spending::{EffortRecord, LowRecord, LowUseRecord, RungRecord, SpendingRecord, StoppingRecord};
 pub use surrogate::*;
 
 /// The result of a run of apportion.
@@ -336,22 +336,6 @@ pub struct AggregateIndexRecord {
     pub total: EstimateRecord,
 }
 
-/// Why a growing run ended.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct StoppingRecord {
-    /// In words.
-    pub reason: String,
-    /// Whether every index met the target; `null` if there was none.
-    pub target_met: Option<bool>,
-    /// The half width that was asked for.
-    pub target_half_width: Option<f64>,
-    /// The time that it might take, in seconds.
-    pub budget_seconds: Option<f64>,
-    /// The model runs that it might take.
-    pub max_runs: Option<u64>,
-}
-
 /// A reason for which runs failed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[doc(hidden)]
@@ -378,26 +362,4 @@ pub struct ValidityRecord {
     pub runs: u64,
     /// Those runs as a share of all runs, 0 to 1.
     pub share: f64,
-}
-
-/// What a model with a ladder of fidelities spent.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct EffortRecord {
-    /// The rungs that answered, and how many runs each.
-    pub rungs: Vec<RungRecord>,
-    /// Evaluations of the right-hand side (of the friction law, in the closed form), in all.
-    pub evaluations: u64,
-    /// Largest relative error of any run, as its rung estimates it from what it leaves out.
-    pub largest_error_estimate: f64,
-}
-
-/// How many runs a rung answered.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct RungRecord {
-    /// The rung.
-    pub rung: String,
-    /// Number of runs.
-    pub runs: u64,
 }
