@@ -2,7 +2,7 @@
 
 use super::format::{count, index, name};
 use super::listed;
-use super::result::{EstimateRecord, IndexRecord, PairRecord};
+use super::result::{EstimateRecord, IndexRecord, OutputRecord, PairRecord};
 use crate::special::normal_quantile;
 use crate::uncertainty::LEVEL;
 
@@ -34,6 +34,13 @@ impl Contender {
             probability: index.effect.probability_first,
         }
     }
+}
+
+/// The indices of an output with their places in the study, the largest total index first; `None` without any.
+pub(super) fn by_total(output: &OutputRecord) -> Option<Vec<(usize, &IndexRecord)>> {
+    let mut order: Vec<(usize, &IndexRecord)> = output.indices.as_ref()?.iter().enumerate().collect();
+    order.sort_by(|a, b| b.1.effect.weight().estimate.total_cmp(&a.1.effect.weight().estimate));
+    (!order.is_empty()).then_some(order)
 }
 
 /// The numbers of those that may be the largest, the largest estimate first: one where it is sure to be (or where nothing

@@ -2,8 +2,8 @@
 
 use crate::model::MANY_OUTPUTS;
 use crate::report::format::{chance, count, grouped, index, name, two_digits as half_width};
-use crate::report::interval_widths::{WIDE, widest_interval, widest_of, width_after_doubling};
-use crate::report::leading::{Contender, SURE, may_lead, names, of_which};
+use crate::report::interval_widths::{WIDE, widest_interval, width_after_doubling};
+use crate::report::leading::{Contender, SURE, by_total, may_lead, names, of_which};
 use crate::report::listed;
 use crate::report::result::{IndexRecord, OutputRecord, ResultFile};
 use crate::report::validity;
@@ -49,32 +49,6 @@ pub(super) fn lead(result: &ResultFile, single: &ResultFile) -> Vec<String> {
     lead
 }
 
-/// For how many outputs each factor matters most.
-pub(super) struct Leads {
-    /// By the place of the factor, the outputs for which it surely does.
-    pub first: Vec<usize>,
-    /// Outputs of which it cannot be told.
-    pub open: usize,
-    /// Outputs without indices.
-    pub without: usize,
-}
-
-impl Leads {
-    pub fn of(result: &ResultFile) -> Self {
-        let mut leads = Self { first: vec![0; result.factors.len()], open: 0, without: 0 };
-        for output in &result.outputs {
-            match by_total(output) {
-                None => leads.without += 1,
-                Some(order) => match tied(&order.iter().map(|(_, index)| *index).collect::<Vec<_>>())[..] {
-                    [_] => leads.first[order[0].0] += 1,
-                    _ => leads.open += 1,
-                },
-            }
-        }
-        leads
-    }
-}
-
 /// Which factor matters most for an output, and how much is due to interactions.
 pub(super) fn answer(result: &ResultFile, output: &OutputRecord) -> String {
     let Some(order) = by_total(output) else {
@@ -92,13 +66,6 @@ pub(super) fn answer(result: &ResultFile, output: &OutputRecord) -> String {
     let sentences =
         [first, others(result, &order, &tied), super::noise::sentence(result, output), interactions(result, output)];
     sentences.into_iter().filter(|sentence| !sentence.is_empty()).collect::<Vec<_>>().join(" ")
-}
-
-/// The indices of an output with their places in the study, the largest total index first; `None` without any.
-pub(super) fn by_total(output: &OutputRecord) -> Option<Vec<(usize, &IndexRecord)>> {
-    let mut order: Vec<(usize, &IndexRecord)> = output.indices.as_ref()?.iter().enumerate().collect();
-    order.sort_by(|a, b| b.1.effect.weight().estimate.total_cmp(&a.1.effect.weight().estimate));
-    (!order.is_empty()).then_some(order)
 }
 
 fn contenders(order: &[&IndexRecord]) -> Vec<Contender> {
@@ -256,9 +223,4 @@ fn settled(result: &ResultFile) -> String {
         sentence.push_str(&format!("; twice the runs would bring about ± {}", half_width(doubled)));
     }
     sentence + "."
-}
-
-/// Largest half width of an output's indices at the end.
-pub(super) fn widest(output: &OutputRecord) -> Option<f64> {
-    widest_of(output)
 }

@@ -1,9 +1,9 @@
 //! The noise of a stochastic model: what it is of a single run, and the indices of the mean over it.
 
-use super::lead::by_total;
 use super::tables::{FACTORS, largest};
 use crate::report::document::{Cell, Column, Part, Table};
 use crate::report::format::{name, percent};
+use crate::report::leading::by_total;
 use crate::report::result::{IndexRecord, NoiseRecord, OutputRecord, ResultFile};
 
 /// How much of the variance of a single run no factor explains, of a stochastic model.
@@ -59,11 +59,6 @@ pub(super) fn noise(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
         vec![Part::Text(single), Part::Text(mean + ask), Part::OnPage(vec![Part::Text(meaning.to_owned())])];
     parts.extend(exists.then(|| Part::Table(table(output, noise))));
     parts
-}
-
-/// What the noise is called in tables and charts.
-pub(super) fn label(noise: &NoiseRecord) -> String {
-    format!("noise ({})", name(&noise.name))
 }
 
 /// First-order indices of the values beside the indices of the mean over the noise.

@@ -1,7 +1,6 @@
 //! What the document says about one output, topic by topic.
 
 use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, Numbered, PAIRS, SCATTER, SHARES};
-use super::lead::{by_total, widest};
 use super::measures::measures;
 use super::noise::noise;
 use super::warnings::folded;
@@ -9,8 +8,8 @@ use super::{tables, values};
 use crate::estimate::ShapleyMethod;
 use crate::report::document::Part;
 use crate::report::format::{among_with_unit, count, grouped, index, name, share_of_runs, significant, two_digits};
-use crate::report::interval_widths::{WIDE, width_after_doubling};
-use crate::report::leading::{Contender, may_lead, names};
+use crate::report::interval_widths::{WIDE, widest_of, width_after_doubling};
+use crate::report::leading::{Contender, by_total, may_lead, names};
 use crate::report::listed;
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 use crate::report::study_sections::{failures, inputs};
@@ -289,7 +288,7 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     if output.surrogate.is_some() {
         sentences.push("The surrogate was fitted anew to the runs of every stage.".to_owned());
     }
-    if let Some(width) = widest(output).filter(|width| *width < WIDE) {
+    if let Some(width) = widest_of(output).filter(|width| *width < WIDE) {
         sentences.push(format!("In the end every index is known to ± {} or better.", two_digits(width)));
     }
     match (width_after_doubling(&output.convergence), output.convergence.last()) {

@@ -1,13 +1,12 @@
 //! What the document says of many outputs: an overview first, and what is said of single ones folded below it.
 
 use super::figures::{Figures, Numbered, overview_stems};
-use super::lead::Leads;
 use super::output::{definitions, topics};
 use super::under_headings;
 use super::warnings::{folded, output_names};
 use crate::report::document::{Cell, Column, Mark, Part, Section, Table};
 use crate::report::format::{give_or_take, grouped, heading, index, name, short, value};
-use crate::report::leading::{Contender, may_lead, names, of_which};
+use crate::report::leading::{Contender, by_total, may_lead, names, of_which};
 use crate::report::listed;
 use crate::report::output_axis::OutputAxis;
 use crate::report::result::{AggregateIndexRecord, EstimateRecord, IndexRecord, OutputRecord, ResultFile};
@@ -65,6 +64,35 @@ fn overview(figures: &mut Figures<'_>) -> Vec<Part> {
         parts.push(figures.add(map_chart(result, axis), &format!("map-{}", number + 1), &stem));
     }
     parts
+}
+
+/// For how many outputs each factor matters most.
+struct Leads {
+    /// By the place of the factor, the outputs for which it surely does.
+    first: Vec<usize>,
+    /// Outputs of which it cannot be told.
+    open: usize,
+    /// Outputs without indices.
+    without: usize,
+}
+
+impl Leads {
+    fn of(result: &ResultFile) -> Self {
+        let mut leads = Self { first: vec![0; result.factors.len()], open: 0, without: 0 };
+        for output in &result.outputs {
+            match by_total(output) {
+                None => leads.without += 1,
+                Some(order) => {
+                    let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::of(index)).collect();
+                    match may_lead(&contenders)[..] {
+                        [_] => leads.first[order[0].0] += 1,
+                        _ => leads.open += 1,
+                    }
+                }
+            }
+        }
+        leads
+    }
 }
 
 /// What each factor does to all outputs.

@@ -1,12 +1,10 @@
 //! The tables of one output, and the files of CSV that hold more than they show.
 
-use super::lead::by_total;
-use super::noise::label;
 use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, Field, fields};
 use crate::report::document::{Cell, Column, Part, Table, Value, csv};
 use crate::report::format::{chance, grouped, name, share, two_digits};
-use crate::report::leading::surely_interact;
+use crate::report::leading::{by_total, surely_interact};
 use crate::report::result::{
     AggregateIndexRecord, AggregateRecord, EffectRecord, EstimateRecord, EstimatorRecord, IndexRecord, IntervalRecord,
     OtherIndexRecord, OutputRecord, PairRecord, PlayerRecord, ResultFile, StageRecord,
@@ -29,6 +27,11 @@ pub(super) fn largest(shown: usize, all: usize, what: &str) -> String {
     if shown < all { format!(" The {shown} largest of {all} {what}.") } else { String::new() }
 }
 
+/// What the noise of that name is called.
+fn of_noise(noise: &str) -> String {
+    format!("noise ({})", name(noise))
+}
+
 /// The places of the largest, in order.
 fn places<T>(order: &[(usize, T)], most: usize) -> Option<Vec<usize>> {
     Some(order.iter().take(most).map(|(place, _)| *place).collect())
@@ -44,7 +47,8 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part
         row
     });
     let noise = output.noise.as_ref();
-    let of_noise = noise.map(|noise| effect_row(&output.name, "noise", label(noise), &noise.name, &noise.effect));
+    let noise_row =
+        noise.map(|noise| effect_row(&output.name, "noise", of_noise(&noise.name), &noise.name, &noise.effect));
     let sum = |sum: Option<EstimateRecord>| sum.map_or_else(Cell::default, Cell::from);
     let all = if noise.is_some() { "sum of all factors and the noise" } else { "sum of all factors" };
     let mut sums: Vec<Cell> = vec![Cell::default(), Cell::default(), all.into()];
@@ -63,7 +67,7 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Part
         let before = order.iter().take(FACTORS).filter(|(_, index)| index.effect.weight().estimate >= weight).count();
         printed.insert(before, order.len());
     }
-    let table = with_effects(effect_table(result, caption, "factor"), rows.chain(of_noise));
+    let table = with_effects(effect_table(result, caption, "factor"), rows.chain(noise_row));
     match output.sum_first_order.is_some() || output.sum_total.is_some() {
         true => sums.resize(table.columns.len(), Cell::default()),
         // Indices of dependent factors sum to nothing.
@@ -349,7 +353,7 @@ pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indice
         let nothing = || Cell::valued("", Value::Empty);
         let none = || Cell::valued("", Value::Estimate(None));
         let label = match noise == Some(index) {
-            true => format!("noise ({})", name(&index.factor)),
+            true => of_noise(&index.factor),
             false => name(&index.factor),
         };
         let label = Cell::valued(label, (&index.factor).into());

@@ -1,9 +1,9 @@
 //! The values of one output, and the surrogate that was fitted to them.
 
-use super::lead::by_total;
 use super::tables::{FACTORS_OF_ESTIMATORS, largest};
 use crate::report::document::{Cell, Column, Part, Table};
 use crate::report::format::{among_with_unit, axis_unit, grouped, index, minus, name, significant, value};
+use crate::report::leading::by_total;
 use crate::report::result::{
     EstimateRecord, IndexRecord, IntervalRecord, OutputRecord, SurrogateRecord, SurrogateTermRecord,
 };
