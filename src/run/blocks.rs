@@ -4,14 +4,14 @@ use std::ops::Range;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use super::executor::LOOK;
+use super::failures::Place;
 use super::fold::{Branch, Fold, append, merged};
 use super::journal::Checkpoint;
 use super::remote::{Abroad, DesignKey, Errand};
 use super::scratch::{BlockPlace, Scratch};
 use super::task::{Evaluated, Finished, Task};
-use super::totals::{Place, SAMPLE, Totals};
-use super::{BLOCK, FailurePolicy, Job, RunError, Store};
+use super::totals::{SAMPLE, Totals};
+use super::{BLOCK, FailurePolicy, Job, LOOK, RunError, Store};
 use crate::binary::{Binary, Reader, binary_fields};
 use crate::clock::Instant;
 use crate::design::BasePoints;

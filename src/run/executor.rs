@@ -7,7 +7,6 @@
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 
 use super::remote::{Abroad, Answer, Remote, Talk};
 use super::task::{Evaluated, Finished, Task};
@@ -338,6 +337,3 @@ impl Drop for EndIfPanicking<'_> {
         }
     }
 }
-
-/// How long is waited for other workers between two looks at whether the run is to end.
-pub(super) const LOOK: Duration = Duration::from_millis(20);

@@ -1,11 +1,49 @@
-//! Why rows failed, in bounded size: reasons are counted, however many of them a model has.
+//! Where rows failed and why, in bounded size: reasons are counted, however many of them a model has.
 
 use std::collections::BTreeMap;
 
-use super::totals::{Place, Tally};
-use crate::binary::{Binary, Reader};
+use crate::binary::{Binary, Reader, binary_fields};
+use crate::design::Design;
 use crate::model::RowFailure;
 use crate::model::shorten::masked;
+
+/// Where a row stands in a design, however many base points that has. Places are ordered as rows are counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// Its replicate.
+    pub replicate: u64,
+    /// Its base point in the replicate.
+    pub point: u64,
+    /// Which of the base point's runs it is.
+    pub run: u64,
+}
+
+impl Place {
+    /// The row's number in `design`.
+    pub fn row(self, design: &Design) -> u64 {
+        (self.replicate * design.points_per_replicate() + self.point) * design.rows_per_point() + self.run
+    }
+}
+
+/// How often something happened, and where first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tally {
+    /// Number of rows.
+    pub count: u64,
+    /// The first of them.
+    pub first: Place,
+}
+
+impl Tally {
+    /// Adds what happened in other rows.
+    pub fn add(&mut self, other: Self) {
+        self.count += other.count;
+        self.first = self.first.min(other.first);
+    }
+}
+
+binary_fields!(Tally { count, first });
+binary_fields!(Place { replicate, point, run });
 
 /// Most reasons that are told apart.
 pub const MOST_REASONS: usize = 100;

@@ -23,6 +23,7 @@ mod pool;
 mod remote;
 mod rows;
 mod scratch;
+mod serve;
 mod shard;
 mod store;
 mod table;
@@ -34,18 +35,20 @@ use std::time::Duration;
 pub use each::{run_each, run_each_in};
 pub use error::RunError;
 pub(crate) use executor::Executor;
-pub use failures::{Failures, MOST_REASONS};
+pub use failures::{Failures, MOST_REASONS, Place, Tally};
 pub use fold::Sums;
 pub use growing::GrowingRun;
 pub use pilot::Pilot;
-pub(crate) use remote::{Remote, Request, refuse, serve};
-pub use remote::{RemoteWorkers, Requests};
+pub use remote::RemoteWorkers;
+pub(crate) use remote::{Remote, Request};
 pub use rows::RowValues;
 pub(crate) use scratch::BlockPlace;
+pub use serve::Requests;
+pub(crate) use serve::{refuse, serve};
 pub use shard::{Shard, ShardError};
 pub use store::{Piece, Store};
 pub use table::Halt;
-pub use totals::{OutputTotals, Place, SAMPLE, Tally, Totals};
+pub use totals::{OutputTotals, SAMPLE, Totals};
 
 use crate::design::Design;
 use crate::model::{Model, RunContext};
@@ -53,6 +56,9 @@ use crate::space::Space;
 
 /// Base points in a block: their columns stay in the cache, and a block takes long enough to be worth a task.
 pub const BLOCK: u64 = 256;
+
+/// How long is waited for other workers between two looks at whether the run is to end.
+const LOOK: Duration = Duration::from_millis(20);
 
 /// What is run: every row of `design`, as points of `space`, through `model`.
 #[derive(Clone, Copy)]

@@ -8,15 +8,10 @@ use std::io;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use super::blocks::{BlockOptions, Blocks};
-use super::executor::LOOK;
-use super::fold::{Fold, Sums};
-use super::rows::MissingRows;
-use super::task::{Evaluated, Task};
-use super::{FailurePolicy, Job, Store};
+use super::LOOK;
 use crate::binary::{Binary, Reader, binary_fields};
 use crate::design::{Design, DesignSettings, Rows, Sampler};
-use crate::model::{RowFailure, RunContext, Standing, Worker};
+use crate::model::{RowFailure, RunContext, Standing};
 
 /// Workers in other processes, which [`serve`](crate::WorkerStudy::serve) a study there.
 ///
@@ -103,7 +98,7 @@ impl DesignKey {
     }
 
     /// The design that differs from `like` in this.
-    fn design(self, like: &Design) -> Option<Design> {
+    pub fn design(self, like: &Design) -> Option<Design> {
         let Self { sampler, base_samples, replicates, seed, plain_rows } = self;
         let sampler = *Sampler::ALL.get(usize::try_from(sampler).ok()?)?;
         let rows = Rows { plain_rows: u32::try_from(plain_rows).ok()?, ..like.asked().clone() };
@@ -115,10 +110,10 @@ impl DesignKey {
 pub(crate) struct Request<'a> {
     /// Which model: see [`Remote::subject`].
     pub subject: u64,
-    /// The task; `None` if the worker is to [confirm](Worker::confirm) what is pending.
+    /// The task; `None` if the worker is to [confirm](crate::model::Worker::confirm) what is pending.
     pub errand: Option<Errand>,
     /// The bytes of the piece.
-    piece: &'a [u8],
+    pub piece: &'a [u8],
 }
 
 impl<'a> Request<'a> {
@@ -142,7 +137,7 @@ pub(crate) struct Answer<O> {
 const STANDINGS: [Standing; 3] = [Standing::Final, Standing::Pending, Standing::Revoked];
 
 impl<O> Answer<O> {
-    fn write(&self, write_output: impl FnOnce(&O, &mut Vec<u8>)) -> Vec<u8> {
+    pub fn write(&self, write_output: impl FnOnce(&O, &mut Vec<u8>)) -> Vec<u8> {
         let mut out = Vec::new();
         self.seconds.write(&mut out);
         STANDINGS.iter().position(|standing| *standing == self.standing).unwrap_or_default().write(&mut out);
@@ -206,79 +201,4 @@ impl Talk<'_> {
         let nonsense = || io::Error::new(io::ErrorKind::InvalidData, "it answers what was not asked");
         Answer::read(&answer, read_output).ok_or_else(nonsense)
     }
-}
-
-/// The other end of a talk: where requests come from, and where answers go.
-pub trait Requests {
-    /// The next request; `None` if there are no more.
-    fn next(&mut self) -> Option<Vec<u8>>;
-
-    /// Sends the answer to the last one.
-    fn answer(&mut self, answer: Vec<u8>);
-}
-
-/// Answers `bytes`, a request of a piece for the model of `job`, and those that follow it of the same task, by `worker`;
-/// returns the first one that is of another.
-pub(crate) fn serve(
-    job: Job<'_>,
-    bytes: Vec<u8>,
-    worker: &mut dyn Worker,
-    context: &RunContext<'_>,
-    requests: &mut dyn Requests,
-) -> Option<Vec<u8>> {
-    let Some(errand) = Request::read(&bytes).and_then(|request| request.errand) else {
-        // What is pending is decided upon.
-        let answer = Answer { seconds: 0.0, standing: worker.confirm(), given_up: None, output: None::<()> };
-        requests.answer(answer.write(|(), _| ()));
-        return requests.next();
-    };
-    let Some(design) = errand.design.design(job.design) else { return refuse(requests, "no such design") };
-    let job = Job { design: &design, ..job };
-    let failures = if errand.fails { FailurePolicy::Fail } else { FailurePolicy::DropBlock };
-    if errand.is_of_blocks {
-        let keeps_outputs = errand.keeps_outputs;
-        let options = BlockOptions { failures, keeps_outputs, in_strips: true, store: None, checkpoint: None };
-        let sums = Sums { from: errand.from, began: errand.from, ..Sums::new(design.settings().replicates) };
-        serve_task(&Blocks::new(job, context, Fold::new(sums), errand.end, options), errand, bytes, worker, requests)
-    } else {
-        let store = Store::new(&design, job.model);
-        serve_task(&MissingRows::new(job, &[], &store, None, failures).0, errand, bytes, worker, requests)
-    }
-}
-
-fn serve_task<T: Task>(
-    task: &T,
-    errand: Errand,
-    mut bytes: Vec<u8>,
-    worker: &mut dyn Worker,
-    requests: &mut dyn Requests,
-) -> Option<Vec<u8>> {
-    let Some(abroad) = task.abroad() else { return refuse(requests, "no task for other processes") };
-    let subject = Request::read(&bytes)?.subject;
-    let mut scratch = task.scratch();
-    loop {
-        let request = Request::read(&bytes).filter(|request| request.subject == subject);
-        let Some(request) = request.filter(|request| request.errand == Some(errand)) else { return Some(bytes) };
-        let Some(piece) = abroad.read_piece(&mut Reader { bytes: request.piece }) else {
-            return refuse(requests, "no piece of the task");
-        };
-        let began = crate::clock::Instant::now();
-        let evaluated = task.evaluate(worker, &mut scratch, &piece, &|_| ());
-        let seconds = began.elapsed().as_secs_f64();
-        let Evaluated { output, mut standing, given_up, is_urgent } = evaluated;
-        if standing == Standing::Pending && is_urgent {
-            standing = worker.confirm();
-        }
-        let answer = Answer { seconds, standing, given_up, output };
-        requests.answer(answer.write(|output, out| abroad.write_output(output, out)));
-        bytes = requests.next()?;
-    }
-}
-
-/// Answers that the last request cannot be met; returns the next one.
-pub(crate) fn refuse(requests: &mut dyn Requests, why: &str) -> Option<Vec<u8>> {
-    let given_up = Some(RowFailure::new(&format!("a worker in another process was asked for {why}")));
-    let answer = Answer { seconds: 0.0, standing: Standing::Final, given_up, output: None::<()> };
-    requests.answer(answer.write(|(), _| ()));
-    requests.next()
 }

@@ -1,6 +1,7 @@
 //! The outputs of a block of base points, as a thread evaluates them, and the totals of them.
 
-use super::totals::{OutputTotals, Place, Tally, Totals};
+use super::failures::{Place, Tally};
+use super::totals::{OutputTotals, Totals};
 use super::{Job, Store};
 use crate::design::{Design, Matrix};
 use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace, contributions};

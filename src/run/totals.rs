@@ -1,45 +1,10 @@
 //! What a run leaves behind: constant in size unless outputs are kept, merged in a fixed tree.
 
-use super::failures::Failures;
+use super::failures::{Failures, Place};
 use crate::binary::{Binary, Reader, binary_fields};
 use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs};
 use crate::model::{Counts, Model, RowFailure};
-
-/// Where a row stands in a design, however many base points that has. Places are ordered as rows are counted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
-    /// Its replicate.
-    pub replicate: u64,
-    /// Its base point in the replicate.
-    pub point: u64,
-    /// Which of the base point's runs it is.
-    pub run: u64,
-}
-
-impl Place {
-    /// The row's number in `design`.
-    pub fn row(self, design: &Design) -> u64 {
-        (self.replicate * design.points_per_replicate() + self.point) * design.rows_per_point() + self.run
-    }
-}
-
-/// How often something happened, and where first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Tally {
-    /// Number of rows.
-    pub count: u64,
-    /// The first of them.
-    pub first: Place,
-}
-
-impl Tally {
-    /// Adds what happened in other rows.
-    pub fn add(&mut self, other: Self) {
-        self.count += other.count;
-        self.first = self.first.min(other.first);
-    }
-}
 
 /// Base points of a design, over all replicates, whose outputs are kept in [`OutputTotals::sample`].
 pub const SAMPLE: u64 = 1 << 15;
@@ -92,8 +57,6 @@ pub struct Totals {
 }
 
 binary_fields!(Totals { runs, failed_runs, outputs, flags, counts });
-binary_fields!(Tally { count, first });
-binary_fields!(Place { replicate, point, run });
 
 /// Outputs that are kept are no part of the bytes: sums are written where none are.
 impl Binary for OutputTotals {
