@@ -17,9 +17,8 @@ mod orders;
 mod pick_freeze;
 mod random;
 mod rows;
+mod settings;
 mod sobol;
-
-use serde::Serialize;
 
 pub use base::BasePoints;
 pub use error::DesignError;
@@ -28,6 +27,7 @@ pub use latin::LatinHypercube;
 pub use pick_freeze::MAX_SEARCHED_FACTORS;
 pub use random::RandomPoints;
 pub use rows::{Companions, Matrix, RowKind, Rows, Run, Swap};
+pub use settings::{DesignSettings, Sampler};
 pub use sobol::SobolSequence;
 
 use orders::Orders;
@@ -56,61 +56,6 @@ pub const MAX_PLAIN_ROWS: u32 = 1000;
 
 /// Most factors of a design, whatever the sampler: every base point costs a run for each of them.
 pub const MAX_FACTORS: usize = 10_000;
-
-/// Where the points of a design come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Sampler {
-    /// Owen-scrambled Sobol' points: the default, and the most accurate one for most models.
-    Sobol,
-    /// Owen-scrambled nets whose generator matrices were searched for pick-freeze designs of just as many factors, up to
-    /// [`MAX_SEARCHED_FACTORS`].
-    SobolPickFreeze,
-    /// Independent uniform points.
-    Random,
-    /// Latin hypercube points.
-    LatinHypercube,
-}
-
-impl Sampler {
-    /// All samplers, the default first.
-    pub const ALL: [Self; 4] = [Self::Sobol, Self::SobolPickFreeze, Self::Random, Self::LatinHypercube];
-
-    /// The name used in study files and results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sobol => "sobol",
-            Self::SobolPickFreeze => "sobol-pick-freeze",
-            Self::Random => "random",
-            Self::LatinHypercube => "latin-hypercube",
-        }
-    }
-
-    /// Whether its points are scrambled digital nets, complete at powers of two.
-    pub fn is_digital(self) -> bool {
-        matches!(self, Self::Sobol | Self::SobolPickFreeze)
-    }
-}
-
-/// What a design is asked to be; [`Design::new`] checks it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct DesignSettings {
-    /// Where the points come from.
-    pub sampler: Sampler,
-    /// Base points in all, over the replicates; rounded up to a multiple of `replicates`.
-    pub base_samples: u64,
-    /// Independent randomisations that share the base points; their spread gives the intervals.
-    pub replicates: u64,
-    /// Seed of every random number of the design; 0 is a seed like any other.
-    pub seed: u64,
-}
-
-impl Default for DesignSettings {
-    /// 2^14 base points of the scrambled Sobol' sequence in 4 replicates, seed 0.
-    fn default() -> Self {
-        Self { sampler: Sampler::Sobol, base_samples: 1 << 14, replicates: 4, seed: 0 }
-    }
-}
 
 /// A checked Saltelli design.
 ///
@@ -235,6 +180,18 @@ impl Design {
     pub fn with_points(&self, points: u64) -> Result<Self, DesignError> {
         let base_samples = points.saturating_mul(self.settings.replicates);
         Self::new(DesignSettings { base_samples, ..self.settings.clone() }, self.factors, self.asked.clone())
+    }
+
+    /// The longest design that a run of this one can grow into.
+    pub(crate) fn longest(&self) -> Self {
+        let mut points = MAX_POINTS;
+        loop {
+            match self.with_points(points) {
+                Ok(longest) => return longest,
+                Err(_) if points > self.points_per_replicate() => points /= 2,
+                Err(_) => return self.clone(),
+            }
+        }
     }
 
     /// Number of factors d.

@@ -8,7 +8,6 @@
 
 use std::sync::Arc;
 
-use super::growth::longest;
 use super::low_fidelity::beside;
 use super::{Resume, Runner};
 use crate::analysis::{Analysis, OutputAnalysis, Spending, StopReason};
@@ -54,7 +53,7 @@ pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> R
         return attempt.plain(None);
     }
     let trial = attempt.variant(TRIAL_POINTS, 0, SurrogateChoice::Off)?;
-    let store = Store::new(&longest(&trial.design), trial.model().as_ref());
+    let store = Store::new(&trial.design.longest(), trial.model().as_ref());
     let takes_its_time = study.model().concurrency().is_some();
     if !takes_its_time && attempt.is_quick(&trial) {
         let first = attempt.plain(Some(QUICK_BUDGET))?;
@@ -169,7 +168,7 @@ impl Attempt<'_> {
         if study.target.max_runs.is_some_and(|most| trial_runs > most) {
             return self.fitted(Vec::new(), None, unsplit);
         }
-        let store = Store::new(&longest(&study.design), study.model().as_ref());
+        let store = Store::new(&study.design.longest(), study.model().as_ref());
         let mut trial = study.clone();
         trial.target = Target { max_runs: Some(trial_runs), ..study.target };
         let first = self.run(&trial, Some("split"), Some(&store))?;

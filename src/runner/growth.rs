@@ -2,7 +2,7 @@
 
 use super::low_fidelity::LowRun;
 use crate::analysis::{StopReason, Stopped, interval_options, surrogates};
-use crate::design::{Design, MAX_POINTS};
+use crate::design::Design;
 use crate::estimate::{MomentParts, PointOutputs, Undefined};
 use crate::run::GrowingRun;
 use crate::study::{Study, Target};
@@ -14,18 +14,6 @@ const FEW_BASE_SAMPLES: u64 = 1 << 12;
 
 /// The same where so many runs fail that there will be no indices: how many do is known much sooner.
 const FEW_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
-
-/// The longest design that a run of `design` can grow into.
-pub(super) fn longest(design: &Design) -> Design {
-    let mut points = MAX_POINTS;
-    loop {
-        match design.with_points(points) {
-            Ok(longest) => return longest,
-            Err(_) if points > design.points_per_replicate() => points /= 2,
-            Err(_) => return design.clone(),
-        }
-    }
-}
 
 /// How well the indices are known at some stage of a run.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use super::growth::longest;
 use super::journal::{self, JournalRequest, OpenJournal};
 use super::{Resume, Runner};
 use crate::analysis::{LowTotals, outputs_kept};
@@ -83,7 +82,7 @@ impl LowPart {
     /// The runs of a program are put on record beside those of the study, as its are.
     fn new(runner: &Runner<'_>, study: Study, kind: &str, context: &RunContext<'_>) -> Result<Self, RunError> {
         let model = study.model();
-        let longest = longest(&study.design);
+        let longest = study.design.longest();
         let takes_its_time = model.concurrency().is_some();
         let record = match runner.journal.as_deref().filter(|_| takes_its_time) {
             None => OpenJournal::none(),

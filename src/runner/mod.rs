@@ -19,7 +19,7 @@ use crate::model::{Messages, RunContext};
 use crate::run::{GrowingRun, Job, Piece, Progress, Remote, RemoteWorkers, RunError, Shard, Store, threads_in_force};
 use crate::study::Study;
 use crate::uncertainty::SurrogateEstimates;
-use growth::{Stage, longest, reason_to_stop, stage};
+use growth::{Stage, reason_to_stop, stage};
 use journal::{JournalRequest, OpenJournal};
 use low_fidelity::{LowRun, LowStudy, sinks};
 use model_files::ModelFiles;
@@ -263,7 +263,7 @@ impl<'a> Runner<'a> {
     fn analyse(&self, context: &RunContext<'_>, mut record: OpenJournal) -> Result<Analysis, RunError> {
         let (study, model) = (self.study, self.study.model());
         let files = ModelFiles::new(study);
-        let longest = if study.target.grows() { longest(&study.design) } else { study.design.clone() };
+        let longest = if study.target.grows() { study.design.longest() } else { study.design.clone() };
         let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
         let (foreign, sums) = (record.foreign.take(), record.take_sums());
         let own = Store::new(&longest, model.as_ref());
