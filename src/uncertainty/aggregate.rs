@@ -4,8 +4,9 @@ use rayon::prelude::*;
 
 use super::Estimate;
 use super::concentration::Side;
-use super::corrected::{Influenced, SurrogateEstimates, hull};
+use super::corrected::{SurrogateEstimates, hull};
 use super::estimates::Layout;
+use super::influence::Influenced;
 use super::influence::{Influences, LeftOut};
 use super::method::IntervalMethod;
 use super::noise::Noise;

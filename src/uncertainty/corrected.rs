@@ -1,52 +1,11 @@
 //! Indices corrected by a surrogate in the place of the plain ones, where their errors are smaller.
 
 use super::estimates::{Layout, Number};
+use super::influence::Influenced;
 use super::mean;
-use super::net_decay::{PartInfluences, StandardError};
-use super::noise::Noise;
+use super::net_decay::StandardError;
+use super::noise::{Noise, Replacement};
 use super::{Estimate, Interval};
-
-/// A number and what the parts of every net do to it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Influenced {
-    /// The number.
-    pub estimate: f64,
-    /// The mean influence of the points of every part, `[net][part]`.
-    pub parts: PartInfluences,
-    /// The same of the runs of a cheaper model, which are independent of the others; empty without one.
-    pub low: PartInfluences,
-    /// Standard error by what no runs show: what a surrogate says of tails beyond them.
-    pub beyond: f64,
-}
-
-impl Influenced {
-    /// The number is `estimate`, whatever the rows.
-    fn settled(&self, estimate: f64) -> Self {
-        Self { estimate, parts: still(&self.parts), low: still(&self.low), beyond: 0.0 }
-    }
-
-    /// A sum of numbers with weights.
-    pub fn combined(list: &[(f64, &Self)]) -> Self {
-        let estimate = list.iter().map(|(weight, of)| weight * of.estimate).sum();
-        let of = |parts: fn(&Self) -> &PartInfluences| {
-            let mut sums = list.first().map_or_else(Vec::new, |(_, of)| still(parts(of)));
-            for (weight, of) in list {
-                for (sums, more) in sums.iter_mut().zip(parts(of)) {
-                    sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += weight * more);
-                }
-            }
-            sums
-        };
-        // These errors have one cause, and add up.
-        let beyond = list.iter().map(|(weight, of)| weight.abs() * of.beyond).sum();
-        Self { estimate, parts: of(|of| &of.parts), low: of(|of| &of.low), beyond }
-    }
-}
-
-/// Parts of the same sizes that have no influence.
-fn still(parts: &PartInfluences) -> PartInfluences {
-    parts.iter().map(|net| vec![0.0; net.len()]).collect()
-}
 
 /// What a surrogate makes of the runs of an output. Indices are those of all swaps, in the order of the layout.
 #[derive(Debug, Clone, PartialEq)]
@@ -127,9 +86,6 @@ pub struct SurrogateUse {
     pub low: Option<LowFidelityUse>,
 }
 
-/// A number, its interval, its error, and its influences.
-pub(super) type Replacement = (Estimate, StandardError, PartInfluences);
-
 /// Places of a list of quantities and what belongs there.
 pub(super) struct Corrections {
     pub replacements: Vec<(usize, Replacement)>,
@@ -181,7 +137,7 @@ impl SurrogateEstimates {
         let [corrects_first_order, corrects_total] =
             [gain_first_order, gain_total].map(|gain| gain.is_some_and(|gain| gain > 1.0));
         let mut replacements = Vec::new();
-        let mut put = |place: usize, noise: Noise, of: &Influenced| replacements.push((place, replacement(noise, of)));
+        let mut put = |place: usize, noise: Noise, of: &Influenced| replacements.push((place, noise.replacement(of)));
         if corrects_first_order {
             let places = [Number::FirstOrder, Number::ShareFirstOrder];
             indices(layout, &first_order, settled, places, &mut |place, is_share, of| {
@@ -206,7 +162,7 @@ impl SurrogateEstimates {
             match (corrects_first_order, corrects_total) {
                 (true, true) => {
                     let interaction = Influenced::combined(&[(1.0, of_total), (-1.0, of_first)]);
-                    replacements.push((place, replacement(total.even(), &interaction)));
+                    replacements.push((place, total.even().replacement(&interaction)));
                 }
                 (true, false) => {
                     let first = first.estimate(of_first);
@@ -256,7 +212,7 @@ impl SurrogateEstimates {
             let largest = influences.fold(0.0, |largest: f64, x| largest.max(x.abs()));
             let size = if largest > 0.0 { largest } else { 1.0 };
             let scaled = Influenced { estimate: of.estimate / size, ..Influenced::combined(&[(1.0 / size, of)]) };
-            let (estimate, error, _) = replacement(Noise::of_moment(&scaled.parts, skewed), &scaled);
+            let (estimate, error, _) = Noise::of_moment(&scaled.parts, skewed).replacement(&scaled);
             let interval = estimate.interval.map(|i| Interval { low: i.low * size, high: i.high * size });
             let error = StandardError { error: error.error * size, ..error };
             (Estimate { estimate: of.estimate, interval }, error, of.parts.clone())
@@ -290,10 +246,6 @@ fn indices(
             moving.for_each(|swap| put(layout.place(swap, share_of), true, &share(&list[swap], &all)));
         }
     }
-}
-
-pub(super) fn replacement(noise: Noise, of: &Influenced) -> Replacement {
-    (noise.estimate(of), noise.error(of), of.parts.clone())
 }
 
 fn sum(list: &[Influenced]) -> Influenced {

@@ -3,6 +3,48 @@
 use super::net_decay::PartInfluences;
 use crate::estimate::{MomentParts, Moments, merged};
 
+/// A number and what the parts of every net do to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Influenced {
+    /// The number.
+    pub estimate: f64,
+    /// The mean influence of the points of every part, `[net][part]`.
+    pub parts: PartInfluences,
+    /// The same of the runs of a cheaper model, which are independent of the others; empty without one.
+    pub low: PartInfluences,
+    /// Standard error by what no runs show: what a surrogate says of tails beyond them.
+    pub beyond: f64,
+}
+
+impl Influenced {
+    /// The number is `estimate`, whatever the rows.
+    pub fn settled(&self, estimate: f64) -> Self {
+        Self { estimate, parts: still(&self.parts), low: still(&self.low), beyond: 0.0 }
+    }
+
+    /// A sum of numbers with weights.
+    pub fn combined(list: &[(f64, &Self)]) -> Self {
+        let estimate = list.iter().map(|(weight, of)| weight * of.estimate).sum();
+        let of = |parts: fn(&Self) -> &PartInfluences| {
+            let mut sums = list.first().map_or_else(Vec::new, |(_, of)| still(parts(of)));
+            for (weight, of) in list {
+                for (sums, more) in sums.iter_mut().zip(parts(of)) {
+                    sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += weight * more);
+                }
+            }
+            sums
+        };
+        // These errors have one cause, and add up.
+        let beyond = list.iter().map(|(weight, of)| weight.abs() * of.beyond).sum();
+        Self { estimate, parts: of(|of| &of.parts), low: of(|of| &of.low), beyond }
+    }
+}
+
+/// Parts of the same sizes that have no influence.
+fn still(parts: &PartInfluences) -> PartInfluences {
+    parts.iter().map(|net| vec![0.0; net.len()]).collect()
+}
+
 /// Quantities estimated from all parts of all replicates together, and how much each part moves them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Influences {

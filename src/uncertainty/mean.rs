@@ -4,9 +4,9 @@
 //! noise adds nothing to the variance of E[y|x_s]; its total indices (ST_sn - ST_n)/(1 - ST_n), since all that the other
 //! factors do without s and the noise is V (1 - ST_sn).
 
-use super::corrected::{Influenced, Replacement, replacement};
 use super::estimates::{BesideNoise, Layout};
-use super::noise::Noise;
+use super::influence::Influenced;
+use super::noise::{Noise, Replacement};
 use super::{Estimate, Interval, StandardError};
 
 /// What the runs of a stochastic model say of its mean over the noise, E[y|x]. First-order and total index of the noise
@@ -57,7 +57,7 @@ pub(super) fn corrected(
         None => plain[share_place],
         Some((of_noise, of_kind)) => {
             let share = Influenced { estimate: 1.0 - of_noise.estimate, ..Influenced::combined(&[(-1.0, *of_noise)]) };
-            let new = replacement(*of_kind, &share);
+            let new = of_kind.replacement(&share);
             let estimate = new.0;
             put(share_place, new);
             estimate
@@ -81,7 +81,7 @@ pub(super) fn corrected(
                 let of = &first[swap];
                 let index = of.estimate / share.estimate;
                 let terms = [(1.0 / share.estimate, of), (index / share.estimate, *of_noise)];
-                put(place, replacement(*of_kind, &Influenced { estimate: index, ..Influenced::combined(&terms) }));
+                put(place, of_kind.replacement(&Influenced { estimate: index, ..Influenced::combined(&terms) }));
             }
             (Some((first, of_kind)), None) => {
                 put_narrower(quotient(of_kind.estimate(&first[swap]), share));
@@ -99,7 +99,7 @@ pub(super) fn corrected(
         }
         let index = (total[joined].estimate - of_noise.estimate) / share.estimate;
         let terms = [(1.0 / share.estimate, &total[joined]), ((index - 1.0) / share.estimate, *of_noise)];
-        put(place + 1, replacement(*of_kind, &Influenced { estimate: index, ..Influenced::combined(&terms) }));
+        put(place + 1, of_kind.replacement(&Influenced { estimate: index, ..Influenced::combined(&terms) }));
     }
 }
 

@@ -29,10 +29,10 @@ pub use aggregate::{AggregateIndices, aggregate_indices};
 #[cfg(feature = "study")]
 pub(crate) use by_points::quantile;
 pub use convergence::{Stage, points_of_stages, stages};
-pub use corrected::{Influenced, LowFidelityUse, SurrogateEstimates, SurrogateTerm, SurrogateUse};
+pub use corrected::{LowFidelityUse, SurrogateEstimates, SurrogateTerm, SurrogateUse};
 pub use effects::{DependentEstimates, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
 pub use estimates::{BesideNoise, Layout, NoiseLayout};
-pub use influence::Influences;
+pub use influence::{Influenced, Influences};
 pub use jackknife::jackknife;
 pub use mean::{MeanEstimates, NoiseIndices};
 pub use method::IntervalMethod;

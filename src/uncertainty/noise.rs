@@ -5,8 +5,9 @@
 //! sees what is not independent; their mean weighted by both is the variance. Each side of an interval has the degrees of
 //! freedom that its largest contributions leave.
 
+use super::influence::Influenced;
 use super::net_decay::{PartInfluences, StandardError};
-use super::{Estimate, Influenced, Interval, t_quantile};
+use super::{Estimate, Interval, t_quantile};
 
 /// Parts of a net whose mean influences stand for its points, at most.
 const PARTS: usize = 64;
@@ -39,6 +40,9 @@ pub struct Noise {
     /// The size of the numbers that rounding is measured by: 1 for indices.
     unit: f64,
 }
+
+/// A number, its interval, its error, and its influences.
+pub(super) type Replacement = (Estimate, StandardError, PartInfluences);
 
 /// Variance of the mean over all nets by the spread within them, and by that between them.
 fn variances(parts: &PartInfluences) -> (f64, f64) {
@@ -138,6 +142,11 @@ impl Noise {
             Interval { low: estimate - low, high: estimate + high * stretch }
         });
         Estimate { estimate, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) }
+    }
+
+    /// The number with all that stands in the place of a plain one.
+    pub(super) fn replacement(self, of: &Influenced) -> Replacement {
+        (self.estimate(of), self.error(of), of.parts.clone())
     }
 }
 
