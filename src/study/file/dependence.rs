@@ -2,7 +2,7 @@
 
 use super::context::{Context, Fault, choice, unknown_name, wrong};
 use super::error::Problem;
-use super::measured;
+use super::measured::{self, CopulaChoice};
 use super::sections::{At, Correlation, DependenceSection, NameList, StudyFile};
 use crate::space::{CorrelationMeasure, Dependence, Space};
 use crate::study::SurrogateChoice;
@@ -119,28 +119,6 @@ fn measured_columns(context: &Context<'_>, section: &DependenceSection) -> Resul
         return Err(context.fault(span, wrong("measurements", &expected, fewest.to_string())));
     }
     Ok(Some(columns))
-}
-
-/// What is made of joint measurements.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum CopulaChoice {
-    /// The Gaussian copula of their correlations.
-    #[default]
-    Gaussian,
-    /// Kernels around them.
-    Kernel,
-}
-
-impl CopulaChoice {
-    pub(super) const ALL: [Self; 2] = [Self::Gaussian, Self::Kernel];
-
-    /// The name in study files.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Gaussian => "gaussian",
-            Self::Kernel => "kernel",
-        }
-    }
 }
 
 /// Fewer joint measurements say nothing of a correlation.

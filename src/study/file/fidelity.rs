@@ -8,12 +8,11 @@ use toml_edit::{DocumentMut, Item, TableLike};
 use super::context::{Context, Fault, unknown_name, wrong};
 use super::error::Problem;
 use super::models::TABLES;
-use super::resolve;
 use super::sections::{At, StudyFile};
 use crate::design::Sampler;
 use crate::names::refused_name;
 use crate::space::Space;
-use crate::study::{LowFidelity, Subject, Target};
+use crate::study::{LowFidelity, Study, Subject, Target};
 
 /// The target with the `accuracy` of `file`, if it has one.
 pub(super) fn accuracy(
@@ -46,13 +45,17 @@ pub(super) fn accuracy(
     Ok(Target { half_width: Some(value), is_free: true, ..target })
 }
 
-/// The cheaper models of `file`, for its model `subject` on `space`.
+/// Makes the study of a text.
+type Resolve = fn(&Context<'_>) -> Result<Study, Fault>;
+
+/// The cheaper models of `file`, for its model `subject` on `space`. `resolve` makes a study of each that stands in the file.
 pub(super) fn lows(
     context: &Context<'_>,
     file: &StudyFile,
     subject: &dyn Subject,
     space: &Space,
     target: &Target,
+    resolve: Resolve,
 ) -> Result<Vec<LowFidelity>, Fault> {
     let Some(section) = &file.fidelity else { return Ok(Vec::new()) };
     let section = section.get_ref();
@@ -85,7 +88,7 @@ pub(super) fn lows(
                     false => unknown_name("cheaper model", name, own.iter().map(|low| low.name.as_str())),
                 })
             }
-            toml::Value::Table(table) => described(context, table),
+            toml::Value::Table(table) => described(context, table, resolve),
             other => Err(wrong("low", "the name of a cheaper model, or a table", other.to_string())),
         };
         let low = low.map(|low| LowFidelity { base_samples, ..low });
@@ -108,7 +111,7 @@ pub(super) fn lows(
 }
 
 /// The cheaper model that the study describes with the keys of `table` in the place of its own.
-fn described(context: &Context<'_>, table: &toml::Table) -> Result<LowFidelity, Problem> {
+fn described(context: &Context<'_>, table: &toml::Table, resolve: Resolve) -> Result<LowFidelity, Problem> {
     let Some(name) = table.get("name").and_then(toml::Value::as_str).map(str::to_owned) else {
         const LONGEST: usize = 30;
         let value = |value: &toml::Value| Some(value.to_string()).filter(|text| text.len() <= LONGEST);
@@ -134,7 +137,7 @@ fn described(context: &Context<'_>, table: &toml::Table) -> Result<LowFidelity, 
         put(document.as_table_mut(), key, value);
     }
     let context = Context { path: context.path.clone(), text: &document.to_string() };
-    let study = resolve::study(&context).map_err(|diagnostic| of_low(&diagnostic.problem.to_string()))?;
+    let study = resolve(&context).map_err(|diagnostic| of_low(&diagnostic.problem.to_string()))?;
     Ok(LowFidelity { name, subject: Arc::clone(&study.subject), base_samples: None })
 }
 

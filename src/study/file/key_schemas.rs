@@ -1,11 +1,10 @@
 //! The schemas of single keys of study files, which their types alone do not tell.
 
-use schemars::{Schema, SchemaGenerator};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-use super::dependence::CopulaChoice;
 use super::distribution_forms::FORMS;
-use super::sections::NoiseSection;
+use super::measured::CopulaChoice;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
 use crate::design::Sampler;
 use crate::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
@@ -124,9 +123,9 @@ pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
     object(properties)
 }
 
-/// `noise`: the name of the seed, or a table.
-pub(super) fn noise(generator: &mut SchemaGenerator) -> Schema {
-    let table = generator.subschema_for::<NoiseSection>();
+/// A name, or a table of that type.
+pub(super) fn name_or_table<T: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
+    let table = generator.subschema_for::<T>();
     schemars::json_schema!({ "anyOf": [{ "type": "string" }, table] })
 }
 

@@ -38,7 +38,7 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let name = name(context, file.name.as_ref())?;
     let (overrides, source, sha256) = Default::default();
     let title = file.title.as_ref().map(|title| title.get_ref().clone());
-    let lows = super::fidelity::lows(context, &file, &*subject, &space, &target)?;
+    let lows = super::fidelity::lows(context, &file, &*subject, &space, &target, study)?;
     Ok(Study { name, title, subject, space, design, analysis, target, lows, overrides, source, sha256, notes })
 }
 

@@ -47,7 +47,7 @@ pub(super) struct StudyFile {
     pub command: Option<At<CommandKey>>,
     /// The noise of a stochastic model: the name under which it gets a seed with every row, or a table.
     #[serde(default)]
-    #[schemars(schema_with = "key_schemas::noise")]
+    #[schemars(schema_with = "key_schemas::name_or_table::<NoiseSection>")]
     pub noise: Option<At<NoiseSection>>,
     /// How well the indices must be known: the half width that the 95 % interval of every first-order and total index must
     /// reach. The run chooses its design, surrogates and cheaper models by itself.
