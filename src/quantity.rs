@@ -4,6 +4,7 @@ mod dimension;
 mod domain;
 mod error;
 mod same;
+mod symbols;
 mod unit;
 
 use std::fmt;

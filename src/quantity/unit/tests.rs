@@ -1,6 +1,7 @@
 //! Tests of units.
 
 use super::*;
+use crate::quantity::symbols::spellings;
 use proptest::prelude::*;
 
 fn unit(text: &str) -> Unit {
