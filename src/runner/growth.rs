@@ -1,10 +1,12 @@
-//! When a run that grows has enough.
+//! How a run grows, and when it has enough.
 
+use super::Runner;
 use super::low_fidelity::LowRun;
 use crate::analysis::{StopReason, Stopped, interval_options, surrogates};
+use crate::clock::Instant;
 use crate::design::Design;
 use crate::estimate::{MomentParts, PointOutputs, Undefined};
-use crate::run::GrowingRun;
+use crate::run::{GrowingRun, RunError};
 use crate::study::{Study, Target};
 use crate::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, SurrogateEstimates, output_indices};
 
@@ -15,20 +17,96 @@ const FEW_BASE_SAMPLES: u64 = 1 << 12;
 /// The same where so many runs fail that there will be no indices: how many do is known much sooner.
 const FEW_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
 
+/// Why a run that grew has ended, and what surrogates and cheaper models make of every output.
+type Grown = (Stopped, Vec<Option<SurrogateEstimates>>);
+
+/// Part of the squared error that cheaper models need not go below.
+const ENOUGH: f64 = 1.0 / 16.0;
+
+impl Runner<'_> {
+    /// The first runs of cheaper models. One that is no cheaper is not run in a run that grows.
+    pub(super) fn begin_lows(&self, run: &GrowingRun<'_>, lows: &mut Vec<LowRun<'_>>) -> Result<(), RunError> {
+        let seconds = run.elapsed().as_secs_f64();
+        for low in lows.iter_mut() {
+            low.follow(run.points_per_replicate())?;
+        }
+        if self.study.target.is_free {
+            lows.retain(|low| low.is_cheaper(seconds));
+        }
+        lows.iter_mut().try_for_each(|low| low.begin(seconds))
+    }
+
+    /// Doubles the run, or the own runs of a cheaper model, until there is a reason to stop; that, and what surrogates and
+    /// cheaper models make of the outputs then.
+    pub(super) fn grow(&self, run: &mut GrowingRun<'_>, lows: &mut Vec<LowRun<'_>>) -> Result<Grown, RunError> {
+        let longest = run.design();
+        let is_met = |stopped: &Stopped| matches!(stopped.reason, StopReason::TargetMet { .. });
+        let mut seconds = run.elapsed().as_secs_f64() - lows.iter().flat_map(LowRun::seconds).sum::<f64>();
+        if self.study.target.is_free && !lows.is_empty() {
+            // Where the first runs are enough, cheaper models need not run.
+            let Stage { widest, surrogates, .. } = run.install(|| stage(self.study, run, &[]));
+            if let Some(stopped) = reason_to_stop(self.study, run, longest, widest).filter(is_met) {
+                lows.clear();
+                return Ok((stopped, surrogates));
+            }
+            self.begin_lows(run, lows)?;
+            let best = run.install(|| best_low(self.study, run, lows, seconds));
+            let mut place = 0;
+            lows.retain(|_| {
+                place += 1;
+                best == Some(place - 1)
+            });
+        }
+        loop {
+            let Stage { widest, squared_errors: [own, of_low], surrogates } =
+                run.install(|| stage(self.study, run, lows));
+            let stopped = reason_to_stop(self.study, run, longest, widest);
+            if let ([low], false) = (&mut lows[..], stopped.as_ref().is_some_and(is_met)) {
+                let [shared, cost] = low.seconds();
+                let pays = of_low * (seconds + shared) > own * cost && of_low > ENOUGH * own;
+                if pays && low.can_double() {
+                    low.double()?;
+                    continue;
+                }
+            }
+            if let Some(stopped) = stopped {
+                return Ok((stopped, surrogates));
+            }
+            let start = Instant::now();
+            run.grow_to(run.points_per_replicate() * 2, &*self.on_progress)?;
+            seconds += start.elapsed().as_secs_f64();
+            lows.iter_mut().try_for_each(|low| low.follow(run.points_per_replicate()))?;
+        }
+    }
+}
+
+/// The one of `lows` that promises the least cost for an accuracy, by number, where the rows so far took `seconds`; `None` if
+/// none is better than surrogates alone.
+fn best_low(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>], seconds: f64) -> Option<usize> {
+    let alone = stage(study, run, &[]).squared_errors[0] * seconds;
+    let of_low = |low: &LowRun<'_>| {
+        let [own, of_low] = stage(study, run, std::slice::from_ref(low)).squared_errors;
+        let [shared, cost] = low.seconds();
+        ((own * (seconds + shared)).sqrt() + (of_low * cost).sqrt()).powi(2)
+    };
+    let all = lows.iter().map(of_low).enumerate().filter(|(_, cost)| *cost < alone);
+    all.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
+}
+
 /// How well the indices are known at some stage of a run.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Stage {
+struct Stage {
     /// Largest half width of the indices of all outputs; `None` if some are missing.
-    pub widest: Option<f64>,
+    widest: Option<f64>,
     /// Of the output that it belongs to, the squared errors that come from the rows of the model, and those that come from the
     /// runs of a cheaper model.
-    pub squared_errors: [f64; 2],
+    squared_errors: [f64; 2],
     /// What surrogates and cheaper models made of every output.
-    pub surrogates: Vec<Option<SurrogateEstimates>>,
+    surrogates: Vec<Option<SurrogateEstimates>>,
 }
 
 /// The stage that `run` has reached with the help of `lows`. An output that does not vary has no indices and waits for none.
-pub(super) fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
+fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
     let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());
     let (layout, options) = (study.layout(), interval_options(study));
     let mut all = Stage { widest: None, squared_errors: [0.0; 2], surrogates: Vec::new() };
@@ -56,12 +134,7 @@ pub(super) fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) ->
 }
 
 /// Why the run should not be doubled once more; `None` if it should.
-pub(super) fn reason_to_stop(
-    study: &Study,
-    run: &GrowingRun<'_>,
-    longest: &Design,
-    widest: Option<f64>,
-) -> Option<Stopped> {
+fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, widest: Option<f64>) -> Option<Stopped> {
     let Target { half_width, budget, max_runs, .. } = study.target;
     let next = run.points_per_replicate() * 2;
     let replicates = longest.settings().replicates;

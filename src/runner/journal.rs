@@ -19,21 +19,6 @@ use recall::{Recalled, filled, recall, rows_on_record};
 /// Outputs of more bytes than this are not put on record for quick runs: it takes longer than to evaluate them again.
 const LARGE: u64 = 64 << 20;
 
-impl Resume {
-    /// The option that asks for it.
-    fn option(self) -> &'static str {
-        match self {
-            Self::RetryFailed => "--retry-failed",
-            Self::Double => "--double",
-            _ => "--resume",
-        }
-    }
-
-    fn is_required(self) -> bool {
-        matches!(self, Self::Require | Self::RetryFailed | Self::Double)
-    }
-}
-
 /// What is asked of a record.
 #[derive(Clone, Copy)]
 pub(super) struct JournalRequest {

@@ -13,13 +13,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::analysis::{Analysis, FinishedRun, LowTotals, StopReason, Stopped, analysis};
-use crate::clock::Instant;
+use crate::analysis::{Analysis, FinishedRun, LowTotals, analysis};
 use crate::model::{Messages, RunContext};
 use crate::run::{GrowingRun, Job, Piece, Progress, Remote, RemoteWorkers, RunError, Shard, Store, threads_in_force};
 use crate::study::Study;
-use crate::uncertainty::SurrogateEstimates;
-use growth::{Stage, reason_to_stop, stage};
 use journal::{JournalRequest, OpenJournal};
 use low_fidelity::{LowRun, LowStudy, sinks};
 use model_files::ModelFiles;
@@ -76,6 +73,21 @@ pub enum Resume {
     Double,
     /// Begin anew.
     Never,
+}
+
+impl Resume {
+    /// The option that asks for it.
+    fn option(self) -> &'static str {
+        match self {
+            Self::RetryFailed => "--retry-failed",
+            Self::Double => "--double",
+            _ => "--resume",
+        }
+    }
+
+    fn is_required(self) -> bool {
+        matches!(self, Self::Require | Self::RetryFailed | Self::Double)
+    }
 }
 
 /// A run of a study, as it is set up.
@@ -318,82 +330,6 @@ impl<'a> Runner<'a> {
         }
         Ok(result)
     }
-}
-
-/// Why a run that grew has ended, and what surrogates and cheaper models make of every output.
-type Grown = (Stopped, Vec<Option<SurrogateEstimates>>);
-
-/// Part of the squared error that cheaper models need not go below.
-const ENOUGH: f64 = 1.0 / 16.0;
-
-impl Runner<'_> {
-    /// The first runs of cheaper models. One that is no cheaper is not run in a run that grows.
-    fn begin_lows(&self, run: &GrowingRun<'_>, lows: &mut Vec<LowRun<'_>>) -> Result<(), RunError> {
-        let seconds = run.elapsed().as_secs_f64();
-        for low in lows.iter_mut() {
-            low.follow(run.points_per_replicate())?;
-        }
-        if self.study.target.is_free {
-            lows.retain(|low| low.is_cheaper(seconds));
-        }
-        lows.iter_mut().try_for_each(|low| low.begin(seconds))
-    }
-
-    /// Doubles the run, or the own runs of a cheaper model, until there is a reason to stop; that, and what surrogates and
-    /// cheaper models make of the outputs then.
-    fn grow(&self, run: &mut GrowingRun<'_>, lows: &mut Vec<LowRun<'_>>) -> Result<Grown, RunError> {
-        let longest = run.design();
-        let is_met = |stopped: &Stopped| matches!(stopped.reason, StopReason::TargetMet { .. });
-        let mut seconds = run.elapsed().as_secs_f64() - lows.iter().flat_map(LowRun::seconds).sum::<f64>();
-        if self.study.target.is_free && !lows.is_empty() {
-            // Where the first runs are enough, cheaper models need not run.
-            let Stage { widest, surrogates, .. } = run.install(|| stage(self.study, run, &[]));
-            if let Some(stopped) = reason_to_stop(self.study, run, longest, widest).filter(is_met) {
-                lows.clear();
-                return Ok((stopped, surrogates));
-            }
-            self.begin_lows(run, lows)?;
-            let best = run.install(|| best_low(self.study, run, lows, seconds));
-            let mut place = 0;
-            lows.retain(|_| {
-                place += 1;
-                best == Some(place - 1)
-            });
-        }
-        loop {
-            let Stage { widest, squared_errors: [own, of_low], surrogates } =
-                run.install(|| stage(self.study, run, lows));
-            let stopped = reason_to_stop(self.study, run, longest, widest);
-            if let ([low], false) = (&mut lows[..], stopped.as_ref().is_some_and(is_met)) {
-                let [shared, cost] = low.seconds();
-                let pays = of_low * (seconds + shared) > own * cost && of_low > ENOUGH * own;
-                if pays && low.can_double() {
-                    low.double()?;
-                    continue;
-                }
-            }
-            if let Some(stopped) = stopped {
-                return Ok((stopped, surrogates));
-            }
-            let start = Instant::now();
-            run.grow_to(run.points_per_replicate() * 2, &*self.on_progress)?;
-            seconds += start.elapsed().as_secs_f64();
-            lows.iter_mut().try_for_each(|low| low.follow(run.points_per_replicate()))?;
-        }
-    }
-}
-
-/// The one of `lows` that promises the least cost for an accuracy, by number, where the rows so far took `seconds`; `None` if
-/// none is better than surrogates alone.
-fn best_low(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>], seconds: f64) -> Option<usize> {
-    let alone = stage(study, run, &[]).squared_errors[0] * seconds;
-    let of_low = |low: &LowRun<'_>| {
-        let [own, of_low] = stage(study, run, std::slice::from_ref(low)).squared_errors;
-        let [shared, cost] = low.seconds();
-        ((own * (seconds + shared)).sqrt() + (of_low * cost).sqrt()).powi(2)
-    };
-    let all = lows.iter().map(of_low).enumerate().filter(|(_, cost)| *cost < alone);
-    all.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
 }
 
 /// The outcome of a run whose record was written as `recorded` says. An error of the run is told before one of the record.
