@@ -1,6 +1,6 @@
-//! Factors that depend on each other: indices against closed forms, by the library and through the program.
+//! Factors that depend on each other: indices against closed forms.
 
-use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
+use crate::common::study_path;
 use ::apportion::{
     AnalysisOptions, CorrelationMeasure, Dependence, Distribution, EffectEstimates, Estimate, Study, function_model,
 };
@@ -318,105 +318,5 @@ fn the_portfolio_has_the_published_indices() {
         for (found, exact) in found.into_iter().zip([first[i], total[i], shapley[i]]) {
             assert!((found - exact).abs() < 0.01, "{name}: {found}, {exact}");
         }
-    }
-}
-
-#[test]
-fn the_program_tells_of_dependent_factors() {
-    let folder = Folder::new();
-    let study = study_path("portfolio");
-    let out = folder.path("out");
-    let told = succeed(&["run", text(&study), "--base-samples", "1024", "--out", text(&out)]);
-    assert!(told.contains("Shapley effect") && told.contains("S_1 given the others"), "{told}");
-    assert!(told.contains("For value, x1 matters most: its Shapley effect is"), "{told}");
-    let json: serde_json::Value = serde_json::from_slice(&std::fs::read(out.join("portfolio.json")).unwrap()).unwrap();
-    assert_eq!(json["study"]["dependences"][1]["correlation"][0][1], -0.3);
-    let x1 = &json["outputs"][0]["indices"][0];
-    assert!(x1["shapley"]["estimate"].as_f64().unwrap() > 0.3 && x1["dependent"]["full_total"]["low"].is_number());
-    assert!(json["outputs"][0]["sum_first_order"].is_null() && x1["share_total"].is_null());
-    // The same bits on one thread, and from the points in a file.
-    let again = folder.path("again");
-    succeed(&["run", text(&study), "--base-samples", "1024", "--threads", "1", "--out", text(&again)]);
-    let outputs = |path: &std::path::Path| -> serde_json::Value {
-        let json: serde_json::Value =
-            serde_json::from_slice(&std::fs::read(path.join("portfolio.json")).unwrap()).unwrap();
-        json["outputs"].clone()
-    };
-    assert_eq!(outputs(&out), outputs(&again));
-}
-
-#[test]
-fn what_dependent_factors_do_not_have_is_refused_with_what_they_do() {
-    let study = text(&study_path("portfolio")).to_owned();
-    let refused = |arguments: &[&str], expected: &str| {
-        let output = apportion(arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
-        assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
-    };
-    let set = |change: &'static str| ["check", study.as_str(), "--set", change].map(str::to_owned).to_vec();
-    for (change, expected) in [
-        ("analysis.second_order=true", "Shapley effects"),
-        ("analysis.surrogate=\"on\"", "need independent ones"),
-        ("accuracy=0.01", "half_width"),
-        ("design.plain_rows=3", "depend on each other"),
-        ("analysis.shapley=1", "boolean"),
-        ("dependence=[{factors=[\"x1\",\"x2\"]}]", "`correlation`"),
-        ("dependence=[{factors=[\"x1\",\"x9\"], correlation=0.5}]", "unknown factor `x9`"),
-        ("dependence=[{factors=[\"x1\",\"x2\",\"x3\"], correlation=-0.9}]", "nearest"),
-        ("dependence=[{factors=[\"x1\",\"x2\"], correlation=1.5}]", "between -1 and 1"),
-        ("dependence=[{factors=[\"x1\",\"x2\"], correlation=0.5, measure=\"rank\"}]", "spearman"),
-        ("dependence=[{factors=[\"x1\",\"x2\"], correlation=\"much\"}]", "a number, or a matrix"),
-    ] {
-        let arguments = set(change);
-        refused(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), expected);
-    }
-    refused(&["screen", &study], "Shapley effects");
-    refused(&["trade", &study, "--quick"], "without [[dependence]]");
-}
-
-#[test]
-fn joint_measurements_and_matrices_state_the_same() {
-    let folder = Folder::new();
-    let rows: String = (0..200).map(|k| format!("{},{}\n", k, (k * 7 % 200) + 3 * k)).collect();
-    folder.with("joint.csv", format!("x1,x2\n{rows}"));
-    let model = "model = \"expression\"\noutputs.y = \"x1 + x2\"\ndesign.base_samples = 256\n";
-    let factors = "[[factor]]\nname = \"x1\"\n[[factor]]\nname = \"x2\"\n";
-    let factors =
-        factors.replace('\n', "\nmin = 0\nmax = 1\n").replace("[[factor]]\nmin = 0\nmax = 1\n", "[[factor]]\n");
-    let study = folder.with(
-        "study.toml",
-        format!("{model}{factors}[dependence]\nfactors = [\"x1\", \"x2\"]\nfile = \"joint.csv\"\n"),
-    );
-    let told = succeed(&["run", text(&study), "--out", text(&folder.path("out"))]);
-    assert!(told.contains("Shapley effect"), "{told}");
-}
-
-/// Groups, subsets, a dummy factor and all outputs together have no Shapley effects, and their lines are as long as the others.
-#[test]
-fn whatever_else_is_asked_of_dependent_factors_has_its_lines() {
-    let folder = Folder::new();
-    let factor = |name: &str, group: &str| format!("[[factor]]\nname = \"{name}\"\nmin = 0\nmax = 1\n{group}\n");
-    let factors = [factor("a", "group = \"g\""), factor("b", "group = \"g\""), factor("c", "")].concat();
-    let asked = "subsets = [[\"a\", \"c\"]]\ndummy = true\naggregate = true\nestimators = [\"jansen\", \"azzini\"]\n";
-    let study = format!(
-        "model = \"expression\"\n[expression.outputs]\ny = \"a + b*c\"\nz = \"c\"\n[design]\nbase_samples = 256\n\
-         [analysis]\n{asked}{factors}[dependence]\nfactors = [\"a\", \"b\"]\ncorrelation = 0.5\n"
-    );
-    for shapley in ["true", "false"] {
-        let out = folder.path(shapley);
-        let path = folder.with("study.toml", &study);
-        succeed(&["run", text(&path), "--set", &format!("analysis.shapley={shapley}"), "--out", text(&out)]);
-        let lines = std::fs::read_to_string(out.join("study.csv")).unwrap();
-        let commas = |line: &str| line.matches(',').count();
-        let first = commas(lines.lines().next().unwrap());
-        assert!(lines.lines().all(|line| commas(line) == first), "{lines}");
-        for kind in [",factor,", ",group,", ",subset,", ",dummy,", ",aggregate,"] {
-            assert!(lines.contains(kind), "{kind}: {lines}");
-        }
-        // From the result alone, the same page.
-        let again = folder.path(&format!("again-{shapley}"));
-        succeed(&["report", text(&out.join("study.json")), "--out", text(&again)]);
-        let page = |of: &std::path::Path| std::fs::read_to_string(of.join("study.html")).unwrap();
-        assert_eq!(page(&out), page(&again));
     }
 }

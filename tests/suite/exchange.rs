@@ -3,13 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use apportion::exchange::{ColumnKind, Format, open_rows, row_writer};
-use apportion::report::salib::SalibFile;
 use apportion::report::{ResultFile, read_result};
 
 use crate::common::{apportion, files, gap, numbers, stderr, study_path, succeed, text};
 
 /// A folder with the design of a small study.
-struct Sampled {
+pub struct Sampled {
     folder: tempfile::TempDir,
 }
 
@@ -21,16 +20,16 @@ impl Sampled {
         sampled
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
-    fn name(&self, name: &str) -> String {
+    pub fn name(&self, name: &str) -> String {
         text(&self.path(name)).to_owned()
     }
 
     /// `analyze` of `data` in the folder.
-    fn analyze(&self, data: &str, more: &[&str]) -> std::process::Output {
+    pub fn analyze(&self, data: &str, more: &[&str]) -> std::process::Output {
         let (data, out) = (self.name(data), self.name("out"));
         apportion(&[&["analyze", &data, "--out", &out], more].concat())
     }
@@ -40,7 +39,7 @@ impl Sampled {
     }
 
     #[track_caller]
-    fn refused(&self, data: &str, more: &[&str], expected: &str) {
+    pub fn refused(&self, data: &str, more: &[&str], expected: &str) {
         let output = self.analyze(data, more);
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{message}");
@@ -52,7 +51,7 @@ impl Sampled {
         std::fs::read_to_string(self.path(name)).unwrap().lines().map(str::to_owned).collect()
     }
 
-    fn write(&self, name: &str, lines: &[String]) {
+    pub fn write(&self, name: &str, lines: &[String]) {
         std::fs::write(self.path(name), lines.join("\n") + "\n").unwrap();
     }
 }
@@ -70,7 +69,7 @@ const OUTSIDE: &str = r#"
 "#;
 
 /// The design of [`OUTSIDE`] with force = a + 2 b + 1 for the second probe, as `data.csv`.
-fn answered() -> Sampled {
+pub fn answered() -> Sampled {
     let sampled = Sampled::new(OUTSIDE, "design.csv");
     let mut lines = sampled.lines("design.csv");
     for (row, line) in lines.iter_mut().enumerate() {
@@ -344,75 +343,4 @@ fn points_and_outputs_of_a_run_are_saved_in_every_format() {
     let y = folder.path().join("y.csv");
     succeed(&["evaluate", text(&study), text(&points), "-o", text(&y)]);
     assert_eq!(columns(&y)[0], all[0][3]);
-}
-
-/// A table of SALib's layout of two inputs with y = x1 + 2 x2 + x1 x2; twelve rows of each pattern.
-fn salib_table(second_order: bool) -> Vec<String> {
-    let mut lines = vec!["x1,x2,y".to_owned()];
-    let points = if second_order { 8 } else { 12 };
-    let value = |k: usize| (k as f64 * 0.618_033_988_749).fract();
-    for point in 0..points {
-        let (a, b) = ([value(4 * point), value(4 * point + 1)], [value(4 * point + 2), value(4 * point + 3)]);
-        let ab = [[b[0], a[1]], [a[0], b[1]]];
-        let ba = [[a[0], b[1]], [b[0], a[1]]];
-        let rows = if second_order { [&[a][..], &ab, &ba, &[b]].concat() } else { [&[a][..], &ab, &[b]].concat() };
-        lines.extend(rows.iter().map(|[x, z]| format!("{x},{z},{}", x + 2.0 * z + x * z)));
-    }
-    lines
-}
-
-#[test]
-fn tables_of_salib_are_recognised_checked_and_analysed() {
-    let sampled = answered();
-    let salib = ["--layout", "salib", "--outputs", "y", "--resamples", "100"];
-    for second_order in [true, false] {
-        let lines = salib_table(second_order);
-        sampled.write("t.csv", &lines);
-        let output = sampled.analyze("t.csv", &salib);
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        let json = std::fs::read_to_string(sampled.path("out").join("t.json")).unwrap();
-        let result: SalibFile = serde_json::from_str(&json).unwrap();
-        assert_eq!(result.table.layout, if second_order { "second-order" } else { "first-order" });
-        assert!(result.table.points_checked);
-        assert_eq!(result.outputs[0].second_order.as_ref().map(Vec::len), second_order.then_some(1));
-        let index = result.outputs[0].indices.as_ref().unwrap()[1].first_order;
-        assert!(index.low.unwrap() < index.estimate && index.estimate < index.high.unwrap());
-        // The outputs alone: 48 rows are both 12 times 4 and 8 times 6.
-        let alone: Vec<String> = lines.iter().map(|line| line.rsplit_once(',').unwrap().1.to_owned()).collect();
-        sampled.write("y.csv", &alone);
-        let names = ["--layout", "salib", "--names", "x1,x2", "--resamples", "0"];
-        let expected = "48 rows can be read in two ways: 8 base points with second order (calc_second_order=True) or 12 base points";
-        sampled.refused("y.csv", &names, expected);
-        let option = if second_order { "--second-order" } else { "--first-order-only" };
-        assert_eq!(sampled.analyze("y.csv", &[&names[..], &[option]].concat()).status.code(), Some(0));
-        let json = std::fs::read_to_string(sampled.path("out").join("y.json")).unwrap();
-        let again: SalibFile = serde_json::from_str(&json).unwrap();
-        let estimates = |result: &SalibFile| -> Vec<f64> {
-            result.outputs[0]
-                .indices
-                .iter()
-                .flatten()
-                .flat_map(|i| [i.first_order.estimate, i.total.estimate])
-                .collect()
-        };
-        assert_eq!(estimates(&again), estimates(&result));
-    }
-    let mut shuffled = salib_table(true);
-    shuffled.swap(8, 12);
-    sampled.write("t.csv", &shuffled);
-    sampled.refused("t.csv", &salib, "row 8 should be the row AB_1 of its base point (rows 7 to 12)");
-    sampled.write("t.csv", &salib_table(true)[..48]);
-    sampled.refused(
-        "t.csv",
-        &salib,
-        "47 rows are no whole number of base points: for 2 inputs or groups there are 6 rows each",
-    );
-    let mut missing = salib_table(true);
-    missing[5] = "0.1,0.2,nan".to_owned();
-    sampled.write("t.csv", &missing);
-    sampled.refused("t.csv", &salib, "row 5, column `y`: the value is missing");
-    sampled.refused("t.csv", &["--layout", "salib"], "which columns are outputs?");
-    std::fs::write(sampled.path("p.json"), "{\"names\": [\"x1\"], \"num_vars\": 2}").unwrap();
-    let problem = sampled.name("p.json");
-    sampled.refused("t.csv", &["--layout", "salib", "--problem", &problem], "`num_vars` is 2, but `names` has 1");
 }

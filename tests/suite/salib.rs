@@ -1,0 +1,77 @@
+//! Tables in the layouts of SALib, through `analyze`.
+
+use apportion::report::salib::SalibFile;
+
+use crate::common::stderr;
+use crate::exchange::answered;
+
+/// A table of SALib's layout of two inputs with y = x1 + 2 x2 + x1 x2; twelve rows of each pattern.
+fn salib_table(second_order: bool) -> Vec<String> {
+    let mut lines = vec!["x1,x2,y".to_owned()];
+    let points = if second_order { 8 } else { 12 };
+    let value = |k: usize| (k as f64 * 0.618_033_988_749).fract();
+    for point in 0..points {
+        let (a, b) = ([value(4 * point), value(4 * point + 1)], [value(4 * point + 2), value(4 * point + 3)]);
+        let ab = [[b[0], a[1]], [a[0], b[1]]];
+        let ba = [[a[0], b[1]], [b[0], a[1]]];
+        let rows = if second_order { [&[a][..], &ab, &ba, &[b]].concat() } else { [&[a][..], &ab, &[b]].concat() };
+        lines.extend(rows.iter().map(|[x, z]| format!("{x},{z},{}", x + 2.0 * z + x * z)));
+    }
+    lines
+}
+
+#[test]
+fn tables_of_salib_are_recognised_checked_and_analysed() {
+    let sampled = answered();
+    let salib = ["--layout", "salib", "--outputs", "y", "--resamples", "100"];
+    for second_order in [true, false] {
+        let lines = salib_table(second_order);
+        sampled.write("t.csv", &lines);
+        let output = sampled.analyze("t.csv", &salib);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let json = std::fs::read_to_string(sampled.path("out").join("t.json")).unwrap();
+        let result: SalibFile = serde_json::from_str(&json).unwrap();
+        assert_eq!(result.table.layout, if second_order { "second-order" } else { "first-order" });
+        assert!(result.table.points_checked);
+        assert_eq!(result.outputs[0].second_order.as_ref().map(Vec::len), second_order.then_some(1));
+        let index = result.outputs[0].indices.as_ref().unwrap()[1].first_order;
+        assert!(index.low.unwrap() < index.estimate && index.estimate < index.high.unwrap());
+        // The outputs alone: 48 rows are both 12 times 4 and 8 times 6.
+        let alone: Vec<String> = lines.iter().map(|line| line.rsplit_once(',').unwrap().1.to_owned()).collect();
+        sampled.write("y.csv", &alone);
+        let names = ["--layout", "salib", "--names", "x1,x2", "--resamples", "0"];
+        let expected = "48 rows can be read in two ways: 8 base points with second order (calc_second_order=True) or 12 base points";
+        sampled.refused("y.csv", &names, expected);
+        let option = if second_order { "--second-order" } else { "--first-order-only" };
+        assert_eq!(sampled.analyze("y.csv", &[&names[..], &[option]].concat()).status.code(), Some(0));
+        let json = std::fs::read_to_string(sampled.path("out").join("y.json")).unwrap();
+        let again: SalibFile = serde_json::from_str(&json).unwrap();
+        let estimates = |result: &SalibFile| -> Vec<f64> {
+            result.outputs[0]
+                .indices
+                .iter()
+                .flatten()
+                .flat_map(|i| [i.first_order.estimate, i.total.estimate])
+                .collect()
+        };
+        assert_eq!(estimates(&again), estimates(&result));
+    }
+    let mut shuffled = salib_table(true);
+    shuffled.swap(8, 12);
+    sampled.write("t.csv", &shuffled);
+    sampled.refused("t.csv", &salib, "row 8 should be the row AB_1 of its base point (rows 7 to 12)");
+    sampled.write("t.csv", &salib_table(true)[..48]);
+    sampled.refused(
+        "t.csv",
+        &salib,
+        "47 rows are no whole number of base points: for 2 inputs or groups there are 6 rows each",
+    );
+    let mut missing = salib_table(true);
+    missing[5] = "0.1,0.2,nan".to_owned();
+    sampled.write("t.csv", &missing);
+    sampled.refused("t.csv", &salib, "row 5, column `y`: the value is missing");
+    sampled.refused("t.csv", &["--layout", "salib"], "which columns are outputs?");
+    std::fs::write(sampled.path("p.json"), "{\"names\": [\"x1\"], \"num_vars\": 2}").unwrap();
+    let problem = sampled.name("p.json");
+    sampled.refused("t.csv", &["--layout", "salib", "--problem", &problem], "`num_vars` is 2, but `names` has 1");
+}
