@@ -4,7 +4,7 @@
 //! inertia: the swing of the tip, 1e-7 of the force, would not be seen. When it slips the tip holds it still and the
 //! substrate slides on under it, all forces as they were at the slip (Tafazzoli & Sitti 2004). So the drop from static to
 //! sliding friction is not followed: at V it is (V/v_s)^2 of the force by the Stribeck curves, but not small by
-//! Lemaitre-Carlson, whose stick-slip [`friction::probe`](super::friction::probe) shows.
+//! Lemaitre-Carlson, whose layer sticks and slips.
 
 use super::contact::{Contact, Pair};
 use super::force::Statics;

@@ -83,14 +83,6 @@ impl LemaitreCarlson {
         Ok(Held { force: area * self.stress * end.y[0], evaluations: march.evaluations() })
     }
 
-    /// d/dt of stress in units of mubar and of disorder (1/s), when sheared at `velocity` (m/s) of either sign.
-    pub(super) fn rates(&self, velocity: f64, &[s, disorder]: &[f64; 2]) -> [f64; 2] {
-        let flow = self.rearrangement_rate * activation(1.0, disorder) * libm::sinh(s);
-        let ageing = self.ageing_rate * activation(self.ageing_barrier, disorder);
-        let shear = velocity / (2.0 * self.half_thickness);
-        [self.modulus / self.stress * (shear - flow), self.disorder_gain * self.stress * s * flow - ageing]
-    }
-
     /// The stress of steady sliding at `velocity` (m/s), > 0 (Pa): the disorder at which ageing balances plastic work,
     /// chi = kappa/ln(E1/(alpha sig gam')), put into gam' = V/(2h). Where work outruns ageing, chi grows without bound and
     /// exp(-1/chi) is one.
@@ -116,7 +108,7 @@ impl LemaitreCarlson {
 }
 
 /// exp(-barrier/chi); nothing is left to age or rearrange at chi = 0.
-fn activation(barrier: f64, disorder: f64) -> f64 {
+pub(super) fn activation(barrier: f64, disorder: f64) -> f64 {
     if disorder > 0.0 { libm::exp(-barrier / disorder) } else { 0.0 }
 }
 

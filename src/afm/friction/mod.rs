@@ -1,7 +1,7 @@
 //! The largest lateral force the substrate contact can hold before the particle slips, F_Y*.
 //!
 //! One law a file. Laws with a state (LuGre, Dahl, Armstrong, Lemaitre-Carlson) answer with the peak of the force when
-//! a spring pulls ever harder, the break-away force. [`probe`] shows each law by itself.
+//! a spring pulls ever harder, the break-away force.
 
 mod armstrong;
 mod coulomb;
@@ -9,7 +9,6 @@ mod dahl;
 mod hurtado_kim;
 mod lemaitre_carlson;
 mod lugre;
-pub mod probe;
 mod ramp;
 mod stribeck;
 #[cfg(test)]

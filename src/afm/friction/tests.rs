@@ -1,9 +1,11 @@
 //! The textbook behaviours of the laws, on the bench.
 
+mod bench;
+
 use std::f64::consts::TAU;
 
-use super::probe::{Motion, Sample, Specimen, against_displacement, against_velocity};
 use super::*;
+use bench::{Motion, Sample, Specimen, against_displacement, against_velocity};
 
 const PRESSED: Pressed = Pressed { load: 5e-7, radius: 9e-9 };
 

@@ -2,14 +2,16 @@
 
 use std::f64::consts::PI;
 
-use super::{Armstrong, Coulomb, Dahl, FrictionLaw, HurtadoKim, LemaitreCarlson, LuGre, LuGreParameters};
-use super::{Pressed, Stribeck};
+use crate::afm::friction::lemaitre_carlson::activation;
+use crate::afm::friction::{
+    Armstrong, Coulomb, Dahl, FrictionLaw, HurtadoKim, LemaitreCarlson, LuGre, LuGreParameters, Pressed, Stribeck,
+};
 use crate::afm::ode::{Control, DormandPrince, March, Problem};
 use crate::afm::{Failure, Scene};
 
 /// A contact on the bench.
 #[derive(Clone, Copy, Debug)]
-pub struct Specimen<'a> {
+pub(super) struct Specimen<'a> {
     /// Law of friction.
     pub law: FrictionLaw,
     /// Constants of the law.
@@ -22,7 +24,7 @@ pub struct Specimen<'a> {
 
 /// A motion forced on the specimen.
 #[derive(Clone, Copy)]
-pub struct Motion<'a> {
+pub(super) struct Motion<'a> {
     /// Velocity (m/s) at a time (s); also asked for times before the start, by laws with a lag.
     pub velocity: &'a dyn Fn(f64) -> f64,
     /// How long it lasts (s), > 0.
@@ -33,7 +35,7 @@ pub struct Motion<'a> {
 
 /// The specimen at an instant of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub(super) struct Sample {
     /// Time (s).
     pub time: f64,
     /// Displacement since the start (m).
@@ -49,7 +51,7 @@ pub struct Sample {
 ///
 /// # Errors
 /// [`Failure::VelocityZero`] for a Lemaitre-Carlson layer at rest.
-pub fn against_velocity(specimen: &Specimen, velocity: f64) -> Result<f64, Failure> {
+pub(super) fn against_velocity(specimen: &Specimen, velocity: f64) -> Result<f64, Failure> {
     let &Specimen { law, scene, pressed, .. } = specimen;
     let load = pressed.load;
     Ok(match law {
@@ -69,7 +71,7 @@ pub fn against_velocity(specimen: &Specimen, velocity: f64) -> Result<f64, Failu
 ///
 /// # Errors
 /// [`Failure::StepBudget`] and [`Failure::StepTooSmall`] of the laws that are integrated.
-pub fn against_displacement(specimen: &Specimen, motion: &Motion) -> Result<Vec<Sample>, Failure> {
+pub(super) fn against_displacement(specimen: &Specimen, motion: &Motion) -> Result<Vec<Sample>, Failure> {
     let &Specimen { law, scene, pressed, lugre } = specimen;
     let load = pressed.load;
     match law {
@@ -95,10 +97,18 @@ pub fn against_displacement(specimen: &Specimen, motion: &Motion) -> Result<Vec<
         FrictionLaw::LemaitreCarlson => {
             let law = LemaitreCarlson::of(scene);
             let area = PI * pressed.radius * pressed.radius;
-            let rate = |v: f64, y: &[f64; 2]| law.rates(v, y);
+            let rate = |v: f64, y: &[f64; 2]| rates_of_layer(&law, v, y);
             follow(motion, &rate, [0.0, law.initial_disorder], |_, &[s, _]| s * law.stress * area)
         }
     }
+}
+
+/// d/dt of stress in units of mubar and of disorder (1/s) of a layer sheared at `velocity` (m/s) of either sign.
+fn rates_of_layer(law: &LemaitreCarlson, velocity: f64, &[s, disorder]: &[f64; 2]) -> [f64; 2] {
+    let flow = law.rearrangement_rate * activation(1.0, disorder) * libm::sinh(s);
+    let ageing = law.ageing_rate * activation(law.ageing_barrier, disorder);
+    let shear = velocity / (2.0 * law.half_thickness);
+    [law.modulus / law.stress * (shear - flow), law.disorder_gain * law.stress * s * flow - ageing]
 }
 
 impl Motion<'_> {
