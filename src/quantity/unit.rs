@@ -185,11 +185,13 @@ impl Unit {
     }
 
     /// Whether it is a label, which is none of the units that are known.
+    #[cfg(feature = "study")]
     pub(crate) fn is_label(&self) -> bool {
         self.is_label
     }
 
     /// Whether it measures something: it is neither a label nor that of pure numbers, which stands where nobody has said a unit.
+    #[cfg(feature = "study")]
     pub(crate) fn is_of_kind(&self) -> bool {
         !self.is_label && self.dimension != Dimension::NUMBER
     }
