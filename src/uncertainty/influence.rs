@@ -18,7 +18,7 @@ pub struct Influenced {
 
 impl Influenced {
     /// The number is `estimate`, whatever the rows.
-    pub fn settled(&self, estimate: f64) -> Self {
+    pub(super) fn settled(&self, estimate: f64) -> Self {
         Self { estimate, parts: still(&self.parts), low: still(&self.low), beyond: 0.0 }
     }
 
