@@ -113,9 +113,17 @@ pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<Str
     let text = own_text(study)?;
     let study = Study::parse(&text, Path::new(&format!("{}.toml", study.name())), &[])?;
     let analysis = study.runner().threads(threads).stop(stop).run()?;
+    page_of_result(&study, &text, &ResultFile::new(&study, &analysis))
+}
+
+/// The page of `study`, whose [`own_text`] is `text`, with a `result` of it to begin with.
+///
+/// # Errors
+/// [`LiveError`] if a part of the page cannot be drawn.
+pub fn page_of_result(study: &Study, text: &str, result: &ResultFile) -> Result<String, LiveError> {
     // One output at a time.
-    let result = one_output(&ResultFile::new(&study, &analysis), None);
-    page(&study, &text, run_document(&result), result.provenance.model_runs)
+    let result = one_output(result, None);
+    page(study, text, run_document(&result), result.provenance.model_runs)
 }
 
 /// The name of the live page of the study called `name`.

@@ -70,9 +70,12 @@ pub fn deliver_with(artefacts: &Artefacts, document: &Document, text: &str) -> R
     stop::writing()?;
     let written = artefacts.write_until(document, stop::on_signal())?;
     print(text)?;
-    say(&format!("wrote {}", written.page.display()));
-    let is_json = |path: &&PathBuf| path.extension().is_some_and(|ending| ending == "json");
-    let (json, others): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(is_json);
+    let ends_with = |path: &Path, ending: &str| path.extension().is_some_and(|of| of == ending);
+    let (live, data): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(|path| ends_with(path, "html"));
+    let names = live.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy());
+    let live: String = names.map(|name| format!(", and {name} to try other ranges in")).collect();
+    say(&format!("wrote {}{live}", written.page.display()));
+    let (json, others): (Vec<&PathBuf>, Vec<&PathBuf>) = data.into_iter().partition(|path| ends_with(path, "json"));
     let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
     match (&json[..], others.len()) {
         ([], 0) => (),

@@ -18,7 +18,7 @@ use super::progress::Meter;
 use super::ranks::{self, Ranks};
 use super::stop::Stoppable;
 use super::{DesignChanges, Failure, StudyArguments, Threads, say, stop};
-use crate::live::{file_name, live_page, own_text, put_beside};
+use crate::live::{file_name, own_text, page_of_result, put_beside};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -36,11 +36,32 @@ pub struct Arguments {
     /// Also write the points and outputs of all runs to a file (.csv, .parquet or .npy)
     #[arg(long, value_name = "FILE", conflicts_with = "shard")]
     save_outputs: Option<PathBuf>,
-    /// Also write the page in which the study can be tried (NAME-live.html), to which the page of the result links
-    #[arg(long, conflicts_with = "shard")]
-    live: bool,
+    #[command(flatten)]
+    live: LiveArguments,
     #[command(flatten)]
     record: RecordArguments,
+}
+
+/// The page in which the study can be tried, to which the page of the result links.
+#[derive(clap::Args)]
+struct LiveArguments {
+    /// Refuse a study that a page cannot run. (Without this option the page NAME-live.html is written wherever it can be)
+    #[arg(long, conflicts_with = "shard")]
+    live: bool,
+    /// Leave out the page NAME-live.html, which has 2 MB
+    #[arg(long, conflicts_with = "live")]
+    no_live: bool,
+}
+
+impl LiveArguments {
+    /// The study as a page runs it, if there is to be a page.
+    fn text(&self, study: &Study) -> Result<Option<String>, Failure> {
+        match self {
+            Self { no_live: true, .. } => Ok(None),
+            Self { live: true, .. } => Ok(Some(own_text(study)?)),
+            _ => Ok(own_text(study).ok()),
+        }
+    }
 }
 
 /// What becomes of runs that are on record.
@@ -92,12 +113,10 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     let artefacts = arguments.charts.artefacts(&folder);
     let asked = &arguments.record;
     prepare_folder(&folder)?;
-    if arguments.live {
-        own_text(&study)?;
-    }
+    let tried = arguments.live.text(&study)?;
     if asked.shard.is_none() {
         let mut names = file_names(&study);
-        names.data.extend(arguments.live.then(|| file_name(study.name())));
+        names.data.extend(tried.is_some().then(|| file_name(study.name())));
         artefacts.check(&names)?;
     } else if study.target().grows() {
         let why =
@@ -157,7 +176,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     if let Some(((path, format), store)) = saved.zip(store.as_ref()) {
         save(&study, &result, store, path, format)?;
     }
-    let live = arguments.live.then(|| live_page(&study, arguments.threads.number(), stop)).transpose()?;
+    let live = tried.map(|text| page_of_result(&study, &text, &result)).transpose()?;
     deliver(&study, &artefacts, &result, live)
 }
 

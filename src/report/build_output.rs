@@ -45,8 +45,8 @@ impl<'a> OutputRecords<'a> {
         let mut record = OutputRecord {
             name: output.name.clone(),
             unit: unit.to_string(),
-            mean: mean.map(|mean| in_unit(mean.estimate)),
-            variance: variance.map(|variance| squared(variance.estimate)),
+            mean: mean.map(|mean| in_unit(mean.estimate)).filter(|mean| mean.is_finite()),
+            variance: variance.map(|variance| squared(variance.estimate)).filter(|variance| variance.is_finite()),
             mean_interval: mean.and_then(|mean| interval_record(mean.interval, &in_unit)),
             variance_interval: variance.and_then(|variance| interval_record(variance.interval, &squared)),
             runs_ok: output.runs_ok,
@@ -253,8 +253,10 @@ fn effect_record(effect: &EffectEstimates) -> EffectRecord {
     }
 }
 
+/// `None` where a bound is beyond double precision in the unit.
 fn interval_record(interval: Option<Interval>, convert: &dyn Fn(f64) -> f64) -> Option<IntervalRecord> {
-    interval.map(|i| IntervalRecord { low: convert(i.low), high: convert(i.high) })
+    let record = interval.map(|i| IntervalRecord { low: convert(i.low), high: convert(i.high) });
+    record.filter(|record| record.low.is_finite() && record.high.is_finite())
 }
 
 /// Moments and range from all values of the rows A and B, the rest from those that were kept. `None` without values, and

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::report::{OutputRecord, ResultFile};
+use apportion::report::{OutputRecord, ResultFile, parse_result, result_json};
 use apportion::study::Study;
 
 fn analysed(text: &str) -> ResultFile {
@@ -109,6 +109,18 @@ fn outputs_of_any_size_that_doubles_hold_have_the_same_indices() {
         let output = &result.outputs[0];
         assert_eq!(output.indices, None);
         assert!(output.reason.as_ref().unwrap().contains("over- or underflows"), "{:?}", output.reason);
+    }
+}
+
+/// A mean beyond doubles, or the bound of its interval, has no place in JSON: it is left out, and the file can be read.
+#[test]
+fn results_beyond_doubles_can_be_read_back() {
+    for c in ["1.7e308, 1e308", "1e308, 9e307", "6e307, 6e307"] {
+        let text = format!("model = \"linear\"\n[function]\nc = [{c}]\n[design]\nbase_samples = 16");
+        let result = analysed(&text);
+        let json = result_json(&result);
+        let read = parse_result(json.as_bytes()).unwrap_or_else(|error| panic!("{c}: {error}"));
+        assert_eq!(result_json(&read), json);
     }
 }
 

@@ -57,21 +57,27 @@ fn a_study_of_series_has_a_page() {
 fn the_page_of_a_run_links_to_its_own() {
     let folder = Folder::new();
     let to = folder.path("out");
-    let out = ["--live", "--charts", "none", "--base-samples", "256", "--out", text(&to)];
-    succeed(&[&["run", text(&study_path("ishigami"))], &out[..]].concat());
+    let out = ["--charts", "none", "--base-samples", "256", "--out", text(&to)];
+    let done = stderr(&apportion(&[&["run", text(&study_path("ishigami"))], &out[..]].concat()));
+    assert!(done.contains("ishigami.html, and ishigami-live.html to try other ranges in"), "{done}");
     let page = std::fs::read_to_string(to.join("ishigami.html")).unwrap();
     assert!(page.contains("href=\"ishigami-live.html\"") && page.contains("Try your own ranges"));
     assert_eq!(presets(&std::fs::read_to_string(to.join("ishigami-live.html")).unwrap()).len(), 1);
-    let refused = apportion(&[&["run", text(&study_path("command-python/command-python"))], &out[..]].concat());
+    let of_a_program = study_path("command-python/command-python");
+    let program = [&["run", text(&of_a_program)], &out[..]].concat();
+    let refused = apportion(&[&program[..], &["--live"]].concat());
     assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+    succeed(&program);
+    assert!(!to.join("command-python-live.html").exists(), "a program cannot be asked from a page");
 }
 
 #[test]
 fn the_page_of_a_run_names_the_command_that_makes_its_own() {
     let folder = Folder::new();
     let to = folder.path("out");
-    let out = ["--charts", "none", "--base-samples", "256", "--out", text(&to)];
+    let out = ["--no-live", "--charts", "none", "--base-samples", "256", "--out", text(&to)];
     succeed(&[&["run", text(&study_path("ishigami"))], &out[..]].concat());
+    assert!(!to.join("ishigami-live.html").exists());
     let page = std::fs::read_to_string(to.join("ishigami.html")).unwrap();
     assert!(page.contains("<code>apportion live ishigami.toml</code>, with the changes of this run, makes"));
     succeed(&[&["run", text(&study_path("command-python/command-python"))], &out[..]].concat());
