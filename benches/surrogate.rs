@@ -144,7 +144,8 @@ type Row = [[Errors; 2]; METHODS.len()];
 fn measured(case: &Case, size: u64, seeds: u64) -> (Row, f64, f64) {
     let run = |seed: u64, more: &[&str]| {
         let seed = format!("design.seed={}", 1000 + seed);
-        let overrides: Vec<String> = more.iter().copied().chain([&seed[..]]).map(str::to_owned).collect();
+        let overrides = more.iter().copied().chain([&seed[..], "analysis.convergence=false"]);
+        let overrides: Vec<String> = overrides.map(str::to_owned).collect();
         let study = Study::parse(&case.text, Path::new("case.toml"), &overrides).expect("a study");
         let result = study.runner().threads(1).run().expect("a result");
         // Of rare events all rows of a few may be alike.

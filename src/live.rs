@@ -1,6 +1,6 @@
 //! Pages that compute: a study with the engine inside, compiled to WebAssembly (`web/`).
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use apportion::design::Sampler;
@@ -113,17 +113,18 @@ pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<Str
     let text = own_text(study)?;
     let study = Study::parse(&text, Path::new(&format!("{}.toml", study.name())), &[])?;
     let analysis = study.runner().threads(threads).stop(stop).run()?;
-    page_of_result(&study, &text, &ResultFile::new(&study, &analysis))
+    page(&study, &text, &ResultFile::new(&study, &analysis))
 }
 
-/// The page of `study`, whose [`own_text`] is `text`, with a `result` of it to begin with.
+/// The page of the study in `result`, with this result to begin with; `None` if a page cannot run the study.
 ///
 /// # Errors
 /// [`LiveError`] if a part of the page cannot be drawn.
-pub fn page_of_result(study: &Study, text: &str, result: &ResultFile) -> Result<String, LiveError> {
-    // One output at a time.
-    let result = one_output(result, None);
-    page(study, text, run_document(&result), result.provenance.model_runs)
+pub fn page_of_result(result: &ResultFile) -> Result<Option<String>, LiveError> {
+    let path = PathBuf::from(format!("{}.toml", result.study.name));
+    let text = Study::parse(&result.study.source, &path, &result.study.overrides);
+    let Some(text) = text.ok().and_then(|study| own_text(&study).ok()) else { return Ok(None) };
+    page(&Study::parse(&text, &path, &[])?, &text, result).map(Some)
 }
 
 /// The name of the live page of the study called `name`.
@@ -183,7 +184,10 @@ fn without_target(text: &str) -> Option<String> {
     Some(document.to_string())
 }
 
-fn page(study: &Study, text: &str, document: Document, runs: u64) -> Result<String, LiveError> {
+fn page(study: &Study, text: &str, result: &ResultFile) -> Result<String, LiveError> {
+    // One output at a time.
+    let result = one_output(result, None);
+    let document = run_document(&result);
     let title = study.title().unwrap_or(study.name());
     let preset = |title: &str, text: &str| json!({ "title": title, "heading": symbols(title), "text": text });
     let mut presets = vec![preset(title, text)];
@@ -207,7 +211,7 @@ fn page(study: &Study, text: &str, document: Document, runs: u64) -> Result<Stri
         page_title: title,
         title: symbols(title),
         lead: document.lead.iter().map(|text| symbols(text)).collect(),
-        state: format!("{runs} runs of the model by the program."),
+        state: format!("{} runs of the model by the program.", result.provenance.model_runs),
         sections,
         footer: symbols(&document.footer),
         // A title may hold what would end the element.

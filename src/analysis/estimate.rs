@@ -136,7 +136,7 @@ impl Corrections {
         let known = run.surrogates.map(<[_]>::to_vec);
         let whole = known.unwrap_or_else(|| surrogates(study, design, replicates, lows));
         let mut stages = BTreeMap::new();
-        if whole.iter().any(Option::is_some) {
+        if study.analysis.convergence && whole.iter().any(Option::is_some) {
             // All outputs have the same parts.
             let parts: Vec<&MomentParts> =
                 replicates.iter().filter_map(|totals| Some(&totals.outputs.first()?.moments)).collect();
@@ -183,7 +183,8 @@ fn output_analysis(
     }
     let factors = study.space.factors().iter().map(|factor| factor.name.clone()).collect();
     let of_stage = |points: u64| corrected.stages.get(&points).filter(|_| surrogate.is_some())?.get(number)?.as_ref();
-    let convergence = indices.as_ref().map(|indices| stages(&parts, &layout, &options, indices, &of_stage));
+    let asked = indices.as_ref().ok().filter(|_| study.analysis.convergence);
+    let convergence = asked.map(|indices| stages(&parts, &layout, &options, indices, &of_stage));
     OutputAnalysis {
         name: output.name.to_string(),
         unit: output.unit.clone(),

@@ -11,6 +11,7 @@ use apportion::space::{Distribution, Factor};
 use apportion::study::Study;
 
 use super::check_plan::{plan, runs};
+use super::live::LiveArguments;
 use super::output::default_folder;
 use super::past_runs::past_runs;
 use super::run::file_names;
@@ -57,15 +58,16 @@ fn pilot(study: &Study) -> Result<Pilot, Failure> {
 
 /// The files of a run with what they hold.
 fn files(study: &Study) -> String {
-    const CONTENTS: [(&str, &str); 6] = [
+    const CONTENTS: [(&str, &str); 7] = [
         ("-measures.csv", "other measures of the factors"),
         ("-second-order.csv", "the second-order indices of all pairs"),
         ("-estimators.csv", "the indices by the other estimators"),
         ("-convergence.csv", "the indices at every stage of the run"),
         (".json", "the result, for programs"),
+        ("-live.html", "a page to try other ranges in"),
         (".csv", "the indices, for spreadsheets"),
     ];
-    let names = file_names(study);
+    let names = file_names(study, &LiveArguments::default());
     let mut text = format!("  {}  the result as a page, to read\n", names.page());
     for file in &names.data {
         let ending = file.strip_prefix(study.name()).unwrap_or(file);

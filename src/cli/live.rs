@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 
-use apportion::report::{prepare_file, prepare_folder, write_atomically};
+use apportion::report::document::Document;
+use apportion::report::{ResultFile, prepare_file, prepare_folder, write_atomically};
+use apportion::study::Study;
 
 use super::output::default_folder;
 use super::stop::on_signal;
 use super::{DesignChanges, Failure, StudyArguments, Threads, say};
-use crate::live::{LiveError, file_name, live_page, own_text};
+use crate::live::{LiveError, file_name, live_page, own_text, page_of_result, put_beside};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -20,6 +22,30 @@ pub struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     threads: Threads,
+}
+
+/// The live page beside the page of a result, which links to it.
+#[derive(Default, clap::Args)]
+pub struct LiveArguments {
+    /// Leave out the page in which other ranges can be tried (NAME-live.html, 2 MB), written where a page can run the study
+    #[arg(long)]
+    no_live: bool,
+}
+
+impl LiveArguments {
+    /// The name of the page of `study`, if there will be one.
+    pub fn file_name(&self, study: &Study) -> Option<String> {
+        (!self.no_live && own_text(study).is_ok()).then(|| file_name(study.name()))
+    }
+
+    /// Adds the page to the `document` of `result`, if there is to be one.
+    pub fn put_beside(&self, document: &mut Document, result: &ResultFile) -> Result<(), Failure> {
+        let page = if self.no_live { None } else { page_of_result(result)? };
+        if let Some(page) = page {
+            put_beside(document, &file_name(&result.study.name), page);
+        }
+        Ok(())
+    }
 }
 
 impl From<LiveError> for Failure {

@@ -7,6 +7,7 @@ use apportion::report::ResultFile;
 use apportion::report::prepare_folder;
 use apportion::run::RunError;
 
+use super::live::LiveArguments;
 use super::output::{ChartArguments, default_folder};
 use super::run::{deliver, file_names, journal_path};
 use super::{DesignChanges, Failure, StudyArguments, Threads, quoted, say};
@@ -25,6 +26,8 @@ pub struct Arguments {
     #[command(flatten)]
     charts: ChartArguments,
     #[command(flatten)]
+    live: LiveArguments,
+    #[command(flatten)]
     threads: Threads,
 }
 
@@ -35,7 +38,7 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         if arguments.journals.is_empty() { in_folder(&folder, study.name())? } else { arguments.journals.clone() };
     prepare_folder(&folder)?;
     let artefacts = arguments.charts.artefacts(&folder);
-    artefacts.check(&file_names(&study))?;
+    artefacts.check(&file_names(&study, &arguments.live))?;
     let path = journal_path(&folder, study.name(), None);
     let runner = study.runner().threads(arguments.threads.number()).on_message(say).journal(&path);
     let result = runner.merge(&journals).map_err(|error| match error {
@@ -54,7 +57,7 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         if journals.len() == 1 { "1 journal".to_owned() } else { format!("{} journals", journals.len()) },
         path.display()
     ));
-    deliver(&study, &artefacts, &ResultFile::new(&study, &result), None)
+    deliver(&study, &artefacts, &ResultFile::new(&study, &result), &arguments.live)
 }
 
 /// The command that evaluates here what the parts lack.

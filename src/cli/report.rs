@@ -6,6 +6,7 @@ use anyhow::anyhow;
 use apportion::files::read_whole;
 use apportion::report::{ReadError, ReadProblem, parse_result, run_document};
 
+use super::live::LiveArguments;
 use super::output::{ChartArguments, deliver};
 use super::{Failure, same_file, say};
 
@@ -18,6 +19,8 @@ pub struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     charts: ChartArguments,
+    #[command(flatten)]
+    live: LiveArguments,
 }
 
 pub fn report(arguments: &Arguments) -> Result<(), Failure> {
@@ -36,6 +39,7 @@ pub fn report(arguments: &Arguments) -> Result<(), Failure> {
     }
     let text = String::from_utf8(bytes).map_err(|_| Failure::Input(anyhow!("{}: not text", path.display())))?;
     document.files.iter_mut().filter(|file| file.name == name).for_each(|file| file.text.clone_from(&text));
+    arguments.live.put_beside(&mut document, &result)?;
     if result.provenance.apportion_version != env!("CARGO_PKG_VERSION") {
         let version = &result.provenance.apportion_version;
         say(&format!("note: the numbers are those of apportion {version}; only the drawing is this version's"));

@@ -13,12 +13,12 @@ use apportion::report::{
 use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
 
+use super::live::LiveArguments;
 use super::output::{self, ChartArguments, default_folder};
 use super::progress::Meter;
 use super::ranks::{self, Ranks};
 use super::stop::Stoppable;
 use super::{DesignChanges, Failure, StudyArguments, Threads, say, stop};
-use crate::live::{file_name, own_text, page_of_result, put_beside};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -40,28 +40,6 @@ pub struct Arguments {
     live: LiveArguments,
     #[command(flatten)]
     record: RecordArguments,
-}
-
-/// The page in which the study can be tried, to which the page of the result links.
-#[derive(clap::Args)]
-struct LiveArguments {
-    /// Refuse a study that a page cannot run. (Without this option the page NAME-live.html is written wherever it can be)
-    #[arg(long, conflicts_with = "shard")]
-    live: bool,
-    /// Leave out the page NAME-live.html, which has 2 MB
-    #[arg(long, conflicts_with = "live")]
-    no_live: bool,
-}
-
-impl LiveArguments {
-    /// The study as a page runs it, if there is to be a page.
-    fn text(&self, study: &Study) -> Result<Option<String>, Failure> {
-        match self {
-            Self { no_live: true, .. } => Ok(None),
-            Self { live: true, .. } => Ok(Some(own_text(study)?)),
-            _ => Ok(own_text(study).ok()),
-        }
-    }
 }
 
 /// What becomes of runs that are on record.
@@ -113,11 +91,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     let artefacts = arguments.charts.artefacts(&folder);
     let asked = &arguments.record;
     prepare_folder(&folder)?;
-    let tried = arguments.live.text(&study)?;
     if asked.shard.is_none() {
-        let mut names = file_names(&study);
-        names.data.extend(tried.is_some().then(|| file_name(study.name())));
-        artefacts.check(&names)?;
+        artefacts.check(&file_names(&study, &arguments.live))?;
     } else if study.target().grows() {
         let why =
             "a study with an accuracy, a target, a budget or max_runs has no size that could be shared out beforehand";
@@ -176,8 +151,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     if let Some(((path, format), store)) = saved.zip(store.as_ref()) {
         save(&study, &result, store, path, format)?;
     }
-    let live = tried.map(|text| page_of_result(&study, &text, &result)).transpose()?;
-    deliver(&study, &artefacts, &result, live)
+    deliver(&study, &artefacts, &result, &arguments.live)
 }
 
 /// Most outputs without indices that are named.
@@ -262,7 +236,7 @@ fn folder_of(arguments: &Arguments, study: &Study) -> PathBuf {
 }
 
 /// The names of the files of a run of `study`.
-pub fn file_names(study: &Study) -> FileNames {
+pub fn file_names(study: &Study, live: &LiveArguments) -> FileNames {
     let model = study.model();
     let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     let series: Vec<_> = model.series().iter().map(|series| (series.name.as_str(), series.places())).collect();
@@ -273,15 +247,15 @@ pub fn file_names(study: &Study) -> FileNames {
         estimators: !analysis.estimators.is_empty(),
         measures: !analysis.measures.is_empty(),
     };
-    run_file_names(study.name(), &outputs, tables)
+    let mut names = run_file_names(study.name(), &outputs, tables);
+    names.data.extend(live.file_name(study));
+    names
 }
 
-/// Writes the files of a result, with its `live` page if there is one, and says what came out.
-pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile, live: Option<String>) -> Result<(), Failure> {
+/// Writes the files of a result, and says what came out.
+pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile, live: &LiveArguments) -> Result<(), Failure> {
     let mut document = run_document(result);
-    if let Some(page) = live {
-        put_beside(&mut document, &file_name(study.name()), page);
-    }
+    live.put_beside(&mut document, result)?;
     output::deliver(artefacts, &document)?;
     let lost: Vec<&str> =
         result.outputs.iter().filter(|output| lost(study, output)).map(|output| output.name.as_str()).collect();

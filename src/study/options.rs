@@ -31,6 +31,8 @@ pub struct AnalysisOptions {
     pub aggregate: bool,
     /// Whether a dummy factor, which does nothing, is run along: its indices are the noise of the model.
     pub dummy: bool,
+    /// Whether the result has the stages of the run too: the indices at each half of the runs after it.
+    pub convergence: bool,
     /// How intervals are found.
     pub intervals: IntervalMethod,
     /// Whether indices are corrected by surrogates.
@@ -58,6 +60,7 @@ impl AnalysisOptions {
             measures: Vec::new(),
             aggregate: false,
             dummy: false,
+            convergence: true,
             intervals: IntervalMethod::default_for(sampler),
             surrogate: SurrogateChoice::default(),
             resamples: DEFAULT_RESAMPLES,

@@ -46,7 +46,7 @@ fn every_function_has_its_indices() {
             Basis::Quadrature { error } => error,
         };
         let mut spreads = Vec::new();
-        for base_samples in [256, 2048] {
+        for base_samples in [128, 1024] {
             let all = estimates(answer.name(), base_samples);
             for (place, &expected) in expected.iter().enumerate() {
                 let column: Vec<f64> = all.iter().map(|estimates| estimates[place]).collect();

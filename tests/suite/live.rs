@@ -65,8 +65,6 @@ fn the_page_of_a_run_links_to_its_own() {
     assert_eq!(presets(&std::fs::read_to_string(to.join("ishigami-live.html")).unwrap()).len(), 1);
     let of_a_program = study_path("command-python/command-python");
     let program = [&["run", text(&of_a_program)], &out[..]].concat();
-    let refused = apportion(&[&program[..], &["--live"]].concat());
-    assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
     succeed(&program);
     assert!(!to.join("command-python-live.html").exists(), "a program cannot be asked from a page");
 }

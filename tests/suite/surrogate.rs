@@ -143,6 +143,20 @@ fn the_bits_are_the_same_on_any_number_of_threads_and_from_a_journal() {
     assert!(first.outputs[0].surrogate.as_ref().unwrap().gain_total.unwrap() > 100.0);
 }
 
+/// The stages cost fits of their own, and change nothing of the result.
+#[test]
+fn stages_can_be_left_out() {
+    let result = |more: &str| {
+        let study = study("model = \"borehole\"", &[ON, "design.base_samples=256", more]);
+        let mut file = ResultFile::new(&study, &study.run().unwrap());
+        file.outputs.remove(0)
+    };
+    let (with, mut without) = (result("analysis.convergence=true"), result("analysis.convergence=false"));
+    assert_eq!((with.convergence.len() > 1, &without.convergence[..]), (true, &[][..]));
+    without.convergence.clone_from(&with.convergence);
+    assert_eq!(with, without);
+}
+
 #[test]
 fn where_there_is_nothing_to_fit_the_plain_indices_stand() {
     let with = |text: &str, more: &[&str]| {

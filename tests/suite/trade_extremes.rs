@@ -54,7 +54,7 @@ fn no_study_has_a_fourth_colour() {
             continue;
         }
         let own = ExtremesSettings::of(&study);
-        let settings = ExtremesSettings { points: own.points / 3, max_runs: own.max_runs.min(1 << 10), ..own };
+        let settings = ExtremesSettings { points: own.points / 6, max_runs: own.max_runs.min(1 << 9), ..own };
         let map = match extremes(&ExtremesJob { settings, ..ExtremesJob::new(&study) }) {
             Ok(map) => map,
             // Not every machine has numpy.

@@ -17,8 +17,8 @@ fn run_writes_what_check_announces() {
         let name = name.trim_end_matches(".svg").trim_end_matches(".png");
         assert!(announced.contains(name), "{name} was not announced");
     }
-    // Page, result, indices, convergence and journal; six charts of two outputs, each as SVG and PNG.
-    assert_eq!(all_files(&out).len(), 5 + 2 * 6 * 2);
+    // Page, live page, result, indices, convergence and journal; six charts of two outputs, each as SVG and PNG.
+    assert_eq!(all_files(&out).len(), 6 + 2 * 6 * 2);
     assert!(table.contains("thickness") && table.contains("critical time (s)"));
 }
 

@@ -23,6 +23,7 @@ ANALYSIS = (
     "measures",
     "aggregate",
     "dummy",
+    "convergence",
     "intervals",
     "surrogate",
     "resamples",

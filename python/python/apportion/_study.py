@@ -45,7 +45,7 @@ class Study:
     Keywords are the keys of a study file: `base_samples`, `sampler`, `replicates`, `seed`, `budget_runs`, `max_runs`,
     `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `shapley_method`, `shapley_players`,
     `measures`, `estimators`, `intervals`, `surrogate`,
-    `threshold`, `dummy`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
+    `threshold`, `dummy`, `convergence`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
     `expression={...}`, `fidelity={...}`. Factors that depend on each other, by a Gaussian copula:
     `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of tables as in a study file, as in
     `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`; as an array of joint measurements has them, a row

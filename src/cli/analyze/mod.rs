@@ -11,6 +11,7 @@ use apportion::quantity::Unit;
 use apportion::report::ResultFile;
 
 use super::evaluate::say_of_table;
+use super::live::LiveArguments;
 use super::output::{ChartArguments, default_folder};
 use super::run::{deliver, file_names, with_inputs};
 use super::{Failure, Threads, say, say_notes};
@@ -49,6 +50,8 @@ pub struct Arguments {
     #[command(flatten)]
     charts: ChartArguments,
     #[command(flatten)]
+    live: LiveArguments,
+    #[command(flatten)]
     threads: Threads,
 }
 
@@ -84,10 +87,10 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     }
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let artefacts = arguments.charts.artefacts(folder);
-    artefacts.check(&file_names(study))?;
+    artefacts.check(&file_names(study, &arguments.live))?;
     let runner = study.runner().threads(arguments.threads.number()).store(&answers.store);
     let analysis = runner.run().map_err(|error| with_inputs(study, error))?;
-    deliver(study, &artefacts, &ResultFile::new(study, &analysis), None)
+    deliver(study, &artefacts, &ResultFile::new(study, &analysis), &arguments.live)
 }
 
 /// A remark for a file with the wrong number of rows, if its first line seems to be a row.

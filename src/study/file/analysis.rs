@@ -37,6 +37,7 @@ pub(super) fn analysis(
         shapley_players: shapley.players,
         aggregate: flag(&section.aggregate),
         dummy: flag(&section.dummy),
+        convergence: section.convergence.as_ref().is_none_or(|asked| *asked.get_ref()),
         intervals,
         surrogate: surrogate(context, section, intervals)?,
         resamples: resamples(context, section, intervals)?,

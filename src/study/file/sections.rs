@@ -226,6 +226,10 @@ pub(super) struct AnalysisSection {
     pub aggregate: Option<At<bool>>,
     /// A factor that does nothing is run along: its indices are the noise of the model.
     pub dummy: Option<At<bool>>,
+    /// The indices at each half of the runs after it, too. Where surrogates correct them, each stage takes fits of its own: without
+    /// them an analysis takes a third of the time.
+    #[schemars(extend("default" = true))]
+    pub convergence: Option<At<bool>>,
     /// How intervals are found; by default as the sampler allows.
     #[schemars(extend("enum" = key_schemas::intervals()))]
     pub intervals: Option<At<String>>,
