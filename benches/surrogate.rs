@@ -3,10 +3,13 @@
 //! `cargo bench --bench surrogate` measures all of it and writes `docs/accuracy/surrogate.csv` and
 //! `docs/accuracy/surrogate.md` (some forty minutes on two cores). `cargo bench --bench surrogate -- 40 64,256
 //! ishigami,borehole` takes 40 seeds, those sizes and functions, and writes nothing; with `write` as a fourth argument their
-//! rows take the place of those in the table, function by function, and the others stay (`all` stands for every function).
+//! rows take the place of those in the table, function by function, and the others stay (`all` stands for every function);
+//! `cargo bench --bench surrogate -- draw` measures nothing, and writes the page and its chart from the table.
 //!
 //! The plain indices are today's default ones without surrogates. Those of before are of four nets by the formulas of Saltelli
 //! (2010) and Jansen, those of one net are what other programs do, and those of a split design have the same number of runs.
+
+mod surrogate_charts;
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -321,11 +324,29 @@ fn summary(cells: &[Cell]) -> String {
         };
         let _ = writeln!(text, "| {size} | {} | {} |", coverages(0), coverages(2));
     }
+    text.push_str("\n![Errors with surrogates, and without](surrogate.svg)\n");
     text
+}
+
+/// Writes the table, the page and its chart.
+fn write(folder: &Path, cells: &[Cell]) {
+    std::fs::create_dir_all(folder).expect("a folder");
+    let lines: String = cells.iter().map(Cell::to_line).collect();
+    let texts = [("surrogate.csv", Cell::header() + &lines), ("surrogate.md", summary(cells))];
+    let texts = texts.into_iter().map(|(name, text)| (name, text.into_bytes()));
+    for (name, bytes) in texts.chain(surrogate_charts::files(cells)) {
+        std::fs::write(folder.join(name), bytes).expect("a file");
+    }
 }
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|text| text != "--bench").collect();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy");
+    let table = folder.join("surrogate.csv");
+    if arguments.first().is_some_and(|word| word == "draw") {
+        write(&folder, &written_before(&table));
+        return;
+    }
     let seeds: Option<u64> = arguments.first().and_then(|text| text.parse().ok());
     let sizes: Vec<(u64, u64)> = match arguments.get(1) {
         None => SIZES.iter().map(|(size, usual)| (*size, seeds.unwrap_or(*usual))).collect(),
@@ -333,8 +354,6 @@ fn main() {
     };
     let is_asked = |name: &str| arguments.get(2).is_none_or(|list| list == "all" || list.split(',').any(|n| n == name));
     let writes = arguments.is_empty() || arguments.get(3).is_some_and(|word| word == "write");
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy");
-    let table = folder.join("surrogate.csv");
     let mut cells = if arguments.len() == 4 { written_before(&table) } else { Vec::new() };
     let order: Vec<&str> = KINDS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
     for (kind, name) in KINDS.iter().flat_map(|(kind, names)| names.iter().map(move |name| (kind, name))) {
@@ -348,10 +367,7 @@ fn main() {
         if writes {
             let place = |cell: &Cell| (order.iter().position(|name| **name == cell.function), cell.size);
             cells.sort_by_key(place);
-            std::fs::create_dir_all(&folder).expect("a folder");
-            let lines: String = cells.iter().map(Cell::to_line).collect();
-            std::fs::write(&table, Cell::header() + &lines).expect("a file");
-            std::fs::write(folder.join("surrogate.md"), summary(&cells)).expect("a file");
+            write(&folder, &cells);
         }
     }
     println!("{}", summary(&cells));

@@ -121,6 +121,10 @@ pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<Str
 /// # Errors
 /// [`LiveError`] if a part of the page cannot be drawn.
 pub fn page_of_result(result: &ResultFile) -> Result<Option<String>, LiveError> {
+    // A result of somebody else must not make this program read files; its document tells of its study file alone.
+    if result.study.overrides.iter().any(|change| change.contains("file")) {
+        return Ok(None);
+    }
     let path = PathBuf::from(format!("{}.toml", result.study.name));
     let text = Study::parse(&result.study.source, &path, &result.study.overrides);
     let Some(text) = text.ok().and_then(|study| own_text(&study).ok()) else { return Ok(None) };
@@ -132,6 +136,9 @@ pub fn file_name(name: &str) -> String {
     format!("{name}-live.html")
 }
 
+/// The section of a document that tells of the page.
+pub const TRY: &str = "try";
+
 /// Puts the live `page` beside a document, as the file `name` that a section links to: in the place of the section that tells
 /// how to make one, if there is one.
 pub fn put_beside(document: &mut Document, name: &str, page: String) {
@@ -139,11 +146,11 @@ pub fn put_beside(document: &mut Document, name: &str, page: String) {
     let text = "What if your own factors vary less, or more? A page beside this one computes it while a \
                 range is dragged, with the engine of this program inside; it needs no network.";
     let parts = vec![Part::Text(text.to_owned()), Part::Links(vec![Link::new(TITLE, name)])];
-    document.sections.retain(|section| section.id != "try");
+    document.sections.retain(|section| section.id != TRY);
     // Before how it was made.
     let place = document.sections.iter().position(|section| matches!(&*section.id, "cost" | "provenance"));
     let place = place.unwrap_or(document.sections.len());
-    document.sections.insert(place, Section::new("try", TITLE, vec![Part::OnPage(parts)]));
+    document.sections.insert(place, Section::new(TRY, TITLE, vec![Part::OnPage(parts)]));
     document.files.push(DataFile::new(name, page));
 }
 

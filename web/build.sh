@@ -12,7 +12,7 @@ mkdir -p "$folder"
 
 # All that the library is compiled from; tests and the program do not count.
 find Cargo.toml src web/Cargo.toml web/Cargo.lock web/src templates/page assets/joe-kuo assets/fonts assets/pick-freeze -type f \
-  ! -path '*/tests/*' ! -name tests.rs ! -path 'src/cli/*' ! -path 'src/reproduce/*' ! -path 'src/scene/*' ! -path src/main.rs -print0 |
+  ! -path '*/tests/*' ! -name tests.rs ! -path 'src/cli/*' ! -path 'src/reproduce/*' ! -path 'src/scene/*' ! -path src/live.rs ! -path src/main.rs -print0 |
   LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum | cut -d ' ' -f 1 >"$folder/sources.sha256"
 
 rustup target list --installed 2>/dev/null | grep -q wasm32-unknown-unknown || rustup target add wasm32-unknown-unknown

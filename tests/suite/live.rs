@@ -69,6 +69,23 @@ fn the_page_of_a_run_links_to_its_own() {
     assert!(!to.join("command-python-live.html").exists(), "a program cannot be asked from a page");
 }
 
+/// What a stranger's result says of its study makes the program read no file.
+#[test]
+fn the_live_page_of_a_result_reads_no_files() {
+    let folder = Folder::new();
+    let to = folder.path("out");
+    let out = ["--charts", "none", "--base-samples", "64", "--set", "design.seed=7", "--out", text(&to)];
+    succeed(&[&["run", text(&study_path("ishigami"))], &out[..]].concat());
+    let result = std::fs::read_to_string(to.join("ishigami.json")).unwrap();
+    // It would never end.
+    let endless = "factor.x1={ file = \\\"/dev/zero\\\", column = \\\"x\\\" }";
+    let hostile = result.replace("\"design.seed=7\"", &format!("\"{endless}\""));
+    assert_ne!(hostile, result);
+    let (path, drawn) = (folder.with("ishigami.json", &hostile), folder.path("drawn"));
+    succeed(&["report", text(&path), "--charts", "none", "--out", text(&drawn)]);
+    assert!(drawn.join("ishigami.html").exists() && !drawn.join("ishigami-live.html").exists());
+}
+
 #[test]
 fn the_page_of_a_run_names_the_command_that_makes_its_own() {
     let folder = Folder::new();
