@@ -302,7 +302,7 @@ fn summary(cells: &[Cell]) -> String {
                     |---|---|---|---|---|---|\n"
         .to_owned();
     let sizes: BTreeSet<u64> = cells.iter().map(|cell| cell.size).collect();
-    for (kind, _) in KINDS {
+    for (kind, functions) in KINDS {
         for &size in &sizes {
             let here = || cells.iter().filter(|cell| cell.kind == kind && cell.size == size);
             let Some(seeds) = here().map(|cell| cell.seeds).min() else { continue };
@@ -311,7 +311,10 @@ fn summary(cells: &[Cell]) -> String {
             };
             let [before, one, split] =
                 [gains(|rmse| rmse[3] / rmse[0]), gains(|rmse| rmse[4] / rmse[0]), gains(|rmse| rmse[0] / rmse[1])];
-            let _ = writeln!(text, "| {kind} | {size} | {seeds} | {before} | {one} | {split} |");
+            // Two kinds of indices each.
+            let (measured, all) = (here().count() / 2, functions.len());
+            let part = if measured < all { format!(" ({measured} of {all})") } else { String::new() };
+            let _ = writeln!(text, "| {kind}{part} | {size} | {seeds} | {before} | {one} | {split} |");
         }
     }
     text.push_str(

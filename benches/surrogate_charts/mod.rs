@@ -15,11 +15,15 @@ fn place(method: &str) -> usize {
     METHODS.iter().position(|name| *name == method).expect("a method of the table")
 }
 
-/// By N, ratios of the errors of a method to those of one net: the least, the geometric mean and the largest over the functions.
+/// By N, ratios of the errors of a method to those of one net: the least, the geometric mean and the largest over the functions;
+/// for sizes at which all of them were measured.
 fn ratios(cells: &[&Cell], method: &str) -> Vec<(f64, [f64; 3])> {
     let mut sizes: Vec<u64> = cells.iter().map(|cell| cell.size).collect();
     sizes.sort_unstable();
     sizes.dedup();
+    let measured = |size: u64| cells.iter().filter(|cell| cell.size == size).count();
+    let most = sizes.iter().map(|size| measured(*size)).max();
+    sizes.retain(|size| Some(measured(*size)) == most);
     let of_size = |size: u64| {
         let here = cells.iter().filter(|cell| cell.size == size);
         let all: Vec<f64> = here.map(|cell| cell.rmse[place(method)] / cell.rmse[place("one_net")]).collect();
@@ -37,7 +41,7 @@ fn marks(cells: &[&Cell], (method, name, colour, stroke): (&str, &str, usize, St
     if method != "corrected" {
         return vec![line];
     }
-    let band = Series::new("from the best function to the worst, with surrogates", Colour::Series(colour));
+    let band = Series::new(name, Colour::Series(colour));
     vec![band.band(ratios.iter().map(|(size, [least, _, most])| (*size, *least, *most)).collect()), line]
 }
 
@@ -51,7 +55,8 @@ pub fn errors(cells: &[Cell]) -> Chart {
             .with(SHOWN.into_iter().flat_map(|shown| marks(&of_kind, shown)))
     };
     let caption = "Root mean square errors of all first-order and total indices over those of one Saltelli net by the formulas of \
-                   Saltelli 2010 and Jansen 1999, at equal runs: geometric means over the functions of each kind.";
+                   Saltelli 2010 and Jansen 1999, at equal runs: geometric means over the functions of each kind. The band is \
+                   that of the default, from the best function to the worst.";
     Chart::new("Errors with surrogates, and without", caption).panels(KINDS.iter().map(panel))
 }
 

@@ -204,10 +204,15 @@ const pump = async () => {
   while (goal) {
     const mine = goal;
     if (mine.samples) {
-      const seconds = await run(mine.samples, true);
+      // The first step shows at once what is drawn quickly; all else comes with the next one, of the same size if none is larger.
+      const isFirst = mine.samples === FEWEST && !mine.whole;
+      const seconds = await run(mine.samples, !isFirst);
       if (goal !== mine) continue;
-      mine.samples *= 2;
-      if (!seconds || mine.samples > MOST || 2.2 * seconds > LONGEST) {
+      if (seconds && 2 * mine.samples <= MOST && 2.2 * seconds <= LONGEST) {
+        mine.samples *= 2;
+      } else if (seconds && isFirst) {
+        mine.whole = true;
+      } else {
         goal = null;
         // A reader of the screen hears the sentence once it has settled.
         if (seconds) at("told").textContent = shown.lead.join(" ");

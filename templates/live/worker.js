@@ -10,11 +10,13 @@ const ask = (request) => {
   const length = engine.call();
   return JSON.parse(read.decode(new Uint8Array(engine.memory.buffer, engine.answered(), length)));
 };
+const decoded = (text) => {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
+  const bytes = atob(text);
+  return Uint8Array.from(bytes, (byte) => byte.charCodeAt(0));
+};
 const unpacked = (packed) => {
-  const text = atob(packed.trim());
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i += 1) bytes[i] = text.charCodeAt(i);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const stream = new Blob([decoded(packed.trim())]).stream().pipeThrough(new DecompressionStream("gzip"));
   return WebAssembly.compileStreaming(new Response(stream, { headers: { "Content-Type": "application/wasm" } }));
 };
 // The page keeps the compiled engine for the threads that follow.
