@@ -65,7 +65,7 @@ const fn each(name: &'static str, each: &'static str, ends: [End; 2]) -> Program
     Program { name, before: "", each, after: "", ends }
 }
 
-const PROGRAMS: [Program; 25] = [
+const PROGRAMS: [Program; 30] = [
     each("a line too many once", "    say(a)\n    if n == 12: say(STRAY)\n", [Whole, Whole]),
     each("a line too many before the answer", "    if n == 12: say(STRAY)\n    say(a)\n", [Whole, Whole]),
     each("an empty line after the answer", "    say(a)\n    if n == 12: say('')\n", [Whole, Whole]),
@@ -132,6 +132,15 @@ const PROGRAMS: [Program; 25] = [
     ),
     each("an end in between", "    say(a)\n    if n == 4: say(STRAY)\n    if n == 15: sys.exit()\n", [Whole, Whole]),
     each("two answers in one line", "    if n == 12: a += a\n    say(a)\n", [Whole, Failures]),
+    each("blanks now and then", "    if n % 6 == 5: say('   ')\n    say(a)\n", [Whole, Whole]),
+    each("lines that end as on Windows", "    say(a + '\\r')\n", [Whole, Whole]),
+    each("no number now and then", "    say(answer(number, float('nan')) if n % 6 == 5 else a)\n", [Failures, Any]),
+    each("a row skipped and another answered twice", "    if n != 6: say(a)\n    if n == 12: say(a)\n", [Any, Any]),
+    each(
+        "an answer in two pieces",
+        "    half = len(a) // 2\n    sys.stdout.write(a[:half]); sys.stdout.flush(); time.sleep(0.02)\n    say(a[half:])\n",
+        [Whole, Whole],
+    ),
 ];
 
 /// One program, asked in one way.
