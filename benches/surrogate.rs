@@ -320,8 +320,8 @@ fn summary(cells: &[Cell]) -> String {
     }
     text.push_str(
         "\nCoverage of the 95 % intervals: cells (function and kind of index) below .92, from .92 to .98, and above; with \
-         surrogates, and without. Intervals with surrogates are rather too careful where they miss; the last column counts \
-         those cells whose intervals are more than 1.5 times as wide, in the mean, as intervals made from the true \
+         surrogates, and without. Beyond that range intervals with surrogates are mostly too careful; the last column \
+         counts the cells whose intervals are more than 1.5 times as wide, in the mean, as intervals made from the true \
          error.\n\n| N | with | without | wider than 1.5 |\n|---|---|---|---|\n",
     );
     for size in sizes {
