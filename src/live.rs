@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use apportion::design::Sampler;
 use apportion::model::ModelKind;
 use apportion::report::document::{DataFile, Document, DocumentError, Link, Part, Section, symbols};
-use apportion::report::{ResultFile, one_output, run_document};
+use apportion::report::{ResultFile, TRY, one_output, run_document};
 use apportion::run::RunError;
 use apportion::study::{Study, StudyError, edited};
 use askama::Template;
@@ -116,13 +116,13 @@ pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<Str
     page(&study, &text, &ResultFile::new(&study, &analysis))
 }
 
-/// The page of the study in `result`, with this result to begin with; `None` if a page cannot run the study.
+/// The page of the study in `result`, with this result to begin with; `None` if a page cannot run the study. No file that the study
+/// names is read: `document`, that of the result, tells how to try other ranges only if it names none.
 ///
 /// # Errors
 /// [`LiveError`] if a part of the page cannot be drawn.
-pub fn page_of_result(result: &ResultFile) -> Result<Option<String>, LiveError> {
-    // A result of somebody else must not make this program read files; its document tells of its study file alone.
-    if result.study.overrides.iter().any(|change| change.contains("file")) {
+pub fn page_of_result(document: &Document, result: &ResultFile) -> Result<Option<String>, LiveError> {
+    if document.sections.iter().all(|section| section.id != TRY) {
         return Ok(None);
     }
     let path = PathBuf::from(format!("{}.toml", result.study.name));
@@ -135,9 +135,6 @@ pub fn page_of_result(result: &ResultFile) -> Result<Option<String>, LiveError> 
 pub fn file_name(name: &str) -> String {
     format!("{name}-live.html")
 }
-
-/// The section of a document that tells of the page.
-pub const TRY: &str = "try";
 
 /// Puts the live `page` beside a document, as the file `name` that a section links to: in the place of the section that tells
 /// how to make one, if there is one.

@@ -9,7 +9,7 @@ use apportion::study::Study;
 use super::output::default_folder;
 use super::stop::on_signal;
 use super::{DesignChanges, Failure, StudyArguments, Threads, say};
-use crate::live::{LiveError, TRY, file_name, live_page, own_text, page_of_result, put_beside};
+use crate::live::{LiveError, file_name, live_page, own_text, page_of_result, put_beside};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -38,15 +38,16 @@ impl LiveArguments {
         (!self.no_live && own_text(study).is_ok()).then(|| file_name(study.name()))
     }
 
-    /// Adds the page to the `document` of `result`, if there is to be one. The study in a result of somebody else may name files of
-    /// this machine: it is read only if the document says that it names none.
-    pub fn put_beside(&self, document: &mut Document, result: &ResultFile) -> Result<(), Failure> {
-        let can_be_tried = document.sections.iter().any(|section| section.id == TRY);
-        let page = if self.no_live || !can_be_tried { None } else { page_of_result(result)? };
-        if let Some(page) = page {
-            put_beside(document, &file_name(&result.study.name), page);
+    /// Adds the page to the `document` of `result`, if there is to be one. Without it the result is whole still.
+    pub fn put_beside(&self, document: &mut Document, result: &ResultFile) {
+        if self.no_live {
+            return;
         }
-        Ok(())
+        match page_of_result(document, result) {
+            Ok(Some(page)) => put_beside(document, &file_name(&result.study.name), page),
+            Ok(None) => (),
+            Err(error) => say(&format!("note: no page to try other ranges in: {error}")),
+        }
     }
 }
 

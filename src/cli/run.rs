@@ -255,7 +255,7 @@ pub fn file_names(study: &Study, live: &LiveArguments) -> FileNames {
 /// Writes the files of a result, and says what came out.
 pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile, live: &LiveArguments) -> Result<(), Failure> {
     let mut document = run_document(result);
-    live.put_beside(&mut document, result)?;
+    live.put_beside(&mut document, result);
     output::deliver(artefacts, &document)?;
     let lost: Vec<&str> =
         result.outputs.iter().filter(|output| lost(study, output)).map(|output| output.name.as_str()).collect();

@@ -83,6 +83,6 @@ pub use {
     read::ReadProblem,
     records::{Drawing, FactorSetup, StudySetup},
     result::*,
-    run_document::{OutputNames, RunTables, one_output, run_file_names},
+    run_document::{OutputNames, RunTables, TRY, one_output, run_file_names},
     text_table::{TextTable, table, wrapped},
 };

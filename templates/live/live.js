@@ -259,9 +259,10 @@ const buttons = () => {
   const fragment = at("reset").disabled ? "" : `#s=${btoa(unescape(encodeURIComponent(clean))).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "")}`;
   history.replaceState(null, "", location.href.split("#")[0] + fragment);
 };
+const isLink = () => location.hash.startsWith("#s=");
 const restored = () => {
   notice = null;
-  if (!location.hash.startsWith("#s=")) return;
+  if (!isLink()) return;
   try {
     const bytes = atob(location.hash.slice(3).replaceAll("-", "+").replaceAll("_", "/"));
     const found = JSON.parse(decodeURIComponent(escape(bytes)));
@@ -274,6 +275,7 @@ const restored = () => {
 };
 
 const described = async () => {
+  const { preset } = state;
   // The factors as the study has them, whatever was changed.
   const answer = await tell({ wanted: "description", text: text(), changes: [] });
   if (answer.cancelled) return described();
@@ -281,7 +283,7 @@ const described = async () => {
     refuse(answer.broken || answer.answer.refused);
     return false;
   }
-  description = answer.answer.done;
+  description = { ...answer.answer.done, preset };
   return true;
 };
 const current = (factor) => state.factors[factor.name] || { distribution: factor.distribution };
@@ -474,9 +476,9 @@ const controls = () => {
   const settings = [];
   if (given.presets.length > 1) {
     const names = given.presets.map(({ title }, place) => [String(place), title]);
-    settings.push(menu("study", names, String(state.preset), async (value) => {
+    settings.push(menu("study", names, String(state.preset), (value) => {
       state = { preset: Number(value), factors: {}, choices: {}, output: null };
-      await fresh();
+      fresh();
     }));
   }
   const outputs = description.all_outputs.length ? description.all_outputs : description.outputs;
@@ -503,27 +505,29 @@ const changed = () => {
   entitle();
   settle();
 };
+// The controls show the whole state anew: at once, but for a study that is to be described first.
 const fresh = async () => {
+  document.body.dataset.samples = "0";
   goal = null;
   interrupt();
-  if (!(await described())) return;
+  const isOther = () => !description || description.preset !== state.preset;
+  if (isOther() && !(await described())) return;
+  // While this study was described, another one was chosen.
+  if (isOther()) return;
   controls();
   changed();
 };
-const step = (from, to) => async () => {
+const step = (from, to) => {
   to.push(JSON.stringify(state));
-  const { preset } = state;
   state = JSON.parse(from.pop());
-  if (preset !== state.preset) await described();
-  controls();
-  changed();
+  fresh();
 };
-at("undo").onclick = () => step(past, future)();
-at("redo").onclick = () => step(future, past)();
-at("reset").onclick = async () => {
+at("undo").onclick = () => step(past, future);
+at("redo").onclick = () => step(future, past);
+at("reset").onclick = () => {
   remember();
   state = { preset: 0, factors: {}, choices: {}, output: null };
-  await fresh();
+  fresh();
 };
 addEventListener("keydown", (event) => {
   if (!(event.ctrlKey || event.metaKey) || event.target.matches("input[type=number], textarea")) return;
@@ -577,11 +581,6 @@ at("toml").onclick = async () => {
   if (text !== null) offer("study.toml", text);
 };
 at("link").onclick = () => offer("Link", location.href);
-addEventListener("hashchange", async () => {
-  restored();
-  await fresh();
-});
-
 (async () => {
   if (!engineThread) {
     at("state").textContent = "This browser has no WebAssembly: what you see is the result for the ranges of the study file.";
@@ -591,11 +590,16 @@ addEventListener("hashchange", async () => {
     module = await engineModule;
     worker = engineThread;
     listen();
+    addEventListener("hashchange", () => {
+      // A jump within the page leaves the settings as they are.
+      if (!isLink()) return buttons();
+      restored();
+      return fresh();
+    });
     restored();
-    if (!(await described())) return;
-    controls();
+    await fresh();
+    if (!description) return;
     at("controls").hidden = false;
-    changed();
     // For those who measure.
     window.apportion = { ask: (request) => tell(request).then(({ answer }) => answer) };
   } catch (error) {

@@ -72,6 +72,12 @@ FIRST = """new MutationObserver((_, observer) => {
   performance.mark("computed");
   observer.disconnect();
 }).observe(document, { subtree: true, attributes: true, attributeFilter: ["data-samples"] });"""
+# What the page shows in the moment after a button.
+PRESSED = """(button) => {
+  document.getElementById(button).click();
+  const fields = Array.from(document.querySelectorAll("#factors input[type=number]"));
+  return [document.body.dataset.samples, ...fields.map((field) => field.value)].join(" ");
+}"""
 TIMES = """() => ["first-contentful-paint", "computed"].map((name) => performance.getEntriesByName(name)[0].startTime)"""
 
 
@@ -138,8 +144,12 @@ def behaviour(arguments, browser, page_file, folder):
 
     sliders(page)
     log_uniform_from_nothing(page)
-    page.locator("#reset").click()
+    # At once, whatever the engine is at: no number of before is taken for one of the study.
+    expect(page.evaluate(PRESSED, "reset") == f"0 {before}", "reset waits for the engine")
     settled(page)
+    page.evaluate("location.hash = '#content'")
+    page.wait_for_function("location.hash === ''")
+    expect(page.evaluate("document.body.dataset.samples") == "65536", "a jump within the page computes anew")
 
     handle = page.locator("fieldset[data-factor=thickness] input[data-key=largest]")
     handle.focus()

@@ -74,16 +74,19 @@ fn the_page_of_a_run_links_to_its_own() {
 fn the_live_page_of_a_result_reads_no_files() {
     let folder = Folder::new();
     let to = folder.path("out");
-    let out = ["--charts", "none", "--base-samples", "64", "--set", "design.seed=7", "--out", text(&to)];
+    let out = ["--charts", "none", "--base-samples", "64", "--set", "title=A file, and a command", "--out", text(&to)];
     succeed(&[&["run", text(&study_path("ishigami"))], &out[..]].concat());
+    assert!(to.join("ishigami-live.html").exists(), "a word is taken for a file");
     let result = std::fs::read_to_string(to.join("ishigami.json")).unwrap();
-    // It would never end.
-    let endless = "factor.x1={ file = \\\"/dev/zero\\\", column = \\\"x\\\" }";
-    let hostile = result.replace("\"design.seed=7\"", &format!("\"{endless}\""));
-    assert_ne!(hostile, result);
-    let (path, drawn) = (folder.with("ishigami.json", &hostile), folder.path("drawn"));
-    succeed(&["report", text(&path), "--charts", "none", "--out", text(&drawn)]);
-    assert!(drawn.join("ishigami.html").exists() && !drawn.join("ishigami-live.html").exists());
+    // The first one would never end.
+    for change in ["factor.x1={ file = \\\"/dev/zero\\\", column = \\\"x\\\" }", "command.program=\\\"/dev/zero\\\""] {
+        let hostile = result.replace("\"title=A file, and a command\"", &format!("\"{change}\""));
+        assert_ne!(hostile, result);
+        let (path, drawn) = (folder.with("ishigami.json", &hostile), folder.path("drawn"));
+        succeed(&["report", text(&path), "--charts", "none", "--out", text(&drawn)]);
+        assert!(drawn.join("ishigami.html").exists() && !drawn.join("ishigami-live.html").exists(), "{change}");
+        std::fs::remove_dir_all(&drawn).unwrap();
+    }
 }
 
 #[test]

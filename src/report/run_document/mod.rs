@@ -19,6 +19,7 @@ pub use series::one_output;
 use warnings::folded;
 
 use crate::model::{MANY_OUTPUTS, ModelKind};
+use crate::study::edited;
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
 use super::file_names::FileNames;
@@ -243,26 +244,32 @@ fn chosen(result: &ResultFile, spending: &SpendingRecord) -> Vec<String> {
     texts
 }
 
+/// The section of the document of a run that tells how to try other ranges.
+pub const TRY: &str = "try";
+
 /// How to try other ranges: of a study in a file, without others beside it, whose model computes in a page.
 fn own_ranges(study: &StudySetup) -> Option<Section> {
     let kind = ModelKind::from_name(&study.model)?;
     let computes = kind == ModelKind::AFM || kind == ModelKind::EXPRESSION || kind.known.is_some();
+    let table = edited(&study.source, &study.overrides).ok()?.parse().ok()?;
+    if study.source.is_empty() || !computes || names_files(&toml::Value::Table(table)) {
+        return None;
+    }
     let changes = if study.overrides.is_empty() { "" } else { ", with the changes of this run," };
     let text = format!(
         "What if your own factors vary less, or more? `apportion live {}.toml`{changes} makes a page that computes it while a \
          range is dragged, with the engine of this program inside; it needs no network.",
         study.name
     );
-    let parts = vec![Part::OnPage(vec![Part::Text(text)])];
-    let is_whole =
-        !study.source.is_empty() && study.source.parse().is_ok_and(|table| !names_files(&toml::Value::Table(table)));
-    (computes && is_whole).then(|| Section::new("try", "Try your own ranges", parts))
+    Some(Section::new(TRY, "Try your own ranges", vec![Part::OnPage(vec![Part::Text(text)])]))
 }
 
-/// Whether a part of a study names a file of measured values.
+/// Whether a part of a study names a file of measured values, or a program.
 fn names_files(part: &toml::Value) -> bool {
     match part {
-        toml::Value::Table(table) => table.iter().any(|(key, value)| key == "file" || names_files(value)),
+        toml::Value::Table(table) => {
+            table.iter().any(|(key, value)| key == "file" || key == "command" || names_files(value))
+        }
         toml::Value::Array(parts) => parts.iter().any(names_files),
         _ => false,
     }
