@@ -257,18 +257,21 @@ pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile, live: 
     let mut document = run_document(result);
     live.put_beside(&mut document, result);
     output::deliver(artefacts, &document)?;
-    let lost: Vec<&str> =
-        result.outputs.iter().filter(|output| lost(study, output)).map(|output| output.name.as_str()).collect();
+    let lost: Vec<&OutputRecord> = result.outputs.iter().filter(|output| lost(study, output)).collect();
     if lost.is_empty() {
         return Ok(());
     }
     let more = lost.len().saturating_sub(NAMED);
     let more = if more > 0 { format!(" and {more} more outputs") } else { String::new() };
-    Err(Failure::Run(anyhow!(
-        "no indices of {}{more}: too many runs failed, more than max_failed = {} of them in [analysis] (the result says which and why)",
-        lost[..lost.len().min(NAMED)].join(", "),
-        study.analysis().max_failed
-    )))
+    let max_failed = study.analysis().max_failed;
+    let limit = if lost.iter().all(|output| share_failed(output) > max_failed) {
+        format!("more than max_failed = {max_failed} of them in [analysis]")
+    } else {
+        "so that hardly any base point has all of its runs".to_owned()
+    };
+    let names: Vec<&str> = lost.iter().take(NAMED).map(|output| output.name.as_str()).collect();
+    let (names, what) = (names.join(", "), "too many runs failed");
+    Err(Failure::Run(anyhow!("no indices of {names}{more}: {what}, {limit} (the result says which and why)")))
 }
 
 /// What was done before an error is of use to the user.
@@ -293,9 +296,12 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failu
 
 /// Whether an output has no indices because runs failed, and not because it does not vary.
 fn lost(study: &Study, output: &OutputRecord) -> bool {
-    let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
-    let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
+    let too_many = share_failed(output) > study.analysis().max_failed || output.base_points_used < 2;
     output.indices.is_none() && output.runs_failed > 0 && too_many
+}
+
+fn share_failed(output: &OutputRecord) -> f64 {
+    output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64
 }
 
 /// A row that failed is of use to the user by its inputs.

@@ -134,7 +134,7 @@ const PROGRAMS: [Program; 30] = [
     each("two answers in one line", "    if n == 12: a += a\n    say(a)\n", [Whole, Failures]),
     each("blanks now and then", "    if n % 6 == 5: say('   ')\n    say(a)\n", [Whole, Whole]),
     each("lines that end as on Windows", "    say(a + '\\r')\n", [Whole, Whole]),
-    each("no number now and then", "    say(answer(number, float('nan')) if n % 6 == 5 else a)\n", [Failures, Any]),
+    each("no number now and then", "    say(answer(number, float('nan')) if n % 6 == 5 else a)\n", [Any, Any]),
     each("a row skipped and another answered twice", "    if n != 6: say(a)\n    if n == 12: say(a)\n", [Any, Any]),
     each(
         "an answer in two pieces",
