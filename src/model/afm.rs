@@ -111,8 +111,11 @@ pub struct AfmModel {
 }
 
 impl AfmModel {
-    /// The model of `scene` under `options` whose factors are `factors`, in the order of the space.
+    /// The model of `scene` under `options` whose factors are `factors`, in the order of the space. Its errors are those of the
+    /// critical time too if that is one of the outputs.
     pub fn new(scene: Scene, options: Options, factors: Vec<&'static Parameter>, which: Vec<AfmOutput>) -> Self {
+        let accurate_time = options.accurate_time || which.contains(&AfmOutput::CriticalTime);
+        let options = Options { accurate_time, ..options };
         let outputs = which.iter().map(|output| output.info()).collect();
         let flags = afm::Flag::ALL
             .iter()

@@ -30,6 +30,7 @@ pub use catalogue::{ModelKind, known_inputs};
 pub use command::{
     Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, KeptAlive, Match, PerRun, Pick,
     PickError, Program, Protocol, Source, TemplateError, TemplateProblem, Way, parse_answer, parse_numbered_answer,
+    program_files,
 };
 pub use context::{Messages, RunContext};
 pub use counter::{Counter, CounterKind, Counts};

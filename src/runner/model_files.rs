@@ -1,11 +1,12 @@
 //! The user's files that the outputs of a study depend on, by their digests: which model answered.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock};
 use std::time::SystemTime;
 
-use crate::files::read_whole;
 use crate::study::Study;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
@@ -13,11 +14,22 @@ use sha2::{Digest, Sha256};
 /// The digests of files (path: SHA-256); files that cannot be read are left out.
 fn digests(paths: &[PathBuf]) -> Value {
     let digest = |path: &PathBuf| {
-        let bytes = read_whole(path).ok()?;
-        let hex: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        let hex: String = sha256(path).ok()?.iter().map(|byte| format!("{byte:02x}")).collect();
         Some((path.display().to_string(), json!(hex)))
     };
     Value::Object(paths.iter().filter_map(digest).collect())
+}
+
+/// Piece by piece: data may be larger than the memory.
+fn sha256(path: &Path) -> std::io::Result<[u8; 32]> {
+    let (mut file, mut hash) = (File::open(path)?, Sha256::new());
+    let mut piece = vec![0; 1 << 16];
+    loop {
+        match file.read(&mut piece)? {
+            0 => return Ok(hash.finalize().into()),
+            length => hash.update(&piece[..length]),
+        }
+    }
 }
 
 /// The names of files (path: digest) that are not the same before and now, if any. They are known by their names, so that a

@@ -138,3 +138,35 @@ fn a_part_is_of_one_model() {
     assert_eq!(merged.status.code(), Some(2), "{}", stderr(&merged));
     assert!(stderr(&merged).contains("evaluated with another model.py than"), "{}", stderr(&merged));
 }
+
+/// However the command comes to it, a file that computes the answers is one of the model's.
+#[test]
+fn sources_that_a_program_names_or_imports_are_its_own() {
+    let (of_helper, script) =
+        ("helper.f(a, b)", "#!/bin/sh\n# Reads and writes as it is told.\nexec python3 model.py\n");
+    let helper = |number: u64| format!("def f(a, b): return a + b + {number}\n");
+    let ways: [(&str, &str, &str); 5] = [
+        ("[\"python3\", \"model.py\"]", "import helper\n", "helper.py"),
+        ("[\"python3\", \"-m\", \"model\"]", "import helper\n", "helper.py"),
+        ("[\"sh\", \"-c\", \"exec python3 model.py\"]", "import helper\n", "helper.py"),
+        ("[\"sh\", \"run.sh\"]", "import helper\n", "helper.py"),
+        // Nothing tells of this one but the study.
+        ("[\"python3\", \"model.py\"]", "helper = __import__('hel' + 'per')\n", "helper.py"),
+    ];
+    for (place, (command, import, changed)) in ways.into_iter().enumerate() {
+        let case = Case::new(of_helper);
+        let of_study = if place == 4 { "command.depends_on = [\"helper.py\"]\n" } else { "" };
+        let command = format!("command.program = {command}\n{of_study}");
+        case.folder.with("study.toml", STUDY.replace("command = [\"python3\", \"model.py\"]\n", &command));
+        case.folder.with("model.py", format!("{import}{}", program(of_helper)));
+        case.folder.with("run.sh", script);
+        case.folder.with("helper.py", helper(0));
+        case.result(&[]);
+        case.folder.with("helper.py", helper(1_000_000));
+        case.refused(&["--resume", "--base-samples", "128"], &format!("{changed} changed since {RUNS} of the runs"));
+    }
+    let case = Case::new("a + b");
+    let nowhere = "command.program = [\"python3\", \"model.py\"]\ncommand.depends_on = [\"nowhere.dat\"]\n";
+    case.folder.with("study.toml", STUDY.replace("command = [\"python3\", \"model.py\"]\n", nowhere));
+    case.refused(&[], "there is no such file");
+}

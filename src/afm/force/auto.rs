@@ -42,5 +42,6 @@ fn left_to_dynamic(exact: &Critical, scene: &Scene, options: &Options) -> f64 {
     if !swing.is_followed(travel, scene.velocity) {
         error.lateral += quasi_static::overshoot(&slip, &substrate);
     }
-    error.of(&slip)
+    let of_time = if options.accurate_time { swing.of_time(&slip, &substrate) } else { 0.0 };
+    error.of(&slip).max(of_time)
 }

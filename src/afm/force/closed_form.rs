@@ -63,7 +63,20 @@ pub(super) fn flags(slip: &Slip, scene: &Scene, options: &Options) -> Flags {
 pub(super) fn error(substrate: &Substrate, probe: &Probe, slip: &Slip, of_law: f64) -> f64 {
     let mut error = twisting(substrate, probe, slip) + Swing::new(substrate.scene, probe).left_out(slip, substrate);
     error.lateral += of_law;
-    error.of(slip)
+    let of_forces = error.of(slip);
+    if substrate.options.accurate_time { of_forces.max(time_error(substrate, probe, slip, of_law)) } else { of_forces }
+}
+
+/// The relative error of the critical time by the same: the moment of the normal force turns the tip further, so that the substrate
+/// travels further until the slip.
+#[cold]
+fn time_error(substrate: &Substrate, probe: &Probe, slip: &Slip, of_law: f64) -> f64 {
+    let height = substrate.scene.height;
+    let twist = slip.lateral_force * height / (probe.torsional - slip.normal_force * height);
+    let further = height * (twist - slip.twist + twist.powi(3)) / slip.travel;
+    let of_forces = (twisting(substrate, probe, slip).lateral + of_law) / slip.lateral_force;
+    let all = further.abs() + of_forces + Swing::new(substrate.scene, probe).of_time(slip, substrate);
+    if twist > 0.0 && all < 1.0 { all } else { 1.0 }
 }
 
 /// What the twist takes from the normal force, K_z H (1 - cos theta), which the closed form leaves out, and from the

@@ -50,15 +50,19 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     {
         error.lateral += missed.lateral;
     }
+    let mut of_time = error.lateral / slip.lateral_force;
     if options.friction == FrictionLaw::LuGre {
         let swing = Swing::new(scene, &probe);
+        of_time += swing.of_time(&slip, &substrate);
         error = error + swing.left_out(&slip, &substrate);
         if !swing.is_followed(limit.travel, scene.velocity) {
             error.lateral += quasi_static::overshoot(&slip, &substrate);
         }
     }
     let critical = slip.critical(&substrate, Fidelity::Dynamic);
-    Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })
+    let of_time = if options.accurate_time { of_time.min(1.0) } else { 0.0 };
+    // NaN where nothing holds the particle, which `max` passes over.
+    Ok(Critical { error_estimate: error.of(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
 }
 
 /// Whether friction holds the tip without a look at the law: its force is below that of the quasi-static slip, and F_Z,

@@ -61,6 +61,8 @@ pub struct Options {
     /// Relative error asked of the critical force, > 0: what the integrated rungs aim at, and what
     /// `auto` compares the estimates with.
     pub tolerance: f64,
+    /// Whether estimates of errors tell of the critical time as well as of the force, and `auto` with them.
+    pub accurate_time: bool,
     /// Step of the `fixed-step` rung (s), > 0.
     pub step: f64,
     /// Most steps of any one integration.
@@ -79,6 +81,7 @@ impl Default for Options {
             adhesion_in_load: false,
             lugre: LuGreParameters::Frozen,
             tolerance: 1e-6,
+            accurate_time: false,
             step: 0.01,
             step_budget: 1_000_000,
         }
@@ -135,7 +138,7 @@ pub struct Critical {
     pub flags: Flags,
     /// Estimated relative error of the critical force, from what the rung leaves out and from its
     /// numerics; not of the laws themselves. At most 1, which claims nothing. On LuGre bristles it includes the swing
-    /// of the tip at every rung.
+    /// of the tip at every rung. With [`Options::accurate_time`] it holds for the critical time too.
     pub error_estimate: f64,
     /// What it cost to find.
     pub cost: Cost,

@@ -28,8 +28,9 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let statics = Statics::new(scene, &probe)?;
     let (slip, evaluations) = statics.slip(&substrate)?;
     let error = left_out(&slip, scene, &substrate, &probe);
+    let of_time = if options.accurate_time { Swing::new(scene, &probe).of_time(&slip, &substrate) } else { 0.0 };
     let critical = slip.critical(&substrate, Fidelity::QuasiStatic);
-    Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })
+    Ok(Critical { error_estimate: error.of(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
 }
 
 /// What inertia may do to the forces of the quasi-static `slip`.

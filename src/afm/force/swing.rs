@@ -66,6 +66,13 @@ impl Swing {
         self.frequency * (travel / velocity) < MOST_TURNS
     }
 
+    /// The relative error of the critical time where the swing is left out, which brings the slip forward; at most 1.
+    pub fn of_time(&self, slip: &Slip, substrate: &Substrate) -> f64 {
+        let amplitude = self.lateral + self.normal(slip.twist) * slip.slope(substrate);
+        let earliest = slip.lateral_force - amplitude;
+        if earliest > 0.0 { (amplitude / earliest).min(1.0) } else { 1.0 }
+    }
+
     /// What is left out where the swing is: F_Z swings, and friction with it. The lateral force at the slip is the
     /// friction's for a particle that sticks until then; on bristles it is the largest of a force that swings with the
     /// spring.

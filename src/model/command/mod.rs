@@ -10,6 +10,7 @@ mod per_run;
 mod pick;
 mod process;
 mod program;
+mod program_files;
 mod protocol;
 mod row;
 mod standard_error;
@@ -23,6 +24,7 @@ use std::time::Duration;
 pub use per_run::PerRun;
 pub use pick::{Match, Pick, PickError, Source, Way};
 pub use program::Program;
+pub use program_files::program_files;
 pub use protocol::{Answer, Protocol, parse_answer, parse_numbered_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 

@@ -23,15 +23,9 @@ impl Program {
     }
 
     /// The program's file, unless it is to be looked for in PATH.
-    fn file(&self) -> Option<PathBuf> {
+    pub(super) fn file(&self) -> Option<PathBuf> {
         let is_path = Path::new(self.name()).components().count() > 1 || self.name().starts_with('.');
         is_path.then(|| self.directory.join(self.name()))
-    }
-
-    /// The existing files among the program and its arguments.
-    pub fn files(&self) -> Vec<PathBuf> {
-        let arguments = self.arguments.iter().skip(1).map(|argument| self.directory.join(argument));
-        self.file().into_iter().chain(arguments).filter(|path| path.is_file()).collect()
     }
 
     /// A command in a process group of its own, in `directory`.

@@ -41,6 +41,7 @@ pub(super) fn command() -> String {
          timeout = \"60 s\"             # for a row [none]\n  \
          retries = 1                  # of a row on which the program died, hung or printed rubbish\n  \
          directory = \"model\"          # where it runs [the folder of the study]\n  \
+         depends_on = [\"mesh.dat\"]    # files that decide its answers, beside its sources\n  \
          env.OMP_NUM_THREADS = \"1\"\n\nA program that reads an input file runs once for each row, in a directory of its own:\n\n  \
          [command]\n  program = [\"simulator\", \"beam.in\"]\n  \
          template = \"beam.in\"         # text in which {{name}} stands for a factor\n  \

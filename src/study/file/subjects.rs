@@ -9,7 +9,7 @@ use crate::afm::{Fidelity, Options, Parameter, Scene};
 use crate::model::{
     AfmHistory, AfmModel, AfmMoments, AfmOutput, AfmSecond, CommandModel, CommandSettings, Expression, ExpressionModel,
     ExternalModel, Form, InMoreDigits, Input, KnownFunction, KnownModel, Model, ModelKind, Output, OutputSeries,
-    ParameterValue, SecondCalculation, edge_unit, known_inputs,
+    ParameterValue, SecondCalculation, edge_unit, known_inputs, program_files,
 };
 use crate::quantity::{Quantity, Unit};
 use crate::space::{Distribution, Factor, Space};
@@ -63,6 +63,8 @@ pub struct CommandSubject {
     pub settings: CommandSettings,
     /// What decides its answers, in the terms of the study file.
     pub(super) stated: Vec<(&'static str, Value)>,
+    /// Other files that decide its answers.
+    pub(super) depends_on: Vec<PathBuf>,
 }
 
 /// A constant of formulas.
@@ -268,10 +270,11 @@ impl Subject for CommandSubject {
         self.stated.clone()
     }
 
-    /// The existing files that it is made of: those among the program and its arguments, the template, and what each run
-    /// gets.
+    /// The existing files that it is made of: those of the program and of the study's `depends_on`, the template, and what each
+    /// run gets.
     fn files(&self) -> Vec<PathBuf> {
-        let mut files = self.settings.program.files();
+        let mut files = program_files(&self.settings.program);
+        files.extend(self.depends_on.iter().cloned());
         if let Form::PerRun(form) = &self.settings.form {
             files.push(form.template_file.clone());
             files.extend(form.files.iter().cloned());

@@ -52,6 +52,26 @@ proptest! {
         prop_assert!(error < 1e-6 + 2.0 * limit.error_estimate, "{error} {}", limit.error_estimate);
     }
 
+    /// Where the substrate is fast, the swing of the tip brings the slip forward, up to a fifth of the time and more.
+    #[test]
+    fn errors_tell_of_the_critical_time_where_it_is_asked_for(
+        scene in within_ranges(), velocity in -8.0..-2.7_f64, law in prop::sample::select(&STUCK[..2])
+    ) {
+        let scene = Scene { velocity: libm::exp10(velocity), ..scene };
+        let time = |critical: &Critical| critical.critical_time.unwrap();
+        let exact = critical_force(&scene, &Options { tolerance: 1e-9, ..at(Fidelity::Dynamic, law) });
+        // Some points of the fastest take more steps than there may be.
+        prop_assume!(exact.is_ok());
+        let exact = time(&exact.unwrap());
+        for fidelity in [Fidelity::ClosedForm, Fidelity::QuasiStatic, Fidelity::Auto] {
+            let found = critical_force(&scene, &Options { accurate_time: true, ..at(fidelity, law) }).unwrap();
+            let error = (time(&found) / exact - 1.0).abs();
+            let claimed = found.error_estimate;
+            prop_assert!(claimed >= 1.0 || error <= 1.1 * claimed + 1e-8, "{} {error} {claimed}", fidelity.name());
+            prop_assert!(fidelity != Fidelity::Auto || error < 2e-6, "{error}");
+        }
+    }
+
     /// The first step past the slip overshoots by less than k_lat V step, and never falls short.
     #[test]
     fn fixed_steps_overshoot_by_less_than_a_step(scene in moving()) {

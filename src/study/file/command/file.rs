@@ -51,6 +51,10 @@ pub struct CommandSection {
     /// Environment variables that are set for the program.
     #[serde(default)]
     pub env: BTreeMap<String, String>,
+    /// Other files that decide its answers, relative to the study, such as its data: answers on record from before one of them
+    /// changed are not mixed with new ones. Sources that the program names or imports need no mention.
+    #[serde(default)]
+    pub depends_on: Vec<At<String>>,
     /// Template of an input file, in which {{name}} stands for the value of a factor: the program then runs once for each
     /// row, in a directory of its own.
     pub template: Option<At<String>>,

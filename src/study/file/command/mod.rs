@@ -106,6 +106,11 @@ pub(super) fn subject(
             }
         }
     }
+    if !section.depends_on.is_empty() {
+        stated.push(("depends_on", json!(section.depends_on.iter().map(At::get_ref).collect::<Vec<_>>())));
+    }
+    let depends_on =
+        section.depends_on.iter().map(|typed| existing_file(context, &folder, typed)).collect::<Result<_, _>>()?;
     stated.push(("outputs", outputs::stated(&all)));
     let settings = CommandSettings {
         program: Program { arguments, directory, environment },
@@ -117,7 +122,7 @@ pub(super) fn subject(
         timeout: timeout(context, section)?,
         retries: retries(context, section)?,
     };
-    Ok((CommandSubject { settings, stated }, notes))
+    Ok((CommandSubject { settings, stated, depends_on }, notes))
 }
 
 fn arguments(context: &Context<'_>, key: &At<CommandKey>, program: &[At<String>]) -> Result<Vec<String>, Fault> {
@@ -137,6 +142,16 @@ fn folder(context: &Context<'_>) -> PathBuf {
     let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
     // Without the "." that stood for here.
     absolute.components().collect()
+}
+
+fn existing_file(context: &Context<'_>, folder: &Path, typed: &At<String>) -> Result<PathBuf, Fault> {
+    let path = folder.join(typed.get_ref());
+    if path.is_file() {
+        return Ok(path);
+    }
+    let (place, reason) = (path.display().to_string(), "there is no such file".to_owned());
+    let help = "the path is relative to the study, and that of a file".to_owned();
+    Err(context.fault(typed.span(), Problem::ProgramFile { place, reason, help }))
 }
 
 fn existing_directory(context: &Context<'_>, folder: &Path, typed: &At<String>) -> Result<PathBuf, Fault> {
