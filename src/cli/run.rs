@@ -85,7 +85,6 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     if arguments.record.shard.is_none() {
         ranks::refuse_copies()?;
     }
-    let stop = stop::on_signal();
     let study = study_of(arguments)?;
     let folder = folder_of(arguments, &study);
     let artefacts = arguments.charts.artefacts(&folder);
@@ -124,6 +123,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
             runner.threads(threads).remote_workers(others)
         }
     };
+    // From here on: whoever waits for an input that never comes can be ended at once.
+    let stop = stop::on_signal();
     let mut runner = runner.on_message(say).stop(stop).resume(asked.resume()).mix_models(asked.mix_models);
     if let Some(journal) = &journal {
         runner = runner.journal(journal);

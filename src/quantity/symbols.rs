@@ -29,7 +29,7 @@ const FAHRENHEIT: Symbol =
 /// Hundreds of seconds in a Julian year, of 365.25 days.
 const YEAR: f64 = 315_576.0;
 
-const SYMBOLS: [Symbol; 46] = [
+const SYMBOLS: [Symbol; 51] = [
     symbol("m", "kcmunp", Dimension::LENGTH),
     Symbol { decade: -3, ..symbol("g", "kmunp", Dimension::MASS) },
     symbol("s", "munp", Dimension::TIME),
@@ -53,16 +53,21 @@ const SYMBOLS: [Symbol; 46] = [
     symbol("rad", "munp", Dimension::ANGLE),
     symbol("deg", "m", Dimension::ANGLE),
     symbol("°", "", Dimension::ANGLE),
+    multiple("sec", 1.0, 0, Dimension::TIME),
     multiple("min", 6.0, 1, Dimension::TIME),
     multiple("h", 36.0, 2, Dimension::TIME),
     multiple("hour", 36.0, 2, Dimension::TIME),
+    multiple("hours", 36.0, 2, Dimension::TIME),
     multiple("d", 864.0, 2, Dimension::TIME),
     multiple("day", 864.0, 2, Dimension::TIME),
+    multiple("days", 864.0, 2, Dimension::TIME),
     multiple("yr", YEAR, 2, Dimension::TIME),
     multiple("year", YEAR, 2, Dimension::TIME),
+    multiple("years", YEAR, 2, Dimension::TIME),
     multiple("angstrom", 1.0, -10, Dimension::LENGTH),
     multiple("\u{c5}", 1.0, -10, Dimension::LENGTH),
     multiple("inch", 254.0, -4, Dimension::LENGTH),
+    multiple("in", 254.0, -4, Dimension::LENGTH),
     multiple("ft", 3048.0, -4, Dimension::LENGTH),
     // A pound, 0.45359237 kg, at 9.80665 m/s2 on a square inch.
     Symbol { over: 64_516.0, ..multiple("psi", 44_482_216_152_605.0, -5, Dimension::PRESSURE) },

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use super::at::At;
 use super::error::{Diagnostic, Problem, meant};
-use crate::names::nearest;
 
 /// A diagnostic on its way up.
 pub(super) type Fault = Box<Diagnostic>;
@@ -68,7 +67,7 @@ pub(super) fn choice<T: Copy>(
         let problem = Problem::UnknownName {
             what,
             name: typed.get_ref().clone(),
-            nearest: nearest(typed.get_ref(), names()),
+            nearest: meant(typed.get_ref(), names()),
             expected: names().map(str::to_owned).collect(),
         };
         context.fault(typed.span(), problem)

@@ -310,5 +310,8 @@ fn program(file: &str) -> String {
         "sh" => "\"bash\", ",
         _ => "",
     };
-    format!("{interpreter}{file:?}")
+    // What was typed as a line of a shell is a list of words here.
+    let words: Vec<String> = file.split_whitespace().map(|word| format!("{word:?}")).collect();
+    let interpreter = if words.len() > 1 { "" } else { interpreter };
+    format!("{interpreter}{}", words.join(", "))
 }

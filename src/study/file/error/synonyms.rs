@@ -3,12 +3,12 @@
 use crate::names::nearest;
 
 /// Our word, or two of them, and what SciPy, SALib, UQLab and everyday language call it.
-const SYNONYMS: [(&[&str], &[&str]); 42] = [
+const SYNONYMS: [(&[&str], &[&str]); 45] = [
     // Keys of a factor.
     (&["distribution"], &["dist", "distr", "law", "type", "pdf"]),
     (&["min", "max"], &["bounds", "bound", "range", "limits", "interval"]),
-    (&["min"], &["low", "lower", "lo", "lb", "from", "lower_bound"]),
-    (&["max"], &["high", "upper", "hi", "ub", "to", "upper_bound"]),
+    (&["min"], &["low", "lower", "lo", "lb", "from", "lower_bound", "minimum"]),
+    (&["max"], &["high", "upper", "hi", "ub", "to", "upper_bound", "maximum"]),
     (&["mean"], &["mu", "average", "avg"]),
     (&["sd"], &["std", "sigma", "stdev", "stddev", "std_dev", "standard_deviation"]),
     (&["location"], &["loc"]),
@@ -32,6 +32,10 @@ const SYNONYMS: [(&[&str], &[&str]); 42] = [
     (&["sampler"], &["method", "sampling", "sequence"]),
     (&["max_runs"], &["max_evaluations", "max_evals"]),
     (&["second_order"], &["calc_second_order", "interactions"]),
+    // Samplers.
+    (&["sobol"], &["saltelli", "qmc", "quasi-random"]),
+    (&["latin-hypercube"], &["lhs", "latin_hypercube"]),
+    (&["random"], &["mc", "monte-carlo", "monte_carlo"]),
     // Tables and keys of the study itself.
     (&["factor"], &["parameter", "parameters", "params", "inputs", "variables", "variable", "input"]),
     (&["command"], &["program", "executable", "cmd", "script"]),
@@ -79,6 +83,7 @@ mod tests {
         assert_eq!(meant("bounds", factor).as_deref(), Some("min and max"));
         assert_eq!(meant("N", ["sampler", "base_samples"]).as_deref(), Some("base_samples"));
         assert_eq!(meant("norm", ["uniform", "normal"]).as_deref(), Some("normal"));
+        assert_eq!(meant("lhs", ["sobol", "latin-hypercube"]).as_deref(), Some("latin-hypercube"));
         assert_eq!(meant("N", factor), None);
         assert_eq!(meant("mim", factor).as_deref(), Some("min"));
     }
