@@ -10,12 +10,12 @@
 //! evaluates them, an [`Estimator`] turns sums into indices, and an [`IntervalMethod`] says how well they are known.
 //!
 //! Beside Sobol' indices of a model there are [`given`] data, [`screening`], [`sweep`]s, and the points and formulas of
-//! [`salib`]; [`mod@afm`] is the physics of the flagship model, plain functions that know nothing of the engine.
+//! `salib`; [`mod@afm`] is the physics of the flagship model, plain functions that know nothing of the engine.
 //!
 //! # Features
 //!
 //! Without default features the crate is the engine, the physics of the nanoparticle and the known functions. `study` adds
-//! study files, programs as models and [`exchange`]; `parquet` its tables in Parquet; `charts` adds [`report`]: results as
+//! study files, programs as models and `exchange`; `parquet` its tables in Parquet; `charts` adds `report`: results as
 //! JSON, text, CSV and SVG; `png` its charts as pictures, `pdf` as figures of papers; `page` its pages and folders of files.
 //! `cli`, the default, is the program with all of them, and `mpi` the same on the ranks of an MPI job.
 //!
@@ -64,8 +64,8 @@
 //! | `study_file` | a study file run from Rust, with progress |
 //! | `units_and_failures` | units, several outputs, runs without an answer, second-order indices |
 //! | `interrupted` | a journal: interrupted, gone on with to the same bits, and made longer |
-//! | `own_program` | a program in any language as a model, asked from Rust ([`CommandModel`]) |
-//! | `three_steps` | points to a file, outputs from anywhere, analysed ([`exchange`]) |
+//! | `own_program` | a program in any language as a model, asked from Rust (`CommandModel`) |
+//! | `three_steps` | points to a file, outputs from anywhere, analysed (`exchange`) |
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

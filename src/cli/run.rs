@@ -93,9 +93,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     if asked.shard.is_none() {
         artefacts.check(&file_names(&study, &arguments.live))?;
     } else if study.target().grows() {
-        let why =
-            "a study with an accuracy, a target, a budget or max_runs has no size that could be shared out beforehand";
-        return Err(Failure::Input(anyhow!("--shard: {why}")));
+        return Err(Failure::Input(anyhow!("--shard: {}", RunError::NoSize)));
     }
     let saved = match &arguments.save_outputs {
         None => None,

@@ -5,9 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::design_rows::{DesignRows, RowsDigest};
-use crate::design::{Design, Matrix, RowKind, Run};
-use crate::space::Space;
+use crate::design::{Matrix, RowKind, Run};
 use crate::study::{Study, StudyError, Target};
 
 /// The manifest of a design file, as described in `docs/exchange-formats.md`.
@@ -275,17 +273,6 @@ impl Manifest {
         let (here, written) = (env!("CARGO_PKG_VERSION").to_owned(), self.apportion_version.clone());
         Err(ManifestError::OtherPoints { here, written })
     }
-}
-
-/// SHA-256 of the numbers of a design in the units of its factors, row by row.
-pub fn design_sha256(space: &Space, design: &Design) -> String {
-    let mut rows = DesignRows::new(space, design);
-    let mut columns = vec![Vec::new(); design.factors()];
-    let mut digest = RowsDigest::default();
-    while rows.next_block(&mut columns).is_some() {
-        digest.add(&columns);
-    }
-    digest.finish()
 }
 
 fn matrix(matrix: Matrix) -> String {

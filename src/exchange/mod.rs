@@ -30,7 +30,7 @@ pub use {
     answers::Answers,
     design_rows::{DesignRows, RowBlock},
     evaluate::evaluate_in,
-    manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy, design_sha256},
+    manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},
     points::{PointsError, PointsReader},
     rows::{ColumnKind, RowWriter, open_table, row_writer, rows_of_bytes, table_of_bytes},
     table::DroppedRows,

@@ -174,7 +174,7 @@ pub trait Worker: Send {
     /// the length [`Batch::rows`]; every output of every row is either set or failed in `batch`.
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch);
 
-    /// The same for one block of several: its rows may still be pending, which costs less where certainty has a price.
+    /// The same for one block of several: its rows may still be pending afterwards, so that a worker need not wait for them.
     /// A worker that [gives up](Batch::give_up) leaves none pending.
     fn run_ahead(&mut self, inputs: &[&[f64]], batch: &mut Batch) -> Standing {
         self.run(inputs, batch);

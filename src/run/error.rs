@@ -76,6 +76,15 @@ pub enum RunError {
         /// What is wrong, and what would be right.
         reason: String,
     },
+    /// What needs a journal has none.
+    #[error("{what} needs a journal: name one by Runner::journal")]
+    NoJournal {
+        /// What needs it.
+        what: &'static str,
+    },
+    /// A run that decides its own size has no parts.
+    #[error("a study with an accuracy, a target, a budget or max_runs has no size that could be shared out beforehand")]
+    NoSize,
     /// The parts of a run are not all there.
     #[error("{missing} of {total} runs are missing: {places}")]
     Incomplete {

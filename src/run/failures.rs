@@ -70,7 +70,7 @@ impl Failures {
         if self.reasons.len() > MOST_REASONS && !self.is_masked {
             self.mask();
         }
-        // Whatever is not among the first ones here is not among the first ones of more rows either.
+        // The first reasons in the order of their texts are kept: more rows can only move the others further back.
         while self.reasons.len() > MOST_REASONS
             && let Some((_, last)) = self.reasons.pop_last()
         {
@@ -123,8 +123,8 @@ fn without_numbers(reason: &RowFailure) -> RowFailure {
     RowFailure::new(&masked(&line))
 }
 
-/// The reason that stands in the bytes where numbers are masked, of no rows; and that of rows whose reasons are not told apart. Programs
-/// that know of neither read them as reasons.
+/// Two reasons that no row has, written among the others: numbers in reasons are masked; and so many rows have reasons that are not
+/// told apart. An older program reads them as reasons.
 const MASKED_MARK: &str = "\u{1}masked";
 const OTHERS_MARK: &str = "\u{1}other reasons";
 

@@ -1,4 +1,4 @@
-//! Running a design through a model: fixed blocks of base points on the rayon pool, folded into constant-size totals.
+//! Running a design through a model: fixed blocks of base points on threads of their own, folded into constant-size totals.
 //!
 //! A block is [`BLOCK`] base points with all of their rows. Blocks are merged in a binary tree whose shape depends on
 //! the number of blocks alone, so that the totals are the same bits on any number of threads; and only the totals of

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::time::Instant;
 
-use super::{Job, RowValues, RunError, run};
+use super::{GrowingRun, Job, RowValues, RunError};
 use crate::design::{Design, DesignError, DesignSettings};
 use crate::model::{Batch, RunContext, Standing};
 
@@ -46,7 +46,9 @@ impl Pilot {
             // A design that cannot be shorter is run as a whole.
             let part = shorter(points).unwrap_or_else(|_: DesignError| design.clone());
             let start = Instant::now();
-            let totals = run(Job { design: &part, ..job }, 0, &|_| ())?;
+            let mut growing = GrowingRun::new(Job { design: &part, ..job }, context, 0)?;
+            growing.grow_to(part.points_per_replicate(), &|_| ())?;
+            let totals = growing.into_totals();
             let seconds = start.elapsed().as_secs_f64();
             if seconds >= ENOUGH || points >= design.settings().base_samples {
                 let share = design.rows() as f64 / part.rows() as f64;

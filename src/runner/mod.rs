@@ -130,7 +130,7 @@ impl fmt::Debug for Runner<'_> {
 }
 
 impl<'a> Runner<'a> {
-    /// On so many threads (0, the default: one per core). The result is the same in every bit on any number.
+    /// On so many threads, up to 1024 (0, the default: one per core). The result is the same in every bit on any number.
     pub fn threads(self, threads: usize) -> Self {
         Self { threads, ..self }
     }
@@ -140,7 +140,7 @@ impl<'a> Runner<'a> {
         Self { remote: Some(workers), ..self }
     }
 
-    /// Calls `on_progress` from time to time, from any thread.
+    /// Calls `on_progress` from time to time, from any thread: calls may overtake each other.
     pub fn on_progress(self, on_progress: impl Fn(Progress) + Sync + 'a) -> Self {
         Self { on_progress: Box::new(on_progress), ..self }
     }
@@ -201,9 +201,14 @@ impl<'a> Runner<'a> {
     /// the shard has.
     ///
     /// # Errors
-    /// As for [`run`](Self::run).
+    /// As for [`run`](Self::run); [`RunError::NoJournal`] without a journal, and [`RunError::NoSize`] for a study that decides by
+    /// itself how long it runs.
     pub fn run_shard(self, shard: Shard) -> Result<u64, RunError> {
+        if self.study.target.grows() {
+            return Err(RunError::NoSize);
+        }
         let context = self.context();
+        self.journal_for("a shard of a run")?;
         let record = self.open(Some(shard), context.messages())?;
         let (study, model) = (self.study, self.study.model());
         let own = Store::new(&study.design, model.as_ref());
@@ -226,19 +231,17 @@ impl<'a> Runner<'a> {
     /// [`RunError::Incomplete`] if runs are missing.
     pub fn merge(self, journals: &[PathBuf]) -> Result<Analysis, RunError> {
         let context = self.context();
-        let path = self.journal.clone().unwrap_or_default();
-        let record = merge::merged(self.study, &path, journals, context.messages())?;
+        let path = self.journal_for("a run that is merged of its parts")?;
+        let record = merge::merged(self.study, path, journals, context.messages())?;
         self.analyse(&context, record)
     }
 
-    /// Runs on record in the journal that a run would use, and whether the journal holds sums; nothing is locked or
-    /// written.
+    /// Runs on record in the journal that a run would use; nothing is locked or written.
     ///
     /// # Errors
-    /// As for [`run`](Self::run), if the journal is of no use.
+    /// As for [`run`](Self::run), if there is no journal, or it is of no use.
     pub fn recorded_runs(&self) -> Result<u64, RunError> {
-        let path = self.journal.as_deref().unwrap_or(Path::new(""));
-        journal::recorded_runs(self.study, path)
+        journal::recorded_runs(self.study, self.journal_for("a number of recorded runs")?)
     }
 
     /// Whether a journal of this run holds the outputs of every run, and not their sums alone.
@@ -252,6 +255,9 @@ impl<'a> Runner<'a> {
     }
 
     fn open(&self, shard: Option<Shard>, messages: &Messages) -> Result<OpenJournal, RunError> {
+        if matches!(self.resume, Resume::Require | Resume::RetryFailed) {
+            self.journal_for("a run that goes on with another one")?;
+        }
         let Some(path) = &self.journal else { return Ok(OpenJournal::none()) };
         let Self { study, resume, mixes_models, store, .. } = self;
         let needs_outputs = shard.is_some() || journal::needs_outputs(study, store.is_some());
@@ -259,10 +265,20 @@ impl<'a> Runner<'a> {
         journal::open(study, path, request, messages)
     }
 
+    fn journal_for(&self, what: &'static str) -> Result<&Path, RunError> {
+        self.journal.as_deref().ok_or(RunError::NoJournal { what })
+    }
+
     fn set_up<'r>(&self, job: Job<'r>, context: &'r RunContext<'r>) -> Result<GrowingRun<'r>, RunError>
     where
         'a: 'r,
     {
+        // More are refused by some systems and accepted by others, at the price of minutes.
+        const MOST_THREADS: usize = 1024;
+        if self.threads > MOST_THREADS {
+            let source = format!("at most {MOST_THREADS}").into();
+            return Err(RunError::Threads { threads: self.threads, source });
+        }
         let run = GrowingRun::new(job, context, self.threads)?.with_failures(self.study.analysis.failures);
         Ok(run.with_outputs_kept(self.study.needs_outputs()).with_remote(self.remote_for(0)))
     }

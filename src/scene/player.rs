@@ -59,7 +59,7 @@ pub fn player_page(story: &SceneStory) -> Result<String, DocumentError> {
         view: script_json(&view.value()),
         version: env!("CARGO_PKG_VERSION"),
     };
-    Ok(page.render()?)
+    page.render().map_err(|error| DocumentError::Template(error.to_string()))
 }
 
 /// A sentence in which numbers stay on one line with their units.

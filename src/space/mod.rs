@@ -60,6 +60,9 @@ impl Factor {
 
     /// Points of the unit interval to SI values, by the inverse of the distribution function. Both slices have one
     /// length; `u` lies strictly between 0 and 1.
+    ///
+    /// # Panics
+    /// If the slices have different lengths.
     pub fn fill_si(&self, u: &[f64], si: &mut [f64]) {
         self.si.fill(u, si);
     }

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::options::MOST_OUTPUTS_OF_MEASURES;
+use super::options::{MOST_OUTPUTS_OF_MEASURES, RESAMPLES};
 use crate::design::DesignError;
 use crate::estimate::MAX_SHAPLEY_FACTORS;
 use crate::space::{DependenceError, DistributionError};
@@ -118,6 +118,23 @@ pub enum BuildError {
         /// The number of outputs.
         outputs: usize,
     },
+    /// A bootstrap of too few resamples, or too many.
+    #[error("resamples = {found}: expected a whole number from {} to {}", RESAMPLES.start(), RESAMPLES.end())]
+    Resamples {
+        /// How many were asked for.
+        found: usize,
+    },
+    /// A factor that has nowhere to stand when it does not vary.
+    #[error("factor {factor}: its nominal value is {value}: expected a finite number")]
+    Nominal {
+        /// The factor.
+        factor: String,
+        /// The value.
+        value: f64,
+    },
+    /// A run that chooses its design by itself, without an accuracy that it is to reach.
+    #[error("a target that is free needs a half width: make it by Target::accuracy")]
+    NoAccuracy,
     /// A target that no run can reach.
     #[error("{what} = {value}: expected a finite number above 0")]
     NotPositive {

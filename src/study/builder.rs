@@ -1,19 +1,18 @@
 //! Studies made in code, of models that no file can name.
 
-use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
+use super::build_checks::{check_factor, checked, checked_target, refuse_overlap, refuse_repeated};
 use super::options::{MOST_OUTPUTS_OF_MEASURES, rows, split_design};
 use super::subject::{CustomSubject, LowFidelity};
 use super::{AnalysisOptions, BuildError, Study, SurrogateChoice, Target};
 
-use crate::design::{Design, DesignSettings, MAX_ORDERED_FACTORS, Sampler, has_room_for_orders};
-use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers};
-use crate::model::{Model, OutputSeries};
-use crate::names::{names_files, refused_name, refused_output_name, refused_title, shown};
+use crate::design::{Design, DesignSettings, Sampler};
+use crate::model::Model;
+use crate::names::{names_files, refused_output_name, refused_title, shown};
 use crate::quantity::Unit;
 use crate::space::{Dependence, Distribution, Factor, Space};
 
@@ -22,6 +21,7 @@ pub struct StudyBuilder {
     name: String,
     title: Option<String>,
     model: Arc<dyn Model>,
+    version: Option<String>,
     factors: Vec<Result<Factor, BuildError>>,
     sampler: Sampler,
     base_samples: Option<u64>,
@@ -42,6 +42,7 @@ impl StudyBuilder {
             name: name.to_owned(),
             title: None,
             model,
+            version: None,
             factors: Vec::new(),
             sampler,
             base_samples: None,
@@ -60,6 +61,14 @@ impl StudyBuilder {
     #[must_use]
     pub fn title(mut self, title: &str) -> Self {
         self.title = Some(title.to_owned());
+        self
+    }
+
+    /// What tells the model from others of the same outputs and factors: without it a [journal](crate::Runner::journal) cannot
+    /// tell that the function has changed, and answers with the runs of the one before.
+    #[must_use]
+    pub fn version(mut self, version: &str) -> Self {
+        self.version = Some(version.to_owned());
         self
     }
 
@@ -182,7 +191,7 @@ impl StudyBuilder {
     /// show the rest. `base_samples` is the size of its own design; `None` to let the run choose.
     #[must_use]
     pub fn low_fidelity(mut self, name: &str, model: impl Model + 'static, base_samples: Option<u64>) -> Self {
-        let subject = Arc::new(CustomSubject::new(Arc::new(model)));
+        let subject = Arc::new(CustomSubject { model: Arc::new(model), version: None });
         self.lows.push(LowFidelity { name: name.to_owned(), subject, base_samples });
         self
     }
@@ -208,9 +217,7 @@ impl StudyBuilder {
             }
         }
         for factor in self.factors.iter().flatten() {
-            if let Some(expected) = refused_name(&factor.name) {
-                return words("factor", &factor.name, expected);
-            }
+            check_factor(factor)?;
         }
         refuse_repeated("output", self.model.outputs().iter().map(|output| &*output.name))?;
         refuse_overlap(&*self.model)?;
@@ -271,7 +278,7 @@ impl StudyBuilder {
             sha256: Sha256::digest(source.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect(),
             name: self.name,
             title: self.title,
-            subject: Arc::new(CustomSubject::new(self.model)),
+            subject: Arc::new(CustomSubject { model: self.model, version: self.version }),
             space,
             design,
             analysis,
@@ -282,78 +289,6 @@ impl StudyBuilder {
             notes: Vec::new(),
         })
     }
-}
-
-fn refuse_repeated<'a>(what: &'static str, mut names: impl Iterator<Item = &'a str>) -> Result<(), BuildError> {
-    let mut seen = BTreeSet::new();
-    let repeated = names.find(|name| !seen.insert(*name));
-    repeated.map_or(Ok(()), |name| Err(BuildError::Repeated { what, name: name.to_owned() }))
-}
-
-/// Every series has outputs of its own.
-fn refuse_overlap(model: &dyn Model) -> Result<(), BuildError> {
-    let (outputs, mut taken) = (model.outputs().len(), BTreeSet::new());
-    let is_wrong = |series: &&OutputSeries| series.places().any(|place| place >= outputs || !taken.insert(place));
-    model.series().iter().find(is_wrong).map_or(Ok(()), |series| {
-        let (name, places) = (series.name.clone(), series.places());
-        Err(BuildError::Series { name, first: places.start, last: places.end - 1, outputs })
-    })
-}
-
-/// The options as a study file could have said them.
-fn checked(mut options: AnalysisOptions, sampler: Sampler, space: &Space) -> Result<AnalysisOptions, BuildError> {
-    let factors = space.factors().len();
-    if !options.intervals.serves(sampler) {
-        let (method, sampler) = (options.intervals.name(), sampler.name());
-        return Err(BuildError::UnfitInterval { method, sampler });
-    }
-    for (what, value) in [("threshold", options.threshold), ("max_failed", options.max_failed)] {
-        if !(0.0..=1.0).contains(&value) {
-            return Err(BuildError::NotAShare { what, value });
-        }
-    }
-    for subset in &mut options.subsets {
-        subset.sort_unstable();
-        subset.dedup();
-        if subset.is_empty() || subset.iter().any(|factor| *factor >= factors) {
-            return Err(BuildError::Subset { subset: subset.clone(), factors });
-        }
-    }
-    let players = options.players(space).len();
-    let (most, fits) = match options.shapley_method {
-        Some(ShapleyMethod::Subsets) => (MAX_SHAPLEY_FACTORS, players <= MAX_SHAPLEY_FACTORS),
-        // All subsets, of so few.
-        None if players <= MAX_SHAPLEY_FACTORS => (MAX_ORDERED_FACTORS, true),
-        Some(ShapleyMethod::Permutations) | None => (MAX_ORDERED_FACTORS, has_room_for_orders(players, factors)),
-    };
-    if options.asks_for_shapley() && !fits {
-        return Err(BuildError::Shapley { factors: players, most });
-    }
-    if let (Some(false), Some(method)) = (options.shapley, options.shapley_method) {
-        return Err(BuildError::ShapleyMethod { method: method.name() });
-    }
-    let groups = options.shapley_players == Some(ShapleyPlayers::Groups);
-    if groups && (options.shapley == Some(false) || space.groups().is_empty()) {
-        return Err(BuildError::ShapleyPlayers { wanted: options.shapley != Some(false) });
-    }
-    options.measures.sort_unstable();
-    options.measures.dedup();
-    // The default ones are in every result.
-    options.estimators.retain(|estimator| *estimator != Estimator::Default);
-    Ok(options)
-}
-
-/// The target as a study file could have said it.
-fn checked_target(target: Target, sampler: Sampler) -> Result<Target, BuildError> {
-    if target.grows() && sampler == Sampler::LatinHypercube {
-        return Err(BuildError::CannotGrow);
-    }
-    for (what, value) in [("half width of the target", target.half_width), ("budget", target.budget)] {
-        if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
-            return Err(BuildError::NotPositive { what, value });
-        }
-    }
-    Ok(target)
 }
 
 /// What stands in the result in the place of a study file.

@@ -1,8 +1,9 @@
 //! Studies: what is asked, checked once.
 //!
-//! A [`Study`] comes from a file ([`Study::load`]) or is built in code ([`Study::builder`]); after that nothing
+//! A [`Study`] comes from a file (`Study::load`) or is built in code ([`Study::builder`]); after that nothing
 //! re-validates.
 
+mod build_checks;
 mod build_error;
 mod builder;
 #[cfg(feature = "study")]
@@ -105,7 +106,7 @@ impl Study {
         if found != expected {
             return Err(BuildError::OtherOutputs { found, expected });
         }
-        let subject = CustomSubject::new(Arc::new(model)).with_version(version);
+        let subject = CustomSubject { model: Arc::new(model), version: Some(version.to_owned()) };
         Ok(Self { subject: Arc::new(subject), ..self })
     }
 
@@ -228,7 +229,7 @@ impl Study {
         !model.series().is_empty() && values <= MOST_VALUES_OF_SERIES && !self.target.grows()
     }
 
-    /// The choices in force, such as the friction law, in the terms of the study file.
+    /// The choices in force, such as the protocol of a program, in the terms of the study file.
     pub fn settings(&self) -> Vec<(&'static str, serde_json::Value)> {
         self.subject.settings()
     }

@@ -1,5 +1,7 @@
 //! What is asked of the runs of a study, and when they end.
 
+use std::ops::RangeInclusive;
+
 use crate::design::{Companions, Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets};
 use crate::given::Measure;
@@ -216,7 +218,7 @@ impl Target {
         match self {
             // Trials decide what is run.
             Self { is_free: true, .. } => FIRST_FREE_POINTS.saturating_mul(replicates),
-            // A model so slow that its user thinks in time may not have time for more.
+            // A budget of time may not suffice for more of a slow model.
             Self { budget: Some(_), .. } => FIRST_POINTS.saturating_mul(replicates),
             target if target.grows() => FIRST_STAGE,
             _ => DesignSettings::default().base_samples,
@@ -263,6 +265,9 @@ const FREE_SHAPLEY_FACTORS: usize = 4;
 pub const MOST_OUTPUTS_OF_MEASURES: usize = 100;
 
 pub(super) const DEFAULT_RESAMPLES: usize = 1000;
+
+/// How many resamples there may be.
+pub(super) const RESAMPLES: RangeInclusive<usize> = 100..=1_000_000;
 pub(super) const DEFAULT_THRESHOLD: f64 = 0.05;
 pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
 

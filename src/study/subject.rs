@@ -166,19 +166,9 @@ impl Subject for RepeatedSubject {
 
 /// A model that is part of a program.
 pub(super) struct CustomSubject {
-    model: Arc<dyn Model>,
+    pub(super) model: Arc<dyn Model>,
     /// What tells it from others in journals, if anything does.
-    version: Option<String>,
-}
-
-impl CustomSubject {
-    pub(super) fn new(model: Arc<dyn Model>) -> Self {
-        Self { model, version: None }
-    }
-
-    pub(super) fn with_version(self, version: &str) -> Self {
-        Self { version: Some(version.to_owned()), ..self }
-    }
+    pub(super) version: Option<String>,
 }
 
 impl fmt::Debug for CustomSubject {

@@ -11,6 +11,7 @@ use apportion::report::parse_result;
 use apportion::space::{Distribution, Factor};
 use apportion::study::{AnalysisOptions, BuildError, Study, StudyBuilder, Target};
 use apportion::uncertainty::IntervalMethod;
+use apportion::{Resume, RunError, Shard};
 
 fn unit() -> Distribution {
     Distribution::uniform(0.0, 1.0).unwrap()
@@ -124,9 +125,45 @@ fn what_cannot_be_built_says_why() {
     assert!(
         with(|o| o.intervals = IntervalMethod::Bca).contains("\"bca\" do not hold for points of the sampler \"sobol\"")
     );
+    assert!(with(|o| o.resamples = 0).contains("resamples = 0: expected a whole number from 100 to 1000000"));
+    let free = Target { is_free: true, ..Target::default() };
+    assert!(reason(two().until(free)).contains("a target that is free needs a half width"));
+    let factor = || Factor::new("c", Unit::dimensionless(), unit()).unwrap();
+    assert!(reason(two().with_factor(Factor { nominal: f64::NAN, ..factor() })).contains("its nominal value is NaN"));
+    assert!(reason(two().with_factor(Factor { group: Some("x\ny".to_owned()), ..factor() })).starts_with("group"));
     assert!(with(|o| o.subsets = vec![vec![2]]).contains("subset [2]: expected numbers of factors"));
     assert!(with(|o| o.subsets = vec![vec![]]).contains("subset []"));
     assert!(with(|o| o.threshold = f64::NAN).contains("threshold = NaN: expected a number from 0 to 1"));
+}
+
+#[test]
+fn what_needs_a_journal_or_a_size_is_refused_without_one() {
+    let study = sum().factor("a", unit()).factor("b", unit()).base_samples(64).build().unwrap();
+    let shard = || "1/2".parse::<Shard>().unwrap();
+    let none = |error: RunError| matches!(error, RunError::NoJournal { .. });
+    assert!(none(study.runner().run_shard(shard()).unwrap_err()));
+    assert!(none(study.runner().merge(&[]).unwrap_err()));
+    assert!(none(study.runner().recorded_runs().unwrap_err()));
+    assert!(none(study.runner().resume(Resume::Require).run().unwrap_err()));
+    assert!(matches!(study.runner().threads(100_000).run(), Err(RunError::Threads { threads: 100_000, .. })));
+    let growing = sum().factor("a", unit()).until(Target::half_width(0.1)).build().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let journal = folder.path().join("j");
+    assert!(matches!(growing.runner().journal(&journal).run_shard(shard()), Err(RunError::NoSize)));
+}
+
+#[test]
+fn a_version_tells_functions_apart_in_a_journal() {
+    let folder = tempfile::tempdir().unwrap();
+    let journal = folder.path().join("j");
+    let mean = |slope: f64, version: &str| {
+        let model = function_model("y", move |x| slope * x[0]);
+        let study =
+            Study::builder("line", model).version(version).factor("a", unit()).base_samples(64).build().unwrap();
+        study.runner().journal(&journal).run().unwrap().outputs[0].mean.unwrap().estimate
+    };
+    assert!((mean(1.0, "1") - 0.5).abs() < 1e-9);
+    assert!((mean(2.0, "2") - 1.0).abs() < 1e-9);
 }
 
 /// Runs on the threads of somebody's pool do not run inside each other, which would use up the stack.

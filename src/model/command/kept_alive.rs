@@ -39,11 +39,11 @@ const FIRST_ROWS: [usize; 3] = [8, 64, 512];
 const SHORT_START: Duration = Duration::from_millis(100);
 /// Rows that may be pending.
 const MOST_PENDING: usize = 1 << 20;
-/// How long a program may be silent over its rows until it is asked for the rest by the end of its input, and so many times
-/// the longest time that it has taken before.
+/// A program that is silent for so long, and for so many times the longest time that it has taken before, is asked for its pending
+/// answers by the end of its input.
 const QUIET: Duration = Duration::from_millis(500);
 const TIMES: u32 = 5;
-/// The same for a program that has never answered: it may take long to start. Its input is ended once for nothing if it does.
+/// The same for a program that has never answered, since it may take long to start.
 const FIRST_START: Duration = Duration::from_secs(60);
 
 pub(super) struct KeptAliveWorker<'a> {

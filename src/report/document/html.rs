@@ -150,7 +150,7 @@ impl Document {
             ),
             version: env!("CARGO_PKG_VERSION"),
         };
-        Ok(view.render()?)
+        rendered(&view)
     }
 }
 
@@ -186,12 +186,12 @@ impl Surroundings<'_> {
             }
             Part::Figure(figure) => self.figure(figure, Drawings::of)?,
             Part::Gallery(figures) => {
-                let small = figures.iter().map(|figure| Ok(self.figure(figure, Drawings::small)?.render()? + "\n"));
+                let small = figures.iter().map(|figure| Ok(rendered(&self.figure(figure, Drawings::small)?)? + "\n"));
                 PartView::Gallery { body: small.collect::<Result<_, DocumentError>>()? }
             }
             Part::Table(table) => PartView::Table(table_view(table)),
         };
-        Ok(view.render()?.trim_start().to_owned() + "\n")
+        Ok(rendered(&view)?.trim_start().to_owned() + "\n")
     }
 
     fn figure<'a>(
@@ -283,6 +283,10 @@ impl Mark {
             Self::Bad => "✗",
         }
     }
+}
+
+fn rendered(template: &impl Template) -> Result<String, DocumentError> {
+    template.render().map_err(|error| DocumentError::Template(error.to_string()))
 }
 
 #[cfg(test)]

@@ -51,7 +51,7 @@ pub struct Document {
 pub enum DocumentError {
     /// A template cannot be rendered.
     #[error("cannot make the page: {0}")]
-    Template(#[from] askama::Error),
+    Template(String),
     /// A chart cannot be drawn.
     #[error("cannot draw figure {figure:?} of the page: {source}")]
     Chart {

@@ -68,7 +68,7 @@ pub struct StoppingRecord {
 pub struct EffortRecord {
     /// The rungs that answered, and how many runs each.
     pub rungs: Vec<RungRecord>,
-    /// Evaluations of the right-hand side (of the friction law, in the closed form), in all.
+    /// Evaluations of the right-hand side (of the closed form, on the rung that has one), in all.
     pub evaluations: u64,
     /// Largest relative error of any run, as its rung estimates it from what it leaves out.
     pub largest_error_estimate: f64,

@@ -5,7 +5,7 @@
 /// By the secant method on the logarithm of the smaller probability, with bisections of the bit patterns wherever it is
 /// slow, so that values of any magnitude are found in a few steps, and those that have a probability of their own exactly.
 pub(super) fn quantile(u: f64, v: f64, (mut low, mut high): (f64, f64), tails: impl Fn(f64) -> (f64, f64)) -> f64 {
-    // Of a probability of 0, which no logarithm is infinite for.
+    // In the place of ln 0: below the logarithm of every double above 0.
     const LEAST: f64 = -800.0;
     let residual = |x: f64| {
         let (below, above) = tails(x);

@@ -9,7 +9,7 @@ use crate::given::Measure;
 use crate::quantity::{Dimension, Quantity};
 use crate::run::FailurePolicy;
 use crate::space::Space;
-use crate::study::options::{DEFAULT_MAX_FAILED, DEFAULT_RESAMPLES, DEFAULT_THRESHOLD, shapley_players};
+use crate::study::options::{DEFAULT_MAX_FAILED, DEFAULT_RESAMPLES, DEFAULT_THRESHOLD, RESAMPLES, shapley_players};
 use crate::study::{AnalysisOptions, SurrogateChoice, Target};
 use crate::uncertainty::IntervalMethod;
 
@@ -202,12 +202,11 @@ fn surrogate(
 }
 
 fn resamples(context: &Context<'_>, section: &AnalysisSection, method: IntervalMethod) -> Result<usize, Fault> {
-    const LEAST: u64 = 100;
-    const MOST: u64 = 1_000_000;
     let Some(resamples) = &section.resamples else { return Ok(DEFAULT_RESAMPLES) };
     let found = *resamples.get_ref();
-    if !(LEAST..=MOST).contains(&found) {
-        let problem = wrong("resamples", "a whole number from 100 to 1000000", found.to_string());
+    if !usize::try_from(found).is_ok_and(|found| RESAMPLES.contains(&found)) {
+        let expected = format!("a whole number from {} to {}", RESAMPLES.start(), RESAMPLES.end());
+        let problem = wrong("resamples", &expected, found.to_string());
         return Err(context.fault(resamples.span(), problem));
     }
     if !matches!(method, IntervalMethod::Percentile | IntervalMethod::Bca) {

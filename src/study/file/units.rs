@@ -18,7 +18,7 @@ pub(super) fn own_inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -
             Some(typed) => Unit::parse(typed.get_ref()).map_err(|error| context.fault(typed.span(), error.into()))?,
         };
         let (name, symbol) = (fields.name.get_ref().clone(), fields.name.get_ref().clone());
-        // Not a number: nobody but the study says where it stands.
+        // Not a number: the study alone has a nominal value.
         let (nominal, description) = (f64::NAN, "a factor of the study".to_owned());
         Ok(Input { name, symbol, unit, nominal, domain: None, distribution: None, description })
     };
@@ -64,7 +64,7 @@ pub(super) fn refuse_unit_of_own(
 /// The unit of an output of a program, which stands as `text` in `value`: one that is known, or any other short text.
 pub(super) fn output_unit(context: &Context<'_>, value: &At<Value>, text: &str) -> Result<Unit, Fault> {
     const LONGEST: usize = 60;
-    // Those that turn the direction of writing change what stands beside them.
+    // Marks of the direction of writing would reorder the text beside them.
     let turns = |c: char| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     if text.chars().count() > LONGEST || text.contains(|c: char| c.is_control() || turns(c)) {
         let expected = format!("a text of up to {LONGEST} characters, without control characters");

@@ -2,10 +2,10 @@
 
 /// What has been learnt from processes that ended early.
 pub(super) struct Caution {
-    /// The next process gets so many rows, which are then confirmed, and the row behind them goes alone; with how many it
-    /// went before.
+    /// How many rows the next process gets, whose answers are then confirmed. The row behind them is sent alone; the second number
+    /// is with how many rows it was sent before.
     pub plan: Option<(usize, usize)>,
-    /// The next row goes alone; with how many it went before.
+    /// If the next row is sent alone: with how many rows it was sent before.
     pub alone: Option<usize>,
     /// How often the row that goes alone has been tried in vain.
     pub tries: u32,
@@ -35,7 +35,7 @@ impl Caution {
     pub(super) fn settle(&mut self) {
         self.tries = 0;
         if let Some(ahead) = self.alone.take().filter(|ahead| *ahead > 1) {
-            // The row was innocent: one of those that went with it is not.
+            // So the fault lies with one of the rows that were sent with it.
             (self.window, self.in_window) = (ahead / 2, 0);
         }
     }
