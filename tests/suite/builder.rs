@@ -128,9 +128,13 @@ fn what_cannot_be_built_says_why() {
     assert!(with(|o| o.resamples = 0).contains("resamples = 0: expected a whole number from 100 to 1000000"));
     let free = Target { is_free: true, ..Target::default() };
     assert!(reason(two().until(free)).contains("a target that is free needs a half width"));
-    let factor = || Factor::new("c", Unit::dimensionless(), unit()).unwrap();
-    assert!(reason(two().with_factor(Factor { nominal: f64::NAN, ..factor() })).contains("its nominal value is NaN"));
-    assert!(reason(two().with_factor(Factor { group: Some("x\ny".to_owned()), ..factor() })).starts_with("group"));
+    let changed = |change: fn(&mut Factor)| {
+        let mut factor = Factor::new("c", Unit::dimensionless(), unit()).unwrap();
+        change(&mut factor);
+        reason(two().with_factor(factor))
+    };
+    assert!(changed(|factor| factor.nominal = f64::NAN).contains("its nominal value is NaN"));
+    assert!(changed(|factor| factor.group = Some("x\ny".to_owned())).starts_with("group"));
     assert!(with(|o| o.subsets = vec![vec![2]]).contains("subset [2]: expected numbers of factors"));
     assert!(with(|o| o.subsets = vec![vec![]]).contains("subset []"));
     assert!(with(|o| o.threshold = f64::NAN).contains("threshold = NaN: expected a number from 0 to 1"));
