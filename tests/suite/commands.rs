@@ -92,8 +92,11 @@ fn what_is_no_result_is_refused_with_file_and_place() {
     let json = std::fs::read_to_string(folder.path().join("ishigami.json")).unwrap();
     std::fs::write(&path, json.replacen("\"name\": \"ishigami\"", "\"name\": \"../escaped\"", 1)).unwrap();
     assert!(refused(&["report", text(&path)]).contains("`study.name`: files are named after it"));
-    std::fs::write(&path, &json.as_bytes()[..json.len() / 2]).unwrap();
-    assert!(refused(&["report", text(&path)]).contains("EOF while parsing"));
+    // At the end of a line: half of a number, or of a letter, is told in other words.
+    let half = json[..json.floor_char_boundary(json.len() / 2)].rfind('\n').unwrap();
+    std::fs::write(&path, &json.as_bytes()[..half]).unwrap();
+    let cut = refused(&["report", text(&path)]);
+    assert!(cut.contains("EOF while parsing"), "{cut}");
     std::fs::write(&path, [0xff, 0xfe, 0x00]).unwrap();
     assert!(refused(&["report", text(&path)]).contains("x.json: not a result"));
 }
