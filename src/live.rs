@@ -222,7 +222,11 @@ fn page(study: &Study, text: &str, result: &ResultFile) -> Result<String, LiveEr
         study: json!({ "presets": presets }).to_string().replace('<', "\\u003c"),
         page_style: include_str!("../templates/page/page.css"),
         style: include_str!("../templates/live/live.css"),
-        script: concat!(include_str!("../templates/live/live.js"), include_str!("../templates/page/charts.js")),
+        script: concat!(
+            include_str!("../templates/live/live.js"),
+            include_str!("../templates/live/controls.js"),
+            include_str!("../templates/page/charts.js")
+        ),
         beginning: include_str!("../templates/live/begin.js"),
         worker: include_str!("../templates/live/worker.js"),
         engine: ENGINE,
