@@ -45,23 +45,31 @@ const described = async () => {
 const current = (factor) => state.factors[factor.name] || { distribution: factor.distribution };
 
 // The ends of the middle of a distribution that a slider can move, and the distribution with them moved.
+const normal = (min, max) => {
+  const sd = (max - min) / 4;
+  return { mean: rounded((min + max) / 2, sd), sd: rounded(sd) };
+};
 const SLIDES = {
   "uniform": [(d) => [d.min, d.max], (d, min, max) => ({ ...d, min, max })],
   "log-uniform": [(d) => [d.min, d.max], (d, min, max) => ({ ...d, min, max })],
   "triangular": [(d) => [d.min, d.max], (d, min, max) => ({ ...d, min, max, mode: Math.min(Math.max(d.mode, min), max) })],
   "truncated-normal": [(d) => [d.min, d.max], (d, min, max) => ({ ...d, min, max })],
-  "normal": [(d) => [d.mean - 2 * d.sd, d.mean + 2 * d.sd], (d, min, max) => ({ ...d, mean: rounded((min + max) / 2), sd: rounded((max - min) / 4) })],
+  "normal": [(d) => [-2, 2].map((k) => rounded(d.mean + k * d.sd, d.sd)), (d, min, max) => ({ ...d, ...normal(min, max) })],
 };
 const between = {
   "uniform": (min, max) => ({ name: "uniform", min, max }),
   // From 0 it would not begin anywhere.
   "log-uniform": (min, max) => ({ name: "log-uniform", min: min > 0 ? min : rounded(max / 1000), max }),
-  "triangular": (min, max) => ({ name: "triangular", min, mode: rounded((min + max) / 2), max }),
-  "normal": (min, max) => ({ name: "normal", mean: rounded((min + max) / 2), sd: rounded((max - min) / 4) }),
+  "triangular": (min, max) => ({ name: "triangular", min, mode: rounded((min + max) / 2, max - min), max }),
+  "normal": (min, max) => ({ name: "normal", ...normal(min, max) }),
 };
 
 // The ends that a factor has in the study: of a distribution without any, those between which nearly all of its values lie.
-const own = (factor) => (SLIDES[factor.distribution.name] ? SLIDES[factor.distribution.name][0](factor.distribution) : [factor.low, factor.high]);
+const own = (factor) => endsOf(factor, factor.distribution);
+const endsOf = (factor, distribution) => {
+  if (SLIDES[distribution.name]) return SLIDES[distribution.name][0](distribution);
+  return [factor.low, factor.high].map((end) => rounded(end, factor.high - factor.low));
+};
 
 const labelled = (name, field) => make("label", {}, `${words(name)} `, field);
 const card = (factor) => {
@@ -82,9 +90,9 @@ const card = (factor) => {
     choice.disabled = fixed !== undefined;
     choice.onchange = () => {
       remember();
-      const [min, max] = ends(distribution);
+      const [min, max] = endsOf(factor, distribution);
       if (choice.value === factor.distribution.name) delete state.factors[factor.name];
-      else state.factors[factor.name] = { distribution: between[choice.value](rounded(min), rounded(max)) };
+      else state.factors[factor.name] = { distribution: between[choice.value](min, max) };
       draw();
       changed();
     };
@@ -94,7 +102,7 @@ const card = (factor) => {
       fix.dataset.key = "fix";
       fix.onchange = () => {
         remember();
-        if (fix.checked) state.factors[factor.name] = { fixed: rounded(factor.nominal), before: now().distribution };
+        if (fix.checked) state.factors[factor.name] = { fixed: factor.nominal, before: now().distribution };
         else if (now().before && JSON.stringify(now().before) !== JSON.stringify(factor.distribution)) state.factors[factor.name] = { distribution: now().before };
         else delete state.factors[factor.name];
         draw();
@@ -119,7 +127,6 @@ const card = (factor) => {
       if (same) same.focus();
     }
   };
-  const ends = (distribution) => (SLIDES[distribution.name] ? SLIDES[distribution.name][0](distribution) : own(factor));
   draw();
   return box;
 };
@@ -130,7 +137,7 @@ const slider = (factor, distribution, [ends, moved]) => {
   const box = make("div", { className: "slider" });
   const [least, most] = own(factor);
   const width = most - least;
-  const [low, high] = ends(distribution);
+  let [low, high] = ends(distribution);
   // What is nowhere negative in the study is not offered below 0.
   let from = least >= 0 ? Math.max(least / 4, least - width / 2) : least - width / 2;
   let to = most + width / 2;
@@ -138,7 +145,7 @@ const slider = (factor, distribution, [ends, moved]) => {
   if (high > to) to = high;
   const isLog = from > 0 && most / least >= 100;
   const place = (x) => STEPS * (isLog ? Math.log(x / from) / Math.log(to / from) : (x - from) / (to - from));
-  const value = (p) => rounded(isLog ? from * (to / from) ** (p / STEPS) : from + (p / STEPS) * (to - from));
+  const value = (p) => (isLog ? rounded(from * (to / from) ** (p / STEPS)) : rounded(from + (p / STEPS) * (to - from), to - from));
   const span = make("div", { className: "span" });
   const unit = factor.unit === "1" ? "" : ` ${inWords(factor.unit)}`;
   const handle = (which, x) => {
@@ -161,10 +168,10 @@ const slider = (factor, distribution, [ends, moved]) => {
     if (input === first && first.valueAsNumber >= last.valueAsNumber) first.value = last.valueAsNumber - 1;
     if (input === last && last.valueAsNumber <= first.valueAsNumber) last.value = first.valueAsNumber + 1;
     // The handle that was not moved keeps its number, however many digits it has.
-    const [a, b] = ends(current(factor).distribution);
-    const min = input === first ? value(first.valueAsNumber) : a;
-    const max = input === last ? value(last.valueAsNumber) : b;
+    const min = input === first ? value(first.valueAsNumber) : low;
+    const max = input === last ? value(last.valueAsNumber) : high;
     if (!(min < max)) return;
+    [low, high] = [min, max];
     state.factors[factor.name] = { distribution: moved(current(factor).distribution, min, max) };
     paint(min, max);
     const box = input.closest("fieldset");

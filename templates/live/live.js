@@ -16,8 +16,13 @@ const make = (tag, properties = {}, ...children) => {
   element.append(...children);
   return element;
 };
-// Numbers as people type them: four digits, no trailing zeros.
-const rounded = (x) => Number(x.toPrecision(4));
+// To a thousandth of the power of ten below `width`: of a number alone four digits, of a narrow range as many as it takes.
+const rounded = (x, width = Math.abs(x)) => {
+  if (!(width > 0)) return x;
+  const power = Math.floor(Math.log10(width)) - 3;
+  // By way of text: a product of binary fractions would have digits of its own.
+  return Number(power > 0 ? `${Math.round(x / 10 ** power)}e${power}` : x.toFixed(Math.min(-power, 100)));
+};
 const words = (name) => name.replaceAll("_", " ");
 const number = (x) => Math.abs(x) >= 1e9 || (x !== 0 && Math.abs(x) < 1e-3) ? x.toExponential() : String(x);
 const inWords = (unit) => (unit === "1" ? "" : unit.replace(/\bu(?=[a-zA-Z])/g, "µ").replace(/([a-zA-Z])2\b/g, "$1²").replace(/([a-zA-Z])3\b/g, "$1³"));

@@ -5,7 +5,8 @@
 Of five studies (three laws of friction, formulas, a known function): every number of the result of the page equals that of the
 program, bit for bit. Of one: sliders by keyboard and by pointer, fixing, undo, a link that restores, "copy as study.toml" that runs in
 the program, a damaged link, no request beyond the page, no message on the console, and what the page shows without scripts. Of one
-with several outputs, and of one with series: that one of them is shown.
+with several outputs, and of one with series: that one of them is shown. Of one with factors of all kinds: ranges that are narrow, or have
+no slider.
 With `--engine` the pages have that engine (gzip in base64) in the place of their own. Times are printed, not judged; `--drags`
 moves a slider so many times and prints the memory of the page before and after; with `--bits` numbers are compared and nothing else.
 Exit code 1 if anything is wrong.
@@ -200,10 +201,7 @@ def behaviour(arguments, browser, page_file, folder):
     expect(other.locator("#lead").inner_text() == page.locator("#lead").inner_text(), "the link gives another result")
     other.context.close()
 
-    page.locator("#toml").click()
-    page.wait_for_selector("#text[open]")
-    text = page.locator("#text textarea").input_value()
-    page.locator("#text button").click()
+    text = asked_text(page)
     copied = folder / "copied.toml"
     copied.write_text(text)
     expected = native(arguments.program, copied, folder / "copied")
@@ -291,12 +289,12 @@ def series(arguments, browser, folder):
     page.context.close()
 
 
-def sliders(page):
+def sliders(page, names=None):
     """Every slider moves by keyboard, and its field with it."""
-    for name in page.eval_on_selector_all("fieldset.factor", "all => all.map((box) => box.dataset.factor)"):
+    for name in names or page.eval_on_selector_all("fieldset.factor", "all => all.map((box) => box.dataset.factor)"):
         box = page.locator(f"fieldset[data-factor={name}]")
         for key, end, arrow in (("smallest", "min", "ArrowRight"), ("largest", "max", "ArrowLeft")):
-            field = box.locator(f"input[data-parameter={end}]")
+            field = box.locator(f"input[data-parameter={end}], input[data-parameter=mean]")
             before = field.input_value()
             box.locator(f"input[data-key={key}]").focus()
             for _ in range(10):
@@ -314,6 +312,61 @@ def log_uniform_from_nothing(page):
     settled(page)
     expect(float(box.locator("input[data-parameter=min]").input_value()) > 0, "log-uniform from 0")
     expect(page.locator("#refused").is_hidden(), "a log-uniform distribution is refused")
+
+
+# A narrow range around a large value, and kinds of factors that others have not.
+KINDS = """title = "Factors of all kinds"
+model = "expression"
+
+[expression]
+outputs.y = "narrow + spread + strength + level + wait"
+
+[design]
+base_samples = 256
+
+[factors]
+narrow = { min = 1000.0, max = 1000.4, nominal = 1000.123456789 }
+spread = { distribution = "normal", mean = 5000, sd = 0.03 }
+strength = { distribution = "log-normal", p05 = 1.5, p95 = 3 }
+level = { distribution = "discrete", values = [1, 2, 3, 5, 8, 13, 21, 34, 55, 89] }
+wait = { distribution = "empirical", values = [0.1, 0.23, 0.31, 0.4] }
+"""
+
+
+def kinds(arguments, browser, folder):
+    """Digits follow the width of a range, and are exact where nothing was typed."""
+    study = folder / "kinds.toml"
+    study.write_text(KINDS)
+    run(arguments.program, "live", study, "--out", folder / "kinds.html")
+    page = browser.open(folder / "kinds.html")
+    settled(page)
+    box = page.locator("fieldset[data-factor=narrow]")
+    number = lambda name: float(box.locator(f"input[data-parameter={name}]").input_value())
+    box.locator("input[data-key=largest]").focus()
+    page.keyboard.press("ArrowLeft")
+    expect(number("min") == 1000 and 1000.39 < number("max") < 1000.4, f"a narrow range moves to {number('min')} to {number('max')}")
+    for kind, low, high in (("normal", "mean", "sd"), ("triangular", "min", "max"), ("uniform", "min", "max")):
+        box.locator("select[data-key=kind]").select_option(kind)
+        settled(page)
+        least = (number(low), number(high))
+        expect(1000 <= least[0] < 1000.3 and least[1] > 0.05, f"a narrow range is {kind} of {least}")
+        expect(page.locator("#refused").is_hidden(), f"a narrow range is refused as {kind}")
+    box.locator("input[data-key=fix]").check()
+    settled(page)
+    fixed = asked_text(page)
+    expect("1000.123456789" in fixed, "a factor is not fixed at its nominal value")
+    page.locator("#reset").click()
+    sliders(page, ["narrow", "spread"])
+    page.context.close()
+
+
+def asked_text(page):
+    """The study as it is copied."""
+    page.locator("#toml").click()
+    page.wait_for_selector("#text[open]")
+    text = page.locator("#text textarea").input_value()
+    page.locator("#text button").click()
+    return text
 
 
 def drags(page, number):
@@ -370,6 +423,7 @@ def main():
             page = behaviour(arguments, browser, pages["coulomb-general"], folder)
             several_outputs(arguments, browser, folder)
             series(arguments, browser, folder)
+            kinds(arguments, browser, folder)
             if arguments.drags:
                 drags(page, arguments.drags)
         if arguments.shots:
