@@ -319,12 +319,24 @@ const save = (name, type, text) => {
   make("a", { href: url, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(url), 1000);
 };
+// A copy is of the settings and of the number of base points shown. The doubling waits for it, and goes on.
 const asked = async (wanted) => {
-  goal = null;
-  interrupt();
-  const answer = await tell(request(wanted, shown.samples || FEWEST));
-  if (answer.answer && answer.answer.done !== undefined) return answer.answer.done;
-  refuse(answer.broken || (answer.answer && answer.answer.refused) || "");
+  while (shown.settings !== JSON.stringify(state)) {
+    if (refused.settings === JSON.stringify(state)) {
+      refuse(refused.problem);
+      at("refused").scrollIntoView({ block: "nearest" });
+      return null;
+    }
+    await new Promise((resolve) => hearers.push(resolve));
+  }
+  if (flying) cancel();
+  const mine = tell(request(wanted, shown.samples));
+  asking = mine;
+  const { answer, broken } = await mine;
+  if (asking === mine) asking = null;
+  if (broken) cancel();
+  if (answer && answer.done !== undefined) return answer.done;
+  refuse(broken || (answer && answer.refused), false);
   return null;
 };
 const file = (ending, type) => async () => {

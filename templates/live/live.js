@@ -117,7 +117,10 @@ const request = (wanted, samples, more = {}) => ({ wanted, text: text(), changes
 
 const QUICK = ["mind", "indices", "shares", "series-1"];
 const ALL = ["mind", "indices", "shares", "series-1", "interactions", "distribution", "validity"];
-let shown = { samples: 0 };
+// Of which settings the result is, and for which there is none.
+let shown = { settings: null, samples: 0 };
+let refused = { settings: null, problem: null };
+let hearers = [];
 
 // A word about the page itself, until something is changed.
 let notice = null;
@@ -138,9 +141,11 @@ const refuse = (problem, isOld = true) => {
   const said = beside ? `${words(factor)}: ${plain(rest)}` : plain(problem || "");
   const sentence = /[.!?]$/.test(said) ? said : `${said}.`;
   place.textContent = problem && isOld ? `No new result: ${sentence} The numbers below are old: those before this change.` : said;
+  refused = { settings: problem && isOld ? JSON.stringify(state) : null, problem };
+  for (const hear of hearers.splice(0)) hear();
 };
-const show = (view, seconds, whole) => {
-  shown = { samples: view.base_samples, lead: view.plain_lead };
+const show = (view, settings, seconds, whole) => {
+  shown = { settings, samples: view.base_samples, lead: view.plain_lead };
   at("lead").innerHTML = view.lead.map((text) => `<p class="lead">${text}</p>`).join("");
   const main = at("content");
   const kept = new Set();
@@ -185,11 +190,15 @@ for (const section of document.querySelectorAll("main > section")) {
 let goal = null;
 let flying = 0;
 let quick = FEWEST;
+// The copy that is being made.
+let asking = null;
+// How many seconds it took; nothing if it was cancelled.
 const run = async (samples, whole) => {
+  const settings = JSON.stringify(state);
   flying = samples;
   const answer = await tell(request("run", samples, { sections: whole ? ALL : QUICK, output: state.output }));
   flying = 0;
-  if (answer.cancelled) return 0;
+  if (answer.cancelled) return null;
   if (answer.broken) {
     cancel();
     refuse(`The engine stopped: ${answer.broken}`);
@@ -198,20 +207,22 @@ const run = async (samples, whole) => {
   if (notice && answer.answer.refused === undefined) refuse(notice, false);
   else refuse(answer.answer.refused);
   if (answer.answer.done === undefined) return 0;
-  show(answer.answer.done, answer.seconds, whole);
+  show(answer.answer.done, settings, answer.seconds, whole);
   return answer.seconds;
 };
 let pumping = false;
 const pump = async () => {
   if (pumping) return;
   pumping = true;
-  while (goal) {
+  for (;;) {
+    while (asking) await asking;
     const mine = goal;
+    if (!mine) break;
     if (mine.samples) {
       // The first step shows at once what is drawn quickly; all else comes with the next one, of the same size if none is larger.
       const isFirst = mine.samples === FEWEST && !mine.whole;
       const seconds = await run(mine.samples, !isFirst);
-      if (goal !== mine) continue;
+      if (goal !== mine || seconds === null) continue;
       if (seconds && 2 * mine.samples <= MOST && 2.2 * seconds <= LONGEST) {
         mine.samples *= 2;
       } else if (seconds && isFirst) {

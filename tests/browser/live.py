@@ -360,12 +360,43 @@ def kinds(arguments, browser, folder):
     page.context.close()
 
 
-def asked_text(page):
-    """The study as it is copied."""
+def copies(arguments, browser, page_file, folder):
+    """A copy is of what is shown, and ends no doubling; there is none of a study that cannot be."""
+    page = browser.open(page_file)
+    page.wait_for_function("window.apportion !== undefined")
+    # What is shown at the moment of the copy: the doubling goes on at once.
+    page.evaluate("""new MutationObserver(() => { window.copied = document.body.dataset.samples; })
+      .observe(document.getElementById("text"), { attributes: true, attributeFilter: ["open"] })""")
+    field = page.locator("fieldset[data-factor=thickness] input[data-parameter=min]")
+    for value, samples in (("0.5", None), ("0.6", 512), ("0.7", 2048)):
+        field.fill(value)
+        field.press("Tab")
+        if samples:
+            page.wait_for_function(f"document.body.dataset.samples >= {samples}")
+        text = asked_text(page, still=True)
+        points = page.evaluate("window.copied")
+        expect(f"base_samples = {points}\n" in text and f"min = {value}" in text, f"the copy is not of {points} base points from {value}")
+        page.locator("#text button").click()
+        settled(page)
+    field.fill("99")
+    field.press("Tab")
+    page.wait_for_selector("#refused:not([hidden])")
+    page.on("download", lambda download: expect(False, f"{download.suggested_filename} of a study that cannot be"))
+    for button in ("toml", "json", "csv", "svg"):
+        page.locator(f"#{button}").click()
+        page.wait_for_timeout(100)
+        expect(page.locator("#text[open]").count() == 0, f"{button} of a study that cannot be")
+        expect("min must be below max" in page.locator("#refused").inner_text(), f"{button}: no word about a study that cannot be")
+    page.context.close()
+
+
+def asked_text(page, still=False):
+    """The study as it is copied; `still`: with its dialog open."""
     page.locator("#toml").click()
     page.wait_for_selector("#text[open]")
     text = page.locator("#text textarea").input_value()
-    page.locator("#text button").click()
+    if not still:
+        page.locator("#text button").click()
     return text
 
 
@@ -424,6 +455,7 @@ def main():
             several_outputs(arguments, browser, folder)
             series(arguments, browser, folder)
             kinds(arguments, browser, folder)
+            copies(arguments, browser, pages["coulomb-general"], folder)
             if arguments.drags:
                 drags(page, arguments.drags)
         if arguments.shots:
