@@ -86,6 +86,7 @@ struct Page<'a> {
     title: String,
     lead: Vec<String>,
     state: String,
+    ranges: String,
     sections: Vec<SectionView<'a>>,
     footer: String,
     /// The studies as JSON, in an element of script: without `<`.
@@ -204,6 +205,7 @@ fn page(study: &Study, text: &str, result: &ResultFile) -> Result<String, LiveEr
             }
         }
     }
+    let ranges = ranges(&document)?;
     let mut sections = Vec::new();
     let document = document.excerpt(&SECTIONS);
     for id in SECTIONS {
@@ -216,6 +218,7 @@ fn page(study: &Study, text: &str, result: &ResultFile) -> Result<String, LiveEr
         title: symbols(title),
         lead: document.lead.iter().map(|text| symbols(text)).collect(),
         state: format!("{} runs of the model by the program.", result.provenance.model_runs),
+        ranges,
         sections,
         footer: symbols(&document.footer),
         // A title may hold what would end the element.
@@ -233,4 +236,15 @@ fn page(study: &Study, text: &str, result: &ResultFile) -> Result<String, LiveEr
         version: env!("CARGO_PKG_VERSION"),
     };
     Ok(page.render()?)
+}
+
+/// The tables of what was asked, for those who see no controls: on paper, and without scripts.
+fn ranges(document: &Document) -> Result<String, DocumentError> {
+    let mut document = document.clone().excerpt(&["study"]);
+    for part in document.sections.iter_mut().flat_map(|section| &mut section.parts) {
+        if let Part::OnPage(parts) = part {
+            parts.retain(|part| matches!(part, Part::Table(_)));
+        }
+    }
+    Ok(document.section_html("study")?.unwrap_or_default())
 }

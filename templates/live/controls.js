@@ -71,9 +71,32 @@ const endsOf = (factor, distribution) => {
   return [factor.low, factor.high].map((end) => rounded(end, factor.high - factor.low));
 };
 
+// A distribution in words, as the program has it; of many values the first ones.
+const plain = (value) => {
+  if (Array.isArray(value)) return value.slice(0, 8).map(plain).join("; ") + (value.length > 8 ? `; … (${value.length} in all)` : "");
+  if (typeof value === "number") return number(rounded(value, Math.abs(value) / 1e5));
+  return typeof value === "object" ? `(${inWords(value)})` : value;
+};
+const parameter = ([name, value]) => `${words(name)} ${plain(value)}`;
+const inWords = ({ name, ...parameters }) => [name, ...Object.entries(parameters).map(parameter)].join(", ");
+// What the controls say, for paper.
+const tabulate = () => {
+  const row = (name, now, before) => make("tr", {}, make("th", { scope: "row" }, words(name)), make("td", {}, now), make("td", {}, now === before ? "" : `changed; in the study ${before}`));
+  const factors = description.factors.map((factor) => {
+    const unit = unitIn(factor.unit);
+    const said = ({ fixed, distribution }) => (fixed === undefined ? inWords(distribution) : `fixed at ${plain(fixed)}`) + (unit && ` (${unit})`);
+    return row(factor.name, said(current(factor)), said(factor));
+  });
+  const choices = description.choices.map(({ name, value }) => row(name, state.choices[name] || String(value), String(value)));
+  const head = make("thead", {}, make("tr", {}, ...["factor or choice", "as it is here", ""].map((text) => make("th", { scope: "col" }, text))));
+  const caption = make("caption", {}, "The factors with their distributions, and the choices of the model.");
+  const table = make("table", {}, caption, head, make("tbody", {}, ...factors, ...choices));
+  at("ranges").replaceChildren(at("ranges-heading"), make("div", { className: "table" }, table));
+};
+
 const labelled = (name, field) => make("label", {}, `${words(name)} `, field);
 const card = (factor) => {
-  const unit = inWords(factor.unit);
+  const unit = unitIn(factor.unit);
   const now = () => current(factor);
   const box = make("fieldset", { className: "factor" });
   box.dataset.factor = factor.name;
@@ -147,7 +170,7 @@ const slider = (factor, distribution, [ends, moved]) => {
   const place = (x) => STEPS * (isLog ? Math.log(x / from) / Math.log(to / from) : (x - from) / (to - from));
   const value = (p) => (isLog ? rounded(from * (to / from) ** (p / STEPS)) : rounded(from + (p / STEPS) * (to - from), to - from));
   const span = make("div", { className: "span" });
-  const unit = factor.unit === "1" ? "" : ` ${inWords(factor.unit)}`;
+  const unit = factor.unit === "1" ? "" : ` ${unitIn(factor.unit)}`;
   const handle = (which, x) => {
     const input = make("input", { type: "range", min: 0, max: STEPS, step: 1, value: place(x) });
     input.ariaLabel = `${which} ${words(factor.name)}`;
@@ -266,6 +289,7 @@ const controls = () => {
 const changed = () => {
   buttons();
   entitle();
+  tabulate();
   settle();
 };
 // The controls show the whole state anew: at once, but for a study that is to be described first.

@@ -25,7 +25,7 @@ const rounded = (x, width = Math.abs(x)) => {
 };
 const words = (name) => name.replaceAll("_", " ");
 const number = (x) => Math.abs(x) >= 1e9 || (x !== 0 && Math.abs(x) < 1e-3) ? x.toExponential() : String(x);
-const inWords = (unit) => (unit === "1" ? "" : unit.replace(/\bu(?=[a-zA-Z])/g, "µ").replace(/([a-zA-Z])2\b/g, "$1²").replace(/([a-zA-Z])3\b/g, "$1³"));
+const unitIn = (unit) => (unit === "1" ? "" : unit.replace(/\bu(?=[a-zA-Z])/g, "µ").replace(/([a-zA-Z])2\b/g, "$1²").replace(/([a-zA-Z])3\b/g, "$1³"));
 const grouped = (x) => x.toLocaleString("en").replaceAll(",", "\u202f");
 
 // --- The engine -------------------------------------------------------------------------------------------------------

@@ -360,6 +360,29 @@ def kinds(arguments, browser, folder):
     page.context.close()
 
 
+def paper(arguments, browser, page_file, folder):
+    """On paper, and without scripts, a table says which ranges were used."""
+    silent = browser.open(page_file, scripts=False)
+    table = silent.locator("#ranges")
+    expect(table.is_visible() and "min 0.25, max 2.5 (µm)" in table.inner_text(), "no ranges without scripts")
+    silent.context.close()
+    page = browser.open(page_file)
+    settled(page)
+    expect(page.locator("#ranges").is_hidden(), "the table for paper is on the screen")
+    page.locator("fieldset[data-factor=width] input[data-key=fix]").check()
+    field = page.locator("fieldset[data-factor=thickness] input[data-parameter=min]")
+    field.fill("0.5")
+    field.press("Tab")
+    settled(page)
+    page.emulate_media(media="print")
+    expect(page.locator("#controls").is_hidden(), "controls on paper")
+    rows = page.locator("#ranges tr").all_inner_texts()
+    for name, words in (("thickness", "uniform, min 0.5, max 2.5 (µm)\tchanged; in the study uniform, min 0.25, max 2.5 (µm)"), ("width", "fixed at ")):
+        expect(any(row.startswith(name) and words in row for row in rows), f"on paper {name} is not said: {rows}")
+    expect(sum("changed" in row for row in rows) == 2, f"on paper {rows}")
+    page.context.close()
+
+
 def copies(arguments, browser, page_file, folder):
     """A copy is of what is shown, and ends no doubling; there is none of a study that cannot be."""
     page = browser.open(page_file)
@@ -455,6 +478,7 @@ def main():
             several_outputs(arguments, browser, folder)
             series(arguments, browser, folder)
             kinds(arguments, browser, folder)
+            paper(arguments, browser, pages["coulomb-general"], folder)
             copies(arguments, browser, pages["coulomb-general"], folder)
             if arguments.drags:
                 drags(page, arguments.drags)
