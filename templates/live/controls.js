@@ -15,32 +15,51 @@ const buttons = () => {
   const fragment = at("reset").disabled ? "" : `#s=${btoa(unescape(encodeURIComponent(clean))).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "")}`;
   history.replaceState(null, "", location.href.split("#")[0] + fragment);
 };
+// The factors and choices as each study has them, whatever was changed.
+const descriptions = [];
+const described = async (preset) => {
+  if (descriptions[preset]) return descriptions[preset];
+  const answer = await tell({ wanted: "description", text: given.presets[preset].text, changes: [] });
+  if (answer.cancelled) return described(preset);
+  if (answer.broken || answer.answer.refused !== undefined) refuse(answer.broken || answer.answer.refused);
+  else descriptions[preset] = answer.answer.done;
+  return descriptions[preset];
+};
+
 const isLink = () => location.hash.startsWith("#s=");
-const restored = () => {
+const isRecord = (value) => Object.prototype.toString.call(value) === "[object Object]";
+const isPlain = (value) => typeof value === "string" || Number.isFinite(value) || (Array.isArray(value) && value.every(isPlain));
+const isDistribution = (value) => isRecord(value) && typeof value.name === "string" && Object.entries(value).every(([key, value]) => /^\w+$/.test(key) && isPlain(value));
+const isOf = ({ factors, choices, outputs, all_outputs }, found) => {
+  const isChange = ([name, changed]) => {
+    if (!isRecord(changed) || !factors.some((factor) => factor.name === name)) return false;
+    const { fixed, before, distribution } = changed;
+    return fixed === undefined ? isDistribution(distribution) : Number.isFinite(fixed) && (before === undefined || isDistribution(before));
+  };
+  const isChoice = ([name, value]) => choices.some((choice) => choice.name === name && choice.values.includes(value));
+  return isRecord(found.factors) && Object.entries(found.factors).every(isChange) &&
+    isRecord(found.choices) && Object.entries(found.choices).every(isChoice) &&
+    (found.output === null || outputs.concat(all_outputs).some(({ name }) => name === found.output));
+};
+// Takes over what the address says: without settings it is the study of the file.
+const follow = async () => {
   notice = null;
-  if (!isLink()) return;
+  let found = unchanged();
   try {
-    const bytes = atob(location.hash.slice(3).replaceAll("-", "+").replaceAll("_", "/"));
-    const found = JSON.parse(decodeURIComponent(escape(bytes)));
-    const isWhole = given.presets[found.preset] && typeof found.factors === "object" && typeof found.choices === "object";
-    if (!isWhole) throw new Error("of another page");
-    state = found;
+    if (isLink()) {
+      found = JSON.parse(decodeURIComponent(escape(atob(location.hash.slice(3).replaceAll("-", "+").replaceAll("_", "/")))));
+      if (!Number.isInteger(found.preset) || !given.presets[found.preset]) throw new Error("no such study");
+      halt();
+      if (!isOf(await described(found.preset), found)) throw new Error("of another page");
+    }
+    const { preset, factors, choices, output } = found;
+    // What the page opens with is not a change.
+    if (description) remember();
+    state = { preset, factors, choices, output };
   } catch (error) {
     notice = "The link is damaged, or of another page: this is the study as it was.";
   }
-};
-
-const described = async () => {
-  const { preset } = state;
-  // The factors as the study has them, whatever was changed.
-  const answer = await tell({ wanted: "description", text: text(), changes: [] });
-  if (answer.cancelled) return described();
-  if (answer.broken || answer.answer.refused !== undefined) {
-    refuse(answer.broken || answer.answer.refused);
-    return false;
-  }
-  description = { ...answer.answer.done, preset };
-  return true;
+  return fresh();
 };
 const current = (factor) => state.factors[factor.name] || { distribution: factor.distribution };
 
@@ -54,6 +73,10 @@ const SLIDES = {
   "log-uniform": [(d) => [d.min, d.max], (d, min, max) => ({ ...d, min, max })],
   "triangular": [(d) => [d.min, d.max], (d, min, max) => ({ ...d, min, max, mode: Math.min(Math.max(d.mode, min), max) })],
   "truncated-normal": [(d) => [d.min, d.max], (d, min, max) => ({ ...d, min, max })],
+  "log-normal": [(d) => [-2, 2].map((k) => rounded(Math.exp(d.log_mean + k * d.log_sd), Math.min(1, d.log_sd) * Math.exp(d.log_mean))), (d, min, max) => {
+    const { mean, sd } = normal(Math.log(min), Math.log(max));
+    return { ...d, log_mean: mean, log_sd: sd };
+  }],
   "normal": [(d) => [-2, 2].map((k) => rounded(d.mean + k * d.sd, d.sd)), (d, min, max) => ({ ...d, ...normal(min, max) })],
 };
 const between = {
@@ -125,8 +148,8 @@ const card = (factor) => {
       fix.dataset.key = "fix";
       fix.onchange = () => {
         remember();
-        if (fix.checked) state.factors[factor.name] = { fixed: factor.nominal, before: now().distribution };
-        else if (now().before && JSON.stringify(now().before) !== JSON.stringify(factor.distribution)) state.factors[factor.name] = { distribution: now().before };
+        if (fix.checked) state.factors[factor.name] = { fixed: factor.nominal, before: (state.factors[factor.name] || {}).distribution };
+        else if (now().before) state.factors[factor.name] = { distribution: now().before };
         else delete state.factors[factor.name];
         draw();
         changed();
@@ -181,8 +204,8 @@ const slider = (factor, distribution, [ends, moved]) => {
   const paint = (a, b) => {
     span.style.left = `${Math.max(0, place(a) / STEPS) * 100}%`;
     span.style.right = `${100 - Math.min(1, place(b) / STEPS) * 100}%`;
-    first.setAttribute("aria-valuetext", `${number(a)}${unit}`);
-    last.setAttribute("aria-valuetext", `${number(b)}${unit}`);
+    first.setAttribute("aria-valuetext", `${brief(a, b - a)}${unit}`);
+    last.setAttribute("aria-valuetext", `${brief(b, b - a)}${unit}`);
   };
   let saved = false;
   const move = (input) => {
@@ -199,8 +222,8 @@ const slider = (factor, distribution, [ends, moved]) => {
     paint(min, max);
     const box = input.closest("fieldset");
     for (const field of box.querySelectorAll(".fields input")) {
-      const now = current(factor).distribution[field.dataset.parameter];
-      if (now !== undefined) field.value = number(now);
+      const { parameter } = field.dataset;
+      field.value = shortened(parameter, current(factor).distribution[parameter], max - min);
     }
     drag();
   };
@@ -216,16 +239,21 @@ const slider = (factor, distribution, [ends, moved]) => {
   return box;
 };
 
+// Only places within the range are as narrow as it is.
+const shortened = (name, value, width) => brief(value, /^(min|mode|max|mean|location|value)$/.test(name) ? width : undefined);
 const fields = (factor, { fixed, distribution }, redraw) => {
   const box = make("div", { className: "fields" });
+  const [low, high] = endsOf(factor, distribution || factor.distribution);
   const field = (name, value, put) => {
-    const input = make("input", { type: "number", step: "any", value: number(value) });
+    // The study keeps all digits until others are typed.
+    const short = shortened(name, value, high - low);
+    const input = make("input", { type: "number", step: "any", value: short, title: number(value) });
     input.dataset.parameter = name;
     input.dataset.key = `field-${name}`;
     input.onchange = () => {
       const typed = input.valueAsNumber;
-      if (!Number.isFinite(typed)) {
-        input.value = number(value);
+      if (!Number.isFinite(typed) || typed === Number(short)) {
+        input.value = short;
         return;
       }
       remember();
@@ -240,8 +268,9 @@ const fields = (factor, { fixed, distribution }, redraw) => {
     return box;
   }
   for (const [name, value] of Object.entries(distribution)) {
-    if (typeof value !== "number") continue;
-    field(name, value, (typed) => {
+    if (name === "name") continue;
+    if (typeof value !== "number") box.append(make("span", { className: "values" }, parameter([name, value])));
+    else field(name, value, (typed) => {
       state.factors[factor.name] = { distribution: { ...current(factor).distribution, [name]: typed } };
     });
   }
@@ -263,7 +292,7 @@ const controls = () => {
   if (given.presets.length > 1) {
     const names = given.presets.map(({ title }, place) => [String(place), title]);
     settings.push(menu("study", names, String(state.preset), (value) => {
-      state = { preset: Number(value), factors: {}, choices: {}, output: null };
+      state = unchanged(Number(value));
       fresh();
     }));
   }
@@ -292,15 +321,19 @@ const changed = () => {
   tabulate();
   settle();
 };
-// The controls show the whole state anew: at once, but for a study that is to be described first.
-const fresh = async () => {
+const halt = () => {
   document.body.dataset.samples = "0";
   goal = null;
   interrupt();
-  const isOther = () => !description || description.preset !== state.preset;
-  if (isOther() && !(await described())) return;
+};
+// The controls show the whole state anew: at once, but for a study that is to be described first.
+const fresh = async () => {
+  halt();
+  const { preset } = state;
+  if (!descriptions[preset] && !(await described(preset))) return;
   // While this study was described, another one was chosen.
-  if (isOther()) return;
+  if (state.preset !== preset) return;
+  description = descriptions[preset];
   controls();
   changed();
 };
@@ -313,7 +346,7 @@ at("undo").onclick = () => step(past, future);
 at("redo").onclick = () => step(future, past);
 at("reset").onclick = () => {
   remember();
-  state = { preset: 0, factors: {}, choices: {}, output: null };
+  state = unchanged();
   fresh();
 };
 addEventListener("keydown", (event) => {
@@ -389,14 +422,9 @@ at("link").onclick = () => offer("Link", location.href);
     module = await engineModule;
     worker = engineThread;
     listen();
-    addEventListener("hashchange", () => {
-      // A jump within the page leaves the settings as they are.
-      if (!isLink()) return buttons();
-      restored();
-      return fresh();
-    });
-    restored();
-    await fresh();
+    // A jump within the page leaves the settings as they are.
+    addEventListener("hashchange", () => (location.hash && !isLink() ? buttons() : follow()));
+    await follow();
     if (!description) return;
     at("controls").hidden = false;
     // For those who measure.

@@ -25,6 +25,8 @@ const rounded = (x, width = Math.abs(x)) => {
 };
 const words = (name) => name.replaceAll("_", " ");
 const number = (x) => Math.abs(x) >= 1e9 || (x !== 0 && Math.abs(x) < 1e-3) ? x.toExponential() : String(x);
+// Six digits of a number, and those that tell apart what is as narrow as `width`.
+const brief = (x, width = Infinity) => number(rounded(x, Math.min(Math.abs(x), width) / 100));
 const unitIn = (unit) => (unit === "1" ? "" : unit.replace(/\bu(?=[a-zA-Z])/g, "µ").replace(/([a-zA-Z])2\b/g, "$1²").replace(/([a-zA-Z])3\b/g, "$1³"));
 const grouped = (x) => x.toLocaleString("en").replaceAll(",", "\u202f");
 
@@ -64,13 +66,14 @@ const cancel = () => {
 // --- What is asked ----------------------------------------------------------------------------------------------------
 
 // Of each factor that was changed its distribution, or the value at which it is fixed; and the choices of the model.
-let state = { preset: 0, factors: {}, choices: {}, output: null };
+const unchanged = (preset = 0) => ({ preset, factors: {}, choices: {}, output: null });
+let state = unchanged();
 let past = [];
 let future = [];
 let description = null;
 
 const toml = (value) => {
-  if (typeof value === "string") return JSON.stringify(value);
+  if (typeof value === "string") return /^-?inf$/.test(value) ? value : JSON.stringify(value);
   if (Array.isArray(value)) return `[${value.map(toml).join(", ")}]`;
   if (typeof value === "number" && Number.isInteger(value) && Math.abs(value) < 1e15) return `${value}.0`;
   return String(value);

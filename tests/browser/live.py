@@ -13,6 +13,7 @@ Exit code 1 if anything is wrong.
 """
 
 import argparse
+import base64
 import json
 import subprocess
 import sys
@@ -241,12 +242,6 @@ def behaviour(arguments, browser, page_file, folder):
     settled(page)
     expect(page.locator("#refused").is_hidden() and page.locator(".wrong:visible").count() == 0, "a refusal that stays")
 
-    damaged = browser.open(page_file, fragment="#s=%%%damaged")
-    settled(damaged)
-    expect(state(damaged) == before, "a damaged link changes the study")
-    expect("damaged" in damaged.locator("#refused").inner_text(), "no word about a damaged link")
-    damaged.context.close()
-
     silent = browser.open(page_file, scripts=False)
     expect(silent.locator("#lead").inner_text().strip() and silent.locator("#indices svg").count() > 0, "nothing without scripts")
     expect(silent.locator("noscript").count() == 1, "no word about scripts")
@@ -294,7 +289,7 @@ def sliders(page, names=None):
     for name in names or page.eval_on_selector_all("fieldset.factor", "all => all.map((box) => box.dataset.factor)"):
         box = page.locator(f"fieldset[data-factor={name}]")
         for key, end, arrow in (("smallest", "min", "ArrowRight"), ("largest", "max", "ArrowLeft")):
-            field = box.locator(f"input[data-parameter={end}], input[data-parameter=mean]")
+            field = box.locator(f"input[data-parameter={end}], input[data-parameter$=mean]")
             before = field.input_value()
             box.locator(f"input[data-key={key}]").focus()
             for _ in range(10):
@@ -356,8 +351,66 @@ def kinds(arguments, browser, folder):
     fixed = asked_text(page)
     expect("1000.123456789" in fixed, "a factor is not fixed at its nominal value")
     page.locator("#reset").click()
-    sliders(page, ["narrow", "spread"])
+    sliders(page, ["narrow", "spread", "strength"])
+    page.locator("#reset").click()
+    settled(page)
+    for name, words in (("level", "values 1; 2; 3; 5; 8; 13; 21; 34; … (10 in all)"), ("wait", "values 0.1; 0.23; 0.31; 0.4")):
+        expect(words in page.locator(f"fieldset[data-factor={name}]").inner_text(), f"the values of {name} are not shown")
+    for field in page.locator("#factors input[type=number]").all():
+        expect(len(field.input_value()) <= 10, f"a field has all of {field.input_value()}")
+        expect(field.evaluate("field => field.scrollWidth <= field.clientWidth"), f"a field cuts {field.input_value()} off")
+    expect("log_mean = 0.7520386983881372" not in asked_text(page), "a study that was not changed is another one")
+    field = page.locator("fieldset[data-factor=strength] input[data-parameter=log_sd]")
+    field.fill("0.25")
+    field.press("Tab")
+    settled(page)
+    expect("log_mean = 0.7520386983881372, log_sd = 0.25" in asked_text(page), "a field that was not edited loses digits")
     page.context.close()
+
+
+def settings_link(**changed):
+    text = json.dumps({"preset": 0, "factors": {}, "choices": {}, "output": None} | changed)
+    return "#s=" + base64.urlsafe_b64encode(text.encode()).decode().rstrip("=")
+
+
+def links(arguments, browser, page_file, folder):
+    """Links are followed, back and forth; those that say nothing sensible leave the study as it was."""
+    page = browser.open(page_file)
+    settled(page)
+    before = state(page)
+    narrow = settings_link(factors={"thickness": {"distribution": {"name": "uniform", "min": 1, "max": 1.5}}}, choices={"friction": "hk"})
+    page.evaluate("link => { location.hash = link; }", narrow)
+    page.wait_for_function("document.title.includes('Hurtado-Kim')")
+    settled(page)
+    linked = state(page)
+    expect(linked != before, "a link in the address bar is not followed")
+    page.locator("#undo").click()
+    settled(page)
+    expect(state(page) == before, "a link in the address bar cannot be undone")
+    page.locator("#redo").click()
+    settled(page)
+    expect(state(page) == linked, "a link in the address bar cannot be redone")
+    page.evaluate("location.hash = '#content'")
+    page.wait_for_function("location.hash.startsWith('#s=')")
+    expect(state(page) == linked, "a jump within the page changes settings")
+    page.go_back()
+    page.go_back()
+    page.wait_for_function("!document.title.includes('Hurtado-Kim')")
+    settled(page)
+    expect(state(page) == before and "#s=" not in page.url, "Back does not give the study of the file")
+    page.context.close()
+    uniform = {"name": "uniform", "min": 1, "max": 1.5}
+    nonsense = [
+        {"factors": None}, {"factors": []}, {"factors": {"thickness": {}}}, {"factors": {"thickness": {"fixed": "1"}}}, {"preset": "length"},
+        {"factors": {"nobody": {"distribution": uniform}}}, {"factors": {"thickness": {"distribution": uniform | {"min": None}}}},
+        {"preset": 99}, {"choices": {"friction": "none"}}, {"choices": {"colour": "red"}}, {"output": "nothing"}, {"output": {}},
+    ]
+    for fragment in ["#s=%%%damaged", "#s=bnVsbA"] + [settings_link(**changed) for changed in nonsense]:
+        damaged = browser.open(page_file, fragment=fragment)
+        damaged.wait_for_selector("#refused:not([hidden])")
+        expect("damaged" in damaged.locator("#refused").inner_text(), f"no word about a damaged link: {fragment}")
+        expect(state(damaged) == before and "#s=" not in damaged.url, f"a damaged link changes the study: {fragment}")
+        damaged.context.close()
 
 
 def paper(arguments, browser, page_file, folder):
@@ -478,6 +531,7 @@ def main():
             several_outputs(arguments, browser, folder)
             series(arguments, browser, folder)
             kinds(arguments, browser, folder)
+            links(arguments, browser, pages["coulomb-general"], folder)
             paper(arguments, browser, pages["coulomb-general"], folder)
             copies(arguments, browser, pages["coulomb-general"], folder)
             if arguments.drags:
