@@ -1,7 +1,14 @@
 // --- Controls ---------------------------------------------------------------------------------------------------------
 
-const remember = () => {
+// Moves of the same control within a second are one step of undo.
+const TOGETHER = 1000;
+let latest = { control: null, time: 0 };
+const remember = (control = null, goesOn = false) => {
+  const now = performance.now();
+  const isSame = control && control === latest.control && (goesOn || now - latest.time < TOGETHER);
+  latest = { control, time: now };
   notice = null;
+  if (isSame) return;
   past.push(JSON.stringify(state));
   if (past.length > 200) past.shift();
   future = [];
@@ -13,6 +20,8 @@ const buttons = () => {
   at("reset").disabled = !(preset || output || Object.keys(factors).length || Object.keys(choices).length);
   const clean = JSON.stringify(state);
   const fragment = at("reset").disabled ? "" : `#s=${btoa(unescape(encodeURIComponent(clean))).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "")}`;
+  // The last step disables its own button.
+  if (document.activeElement.disabled) at(past.length ? "undo" : "redo").focus();
   history.replaceState(null, "", location.href.split("#")[0] + fragment);
 };
 // The factors and choices as each study has them, whatever was changed.
@@ -117,6 +126,16 @@ const tabulate = () => {
   at("ranges").replaceChildren(at("ranges-heading"), make("div", { className: "table" }, table));
 };
 
+// Whoever uses the keyboard stays at the control that is drawn anew, or near it.
+const keepFocus = (draw) => {
+  const active = document.activeElement;
+  const box = active.closest("fieldset.factor");
+  const within = box ? `[data-factor="${CSS.escape(box.dataset.factor)}"]` : "#settings";
+  draw();
+  if (!active.dataset.key || active.isConnected) return;
+  const same = document.querySelector(`${within} [data-key="${CSS.escape(active.dataset.key)}"]:enabled`) || document.querySelector(`${within} :enabled`);
+  if (same) same.focus({ preventScroll: true });
+};
 const labelled = (name, field) => make("label", {}, `${words(name)} `, field);
 const card = (factor) => {
   const unit = unitIn(factor.unit);
@@ -125,7 +144,6 @@ const card = (factor) => {
   box.dataset.factor = factor.name;
   const draw = () => {
     const { fixed, distribution } = now();
-    const active = document.activeElement && box.contains(document.activeElement) ? document.activeElement.dataset.key : null;
     const legend = make("legend", { title: factor.description || "" }, words(factor.name) + (unit && `,\u00a0${unit}`));
     const kinds = make("div", { className: "kinds" });
     const choice = make("select", { ariaLabel: `distribution of ${words(factor.name)}` });
@@ -167,11 +185,7 @@ const card = (factor) => {
     const old = box.querySelector(".meter");
     if (old) meter.replaceChildren(...old.childNodes);
     meter.hidden = !old || old.hidden;
-    box.replaceChildren(...parts);
-    if (active) {
-      const same = box.querySelector(`[data-key="${active}"]`);
-      if (same) same.focus();
-    }
+    keepFocus(() => box.replaceChildren(...parts));
   };
   draw();
   return box;
@@ -209,7 +223,7 @@ const slider = (factor, distribution, [ends, moved]) => {
   };
   let saved = false;
   const move = (input) => {
-    if (!saved) remember();
+    remember(`${factor.name} ${input.dataset.key}`, saved);
     saved = true;
     if (input === first && first.valueAsNumber >= last.valueAsNumber) first.value = last.valueAsNumber - 1;
     if (input === last && last.valueAsNumber <= first.valueAsNumber) last.value = first.valueAsNumber + 1;
@@ -228,8 +242,13 @@ const slider = (factor, distribution, [ends, moved]) => {
     drag();
   };
   for (const input of [first, last]) {
-    input.oninput = () => move(input);
+    input.oninput = () => {
+      document.body.classList.add("dragging");
+      move(input);
+    };
+    input.onpointercancel = () => document.body.classList.remove("dragging");
     input.onchange = () => {
+      document.body.classList.remove("dragging");
       saved = false;
       changed();
     };
@@ -256,7 +275,7 @@ const fields = (factor, { fixed, distribution }, redraw) => {
         input.value = short;
         return;
       }
-      remember();
+      remember(`${factor.name} ${name}`);
       put(typed);
       redraw();
       changed();
@@ -279,6 +298,7 @@ const fields = (factor, { fixed, distribution }, redraw) => {
 
 const menu = (label, options, value, put) => {
   const select = make("select", { ariaLabel: label });
+  select.dataset.key = label;
   options.forEach(([key, text]) => select.append(make("option", { value: key }, text)));
   select.value = value;
   select.onchange = () => {
@@ -312,8 +332,10 @@ const controls = () => {
       changed();
     }));
   }
-  at("settings").replaceChildren(...settings);
-  at("factors").replaceChildren(...description.factors.map(card));
+  keepFocus(() => {
+    at("settings").replaceChildren(...settings);
+    at("factors").replaceChildren(...description.factors.map(card));
+  });
 };
 const changed = () => {
   buttons();
@@ -338,6 +360,7 @@ const fresh = async () => {
   changed();
 };
 const step = (from, to) => {
+  latest.control = null;
   to.push(JSON.stringify(state));
   state = JSON.parse(from.pop());
   fresh();
@@ -399,11 +422,10 @@ const asked = async (wanted) => {
 const file = (ending, type) => async () => {
   const files = await asked("files");
   // Of several outputs each has its charts.
-  const chosen = description.outputs.length > 1 ? `-${state.output || description.outputs[0].name}` : "";
-  const own = `${description.name}${ending === "svg" ? chosen : ""}.${ending}`;
-  const names = Object.keys(files || {}).filter((name) => name.endsWith(`.${ending}`));
-  const name = names.includes(own) ? own : names[0];
-  if (name) save(name, type, files[name]);
+  const chosen = ending === "svg" && description.outputs.length > 1 ? `-${state.output || description.outputs[0].name}` : "";
+  // The engine calls every study the same.
+  const name = [`${chosen}.${ending}`, `.${ending}`].find((end) => files && `${description.name}${end}` in files);
+  if (name) save(`${given.presets[state.preset].name}${name}`, type, files[`${description.name}${name}`]);
 };
 at("json").onclick = file("json", "application/json");
 at("csv").onclick = file("csv", "text/csv");

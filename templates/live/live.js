@@ -149,6 +149,7 @@ const refuse = (problem, isOld = true) => {
 };
 const show = (view, settings, seconds, whole) => {
   shown = { settings, samples: view.base_samples, lead: view.plain_lead };
+  at("glance").innerHTML = view.lead[0];
   at("lead").innerHTML = view.lead.map((text) => `<p class="lead">${text}</p>`).join("");
   const main = at("content");
   const kept = new Set();
@@ -195,7 +196,7 @@ let flying = 0;
 let quick = FEWEST;
 // The copy that is being made.
 let asking = null;
-// How many seconds it took; nothing if it was cancelled.
+// How many seconds it took, and how many drawing took; nothing if it was cancelled.
 const run = async (samples, whole) => {
   const settings = JSON.stringify(state);
   flying = samples;
@@ -205,13 +206,16 @@ const run = async (samples, whole) => {
   if (answer.broken) {
     cancel();
     refuse(`The engine stopped: ${answer.broken}`);
-    return 0;
+    return {};
   }
   if (notice && answer.answer.refused === undefined) refuse(notice, false);
   else refuse(answer.answer.refused);
-  if (answer.answer.done === undefined) return 0;
+  if (answer.answer.done === undefined) return {};
+  const begin = performance.now();
   show(answer.answer.done, settings, answer.seconds, whole);
-  return answer.seconds;
+  // The browser lays the page out when it is asked for a height.
+  void document.body.offsetHeight;
+  return { seconds: answer.seconds, drawing: (performance.now() - begin) / 1000 };
 };
 let pumping = false;
 const pump = async () => {
@@ -224,8 +228,9 @@ const pump = async () => {
     if (mine.samples) {
       // The first step shows at once what is drawn quickly; all else comes with the next one, of the same size if none is larger.
       const isFirst = mine.samples === FEWEST && !mine.whole;
-      const seconds = await run(mine.samples, !isFirst);
-      if (goal !== mine || seconds === null) continue;
+      const done = await run(mine.samples, !isFirst);
+      if (goal !== mine || !done) continue;
+      const { seconds } = done;
       if (seconds && 2 * mine.samples <= MOST && 2.2 * seconds <= LONGEST) {
         mine.samples *= 2;
       } else if (seconds && isFirst) {
@@ -237,9 +242,9 @@ const pump = async () => {
       }
     } else {
       goal = null;
-      const seconds = await run(quick, false);
-      if (seconds && seconds < FRAME / 2 && quick < MOST / 4) quick *= 2;
-      if (seconds > FRAME && quick > FEWEST) quick /= 2;
+      const { seconds, drawing } = await run(quick, false) || {};
+      if (seconds + drawing < FRAME / 2 && quick < MOST / 4) quick *= 2;
+      if (seconds + drawing > FRAME && quick > FEWEST) quick /= 2;
     }
   }
   pumping = false;

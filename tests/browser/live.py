@@ -214,7 +214,7 @@ def behaviour(arguments, browser, page_file, folder):
         with page.expect_download() as download:
             page.locator(f"#{button}").click()
         saved = Path(download.value.path()).read_bytes()
-        expect(download.value.suggested_filename.endswith(ending) and len(saved) > 500, f"no {button} to download")
+        expect(download.value.suggested_filename == f"coulomb-general{ending}" and len(saved) > 500, f"{button} gives {download.value.suggested_filename}")
 
     for _ in range(2):
         page.locator("#undo").click()
@@ -365,6 +365,85 @@ def kinds(arguments, browser, folder):
     field.press("Tab")
     settled(page)
     expect("log_mean = 0.7520386983881372, log_sd = 0.25" in asked_text(page), "a field that was not edited loses digits")
+    page.context.close()
+
+
+FOCUS = """() => {
+  const active = document.activeElement, box = active.closest("fieldset.factor");
+  return `${box ? box.dataset.factor : ""} ${active.dataset.key || active.id || active.tagName}`;
+}"""
+
+
+def keyboard(arguments, browser, page_file, folder):
+    """Quick moves of one handle are one step, and undo leaves the focus where it was."""
+    page = browser.open(page_file)
+    settled(page)
+    before = state(page)
+    for name in ("thickness", "length"):
+        page.locator(f"fieldset[data-factor={name}] input[data-key=smallest]").focus()
+        for _ in range(10):
+            page.keyboard.press("ArrowRight")
+        if name == "thickness":
+            between = state(page)
+    for expected in (between, before):
+        page.keyboard.press("Control+z")
+        settled(page)
+        expect(state(page) == expected, "ten moves of a handle are not one step of undo")
+        expect(page.evaluate(FOCUS) == "length smallest", f"undo moves the focus to {page.evaluate(FOCUS)}")
+    page.keyboard.press("Control+y")
+    settled(page)
+    page.locator("#undo").focus()
+    page.keyboard.press("Enter")
+    settled(page)
+    expect(page.evaluate(FOCUS) == " redo", f"the last undo moves the focus to {page.evaluate(FOCUS)}")
+    fix = page.locator("fieldset[data-factor=width] input[data-key=fix]")
+    fix.focus()
+    page.keyboard.press("Space")
+    settled(page)
+    expect(page.evaluate(FOCUS) == "width fix", f"fixing moves the focus to {page.evaluate(FOCUS)}")
+    page.context.close()
+
+
+def phone(arguments, browser, page_file, folder):
+    """On a phone the sentence is in sight while a handle moves, and boxes are as large as fingers."""
+    page = browser.open(page_file, size=(390, 844))
+    settled(page)
+    box = page.locator("fieldset[data-factor=length] .kinds input").bounding_box()
+    expect(min(box["width"], box["height"]) >= 24, f"a box to tick of {box}")
+    glance = page.locator("#glance")
+    expect(glance.is_hidden(), "a sentence above the page at rest")
+    handle = page.locator("fieldset[data-factor=length] input[data-key=largest]")
+    handle.scroll_into_view_if_needed()
+    move = "(input, kind) => { input.value = input.valueAsNumber - 100; input.dispatchEvent(new Event(kind, { bubbles: true })); }"
+    handle.evaluate(move, "input")
+    page.wait_for_function("document.body.dataset.samples > 0")
+    said = glance.inner_text()
+    expect(glance.is_visible() and said and page.locator("#lead").inner_text().startswith(said), f"while a handle moves: {said!r}")
+    handle.evaluate(move, "change")
+    expect(glance.is_hidden(), "the sentence above the page stays")
+    page.context.close()
+
+
+def slow_drawing(arguments, browser, page_file, folder):
+    """Where drawing takes long, a handle that moves has few base points."""
+    page = browser.open(page_file)
+    settled(page)
+    samples = page.evaluate("""async () => {
+      const height = Object.getOwnPropertyDescriptor(HTMLElement.prototype, "offsetHeight");
+      Object.defineProperty(document.body, "offsetHeight", { get() {
+        const begin = performance.now();
+        while (performance.now() - begin < 30);
+        return height.get.call(this);
+      } });
+      const input = document.querySelector("fieldset[data-factor=thickness] input[data-key=largest]");
+      for (let i = 0; i < 30; i++) {
+        input.value = 500 + 10 * i;
+        input.dispatchEvent(new Event("input", { bubbles: true }));
+        await new Promise((resolve) => setTimeout(resolve, 60));
+      }
+      return document.body.dataset.samples;
+    }""")
+    expect(int(samples) <= 512, f"{samples} base points while drawing is slow")
     page.context.close()
 
 
@@ -531,6 +610,9 @@ def main():
             several_outputs(arguments, browser, folder)
             series(arguments, browser, folder)
             kinds(arguments, browser, folder)
+            keyboard(arguments, browser, pages["coulomb-general"], folder)
+            phone(arguments, browser, pages["coulomb-general"], folder)
+            slow_drawing(arguments, browser, pages["coulomb-general"], folder)
             links(arguments, browser, pages["coulomb-general"], folder)
             paper(arguments, browser, pages["coulomb-general"], folder)
             copies(arguments, browser, pages["coulomb-general"], folder)
