@@ -63,7 +63,7 @@ const follow = async () => {
     }
     const { preset, factors, choices, output } = found;
     // What the page opens with is not a change.
-    if (description) remember();
+    if (description && JSON.stringify(found) !== JSON.stringify(state)) remember();
     state = { preset, factors, choices, output };
   } catch (error) {
     notice = "The link is damaged, or of another page: this is the study as it was.";
@@ -82,7 +82,7 @@ const SLIDES = {
   "log-uniform": [(d) => [d.min, d.max], (d, min, max) => ({ ...d, min, max })],
   "triangular": [(d) => [d.min, d.max], (d, min, max) => ({ ...d, min, max, mode: Math.min(Math.max(d.mode, min), max) })],
   "truncated-normal": [(d) => [d.min, d.max], (d, min, max) => ({ ...d, min, max })],
-  "log-normal": [(d) => [-2, 2].map((k) => rounded(Math.exp(d.log_mean + k * d.log_sd), Math.min(1, d.log_sd) * Math.exp(d.log_mean))), (d, min, max) => {
+  "log-normal": [(d) => [-2, 2].map((k) => Math.exp(d.log_mean + k * d.log_sd)).map((end) => rounded(end, Math.min(1, d.log_sd) * end)), (d, min, max) => {
     const { mean, sd } = normal(Math.log(min), Math.log(max));
     return { ...d, log_mean: mean, log_sd: sd };
   }],

@@ -6,7 +6,7 @@ Of five studies (three laws of friction, formulas, a known function): every numb
 program, bit for bit. Of one: sliders by keyboard and by pointer, fixing, undo, a link that restores, "copy as study.toml" that runs in
 the program, a damaged link, no request beyond the page, no message on the console, and what the page shows without scripts. Of one
 with several outputs, and of one with series: that one of them is shown. Of one with factors of all kinds: ranges that are narrow, or have
-no slider.
+no slider. Further: copies while the run doubles, the focus and the steps of undo, a phone, slow drawing, links that are nonsense, paper.
 With `--engine` the pages have that engine (gzip in base64) in the place of their own. Times are printed, not judged; `--drags`
 moves a slider so many times and prints the memory of the page before and after; with `--bits` numbers are compared and nothing else.
 Exit code 1 if anything is wrong.
@@ -314,7 +314,7 @@ KINDS = """title = "Factors of all kinds"
 model = "expression"
 
 [expression]
-outputs.y = "narrow + spread + strength + level + wait"
+outputs.y = "narrow + spread + strength + ln(wide) + level + wait"
 
 [design]
 base_samples = 256
@@ -323,6 +323,7 @@ base_samples = 256
 narrow = { min = 1000.0, max = 1000.4, nominal = 1000.123456789 }
 spread = { distribution = "normal", mean = 5000, sd = 0.03 }
 strength = { distribution = "log-normal", p05 = 1.5, p95 = 3 }
+wide = { distribution = "log-normal", log_mean = 0, log_sd = 4 }
 level = { distribution = "discrete", values = [1, 2, 3, 5, 8, 13, 21, 34, 55, 89] }
 wait = { distribution = "empirical", values = [0.1, 0.23, 0.31, 0.4] }
 """
@@ -351,7 +352,7 @@ def kinds(arguments, browser, folder):
     fixed = asked_text(page)
     expect("1000.123456789" in fixed, "a factor is not fixed at its nominal value")
     page.locator("#reset").click()
-    sliders(page, ["narrow", "spread", "strength"])
+    sliders(page, ["narrow", "spread", "strength", "wide"])
     page.locator("#reset").click()
     settled(page)
     for name, words in (("level", "values 1; 2; 3; 5; 8; 13; 21; 34; … (10 in all)"), ("wait", "values 0.1; 0.23; 0.31; 0.4")):
@@ -457,7 +458,7 @@ def links(arguments, browser, page_file, folder):
     page = browser.open(page_file)
     settled(page)
     before = state(page)
-    narrow = settings_link(factors={"thickness": {"distribution": {"name": "uniform", "min": 1, "max": 1.5}}}, choices={"friction": "hk"})
+    narrow = settings_link(factors={"thickness": {"distribution": {"name": "uniform", "min": 1, "max": 1.5}}}, choices={"friction": "hk", "adhesion_in_load": "true"})
     page.evaluate("link => { location.hash = link; }", narrow)
     page.wait_for_function("document.title.includes('Hurtado-Kim')")
     settled(page)
