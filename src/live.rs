@@ -63,11 +63,11 @@ pub enum LiveError {
 const ENGINE: &str = include_str!("../assets/web/engine.b64");
 
 /// The studies that a page of the nanoparticle offers beside its own.
-const PRESETS: [&str; 4] = [
-    include_str!("../studies/coulomb-dimensional.toml"),
-    include_str!("../studies/coulomb-environmental.toml"),
-    include_str!("../studies/coulomb-general.toml"),
-    include_str!("../studies/soft-cantilever.toml"),
+const PRESETS: [(&str, &str); 4] = [
+    ("coulomb-dimensional", include_str!("../studies/coulomb-dimensional.toml")),
+    ("coulomb-environmental", include_str!("../studies/coulomb-environmental.toml")),
+    ("coulomb-general", include_str!("../studies/coulomb-general.toml")),
+    ("soft-cantilever", include_str!("../studies/soft-cantilever.toml")),
 ];
 
 /// Two columns of Sobol' points for each, of the 1024 that the engine has in a page.
@@ -86,13 +86,13 @@ struct Page<'a> {
     title: String,
     lead: Vec<String>,
     state: String,
+    ranges: String,
     sections: Vec<SectionView<'a>>,
     footer: String,
     /// The studies as JSON, in an element of script: without `<`.
     study: String,
-    page_style: &'static str,
-    style: &'static str,
-    script: &'static str,
+    style: String,
+    script: String,
     beginning: &'static str,
     worker: &'static str,
     engine: &'static str,
@@ -193,17 +193,18 @@ fn page(study: &Study, text: &str, result: &ResultFile) -> Result<String, LiveEr
     let result = one_output(result, None);
     let document = run_document(&result);
     let title = study.title().unwrap_or(study.name());
-    let preset = |title: &str, text: &str| json!({ "title": title, "heading": symbols(title), "text": text });
-    let mut presets = vec![preset(title, text)];
+    let preset = |name: &str, title: &str, text: &str| json!({ "name": name, "title": title, "heading": symbols(title), "text": text });
+    let mut presets = vec![preset(study.name(), title, text)];
     if study.subject().name() == ModelKind::AFM.name {
-        for other in PRESETS {
+        for (name, other) in PRESETS {
             let Some(text) = without_target(other) else { continue };
             let other = Study::parse(&text, Path::new("preset.toml"), &[])?;
             if other.title() != study.title() {
-                presets.push(preset(other.title().unwrap_or(other.name()), &text));
+                presets.push(preset(name, other.title().unwrap_or(name), &text));
             }
         }
     }
+    let ranges = ranges(&document)?;
     let mut sections = Vec::new();
     let document = document.excerpt(&SECTIONS);
     for id in SECTIONS {
@@ -216,17 +217,38 @@ fn page(study: &Study, text: &str, result: &ResultFile) -> Result<String, LiveEr
         title: symbols(title),
         lead: document.lead.iter().map(|text| symbols(text)).collect(),
         state: format!("{} runs of the model by the program.", result.provenance.model_runs),
+        ranges,
         sections,
         footer: symbols(&document.footer),
         // A title may hold what would end the element.
         study: json!({ "presets": presets }).to_string().replace('<', "\\u003c"),
-        page_style: include_str!("../templates/page/page.css"),
-        style: include_str!("../templates/live/live.css"),
-        script: concat!(include_str!("../templates/live/live.js"), include_str!("../templates/page/charts.js")),
+        style: compact(concat!(include_str!("../templates/page/page.css"), include_str!("../templates/live/live.css"))),
+        script: compact(concat!(
+            include_str!("../templates/live/live.js"),
+            include_str!("../templates/live/controls.js"),
+            include_str!("../templates/page/charts.js")
+        )),
         beginning: include_str!("../templates/live/begin.js"),
         worker: include_str!("../templates/live/worker.js"),
         engine: ENGINE,
         version: env!("CARGO_PKG_VERSION"),
     };
     Ok(page.render()?)
+}
+
+/// A script or a style without indentation and lines of comment, so that a page stays below 2 MB.
+fn compact(text: &str) -> String {
+    let lines = text.lines().map(str::trim_start).filter(|line| !line.is_empty() && !line.starts_with("//"));
+    lines.fold(String::new(), |all, line| all + line + "\n")
+}
+
+/// The tables of what was asked, for those who see no controls: on paper, and without scripts.
+fn ranges(document: &Document) -> Result<String, DocumentError> {
+    let mut document = document.clone().excerpt(&["study"]);
+    for part in document.sections.iter_mut().flat_map(|section| &mut section.parts) {
+        if let Part::OnPage(parts) = part {
+            parts.retain(|part| matches!(part, Part::Table(_)));
+        }
+    }
+    Ok(document.section_html("study")?.unwrap_or_default())
 }

@@ -5,13 +5,15 @@
 Of five studies (three laws of friction, formulas, a known function): every number of the result of the page equals that of the
 program, bit for bit. Of one: sliders by keyboard and by pointer, fixing, undo, a link that restores, "copy as study.toml" that runs in
 the program, a damaged link, no request beyond the page, no message on the console, and what the page shows without scripts. Of one
-with several outputs, and of one with series: that one of them is shown.
+with several outputs, and of one with series: that one of them is shown. Of one with factors of all kinds: ranges that are narrow, or have
+no slider. Further: copies while the run doubles, the focus and the steps of undo, a phone, slow drawing, links that are nonsense, paper.
 With `--engine` the pages have that engine (gzip in base64) in the place of their own. Times are printed, not judged; `--drags`
 moves a slider so many times and prints the memory of the page before and after; with `--bits` numbers are compared and nothing else.
 Exit code 1 if anything is wrong.
 """
 
 import argparse
+import base64
 import json
 import subprocess
 import sys
@@ -200,10 +202,7 @@ def behaviour(arguments, browser, page_file, folder):
     expect(other.locator("#lead").inner_text() == page.locator("#lead").inner_text(), "the link gives another result")
     other.context.close()
 
-    page.locator("#toml").click()
-    page.wait_for_selector("#text[open]")
-    text = page.locator("#text textarea").input_value()
-    page.locator("#text button").click()
+    text = asked_text(page)
     copied = folder / "copied.toml"
     copied.write_text(text)
     expected = native(arguments.program, copied, folder / "copied")
@@ -215,7 +214,7 @@ def behaviour(arguments, browser, page_file, folder):
         with page.expect_download() as download:
             page.locator(f"#{button}").click()
         saved = Path(download.value.path()).read_bytes()
-        expect(download.value.suggested_filename.endswith(ending) and len(saved) > 500, f"no {button} to download")
+        expect(download.value.suggested_filename == f"coulomb-general{ending}" and len(saved) > 500, f"{button} gives {download.value.suggested_filename}")
 
     for _ in range(2):
         page.locator("#undo").click()
@@ -242,12 +241,6 @@ def behaviour(arguments, browser, page_file, folder):
     page.locator("#undo").click()
     settled(page)
     expect(page.locator("#refused").is_hidden() and page.locator(".wrong:visible").count() == 0, "a refusal that stays")
-
-    damaged = browser.open(page_file, fragment="#s=%%%damaged")
-    settled(damaged)
-    expect(state(damaged) == before, "a damaged link changes the study")
-    expect("damaged" in damaged.locator("#refused").inner_text(), "no word about a damaged link")
-    damaged.context.close()
 
     silent = browser.open(page_file, scripts=False)
     expect(silent.locator("#lead").inner_text().strip() and silent.locator("#indices svg").count() > 0, "nothing without scripts")
@@ -291,12 +284,12 @@ def series(arguments, browser, folder):
     page.context.close()
 
 
-def sliders(page):
+def sliders(page, names=None):
     """Every slider moves by keyboard, and its field with it."""
-    for name in page.eval_on_selector_all("fieldset.factor", "all => all.map((box) => box.dataset.factor)"):
+    for name in names or page.eval_on_selector_all("fieldset.factor", "all => all.map((box) => box.dataset.factor)"):
         box = page.locator(f"fieldset[data-factor={name}]")
         for key, end, arrow in (("smallest", "min", "ArrowRight"), ("largest", "max", "ArrowLeft")):
-            field = box.locator(f"input[data-parameter={end}]")
+            field = box.locator(f"input[data-parameter={end}], input[data-parameter$=mean]")
             before = field.input_value()
             box.locator(f"input[data-key={key}]").focus()
             for _ in range(10):
@@ -314,6 +307,253 @@ def log_uniform_from_nothing(page):
     settled(page)
     expect(float(box.locator("input[data-parameter=min]").input_value()) > 0, "log-uniform from 0")
     expect(page.locator("#refused").is_hidden(), "a log-uniform distribution is refused")
+
+
+# A narrow range around a large value, and kinds of factors that others have not.
+KINDS = """title = "Factors of all kinds"
+model = "expression"
+
+[expression]
+outputs.y = "narrow + spread + strength + ln(wide) + level + wait"
+
+[design]
+base_samples = 256
+
+[factors]
+narrow = { min = 1000.0, max = 1000.4, nominal = 1000.123456789 }
+spread = { distribution = "normal", mean = 5000, sd = 0.03 }
+strength = { distribution = "log-normal", p05 = 1.5, p95 = 3 }
+wide = { distribution = "log-normal", log_mean = 0, log_sd = 4 }
+level = { distribution = "discrete", values = [1, 2, 3, 5, 8, 13, 21, 34, 55, 89] }
+wait = { distribution = "empirical", values = [0.1, 0.23, 0.31, 0.4] }
+"""
+
+
+def kinds(arguments, browser, folder):
+    """Digits follow the width of a range, and are exact where nothing was typed."""
+    study = folder / "kinds.toml"
+    study.write_text(KINDS)
+    run(arguments.program, "live", study, "--out", folder / "kinds.html")
+    page = browser.open(folder / "kinds.html")
+    settled(page)
+    box = page.locator("fieldset[data-factor=narrow]")
+    number = lambda name: float(box.locator(f"input[data-parameter={name}]").input_value())
+    box.locator("input[data-key=largest]").focus()
+    page.keyboard.press("ArrowLeft")
+    expect(number("min") == 1000 and 1000.39 < number("max") < 1000.4, f"a narrow range moves to {number('min')} to {number('max')}")
+    for kind, low, high in (("normal", "mean", "sd"), ("triangular", "min", "max"), ("uniform", "min", "max")):
+        box.locator("select[data-key=kind]").select_option(kind)
+        settled(page)
+        least = (number(low), number(high))
+        expect(1000 <= least[0] < 1000.3 and least[1] > 0.05, f"a narrow range is {kind} of {least}")
+        expect(page.locator("#refused").is_hidden(), f"a narrow range is refused as {kind}")
+    box.locator("input[data-key=fix]").check()
+    settled(page)
+    fixed = asked_text(page)
+    expect("1000.123456789" in fixed, "a factor is not fixed at its nominal value")
+    page.locator("#reset").click()
+    sliders(page, ["narrow", "spread", "strength", "wide"])
+    page.locator("#reset").click()
+    settled(page)
+    for name, words in (("level", "values 1; 2; 3; 5; 8; 13; 21; 34; … (10 in all)"), ("wait", "values 0.1; 0.23; 0.31; 0.4")):
+        expect(words in page.locator(f"fieldset[data-factor={name}]").inner_text(), f"the values of {name} are not shown")
+    for field in page.locator("#factors input[type=number]").all():
+        expect(len(field.input_value()) <= 10, f"a field has all of {field.input_value()}")
+        expect(field.evaluate("field => field.scrollWidth <= field.clientWidth"), f"a field cuts {field.input_value()} off")
+    expect("log_mean = 0.7520386983881372" not in asked_text(page), "a study that was not changed is another one")
+    field = page.locator("fieldset[data-factor=strength] input[data-parameter=log_sd]")
+    field.fill("0.25")
+    field.press("Tab")
+    settled(page)
+    expect("log_mean = 0.7520386983881372, log_sd = 0.25" in asked_text(page), "a field that was not edited loses digits")
+    page.context.close()
+
+
+FOCUS = """() => {
+  const active = document.activeElement, box = active.closest("fieldset.factor");
+  return `${box ? box.dataset.factor : ""} ${active.dataset.key || active.id || active.tagName}`;
+}"""
+
+
+def keyboard(arguments, browser, page_file, folder):
+    """Quick moves of one handle are one step, and undo leaves the focus where it was."""
+    page = browser.open(page_file)
+    settled(page)
+    before = state(page)
+    for name in ("thickness", "length"):
+        page.locator(f"fieldset[data-factor={name}] input[data-key=smallest]").focus()
+        for _ in range(10):
+            page.keyboard.press("ArrowRight")
+        if name == "thickness":
+            between = state(page)
+    for expected in (between, before):
+        page.keyboard.press("Control+z")
+        settled(page)
+        expect(state(page) == expected, "ten moves of a handle are not one step of undo")
+        expect(page.evaluate(FOCUS) == "length smallest", f"undo moves the focus to {page.evaluate(FOCUS)}")
+    page.keyboard.press("Control+y")
+    settled(page)
+    page.locator("#undo").focus()
+    page.keyboard.press("Enter")
+    settled(page)
+    expect(page.evaluate(FOCUS) == " redo", f"the last undo moves the focus to {page.evaluate(FOCUS)}")
+    fix = page.locator("fieldset[data-factor=width] input[data-key=fix]")
+    fix.focus()
+    page.keyboard.press("Space")
+    settled(page)
+    expect(page.evaluate(FOCUS) == "width fix", f"fixing moves the focus to {page.evaluate(FOCUS)}")
+    page.context.close()
+
+
+def phone(arguments, browser, page_file, folder):
+    """On a phone the sentence is in sight while a handle moves, and boxes are as large as fingers."""
+    page = browser.open(page_file, size=(390, 844))
+    settled(page)
+    box = page.locator("fieldset[data-factor=length] .kinds input").bounding_box()
+    expect(min(box["width"], box["height"]) >= 24, f"a box to tick of {box}")
+    glance = page.locator("#glance")
+    expect(glance.is_hidden(), "a sentence above the page at rest")
+    handle = page.locator("fieldset[data-factor=length] input[data-key=largest]")
+    handle.scroll_into_view_if_needed()
+    move = "(input, kind) => { input.value = input.valueAsNumber - 100; input.dispatchEvent(new Event(kind, { bubbles: true })); }"
+    handle.evaluate(move, "input")
+    page.wait_for_function("document.body.dataset.samples > 0")
+    said = glance.inner_text()
+    expect(glance.is_visible() and said and page.locator("#lead").inner_text().startswith(said), f"while a handle moves: {said!r}")
+    handle.evaluate(move, "change")
+    expect(glance.is_hidden(), "the sentence above the page stays")
+    page.context.close()
+
+
+def slow_drawing(arguments, browser, page_file, folder):
+    """Where drawing takes long, a handle that moves has few base points."""
+    page = browser.open(page_file)
+    settled(page)
+    samples = page.evaluate("""async () => {
+      const height = Object.getOwnPropertyDescriptor(HTMLElement.prototype, "offsetHeight");
+      Object.defineProperty(document.body, "offsetHeight", { get() {
+        const begin = performance.now();
+        while (performance.now() - begin < 30);
+        return height.get.call(this);
+      } });
+      const input = document.querySelector("fieldset[data-factor=thickness] input[data-key=largest]");
+      for (let i = 0; i < 30; i++) {
+        input.value = 500 + 10 * i;
+        input.dispatchEvent(new Event("input", { bubbles: true }));
+        await new Promise((resolve) => setTimeout(resolve, 60));
+      }
+      return document.body.dataset.samples;
+    }""")
+    expect(int(samples) <= 512, f"{samples} base points while drawing is slow")
+    page.context.close()
+
+
+def settings_link(**changed):
+    text = json.dumps({"preset": 0, "factors": {}, "choices": {}, "output": None} | changed)
+    return "#s=" + base64.urlsafe_b64encode(text.encode()).decode().rstrip("=")
+
+
+def links(arguments, browser, page_file, folder):
+    """Links are followed, back and forth; those that say nothing sensible leave the study as it was."""
+    page = browser.open(page_file)
+    settled(page)
+    before = state(page)
+    narrow = settings_link(factors={"thickness": {"distribution": {"name": "uniform", "min": 1, "max": 1.5}}}, choices={"friction": "hk", "adhesion_in_load": "true"})
+    page.evaluate("link => { location.hash = link; }", narrow)
+    page.wait_for_function("document.title.includes('Hurtado-Kim')")
+    settled(page)
+    linked = state(page)
+    expect(linked != before, "a link in the address bar is not followed")
+    page.locator("#undo").click()
+    settled(page)
+    expect(state(page) == before, "a link in the address bar cannot be undone")
+    page.locator("#redo").click()
+    settled(page)
+    expect(state(page) == linked, "a link in the address bar cannot be redone")
+    page.evaluate("location.hash = '#content'")
+    page.wait_for_function("location.hash.startsWith('#s=')")
+    expect(state(page) == linked, "a jump within the page changes settings")
+    page.go_back()
+    page.go_back()
+    page.wait_for_function("!document.title.includes('Hurtado-Kim')")
+    settled(page)
+    expect(state(page) == before and "#s=" not in page.url, "Back does not give the study of the file")
+    page.context.close()
+    uniform = {"name": "uniform", "min": 1, "max": 1.5}
+    nonsense = [
+        {"factors": None}, {"factors": []}, {"factors": {"thickness": {}}}, {"factors": {"thickness": {"fixed": "1"}}}, {"preset": "length"},
+        {"factors": {"nobody": {"distribution": uniform}}}, {"factors": {"thickness": {"distribution": uniform | {"min": None}}}},
+        {"preset": 99}, {"choices": {"friction": "none"}}, {"choices": {"colour": "red"}}, {"output": "nothing"}, {"output": {}},
+    ]
+    for fragment in ["#s=%%%damaged", "#s=bnVsbA"] + [settings_link(**changed) for changed in nonsense]:
+        damaged = browser.open(page_file, fragment=fragment)
+        damaged.wait_for_selector("#refused:not([hidden])")
+        expect("damaged" in damaged.locator("#refused").inner_text(), f"no word about a damaged link: {fragment}")
+        expect(state(damaged) == before and "#s=" not in damaged.url, f"a damaged link changes the study: {fragment}")
+        damaged.context.close()
+
+
+def paper(arguments, browser, page_file, folder):
+    """On paper, and without scripts, a table says which ranges were used."""
+    silent = browser.open(page_file, scripts=False)
+    table = silent.locator("#ranges")
+    expect(table.is_visible() and "min 0.25, max 2.5 (µm)" in table.inner_text(), "no ranges without scripts")
+    silent.context.close()
+    page = browser.open(page_file)
+    settled(page)
+    expect(page.locator("#ranges").is_hidden(), "the table for paper is on the screen")
+    page.locator("fieldset[data-factor=width] input[data-key=fix]").check()
+    field = page.locator("fieldset[data-factor=thickness] input[data-parameter=min]")
+    field.fill("0.5")
+    field.press("Tab")
+    settled(page)
+    page.emulate_media(media="print")
+    expect(page.locator("#controls").is_hidden(), "controls on paper")
+    rows = page.locator("#ranges tr").all_inner_texts()
+    for name, words in (("thickness", "uniform, min 0.5, max 2.5 (µm)\tchanged; in the study uniform, min 0.25, max 2.5 (µm)"), ("width", "fixed at ")):
+        expect(any(row.startswith(name) and words in row for row in rows), f"on paper {name} is not said: {rows}")
+    expect(sum("changed" in row for row in rows) == 2, f"on paper {rows}")
+    page.context.close()
+
+
+def copies(arguments, browser, page_file, folder):
+    """A copy is of what is shown, and ends no doubling; there is none of a study that cannot be."""
+    page = browser.open(page_file)
+    page.wait_for_function("window.apportion !== undefined")
+    # What is shown at the moment of the copy: the doubling goes on at once.
+    page.evaluate("""new MutationObserver(() => { window.copied = document.body.dataset.samples; })
+      .observe(document.getElementById("text"), { attributes: true, attributeFilter: ["open"] })""")
+    field = page.locator("fieldset[data-factor=thickness] input[data-parameter=min]")
+    for value, samples in (("0.5", None), ("0.6", 512), ("0.7", 2048)):
+        field.fill(value)
+        field.press("Tab")
+        if samples:
+            page.wait_for_function(f"document.body.dataset.samples >= {samples}")
+        text = asked_text(page, still=True)
+        points = page.evaluate("window.copied")
+        expect(f"base_samples = {points}\n" in text and f"min = {value}" in text, f"the copy is not of {points} base points from {value}")
+        page.locator("#text button").click()
+        settled(page)
+    field.fill("99")
+    field.press("Tab")
+    page.wait_for_selector("#refused:not([hidden])")
+    page.on("download", lambda download: expect(False, f"{download.suggested_filename} of a study that cannot be"))
+    for button in ("toml", "json", "csv", "svg"):
+        page.locator(f"#{button}").click()
+        page.wait_for_timeout(100)
+        expect(page.locator("#text[open]").count() == 0, f"{button} of a study that cannot be")
+        expect("min must be below max" in page.locator("#refused").inner_text(), f"{button}: no word about a study that cannot be")
+    page.context.close()
+
+
+def asked_text(page, still=False):
+    """The study as it is copied; `still`: with its dialog open."""
+    page.locator("#toml").click()
+    page.wait_for_selector("#text[open]")
+    text = page.locator("#text textarea").input_value()
+    if not still:
+        page.locator("#text button").click()
+    return text
 
 
 def drags(page, number):
@@ -370,6 +610,13 @@ def main():
             page = behaviour(arguments, browser, pages["coulomb-general"], folder)
             several_outputs(arguments, browser, folder)
             series(arguments, browser, folder)
+            kinds(arguments, browser, folder)
+            keyboard(arguments, browser, pages["coulomb-general"], folder)
+            phone(arguments, browser, pages["coulomb-general"], folder)
+            slow_drawing(arguments, browser, pages["coulomb-general"], folder)
+            links(arguments, browser, pages["coulomb-general"], folder)
+            paper(arguments, browser, pages["coulomb-general"], folder)
+            copies(arguments, browser, pages["coulomb-general"], folder)
             if arguments.drags:
                 drags(page, arguments.drags)
         if arguments.shots:
