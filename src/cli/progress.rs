@@ -262,7 +262,7 @@ mod tests {
             }
         }
         let shown = Shown { done: 512, total: 1024, per_second: 100.0, left: Duration::from_secs(5), failed: 3 };
-        let bar = format!("{}{}", "\u{2588}".repeat(10), "\u{2591}".repeat(11));
+        let bar = format!("{}{}", "\u{2588}".repeat(11), "\u{2591}".repeat(11));
         assert_eq!(shown.line("y", 80), format!("y {bar}  50 %  512 of 1024 runs  100 runs/s  5s left  3 failed"));
         assert_eq!(shown.line("y", 40), "y  50 %  100 runs/s  5s left  3 failed");
     }
