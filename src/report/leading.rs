@@ -34,6 +34,11 @@ impl Contender {
             probability: index.effect.probability_first,
         }
     }
+
+    /// Whether anything is known of its error.
+    pub fn has_error(&self) -> bool {
+        self.probability.is_some() || self.total.low.is_some()
+    }
 }
 
 /// The indices of an output with their places in the study, the largest total index first; `None` without any.

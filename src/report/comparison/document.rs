@@ -156,6 +156,14 @@ fn legend(file: &ComparisonFile) -> String {
         "A star marks a difference whose 95 % interval leaves out 0: {differing} of {compared}, where chance alone makes \
          about one in twenty."
     );
+    let is_rounding = |index: &ComparedIndex| {
+        let leaves_out_0 =
+            |of: EstimateRecord| of.low.is_some_and(|low| low > 0.0) || of.high.is_some_and(|high| high < 0.0);
+        index.differs == Some(false) && index.difference.is_some_and(leaves_out_0)
+    };
+    if indices().any(is_rounding) {
+        text.push_str(" Differences up to 1e-12 are rounding and have none.");
+    }
     if indices().all(|index| index.a == index.b) {
         text.push_str(" All indices are the same, to the last bit.");
     } else if file.shared_points {
