@@ -60,7 +60,12 @@ pub fn printed_half_width(record: EstimateRecord) -> Option<f64> {
 
 /// Whether an interval leaves out 0 from below, as it is printed too.
 pub fn is_above_zero(record: EstimateRecord) -> bool {
-    record.low.is_some_and(|low| low > 0.0) && !give_or_take(record).contains("[0, ")
+    let printed = give_or_take(record);
+    let is_left_out = match printed.split_once(" ± ") {
+        Some((estimate, half)) => estimate.parse::<f64>().ok() > half.parse::<f64>().ok(),
+        None => !printed.contains("[0, "),
+    };
+    record.low.is_some_and(|low| low > 0.0) && is_left_out
 }
 
 /// [`give_or_take`] for sentences, with true minus signs.
@@ -101,9 +106,14 @@ fn up_to_all(record: EstimateRecord) -> String {
     if [estimate, low, high].iter().all(|part| part.abs() < ROUNDING) {
         return "0".to_owned();
     }
-    match low < ALL && high > ALL {
-        true => with_bounds(estimate.min(ALL), low, ALL, most_decimals(estimate)),
-        false => give_or_take(record),
+    if !(low < ALL && high > ALL) {
+        return give_or_take(record);
+    }
+    let words = with_bounds(estimate.min(ALL), low, ALL, most_decimals(estimate));
+    // All that six digits tell is that it is all.
+    match words.split_once(" [") {
+        Some((all, bounds)) if bounds == format!("{all}, {all}]") => significant(ALL),
+        _ => words,
     }
 }
 
@@ -198,8 +208,9 @@ mod tests {
         assert_eq!(give_or_take(record(0.4886, 0.4889, 0.4893)), "0.4889 ± 0.0004");
         assert_eq!(give_or_take(record(0.9755011, 0.97550118, 0.9755012)), "0.975501 ± 3e-7");
         assert_eq!(index(record(-0.03, -0.01, 0.05)), "−0.010 [−0.030, 0.050]");
-        let cases = [record(1e-19, 0.998, 1.0), record(0.2, 0.3, 0.4), record(-0.1, 0.3, 0.7), record(0.3, 0.3, 0.3)];
-        assert_eq!(cases.map(is_above_zero), [false, true, false, true]);
+        let cases = [record(1e-19, 0.998, 1.0), record(0.001, 0.5, 1.0), record(-0.1, 0.3, 0.7)];
+        assert_eq!(cases.map(is_above_zero), [false; 3]);
+        assert_eq!([record(0.2, 0.3, 0.4), record(0.3, 0.3, 0.3), record(0.2, 0.3, 0.7)].map(is_above_zero), [true; 3]);
     }
 
     #[test]
@@ -220,6 +231,10 @@ mod tests {
         assert_eq!(share(None, None), "-");
         let of = |estimate, low, high| share(Some(estimate), Some(IntervalRecord { low, high }));
         assert_eq!(of(100.0, 99.95, 100.05), "100.000 [99.950, 100.000]");
+        assert_eq!(
+            (of(100.0, 100.0 - 1e-10, 100.0 + 1e-10), of(99.0, 98.0, 101.0)),
+            ("100".to_owned(), "99.0 [98.0, 100.0]".to_owned())
+        );
         assert_eq!(of(100.000_01, 99.95, 100.05), "100.000 [99.950, 100.000]");
         assert_eq!(
             (of(1.158_45e-12, 1.158_43e-12, 1.158_47e-12), of(1e-12, -0.1, 0.1)),
