@@ -127,10 +127,8 @@ fn interactions_caption(result: &ResultFile, output: &OutputRecord) -> String {
     let (mut idle, mut unsure) = (Vec::new(), Vec::new());
     for index in indices {
         let (first, all) = (index.effect.first_order, index.effect.total.estimate);
-        let is_idle = match index.effect.probability_above_threshold {
-            Some(above) => above < 1.0 - SURE,
-            None => index.effect.total.high.unwrap_or(all) <= threshold,
-        };
+        let is_unlikely = index.effect.probability_above_threshold.is_none_or(|above| above < 1.0 - SURE);
+        let is_idle = is_unlikely && index.effect.total.high.unwrap_or(all) <= threshold;
         let open =
             first.low.is_some_and(|low| low < TOGETHER * all) && first.high.is_some_and(|high| high > ALONE * all);
         match first.estimate / all {
