@@ -207,10 +207,10 @@ fn a_gain_says_what_it_is_measured_by() {
     assert!(split.contains(" times its base samples alone") && !split.contains(" times the runs"), "{split}");
     assert!(study("ishigami", "base_samples = 256").contains(" times the runs"));
     // Where a warning says that plain rows are of little use, no gain is told.
-    let poor = study("sobol-g", "base_samples = 16\nplain_rows = 2");
+    let poor = study("steps", "base_samples = 64\nplain_rows = 2");
     assert!(poor.contains("all runs as base samples are better"), "{poor}");
     assert!(!poor.contains("with the accuracy of"), "{poor}");
     // Of few base points the error of plain indices is hardly known.
-    let few = study("linear", "base_samples = 8");
+    let few = study("linear", "base_samples = 8\nplain_rows = 8");
     assert!(!few.contains("million times") && few.contains("more than a thousand times"), "{few}");
 }

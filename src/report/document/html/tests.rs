@@ -93,7 +93,7 @@ fn the_page_needs_nothing_else() {
 
 #[test]
 fn what_follows_a_number_does_not_run_into_it() {
-    let cell = Cell { links: vec![Link::new("fig. 8", "#f8")], ..Cell::from("1") };
+    let cell = Cell { links: vec![Link::new("fig. 8", "#two")], ..Cell::from("1") };
     let table = Table::new("Claims.", Column::list(1, &["claim"])).with_rows([vec![cell]]);
     let html = page(vec![Part::Table(table)]).html().unwrap();
     assert!(html.contains("1 <span class=\"files\">"), "{html}");
