@@ -7,7 +7,7 @@ mod measures;
 mod output;
 mod result;
 mod series;
-mod warnings;
+pub(crate) mod warnings;
 
 pub use directions::{Direction, NoDirections};
 pub(crate) use estimate::{analysis, interval_options, surrogates};

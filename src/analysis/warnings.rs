@@ -63,7 +63,7 @@ pub(super) fn of_flags(model: &dyn Model, whole: &Totals) -> Vec<String> {
 const FEW_ROWS: f64 = 40.0;
 
 /// Share of the variance that surrogates should explain for a split design to gain (`docs/accuracy/surrogate.md`).
-const LITTLE: f64 = 0.9;
+pub(crate) const LITTLE: f64 = 0.9;
 
 /// Excess kurtosis (that of an exponential distribution) up to which few rows are just a small sample.
 const HEAVY: f64 = 6.0;
@@ -112,6 +112,14 @@ fn of_dependent_steps(study: &Study) -> Option<String> {
     })
 }
 
+/// Indices below this are not warned of one by one.
+const TRACE: f64 = 1e-6;
+
+/// An index in a warning: four decimals, or three digits of what is smaller.
+fn told(index: f64) -> String {
+    if index == 0.0 || index.abs() >= 0.01 { format!("{index:.4}") } else { format!("{index:.2e}") }
+}
+
 /// Warnings about indices that cannot all be right. Each compares an estimate with its interval, so that the noise of
 /// a small sample does not raise it.
 pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> {
@@ -145,18 +153,22 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
     warnings.extend(indices.noise.as_ref().and_then(|noise| of_noise(study, indices, noise)));
     for (name, effect) in names_of_swaps(study).iter().zip(indices.effects()) {
         let total = effect.dependent.map_or(effect.total, |dependent| dependent.full_total).estimate;
-        if effect.interaction.estimate < 0.0 && differs_clearly(effect.interaction) {
+        // Of less nobody needs to be warned.
+        let is_visible = effect.first_order.estimate.abs().max(total.abs()) >= TRACE;
+        if effect.interaction.estimate < 0.0 && differs_clearly(effect.interaction) && is_visible {
             warnings.push(format!(
-                "{name}: the first-order index {:.4} exceeds the total index {:.4} beyond the error of their difference: \
-                 too few samples",
-                effect.first_order.estimate, total
+                "{name}: the first-order index {} exceeds the total index {} beyond the error of their difference: too few \
+                 samples",
+                told(effect.first_order.estimate),
+                told(total)
             ));
         }
-        if effect.contradictory {
+        if effect.contradictory && is_visible {
             warnings.push(format!(
-                "{name}: the interval of the first-order index {:.4} lay above that of the total index {:.4}, and both were \
+                "{name}: the interval of the first-order index {} lay above that of the total index {}, and both were \
                  lengthened until they met: too few samples",
-                effect.first_order.estimate, total
+                told(effect.first_order.estimate),
+                told(total)
             ));
         }
         if differs_clearly(effect.check_gap) {
@@ -173,11 +185,16 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
         return warnings;
     }
     if indices.sum_first_order.interval.is_some_and(|interval| interval.low <= 0.0) {
-        warnings.push(
-            "the sum of the first-order indices may be 0: the output comes from interactions, or the samples are too few; \
-             shares of the first-order indices mean nothing"
-                .to_owned(),
-        );
+        let moving = indices.factors.iter().filter(|effect| effect.total.estimate != 0.0).count();
+        // One factor alone interacts with none.
+        let why = if moving > 1 {
+            "the output comes from interactions, or the samples are too few"
+        } else {
+            "the samples are too few"
+        };
+        warnings.push(format!(
+            "the sum of the first-order indices may be 0: {why}; shares of the first-order indices mean nothing"
+        ));
     }
     if clearly_above(indices.sum_first_order, Some(1.0)) {
         warnings.push(format!(
@@ -267,6 +284,11 @@ mod tests {
         let near: Vec<f64> = (0..8).map(|i| 1e11 + f64::from(i % 2)).collect();
         assert_eq!(of_digits(&CentralMoments::of(&near)), None);
         assert_eq!(of_digits(&CentralMoments::of(&[1.0; 8])), None);
+    }
+
+    #[test]
+    fn small_indices_have_digits_in_warnings() {
+        assert_eq!([0.31, 0.01, 3.14e-5, -2e-4, 0.0].map(told), ["0.3100", "0.0100", "3.14e-5", "-2.00e-4", "0.0000"]);
     }
 
     #[test]

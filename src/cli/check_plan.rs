@@ -4,7 +4,7 @@ use std::path::Path;
 
 use apportion::design::{Companions, Design};
 use apportion::estimate::{FirstOrder, ShapleyMethod, Total};
-use apportion::report::significant;
+use apportion::report::{grouped, significant};
 use apportion::run::{BLOCK, FailurePolicy, Pilot};
 use apportion::study::{Study, Target};
 use apportion::uncertainty::IntervalMethod;
@@ -45,7 +45,7 @@ pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String 
         "\ndesign: {} points, {size}{} base samples in {} replicate{} of {}, seed {}\n{}{}{}\
          cost: {size}{} base samples x {} = {} model runs, {time}\n{stopping}",
         settings.sampler.name(),
-        settings.base_samples,
+        grouped(settings.base_samples),
         settings.replicates,
         if settings.replicates == 1 { "" } else { "s" },
         design.points_per_replicate(),
@@ -53,9 +53,9 @@ pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String 
         dependent(study),
         asked(study),
         rows(study),
-        settings.base_samples,
+        grouped(settings.base_samples),
         design.rows_per_point(),
-        design.rows()
+        grouped(design.rows())
     );
     text.push_str(&memory(study));
     text.push_str(&methods(study, file, pilot));

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::report::{ResultFile, read_result, two_digits, widest_interval, width_after_doubling};
+use apportion::report::{ResultFile, indices_measured, read_result, two_digits, widest_interval, width_after_doubling};
 use apportion::study::Study;
 
 use super::Failure;
@@ -39,8 +39,8 @@ fn last_result(result: &ResultFile) -> String {
     let Some(width) = widest_interval(result) else {
         return format!("last result: {base_samples} base samples, without intervals\n");
     };
-    let known =
-        format!("last result: {base_samples} base samples; every index is known to {} or better", figure(width));
+    let which = indices_measured(&result.outputs);
+    let known = format!("last result: {base_samples} base samples; {which} is known to {} or better", figure(width));
     let doubled = result.outputs.iter().filter_map(|output| width_after_doubling(&output.convergence));
     match doubled.reduce(f64::max) {
         Some(expected) => format!(
@@ -48,7 +48,7 @@ fn last_result(result: &ResultFile) -> String {
             result.provenance.model_runs,
             figure(expected)
         ),
-        None => format!("{known}\n  too few stages to say what twice as many would bring\n"),
+        None => format!("{known}\n  no trend of the stages tells what twice as many would bring\n"),
     }
 }
 

@@ -4,8 +4,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
+use apportion::report::grouped;
 use apportion::run::Progress;
-use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 /// Shows how far one run has come, on standard error.
@@ -81,13 +82,13 @@ impl Meter {
     pub fn finish(&self, runs: u64, seconds: f64) {
         let runs = runs.saturating_sub(self.recalled.load(Ordering::Relaxed));
         let rate = rate(runs as f64 / seconds);
-        self.end(&format!("{runs} model runs in {seconds:.2} s ({rate})"));
+        self.end(&format!("{} model runs in {seconds:.2} s ({rate})", grouped(runs)));
     }
 
     /// The same about the `runs` of a result, which may be those of earlier `trials` in part, and about these.
     pub fn finish_after(&self, trials: u64, runs: u64, seconds: f64) {
-        let before = if trials > 0 { format!(", after {trials} in trials") } else { String::new() };
-        self.end(&format!("{runs} model runs in {seconds:.2} s{before}"));
+        let before = if trials > 0 { format!(", after {} in trials", grouped(trials)) } else { String::new() };
+        self.end(&format!("{} model runs in {seconds:.2} s{before}", grouped(runs)));
     }
 
     fn end(&self, line: &str) {
@@ -181,11 +182,6 @@ fn shortened(text: &str, width: usize) -> String {
     format!("{}\u{2026}", text.chars().take_while(fits).collect::<String>())
 }
 
-/// A whole number with its thousands apart.
-fn grouped(number: u64) -> String {
-    HumanCount(number).to_string()
-}
-
 /// A run that ends early leaves no bar behind.
 impl Drop for Meter {
     fn drop(&mut self) {
@@ -266,8 +262,8 @@ mod tests {
             }
         }
         let shown = Shown { done: 512, total: 1024, per_second: 100.0, left: Duration::from_secs(5), failed: 3 };
-        let bar = format!("{}{}", "\u{2588}".repeat(10), "\u{2591}".repeat(11));
-        assert_eq!(shown.line("y", 80), format!("y {bar}  50 %  512 of 1,024 runs  100 runs/s  5s left  3 failed"));
+        let bar = format!("{}{}", "\u{2588}".repeat(11), "\u{2591}".repeat(11));
+        assert_eq!(shown.line("y", 80), format!("y {bar}  50 %  512 of 1024 runs  100 runs/s  5s left  3 failed"));
         assert_eq!(shown.line("y", 40), "y  50 %  100 runs/s  5s left  3 failed");
     }
 }

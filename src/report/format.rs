@@ -4,7 +4,7 @@ mod estimates;
 mod units;
 
 use crate::text::symbol;
-pub use estimates::{give_or_take, index, percent, printed_half_width, share, two_digits};
+pub use estimates::{give_or_take, index, is_above_zero, percent, printed_half_width, share, two_digits};
 pub use units::unit;
 
 /// A value with its unit, if it has one.

@@ -34,6 +34,11 @@ impl Contender {
             probability: index.effect.probability_first,
         }
     }
+
+    /// Whether anything is known of its error.
+    pub fn has_error(&self) -> bool {
+        self.probability.is_some() || self.total.low.is_some()
+    }
 }
 
 /// The indices of an output with their places in the study, the largest total index first; `None` without any.
@@ -47,25 +52,34 @@ pub(super) fn by_total(output: &OutputRecord) -> Option<Vec<(usize, &IndexRecord
 /// is known of the errors), all that cannot be told apart otherwise.
 ///
 /// Those are, where probabilities are known, the largest and every one with a chance of 1 in 20 or more; otherwise the
-/// largest and every one whose interval reaches its own.
+/// largest and every one whose interval reaches its own. Whoever has a larger estimate than one of them is one too.
 pub(super) fn may_lead(contenders: &[Contender]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..contenders.len()).collect();
     order.sort_by(|&a, &b| contenders[b].total.estimate.total_cmp(&contenders[a].total.estimate));
     let Some((&lead, rest)) = order.split_first() else { return order };
-    let rivals: Vec<usize> = match (contenders[lead].probability, contenders[lead].total.low) {
-        (Some(probability), _) if probability >= SURE => Vec::new(),
+    let rivals = match (contenders[lead].probability, contenders[lead].total.low) {
+        (Some(probability), _) if probability >= SURE => 0,
         (Some(_), _) => {
-            let chance = |&k: &usize| contenders[k].probability.unwrap_or(0.0);
-            let likely: Vec<usize> = rest.iter().copied().filter(|k| chance(k) >= 1.0 - SURE).collect();
-            if likely.is_empty() { rest.iter().copied().take(1).collect() } else { likely }
+            let is_likely = |&k: &usize| contenders[k].probability.is_some_and(|chance| chance >= 1.0 - SURE);
+            // Unsure, and no other likely: the next one.
+            rest.iter().rposition(is_likely).map_or(1, |last| last + 1)
         }
         (None, Some(low)) => {
             let reaches = |&k: &usize| contenders[k].total.high.is_some_and(|high| high >= low);
-            rest.iter().copied().filter(reaches).collect()
+            rest.iter().rposition(reaches).map_or(0, |last| last + 1)
         }
-        (None, None) => Vec::new(),
+        (None, None) => 0,
     };
-    [vec![lead], rivals].concat()
+    order.truncate(1 + rivals);
+    order
+}
+
+/// How many moved the output in any row: factors, and the noise. Plain total indices tell, of which surrogates know none.
+pub(super) fn moving(output: &OutputRecord) -> usize {
+    let plain = |place: usize| output.surrogate.as_ref()?.plain.get(place)?.total;
+    let indices = output.indices.iter().flatten().enumerate();
+    let moves = |(place, index): &(usize, &IndexRecord)| plain(*place).unwrap_or(index.effect.total).estimate != 0.0;
+    indices.filter(moves).count() + usize::from(output.noise.is_some())
 }
 
 /// Which of these interactions are sure to exist, all of them together: of many intervals that each hold in 95 % one in forty would
@@ -146,7 +160,10 @@ pub(super) fn decides_most(contenders: &[Contender], output: &str) -> Option<Str
         return Some(format!("What decides most of {output} cannot be told apart, by S_T: {names}"));
     }
     let (label, total) = (&lead.label, index(lead.total));
+    // One that alone moves the output interacts with none.
+    let is_only = contenders.len() > 1 && contenders.iter().filter(|other| other.total.estimate != 0.0).count() < 2;
     Some(match lead.first_order {
+        _ if is_only => format!("For {output}, {label} decides most: S_T is {total}, and no other moves it"),
         Some(first) if first.estimate <= 0.0 || first.low.is_some_and(|low| low <= 0.0) => format!(
             "For {output}, {label} decides most: with all its interactions S_T is {total}, alone it explains nothing that can \
              be told from 0"
@@ -192,6 +209,22 @@ mod tests {
         let unsure =
             [contender("a", (0.0, 0.1), (0.5, 0.6), Some(0.93)), contender("b", (0.0, 0.1), (0.4, 0.5), Some(0.04))];
         assert_eq!(may_lead(&unsure), [0, 1]);
+    }
+
+    #[test]
+    fn nobody_outside_a_tie_has_a_larger_estimate_than_one_inside() {
+        let probabilities = [Some(0.9), Some(0.01), Some(0.07), Some(0.0)];
+        let contenders: Vec<Contender> = [(1.0, 2.0), (0.5, 1.5), (0.2, 0.8), (0.0, 0.1)]
+            .into_iter()
+            .zip(probabilities)
+            .map(|(total, probability)| contender("x", (0.0, 0.1), total, probability))
+            .collect();
+        assert_eq!(may_lead(&contenders), [0, 1, 2]);
+        // By intervals: that of the second stays below, that of the third does not.
+        let mut by_interval = contenders.clone();
+        by_interval.iter_mut().for_each(|contender| contender.probability = None);
+        (by_interval[1].total.high, by_interval[2].total.high) = (Some(0.99), Some(1.2));
+        assert_eq!(may_lead(&by_interval), [0, 1, 2]);
     }
 
     #[test]
@@ -241,5 +274,11 @@ mod tests {
             "For y, a decides most: alone S_1 is 0.25 ± 0.05, with all its interactions S_T is 0.55 ± 0.05"
         );
         assert_eq!(lead((0.0, 0.0), (0.0, 0.0)), "No total index of y is above 0");
+        let still = contender("b", (0.0, 0.0), (0.0, 0.0), Some(0.0));
+        let only = [contender("a", (0.0, 0.2), (0.9, 1.1), Some(1.0)), still];
+        assert_eq!(
+            decides_most(&only, "y").unwrap(),
+            "For y, a decides most: S_T is 1.00 ± 0.10, and no other moves it"
+        );
     }
 }

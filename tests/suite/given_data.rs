@@ -173,9 +173,11 @@ fn a_surrogate_adds_total_indices() {
         assert!(low <= exact / 14.0 && exact / 14.0 <= high && high - low < 0.15, "{index:?}");
     }
     let printed = stdout(&run.output);
-    for part in ["S_1, by surrogate", "S_T, by surrogate", "explains more than 99.9 %", "is not assigned to inputs"] {
+    for part in ["S_1, by surrogate", "S_T, by surrogate", "explains more than 99.9 %"] {
         assert!(printed.contains(part), "no {part:?} in {printed}");
     }
+    // What is left is nothing.
+    assert!(!printed.contains("is not assigned to inputs") && !printed.contains("what it leaves"), "{printed}");
     let csv = std::fs::read_to_string(run.out().join("table-indices.csv")).unwrap();
     assert!(
         csv.starts_with("output,input,rank,") && csv.lines().next().unwrap().ends_with("surrogate_unknown"),
@@ -320,4 +322,6 @@ fn most_of_an_output_is_half_of_it_or_more() {
     assert!(said.contains("of all inputs, a alone explains the largest part of y, "), "{said}");
     let said = stdout(&Run::of(&table(&random(2, 500, 2)), &["--outputs", "y"]).output);
     assert!(said.contains("of all inputs, x1 alone explains most of y, "), "{said}");
+    // All of the variance is theirs, and what is missing to 1 is error.
+    assert!(!said.contains("what is missing to 1"), "{said}");
 }

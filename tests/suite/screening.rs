@@ -73,6 +73,10 @@ fn ishigami_is_read_as_what_it_is() {
 fn derivatives_bound_total_indices() {
     let (folder, file, table) = screened("ishigami", &["--design", "derivative", "--trajectories", "2048"]);
     assert_eq!((file.provenance.design.as_str(), file.provenance.derivative_step), ("derivative", Some(1e-3)));
+    let page = read(folder.path(), "ishigami-screen.html");
+    assert!(
+        page.contains("times its range, and their standard deviation") && page.contains("times its range. A factor")
+    );
     assert_eq!((file.provenance.sampler.as_deref(), file.provenance.shortest_step), (Some("sobol"), None));
     // Sobol' and Kucherenko (2009): E of the squared derivative by x2 is 24.5, and 4 nu/V bounds its total index of 0.4424.
     let x2 = &file.outputs[0].factors[1];
@@ -252,6 +256,8 @@ fn values_outside_of_the_range_are_told_as_such() {
     );
     let (said, notes) = sweep("thickness");
     assert!(said.contains("Over its range, ") && !notes.contains("outside"), "{said}{notes}");
+    // The values rise or fall from one end to the other; the sentence tells no order.
+    assert!(said.contains(" most: between ") && said.contains("output from (nN)"), "{said}");
 }
 
 /// Of 41 outputs nobody reads 41 sentences.

@@ -79,23 +79,12 @@ fn caption(output: &ComparedOutput) -> String {
             return format!("No differences of {}: {reason}.", name(&output.name));
         }
         Some((_, change)) if change.estimate == 0.0 => "No total index differs".to_owned(),
-        Some((factor, change)) if factor.total.differs == Some(false) => {
+        Some((factor, _)) if factor.total.differs == Some(false) => {
             let surely = |factor: &&&ComparedFactor| factor.total.differs == Some(true);
             let sure: Vec<String> = singles.iter().filter(surely).map(|factor| name(&factor.name)).collect();
             match &sure[..] {
-                [] => format!(
-                    "No total index differs by more than the errors of both; that of {} {} most, by {}",
-                    name(&factor.name),
-                    verb(change),
-                    index(size(change))
-                ),
-                sure => format!(
-                    "Total indices that differ by more than the errors of both: {}; that of {} {} most, by {}, which may be chance",
-                    listed(sure),
-                    name(&factor.name),
-                    verb(change),
-                    index(size(change))
-                ),
+                [] => "No total index differs by more than the errors of both".to_owned(),
+                sure => format!("Total indices that differ by more than the errors of both: {}", listed(sure)),
             }
         }
         Some((factor, change)) => {

@@ -9,7 +9,7 @@ use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Se
 use crate::report::format::{give_or_take, heading, name, significant};
 use crate::report::leading::{Contender, by_answer, may_lead, of_which};
 use crate::report::listed;
-use crate::report::result::EstimateRecord;
+use crate::report::result::{EstimateRecord, IntervalRecord};
 
 /// The document of a comparison, whose files begin with `name`. A star marks the differences whose intervals leave out 0.
 pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
@@ -83,9 +83,14 @@ fn output_parts(output: &ComparedOutput) -> Vec<Part> {
     for (letter, reason) in ["A", "B"].into_iter().zip(&output.reasons) {
         parts.extend(reason.as_ref().map(|reason| Part::no_indices(format!("There are none in {letter}: {reason}."))));
     }
-    for (what, [a, b]) in [("Mean", output.mean), ("Standard deviation", output.sd)] {
-        if let (Some(a), Some(b)) = (a, b) {
-            parts.push(Part::Text(format!("{what}: A {}, B {}.", significant(a), significant(b))));
+    let moments = [("Mean", output.mean, output.mean_interval), ("Standard deviation", output.sd, [None; 2])];
+    for (what, of, intervals) in moments {
+        if let [Some(a), Some(b)] = of {
+            let said = |estimate: f64, interval: Option<IntervalRecord>| {
+                let bounds = |of: IntervalRecord| EstimateRecord { estimate, low: Some(of.low), high: Some(of.high) };
+                interval.map_or_else(|| significant(estimate), |interval| give_or_take(bounds(interval)))
+            };
+            parts.push(Part::Text(format!("{what}: A {}, B {}.", said(a, intervals[0]), said(b, intervals[1]))));
         }
     }
     // Side by side they would be wider than a page.
@@ -151,6 +156,14 @@ fn legend(file: &ComparisonFile) -> String {
         "A star marks a difference whose 95 % interval leaves out 0: {differing} of {compared}, where chance alone makes \
          about one in twenty."
     );
+    let is_rounding = |index: &ComparedIndex| {
+        let leaves_out_0 =
+            |of: EstimateRecord| of.low.is_some_and(|low| low > 0.0) || of.high.is_some_and(|high| high < 0.0);
+        index.differs == Some(false) && index.difference.is_some_and(leaves_out_0)
+    };
+    if indices().any(is_rounding) {
+        text.push_str(" Differences up to 1e-12 are rounding and have none.");
+    }
     if indices().all(|index| index.a == index.b) {
         text.push_str(" All indices are the same, to the last bit.");
     } else if file.shared_points {

@@ -6,7 +6,7 @@ use super::error::CompareError;
 use super::index::ComparedIndex;
 use super::settings::{SettingDifference, differences};
 use crate::quantity::Unit;
-use crate::report::result::{EffectRecord, OutputRecord, ResultFile};
+use crate::report::result::{EffectRecord, IntervalRecord, OutputRecord, ResultFile};
 
 /// Two results compared, as described in `docs/comparison-format.md`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,6 +64,9 @@ pub struct ComparedOutput {
     pub unit: String,
     /// Mean in A and in B, in `unit`; `null` where there is none.
     pub mean: [Option<f64>; 2],
+    /// Its interval in A and in B; `null` where there is none.
+    #[serde(default)]
+    pub mean_interval: [Option<IntervalRecord>; 2],
     /// Standard deviation in A and in B, in `unit`.
     pub sd: [Option<f64>; 2],
     /// Every factor, in the order of A and then of B, then the groups that both have.
@@ -219,6 +222,10 @@ fn compared(names: &[String], a: &OutputRecord, b: &OutputRecord) -> Result<Comp
         name: a.name.clone(),
         unit: a.unit.clone(),
         mean: [a.mean, b.mean.map(value)],
+        mean_interval: [
+            a.mean_interval,
+            b.mean_interval.map(|of| IntervalRecord { low: value(of.low), high: value(of.high) }),
+        ],
         sd: [sd(a), sd(b).map(span)],
         factors: factors.chain(groups).collect(),
         reasons: [a, b].map(|output| output.indices.is_none().then(|| reason(output))),

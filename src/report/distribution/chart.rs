@@ -86,7 +86,7 @@ fn caption(distribution: &OutputDistribution, output: &str, symbol: &str) -> Str
         None => (format!("The {n} values"), (distribution.min, distribution.max)),
     };
     let mut caption = format!(
-        "{whose} of {output} lie between {} and {}{unit}, the mean is {}{unit}",
+        "{whose} of {output} lie between {} and {}{unit}, their mean is {}{unit}",
         short(low, distribution),
         short(high, distribution),
         short(distribution.mean, distribution)

@@ -25,10 +25,7 @@ pub fn give_or_take(record: EstimateRecord) -> String {
     if !(half > 0.0 && half.is_finite() && estimate.is_finite()) {
         return significant(estimate);
     }
-    let most = match estimate {
-        0.0 => i32::MAX,
-        estimate => SIGNIFICANT as i32 - 1 - exponent(estimate),
-    };
+    let most = most_decimals(estimate);
     let (nearer, farther) = (f64::min(estimate - low, high - estimate), f64::max(estimate - low, high - estimate));
     if nearer * EVEN >= farther || half < LEAST * estimate.abs() {
         return match decimals(farther) > most {
@@ -44,8 +41,13 @@ pub fn give_or_take(record: EstimateRecord) -> String {
             false => format!("{} ± {}", at(estimate, decimals(farther)), at(farther, decimals(farther))),
         };
     }
+    with_bounds(estimate, low, high, most)
+}
+
+/// An estimate and both its bounds, with so many decimals at most.
+fn with_bounds(estimate: f64, low: f64, high: f64, most: i32) -> String {
     // A bound next to the estimate is no reason for many digits.
-    let nearer = nearer.max(half / 2.0);
+    let nearer = f64::min(estimate - low, high - estimate).max((high - low) / 4.0);
     let digits = if format!("{nearer:.1e}").starts_with(['1', '2']) { 2 } else { 1 };
     let places = decimals_of(nearer, digits).min(most);
     format!("{} [{}, {}]", at(estimate, places), at(low, places), at(high, places))
@@ -56,26 +58,63 @@ pub fn printed_half_width(record: EstimateRecord) -> Option<f64> {
     give_or_take(record).split_once(" ± ")?.1.parse().ok()
 }
 
-/// The same for sentences, with true minus signs.
+/// Whether an interval leaves out 0 from below, as it is printed too.
+pub fn is_above_zero(record: EstimateRecord) -> bool {
+    let printed = give_or_take(record);
+    let is_left_out = match printed.split_once(" ± ") {
+        Some((estimate, half)) => estimate.parse::<f64>().ok() > half.parse::<f64>().ok(),
+        None => !printed.contains("[0, "),
+    };
+    record.low.is_some_and(|low| low > 0.0) && is_left_out
+}
+
+/// [`give_or_take`] for sentences, with true minus signs.
 pub fn index(record: EstimateRecord) -> String {
     minus(&give_or_take(record))
+}
+
+/// The decimals of an estimate that are its own.
+fn most_decimals(estimate: f64) -> i32 {
+    match estimate {
+        0.0 => i32::MAX,
+        estimate => SIGNIFICANT as i32 - 1 - exponent(estimate),
+    }
 }
 
 /// A part of 1 in percent with its error: `39.96 ± 0.03 %`. A part that cannot be below 0 or beyond 1 has bounds inside.
 pub fn percent(record: EstimateRecord) -> String {
     let percent = |part: f64| 100.0 * part;
-    let within = |bound: Option<f64>| bound.map(|bound| percent(bound.clamp(0.0, 1.0)));
+    let within = |bound: Option<f64>| bound.map(|bound| percent(bound).max(0.0));
     let estimate = record.estimate;
     let inside = (0.0..=1.0).contains(&estimate);
     let bound = |bound: Option<f64>| if inside { within(bound) } else { bound.map(percent) };
     let (low, high) = (bound(record.low), bound(record.high));
-    format!("{} %", index(EstimateRecord { estimate: percent(estimate), low, high }))
+    format!("{} %", minus(&up_to_all(EstimateRecord { estimate: percent(estimate), low, high })))
 }
 
 /// A share in percent with its error, `-` if it does not exist.
 pub fn share(share: Option<f64>, interval: Option<IntervalRecord>) -> String {
     let bounds = |estimate| EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) };
-    share.map_or_else(|| "-".to_owned(), |share| give_or_take(bounds(share)))
+    share.map_or_else(|| "-".to_owned(), |share| up_to_all(bounds(share)))
+}
+
+/// What is up to 100 %: an interval that goes beyond ends there, and what is left of rounding is 0.
+fn up_to_all(record: EstimateRecord) -> String {
+    const ALL: f64 = 100.0;
+    const ROUNDING: f64 = 1e-9;
+    let EstimateRecord { estimate, low: Some(low), high: Some(high) } = record else { return give_or_take(record) };
+    if [estimate, low, high].iter().all(|part| part.abs() < ROUNDING) {
+        return "0".to_owned();
+    }
+    if !(low < ALL && high > ALL) {
+        return give_or_take(record);
+    }
+    let words = with_bounds(estimate.min(ALL), low, ALL, most_decimals(estimate));
+    // All that six digits tell is that it is all.
+    match words.split_once(" [") {
+        Some((all, bounds)) if bounds == format!("{all}, {all}]") => significant(ALL),
+        _ => words,
+    }
 }
 
 /// An error or width by itself, with two significant digits: 0.000083, or 8.3e-7 where there would be more zeros.
@@ -169,6 +208,9 @@ mod tests {
         assert_eq!(give_or_take(record(0.4886, 0.4889, 0.4893)), "0.4889 ± 0.0004");
         assert_eq!(give_or_take(record(0.9755011, 0.97550118, 0.9755012)), "0.975501 ± 3e-7");
         assert_eq!(index(record(-0.03, -0.01, 0.05)), "−0.010 [−0.030, 0.050]");
+        let cases = [record(1e-19, 0.998, 1.0), record(0.001, 0.5, 1.0), record(-0.1, 0.3, 0.7)];
+        assert_eq!(cases.map(is_above_zero), [false; 3]);
+        assert_eq!([record(0.2, 0.3, 0.4), record(0.3, 0.3, 0.3), record(0.2, 0.3, 0.7)].map(is_above_zero), [true; 3]);
     }
 
     #[test]
@@ -187,6 +229,21 @@ mod tests {
         assert_eq!(percent(record(0.25, 0.52, 1.18)), "52 [25, 100] %");
         assert_eq!(share(Some(97.61), Some(IntervalRecord { low: 97.6, high: 97.62 })), "97.610 ± 0.010");
         assert_eq!(share(None, None), "-");
+        let of = |estimate, low, high| share(Some(estimate), Some(IntervalRecord { low, high }));
+        assert_eq!(of(100.0, 99.95, 100.05), "100.000 [99.950, 100.000]");
+        assert_eq!(
+            (of(100.0, 100.0 - 1e-10, 100.0 + 1e-10), of(99.0, 98.0, 101.0)),
+            ("100".to_owned(), "99.0 [98.0, 100.0]".to_owned())
+        );
+        assert_eq!(of(100.000_01, 99.95, 100.05), "100.000 [99.950, 100.000]");
+        assert_eq!(
+            (of(1.158_45e-12, 1.158_43e-12, 1.158_47e-12), of(1e-12, -0.1, 0.1)),
+            ("0".to_owned(), "0 ± 0.10".to_owned())
+        );
+        assert_eq!(
+            (percent(record(0.9995, 1.0, 1.0005)), percent(record(1e-15, 1e-14, 2e-14))),
+            ("100.000 [99.950, 100.000] %".to_owned(), "0 %".to_owned())
+        );
         let widths = [0.0, 0.0351, 8.3e-5, 4.96e-5, 8.32e-7, 2e-8, 12.4].map(two_digits);
         assert_eq!(widths, ["0", "0.035", "0.000083", "0.00005", "8.3e-7", "2e-8", "12"]);
     }

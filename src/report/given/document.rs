@@ -60,20 +60,33 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
     }
 }
 
-/// What the first-order indices leave of the variance, of which given data cannot say what it is.
+/// What the first-order indices leave of the variance, of which given data cannot say what it is; nothing that is within the
+/// errors of the indices.
 fn left(output: &GivenOutputRecord) -> String {
+    let indices: Vec<EstimateRecord> = match output.served() {
+        Some(of) => of.indices.iter().map(|index| index.first_order).collect(),
+        None => {
+            let leading = |index: &GivenIndexRecord| index.rank.or(index.binned.map(|binned| binned.estimate));
+            output.indices.iter().flatten().filter_map(leading).collect()
+        }
+    };
     let sum = output.served().map(|of| of.sum_first_order).or(output.sum_first_order);
-    sum.map_or_else(String::new, |sum| {
-        let said = three(sum);
-        let missing = if said.parse() == Ok(1.0) {
-            return " The first-order indices sum to 1.".to_owned();
-        } else if sum < 1.0 {
-            "what is missing to 1 may be interactions, noise, or inputs that are not there"
-        } else {
-            "beyond 1 by error, or by inputs that go together"
-        };
-        format!(" The first-order indices sum to {}: {missing}.", said)
-    })
+    let Some(sum) = sum else { return String::new() };
+    let said = three(sum);
+    // As if the errors of the indices were independent of each other.
+    let towards_1 = |index: &EstimateRecord| {
+        let bound = if sum < 1.0 { index.high } else { index.low };
+        Some((bound? - index.estimate).powi(2))
+    };
+    let error = indices.iter().map(towards_1).sum::<Option<f64>>().map(f64::sqrt);
+    let missing = match error {
+        _ if said.parse() == Ok(1.0) => return " The first-order indices sum to 1.".to_owned(),
+        Some(error) if (1.0 - sum).abs() <= error => "1 to within their errors",
+        Some(_) if sum < 1.0 => "what is missing to 1 may be interactions, noise, or inputs that are not there",
+        None if sum < 1.0 => "what is missing to 1 may be error, interactions, noise, or inputs that are not there",
+        _ => "beyond 1 by error, or by inputs that go together",
+    };
+    format!(" The first-order indices sum to {said}: {missing}.")
 }
 
 /// Which columns are not among the inputs although nobody left them out.
@@ -185,11 +198,16 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord, name: &str) -> Ta
     let first_order =
         "First-order index of each input, the part of the variance that knowing it removes, with its 95 % interval.";
     let caption = match output.served() {
-        Some(of) => format!(
-            "{first_order} S_T, the total index, has the interactions as well. Upper ends by the surrogate contain what it \
-             leaves, {} of the variance.",
-            sentences::percent(of.unknown)
-        ),
+        Some(of) => {
+            let left = match of.unknown >= sentences::VISIBLE {
+                true => format!(
+                    " Upper ends by the surrogate contain what it leaves, {} of the variance.",
+                    sentences::percent(of.unknown)
+                ),
+                false => String::new(),
+            };
+            format!("{first_order} S_T, the total index, has the interactions as well.{left}")
+        }
         None => first_order.to_owned(),
     };
     Table { file: data_name(name), sums, ..Table::new(caption, columns).with_rows(rows) }

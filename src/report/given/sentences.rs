@@ -2,7 +2,7 @@
 
 use super::surrogate::SurrogateResult;
 use crate::given::{GivenIndices, LEAST_EXPLAINED, Method, OutputIndices, PointSet, SurrogateOutput, bins_for};
-use crate::report::format::{fixed, two_digits};
+use crate::report::format::fixed;
 
 pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateResult>, method: Method) -> Vec<String> {
     let rank = "rank: Gamboa, Gremaud, Klein and Lagnoux 2022, averaged over the orders of ties".to_owned();
@@ -152,13 +152,22 @@ pub(super) fn percent(share: f64) -> String {
     if share > 0.0 && share < 0.01 { "less than 1 %".to_owned() } else { format!("{} %", fixed(100.0 * share, 0)) }
 }
 
+/// Shares of the variance below this are not told.
+pub(super) const VISIBLE: f64 = 5e-4;
+
 /// What the surrogate of an output that serves did.
 pub(super) fn of_surrogate(explained: f64, unknown: f64, terms: f64, polynomials_of: &str) -> String {
-    let left = if unknown < 1e-3 { two_digits(100.0 * unknown) } else { fixed(100.0 * unknown, 1) };
+    let left = match unknown >= VISIBLE {
+        true => format!(
+            " The rest, {} %, is not assigned to inputs: an index may be larger than its estimate by so much, and the upper ends \
+             of the intervals contain it.",
+            fixed(100.0 * unknown, 1)
+        ),
+        false => String::new(),
+    };
     format!(
         "The surrogate, of {} terms in polynomials of {polynomials_of}, explains {} % of the variance of rows that it was not \
-         fitted to. The rest, {left} %, is not assigned to inputs: an index may be larger than its estimate by so much, and the \
-         upper ends of the intervals contain it.",
+         fitted to.{left}",
         fixed(terms, 0),
         if explained > 0.999 { "more than 99.9".to_owned() } else { fixed(100.0 * explained, 1) },
     )

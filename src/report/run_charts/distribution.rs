@@ -11,10 +11,9 @@ pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let title = format!("{}: distribution of {}", headline(result), name(&output.name));
     let output_words = words(&output.name);
     if let Some(distribution) = &output.distribution {
-        let mut sample = distribution.sample.clone();
-        // That of the page, which surrogates may have corrected.
-        sample.mean = output.mean.unwrap_or(sample.mean);
-        let mut chart = density_chart(&sample, &title, &output_words);
+        // With the mean of the values, not that of the page, which surrogates may have corrected.
+        let sample = &distribution.sample;
+        let mut chart = density_chart(sample, &title, &output_words);
         if sample.count < distribution.values {
             let caption = format!("{} These were kept of all {}.", chart.caption(), grouped(distribution.values));
             chart.set_caption(caption);

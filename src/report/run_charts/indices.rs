@@ -3,7 +3,7 @@
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Point, Series, Shape};
 use super::super::factor_bars::{INDEX, MOST, both_orders, index_panel, left_out, not_drawn, pair_panel};
 use super::super::format::{index, name};
-use super::super::leading::{Contender, SURE, decides_most, may_lead, names};
+use super::super::leading::{Contender, SURE, decides_most, may_lead, moving, names};
 use super::super::result::{IndexRecord, OutputRecord, ResultFile};
 use super::{headline, no_indices};
 use crate::text::listed;
@@ -112,15 +112,23 @@ fn dependent_caption(contenders: &[Contender], output: &str) -> String {
 /// Which factors act alone, which together with others, in one sentence.
 fn interactions_caption(result: &ResultFile, output: &OutputRecord) -> String {
     let Some(indices) = &output.indices else { return no_indices(output) };
+    if moving(output) < 2 {
+        return format!("No two factors act together on {}: at most one moves it.", name(&output.name));
+    }
+    if indices.iter().all(|index| index.effect.first_order.low.is_none()) {
+        let output = name(&output.name);
+        return format!(
+            "Without intervals, what acts on {output} alone and what together with others is unknown.{}",
+            not_drawn(indices.len(), MOST)
+        );
+    }
     let threshold = result.provenance.threshold;
     let mut kinds: [Vec<&str>; 4] = Default::default();
     let (mut idle, mut unsure) = (Vec::new(), Vec::new());
     for index in indices {
         let (first, all) = (index.effect.first_order, index.effect.total.estimate);
-        let is_idle = match index.effect.probability_above_threshold {
-            Some(above) => above < 1.0 - SURE,
-            None => index.effect.total.high.unwrap_or(all) <= threshold,
-        };
+        let is_unlikely = index.effect.probability_above_threshold.is_none_or(|above| above < 1.0 - SURE);
+        let is_idle = is_unlikely && index.effect.total.high.unwrap_or(all) <= threshold;
         let open =
             first.low.is_some_and(|low| low < TOGETHER * all) && first.high.is_some_and(|high| high > ALONE * all);
         match first.estimate / all {

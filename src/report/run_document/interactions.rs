@@ -1,12 +1,15 @@
 //! How much of the variance is interaction, in sentences that the intervals bear.
 
-use crate::report::format::{index, name, percent};
-use crate::report::result::{EstimateRecord, OutputRecord, ResultFile};
+use crate::report::format::{index, is_above_zero, name, percent};
+use crate::report::leading::{Contender, may_lead, moving, names};
+use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 
 /// A share of the variance that an interval must exclude before interactions count as absent.
 const VISIBLE: f64 = 0.1;
+/// Interactions up to this share of the variance are not worth a leader.
+const TRACE: f64 = 1e-3;
 
-/// How much of the variance of an output no factor, nor the noise, accounts for alone; nothing of a single factor.
+/// How much of the variance of an output no factor, nor the noise, accounts for alone; nothing where one alone moved it.
 pub(super) fn interactions(result: &ResultFile, output: &OutputRecord) -> String {
     if !result.study.dependences.is_empty() {
         return match output.indices {
@@ -15,8 +18,7 @@ pub(super) fn interactions(result: &ResultFile, output: &OutputRecord) -> String
         }
         .to_owned();
     }
-    let alone = output.indices.as_ref().is_none_or(|indices| indices.len() < 2) && output.noise.is_none();
-    let Some(sum) = output.sum_first_order.filter(|_| !alone) else { return String::new() };
+    let Some(sum) = output.sum_first_order.filter(|_| moving(output) > 1) else { return String::new() };
     let (indices, with) = match output.noise {
         None => ("The first-order indices", ""),
         Some(_) => {
@@ -24,9 +26,11 @@ pub(super) fn interactions(result: &ResultFile, output: &OutputRecord) -> String
         }
     };
     let sum_to = format!("{indices} sum to {}", index(sum));
-    let rest = rest(sum);
+    let rest = complement(sum);
     match (rest.low, rest.high) {
-        (Some(low), _) if low > 0.0 => format!("{sum_to}, so {} of the variance is interaction{with}.", percent(rest)),
+        (Some(_), _) if is_above_zero(rest) => {
+            format!("{sum_to}, so {} of the variance is interaction{with}.", percent(rest))
+        }
         (_, Some(high)) if high < 0.0 => {
             format!("{sum_to}, beyond 1 by more than their error, which none can: the samples are too few.")
         }
@@ -34,41 +38,61 @@ pub(super) fn interactions(result: &ResultFile, output: &OutputRecord) -> String
             format!("{sum_to}, which leaves open how much of the variance is interaction{with}.")
         }
         (Some(_), Some(_)) => format!("{sum_to}, 1 to within the error: no interactions{with} are seen."),
-        _ if rest.estimate <= 0.0 => {
-            format!("{sum_to}: no interactions{with} are seen, but without intervals, how sure that is, is unknown.")
-        }
-        _ => format!(
-            "{sum_to}, so some {} of the variance is interaction{with}; without intervals, how sure that is, is unknown.",
-            percent(rest)
-        ),
+        _ => format!("{sum_to}; without intervals, whether there are interactions{with} is unknown."),
     }
 }
 
-/// What the first-order indices leave of 1.
-fn rest(sum: EstimateRecord) -> EstimateRecord {
+/// What a part leaves of 1, with the interval that follows from its own.
+pub(super) fn complement(part: EstimateRecord) -> EstimateRecord {
     EstimateRecord {
-        estimate: 1.0 - sum.estimate,
-        low: sum.high.map(|high| 1.0 - high),
-        high: sum.low.map(|low| 1.0 - low),
+        estimate: 1.0 - part.estimate,
+        low: part.high.map(|high| 1.0 - high),
+        high: part.low.map(|low| 1.0 - low),
     }
 }
 
-/// Between which bounds the interactions of many outputs lie, and where there are most.
-pub(super) fn of_many(outputs: &[OutputRecord]) -> Option<String> {
-    let known: Vec<(EstimateRecord, &OutputRecord)> =
-        outputs.iter().filter_map(|output| Some((rest(output.sum_first_order?), output))).collect();
-    let (most, at) = known.iter().max_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate))?;
-    let seen = known.iter().filter(|(rest, _)| rest.low.is_some_and(|low| low > 0.0)).count();
-    Some(match (seen, most.low) {
-        (0, Some(_)) => "For none of them interactions are sure to be more than the error.".to_owned(),
-        _ => format!(
-            "Interactions are sure to be seen for {seen} of {}, most of all for {}, where the first-order indices leave {} of \
-             the variance to them.",
-            known.len(),
-            name(&at.name),
-            percent(*most)
+/// Which factor acts most together with others, where that is more than a trace: one only if it can be told.
+pub(super) fn leader(output: &OutputRecord) -> Option<String> {
+    let gap = |index: &IndexRecord| {
+        let total = index.effect.interaction?;
+        Some(Contender { label: name(&index.factor), first_order: None, total, probability: None })
+    };
+    let gaps: Vec<Contender> = output.indices.iter().flatten().filter_map(gap).collect();
+    let leaders = may_lead(&gaps);
+    let is_seen = |gap: &Contender| is_above_zero(gap.total) && gap.total.low.is_some_and(|low| low > TRACE);
+    if !leaders.iter().any(|&place| is_seen(&gaps[place])) {
+        return None;
+    }
+    let size = |contender: &Contender| index(contender.total);
+    Some(match &leaders[..] {
+        [most] => {
+            let most = &gaps[*most];
+            format!("Most of all, {} acts together with others: S_T − S_1 is {}.", most.label, size(most))
+        }
+        tied => format!(
+            "Which factor acts most together with others cannot be told, by S_T − S_1: {}.",
+            names(&gaps, tied, &size)
         ),
     })
+}
+
+/// For how many of many outputs interactions are seen, and where most; nothing without intervals.
+pub(super) fn of_many(outputs: &[OutputRecord]) -> Option<String> {
+    let known: Vec<(EstimateRecord, &OutputRecord)> =
+        outputs.iter().filter_map(|output| Some((complement(output.sum_first_order?), output))).collect();
+    known.iter().find(|(rest, _)| rest.low.is_some())?;
+    let seen: Vec<_> = known.iter().filter(|(rest, output)| is_above_zero(*rest) && moving(output) > 1).collect();
+    let Some((most, at)) = seen.iter().max_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate)) else {
+        return Some("For none of them interactions are sure to be more than the error.".to_owned());
+    };
+    Some(format!(
+        "Interactions are sure to be seen for {} of {}, most of all for {}, where the first-order indices leave {} of the \
+         variance to them.",
+        seen.len(),
+        known.len(),
+        name(&at.name),
+        percent(*most)
+    ))
 }
 
 #[cfg(test)]
@@ -99,7 +123,10 @@ mod tests {
         assert!(said(0.99, 1.01).contains("no interactions are seen"));
         assert!(said(1.01, 1.03).contains("beyond 1"));
         assert!(said(0.01, 1.0).contains("leaves open how much"));
-        assert!(said(f64::NAN, 0.6).contains("some 40 % of the variance"));
-        assert!(said(f64::NAN, 1.127).contains("sum to 1.13: no interactions are seen"));
+        assert!(said(1e-19, 0.999).contains("leaves open how much"));
+        assert_eq!(
+            said(f64::NAN, 0.6),
+            "The first-order indices sum to 0.6; without intervals, whether there are interactions is unknown."
+        );
     }
 }

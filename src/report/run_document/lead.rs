@@ -2,10 +2,10 @@
 
 use crate::model::MANY_OUTPUTS;
 use crate::report::format::{chance, count, grouped, index, name, two_digits as half_width};
-use crate::report::interval_widths::{WIDE, widest_interval, width_after_doubling};
+use crate::report::interval_widths::{WIDE, indices_measured, widest_interval, widest_of, width_after_doubling};
 use crate::report::leading::{Contender, SURE, by_total, may_lead, names, of_which};
 use crate::report::listed;
-use crate::report::result::{IndexRecord, OutputRecord, ResultFile};
+use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 use crate::report::validity;
 
 use super::interactions::interactions;
@@ -130,13 +130,20 @@ fn others(result: &ResultFile, order: &[&IndexRecord], tied: &[usize]) -> String
     };
     // Of dependent factors nothing follows from a total index alone.
     let above =
-        |index: &&IndexRecord| index.effect.probability_above_threshold.filter(|_| index.effect.dependent.is_none());
-    let chances: Vec<f64> = order.iter().filter_map(above).collect();
+        |index: &IndexRecord| index.effect.probability_above_threshold.filter(|_| index.effect.dependent.is_none());
+    let chances: Vec<(f64, EstimateRecord)> =
+        order.iter().filter_map(|index| Some((above(index)?, index.effect.total))).collect();
     if order.len() > 3 && chances.len() == order.len() {
-        let yes = chances.iter().filter(|chance| **chance > SURE).count();
-        let no = chances.iter().filter(|chance| **chance < 1.0 - SURE).count();
-        let open = chances.len() - yes - no;
         let threshold = result.provenance.threshold;
+        // The interval beside the sentence must bear it too.
+        let exceeds =
+            |(chance, total): &&(f64, EstimateRecord)| *chance > SURE && total.low.is_some_and(|low| low > threshold);
+        let stays = |(chance, total): &&(f64, EstimateRecord)| {
+            *chance < 1.0 - SURE && total.high.is_some_and(|high| high < threshold)
+        };
+        let yes = chances.iter().filter(exceeds).count();
+        let no = chances.iter().filter(stays).count();
+        let open = chances.len() - yes - no;
         let verb = |number: usize, one: &'static str, several: &'static str| if number == 1 { one } else { several };
         let mut parts = Vec::new();
         if yes > 0 {
@@ -207,8 +214,7 @@ fn settled(result: &ResultFile) -> String {
     };
     let mut sentence = match widest < WIDE {
         true => {
-            let pairs = result.outputs.iter().any(|output| output.second_order.is_some());
-            let which = if pairs { "every first-order and total index" } else { "every index" };
+            let which = indices_measured(&result.outputs);
             format!("After {runs} model runs {which} is known to ± {} or better", half_width(widest))
         }
         false => format!("After {runs} model runs the intervals are too wide to tell the indices"),
@@ -216,10 +222,13 @@ fn settled(result: &ResultFile) -> String {
     if let Some(met) = result.stopping.as_ref().and_then(|stopping| stopping.target_met) {
         sentence.push_str(if met { "; the target is met" } else { "; the target is not met" });
     }
+    let of_widest =
+        result.outputs.iter().max_by(|a, b| widest_of(a).unwrap_or(0.0).total_cmp(&widest_of(b).unwrap_or(0.0)));
+    let goes_on = of_widest.is_some_and(|output| width_after_doubling(&output.convergence).is_some());
     let doubled = result.outputs.iter().filter_map(|output| width_after_doubling(&output.convergence));
     // What is known better than it is printed, or better than what rests on no surrogate, needs no word on more runs.
     let is_told = |width: &f64| *width < WIDE && *width > widest / 10.0;
-    if let Some(doubled) = doubled.reduce(f64::max).filter(is_told) {
+    if let Some(doubled) = doubled.reduce(f64::max).filter(is_told).filter(|_| goes_on) {
         sentence.push_str(&format!("; twice the runs would bring about ± {}", half_width(doubled)));
     }
     sentence + "."

@@ -1,5 +1,6 @@
 //! The noise of a stochastic model: what it is of a single run, and the indices of the mean over it.
 
+use super::interactions::complement;
 use super::tables::{FACTORS, largest};
 use crate::report::document::{Cell, Column, Part, Table};
 use crate::report::format::{name, percent};
@@ -33,17 +34,18 @@ pub(super) fn noise(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
         sentence(result, output),
         percent(noise.effect.first_order)
     );
+    let rest = complement(noise.effect.total);
     let exists = noise.mean_share.estimate > 0.0;
-    let seen = noise.mean_share.low.is_none_or(|low| low > 0.0);
+    let seen = rest.low.is_none_or(|low| low > 0.0);
     let mean = match (exists, seen) {
         (false, _) => "The runs show no variance of the mean over the noise, which hence has no indices.".to_owned(),
         (true, false) => format!(
             "The mean over the noise has {} of that variance, perhaps none: of its indices nothing is known for sure.",
-            percent(noise.mean_share)
+            percent(rest)
         ),
         _ => format!(
             "The mean over the noise has the other {}: its indices below are of that variance alone.",
-            percent(noise.mean_share)
+            percent(rest)
         ),
     };
     let totals = noise.of_mean.iter().any(|of_mean| of_mean.total.is_some());

@@ -5,11 +5,12 @@ use super::measures::measures;
 use super::noise::noise;
 use super::warnings::folded;
 use super::{tables, values};
+use crate::analysis::warnings::LITTLE;
 use crate::estimate::ShapleyMethod;
 use crate::report::document::Part;
-use crate::report::format::{among_with_unit, count, grouped, index, name, share_of_runs, significant, two_digits};
-use crate::report::interval_widths::{WIDE, widest_of, width_after_doubling};
-use crate::report::leading::{Contender, by_total, may_lead, names};
+use crate::report::format::{among_with_unit, count, grouped, name, share_of_runs, significant, two_digits};
+use crate::report::interval_widths::{WIDE, has_too_few_stages, indices_measured, widest_of, width_after_doubling};
+use crate::report::leading::moving;
 use crate::report::listed;
 use crate::report::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile};
 use crate::report::study_sections::{failures, inputs};
@@ -42,7 +43,7 @@ pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> 
         let scatter = vec![figures.draw(of, SCATTER)];
         topics.push(topic("scatter", "The output against its factors", scatter));
     }
-    topics.push(topic("surrogate", "What the surrogate did", surrogate(of.output)));
+    topics.push(topic("surrogate", "What the surrogate did", surrogate(figures.result, of.output)));
     topics.push(topic("estimators", "Other estimators", estimators(of.output)));
     topics.retain(|topic| !topic.parts.is_empty());
     topics
@@ -74,14 +75,19 @@ fn mind(output: &OutputRecord, is_only: bool) -> Vec<Part> {
 }
 
 /// How well polynomials stand in for the model, what they gained, and what they consist of.
-fn surrogate(output: &OutputRecord) -> Vec<Part> {
+fn surrogate(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
     let Some(record) = &output.surrogate else { return Vec::new() };
     let explained = 100.0 * record.explained;
-    let gain = |what: &str, corrected: bool, gain: Option<f64>| match gain.filter(|_| corrected) {
-        Some(gain) => {
-            format!("the {what} indices are corrected by them, with the accuracy of {} times the runs", times(gain))
-        }
-        None => format!("the {what} indices are the plain ones, which are no less accurate"),
+    // Plain rows have no part in plain indices; where they are of little use, a warning says so and no gain is told.
+    let (has_plain_rows, is_poor) = (result.provenance.plain_rows > 0, record.explained < LITTLE);
+    let than = if has_plain_rows { "its base samples alone" } else { "the runs" };
+    let gain = |what: &str, corrected: bool, gain: Option<f64>| match gain {
+        _ if !corrected => format!("the {what} indices are the plain ones, which are no less accurate"),
+        Some(gain) if !(has_plain_rows && is_poor) => format!(
+            "the {what} indices are corrected by them, with the accuracy of {} times {than}",
+            times(gain, output.base_points_used)
+        ),
+        _ => format!("the {what} indices are corrected by them"),
     };
     let text = format!(
         "Polynomials with {:.0} terms were fitted to the runs of all replicates but one, in turn. They explain {} % of the \
@@ -105,10 +111,13 @@ fn surrogate(output: &OutputRecord) -> Vec<Part> {
     parts
 }
 
-/// How many times the runs, to two digits.
-fn times(gain: f64) -> String {
+/// How many times the runs, to two digits; of few base points no more is told than that it is many times.
+fn times(gain: f64, base_points: u64) -> String {
     const MANY: f64 = 1e6;
+    /// Of fewer base points the error of plain indices is known to little more than its power of ten.
+    const FEW: u64 = 16;
     match gain {
+        1000.0.. if base_points < FEW => "more than a thousand".to_owned(),
         MANY.. => "more than a million".to_owned(),
         100.0.. => grouped(format!("{gain:.1e}").parse::<f64>().unwrap_or(gain) as u64),
         _ => significant(format!("{gain:.1e}").parse().unwrap_or(gain)),
@@ -254,27 +263,16 @@ fn never_moved(output: &OutputRecord) -> Option<String> {
 fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let output = of.output;
     let is_dependent = !figures.result.study.dependences.is_empty();
-    let Some(order) = by_total(output).filter(|order| order.len() > 1 && !is_dependent) else { return Vec::new() };
-    let mut text = super::interactions::interactions(figures.result, output);
-    let gap = |index: &IndexRecord| {
-        let total = index.effect.interaction.filter(|gap| gap.low.is_some_and(|low| low > 0.0))?;
-        Some(Contender { label: name(&index.factor), first_order: None, total, probability: None })
-    };
-    let gaps: Vec<Contender> = order.iter().filter_map(|(_, index)| gap(index)).collect();
-    let size = |contender: &Contender| index(contender.total);
-    match &may_lead(&gaps)[..] {
-        [] => (),
-        [most] => text.push_str(&format!(
-            " Most of all, {} acts together with others: S_T − S_1 is {}.",
-            gaps[*most].label,
-            size(&gaps[*most])
-        )),
-        tied => text.push_str(&format!(
-            " Which factor acts most together with others cannot be told, by S_T − S_1: {}.",
-            names(&gaps, tied, &size)
-        )),
+    if is_dependent || output.indices.as_ref().is_none_or(|indices| indices.len() < 2) {
+        return Vec::new();
     }
-    let mut parts = vec![Part::Text(text), figures.draw(of, INTERACTIONS)];
+    let mut parts = Vec::new();
+    // One factor alone interacts with none.
+    if moving(output) > 1 {
+        let mut text = super::interactions::interactions(figures.result, output);
+        text.extend(super::interactions::leader(output).map(|leader| format!(" {leader}")));
+        parts.extend([Part::Text(text), figures.draw(of, INTERACTIONS)]);
+    }
     if output.second_order.as_ref().is_some_and(|pairs| !pairs.is_empty()) {
         parts.push(figures.draw(of, PAIRS));
     }
@@ -289,7 +287,8 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
         sentences.push("The surrogate was fitted anew to the runs of every stage.".to_owned());
     }
     if let Some(width) = widest_of(output).filter(|width| *width < WIDE) {
-        sentences.push(format!("In the end every index is known to ± {} or better.", two_digits(width)));
+        let which = indices_measured(std::slice::from_ref(output));
+        sentences.push(format!("In the end {which} is known to ± {} or better.", two_digits(width)));
     }
     match (width_after_doubling(&output.convergence), output.convergence.last()) {
         (Some(width), Some(last)) => sentences.push(format!(
@@ -297,10 +296,14 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
             grouped(2 * last.model_runs),
             two_digits(width)
         )),
-        _ => sentences
+        _ if has_too_few_stages(&output.convergence) => sentences
             .push("There are too few stages with intervals to say what doubling the runs would bring.".to_owned()),
+        _ => (),
     }
-    let mut parts = vec![Part::Text(sentences.join(" "))];
+    let mut parts = Vec::new();
+    if !sentences.is_empty() {
+        parts.push(Part::Text(sentences.join(" ")));
+    }
     if !output.convergence.is_empty() {
         parts.push(figures.draw(of, CONVERGENCE));
     }
@@ -324,7 +327,11 @@ fn range(output: &OutputRecord) -> String {
     let sample = output.distribution.as_ref().map(|distribution| &distribution.sample);
     let spread = sample.map_or(0.0, |sample| sample.spread());
     let value = |x: f64| among_with_unit(x, spread, &output.unit);
-    let mut text = match (values::mean(output), values::sd(output)) {
+    let mean = match (values::mean(output), values::corrected_from(output)) {
+        (Some(mean), Some(own)) => Some(format!("{mean}, corrected by the surrogate (that of the values is {own})")),
+        (mean, _) => mean,
+    };
+    let mut text = match (mean, values::sd(output)) {
         (Some(mean), Some(sd)) => format!("Mean {mean}, standard deviation {sd}"),
         (Some(mean), None) => format!("Mean {mean}"),
         _ => return format!("There is no mean of {}.", name(&output.name)),

@@ -84,8 +84,10 @@ impl Leads {
                 None => leads.without += 1,
                 Some(order) => {
                     let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::of(index)).collect();
+                    // Without intervals nothing is sure.
+                    let is_known = contenders.len() == 1 || contenders[0].has_error();
                     match may_lead(&contenders)[..] {
-                        [_] => leads.first[order[0].0] += 1,
+                        [_] if is_known => leads.first[order[0].0] += 1,
                         _ => leads.open += 1,
                     }
                 }

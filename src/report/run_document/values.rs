@@ -21,7 +21,13 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
     let mut add = |label: &str, text: Option<String>| rows.extend(text.map(|text| (label.to_owned(), text)));
     let sample = &record.sample;
     add("values", Some(grouped(record.values)));
-    add("mean", mean(output));
+    match corrected_from(output) {
+        Some(own) => {
+            add("mean, corrected by the surrogate", mean(output));
+            add("mean of the values", Some(minus(&own)));
+        }
+        None => add("mean", mean(output)),
+    }
     add("standard deviation", sd(output));
     add(
         "coefficient of variation",
@@ -37,8 +43,8 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
         }
     }
     add("largest", Some(number(sample.max)));
-    let caption = "Moments and range are those of all values, mean and standard deviation with their 95 % intervals; quantiles are those of the \
-                   values that were kept.";
+    let caption = "Moments and range are those of all values where nothing else is said, mean and standard deviation with their \
+                   95 % intervals; quantiles are those of the values that were kept.";
     let rows = rows.into_iter().map(|(label, text)| vec![label.into(), text.into()]);
     Some(Part::Table(Table::new(caption, [Column::text(""), Column::number("")]).with_rows(rows)))
 }
@@ -46,6 +52,13 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
 /// The mean of an output with its error and unit.
 pub(super) fn mean(output: &OutputRecord) -> Option<String> {
     Some(of_unit(output.mean?, output.mean_interval, &output.unit))
+}
+
+/// The mean of the values themselves, where a surrogate has corrected it visibly.
+pub(super) fn corrected_from(output: &OutputRecord) -> Option<String> {
+    let sample = &output.distribution.as_ref().filter(|_| output.surrogate.is_some())?.sample;
+    let number = |x: f64| among_with_unit(x, sample.spread(), &output.unit);
+    (number(output.mean?) != number(sample.mean)).then(|| number(sample.mean))
 }
 
 /// The standard deviation, by the divisor n - 1, as in the file; its interval is that of the variance. Where a surrogate knows the

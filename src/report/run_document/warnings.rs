@@ -62,7 +62,7 @@ pub(super) fn folded(outputs: &[OutputRecord]) -> Vec<String> {
     let told = same.into_iter().map(|Same { words, subjects, all }| {
         let mut text = match &subjects[..] {
             [] => String::new(),
-            [only] => (*only).to_owned(),
+            [only] => name(only),
             several => {
                 let mut names: Vec<String> = several.iter().take(NAMES).map(|own| name(own)).collect();
                 names.extend((several.len() > NAMES).then(|| format!("{} more", several.len() - NAMES)));
@@ -188,6 +188,7 @@ mod tests {
             folded(&outputs(&[&many])),
             ["in 9 cases (f1, f2, f3, f4, f5, f6 and 3 more): the interval of 10.5 to 90.5 lay above", "f3: noise"]
         );
+        assert_eq!(folded(&outputs(&[&["static_friction: noise"]])), ["static friction: noise"]);
         assert_eq!(folded(&outputs(&[&["few"], &["few"], &["few"]])), ["few (all 3 outputs)"]);
         assert_eq!(folded(&outputs(&[&["few"], &["few"], &["few"], &[]])), ["few (3 outputs: y[0] to y[2])"]);
     }

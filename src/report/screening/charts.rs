@@ -146,7 +146,7 @@ fn idle(output: &OutputScreeningRecord) -> String {
 /// What a screening takes the mean size of.
 fn effects_of(file: &ScreeningFile) -> &'static str {
     match is_derivative(file) {
-        true => "derivatives by each factor, times its range,",
+        true => "derivatives by each factor times its range",
         false => "elementary effects per full range of each factor",
     }
 }

@@ -6,7 +6,7 @@ use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::file_names::FileNames;
-use crate::report::format::{grouped, heading, name, short, short_with_unit, value};
+use crate::report::format::{axis_unit, grouped, heading, name, short, short_with_unit, value};
 use crate::report::leading::{by_answer, of_which};
 use crate::report::study_sections::{study_section, validity_section};
 use crate::report::validity;
@@ -86,7 +86,7 @@ fn widest(file: &SweepFile, nominal: &NominalRecord, number: usize) -> String {
     let output = name(&nominal.output);
     match by_width(file, number).first() {
         Some((sweep, SweepEffectRecord { low: Some(low), high: Some(high), .. })) if high > low => format!(
-            "Over {}, with all others nominal, {} moves {output} most: from {} to {}.",
+            "Over {}, with all others nominal, {} moves {output} most: between {} and {}.",
             if sweep.given { "the given values" } else { "its range" },
             name(&sweep.factor),
             value(*low, ""),
@@ -150,7 +150,14 @@ fn effects(file: &SweepFile, nominal: &NominalRecord, number: usize) -> Table {
         let numbers = [effect.first, effect.last, effect.low, effect.high, effect.percent, effect.elasticity].map(said);
         texts.into_iter().chain(numbers).map(Cell::from).collect()
     };
-    let headings = ["factor", "from", "to", "output from", "to", "least", "largest", "moves by %", "elasticity"];
+    let in_unit = |what: &str| match axis_unit(&nominal.unit).as_str() {
+        "" => what.to_owned(),
+        unit => format!("{what} ({unit})"),
+    };
+    let of_output = ["output from", "to", "least", "largest"].map(in_unit);
+    let mut headings = vec!["factor", "from", "to"];
+    headings.extend(of_output.iter().map(String::as_str));
+    headings.extend(["moves by %", "elasticity"]);
     let caption = format!(
         "How far each factor alone moves {}, all others nominal, the widest range first; the elasticity is its slope there \
          in percent per percent.",

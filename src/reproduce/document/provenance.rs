@@ -2,6 +2,7 @@
 
 use crate::reproduce::{Effort, Reproduced, Reproduction};
 use apportion::report::document::{Part, Table};
+use apportion::report::grouped;
 
 /// Version, designs, estimators, intervals and cost, as a table of two columns.
 pub(super) fn table(reproduction: &Reproduction) -> Part {
@@ -21,7 +22,7 @@ pub(super) fn table(reproduction: &Reproduction) -> Part {
         let seconds: f64 = reproduction.studies.iter().map(|study| study.result.provenance.wall_seconds).sum();
         rows.push((
             "cost of the studies".to_owned(),
-            format!("{runs} model runs in {seconds:.2} s on {} threads", study.result.provenance.threads),
+            format!("{} model runs in {seconds:.2} s on {} threads", grouped(runs), study.result.provenance.threads),
         ));
     }
     rows.extend(

@@ -92,6 +92,16 @@ fn the_page_needs_nothing_else() {
 }
 
 #[test]
+fn what_follows_a_number_does_not_run_into_it() {
+    let cell = Cell { links: vec![Link::new("fig. 8", "#two")], ..Cell::from("1") };
+    let table = Table::new("Claims.", Column::list(1, &["claim"])).with_rows([vec![cell]]);
+    let html = page(vec![Part::Table(table)]).html().unwrap();
+    assert!(html.contains("1 <span class=\"files\">"), "{html}");
+    // Chromium draws a heading that repeats on paper, but no button in it.
+    assert!(html.contains("thead button { display: contents; }"));
+}
+
+#[test]
 fn texts_cannot_break_out() {
     let evil = "</script></style></title><script>alert('&\"')</script><!--\" onload=\"x\u{0}";
     let mut evil_page = page(every_part(evil));
