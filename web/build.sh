@@ -4,7 +4,7 @@
 #     web/build.sh            writes assets/web/engine.b64 and assets/web/sources.sha256
 #     web/build.sh FOLDER     writes them to FOLDER instead; exit code 1 if the digest is not that of assets/web
 #
-# Needs the target wasm32-unknown-unknown, which rustup adds.
+# Needs the target wasm32-unknown-unknown, which rustup adds; zopfli where what it writes is committed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=${1:-assets/web}
@@ -20,7 +20,10 @@ target=${CARGO_TARGET_DIR:-$PWD/target}/web
 # No paths of this machine in what is published.
 export RUSTFLAGS="--remap-path-prefix=$PWD=. --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo"
 CARGO_TARGET_DIR=$target cargo build --quiet --release --locked --target wasm32-unknown-unknown --manifest-path web/Cargo.toml
-gzip -9nc "$target/wasm32-unknown-unknown/release/apportion_web.wasm" | base64 -w 0 >"$folder/engine.b64"
+# zopfli writes gzip that is a twentieth smaller.
+pack=(gzip -9nc)
+command -v zopfli >/dev/null && pack=(zopfli -c)
+"${pack[@]}" "$target/wasm32-unknown-unknown/release/apportion_web.wasm" | base64 -w 0 >"$folder/engine.b64"
 echo "wrote $folder/engine.b64, $(wc -c <"$folder/engine.b64") bytes"
 
 if ! cmp -s "$folder/sources.sha256" assets/web/sources.sha256

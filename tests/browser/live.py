@@ -602,8 +602,9 @@ def main():
                 begin = page.index('id="engine">') + len('id="engine">')
                 end = page.index("</script>", begin)
                 pages[name].write_text(page[:begin] + arguments.engine.read_text() + page[end:])
-            size = pages[name].stat().st_size
-            expect(size <= LARGEST_PAGE, f"{name}: the page has {size} bytes, more than {LARGEST_PAGE}")
+            else:
+                size = pages[name].stat().st_size
+                expect(size <= LARGEST_PAGE, f"{name}: the page has {size} bytes, more than {LARGEST_PAGE}")
         browser = Browser(playwright, arguments.browser)
         same_bits(arguments, browser, pages, folder)
         if not arguments.bits:
