@@ -128,7 +128,8 @@ impl SurrogateEstimates {
             let noise =
                 Noise::new(&moving.iter().map(|swap| &list[*swap].parts).collect::<Vec<_>>(), index == Number::Total);
             let plain: f64 = moving.iter().map(|swap| errors[layout.place(*swap, index)].error.powi(2)).sum();
-            let corrected: f64 = moving.iter().map(|swap| noise.error(&list[*swap]).error.powi(2)).sum();
+            let prudent = noise.prudent();
+            let corrected: f64 = moving.iter().map(|swap| prudent.error(&list[*swap]).error.powi(2)).sum();
             let is_known = !moving.is_empty() && plain.is_finite() && corrected.is_finite();
             (list, noise, is_known.then(|| plain / corrected.max(f64::MIN_POSITIVE)))
         };

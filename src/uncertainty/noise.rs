@@ -23,6 +23,10 @@ const COMMON_FREEDOM: f64 = 1.0;
 /// Indices of an output are no independent witnesses: so many of them count as one.
 const DEPENDENCE: f64 = 2.0;
 
+/// The two numbers where estimates are chosen by their errors.
+const PRUDENT_FREEDOM: f64 = 8.0;
+const PRUDENT_DEPENDENCE: f64 = 4.0;
+
 /// Half width of an interval about an index that rounding alone calls for: the terms of a surrogate are not exactly orthonormal
 /// in their sums.
 const ROUNDING: f64 = 1e-12;
@@ -37,6 +41,8 @@ pub struct Noise {
     common: f64,
     /// Its degrees of freedom.
     common_freedom: f64,
+    /// The same factor for the choice between estimates: closer to 1.
+    prudent: f64,
     /// Concentration of the influences below and above their mean.
     concentration: [f64; 2],
     /// Whether the truth is further above than below: true of sums of squares.
@@ -85,20 +91,35 @@ impl Noise {
             quantities.iter().copied().filter(|parts| variances(parts).0 > 0.0).collect();
         let count = moving.len() as f64;
         if moving.is_empty() {
-            return Self { common: 1.0, common_freedom: COMMON_FREEDOM, concentration: [0.0; 2], skewed, unit: 1.0 };
+            let concentration = [0.0; 2];
+            return Self {
+                common: 1.0,
+                common_freedom: COMMON_FREEDOM,
+                prudent: 1.0,
+                concentration,
+                skewed,
+                unit: 1.0,
+            };
         }
         let ratio =
             moving.iter().map(|parts| variances(parts)).map(|(within, between)| between / within).sum::<f64>() / count;
-        let direct = (moving[0].len() as f64 - 1.0) * (count / DEPENDENCE).max(1.0);
-        let common_freedom = direct + COMMON_FREEDOM;
-        let common = (direct * ratio + COMMON_FREEDOM) / common_freedom;
+        let direct = |dependence: f64| (moving[0].len() as f64 - 1.0) * (count / dependence).max(1.0);
+        let factor = |direct: f64, prior: f64| (direct * ratio + prior) / (direct + prior);
+        let common_freedom = direct(DEPENDENCE) + COMMON_FREEDOM;
+        let common = factor(direct(DEPENDENCE), COMMON_FREEDOM);
+        let prudent = factor(direct(PRUDENT_DEPENDENCE), PRUDENT_FREEDOM);
         let sums = moving.iter().map(|parts| concentration(parts)).fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
-        Self { common, common_freedom, concentration: sums.map(|sum| sum / count), skewed, unit: 1.0 }
+        Self { common, common_freedom, prudent, concentration: sums.map(|sum| sum / count), skewed, unit: 1.0 }
     }
 
     /// Of a number whose size says what rounding is: a mean or a variance.
     pub fn of_moment(parts: &PartInfluences, skewed: bool) -> Self {
         Self { unit: 0.0, ..Self::new(&[parts], skewed) }
+    }
+
+    /// The same for a choice by errors: of a rare event nets may agree by chance, and be wrong together.
+    pub fn prudent(self) -> Self {
+        Self { common: self.prudent, ..self }
     }
 
     /// The same without the skewness: for differences.

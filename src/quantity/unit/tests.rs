@@ -156,7 +156,7 @@ fn a_label_is_any_text_and_a_known_unit_stays_one() {
 fn what_is_no_unit_is_named_and_corrected() {
     let text = |input: &str| Unit::parse(input).expect_err(input).to_string();
     assert!(text("gpa").contains("did you mean \"GPa\"?"), "{}", text("gpa"));
-    assert!(text("nm/sec").contains("\"sec\" is not understood;"), "{}", text("nm/sec"));
+    assert!(text("nm/fortnight").contains("\"fortnight\" is not understood;"), "{}", text("nm/fortnight"));
     assert!(text("Mpa").contains("did you mean \"MPa\"?"), "{}", text("Mpa"));
     assert!(text("furlong/s").contains("units look like"));
     assert!(text("EUR").ends_with("may have none: their numbers are then passed on as they are"), "{}", text("EUR"));
