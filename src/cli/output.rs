@@ -71,7 +71,7 @@ pub fn deliver_with(artefacts: &Artefacts, document: &Document, text: &str) -> R
     let written = artefacts.write_until(document, stop::on_signal())?;
     print(text)?;
     let ends_with = |path: &Path, ending: &str| path.extension().is_some_and(|of| of == ending);
-    let (live, data): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(|path| ends_with(path, "html"));
+    let (live, data): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(|path| is_live(path));
     let names = live.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy());
     let live: String = names.map(|name| format!(", and {name} to try other ranges in")).collect();
     say(&format!("wrote {}{live}", written.page.display()));
@@ -90,6 +90,11 @@ pub fn deliver_with(artefacts: &Artefacts, document: &Document, text: &str) -> R
     Ok(())
 }
 
+/// Whether a file is a page to try other ranges in, and not an animation.
+fn is_live(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.to_string_lossy().ends_with("live.html"))
+}
+
 /// The same with the text of the document.
 pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure> {
     deliver_with(artefacts, document, &document.text())
@@ -98,6 +103,12 @@ pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn live_pages_are_told_from_animations() {
+        assert!(is_live(Path::new("out/ishigami-live.html")) && is_live(Path::new("live.html")));
+        assert!(!is_live(Path::new("charts/ts04-14-animation.html")) && !is_live(Path::new("alive.json")));
+    }
 
     #[test]
     fn formats_are_a_list_or_none() {
