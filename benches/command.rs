@@ -22,16 +22,17 @@ const ALONE: &str =
     "import random\nfor _ in range(1000000):\n    y = model(random.random(), random.random(), random.random())\n";
 
 /// The shortest worker.
-const WORKER: &str = "import sys\nsys.stdin.readline()\nfor line in sys.stdin:\n    print(model(*map(float, line.split(','))), flush=True)\n";
+const WORKER: &str = "import sys\nsys.stdin.readline()\nfor line in sys.stdin:\n    number, *x = line.split(',')\n    print(number, model(*map(float, x)), sep=',', flush=True)\n";
 
 /// The worker that the README shows.
-const READER: &str = "import csv, sys\nfor row in csv.DictReader(sys.stdin):\n    x = {name: float(value) for name, value in row.items()}\n    \
-                      print(model(**x), flush=True)\n";
+const READER: &str = "import csv, sys\nfor row in csv.DictReader(sys.stdin):\n    number = row.pop('id')\n    x = {name: float(value) for name, value in row.items()}\n    \
+                      print(number, model(**x), sep=',', flush=True)\n";
 
 /// One that answers all rows that are waiting at once.
 const BLOCKS: &str = "import sys\nsys.stdin.buffer.readline()\nrest = b''\nwhile block := sys.stdin.buffer.read1(1 << 20):\n    \
                       rows, _, rest = (rest + block).rpartition(b'\\n')\n    if rows:\n        \
-                      sys.stdout.write(''.join(f'{model(*map(float, row.split(b\",\")))!r}\\n' for row in rows.split(b'\\n')))\n        \
+                      cells = (row.split(b\",\") for row in rows.split(b'\\n'))\n        \
+                      sys.stdout.write(''.join(f'{n.decode()},{model(*map(float, x))!r}\\n' for n, *x in cells))\n        \
                       sys.stdout.flush()\n";
 
 fn seconds_of_study(folder: &Path, program: &str, workers: &str) -> (f64, u64) {

@@ -21,7 +21,6 @@ STUDY = """model = "command"
 outputs = ["y"]
 [command]
 program = ["python3", "model.py"]
-row_numbers = true
 """
 FACTORS = "".join(f'[[factor]]\nname = "{name}"\nmin = 0.0\nmax = 1.0\n' for name in "ab")
 REPEATS = 5

@@ -8,7 +8,7 @@ use apportion::Study;
 use apportion::Unit;
 use apportion::{CommandModel, CommandOutput, CommandSettings, function_model};
 use apportion::{Distribution, Factor};
-use apportion::{Form, KeptAlive, Program, Protocol};
+use apportion::{Form, Program, Protocol};
 
 /// Reads a header, then a line of a row number, length (mm), thickness (mm) and load (N) for each run; prints the number and
 /// the outputs for each.
@@ -38,7 +38,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
             directory: folder.path().to_owned(),
             environment: Vec::new(),
         },
-        form: Form::KeptAlive(KeptAlive { protocol: Protocol::Csv, row_numbers: true }),
+        form: Form::KeptAlive(Protocol::Csv),
         outputs: vec![output("deflection", millimetres()?), output("stress", Unit::parse("MPa")?)],
         series: Vec::new(),
         asked: vec![0, 1],

@@ -127,11 +127,11 @@ pub use design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler,
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyMethod, ShapleyPlayers, Total, Undefined};
 pub use model::{
     AfmModel, AfmOutput, Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag,
-    FunctionModel, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure,
-    RunContext, SeriesAxis, SeriesError, Worker, function_model,
+    FunctionModel, GiveUp, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel,
+    RowFailure, RunContext, SeriesAxis, SeriesError, Worker, function_model,
 };
 #[cfg(feature = "study")]
-pub use model::{CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, PerRun, Program, Protocol};
+pub use model::{CommandModel, CommandOutput, CommandSettings, Form, PerRun, Program, Protocol};
 pub use quantity::{Domain, Quantity, Unit, UnitError};
 pub use run::{FailurePolicy, Progress, RemoteWorkers, Requests, RunError, Shard, ShardError};
 pub use runner::{Resume, Runner, WorkerStudy};

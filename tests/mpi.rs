@@ -20,7 +20,7 @@ const PROGRAM: &str = "import csv, sys, time\n\
     \x20   print(row['id'], x[0] + 2 * x[1] * x[1], sep=',', flush=True)\n";
 
 const STUDY: &str = "model = \"command\"\noutputs = [\"y\"]\n[command]\nprogram = [\"python3\", \"model.py\"]\n\
-    row_numbers = true\n[design]\nbase_samples = 128\n[[factor]]\nname = \"a\"\nmin = 0.0\nmax = 1.0\n\
+    [design]\nbase_samples = 128\n[[factor]]\nname = \"a\"\nmin = 0.0\nmax = 1.0\n\
     [[factor]]\nname = \"b\"\nmin = 0.0\nmax = 1.0\n";
 
 /// `mpirun` with the program on so many ranks; `None` if there is no `mpirun`.

@@ -23,12 +23,6 @@ pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String 
             if let Some(reason) = &pilot.reason {
                 failures = format!("warning: {} of {} failed: {reason}\n", pilot.failed, runs(pilot.runs));
             }
-            if pilot.is_out_of_step {
-                failures.push_str(
-                    "warning: the program is out of step: it printed more or fewer answers than it had rows; a run will ask \
-                     every row by a process of its own, and take much longer\n",
-                );
-            }
             failures.push_str(random(study, pilot));
             match pilot.failed == pilot.runs {
                 true => "in a time that cannot be told".to_owned(),

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::exchange::{EvaluateError, Evaluated, evaluate_in, open_table};
-use apportion::model::RunContext;
+use apportion::model::{GiveUp, RunContext};
 use apportion::report::{prepare_file, significant, stream_atomically};
+use apportion::run::Halt;
 use apportion::space::Space;
 
 use super::stop::{Stoppable, on_signal};
@@ -55,6 +56,9 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     });
     match outcome {
         Some(Err(EvaluateError::Points(error))) => Err(Failure::Input(anyhow!("{points}: {error}"))),
+        Some(Err(error @ EvaluateError::Halted { halt: Halt::GaveUp(GiveUp { is_bad_input: true, .. }), .. })) => {
+            Err(Failure::Input(error.into()))
+        }
         Some(Err(error @ EvaluateError::Halted { .. })) => Err(Failure::Run(error.into())),
         Some(Err(error)) => Err(Failure::Run(anyhow!("{}: {error}", arguments.output.display()))),
         Some(Ok(evaluated)) => {

@@ -34,6 +34,7 @@ use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
+use apportion::model::GiveUp;
 use apportion::report::{ReadError, WriteError, wrapped};
 use apportion::run::RunError;
 use apportion::run::journal::JournalError;
@@ -219,6 +220,7 @@ impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
         match error {
             RunError::Refused { .. }
+            | RunError::GaveUp(GiveUp { is_bad_input: true, .. })
             | RunError::Journal(
                 JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. } | JournalError::NoFile { .. },
             ) => Self::Input(error.into()),

@@ -275,13 +275,16 @@ pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile, live: 
 
 /// What was done before an error is of use to the user.
 fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failure {
+    if matches!(&error, RunError::GaveUp(give_up) if give_up.is_bad_input) {
+        return error.into();
+    }
     let nothing = |journal: &Path| study.runner().journal(journal).recorded_runs().is_ok_and(|runs| runs == 0);
     let kept = match (&error, journal) {
-        (RunError::Interrupted { .. } | RunError::GaveUp { .. }, Some(journal)) if nothing(journal) => String::new(),
-        (RunError::Interrupted { .. } | RunError::GaveUp { .. } | RunError::NotKept { .. }, Some(journal)) => {
+        (RunError::Interrupted { .. } | RunError::GaveUp(_), Some(journal)) if nothing(journal) => String::new(),
+        (RunError::Interrupted { .. } | RunError::GaveUp(_) | RunError::NotKept { .. }, Some(journal)) => {
             // What failed before the model gave up is no answer of a model that has been mended.
             let (option, again) = match error {
-                RunError::GaveUp { .. } => ("--retry-failed", ", and evaluates those that failed again"),
+                RunError::GaveUp(_) => ("--retry-failed", ", and evaluates those that failed again"),
                 _ => ("--resume", ""),
             };
             let path = journal.display();

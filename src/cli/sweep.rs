@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use apportion::model::RunContext;
+use apportion::model::{GiveUp, RunContext};
 use apportion::report::sweep::{build_sweep, file_names, sweep_document};
+use apportion::run::Halt;
 use apportion::space::Space;
 use apportion::study::Study;
 use apportion::sweep::{FactorValues, MAX_POINTS, SweepError, SweepRequest, find, sweep_in};
@@ -43,6 +44,7 @@ fn parse_points(text: &str) -> Result<usize, String> {
 impl From<SweepError> for Failure {
     fn from(error: SweepError) -> Self {
         match error {
+            SweepError::Halted(Halt::GaveUp(GiveUp { is_bad_input: true, .. })) => Self::Input(error.into()),
             SweepError::Halted(_) => Self::Run(error.into()),
             _ => Self::Input(error.into()),
         }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::{Counts, Model};
-use crate::binary::{Binary, Reader};
+use crate::binary::{Binary, Reader, binary_fields};
 
 /// Why a row has no value of an output, in the words of its model. Equal reasons are counted together, so that they
 /// name no values of the row; cheap to clone.
@@ -44,6 +44,29 @@ impl fmt::Display for RowFailure {
     }
 }
 
+/// Why a model cannot go on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct GiveUp {
+    /// What happened, and what to do.
+    pub reason: RowFailure,
+    /// Whether the model must be changed before any run of it: bad input, and no failed run.
+    pub is_bad_input: bool,
+}
+
+binary_fields!(GiveUp { reason, is_bad_input });
+
+impl From<RowFailure> for GiveUp {
+    fn from(reason: RowFailure) -> Self {
+        Self { reason, is_bad_input: false }
+    }
+}
+
+impl fmt::Display for GiveUp {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.reason.fmt(f)
+    }
+}
+
 /// Outputs of a block of rows: one column per output, one entry per row.
 #[derive(Debug, Clone, Default)]
 pub struct Batch {
@@ -52,7 +75,7 @@ pub struct Batch {
     failures: Vec<(usize, usize, RowFailure)>,
     flags: Vec<u64>,
     counts: Counts,
-    given_up: Option<RowFailure>,
+    given_up: Option<GiveUp>,
 }
 
 impl Batch {
@@ -114,12 +137,12 @@ impl Batch {
 
     /// The model cannot go on, with these rows or any others: those that have neither value nor failure have none for
     /// this reason, and the run ends.
-    pub fn give_up(&mut self, reason: RowFailure) {
-        self.given_up = Some(reason);
+    pub fn give_up(&mut self, reason: impl Into<GiveUp>) {
+        self.given_up = Some(reason.into());
     }
 
     /// Why the model cannot go on, if it cannot.
-    pub fn given_up(&self) -> Option<&RowFailure> {
+    pub fn given_up(&self) -> Option<&GiveUp> {
         self.given_up.as_ref()
     }
 
@@ -150,7 +173,7 @@ impl Batch {
     /// Names every value that is not finite and has no failure yet [`RowFailure::not_finite`], or the reason why the model
     /// gave up, and puts the failures in order. To be called once after the worker.
     pub fn settle(&mut self) {
-        let unnamed = self.given_up.clone().unwrap_or_else(RowFailure::not_finite);
+        let unnamed = self.given_up.clone().map_or_else(RowFailure::not_finite, |give_up| give_up.reason);
         self.failures.sort_unstable();
         let named = self.failures.len();
         for (output, column) in self.columns.iter().enumerate() {

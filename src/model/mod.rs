@@ -24,13 +24,12 @@ pub(crate) mod shorten;
 #[cfg(feature = "study")]
 pub(crate) use afm::AfmSecond;
 pub use afm::{AfmHistory, AfmModel, AfmMoments, AfmOutput, EVALUATIONS, LARGEST_ERROR, RUNGS, edge_unit};
-pub use batch::{Batch, RowFailure};
+pub use batch::{Batch, GiveUp, RowFailure};
 pub use catalogue::{ModelKind, known_inputs};
 #[cfg(feature = "study")]
 pub use command::{
-    Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, KeptAlive, Match, PerRun, Pick,
-    PickError, Program, Protocol, Source, TemplateError, TemplateProblem, Way, parse_answer, parse_numbered_answer,
-    program_files,
+    Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, PickError, Program,
+    Protocol, Source, TemplateError, TemplateProblem, Way, parse_answer, program_files,
 };
 pub use context::{Messages, RunContext};
 pub use counter::{Counter, CounterKind, Counts};
@@ -173,27 +172,4 @@ pub trait Worker: Send {
     /// Evaluates a block of rows. `inputs` holds one slice of SI values per factor, in the order of the space, all of
     /// the length [`Batch::rows`]; every output of every row is either set or failed in `batch`.
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch);
-
-    /// The same for one block of several: its rows may still be pending afterwards, so that a worker need not wait for them.
-    /// A worker that [gives up](Batch::give_up) leaves none pending.
-    fn run_ahead(&mut self, inputs: &[&[f64]], batch: &mut Batch) -> Standing {
-        self.run(inputs, batch);
-        Standing::Final
-    }
-
-    /// Decides on the rows that are pending: they are final or revoked then.
-    fn confirm(&mut self) -> Standing {
-        Standing::Final
-    }
-}
-
-/// Whether the rows stand that a [`Worker`] has evaluated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Standing {
-    /// These stand, and all before them.
-    Final,
-    /// They may still be revoked, with all others since the last that were final.
-    Pending,
-    /// None that were pending stand, nor do these: they are to be evaluated again, in the same order.
-    Revoked,
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Batch, Counter, Flag, Model, Output, RunContext, Standing, Worker};
+use super::{Batch, Counter, Flag, Model, Output, RunContext, Worker};
 use crate::quantity::Unit;
 use crate::space::distribution::{mixed, seed_of};
 
@@ -109,34 +109,6 @@ struct RepeatedWorker<'a> {
 }
 
 impl RepeatedWorker<'_> {
-    /// Runs all repetitions of a block by `run`, and makes mean and variance of them unless it is to be run again.
-    fn repeat(
-        &mut self,
-        inputs: &[&[f64]],
-        batch: &mut Batch,
-        run: impl FnOnce(&mut dyn Worker, &[&[f64]], &mut Batch) -> Standing,
-    ) -> Standing {
-        let repetitions = self.of.repetitions;
-        self.columns.resize_with(inputs.len(), Vec::new);
-        for (number, (column, input)) in self.columns.iter_mut().zip(inputs).enumerate() {
-            column.clear();
-            for repetition in 0..repetitions as u64 {
-                if number == self.of.seed {
-                    column.extend(input.iter().map(|seed| seed_of_repetition(*seed, repetition)));
-                } else {
-                    column.extend_from_slice(input);
-                }
-            }
-        }
-        let columns: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
-        self.batch.reset(batch.rows() * repetitions);
-        let standing = run(&mut *self.worker, &columns, &mut self.batch);
-        if standing != Standing::Revoked {
-            self.gather(batch);
-        }
-        standing
-    }
-
     fn gather(&self, batch: &mut Batch) {
         let (rows, repetitions) = (batch.rows(), self.of.repetitions);
         let outputs = self.batch.outputs();
@@ -172,18 +144,22 @@ impl RepeatedWorker<'_> {
 
 impl Worker for RepeatedWorker<'_> {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
-        self.repeat(inputs, batch, |worker, inputs, batch| {
-            worker.run(inputs, batch);
-            Standing::Final
-        });
-    }
-
-    fn run_ahead(&mut self, inputs: &[&[f64]], batch: &mut Batch) -> Standing {
-        self.repeat(inputs, batch, |worker, inputs, batch| worker.run_ahead(inputs, batch))
-    }
-
-    fn confirm(&mut self) -> Standing {
-        self.worker.confirm()
+        let repetitions = self.of.repetitions;
+        self.columns.resize_with(inputs.len(), Vec::new);
+        for (number, (column, input)) in self.columns.iter_mut().zip(inputs).enumerate() {
+            column.clear();
+            for repetition in 0..repetitions as u64 {
+                if number == self.of.seed {
+                    column.extend(input.iter().map(|seed| seed_of_repetition(*seed, repetition)));
+                } else {
+                    column.extend_from_slice(input);
+                }
+            }
+        }
+        let columns: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
+        self.batch.reset(batch.rows() * repetitions);
+        self.worker.run(&columns, &mut self.batch);
+        self.gather(batch);
     }
 }
 

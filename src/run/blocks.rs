@@ -16,7 +16,7 @@ use crate::binary::{Binary, Reader, binary_fields};
 use crate::clock::Instant;
 use crate::design::BasePoints;
 use crate::estimate::{PointOutputs, part_length};
-use crate::model::{RunContext, Standing, Worker};
+use crate::model::{RunContext, Worker};
 
 /// Time between checkpoints: a share of what the run has taken, within bounds.
 const CHECKPOINT_SHARE: u32 = 4;
@@ -237,7 +237,7 @@ impl Task for Blocks<'_> {
         strip: &Strip,
         on_rows: &dyn Fn(u64),
     ) -> Evaluated<Vec<Branch>> {
-        let (replicate, standing) = (strip.replicate as u64, Standing::Final);
+        let replicate = strip.replicate as u64;
         let sample = (SAMPLE / self.job.design.settings().replicates).max(1);
         let mut branches = Vec::new();
         for number in strip.number..strip.number + strip.blocks {
@@ -254,12 +254,12 @@ impl Task for Blocks<'_> {
                 self.points[strip.replicate].fill(block.start, scratch.unit_columns(points));
                 let given_up = scratch.run_rows(self.job, worker, self.context, on_rows);
                 if given_up.is_some() {
-                    return Evaluated { output: None, standing, given_up, is_urgent: false };
+                    return Evaluated { output: None, given_up };
                 }
             }
             append(&mut branches, Branch { first: number, blocks: 1, totals: scratch.totals(self.job, place) });
         }
-        Evaluated { output: Some(branches), standing, given_up: None, is_urgent: false }
+        Evaluated { output: Some(branches), given_up: None }
     }
 
     fn accept(&self, strip: &Strip, branches: Vec<Branch>) -> Result<Finished, RunError> {

@@ -7,7 +7,7 @@ use super::executor::Executor;
 use super::task::{Evaluated, Finished, Task};
 use super::{Progress, RunError};
 use crate::clock::Instant;
-use crate::model::{Model, RunContext, Standing, Worker};
+use crate::model::{Model, RunContext, Worker};
 
 /// What `evaluate` makes of every number below `count` with a worker of `model`, in order, on so many threads (0: one per
 /// core).
@@ -69,7 +69,7 @@ impl<T: Send, F: Fn(&mut dyn Worker, u64) -> T + Sync> Task for Each<F, T> {
 
     fn evaluate(&self, worker: &mut dyn Worker, (): &mut (), number: &u64, _: &dyn Fn(u64)) -> Evaluated<T> {
         let output = Some((self.evaluate)(worker, *number));
-        Evaluated { output, standing: Standing::Final, given_up: None, is_urgent: false }
+        Evaluated { output, given_up: None }
     }
 
     fn accept(&self, number: &u64, output: T) -> Result<Finished, RunError> {

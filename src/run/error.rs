@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::journal::JournalError;
 use super::{MAX_STORED_BYTES, Place};
 use crate::design::DesignError;
-use crate::model::RowFailure;
+use crate::model::{GiveUp, RowFailure};
 
 /// Why a run could not take place, or was given up.
 #[derive(Debug, Error)]
@@ -52,11 +52,8 @@ pub enum RunError {
     #[error("a trial run, or that of a cheaper model, has no design: {0}")]
     Design(DesignError),
     /// The model cannot go on.
-    #[error("the model cannot go on: {reason}")]
-    GaveUp {
-        /// Why.
-        reason: RowFailure,
-    },
+    #[error("the model cannot go on: {0}")]
+    GaveUp(GiveUp),
     /// A worker in another process does not answer any more, or answers nonsense.
     #[error("the worker number {worker} in another process is lost: {source}")]
     LostWorker {

@@ -12,7 +12,7 @@ use super::remote::{Abroad, Answer, Remote, Talk};
 use super::task::{Evaluated, Finished, Task};
 use super::{Progress, RunError, threads_in_force};
 use crate::clock::Instant;
-use crate::model::{Model, RowFailure, RunContext, Standing, Worker};
+use crate::model::{GiveUp, Model, RunContext, Worker};
 
 /// Time that a piece of rows should take: short enough to lose little, and to share out evenly; long enough to be worth a
 /// record.
@@ -110,7 +110,7 @@ impl<'a> Executor<'a> {
         let end = execution.end.lock().unwrap_or_else(PoisonError::into_inner).take();
         match end {
             None => Ok(progress),
-            // Rows that were pending may have come to stand since.
+            // Other workers may have handed over rows since.
             Some(RunError::Interrupted { total, .. }) => Err(RunError::Interrupted { done: progress.done, total }),
             Some(error) => Err(error),
         }
@@ -133,7 +133,7 @@ struct Execution<'e, 'a, T> {
     on_progress: &'e (dyn Fn(Progress) + Sync),
     done: AtomicU64,
     failed: AtomicU64,
-    /// Rows evaluated that are not in the sink yet.
+    /// Rows of pieces under way that are evaluated already.
     pending: AtomicU64,
     end: Mutex<Option<RunError>>,
 }
@@ -146,14 +146,7 @@ impl<T: Task> Execution<'_, '_, T> {
         let mut worker = idle.unwrap_or_else(|| model.worker(context));
         let mut scratch = self.task.scratch();
         let mut most = 1;
-        let mut unconfirmed = Unconfirmed::<T>::new();
-        loop {
-            let Some(piece) = self.next(&mut unconfirmed, most) else {
-                if unconfirmed.pieces.is_empty() || !self.hand_over(&mut unconfirmed, worker.confirm()) {
-                    break;
-                }
-                continue;
-            };
+        while let Some(piece) = self.next(most) {
             let (began, rows) = (Instant::now(), self.task.rows(&piece));
             let told = std::cell::Cell::new(0);
             let on_rows = |rows: u64| {
@@ -162,21 +155,14 @@ impl<T: Task> Execution<'_, '_, T> {
                 (self.on_progress)(self.progress());
             };
             let evaluated = self.task.evaluate(&mut *worker, &mut scratch, &piece, &on_rows);
-            let Evaluated { output, mut standing, given_up, is_urgent } = evaluated;
+            let Evaluated { output, given_up } = evaluated;
             let seconds = began.elapsed().as_secs_f64();
-            if standing == Standing::Pending && is_urgent {
-                standing = worker.confirm();
-            }
-            self.pending.fetch_add(rows - told.get(), Ordering::Relaxed);
-            unconfirmed.pieces.push((piece, output));
-            if standing == Standing::Pending {
-                (self.on_progress)(self.progress());
-            }
-            if !self.hand_over(&mut unconfirmed, standing) {
+            self.pending.fetch_sub(told.get(), Ordering::Relaxed);
+            if !self.hand_over(&piece, output) {
                 break;
             }
-            if let Some(reason) = given_up {
-                self.give_up(reason);
+            if let Some(give_up) = given_up {
+                self.give_up(give_up);
                 break;
             }
             most = self.fitting(rows, seconds);
@@ -195,35 +181,21 @@ impl<T: Task> Execution<'_, '_, T> {
 
     fn converse(&self, talk: Talk<'_>, abroad: &dyn Abroad<T::Piece, T::Output>) -> std::io::Result<()> {
         let errand = abroad.errand();
-        let mut unconfirmed = Unconfirmed::<T>::new();
         let mut sent = VecDeque::new();
         let (mut most, mut goes_on) = (1, true);
         loop {
             while goes_on && sent.len() < PIECES_AHEAD {
-                let Some(piece) = self.next(&mut unconfirmed, most) else { break };
+                let Some(piece) = self.next(most) else { break };
                 talk.ask(&errand, |out| abroad.write_piece(&piece, out))?;
                 sent.push_back(piece);
             }
-            let Some(piece) = sent.pop_front() else {
-                if !goes_on || unconfirmed.pieces.is_empty() {
-                    return Ok(());
-                }
-                talk.ask_to_confirm()?;
-                let standing = talk.hear(|_| None::<T::Output>)?.standing;
-                goes_on = self.hand_over(&mut unconfirmed, standing);
-                continue;
-            };
+            let Some(piece) = sent.pop_front() else { return Ok(()) };
             let rows = self.task.rows(&piece);
-            let Answer { seconds, standing, given_up, output } = talk.hear(|from| abroad.read_output(&piece, from))?;
-            self.pending.fetch_add(rows, Ordering::Relaxed);
-            unconfirmed.pieces.push((piece, output));
-            if standing == Standing::Pending {
-                (self.on_progress)(self.progress());
-            }
+            let Answer { seconds, given_up, output } = talk.hear(|from| abroad.read_output(&piece, from))?;
             // What is on its way is heard to the end: the next task begins with a worker that has nothing to say.
-            goes_on &= self.hand_over(&mut unconfirmed, standing);
-            if let Some(reason) = given_up {
-                self.give_up(reason);
+            goes_on &= self.hand_over(&piece, output);
+            if let Some(give_up) = given_up {
+                self.give_up(give_up);
                 goes_on = false;
             }
             most = self.fitting(rows, seconds);
@@ -231,7 +203,7 @@ impl<T: Task> Execution<'_, '_, T> {
     }
 
     /// The next piece for a worker, of best `most` rows, unless the run is to end.
-    fn next(&self, unconfirmed: &mut Unconfirmed<T>, most: u64) -> Option<T::Piece> {
+    fn next(&self, most: u64) -> Option<T::Piece> {
         let context = self.executor.context;
         if context.is_interrupted() {
             self.end(RunError::Interrupted { done: 0, total: self.before.total });
@@ -239,7 +211,7 @@ impl<T: Task> Execution<'_, '_, T> {
         if context.is_stopped() {
             return None;
         }
-        unconfirmed.again.pop_front().or_else(|| self.task.next(most, self.hands))
+        self.task.next(most, self.hands)
     }
 
     /// Rows of the next piece, where so many took so many seconds.
@@ -251,41 +223,29 @@ impl<T: Task> Execution<'_, '_, T> {
     }
 
     /// A worker cannot go on.
-    fn give_up(&self, reason: RowFailure) {
+    fn give_up(&self, give_up: GiveUp) {
         self.end(if self.executor.context.is_interrupted() {
             RunError::Interrupted { done: 0, total: self.before.total }
         } else {
-            RunError::GaveUp { reason }
+            RunError::GaveUp(give_up)
         });
     }
 
-    /// Hands to the sink what stands; whether it was taken.
-    fn hand_over(&self, unconfirmed: &mut Unconfirmed<T>, standing: Standing) -> bool {
-        if standing == Standing::Pending {
-            return true;
-        }
-        for (piece, _) in &unconfirmed.pieces {
-            self.pending.fetch_sub(self.task.rows(piece), Ordering::Relaxed);
-        }
-        if standing == Standing::Revoked {
-            unconfirmed.revoke();
-            return true;
-        }
-        for (piece, output) in unconfirmed.pieces.drain(..) {
-            let Some(output) = output else { continue };
-            match self.task.accept(&piece, output) {
-                Err(error) => {
-                    self.end(error);
-                    return false;
-                }
-                Ok(Finished { rows, failed }) => {
-                    self.done.fetch_add(rows, Ordering::Relaxed);
-                    self.failed.fetch_add(failed, Ordering::Relaxed);
-                    (self.on_progress)(self.progress());
-                }
+    /// Hands to the sink what has come of a piece, if anything; whether it was taken.
+    fn hand_over(&self, piece: &T::Piece, output: Option<T::Output>) -> bool {
+        let Some(output) = output else { return true };
+        match self.task.accept(piece, output) {
+            Err(error) => {
+                self.end(error);
+                false
+            }
+            Ok(Finished { rows, failed }) => {
+                self.done.fetch_add(rows, Ordering::Relaxed);
+                self.failed.fetch_add(failed, Ordering::Relaxed);
+                (self.on_progress)(self.progress());
+                true
             }
         }
-        true
     }
 
     /// How far the run has come, rows that are not in the sink yet included.
@@ -307,23 +267,6 @@ impl<T: Task> Execution<'_, '_, T> {
             *end = Some(error);
         }
         self.executor.context.end();
-    }
-}
-
-/// Pieces that are evaluated but may still be revoked, and those that were.
-struct Unconfirmed<T: Task> {
-    pieces: Vec<(T::Piece, Option<T::Output>)>,
-    /// To be evaluated again, in order.
-    again: VecDeque<T::Piece>,
-}
-
-impl<T: Task> Unconfirmed<T> {
-    fn new() -> Self {
-        Self { pieces: Vec::new(), again: VecDeque::new() }
-    }
-
-    fn revoke(&mut self) {
-        self.pieces.drain(..).rev().for_each(|(piece, _)| self.again.push_front(piece));
     }
 }
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use super::{GrowingRun, Job, RowValues, RunError};
 use crate::design::{Design, DesignError, DesignSettings};
-use crate::model::{Batch, RunContext, Standing};
+use crate::model::{Batch, RunContext};
 
 /// A few runs of a design, and how long the whole of it would take by them.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,8 +16,6 @@ pub struct Pilot {
     pub seconds: f64,
     /// Seconds that a worker takes before its first run, where it takes any.
     pub startup: f64,
-    /// Whether what it answered was not known to be in step with its rows in the end.
-    pub is_out_of_step: bool,
     /// Whether the first row had other outputs when it was run once more: known of models that take their time.
     pub is_random: bool,
     /// Runs that failed in some output.
@@ -59,7 +57,6 @@ impl Pilot {
                     runs: part.rows(),
                     seconds: seconds * share,
                     startup: 0.0,
-                    is_out_of_step: false,
                     is_random: false,
                     failed: totals.iter().map(|totals| totals.failed_runs).sum(),
                     reason: first.map(|(reason, _)| reason.to_string()),
@@ -76,17 +73,14 @@ impl Pilot {
         const MOST: u64 = 4096;
         let Job { design, model, .. } = job;
         let (mut worker, mut batch, mut values) = (model.worker(context), Batch::new(model), RowValues::default());
-        let (mut failed, mut reason, mut is_out_of_step, mut is_random) = (0, None, false, false);
+        let (mut failed, mut reason, mut is_random) = (0, None, false);
         let mut before: Option<Vec<u64>> = None;
         let mut timed = |rows: u64| {
             let columns = values.values(job, 0, 0..rows);
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
             batch.reset(rows as usize);
             let start = Instant::now();
-            while worker.run_ahead(&inputs, &mut batch) == Standing::Revoked && batch.given_up().is_none() {
-                is_out_of_step = true;
-                batch.reset(rows as usize);
-            }
+            worker.run(&inputs, &mut batch);
             let seconds = start.elapsed().as_secs_f64();
             // Every piece begins with the first row, which a model that draws from nothing but its inputs answers alike.
             let outputs: Vec<u64> = (0..batch.outputs()).map(|output| batch.column(output)[0].to_bits()).collect();
@@ -95,7 +89,7 @@ impl Pilot {
             let rows: BTreeSet<usize> = batch.failures().iter().map(|(_, row, _)| *row).collect();
             failed = rows.len() as u64;
             reason = batch.failures().first().map(|(.., reason)| reason.to_string());
-            batch.given_up().map_or(Ok(seconds), |reason| Err(RunError::GaveUp { reason: reason.clone() }))
+            batch.given_up().map_or(Ok(seconds), |give_up| Err(RunError::GaveUp(give_up.clone())))
         };
         let first = timed(1)?;
         let rows = design.points_per_replicate() * design.rows_per_point();
@@ -105,8 +99,7 @@ impl Pilot {
             runs = (runs * 4).min(rows).min(MOST);
             seconds = timed(runs)?;
         }
-        is_out_of_step |= worker.confirm() == Standing::Revoked;
         let whole = seconds * design.rows() as f64 / runs as f64 / workers as f64;
-        Ok(Self { runs, seconds: whole + startup, startup, is_out_of_step, is_random, failed, reason })
+        Ok(Self { runs, seconds: whole + startup, startup, is_random, failed, reason })
     }
 }

@@ -11,7 +11,7 @@ use std::time::Duration;
 use super::LOOK;
 use crate::binary::{Binary, Reader, binary_fields};
 use crate::design::{Design, DesignSettings, Rows, Sampler};
-use crate::model::{RowFailure, RunContext, Standing};
+use crate::model::{GiveUp, RunContext};
 
 /// Workers in other processes, which [`serve`](crate::WorkerStudy::serve) a study there.
 ///
@@ -110,8 +110,8 @@ impl DesignKey {
 pub(crate) struct Request<'a> {
     /// Which model: see [`Remote::subject`].
     pub subject: u64,
-    /// The task; `None` if the worker is to [confirm](crate::model::Worker::confirm) what is pending.
-    pub errand: Option<Errand>,
+    /// The task.
+    pub errand: Errand,
     /// The bytes of the piece.
     pub piece: &'a [u8],
 }
@@ -120,7 +120,7 @@ impl<'a> Request<'a> {
     /// Reads a request; `None` if the bytes are none.
     pub fn read(bytes: &'a [u8]) -> Option<Self> {
         let mut from = Reader { bytes };
-        let (subject, errand) = (u64::read(&mut from)?, Option::read(&mut from)?);
+        let (subject, errand) = (u64::read(&mut from)?, Errand::read(&mut from)?);
         Some(Self { subject, errand, piece: from.bytes })
     }
 }
@@ -129,18 +129,14 @@ impl<'a> Request<'a> {
 pub(crate) struct Answer<O> {
     /// How long the piece took.
     pub seconds: f64,
-    pub standing: Standing,
-    pub given_up: Option<RowFailure>,
+    pub given_up: Option<GiveUp>,
     pub output: Option<O>,
 }
-
-const STANDINGS: [Standing; 3] = [Standing::Final, Standing::Pending, Standing::Revoked];
 
 impl<O> Answer<O> {
     pub fn write(&self, write_output: impl FnOnce(&O, &mut Vec<u8>)) -> Vec<u8> {
         let mut out = Vec::new();
         self.seconds.write(&mut out);
-        STANDINGS.iter().position(|standing| *standing == self.standing).unwrap_or_default().write(&mut out);
         self.given_up.write(&mut out);
         self.output.is_some().write(&mut out);
         if let Some(output) = &self.output {
@@ -151,10 +147,9 @@ impl<O> Answer<O> {
 
     fn read(bytes: &[u8], read_output: impl FnOnce(&mut Reader<'_>) -> Option<O>) -> Option<Self> {
         let mut from = Reader { bytes };
-        let (seconds, standing) = (f64::read(&mut from)?, usize::read(&mut from)?);
-        let (standing, given_up) = (*STANDINGS.get(standing)?, Option::read(&mut from)?);
+        let (seconds, given_up) = (f64::read(&mut from)?, Option::read(&mut from)?);
         let output = if bool::read(&mut from)? { Some(read_output(&mut from)?) } else { None };
-        from.bytes.is_empty().then_some(Self { seconds, standing, given_up, output })
+        from.bytes.is_empty().then_some(Self { seconds, given_up, output })
     }
 }
 
@@ -175,16 +170,8 @@ impl Talk<'_> {
     pub fn ask(&self, errand: &Errand, write_piece: impl FnOnce(&mut Vec<u8>)) -> io::Result<()> {
         let mut request = Vec::new();
         self.remote.subject.write(&mut request);
-        Some(*errand).write(&mut request);
+        errand.write(&mut request);
         write_piece(&mut request);
-        self.remote.workers.send(self.worker, request)
-    }
-
-    /// Asks how what is pending stands.
-    pub fn ask_to_confirm(&self) -> io::Result<()> {
-        let mut request = Vec::new();
-        self.remote.subject.write(&mut request);
-        None::<Errand>.write(&mut request);
         self.remote.workers.send(self.worker, request)
     }
 

@@ -96,13 +96,13 @@ impl Task for MissingRows<'_> {
     ) -> Evaluated<Vec<Piece>> {
         let inputs: Vec<&[f64]> = values.values(self.job, *replicate, rows.clone()).iter().map(Vec::as_slice).collect();
         batch.reset((rows.end - rows.start) as usize);
-        let standing = worker.run_ahead(&inputs, batch);
+        worker.run(&inputs, batch);
         batch.settle();
         let given_up = batch.given_up().cloned();
         let piece = Piece::from_batch(*replicate, rows.start, batch);
-        let is_urgent = self.failures == FailurePolicy::Fail && !piece.failures.is_empty();
-        let output = Some(answered(piece, given_up.as_ref(), self.store.outputs()));
-        Evaluated { output, standing, given_up, is_urgent }
+        let reason = given_up.as_ref().map(|give_up| &give_up.reason);
+        let output = Some(answered(piece, reason, self.store.outputs()));
+        Evaluated { output, given_up }
     }
 
     fn accept(&self, _: &Self::Piece, pieces: Vec<Piece>) -> Result<Finished, RunError> {

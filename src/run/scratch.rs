@@ -5,7 +5,7 @@ use super::totals::{OutputTotals, Totals};
 use super::{Job, Store};
 use crate::design::{Design, Matrix};
 use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace, contributions};
-use crate::model::{Batch, RowFailure, RunContext, Worker};
+use crate::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
 
 /// What a thread needs to evaluate blocks, kept from block to block.
 pub(super) struct Scratch {
@@ -72,7 +72,7 @@ impl Scratch {
         worker: &mut dyn Worker,
         context: &RunContext<'_>,
         on_rows: &dyn Fn(u64),
-    ) -> Option<RowFailure> {
+    ) -> Option<GiveUp> {
         let factors = job.design.factors();
         for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
             values.resize(unit.len(), 0.0);
@@ -83,7 +83,7 @@ impl Scratch {
         let mut inputs: Vec<&[f64]> = Vec::with_capacity(factors);
         for (run, batch) in job.design.runs().iter().zip(&mut self.batches) {
             if context.is_stopped() {
-                return Some(RowFailure::interrupted());
+                return Some(RowFailure::interrupted().into());
             }
             inputs.clear();
             inputs.extend(columns_of(run.base).iter().map(Vec::as_slice));

@@ -7,7 +7,7 @@ use super::rows::MissingRows;
 use super::task::{Evaluated, Task};
 use super::{FailurePolicy, Job, Store};
 use crate::binary::Reader;
-use crate::model::{RowFailure, RunContext, Standing, Worker};
+use crate::model::{RowFailure, RunContext, Worker};
 
 /// Where requests come from, and where answers go.
 pub trait Requests {
@@ -27,12 +27,7 @@ pub(crate) fn serve(
     context: &RunContext<'_>,
     requests: &mut dyn Requests,
 ) -> Option<Vec<u8>> {
-    let Some(errand) = Request::read(&bytes).and_then(|request| request.errand) else {
-        // What is pending is decided upon.
-        let answer = Answer { seconds: 0.0, standing: worker.confirm(), given_up: None, output: None::<()> };
-        requests.answer(answer.write(|(), _| ()));
-        return requests.next();
-    };
+    let Some(Request { errand, .. }) = Request::read(&bytes) else { return refuse(requests, "no task that it knows") };
     let Some(design) = errand.design.design(job.design) else { return refuse(requests, "no such design") };
     let job = Job { design: &design, ..job };
     let failures = if errand.fails { FailurePolicy::Fail } else { FailurePolicy::DropBlock };
@@ -59,18 +54,15 @@ fn serve_task<T: Task>(
     let mut scratch = task.scratch();
     loop {
         let request = Request::read(&bytes).filter(|request| request.subject == subject);
-        let Some(request) = request.filter(|request| request.errand == Some(errand)) else { return Some(bytes) };
+        let Some(request) = request.filter(|request| request.errand == errand) else { return Some(bytes) };
         let Some(piece) = abroad.read_piece(&mut Reader { bytes: request.piece }) else {
             return refuse(requests, "no piece of the task");
         };
         let began = crate::clock::Instant::now();
         let evaluated = task.evaluate(worker, &mut scratch, &piece, &|_| ());
         let seconds = began.elapsed().as_secs_f64();
-        let Evaluated { output, mut standing, given_up, is_urgent } = evaluated;
-        if standing == Standing::Pending && is_urgent {
-            standing = worker.confirm();
-        }
-        let answer = Answer { seconds, standing, given_up, output };
+        let Evaluated { output, given_up } = evaluated;
+        let answer = Answer { seconds, given_up, output };
         requests.answer(answer.write(|output, out| abroad.write_output(output, out)));
         bytes = requests.next()?;
     }
@@ -78,8 +70,8 @@ fn serve_task<T: Task>(
 
 /// Answers that the last request cannot be met; returns the next one.
 pub(crate) fn refuse(requests: &mut dyn Requests, why: &str) -> Option<Vec<u8>> {
-    let given_up = Some(RowFailure::new(&format!("a worker in another process was asked for {why}")));
-    let answer = Answer { seconds: 0.0, standing: Standing::Final, given_up, output: None::<()> };
+    let given_up = Some(RowFailure::new(&format!("a worker in another process was asked for {why}")).into());
+    let answer = Answer { seconds: 0.0, given_up, output: None::<()> };
     requests.answer(answer.write(|(), _| ()));
     requests.next()
 }

@@ -10,14 +10,14 @@ use super::executor::Executor;
 use super::task::{Evaluated, Finished, Task};
 use super::{Progress, RunError};
 use crate::clock::Instant;
-use crate::model::{Batch, Model, RowFailure, Worker};
+use crate::model::{Batch, GiveUp, Model, Worker};
 
 /// Why rows were not evaluated to their end.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Halt {
     /// The model cannot go on.
     #[error("the model cannot go on: {0}")]
-    GaveUp(RowFailure),
+    GaveUp(GiveUp),
     /// It was asked to end.
     #[error("interrupted")]
     Interrupted,
@@ -47,7 +47,7 @@ impl Executor<'_> {
         let sink = Mutex::new((0, batch));
         let table = Table { model: self.model(), inputs, is_quick, sink };
         self.execute(&table, before, Instant::now(), &|_| ()).map_err(|error| match error {
-            RunError::GaveUp { reason } => Halt::GaveUp(reason),
+            RunError::GaveUp(give_up) => Halt::GaveUp(give_up),
             // A table has no failures that end it, and no sink that fails.
             _ => Halt::Interrupted,
         })?;
@@ -90,10 +90,10 @@ impl Task for Table<'_> {
         let inputs: Vec<&[f64]> = self.inputs.iter().map(|column| &column[rows.clone()]).collect();
         let mut batch = Batch::new(self.model);
         batch.reset(rows.len());
-        let standing = worker.run_ahead(&inputs, &mut batch);
+        worker.run(&inputs, &mut batch);
         batch.settle();
         let given_up = batch.given_up().cloned();
-        Evaluated { output: given_up.is_none().then_some(batch), standing, given_up, is_urgent: false }
+        Evaluated { output: given_up.is_none().then_some(batch), given_up }
     }
 
     fn accept(&self, rows: &Range<usize>, part: Batch) -> Result<Finished, RunError> {
@@ -109,7 +109,7 @@ mod tests {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::thread;
 
-    use crate::model::{FunctionModel, Output, RunContext};
+    use crate::model::{FunctionModel, Output, RowFailure, RunContext};
     use crate::quantity::Unit;
 
     /// A function of which several workers are asked for, until it gives up at a value.
@@ -205,7 +205,7 @@ mod tests {
         batch.reset(x.len());
         let context = RunContext::default();
         let halt = Executor::new(&model, &context, 0).run_table(&[&x], &mut batch).unwrap_err();
-        assert_eq!(halt, Halt::GaveUp(RowFailure::new("enough")));
+        assert_eq!(halt, Halt::GaveUp(RowFailure::new("enough").into()));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::RunError;
 use super::remote::Abroad;
-use crate::model::{RowFailure, Standing, Worker};
+use crate::model::{GiveUp, Worker};
 
 /// Most rows of a piece.
 const MOST_ROWS: u64 = 4096;
@@ -11,7 +11,7 @@ const MOST_ROWS: u64 = 4096;
 /// the outputs of some rows already does not give them out.
 pub(crate) trait Task: Sync {
     /// Some of the rows.
-    type Piece: Clone + Send;
+    type Piece: Send;
     /// What comes of them.
     type Output: Send;
     /// What a thread keeps from piece to piece.
@@ -53,10 +53,7 @@ pub(crate) trait Task: Sync {
 pub(crate) struct Evaluated<O> {
     /// `None` if there is nothing to hand over, since the worker has given up.
     pub output: Option<O>,
-    pub standing: Standing,
-    pub given_up: Option<RowFailure>,
-    /// Whether it must be known at once that the rows stand.
-    pub is_urgent: bool,
+    pub given_up: Option<GiveUp>,
 }
 
 /// Rows that have gone into the sink.

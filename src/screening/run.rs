@@ -50,7 +50,7 @@ pub(super) fn run(
     for first in (0..trajectories).step_by(block as usize) {
         let last = (first + block).min(trajectories);
         let outcome = bench.block(job, points, first..last).map_err(|halt| match halt {
-            Halt::GaveUp(reason) => RunError::GaveUp { reason },
+            Halt::GaveUp(give_up) => RunError::GaveUp(give_up),
             Halt::Interrupted => RunError::Interrupted { done: first * rows as u64, total },
         })?;
         whole.append(outcome);

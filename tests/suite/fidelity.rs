@@ -148,8 +148,8 @@ fn an_accurate_run_of_a_program_goes_on_where_it_was() {
     let folder = Folder::new();
     let program = folder.with(
         "wing.py",
-        "import sys\nnext(sys.stdin)\nfor line in sys.stdin:\n    a, b, c = (float(x) for x in line.split(','))\n    \
-         print(a * a + b * c + 1, flush=True)\n",
+        "import sys\nnext(sys.stdin)\nfor line in sys.stdin:\n    n, a, b, c = (float(x) for x in line.split(','))\n    \
+         print(n, a * a + b * c + 1, sep=',', flush=True)\n",
     );
     let file = folder.with(
         "wing.toml",

@@ -217,7 +217,7 @@ fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed(
     std::fs::write(here.join("sum.toml"), study).unwrap();
     std::fs::write(
         here.join("sum.py"),
-        "import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    print(float(x['a']) + float(x['b']), flush=True)\n",
+        "import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    print(x['id'], float(x['a']) + float(x['b']), sep=',', flush=True)\n",
     )
     .unwrap();
     let run = |path: &Path, more: &[&str]| {
@@ -233,7 +233,7 @@ fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed(
     run(&there.join("sum.toml"), &part);
     std::fs::write(
         there.join("sum.py"),
-        "import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    print(float(x['a']) - float(x['b']), flush=True)\n",
+        "import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    print(x['id'], float(x['a']) - float(x['b']), sep=',', flush=True)\n",
     )
     .unwrap();
     run(&there.join("sum.toml"), &["--shard", "1/2"]);

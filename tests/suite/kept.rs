@@ -10,7 +10,7 @@ const SLOW: &str = "model = \"command\"\noutputs = [\"y\"]\ncommand = [\"python3
                     [factor.b]\nmin = 0\nmax = 2\n";
 
 const MODEL: &str = "import sys\nfor line in sys.stdin:\n    cells = line.split(',')\n    try:\n        \
-                     print(float(cells[-2]) + float(cells[-1]) ** 2, flush=True)\n    except ValueError:\n        pass\n";
+                     print(cells[0], float(cells[-2]) + float(cells[-1]) ** 2, sep=',', flush=True)\n    except ValueError:\n        pass\n";
 
 const SUM: &str = "model = \"expression\"\n[expression.outputs]\ny = { formula = \"a + b^2\", unit = \"mm\" }\n\
                    [design]\nbase_samples = 8\n[factor.a]\nmin = 0\nmax = 1\nunit = \"mm\"\nnominal = 0.25\n\

@@ -222,7 +222,7 @@ fn program(folder: &Folder, draws: &str) -> std::path::PathBuf {
     );
     folder.with("model.py", source);
     let study = "model = \"command\"\noutputs = [\"y\"]\nnoise = \"seed\"\n[command]\nprogram = [\"python3\", \"model.py\"]\n\
-                 row_numbers = true\n[design]\nbase_samples = 64\n[factor.x]\nmin = 0\nmax = 1\n";
+                 [design]\nbase_samples = 64\n[factor.x]\nmin = 0\nmax = 1\n";
     folder.with("study.toml", study)
 }
 

@@ -28,7 +28,7 @@ fn run(folder: &Folder, study: &str, program: &str) -> (ResultFile, String) {
     (read_result(&out.join("s.json")).unwrap(), printed)
 }
 
-const COMMAND: &str = "[command]\nprogram = [\"python3\", \"model.py\"]\nrow_numbers = true\n";
+const COMMAND: &str = "[command]\nprogram = [\"python3\", \"model.py\"]\n";
 
 fn page(out: &Path) -> String {
     std::fs::read_to_string(out.join("s.html")).unwrap()

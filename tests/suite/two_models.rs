@@ -16,7 +16,7 @@ const RUNS: u64 = 256;
 
 fn program(formula: &str) -> String {
     format!(
-        "import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    a, b = float(x['a']), float(x['b'])\n    print({formula}, flush=True)\n"
+        "import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    a, b = float(x['a']), float(x['b'])\n    print(x['id'], {formula}, sep=',', flush=True)\n"
     )
 }
 

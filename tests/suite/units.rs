@@ -7,8 +7,8 @@ use apportion::report::read_result;
 use crate::common::{Folder, apportion, stderr, stdout, succeed, text};
 
 /// A program of one temperature in degC and one time in h, which answers in units of its own.
-const PROGRAM: &str = "import sys\nsys.stdin.readline()\nfor line in sys.stdin:\n    x = [float(c) for c in line.split(',')]\n    \
-                       print(f'{x[0]!r},{x[0] * x[1]!r},{x[1]!r}', flush=True)\n";
+const PROGRAM: &str = "import sys\nsys.stdin.readline()\nfor line in sys.stdin:\n    n, *x = [float(c) for c in line.split(',')]\n    \
+                       print(f'{n},{x[0]!r},{x[0] * x[1]!r},{x[1]!r}', flush=True)\n";
 
 const STUDY: &str = r#"
 model = "command"

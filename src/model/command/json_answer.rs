@@ -48,40 +48,27 @@ pub(super) fn json_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f
         Value::Number(number) => Ok(number.as_f64().unwrap_or(f64::NAN)),
         other => Err(format!("{} as `{of}`", kind(other))),
     };
-    match parsed {
-        Value::Object(object) => {
-            match object.get("error") {
-                Some(Value::String(reason)) => return Ok(Some(reason.clone())),
-                None | Some(Value::Null) => (),
-                Some(_) if outputs.iter().any(|name| name == "error") => (),
-                Some(other) => return Err(format!("{} as `error`, which is a text", kind(other))),
+    let Value::Object(object) = parsed else { return Err(kind(parsed).to_owned()) };
+    match object.get("error") {
+        Some(Value::String(reason)) => return Ok(Some(reason.clone())),
+        None | Some(Value::Null) => (),
+        Some(_) if outputs.iter().any(|name| name == "error") => (),
+        Some(other) => return Err(format!("{} as `error`, which is a text", kind(other))),
+    }
+    for key in keys(outputs) {
+        let by_name = |name: &String| match object.get(name) {
+            Some(value) => number(value, name),
+            None => Err(format!("an object without `{}`", key.list.unwrap_or(name))),
+        };
+        let list = key.list.filter(|_| !object.contains_key(&key.names[0]));
+        match list.and_then(|list| Some((list, object.get(list)?))) {
+            None => values.extend(key.names.iter().map(by_name).collect::<Result<Vec<f64>, _>>()?),
+            Some((list, Value::Array(items))) if items.len() == key.names.len() => {
+                values.extend(items.iter().map(|item| number(item, list)).collect::<Result<Vec<f64>, _>>()?);
             }
-            for key in keys(outputs) {
-                let by_name = |name: &String| match object.get(name) {
-                    Some(value) => number(value, name),
-                    None => Err(format!("an object without `{}`", key.list.unwrap_or(name))),
-                };
-                let list = key.list.filter(|_| !object.contains_key(&key.names[0]));
-                match list.and_then(|list| Some((list, object.get(list)?))) {
-                    None => values.extend(key.names.iter().map(by_name).collect::<Result<Vec<f64>, _>>()?),
-                    Some((list, Value::Array(items))) if items.len() == key.names.len() => {
-                        values.extend(items.iter().map(|item| number(item, list)).collect::<Result<Vec<f64>, _>>()?);
-                    }
-                    Some((list, Value::Array(items))) => {
-                        return Err(format!("a list of {} as `{list}`", items.len()));
-                    }
-                    Some((list, other)) => return Err(format!("{} as `{list}`", kind(other))),
-                }
-            }
+            Some((list, Value::Array(items))) => return Err(format!("a list of {} as `{list}`", items.len())),
+            Some((list, other)) => return Err(format!("{} as `{list}`", kind(other))),
         }
-        Value::Array(list) if list.len() == outputs.len() => {
-            for (value, name) in list.iter().zip(outputs) {
-                values.push(number(value, name)?);
-            }
-        }
-        Value::Array(list) => return Err(format!("a list of {}", list.len())),
-        Value::Number(_) if outputs.len() == 1 => values.push(number(parsed, &outputs[0])?),
-        other => return Err(kind(other).to_owned()),
     }
     Ok(None)
 }

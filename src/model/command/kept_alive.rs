@@ -1,378 +1,267 @@
 //! A worker that keeps one process alive and asks it row by row, several rows ahead of the answers.
 //!
-//! Rows that have numbers are matched with their answers by them. Without numbers the answers of a process are certain at
-//! one point only: when its input and then its output have ended, and there is one answer for each row. Until then they are
-//! pending. A process is therefore ended, and another started, at intervals that are long beside its start; its answers are
-//! forgotten if they are too many or too few, and every row is asked by a process of its own from then on.
+//! A row is asked or answered: its answer brings back its number, so that answers may come in any order. Where a process ends
+//! over rows that it was asked, one of them may be why. They are asked again one at a time ([`Rows::suspects`]), and a row has
+//! failed once a process ended that had been started for it alone.
 
-mod blame;
-mod caution;
-mod hear;
-mod numbers;
-mod piece;
-mod talk;
+mod rows;
+mod session;
 
 use std::process::ExitStatus;
-use std::sync::PoisonError;
 use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use super::process::{Ending, Event, PATIENCE, Process};
+use super::line_to_change::line_to_change;
+use super::process::{Ending, Event, Process};
+use super::program::status_in_words;
+use super::protocol::{Answer, is_answer_without_number, parse_answer};
 use super::row::RowWriter;
-use super::{CommandModel, KeptAlive, SILENCE, State};
-use crate::model::{Batch, RowFailure, RunContext, Standing, Worker};
-use caution::Caution;
-use numbers::number_of;
-use piece::Piece;
-use talk::Talk;
+use super::{CommandModel, Protocol, State};
+use crate::model::shorten::{masked, seconds};
+use crate::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
+use rows::Rows;
+use session::{LONGEST, Lookup, Session};
 
 /// Bytes of rows that are written at once.
 const TEXT: usize = 1 << 15;
 /// How long it may take until an interruption is seen.
 const ATTENTION: Duration = Duration::from_millis(100);
-/// How many times its start a process without row numbers works before its answers are confirmed, and at least how long.
-const STARTS: u32 = 20;
-const AT_LEAST: Duration = Duration::from_secs(2);
-/// Rows before the first confirmations of a model, while a start is short or little beside the work: a program that is
-/// often wrong is found out where a line too many and a line too few cannot make up for each other.
-const FIRST_ROWS: [usize; 3] = [8, 64, 512];
-const SHORT_START: Duration = Duration::from_millis(100);
-/// Rows that may be pending.
-const MOST_PENDING: usize = 1 << 20;
-/// A program that is silent for so long, and for so many times the longest time that it has taken before, is asked for its pending
-/// answers by the end of its input.
+/// A process that is silent for so long, and for so many times the longest time that it has taken before, may have skipped a
+/// row: its input is closed, upon which it answers what it has read and ends.
 const QUIET: Duration = Duration::from_millis(500);
 const TIMES: u32 = 5;
-/// The same for a program that has never answered, since it may take long to start.
+/// The same until the first answer of a process, and until the first of all.
+const QUIET_START: Duration = Duration::from_secs(2);
 const FIRST_START: Duration = Duration::from_secs(60);
 
 pub(super) struct KeptAliveWorker<'a> {
     model: &'a CommandModel,
     context: &'a RunContext<'a>,
-    form: KeptAlive,
+    protocol: Protocol,
     writer: RowWriter,
-    talk: Option<Talk>,
-    caution: Caution,
+    session: Option<Session>,
 }
 
-/// Why a process is of no further use.
-#[derive(Debug)]
+/// Why a process gives no more answers, or no process does.
 enum Fault {
-    Closed,
+    Closed(Ending),
     Silent,
-    Rubbish(String),
     LongLine,
-    /// A line that nobody asked for.
-    Surplus,
-    /// A row number that has been answered before.
-    Twice(u64),
-}
-
-/// What has become of a batch.
-struct Outcome {
-    standing: Standing,
-    given_up: Option<RowFailure>,
+    GiveUp(GiveUp),
 }
 
 impl<'a> KeptAliveWorker<'a> {
-    pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, form: KeptAlive) -> Self {
-        let writer = RowWriter::new(form.protocol, &model.factors).with_numbers(form.row_numbers);
-        Self { model, context, form, writer, talk: None, caution: Caution::default() }
+    pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, protocol: Protocol) -> Self {
+        let writer = RowWriter::new(protocol, &model.factors).with_numbers();
+        Self { model, context, protocol, writer, session: None }
     }
 
-    /// Sees to it that every row of the piece has an answer, which is certain if `closes`.
-    fn answer(&mut self, piece: &mut Piece<'_>, closes: bool) -> Outcome {
-        if let Some(talk) = &mut self.talk {
-            piece.begin(talk.session.sent);
-            talk.session.wake();
-        }
-        loop {
+    /// Asks until every row has an answer or has failed.
+    fn answer(&mut self, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
+        while rows.open > 0 {
             if self.context.is_stopped() {
-                return self.break_off(piece);
+                drop(self.session.take().map(|mut session| session.process.end(false)));
+                return Err(RowFailure::interrupted().into());
             }
-            if let Some(standing) = self.arrived(piece, closes) {
-                return Outcome { standing, given_up: None };
+            if self.session.is_none() {
+                let program = &self.model.settings.program;
+                let process = Process::start(program, self.context.messages())
+                    .map_err(|error| RowFailure::new(&program.refusal(&error)))?;
+                self.session = Some(Session::new(process));
             }
-            let step = match self.start_if_ended(piece) {
-                Ok(()) => self.step(piece),
-                Err(reason) => return Outcome { standing: Standing::Final, given_up: Some(reason) },
-            };
-            let Err(fault) = step else { continue };
-            match self.blame(&fault, piece) {
-                Ok(Standing::Revoked) => return Outcome { standing: Standing::Revoked, given_up: None },
-                Ok(_) => (),
-                Err(reason) => return Outcome { standing: Standing::Final, given_up: Some(reason) },
+            self.send(rows);
+            match self.step(rows) {
+                Ok(()) => (),
+                Err(Fault::GiveUp(give_up)) => return Err(give_up),
+                Err(fault) => self.end(fault, rows)?,
             }
-        }
-    }
-
-    /// Whether all rows are answered, and how their answers stand; `None` if there is more to wait for.
-    fn arrived(&mut self, piece: &Piece<'_>, closes: bool) -> Option<Standing> {
-        if piece.open > 0 {
-            return None;
-        }
-        let state = &self.model.state;
-        let Some(talk) = self.talk.as_mut().filter(|_| !self.form.row_numbers) else { return Some(Standing::Final) };
-        let session = &talk.session;
-        if session.closed.is_some() {
-            return None;
-        }
-        let is_full = session.answered >= session.most.min(MOST_PENDING);
-        if closes || piece.is_parted || is_full || state.is_out_of_step() || is_due(talk, state) {
-            talk.close();
-            return None;
-        }
-        Some(Standing::Pending)
-    }
-
-    fn start_if_ended(&mut self, piece: &mut Piece<'_>) -> Result<(), RowFailure> {
-        if self.talk.is_some() {
-            return Ok(());
-        }
-        let program = &self.model.settings.program;
-        let process = Process::start(program, self.context.messages())
-            .map_err(|error| RowFailure::new(&program.refusal(&error)))?;
-        let is_single = self.caution.alone.is_some() || self.asks_singly();
-        let most = if is_single { 1 } else { self.caution.plan.map_or(usize::MAX, |(rows, _)| rows) };
-        self.talk = Some(Talk::new(process, most));
-        piece.begin(0);
-        Ok(())
-    }
-
-    /// Whether every row is asked by a process of its own.
-    fn asks_singly(&self) -> bool {
-        !self.form.row_numbers && self.model.state.is_out_of_step()
-    }
-
-    /// Sends what may be sent, and takes what comes next.
-    fn step(&mut self, piece: &mut Piece<'_>) -> Result<(), Fault> {
-        self.send(piece);
-        let state = &self.model.state;
-        let Some(talk) = &mut self.talk else { return Ok(()) };
-        let silent_for = talk.session.silent_for();
-        let timeout = self.model.settings.timeout.filter(|_| talk.session.under_way() > 0);
-        let left = timeout.map(|timeout| timeout.saturating_sub(silent_for));
-        match talk.process.event(left.map_or(ATTENTION, |left| left.min(ATTENTION))) {
-            Some(Event::Output(bytes)) => {
-                let before = talk.session.answered;
-                let heard = self.hear(&bytes, piece);
-                if let Some(Talk { session, .. }) = self.talk.as_mut().filter(|talk| talk.session.answered > before) {
-                    session.note_answers();
-                    state.note_answer();
-                }
-                return heard;
-            }
-            Some(Event::Sent) => talk.credit += 1,
-            Some(Event::Closed) => return self.closed(piece),
-            None if left == Some(Duration::ZERO) => return Err(Fault::Silent),
-            None => return self.silent(piece),
         }
         Ok(())
     }
 
-    fn send(&mut self, piece: &mut Piece<'_>) {
-        let Some(talk) = self.talk.as_mut().filter(|talk| talk.session.closed.is_none()) else { return };
-        let session = &mut talk.session;
-        let ahead = if self.model.state.has_answered() { self.caution.window } else { 1 };
-        let may_send = |sent: usize, answered: usize| sent < session.most && sent - answered < ahead;
-        let mut sent = session.sent;
-        while talk.credit > 0 && may_send(sent, session.answered) && piece.has_next() {
-            let mut text = if sent == 0 { self.writer.header() } else { String::new() };
+    /// Sends the rows that may be sent: before the first answer of the program, and while rows are under suspicion, one.
+    fn send(&mut self, rows: &mut Rows<'_>) {
+        let Some(session) = self.session.as_mut().filter(|session| !session.is_closed) else { return };
+        let is_ahead = self.model.state.has_answered() && rows.suspects.is_empty();
+        while session.credit > 0 {
+            let mut text = String::new();
             while text.len() < TEXT
-                && may_send(sent, session.answered)
-                && let Some(row) = piece.send_next()
+                && (is_ahead && session.has_room() || session.asked.is_empty())
+                && let Some(row) = rows.next()
             {
-                self.writer.write(piece.inputs, row, number_of(sent), &mut text);
-                sent += 1;
+                if session.sent == 0 {
+                    text = self.writer.header();
+                }
+                self.writer.write(rows.inputs, row, session.ask(row), &mut text);
             }
-            talk.credit -= 1;
-            talk.process.send(text);
-        }
-        if session.under_way() == 0 && sent > session.sent {
-            session.wake();
-        }
-        session.sent = sent;
-        // A row that goes alone needs no process that waits for more. Others end before the end of their input only by
-        // a fault of their own.
-        if session.most == 1 && sent == 1 || session.answered == session.most {
-            talk.close();
-        }
-    }
-
-    /// Its output has ended.
-    fn closed(&mut self, piece: &mut Piece<'_>) -> Result<(), Fault> {
-        let Some(talk) = &mut self.talk else { return Ok(()) };
-        let rest = std::mem::take(&mut talk.lines).rest().to_vec();
-        if !rest.is_empty() && talk.session.under_way() == 0 {
-            // A line that nobody asked for, unless it is no answer.
-            self.hear(&[&rest[..], b"\n"].concat(), piece)?;
-        }
-        let Some(talk) = &mut self.talk else { return Ok(()) };
-        let ending = talk.process.end(true);
-        let is_whole = talk.session.under_way() == 0;
-        let is_certain = self.form.row_numbers || talk.session.closed.is_some() && self.ended_well(&ending);
-        if is_whole && is_certain {
-            self.confirmed(piece);
-            return Ok(());
-        }
-        if let Some(talk) = &mut self.talk {
-            if talk.session.has_answered() {
-                // That a row has no answer does not make its first answer later.
-                self.model.state.note_startup(talk.session.startup());
+            if text.is_empty() {
+                return;
             }
-            talk.ending = Some(ending);
+            session.credit -= 1;
+            session.process.send(text);
         }
-        Err(Fault::Closed)
     }
 
-    /// Whether a process did not die: one that died on its last row, and had printed a line too many, has as many answers as
-    /// rows.
-    fn ended_well(&self, ending: &Ending) -> bool {
-        if !ending.by_itself || ending.status.is_some_and(|status| status.success()) {
-            return true;
-        }
-        let mut usual = self.model.state.usual_end.lock().unwrap_or_else(PoisonError::into_inner);
-        usual.get_or_insert_with(|| self.end_without_rows()).is_some_and(|usual| Some(usual) == ending.status)
-    }
-
-    /// How a process ends that gets no row at all.
-    fn end_without_rows(&self) -> Option<ExitStatus> {
-        let mut process = Process::start(&self.model.settings.program, self.context.messages()).ok()?;
-        process.send(self.writer.header());
-        process.close_input();
-        let begin = Instant::now();
-        while !matches!(process.event(ATTENTION), Some(Event::Closed)) {
-            process.clear_away();
-            if self.context.is_stopped() || begin.elapsed() > SILENCE {
-                return None;
+    /// Takes what comes next.
+    fn step(&mut self, rows: &mut Rows<'_>) -> Result<(), Fault> {
+        let Some(session) = &mut self.session else { return Ok(()) };
+        let left = self.model.settings.timeout.map(|timeout| timeout.saturating_sub(session.silent_for()));
+        match session.process.event(left.map_or(ATTENTION, |left| left.min(ATTENTION))) {
+            Some(Event::Output(bytes)) => {
+                for line in session.lines(&bytes) {
+                    self.hear(&line, rows)?;
+                }
+                match &self.session {
+                    Some(session) if session.unfinished() > LONGEST => Err(Fault::LongLine),
+                    _ => Ok(()),
+                }
+            }
+            Some(Event::Sent) => {
+                session.credit += 1;
+                Ok(())
+            }
+            Some(Event::Closed) => Err(Fault::Closed(session.process.end(true))),
+            None if left == Some(Duration::ZERO) => Err(Fault::Silent),
+            None => {
+                self.wait();
+                Ok(())
             }
         }
-        let ending = process.end(true);
-        ending.status.filter(|_| ending.by_itself)
     }
 
-    /// The process has answered all its rows, neither more nor less, and is of no further use.
-    fn confirmed(&mut self, piece: &mut Piece<'_>) {
-        let Some(Talk { session, .. }) = self.talk.take() else { return };
-        self.model.state.note_startup(session.startup());
-        if self.form.row_numbers {
-            return;
+    /// Takes a line that the process has printed.
+    fn hear(&mut self, line: &[u8], rows: &mut Rows<'_>) -> Result<(), Fault> {
+        let (model, protocol) = (self.model, self.protocol);
+        let Some(session) = &mut self.session else { return Ok(()) };
+        let mut values = Vec::new();
+        let words = match parse_answer(protocol, &model.names, line, &mut values) {
+            Err(words) => words,
+            Ok((number, answer)) => match session.find(number) {
+                Lookup::Asked(row) => {
+                    match answer {
+                        Ok(Answer::Values) => rows.answer(row, &values),
+                        Ok(Answer::Failed(reason)) => rows.fail(row, &reason),
+                        Err(words) => rows.fail(row, &format!("not an answer: {words}")),
+                    }
+                    if let Some(first) = session.note_answer() {
+                        model.state.note_first_answer(first);
+                    }
+                    return Ok(());
+                }
+                Lookup::Answered => {
+                    return Err(Fault::GiveUp(
+                        RowFailure::new(&format!(
+                            "the program answered the row with the number {number} twice: which of the answers is right is \
+                             unknown; print one line for each row"
+                        ))
+                        .into(),
+                    ));
+                }
+                Lookup::Unknown => format!("{number} as the number of a row, which is not one of those asked"),
+            },
+        };
+        if !model.state.has_answered() || is_answer_without_number(protocol, &model.names, line) {
+            let program = &model.settings.program;
+            let change = line_to_change(program, protocol, &model.names);
+            let reason = format!(
+                "the program printed a line without the number of its row: {words}. Each row begins with its number, `id`, and each \
+                 answer with that of its row: {change}. All other output belongs on standard error \
+                 (docs/worker-protocol.md)"
+            );
+            return Err(Fault::GiveUp(GiveUp { reason: RowFailure::new(&reason), is_bad_input: true }));
         }
-        piece.confirm();
-        if self.asks_singly() && session.most == 1 {
-            piece.alone += 1;
-        }
-        self.model.state.confirmed.fetch_add(1, Ordering::Relaxed);
-        if session.most == 1 {
-            self.caution.settle();
-        }
-        if let Some((_, ahead)) = self.caution.plan.take_if(|(rows, _)| *rows == session.answered) {
-            self.caution.alone = (ahead > 0).then_some(ahead);
-        }
+        State::send_once(
+            &model.state.strayed,
+            self.context.messages(),
+            &format!("warning: the program printed a line that is no answer, which is left out: {words}"),
+        );
+        session.note_stray(words, line.len());
+        if session.strayed > LONGEST { Err(Fault::LongLine) } else { Ok(()) }
     }
 
     /// Nothing has come for a while.
-    fn silent(&mut self, piece: &mut Piece<'_>) -> Result<(), Fault> {
+    fn wait(&mut self) {
         let state = &self.model.state;
-        let Some(talk) = &mut self.talk else { return Ok(()) };
-        talk.process.clear_away();
-        let session = &talk.session;
-        let quiet = if session.has_answered() {
-            QUIET.max(TIMES * session.slowest())
-        } else {
-            // Only a process that has started before is known to be longer over it than usual.
-            state.startup().map_or(FIRST_START, |startup| AT_LEAST.max(2 * TIMES * startup))
-        };
+        let Some(session) = &mut self.session else { return };
+        // Others that it has started may hold its output open.
+        session.process.clear_away();
         let silent_for = session.silent_for();
-        if session.under_way() > 0 {
-            if !state.has_answered() && silent_for > self.model.silence {
-                State::send_once(
-                    &state.hinted,
-                    self.context.messages(),
-                    "still waiting for the program's first answer: it may still be starting (imports), be long over its \
-                     first row, or not flush what it prints, as print(..., flush=True) does",
-                );
-            }
-            if silent_for > quiet {
-                talk.close();
-            }
-        } else if session
-            .closed
-            .is_some_and(|closed| closed.elapsed().min(silent_for) > PATIENCE.max(TIMES * session.slowest_row()))
-        {
+        let quiet = if session.has_answered {
+            QUIET.max(TIMES * session.slowest)
+        } else if state.has_answered() {
+            QUIET_START.max(TIMES * Duration::from_micros(state.first_answer.load(Ordering::Relaxed)))
+        } else {
+            FIRST_START
+        };
+        if !state.has_answered() && silent_for > self.model.silence {
             State::send_once(
-                &state.stayed,
+                &state.hinted,
                 self.context.messages(),
-                "warning: the program does not end when its input has ended: whether it prints more is not waited for",
+                "still waiting for the program's first answer: it may still be starting (imports), be long over its \
+                 first row, or not flush what it prints, as print(..., flush=True) does",
             );
-            self.confirmed(piece);
+        }
+        if silent_for > quiet {
+            session.close();
+        }
+    }
+
+    /// Ends the process, and finds out what becomes of the rows that it was asked.
+    fn end(&mut self, fault: Fault, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
+        let Some(mut session) = self.session.take() else { return Ok(()) };
+        let reason = self.reason(fault, &mut session);
+        let is_own = session.sent == 1;
+        for row in session.asked.into_values() {
+            if rows.suspect(row, is_own) > self.model.settings.retries && is_own {
+                rows.fail(row, &reason);
+                let hint = "each row begins with its number, `id`, and so does each answer: docs/worker-protocol.md";
+                self.model.state.note_failure(&format!("{reason}; {hint}"))?;
+            }
         }
         Ok(())
     }
 
-    /// Ends the work within a moment, with what is certain by then.
-    fn break_off(&mut self, piece: &mut Piece<'_>) -> Outcome {
-        let spans = !self.form.row_numbers && piece.base > 0;
-        let mut standing = Standing::Final;
-        let end = Instant::now() + if self.form.row_numbers { Duration::ZERO } else { PATIENCE };
-        if let Some(talk) = &mut self.talk {
-            talk.close();
-        }
-        while self.talk.is_some() {
-            if Instant::now() >= end || self.step(piece).is_err() {
-                drop(self.talk.take().map(|mut talk| talk.process.end(false)));
-                if !self.form.row_numbers {
-                    piece.rewind();
-                    standing = if spans { Standing::Revoked } else { Standing::Final };
+    fn reason(&self, fault: Fault, session: &mut Session) -> String {
+        match fault {
+            Fault::Closed(ending) if ending.by_itself && session.is_closed && is_success(ending.status) => {
+                match &session.stray {
+                    Some(words) => format!("not an answer: {words}"),
+                    None => "the program gave no answer to the row".to_owned(),
                 }
             }
+            Fault::Closed(ending) if ending.by_itself => {
+                let last = masked(&ending.last_words);
+                let last = if last.is_empty() { last } else { format!(": {last}") };
+                format!("the program ended with {}{last}", status_in_words(ending.status))
+            }
+            Fault::Closed(_) => "the program closed its standard output".to_owned(),
+            Fault::Silent => {
+                session.process.end(false);
+                let timeout = self.model.settings.timeout.map_or_else(String::new, seconds);
+                let hint = if self.model.state.has_answered() { "" } else { "; does the program flush its output?" };
+                format!("no answer within {timeout}{hint}")
+            }
+            Fault::LongLine => {
+                session.process.end(false);
+                "the program printed more than 1 MiB without an answer".to_owned()
+            }
+            Fault::GiveUp(give_up) => give_up.reason.to_string(),
         }
-        Outcome { standing, given_up: Some(RowFailure::interrupted()) }
-    }
-
-    fn new_piece<'b>(&self, inputs: &'b [&'b [f64]], rows: usize) -> Piece<'b> {
-        Piece::new(inputs, rows, self.model.settings.outputs.len())
     }
 }
 
-/// Whether the process has worked long enough, beside its start, for its answers to be confirmed.
-fn is_due(talk: &Talk, state: &State) -> bool {
-    let work = talk.session.work();
-    let startup =
-        state.startup().unwrap_or_else(|| Duration::try_from_secs_f64(talk.session.startup()).unwrap_or_default());
-    let confirmed = state.confirmed.load(Ordering::Relaxed) as usize;
-    let is_early = FIRST_ROWS.get(confirmed).is_some_and(|rows| talk.session.answered >= *rows)
-        && (startup < SHORT_START || work > TIMES * startup);
-    is_early || work > AT_LEAST.max(STARTS * startup)
+fn is_success(status: Option<ExitStatus>) -> bool {
+    status.is_some_and(|status| status.success())
 }
 
 impl Worker for KeptAliveWorker<'_> {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
-        loop {
-            let mut piece = self.new_piece(inputs, batch.rows());
-            let outcome = self.answer(&mut piece, true);
-            // Rows that were pending before are the caller's affair; these are asked again.
-            if outcome.standing == Standing::Revoked && outcome.given_up.is_none() {
-                continue;
-            }
-            piece.hand_over(self.model, batch);
-            return outcome.given_up.map_or((), |reason| batch.give_up(reason));
+        let mut rows = Rows::new(inputs, batch.rows(), self.model.settings.outputs.len());
+        let outcome = self.answer(&mut rows);
+        rows.hand_over(self.model, batch);
+        if let Err(give_up) = outcome {
+            batch.give_up(give_up);
         }
-    }
-
-    fn run_ahead(&mut self, inputs: &[&[f64]], batch: &mut Batch) -> Standing {
-        let mut piece = self.new_piece(inputs, batch.rows());
-        let outcome = self.answer(&mut piece, false);
-        piece.hand_over(self.model, batch);
-        if let Some(reason) = outcome.given_up {
-            batch.give_up(reason);
-        }
-        outcome.standing
-    }
-
-    fn confirm(&mut self) -> Standing {
-        let mut piece = self.new_piece(&[], 0);
-        self.answer(&mut piece, true).standing
     }
 }
 

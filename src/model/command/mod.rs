@@ -1,11 +1,12 @@
 //! The user's own program as a model: kept alive and asked row by row over its standard input and output, or started
 //! anew for each row in a directory of its own, with an input file made from a template.
 //!
-//! No shell is involved. A program is the leader of a process group, which is ended with it; whatever it does wrong has a
+//! No shell is involved. A program is the leader of a process group, which is ended with it; what it does wrong has a
 //! reason in the result, and never costs a row that it answered.
 
 mod json_answer;
 mod kept_alive;
+mod line_to_change;
 mod per_run;
 mod pick;
 mod process;
@@ -16,19 +17,17 @@ mod row;
 mod standard_error;
 mod template;
 
-use std::process::ExitStatus;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::time::Duration;
 
 pub use per_run::PerRun;
 pub use pick::{Match, Pick, PickError, Source, Way};
 pub use program::Program;
 pub use program_files::program_files;
-pub use protocol::{Answer, Protocol, parse_answer, parse_numbered_answer};
+pub use protocol::{Answer, Protocol, parse_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 
-use super::{Flag, Messages, Model, Output, OutputSeries, RowFailure, RunContext, Worker};
+use super::{Messages, Model, Output, OutputSeries, RowFailure, RunContext, Worker};
 use crate::quantity::Unit;
 use crate::space::Factor;
 use kept_alive::KeptAliveWorker;
@@ -37,20 +36,10 @@ use per_run::PerRunWorker;
 /// How a program is asked.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Form {
-    /// It is kept alive, and reads rows and writes answers.
-    KeptAlive(KeptAlive),
+    /// It is kept alive, reads rows and writes answers, each with the number of its row.
+    KeptAlive(Protocol),
     /// It runs once for each row.
     PerRun(PerRun),
-}
-
-/// How a program that is kept alive is asked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct KeptAlive {
-    /// How rows and answers are written.
-    pub protocol: Protocol,
-    /// Whether each row has a number, which the program writes before its answer. Without numbers answers count only once
-    /// the program has ended and has written one for each row.
-    pub row_numbers: bool,
 }
 
 /// An output that a program gives.
@@ -88,7 +77,7 @@ pub struct CommandSettings {
 /// A program as a model.
 ///
 /// ```
-/// use apportion::{Form, KeptAlive, Program, Protocol};
+/// use apportion::{Form, Program, Protocol};
 /// use apportion::{CommandModel, CommandOutput, CommandSettings, Model};
 /// use apportion::Unit;
 /// use apportion::{Distribution, Factor};
@@ -100,7 +89,7 @@ pub struct CommandSettings {
 /// };
 /// let settings = CommandSettings {
 ///     program,
-///     form: Form::KeptAlive(KeptAlive { protocol: Protocol::Csv, row_numbers: true }),
+///     form: Form::KeptAlive(Protocol::Csv),
 ///     outputs: vec![CommandOutput { name: "force".to_owned(), unit: Unit::parse("nN")?, pick: None }],
 ///     series: Vec::new(),
 ///     asked: vec![0],
@@ -125,7 +114,6 @@ pub struct CommandModel {
     names: Vec<String>,
     /// How long it may be silent at its first row without a hint.
     silence: Duration,
-    flags: Vec<Flag>,
     state: State,
 }
 
@@ -135,26 +123,19 @@ struct State {
     /// Whether the program has ever answered.
     has_answered: AtomicBool,
     /// Rows that failed before it ever did.
-    barren: AtomicU32,
-    /// Whether it has printed more or fewer answers than it had rows: without numbers every row goes by itself then.
-    out_of_step: AtomicBool,
-    /// Microseconds that processes took to start, and how many they were; how often answers have been confirmed.
-    startup: AtomicI64,
-    started: AtomicU32,
-    confirmed: AtomicU32,
-    /// Whether its silence, lines that are no answers, and a process that did not end have been spoken of.
+    failed_first: AtomicU32,
+    /// The longest that a process took to its first answer, in microseconds.
+    first_answer: AtomicU64,
+    /// Whether its silence, and lines that are no answers, have been spoken of.
     hinted: AtomicBool,
     strayed: AtomicBool,
-    stayed: AtomicBool,
-    /// How a process ends that gets no row, once that was asked.
-    usual_end: Mutex<Option<Option<ExitStatus>>>,
 }
 
 /// How long a program that has never answered may be silent without a hint.
 const SILENCE: Duration = Duration::from_secs(10);
 
 /// Rows that may fail before there has been any answer.
-const MOST_BARREN: u32 = 5;
+const MAX_FAILED_FIRST: u32 = 5;
 
 impl State {
     fn has_answered(&self) -> bool {
@@ -165,32 +146,21 @@ impl State {
         self.has_answered.store(true, Ordering::Relaxed);
     }
 
-    fn is_out_of_step(&self) -> bool {
-        self.out_of_step.load(Ordering::Relaxed)
+    /// A process has given its first answer, after so long.
+    fn note_first_answer(&self, took: Duration) {
+        self.note_answer();
+        self.first_answer.fetch_max(took.as_micros() as u64, Ordering::Relaxed);
     }
 
-    /// What the start of a process takes on average; nothing before it has been measured.
-    fn startup(&self) -> Option<Duration> {
-        let processes = self.started.load(Ordering::Relaxed);
-        let micros = self.startup.load(Ordering::Relaxed).max(0) as u64;
-        (processes > 0).then(|| Duration::from_micros(micros / u64::from(processes)))
-    }
-
-    /// A measurement may be below zero, where the first row was a short one.
-    fn note_startup(&self, seconds: f64) {
-        self.startup.fetch_add((seconds * 1e6) as i64, Ordering::Relaxed);
-        self.started.fetch_add(1, Ordering::Relaxed);
-    }
-
-    /// Counts a row that failed without an answer; why the program is given up, if that has happened too often.
-    fn note_barren(&self, reason: &str) -> Result<(), RowFailure> {
-        if self.has_answered() || self.barren.fetch_add(1, Ordering::Relaxed) + 1 < MOST_BARREN {
+    /// Counts a row that failed without an answer. It is an error that ends the run if the first rows all do.
+    fn note_failure(&self, reason: &str) -> Result<(), RowFailure> {
+        if self.has_answered() || self.failed_first.fetch_add(1, Ordering::Relaxed) + 1 < MAX_FAILED_FIRST {
             return Ok(());
         }
-        Err(RowFailure::new(&format!("the program has answered none of its first {MOST_BARREN} rows: {reason}")))
+        Err(RowFailure::new(&format!("the program has answered none of its first {MAX_FAILED_FIRST} rows: {reason}")))
     }
 
-    /// Sends `line` if `sent` says that nobody has.
+    /// Sends `line`, unless `sent` says that it was sent before.
     fn send_once(sent: &AtomicBool, messages: &Messages, line: &str) {
         if !sent.swap(true, Ordering::Relaxed) {
             messages.send(line);
@@ -211,9 +181,7 @@ impl CommandModel {
         let outputs = settings.asked.iter().map(output).collect();
         let names = settings.outputs.iter().map(|output| output.name.clone()).collect();
         let series = OutputSeries::chosen(&settings.series, &settings.asked);
-        let is_numbered = !matches!(settings.form, Form::KeptAlive(KeptAlive { row_numbers: false, .. }));
-        let flags = if is_numbered { Vec::new() } else { vec![alone()] };
-        Self { settings, factors, outputs, series, names, silence: SILENCE, flags, state: State::default() }
+        Self { settings, factors, outputs, series, names, silence: SILENCE, state: State::default() }
     }
 }
 
@@ -226,10 +194,6 @@ impl Model for CommandModel {
         &self.series
     }
 
-    fn flags(&self) -> &[Flag] {
-        &self.flags
-    }
-
     fn concurrency(&self) -> Option<usize> {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
         Some(self.settings.workers.unwrap_or_else(cores))
@@ -237,21 +201,9 @@ impl Model for CommandModel {
 
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         match &self.settings.form {
-            Form::KeptAlive(form) => Box::new(KeptAliveWorker::new(self, context, *form)),
+            Form::KeptAlive(protocol) => Box::new(KeptAliveWorker::new(self, context, *protocol)),
             Form::PerRun(form) => Box::new(PerRunWorker::new(self, context, form)),
         }
-    }
-}
-
-/// The flag of rows asked by a process of their own.
-fn alone() -> Flag {
-    Flag {
-        name: "asked-alone".into(),
-        description: "the program was out of step: it printed more or fewer answers than it had rows, or died after as \
-                      many; those since it was last known to be in step were asked again, and all that followed asked, each by a process of its \
-                      own; row numbers avoid this (row_numbers = true, see docs/worker-protocol.md)"
-            .into(),
-        warns: true,
     }
 }
 

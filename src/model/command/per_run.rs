@@ -77,7 +77,7 @@ impl<'a> PerRunWorker<'a> {
             }
         };
         batch.fail_row(row, &RowFailure::new(&reason));
-        self.model.state.note_barren(&reason)
+        self.model.state.note_failure(&reason)
     }
 
     fn unwritable(&self, error: &io::Error) -> RowFailure {
@@ -195,7 +195,7 @@ impl<'a> PerRunWorker<'a> {
         if found {
             self.model.state.note_answer();
         }
-        missing.map_or(Ok(()), |reason| self.model.state.note_barren(&reason))
+        missing.map_or(Ok(()), |reason| self.model.state.note_failure(&reason))
     }
 }
 

@@ -43,10 +43,10 @@ impl RowWriter {
         Self { protocol, numbered: false, columns }
     }
 
-    /// The same with the number of each row in front, if `numbered`.
+    /// The same with the number of each row in front.
     #[must_use]
-    pub(super) fn with_numbers(self, numbered: bool) -> Self {
-        Self { numbered, ..self }
+    pub(super) fn with_numbers(self) -> Self {
+        Self { numbered: true, ..self }
     }
 
     /// What is written before the first row.
@@ -172,11 +172,11 @@ mod tests {
     fn numbers_stand_in_front() {
         let factors = &factors()[..1];
         for (protocol, expected) in
-            [(Protocol::Csv, "id,length\n711953,225.0\n"), (Protocol::JsonLines, "{\"id\":711953,\"length\":225.0}\n")]
+            [(Protocol::Csv, "id,length\n100003,225.0\n"), (Protocol::JsonLines, "{\"id\":100003,\"length\":225.0}\n")]
         {
-            let writer = RowWriter::new(protocol, factors).with_numbers(true);
+            let writer = RowWriter::new(protocol, factors).with_numbers();
             let mut text = writer.header();
-            writer.write(&[&[225e-6]], 0, 711_953, &mut text);
+            writer.write(&[&[225e-6]], 0, 100_003, &mut text);
             assert_eq!(text, expected);
         }
     }

@@ -6,7 +6,7 @@ use super::ExtremesJob;
 use super::judge::judge;
 use super::map::{Collector, Example, Finding};
 use super::points::{Point, grids, points};
-use crate::model::{Answered, Batch, LARGEST_ERROR, Model, RowFailure, RunContext, Unchecked, Worker};
+use crate::model::{Answered, Batch, GiveUp, LARGEST_ERROR, Model, RowFailure, RunContext, Unchecked, Worker};
 use crate::run::{RunError, run_each_in};
 use crate::space::Space;
 
@@ -49,7 +49,7 @@ pub(super) fn explore(
         job.on_progress,
     )?;
     if let Some(reason) = gave_up.into_inner() {
-        return Err(RunError::GaveUp { reason });
+        return Err(RunError::GaveUp(reason));
     }
     for (point, findings) in points.iter().zip(found) {
         for (output, finding) in model.outputs().iter().zip(findings) {
@@ -70,7 +70,7 @@ struct Evaluated<'m> {
     flags: Vec<&'m str>,
     /// The relative error that the model estimates, if it counts one.
     error_estimate: Option<f64>,
-    given_up: Option<RowFailure>,
+    given_up: Option<GiveUp>,
 }
 
 impl<'m> Evaluated<'m> {

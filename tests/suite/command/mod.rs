@@ -45,7 +45,9 @@ max = 1
 "#;
 
 /// The beginning of a worker that answers by a function of its own.
-const LOOP: &str = "import os, sys, time\nsys.stdin.readline()\nfor line in sys.stdin:\n    x = [float(cell) for cell in line.split(',')]\n    y = x[0] + 2*x[1] + x[0]*x[2]\n";
+const LOOP: &str = "import os, sys, time\ndef answer(y): print(number, y, sep=',', flush=True)\n\
+                    sys.stdin.readline()\nfor line in sys.stdin:\n    number, line = line.split(',', 1)\n    \
+                    x = [float(cell) for cell in line.split(',')]\n    y = x[0] + 2*x[1] + x[0]*x[2]\n";
 
 impl Case {
     /// A study with the keys `command` of `[command]` and the program `model.py`.
@@ -59,15 +61,10 @@ impl Case {
         Self { folder }
     }
 
-    /// One whose program does `what`, indented, with every row: the values are in `x`, the answer in `y`.
+    /// One whose program does `what`, indented, with every row: its values are in `x`, without its number in `line`, and
+    /// `answer(y)` is the answer.
     pub fn each_row(command: &str, what: &str) -> Self {
         Self::new(command, &format!("{LOOP}{what}"))
-    }
-
-    /// The same with row numbers, each in `number`; `line` is the row without it.
-    pub fn each_numbered_row(what: &str) -> Self {
-        let numbered = LOOP.replace("stdin:\n", "stdin:\n    number, line = line.split(',', 1)\n");
-        Self::new("row_numbers = true", &format!("{numbered}{}", what.replace("print(y,", "print(number, y, sep=',',")))
     }
 
     pub fn path(&self, name: &str) -> PathBuf {
@@ -111,9 +108,15 @@ impl Case {
     /// The message of a run that ends with exit code 1.
     #[track_caller]
     pub fn gives_up(&self, expected: &[&str]) -> String {
+        self.ends_with(1, expected)
+    }
+
+    /// The message of a run that ends with that exit code.
+    #[track_caller]
+    pub fn ends_with(&self, code: i32, expected: &[&str]) -> String {
         let output = self.run();
         let message = stderr(&output);
-        assert_eq!(output.status.code(), Some(1), "{message}");
+        assert_eq!(output.status.code(), Some(code), "{message}");
         contains(&message, expected);
         message
     }

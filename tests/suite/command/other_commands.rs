@@ -73,12 +73,11 @@ fn a_program_that_never_answers_ends_every_command_too() {
 }
 
 /// Writes a file for each process, and takes longer over some rows than over others.
-const UNEVEN: &str =
-    "    open(f'pid-{os.getpid()}', 'w')\n    time.sleep(0.004 if x[1] > 3 else 0)\n    print(y, flush=True)\n";
+const UNEVEN: &str = "    open(f'pid-{os.getpid()}', 'w')\n    time.sleep(0.004 if x[1] > 3 else 0)\n    answer(y)\n";
 
 #[test]
 fn points_are_evaluated_in_several_processes_and_keep_their_order() {
-    let case = Case::each_numbered_row(UNEVEN).replace("workers = 2", "workers = 3");
+    let case = Case::each_row("", UNEVEN).replace("workers = 2", "workers = 3");
     let expected = case.points(500);
     let output = case.other("evaluate", &["@points.csv", "-o", "@outputs.csv"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -92,12 +91,12 @@ fn points_are_evaluated_in_several_processes_and_keep_their_order() {
 
 #[test]
 fn screening_asks_several_processes_and_says_the_same() {
-    let case = Case::each_numbered_row(UNEVEN).replace("workers = 2", "workers = 3");
+    let case = Case::each_row("", UNEVEN).replace("workers = 2", "workers = 3");
     let csv = |case: &Case| std::fs::read_to_string(case.path("out/study-screen.csv")).unwrap();
     let output = case.other("screen", &["--out", "@out"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(processes(&case).len(), 3);
-    let alone = Case::each_numbered_row(UNEVEN).replace("workers = 2", "workers = 1");
+    let alone = Case::each_row("", UNEVEN).replace("workers = 2", "workers = 1");
     assert_eq!(alone.other("screen", &["--out", "@out"]).status.code(), Some(0));
     assert_eq!(processes(&alone).len(), 1);
     assert_eq!(csv(&case), csv(&alone));
@@ -106,7 +105,7 @@ fn screening_asks_several_processes_and_says_the_same() {
 #[cfg(unix)]
 #[test]
 fn interrupted_commands_leave_neither_files_nor_processes() {
-    let hangs = "    n = globals().get('n', 0) + 1\n    open(f'pid-{os.getpid()}', 'w')\n    if n > 3: time.sleep(1000)\n    print(y, flush=True)\n";
+    let hangs = "    n = globals().get('n', 0) + 1\n    open(f'pid-{os.getpid()}', 'w')\n    if n > 3: time.sleep(1000)\n    answer(y)\n";
     let case = Case::each_row("", hangs);
     case.points(100);
     for (command, more) in &COMMANDS[..3] {

@@ -13,7 +13,7 @@ fn worker(what: &str) -> Case {
         "",
         &format!(
             "    if 'child' not in globals():\n        import subprocess\n        child = subprocess.Popen(['sleep', '1000'])\n        \
-             open(f'pid-{{os.getpid()}}', 'w')\n        open(f'pid-{{child.pid}}', 'w')\n        n = 0\n    n += 1\n{what}    print(y, flush=True)\n"
+             open(f'pid-{{os.getpid()}}', 'w')\n        open(f'pid-{{child.pid}}', 'w')\n        n = 0\n    n += 1\n{what}    answer(y)\n"
         ),
     )
 }
@@ -88,9 +88,7 @@ fn a_killed_engine_takes_its_programs_along() {
     let hangs = "    if n > 3: time.sleep(1000)\n";
     let case = Case::each_row(
         "",
-        &format!(
-            "    n = globals().get('n', 0) + 1\n    open(f'pid-{{os.getpid()}}', 'w')\n{hangs}    print(y, flush=True)\n"
-        ),
+        &format!("    n = globals().get('n', 0) + 1\n    open(f'pid-{{os.getpid()}}', 'w')\n{hangs}    answer(y)\n"),
     );
     let mut run = started(&case);
     within(60, "two workers hang", || processes(&case).len() >= 2);

@@ -27,7 +27,8 @@ fn without_times(mut result: ResultFile) -> ResultFile {
 
 #[test]
 fn only_rows_that_failed_are_asked_again_and_the_result_is_that_of_a_run_without_failures() {
-    let licence = "    has_one = x[0] <= 0.9 or os.path.exists('licence')\n    print(y if has_one else 'error: no licence', flush=True)\n";
+    let licence =
+        "    has_one = x[0] <= 0.9 or os.path.exists('licence')\n    answer(y if has_one else 'error: no licence')\n";
     let new = || Case::each_row("", &format!("{NOTES}{licence}"));
     let (case, sound) = (new(), new());
     let bad = rows_where(|x| x > 0.9);
@@ -51,9 +52,8 @@ fn an_engine_that_is_killed_asks_no_row_on_record_again_and_leaves_no_process() 
     // With 4 ms a row, pieces that take 0.2 s have at most 50 rows.
     const IN_FLIGHT: usize = 2 * 50;
     const ROWS: usize = 512 * 5;
-    let slow =
-        format!("{NOTES}    open(f'pid-{{os.getpid()}}', 'w')\n    time.sleep(0.004)\n    print(y, flush=True)\n");
-    let case = Case::each_numbered_row(&slow).replace("base_samples = 32", "base_samples = 512");
+    let slow = format!("{NOTES}    open(f'pid-{{os.getpid()}}', 'w')\n    time.sleep(0.004)\n    answer(y)\n");
+    let case = Case::each_row("", &slow).replace("base_samples = 32", "base_samples = 512");
     let journal = case.path("out/study.journal");
     let on_record = || -> usize {
         let contents = read_journal(&journal, &std::fs::read(&journal).unwrap()).unwrap();

@@ -17,13 +17,14 @@ fn keys_are_checked_with_their_places() {
     refused("protocl = \"csv\"", &["study.toml:6:1:", "unknown key `protocl`: did you mean `protocol`?"]);
     refused("protocol = \"xml\"", &["study.toml:6:12:", "unknown protocol `xml`", "known: csv, json-lines"]);
     refused("row_numbers = 1", &["study.toml:6:15:"]);
-    let named = |protocol: &str| Case::new(&format!("row_numbers = true\nprotocol = \"{protocol}\""), "");
+    refused("row_numbers = false", &["study.toml:6:15:", "begins with the number of its row"]);
+    let named = |protocol: &str| Case::new(&format!("protocol = \"{protocol}\""), "");
     let case = named("csv").replace("name = \"x1\"", "name = \"id\"");
     let message = stderr(&apportion(&["check", text(&case.path("study.toml"))]));
-    contains(&message, &["study.toml:6:15:", "`row_numbers` must be beside names other than `id`", "a factor"]);
+    contains(&message, &["`name of the factor` must be another than `id`"]);
     let case = named("json-lines").replace("outputs = [\"y\"]", "outputs = [\"id\"]");
     let message = stderr(&apportion(&["check", text(&case.path("study.toml"))]));
-    contains(&message, &["study.toml:6:15:", "`row_numbers` must be beside names other than `id`", "an output"]);
+    contains(&message, &["`name of the output` must be another than `id`"]);
     refused("timeout = \"60\"", &["study.toml:6:11:", "`timeout` must be a time above 0"]);
     refused("timeout = 60", &["study.toml:6:11:"]);
     refused("retries = 101", &["study.toml:6:11:", "a whole number from 0 to 100"]);
@@ -91,8 +92,7 @@ fn a_new_study_comes_with_its_program() {
     let out = folder.path().join("out");
     let shown = succeed(&["run", text(&study), "--base-samples", "64", "--out", text(&out)]);
     contains(&shown, &["the \"b\"", "\ny\n", "\nz\n"]);
-    assert!(written.contains("\nrow_numbers = true") && program.contains("row.pop(\"id\")"), "{written}");
-    assert!(!shown.contains("asked-alone"), "{shown}");
+    assert!(program.contains("row.pop(\"id\")"), "{program}");
     std::fs::write(folder.path().join("my_model.py"), "mine").unwrap();
     let again = apportion(&["new", text(&study), "--model", "command", "--force"]);
     contains(&stderr(&again), &["my_model.py is there already and stays as it is"]);
@@ -106,7 +106,7 @@ fn labels_integers_and_units_reach_the_program() {
         "outputs.y = \"mm\"",
         "import csv, json, sys\nfor row in csv.DictReader(sys.stdin):\n    \
         with open('seen', 'a') as seen:\n        print(json.dumps(row), file=seen)\n    \
-        print(float(row['x1']), flush=True)\n",
+        print(row['id'], row['x1'], sep=',', flush=True)\n",
     );
     let study = std::fs::read_to_string(case.path("study.toml")).unwrap();
     let start = study.find("[[factor]]").unwrap();

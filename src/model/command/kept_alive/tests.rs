@@ -6,8 +6,7 @@ use std::thread;
 use std::time::Duration;
 
 use crate::model::{
-    Batch, CommandModel, CommandOutput, CommandSettings, Form, KeptAlive, Model, Program, Protocol, RowFailure,
-    RunContext,
+    Batch, CommandModel, CommandOutput, CommandSettings, Form, GiveUp, Model, Program, Protocol, RowFailure, RunContext,
 };
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor};
@@ -20,7 +19,7 @@ fn model(script: &str) -> CommandModel {
             directory: std::env::temp_dir(),
             environment: Vec::new(),
         },
-        form: Form::KeptAlive(KeptAlive { protocol: Protocol::Csv, row_numbers: false }),
+        form: Form::KeptAlive(Protocol::Csv),
         outputs: vec![CommandOutput { name: "y".to_owned(), unit: Unit::dimensionless(), pick: None }],
         series: Vec::new(),
         asked: vec![0],
@@ -83,7 +82,7 @@ fn a_model_can_be_run_again_after_it_was_interrupted_and_messages_go_to_the_run(
         });
         model.worker(&context).run(&[&[1.0; 100]], &mut batch);
     });
-    assert_eq!(batch.given_up(), Some(&RowFailure::interrupted()));
+    assert_eq!(batch.given_up(), Some(&GiveUp::from(RowFailure::interrupted())));
     assert!(messages.lock().unwrap().contains(&"the program: started".to_owned()));
     assert_eq!(answers(&model, &[1.5, 2.5]), [1.5, 2.5]);
 }

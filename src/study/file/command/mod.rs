@@ -18,7 +18,7 @@ use super::error::Problem;
 use super::sections::{At, FactorSection};
 use super::subjects::CommandSubject;
 use super::units::own_inputs;
-use crate::model::{CommandOutput, CommandSettings, Form, Input, KeptAlive, Program, Protocol};
+use crate::model::{CommandOutput, CommandSettings, Form, Input, Program, Protocol};
 use crate::space::Space;
 
 /// The inputs of a program: the factors of the study, each in its own unit.
@@ -70,12 +70,13 @@ pub(super) fn subject(
     }
     let all = outputs::outputs(context, key, section, asked)?;
     let asked = outputs::places(context, section, &all, asked)?;
+    refuse_without_numbers(context, section)?;
     let outputs = &all.outputs;
     let (form, notes) = match &section.template {
         None => {
-            let form = KeptAlive { protocol: protocol(context, section, &all.picks)?, row_numbers: numbers(section) };
-            refuse_number(context, section, form, space, outputs)?;
-            (Form::KeptAlive(form), Vec::new())
+            let protocol = protocol(context, section, &all.picks)?;
+            refuse_number(context, key, protocol, space, outputs)?;
+            (Form::KeptAlive(protocol), Vec::new())
         }
         Some(template) => {
             let (form, notes) = runs::form(context, section, template, space)?;
@@ -91,12 +92,7 @@ pub(super) fn subject(
         stated.push(("env", Value::Object(environment.iter().map(|(k, v)| (k.clone(), json!(v))).collect())));
     }
     match (&form, &section.template) {
-        (Form::KeptAlive(form), _) => {
-            stated.push(("protocol", json!(form.protocol.name())));
-            if form.row_numbers {
-                stated.push(("row_numbers", json!(true)));
-            }
-        }
+        (Form::KeptAlive(protocol), _) => stated.push(("protocol", json!(protocol.name()))),
         (Form::PerRun(form), template) => {
             stated.push(("template", json!(template.as_ref().map(At::get_ref))));
             stated.push(("input", json!(form.input)));
@@ -184,25 +180,32 @@ fn protocol(context: &Context<'_>, section: &CommandSection, picks: &[&At<toml::
     choice(context, name, "protocol", &Protocol::ALL, Protocol::name)
 }
 
-fn numbers(section: &CommandSection) -> bool {
-    section.row_numbers.as_ref().is_some_and(|typed| *typed.get_ref())
+/// Rows have numbers always: studies that say so are right.
+fn refuse_without_numbers(context: &Context<'_>, section: &CommandSection) -> Result<(), Fault> {
+    match &section.row_numbers {
+        Some(typed) if !typed.get_ref() => {
+            let expected = "true, or left out: each answer begins with the number of its row, as in `print(row[\"id\"], y, \
+                            sep=\",\")`; a program that cannot do so runs once for each row, with a `template`";
+            Err(context.fault(typed.span(), wrong("row_numbers", expected, "false".to_owned())))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A factor, or an output of JSON, called as the number of a row is.
 fn refuse_number(
     context: &Context<'_>,
-    section: &CommandSection,
-    form: KeptAlive,
+    key: &At<CommandKey>,
+    protocol: Protocol,
     space: &Space,
     outputs: &[CommandOutput],
 ) -> Result<(), Fault> {
-    let Some(typed) = section.row_numbers.as_ref().filter(|_| form.row_numbers) else { return Ok(()) };
     let is_factor = space.factors().iter().any(|factor| factor.name == "id");
-    let is_output = form.protocol == Protocol::JsonLines && outputs.iter().any(|output| output.name == "id");
-    let found = if is_factor { "a factor" } else { "an output" };
+    let is_output = protocol == Protocol::JsonLines && outputs.iter().any(|output| output.name == "id");
+    let what = if is_factor { "factor" } else { "output" };
     if is_factor || is_output {
-        let expected = "beside names other than `id`, which is that of a row's number";
-        return Err(context.fault(typed.span(), wrong("row_numbers", expected, format!("{found} of that name"))));
+        let expected = "another than `id`, which the program gets as the number of a row";
+        return Err(context.fault(key.span(), wrong(&format!("name of the {what}"), expected, "`id`".to_owned())));
     }
     Ok(())
 }

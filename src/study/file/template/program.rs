@@ -35,7 +35,6 @@ pub(in crate::study::file) fn program_template(request: &TemplateRequest) -> Res
     };
     text.push_str(&format!(
         "#\n[command]\nprogram = [\"python3\", \"{NEW_PROGRAM}\"]    # relative to this file; no shell reads it\n\
-         row_numbers = true    # the column `id`, which goes back with the answer: none can be taken for another row's\n\
          {stated}\
          # protocol = \"json-lines\"    # an object for each row instead of a line of CSV\n\
          # workers = 4    # processes at once [default: one for each core]\n\
