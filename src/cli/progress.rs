@@ -191,48 +191,6 @@ impl Drop for Meter {
     }
 }
 
-/// Shows how far something has come that is not counted in runs, on standard error.
-pub struct PartMeter {
-    label: String,
-    display: Display,
-}
-
-impl PartMeter {
-    /// A meter named `label`.
-    pub fn new(label: &str) -> Self {
-        let display = if super::stderr_is_terminal() {
-            let bar = ProgressBar::new(1000);
-            let style = ProgressStyle::with_template("{prefix} {bar:32} {percent:>3} %  {wide_msg}");
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-            bar.set_prefix(label.to_owned());
-            Display::Bar(bar)
-        } else {
-            Display::Lines(Mutex::new(Instant::now()))
-        };
-        Self { label: label.to_owned(), display }
-    }
-
-    /// Takes note that `share` of all, 0 to 1, is done, and that `doing` comes next.
-    pub fn update(&self, doing: &str, share: f64) {
-        match &self.display {
-            Display::Bar(bar) => {
-                bar.set_position((1000.0 * share) as u64);
-                bar.set_message(doing.to_owned());
-                if share >= 1.0 {
-                    bar.finish_and_clear();
-                }
-            }
-            Display::Lines(last) => {
-                let Ok(mut last) = last.try_lock() else { return };
-                if last.elapsed() >= LINE_INTERVAL {
-                    *last = Instant::now();
-                    super::say(&format!("{}: {:.0} %, {doing}", self.label, 100.0 * share));
-                }
-            }
-        }
-    }
-}
-
 /// Runs per second, readable.
 fn rate(per_second: f64) -> String {
     match per_second {

@@ -1,15 +1,14 @@
 //! `apportion reproduce`: the papers' figures and claims, on one page.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, OnceLock};
+use std::sync::Mutex;
 
 use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, document, in_words, reproduce as run};
-use anyhow::anyhow;
 use apportion::report::FileNames;
 use apportion::study::Study;
 
 use super::output::{ChartArguments, deliver_with};
-use super::progress::{Meter, PartMeter};
+use super::progress::Meter;
 use super::stop::on_signal;
 use super::{DesignChanges, Failure, Threads};
 use crate::live::{live_page, put_beside};
@@ -25,7 +24,7 @@ pub struct Arguments {
     /// Fewer points and repetitions: a look within seconds
     #[arg(long)]
     quick: bool,
-    /// A single part of the page: the figures, the verdicts on the claims, or the readings of the published percentages
+    /// A single part of the page: the figures, or the verdicts on the claims with the percentages
     #[arg(long, value_name = "PART")]
     only: Option<Part>,
     #[command(flatten)]
@@ -40,7 +39,6 @@ pub struct Arguments {
 enum Part {
     Figures,
     Claims,
-    Readings,
 }
 
 impl From<ReproduceError> for Failure {
@@ -54,11 +52,6 @@ impl From<ReproduceError> for Failure {
 
 pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
     let overrides = arguments.design.overrides();
-    if arguments.only == Some(Part::Readings) && !overrides.is_empty() {
-        return Err(Failure::Input(anyhow!(
-            "--base-samples and --seed are for the nine studies, which --only readings does not run: leave them out"
-        )));
-    }
     let artefacts = arguments.charts.artefacts(&arguments.out);
     artefacts.check(&FileNames { name: "index".to_owned(), ..FileNames::default() })?;
     let request = Request {
@@ -66,7 +59,6 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
         only: arguments.only.map(|part| match part {
             Part::Figures => Topic::Figures,
             Part::Claims => Topic::Claims,
-            Part::Readings => Topic::Readings,
         }),
         overrides,
         threads: arguments.threads.number(),
@@ -91,21 +83,17 @@ fn live_study() -> Result<Study, Failure> {
 #[derive(Default)]
 struct Meters {
     study: Mutex<Option<Meter>>,
-    part: OnceLock<PartMeter>,
 }
 
 impl Meters {
     fn show(&self, event: &Event<'_>) {
         let Ok(mut current) = self.study.lock() else { return };
         match event {
-            Event::StudyBegins { number: (number, count), name, runs } => {
+            Event::Begins { number: (number, count), name, runs } => {
                 *current = Some(Meter::new(&format!("{number} of {count} {name:<21}"), *runs));
             }
-            Event::StudyGoesOn(progress) => current.iter().for_each(|meter| meter.update(*progress)),
-            Event::StudyEnds { runs, seconds } => current.iter().for_each(|meter| meter.finish(*runs, *seconds)),
-            Event::Readings { name, share } => {
-                self.part.get_or_init(|| PartMeter::new("readings")).update(name, *share)
-            }
+            Event::Progresses(progress) => current.iter().for_each(|meter| meter.update(*progress)),
+            Event::Ends { runs, seconds } => current.iter().for_each(|meter| meter.finish(*runs, *seconds)),
         }
     }
 }

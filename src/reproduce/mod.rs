@@ -1,4 +1,4 @@
-//! The papers reproduced: their studies, figures and claims, and what their published percentages could mean.
+//! The papers reproduced: their studies, figures, claims and percentages.
 //!
 //! [`reproduce()`] computes, [`document()`] makes the page and its files of it, [`in_words`] says it on a terminal.
 
@@ -7,8 +7,8 @@ mod compare;
 mod document;
 pub mod figures;
 mod order;
+pub mod percentages;
 mod published;
-pub mod readings;
 mod reproduction;
 mod terminal;
 
@@ -89,6 +89,10 @@ const STUDIES: [(&str, &str); 9] = [
     ("lugre-general", include_str!("../../studies/lugre-general.toml")),
 ];
 
+/// The settings of every study in a quick reproduction, unless the overrides say otherwise. Of so few base samples surrogates
+/// would be fitted, which takes longer than the runs of a closed form.
+const QUICK: [&str; 2] = ["design.base_samples=8192", "analysis.surrogate=off"];
+
 /// Why a reproduction failed.
 #[derive(Debug, Error)]
 pub enum ReproduceError {
@@ -104,9 +108,14 @@ pub enum ReproduceError {
     /// A claim cannot be answered.
     #[error(transparent)]
     Claims(#[from] claims::ClaimsError),
-    /// The readings cannot be computed.
-    #[error(transparent)]
-    Readings(#[from] readings::ReadingsError),
+    /// A study has no shares to set beside the printed percentages.
+    #[error("the study {study} has no shares of {measure}: its indices have no positive sum")]
+    NoPercentages {
+        /// The study.
+        study: String,
+        /// `S_1` or `S_T`.
+        measure: &'static str,
+    },
 }
 
 /// One study that has been run.

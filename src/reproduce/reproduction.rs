@@ -1,11 +1,11 @@
-//! The whole reproduction: studies, figures, claims and readings, in this order.
+//! The whole reproduction: studies, figures, claims and percentages, in this order.
 
 use std::time::Instant;
 
 use super::claims::{Claim, claims};
 use super::figures::{Animation, PaperFigure, animation, figures};
-use super::readings::{Readings, readings};
-use super::{Effort, ReproduceError, Reproduced, studies};
+use super::percentages::{Percentages, percentages};
+use super::{Effort, QUICK, ReproduceError, Reproduced, studies};
 use apportion::run::Progress;
 
 /// What to reproduce.
@@ -26,22 +26,16 @@ pub struct Request {
 pub enum Topic {
     /// The figures of the papers.
     Figures,
-    /// The verdicts on their claims.
+    /// The verdicts on their claims, and their percentages beside ours.
     Claims,
-    /// What the published percentages could mean.
-    Readings,
 }
-
-/// The settings of every study in a quick reproduction, unless the overrides say otherwise. Of so few base samples surrogates
-/// would be fitted, which takes longer than the runs of a closed form.
-const QUICK: [&str; 2] = ["design.base_samples=8192", "analysis.surrogate=off"];
 
 /// A reproduction that has taken place.
 #[derive(Debug, Clone)]
 pub struct Reproduction {
     /// How much was computed.
     pub effort: Effort,
-    /// The nine studies, group by group; none if only the readings were asked for.
+    /// The nine studies, group by group.
     pub studies: Vec<Reproduced>,
     /// The figures of the papers, if asked for.
     pub figures: Vec<PaperFigure>,
@@ -49,8 +43,8 @@ pub struct Reproduction {
     pub animation: Option<Animation>,
     /// The claims with their verdicts, if asked for.
     pub claims: Vec<Claim>,
-    /// The readings of the published percentages, if asked for.
-    pub readings: Option<Readings>,
+    /// Our shares beside the printed percentages, if claims were asked for.
+    pub percentages: Vec<Percentages>,
     /// Seconds that each part took.
     pub seconds: Vec<(&'static str, f64)>,
 }
@@ -59,7 +53,7 @@ pub struct Reproduction {
 #[derive(Debug, Clone)]
 pub enum Event<'a> {
     /// A study of so many model runs begins.
-    StudyBegins {
+    Begins {
         /// Its number from 1, and how many there are.
         number: (usize, usize),
         /// Its name.
@@ -68,20 +62,13 @@ pub enum Event<'a> {
         runs: u64,
     },
     /// How far the study has come.
-    StudyGoesOn(Progress),
+    Progresses(Progress),
     /// The study is over after so many seconds.
-    StudyEnds {
+    Ends {
         /// Its model runs.
         runs: u64,
         /// Seconds.
         seconds: f64,
-    },
-    /// So much of the readings is done, from 0 to 1.
-    Readings {
-        /// What comes next.
-        name: &'a str,
-        /// How much is done.
-        share: f64,
     },
 }
 
@@ -98,11 +85,8 @@ pub fn reproduce(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Re
         seconds.push((part, clock.elapsed().as_secs_f64()));
         clock = Instant::now();
     };
-    let mut studies = Vec::new();
-    if asked(Topic::Figures) || asked(Topic::Claims) {
-        studies = run_studies(request, on_event)?;
-        lap("studies");
-    }
+    let studies = run_studies(request, on_event)?;
+    lap("studies");
     let mut drawn = Vec::new();
     let mut moving = None;
     if asked(Topic::Figures) {
@@ -110,17 +94,21 @@ pub fn reproduce(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Re
         moving = Some(animation()?);
         lap("figures");
     }
-    let mut answered = Vec::new();
+    let (mut answered, mut shares) = (Vec::new(), Vec::new());
     if asked(Topic::Claims) {
         answered = claims(&studies, effort)?;
+        shares = percentages(effort, threads)?;
         lap("claims");
     }
-    let mut read = None;
-    if asked(Topic::Readings) {
-        read = Some(readings(effort, threads, &|name, share| on_event(Event::Readings { name, share }))?);
-        lap("readings");
-    }
-    Ok(Reproduction { effort, studies, figures: drawn, animation: moving, claims: answered, readings: read, seconds })
+    Ok(Reproduction {
+        effort,
+        studies,
+        figures: drawn,
+        animation: moving,
+        claims: answered,
+        percentages: shares,
+        seconds,
+    })
 }
 
 fn run_studies(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Result<Vec<Reproduced>, ReproduceError> {
@@ -132,15 +120,15 @@ fn run_studies(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Resu
     let mut reproduced = Vec::with_capacity(count);
     for (place, (group, friction, study)) in studies.iter().enumerate() {
         let number = (place + 1, count);
-        on_event(Event::StudyBegins { number, name: study.name(), runs: study.design().rows() });
+        on_event(Event::Begins { number, name: study.name(), runs: study.design().rows() });
         let analysis = study
             .runner()
             .threads(request.threads)
-            .on_progress(|progress| on_event(Event::StudyGoesOn(progress)))
+            .on_progress(|progress| on_event(Event::Progresses(progress)))
             .run()?;
         let result = apportion::report::ResultFile::new(study, &analysis);
         let provenance = &result.provenance;
-        on_event(Event::StudyEnds { runs: provenance.model_runs, seconds: provenance.wall_seconds });
+        on_event(Event::Ends { runs: provenance.model_runs, seconds: provenance.wall_seconds });
         reproduced.push(Reproduced { friction: *friction, group: *group, result });
     }
     Ok(reproduced)

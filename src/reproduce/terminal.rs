@@ -1,11 +1,11 @@
 //! The reproduction on a terminal.
 
 use super::claims::Claim;
-use super::readings::{chances, summary};
+use super::percentages::summary;
 use super::{Reproduction, comparison_table};
 
-/// What came out, as text: the table of shares, a line for each verdict, and what the readings say; each if it was asked
-/// for.
+/// What came out, as text: the table of shares, a line for each verdict, and what is to be said of the printed
+/// percentages; each if it was asked for.
 pub fn in_words(reproduction: &Reproduction) -> String {
     let mut text = String::new();
     if !reproduction.studies.is_empty() {
@@ -14,17 +14,17 @@ pub fn in_words(reproduction: &Reproduction) -> String {
     if !reproduction.claims.is_empty() {
         text.push_str(&format!("\nThe papers' claims\n{}", verdicts(&reproduction.claims)));
     }
-    if let Some(readings) = &reproduction.readings {
-        text.push_str("\nWhat the published percentages could mean\n");
-        for sentence in summary(readings).into_iter().chain(chances(readings)) {
-            text.push_str(&format!("- {sentence}\n"));
-        }
+    if !reproduction.percentages.is_empty() {
+        text.push_str("\nThe percentages that LG prints\n");
+        text.extend(summary(&reproduction.percentages).iter().map(|sentence| format!("- {sentence}\n")));
     }
     text
 }
 
 /// Two lines for each claim: what is claimed, and what we answer.
 fn verdicts(claims: &[Claim]) -> String {
-    let lines = claims.iter().map(|claim| format!("{:>2}  {}\n    {}\n", claim.number, claim.statement, claim.verdict));
+    let lines = claims
+        .iter()
+        .map(|claim| format!("{:>2}  {}\n    {}; {}\n", claim.number, claim.statement, claim.verdict, claim.range));
     lines.collect()
 }

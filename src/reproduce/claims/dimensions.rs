@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, LAWS, Sweep, closed, exact};
 use super::curve::Curve;
-use super::judge::{Holding, judge};
+use super::judge::{Holding, judge, over_ranges};
 use super::numbers::{change, nano, number};
 use super::{Claim, ClaimsError};
 use apportion::afm::{Failure, FrictionLaw, Options, Scene};
@@ -87,6 +87,7 @@ fn length(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         source: "CHK fig. 6, LG fig. 2a",
         statement: "F_cr falls with the cantilever's length, ever more slowly.",
         verdict: judge(&holdings),
+        range: over_ranges(&holdings),
         finding: format!("From {} in length F_cr falls {ends} at the nominal scene.", sweep.words()),
         setting: format!(
             "{} falling at every step, and no step steeper than the one before by more than {} of the mean slope.",
@@ -107,6 +108,7 @@ fn width(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         source: "CHK fig. 7, LG fig. 2b",
         statement: "F_cr rises linearly with the cantilever's width.",
         verdict: judge(&holdings),
+        range: over_ranges(&holdings),
         finding: format!("From {} in width F_cr rises {bends} at the nominal scene.", sweep.words()),
         setting: format!(
             "{} linear means rising and nowhere farther from the straight line of least squares than {} of the rise.",
@@ -136,6 +138,7 @@ fn thickness(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         source: "CHK fig. 8, LG fig. 2c",
         statement: "F_cr rises steeply with the cantilever's thickness.",
         verdict: judge(&holdings),
+        range: over_ranges(&holdings),
         finding: format!("From {} in thickness F_cr rises {powers} at the nominal scene.", sweep.words()),
         setting: format!(
             "{} steep means rising at every step, and over the range by more than in proportion (mean elasticity above 1).",
@@ -155,6 +158,7 @@ fn height(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         source: "CHK fig. 9, LG fig. 2d",
         statement: "The height of the tip has no effect on F_cr.",
         verdict: judge(&holdings),
+        range: over_ranges(&holdings),
         finding: format!("A height of {} changes F_cr by {spreads} at the nominal scene.", sweep.words()),
         setting: effect_setting(bench, &sweep, "Exact geometry"),
         figures: &["chk-9", "lg-2d"],

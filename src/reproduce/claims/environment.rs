@@ -4,7 +4,7 @@ use super::bench::{Bench, LAWS, Sweep, closed, exact, in_motion};
 use super::dimensions::{
     NO_EFFECT, STRAIGHT, closed_setting, effect_setting, from_to, nominal_curves, straightness, without_effect,
 };
-use super::judge::{in_words, judge};
+use super::judge::{judge, over_ranges};
 use super::numbers::{change, nano};
 use super::{Claim, ClaimsError};
 use apportion::afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
@@ -41,6 +41,7 @@ fn velocity(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         source: "CHK fig. 11, LG fig. 3a",
         statement: "The velocity has no effect on F_cr up to 600 nm/s.",
         verdict: judge(&holdings),
+        range: over_ranges(&holdings),
         finding: format!(
             "A velocity of {} changes F_cr by {spreads} at the nominal scene, one of {} by {beyond}. It would change it by \
              {} under LuGre friction with a viscous part of {VISCOUS} N s/m, and by {} under Coulomb friction marched in \
@@ -80,6 +81,7 @@ fn elastic_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         source: "CHK fig. 12, LG fig. 3b",
         statement: "F_cr rises linearly with Young's modulus of the cantilever, and the friction models diverge.",
         verdict: judge(&holdings),
+        range: over_ranges(&holdings),
         finding: format!(
             "From {} F_cr rises {} at the nominal scene, and the gap of Coulomb to Hurtado-Kim goes {}.",
             sweep.words(),
@@ -118,6 +120,7 @@ fn contact_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         statement: "The equivalent modulus leaves F_cr under Coulomb friction unmoved and lowers it under Hurtado-Kim \
                     friction.",
         verdict: judge(&holdings),
+        range: over_ranges(&holdings),
         finding: format!(
             "From {} F_cr goes {} under Coulomb friction, a change of {} by its term tau pi a^2, and {} under Hurtado-Kim \
              friction, a change of {}, at the nominal scene.",
@@ -159,6 +162,7 @@ fn adhesion(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         statement: "F_cr rises with the work of adhesion under Coulomb and Hurtado-Kim friction, and the two approach each \
                     other.",
         verdict: judge(&holdings),
+        range: over_ranges(&holdings),
         finding: format!(
             "From {} F_cr goes {} under Coulomb and {} under Hurtado-Kim friction at the nominal scene, and the gap {}. \
              With the pull-off force in the load of Coulomb friction the gap goes {}.",
@@ -204,6 +208,7 @@ fn frozen(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         source: "LG figs. 3c, 3d",
         statement: "Under LuGre friction the equivalent modulus and the work of adhesion have no visible effect on F_cr.",
         verdict: judge(&holdings),
+        range: over_ranges(&holdings),
         finding: format!(
             "At the nominal scene (F_cr {}) {}.",
             nano(bench.force(&nominal, &options)?, "N"),
@@ -212,10 +217,9 @@ fn frozen(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         setting: format!(
             "Closed form; the parameters of LuGre friction are held constant as in LG, by which neither factor can act: \
              this is so by construction. Invisible means by less than {}, at the nominal scene and at {} points of the \
-             general study's box: {}.",
+             general study's box.",
             change(NO_EFFECT),
-            bench.sizes.points,
-            in_words(&holdings)
+            bench.sizes.points
         ),
         figures: &["lg-3c", "lg-3d"],
     })

@@ -1,8 +1,9 @@
 //! What the papers claim, each answered by a check that computes.
 //!
-//! A check asks the physics (or the studies that have been run) a question with explicit criteria, at the nominal scene
-//! and over the box of the general study, and the answers make the [`Verdict`]. Nothing is typed in by hand: the tests
-//! put bent physics in the place of ours, and see the verdicts change.
+//! A check asks the physics (or the studies that have been run) a question with explicit criteria. One rule serves all
+//! claims: the answer at the scene and with the constants of the paper's figure makes the [`Verdict`]; on what share of
+//! the general study's box it holds stands next to it. Nothing is typed in by hand: the tests replace the physics, and
+//! the verdicts change.
 
 mod bench;
 mod curve;
@@ -40,9 +41,11 @@ pub struct Claim {
     pub source: &'static str,
     /// What is claimed, in one sentence.
     pub statement: &'static str,
-    /// Our answer.
+    /// Our answer, as the paper shows it: at its figure's scene, with its constants.
     #[serde(flatten)]
     pub verdict: Verdict,
+    /// Where it holds over the whole ranges of the general study; for orders and percentages, under which friction model.
+    pub range: String,
     /// Our figures, in a sentence or two.
     pub finding: String,
     /// The setting in which the finding holds: models, ranges, fidelity, what was varied and how finely.
@@ -55,50 +58,42 @@ pub struct Claim {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(tag = "verdict", rename_all = "kebab-case")]
 pub enum Verdict {
-    /// It holds.
+    /// Every part of it holds.
     Reproduced,
-    /// It holds in part.
-    Partly {
-        /// Where it holds, and where not.
-        range: String,
-    },
-    /// It does not hold.
+    /// Some part of it does not hold.
     NotReproduced,
-    /// What the paper itself gives says otherwise.
-    Contradicts {
-        /// What of the paper's own.
+    /// A number or figure of the same paper says otherwise.
+    Contradicted {
+        /// Which, and where.
         own: String,
     },
 }
 
 impl Verdict {
-    /// The verdict without its where: `reproduced`, `partly`, `not reproduced`, `contradicts`.
+    /// The verdict in a word: `reproduced`, `not reproduced`, `contradicted`.
     pub fn word(&self) -> &'static str {
         match self {
             Self::Reproduced => "reproduced",
-            Self::Partly { .. } => "partly",
             Self::NotReproduced => "not reproduced",
-            Self::Contradicts { .. } => "contradicts",
+            Self::Contradicted { .. } => "contradicted",
         }
     }
 
-    /// Where a claim holds in part, or what of the paper's own contradicts it; empty for the others.
-    pub fn place(&self) -> &str {
+    /// What of the paper's own contradicts it; empty for the others.
+    pub fn own(&self) -> &str {
         match self {
-            Self::Partly { range } => range,
-            Self::Contradicts { own } => own,
+            Self::Contradicted { own } => own,
             Self::Reproduced | Self::NotReproduced => "",
         }
     }
 }
 
-/// Reads as in `partly: up to 600 nm/s`.
+/// Reads as in `contradicted by the paper's own 76 % for the thickness`.
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Reproduced | Self::NotReproduced => f.write_str(self.word()),
-            Self::Partly { range } => write!(f, "partly: {range}"),
-            Self::Contradicts { own } => write!(f, "contradicts the paper's own {own}"),
+            Self::Contradicted { own } => write!(f, "contradicted by the paper's own {own}"),
         }
     }
 }

@@ -2,17 +2,17 @@
 
 use apportion::report::{fixed, significant, with_unit};
 
-/// To four significant digits.
+/// To three significant digits: the scene's constants bear no more.
 fn rounded(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-/// An SI value in nano-units, with the unit: `631.3 nN`.
+/// An SI value in nano-units, with the unit: `631 nN`.
 pub(super) fn nano(value: f64, unit: &str) -> String {
     number(value * 1e9, &format!("n{unit}"))
 }
 
-/// A plain number to four significant digits, with its unit if it has one; to two as a power of ten where it is tiny.
+/// A plain number to three significant digits, with its unit if it has one; to two as a power of ten where it is tiny.
 pub(super) fn number(value: f64, unit: &str) -> String {
     const TINY: f64 = 1e-4;
     if value != 0.0 && value.abs() < TINY {
@@ -44,9 +44,9 @@ mod tests {
 
     #[test]
     fn findings_have_few_digits() {
-        assert_eq!(nano(631.3456e-9, "N"), "631.3 nN");
-        assert_eq!(nano(-19.044e-9, "m"), "-19.04 nm");
-        assert_eq!(number(0.209_47, "s"), "0.2095 s");
+        assert_eq!(nano(631.3456e-9, "N"), "631 nN");
+        assert_eq!(nano(-19.044e-9, "m"), "-19 nm");
+        assert_eq!(number(0.209_47, "s"), "0.209 s");
         assert_eq!((number(2.99, ""), number(3.0411e-5, "nN")), ("2.99".into(), "3.0e-5 nN".into()));
         assert_eq!(
             (percent_of(0.8324), percent_of(0.99951), percent_of(1.0)),

@@ -1,6 +1,7 @@
 //! Claims about the shares of the variance: 17 to 20. They rest on the nine studies.
 
 use super::bench::{Bench, Region, closed};
+use super::dimensions::NO_EFFECT;
 use super::numbers::{change, nano};
 use super::{Claim, ClaimsError, Verdict};
 use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
@@ -30,6 +31,7 @@ pub(super) fn claims(bench: &Bench<'_>, studies: &[Reproduced]) -> Result<Vec<Cl
             figures: &["chk-10", "lg-4a", "dimensional"],
         })?,
         dimensional_percentage(&studies)?,
+        most_effective(&studies)?,
         studies.order(Order {
             number: 18,
             group: "environmental",
@@ -106,20 +108,14 @@ impl<'a> Studies<'a> {
             }
             findings.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
         }
-        let all = |wanted: Agreement| agreements.iter().all(|agreement| *agreement == wanted);
-        let verdict = if all(Agreement::Same) {
-            Verdict::Reproduced
-        } else if all(Agreement::Other) {
-            Verdict::NotReproduced
-        } else {
-            let each = phrases.iter().map(|(phrase, names)| format!("{}: {phrase}", names.join(", ")));
-            Verdict::Partly { range: each.collect::<Vec<_>>().join("; ") }
-        };
+        let same = agreements.iter().all(|agreement| *agreement == Agreement::Same);
+        let each = phrases.iter().map(|(phrase, names)| format!("{}: {phrase}", names.join(", ")));
         Ok(Claim {
             number: claim.number,
             source: claim.source,
             statement: claim.statement,
-            verdict,
+            verdict: if same { Verdict::Reproduced } else { Verdict::NotReproduced },
+            range: each.collect::<Vec<_>>().join("; "),
             finding: format!(
                 "Shares by total index, with those by first order in parentheses: {}.",
                 findings.join("; ")
@@ -173,20 +169,21 @@ fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String 
     format!("{}{rest}", visible.join(", "))
 }
 
-/// The verdict on printed percentages: whether all are ours under one reading.
-fn percentages(indices: &[IndexRecord], printed: &[(&str, f64)]) -> Verdict {
+/// The verdict on printed percentages and under which reading it stands: all have to be ours under one reading.
+fn percentages(indices: &[IndexRecord], printed: &[(&str, f64)]) -> (Verdict, String) {
     let close = |reading: fn(&EffectRecord) -> Option<f64>| {
         printed.iter().all(|(factor, percent)| {
             let ours = indices.iter().find(|index| index.factor == *factor).and_then(|index| reading(&index.effect));
             ours.is_some_and(|ours| (ours - percent).abs() <= CLOSE)
         })
     };
-    match (close(|effect| effect.share_first_order), close(|effect| effect.share_total)) {
-        (true, true) => Verdict::Reproduced,
-        (true, false) => Verdict::Partly { range: "as shares by first order, not by total index".to_owned() },
-        (false, true) => Verdict::Partly { range: "as shares by total index, not by first order".to_owned() },
-        (false, false) => Verdict::NotReproduced,
-    }
+    let (verdict, reading) = match (close(|effect| effect.share_first_order), close(|effect| effect.share_total)) {
+        (true, true) => (Verdict::Reproduced, "as shares by first-order and by total index"),
+        (true, false) => (Verdict::Reproduced, "as shares by first-order index, not by total index"),
+        (false, true) => (Verdict::Reproduced, "as shares by total index, not by first-order index"),
+        (false, false) => (Verdict::NotReproduced, "neither as shares by first-order nor by total index"),
+    };
+    (verdict, reading.to_owned())
 }
 
 /// The printed percentages beside ours.
@@ -217,13 +214,41 @@ fn percentage_setting(studies: &Studies<'_>, group: &'static str) -> Result<Stri
 fn dimensional_percentage(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
     let (_, indices) = studies.printed("dimensional")?;
     let printed = published("dimensional", PRINTED).shares;
+    let (verdict, range) = percentages(indices, printed);
     Ok(Claim {
         number: 17,
         source: "LG fig. 4a",
         statement: "Under LuGre friction the thickness has a share of 76 % among the dimensions.",
-        verdict: percentages(indices, printed),
+        verdict,
+        range,
         finding: format!("Our shares by first order and by total index: {}.", side_by_side(indices, printed)),
         setting: percentage_setting(studies, "dimensional")?,
+        figures: &["lg-4a", "dimensional"],
+    })
+}
+
+/// Claim 17, what LG's text says of the width. A printed percentage above half is that of the most effective factor.
+fn most_effective(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
+    let (study, indices) = studies.printed("dimensional")?;
+    let printed = published("dimensional", PRINTED).shares;
+    let (order, _) = order_of(study);
+    let most = printed.iter().find(|(factor, percent)| *percent > 50.0 && *factor != "width");
+    let verdict = match most {
+        Some((factor, percent)) => Verdict::Contradicted { own: format!("{percent} % for the {factor} (LG fig. 4a)") },
+        None if order.ours.first() == Some(&"width") => Verdict::Reproduced,
+        None => Verdict::NotReproduced,
+    };
+    Ok(Claim {
+        number: 17,
+        source: "LG, text",
+        statement: "The width is the most effective dimension.",
+        verdict,
+        range: format!("ours: {}", order.ours.join(" > ")),
+        finding: format!(
+            "Shares by total index, with those by first-order index in parentheses: {}.",
+            shares_in_words(indices, &order)
+        ),
+        setting: format!("{} LuGre friction.", studies.setting("dimensional")?),
         figures: &["lg-4a", "dimensional"],
     })
 }
@@ -241,11 +266,20 @@ fn environmental_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result
     let (by_modulus, by_velocity) = (over("elastic_modulus")?, over("velocity")?);
     // Variances of straight lines are to each other as the squares of their rises.
     let needed = by_modulus * (percent("velocity") / percent("elastic_modulus")).sqrt();
+    let (verdict, range) = percentages(indices, printed);
+    let visible = needed / bench.force(&nominal, &options)? > NO_EFFECT;
+    let verdict = match verdict {
+        Verdict::NotReproduced if visible => {
+            Verdict::Contradicted { own: "figure 3a, in which the velocity has no effect".to_owned() }
+        }
+        verdict => verdict,
+    };
     Ok(Claim {
         number: 18,
         source: "LG fig. 4b",
         statement: "Under LuGre friction Young's modulus has a share of 74 % and the velocity one of 26 %.",
-        verdict: percentages(indices, printed),
+        verdict,
+        range,
         finding: format!(
             "Our shares by first order and by total index: {}. Over its range Young's modulus changes F_cr by {}; for the \
              printed ratio the velocity would have to change it by about {}, and changes it by {}.",
@@ -294,9 +328,10 @@ fn general_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim
     let (among, (low, high)) = thickness_among(printed);
     let product = is_product(bench)?;
     let apart = low > alone + ROUNDED || high < alone - ROUNDED;
-    let verdict = match percentages(indices, printed) {
+    let (verdict, range) = percentages(indices, printed);
+    let verdict = match verdict {
         Verdict::NotReproduced if product && apart => {
-            Verdict::Contradicts { own: format!("{alone} % for the thickness among the dimensions (LG fig. 4a)") }
+            Verdict::Contradicted { own: format!("{alone} % for the thickness among the dimensions (LG fig. 4a)") }
         }
         verdict => verdict,
     };
@@ -319,6 +354,7 @@ fn general_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim
         statement: "Under LuGre friction the shares of all factors are 80 % for the thickness, 12 % for the length, 5 % for \
                     the width and 3 % for Young's modulus.",
         verdict,
+        range,
         finding: format!(
             "Our shares by first order and by total index: {}. {consequence}.",
             side_by_side(indices, printed)
@@ -344,25 +380,19 @@ fn outweigh(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
         let total = |record: EstimateRecord| give_or_take(record);
         findings.push(format!("{} against {} ({})", total(dimensional), total(environmental), friction.name));
     }
-    let all = |wanted: Standing| standings.iter().all(|(_, standing)| *standing == wanted);
-    let verdict = if all(Standing::Kept) {
-        Verdict::Reproduced
-    } else if all(Standing::Broken) {
-        Verdict::NotReproduced
-    } else {
-        let word = |standing: &Standing| match standing {
-            Standing::Kept => "so",
-            Standing::Broken => "the other way round",
-            Standing::Undecided | Standing::Unseen => "not decided at this sample size",
-        };
-        let each = standings.iter().map(|(name, standing)| format!("{name}: {}", word(standing)));
-        Verdict::Partly { range: each.collect::<Vec<_>>().join("; ") }
+    let all = standings.iter().all(|(_, standing)| *standing == Standing::Kept);
+    let word = |standing: &Standing| match standing {
+        Standing::Kept => "so",
+        Standing::Broken => "the other way round",
+        Standing::Undecided | Standing::Unseen => "not decided at this sample size",
     };
+    let each = standings.iter().map(|(name, standing)| format!("{name}: {}", word(standing)));
     Ok(Claim {
         number: 20,
         source: "CHK fig. 16, LG fig. 4c",
         statement: "The dimensions of the cantilever outweigh the environment.",
-        verdict,
+        verdict: if all { Verdict::Reproduced } else { Verdict::NotReproduced },
+        range: each.collect::<Vec<_>>().join("; "),
         finding: format!(
             "Total indices of the dimensional against the environmental factors: {}.",
             findings.join(", ")

@@ -4,7 +4,7 @@ use crate::reproduce::order::VISIBLE;
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup};
 use apportion::report::document::{Cell, Column, Mark, OnPhone, Part, Table};
 use apportion::report::format::{give_or_take, words};
-use apportion::report::{EffectRecord, IndexRecord, IntervalRecord, fixed, listed, share_of_runs};
+use apportion::report::{EffectRecord, IndexRecord, fixed, listed, share_of_runs};
 
 /// The factors of a study, the largest total share first.
 fn ranked(study: &Reproduced) -> Vec<(&IndexRecord, f64)> {
@@ -15,36 +15,22 @@ fn ranked(study: &Reproduced) -> Vec<(&IndexRecord, f64)> {
     ranked
 }
 
-/// `46.1 ± 0.2 %`, with a second decimal where the half width needs it; the share alone where it has no interval, or one
-/// that does not reach the last digit.
-pub(super) fn percent(share: Option<f64>, interval: Option<IntervalRecord>) -> String {
-    const LAST_DIGIT: f64 = 0.005;
-    let Some(share) = share else { return "–".to_owned() };
-    let half_width = interval.map(|IntervalRecord { low, high }| (high - low) / 2.0);
-    match half_width {
-        None => format!("{} %", fixed(share, 1)),
-        Some(half_width) if half_width < LAST_DIGIT => format!("{} %", fixed(share, 2)),
-        Some(half_width) => {
-            let digits = if half_width < 0.095 { 2 } else { 1 };
-            format!("{} ± {} %", fixed(share, digits), fixed(half_width, digits))
-        }
-    }
+/// An index in percent of the variance, to a whole percent; one decimal below 10 %.
+fn percent(index: f64) -> String {
+    format!("{} %", fixed(100.0 * index, if index < 0.0995 { 1 } else { 0 }))
 }
 
-/// A percentage in a column whose heading has the unit.
-fn plain(percentage: String) -> Cell {
-    percentage.trim_end_matches(" %").into()
+/// A share in percent in a column whose heading has the unit.
+fn share(share: Option<f64>) -> Cell {
+    share.map_or_else(|| "–".to_owned(), |share| fixed(share, 1)).into()
 }
 
 /// How sure it is that the leader leads.
 fn certainty(effect: &EffectRecord) -> String {
     match effect.probability_first {
-        Some(p) if p > 0.999 => "it leads for certain (> 99.9 %)".to_owned(),
-        Some(p) if p < 0.95 => {
-            format!("it cannot be told apart from the next: it leads with a probability of {} %", fixed(100.0 * p, 1))
-        }
-        Some(p) => format!("it leads with a probability of {} %", fixed(100.0 * p, 1)),
-        None => "one replicate cannot tell how sure that is".to_owned(),
+        Some(p) if p > 0.999 => "largest with probability > 0.999".to_owned(),
+        Some(p) => format!("largest with probability {}", fixed(p, 3)),
+        None => "one replicate gives no probability".to_owned(),
     }
 }
 
@@ -59,9 +45,9 @@ pub(super) fn table(studies: &[Reproduced]) -> Table {
         let cells = FRICTIONS.iter().map(|friction| cell(*group, *friction));
         [Cell::marked(title(*group), Mark::Strong)].into_iter().chain(cells).collect()
     };
-    let caption = "The leading factor of each study: its share of the sum of the total indices S_T and of the first-order \
-                   indices S_1 with 95 % intervals, how sure it is that it leads, and the factors that follow with their \
-                   total shares, if half a percent or more.";
+    let caption = "The leading factor of each study: the part of the variance of the critical force that it explains alone \
+                   (first-order index S_1) and with all its interactions (total index S_T), and the factors that follow \
+                   with theirs.";
     let frictions = FRICTIONS.iter().map(|friction| Column::text(format!("{} friction", friction.name)));
     let columns = [Column::text("")].into_iter().chain(frictions);
     Table { on_phone: OnPhone::StackLabelled, ..Table::new(caption, columns).with_rows(GROUPS.iter().map(row)) }
@@ -79,47 +65,25 @@ fn title(group: StudyGroup) -> &'static str {
 fn leader(study: &Reproduced) -> Cell {
     let ranked = ranked(study);
     let Some((first, rest)) = ranked.split_first() else { return "no indices".into() };
-    let effect = &first.0.effect;
+    let explained = |index: &IndexRecord| {
+        let EffectRecord { first_order, total, .. } = &index.effect;
+        format!("{} alone, {} with interactions", percent(first_order.estimate), percent(total.estimate))
+    };
     let others = rest.iter().filter(|(_, share)| *share >= VISIBLE);
-    let others: Vec<String> =
-        others.map(|(index, share)| format!("{} {} %", words(&index.factor), fixed(*share, 1))).collect();
+    let others: Vec<String> = others
+        .map(|(index, _)| format!("{} ({})", words(&index.factor), percent(index.effect.total.estimate)))
+        .collect();
     let followed = if others.is_empty() { "nothing else".to_owned() } else { others.join(", ") };
     Cell {
-        note: format!(
-            "{} of S_T, {} of S_1; {}; then {followed}",
-            percent(effect.share_total, effect.share_total_interval),
-            percent(effect.share_first_order, effect.share_first_order_interval),
-            certainty(effect)
-        ),
+        note: format!("{}; {}; then {followed}", explained(first.0), certainty(&first.0.effect)),
         ..Cell::marked(words(&first.0.factor), Mark::Strong)
     }
 }
 
-/// A paragraph for the top of the page: who leads in each group of studies.
+/// A paragraph for the top of the page: what decides the force, and where the model does not hold.
 pub(super) fn paragraph(studies: &[Reproduced]) -> Option<String> {
     let sentences: Vec<String> = [2, 0, 1].iter().filter_map(|&place| sentence(studies, GROUPS[place])).collect();
-    (!sentences.is_empty()).then(|| {
-        format!("{}{}{}{}", sentences.join(" "), sureness(studies), interactions(studies), where_it_holds(studies))
-    })
-}
-
-/// How much of the variance is interaction where all factors vary.
-fn interactions(studies: &[Reproduced]) -> String {
-    let general = studies.iter().filter(|study| study.group.key == "general");
-    let sums = general.filter_map(|study| Some(study.result.outputs.first()?.sum_first_order?.estimate));
-    let sums: Vec<f64> = sums.collect();
-    let (Some(least), Some(most)) = (sums.iter().copied().reduce(f64::min), sums.iter().copied().reduce(f64::max))
-    else {
-        return String::new();
-    };
-    let percent = |sum: f64| fixed(100.0 * (1.0 - sum), 0);
-    format!(
-        " In the general studies the first-order indices sum to {} to {}, so {} to {} % of the variance is interaction.",
-        fixed(least, 2),
-        fixed(most, 2),
-        percent(most),
-        percent(least)
-    )
+    (!sentences.is_empty()).then(|| format!("{}{}", sentences.join(" "), where_it_holds(studies)))
 }
 
 /// On how many of the runs the model leaves its range, by the flag that is raised most.
@@ -138,49 +102,46 @@ fn where_it_holds(studies: &[Reproduced]) -> String {
     )
 }
 
-/// How sure it is that the leaders lead, as far as the error of sampling goes.
-fn sureness(studies: &[Reproduced]) -> String {
-    let probability = |study: &Reproduced| ranked(study).first().and_then(|(index, _)| index.effect.probability_first);
-    match studies.iter().map(probability).collect::<Option<Vec<f64>>>() {
-        Some(all) if all.iter().all(|p| *p > 0.999) => {
-            format!(" Each of these {} leads is certain to more than 99.9 %, as far as sampling goes.", all.len())
-        }
-        Some(all) => {
-            let least = all.iter().copied().fold(1.0, f64::min);
-            format!(" The least certain of these leads has a probability of {} %.", fixed(100.0 * least, 1))
-        }
-        None => String::new(),
-    }
-}
-
+/// `Thickness explains 33 % of the variance of the critical force alone and 67 % with its interactions (Coulomb); ...`.
 fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
-    let leaders: Vec<(Friction, &IndexRecord, f64)> = studies
+    let leaders: Vec<(Friction, &IndexRecord)> = studies
         .iter()
         .filter(|study| study.group == group)
-        .filter_map(|study| ranked(study).first().map(|(index, share)| (study.friction, *index, *share)))
+        .filter_map(|study| ranked(study).first().map(|(index, _)| (study.friction, *index)))
         .collect();
-    let (_, first, _) = leaders.first()?;
     let among = match group.key {
         "dimensional" => "Among the dimensions alone",
         "environmental" => "Among the factors of the environment alone",
         _ => "Of all eight factors together",
     };
-    let alike = leaders.iter().all(|(_, index, _)| index.factor == first.factor);
-    let said: Vec<String> = leaders
+    let numbers = |index: &IndexRecord| {
+        let EffectRecord { first_order, total, .. } = &index.effect;
+        (percent(first_order.estimate), percent(total.estimate))
+    };
+    // Friction models with the same factor and the same numbers are named together.
+    let mut groups: Vec<(&str, (String, String), Vec<&str>)> = Vec::new();
+    for (friction, index) in &leaders {
+        match groups.iter_mut().find(|(factor, same, _)| *factor == index.factor && *same == numbers(index)) {
+            Some((.., frictions)) => frictions.push(friction.name),
+            None => groups.push((&index.factor, numbers(index), vec![friction.name])),
+        }
+    }
+    let said: Vec<String> = groups
         .iter()
-        .map(|(friction, index, share)| match alike {
-            true => format!("{} % ({})", fixed(*share, 0), friction.name),
-            false => format!("{} under {} friction ({} %)", words(&index.factor), friction.name, fixed(*share, 0)),
+        .enumerate()
+        .map(|(place, (factor, (alone, together), frictions))| {
+            let under = format!("under {} friction", listed(frictions));
+            match place {
+                0 => format!(
+                    "{} explains {alone} of the variance of the critical force alone and {together} with its interactions \
+                     {under}",
+                    words(factor)
+                ),
+                _ => format!("{} {alone} and {together} {under}", words(factor)),
+            }
         })
         .collect();
-    Some(match alike {
-        true => format!(
-            "{among}, {} decides the critical force: its share of the total indices is {}.",
-            words(&first.factor),
-            listed(&said)
-        ),
-        false => format!("{among}, it is {}.", listed(&said)),
-    })
+    (!said.is_empty()).then(|| format!("{among}, {}.", said.join("; ")))
 }
 
 /// Every share of every study beside the published one, for the table of all shares.
@@ -199,8 +160,8 @@ pub(super) fn all_shares(studies: &[Reproduced]) -> Vec<Vec<Cell>> {
                 words(factor).into(),
                 give_or_take(effect.first_order).into(),
                 give_or_take(effect.total).into(),
-                plain(percent(effect.share_first_order, None)),
-                plain(percent(effect.share_total, None)),
+                share(effect.share_first_order),
+                share(effect.share_total),
                 printed.map_or_else(String::new, |(_, share)| share.to_string()).into(),
             ]);
         }

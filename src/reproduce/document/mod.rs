@@ -1,15 +1,15 @@
-//! The document of the reproduction: verdicts, figures, readings, tables and provenance.
+//! The document of the reproduction: verdicts, figures, percentages, tables and provenance.
 
 mod answers;
+mod constants;
 mod figures;
 mod provenance;
-mod readings;
 mod typeset;
 mod verdicts;
 
 use super::claims::{claims_csv, claims_json};
 use super::figures::ANIMATION_STEM;
-use super::readings::{readings_csv, readings_json, small_samples_csv};
+use super::percentages::{self, percentages_csv};
 use super::{ReproduceError, Reproduction, shares_csv};
 use apportion::report::document::{Column, DataFile, Document, Part, Section, Table};
 use apportion::report::result_json;
@@ -21,7 +21,12 @@ use apportion::report::result_json;
 /// [`ReproduceError`] if the claims cannot be written.
 pub fn document(reproduction: &Reproduction) -> Result<Document, ReproduceError> {
     let before = [answers_section(reproduction), claims_section(reproduction)];
-    let after = [readings::section(reproduction), shares_section(reproduction), Some(provenance_section(reproduction))];
+    let after = [
+        percentages_section(reproduction),
+        shares_section(reproduction),
+        Some(constants::section()),
+        Some(provenance_section(reproduction)),
+    ];
     let figures = figures::sections(reproduction).into_iter().map(Some);
     Ok(Document {
         name: "index".to_owned(),
@@ -35,7 +40,7 @@ pub fn document(reproduction: &Reproduction) -> Result<Document, ReproduceError>
     })
 }
 
-/// The files for programs: results, shares, claims and readings, and the numbers of every figure.
+/// The files for programs: results, shares, claims and percentages, and the numbers of every figure.
 fn files(reproduction: &Reproduction) -> Result<Vec<DataFile>, ReproduceError> {
     let mut files = Vec::new();
     let mut add = |name: String, text: String| files.push(DataFile { name, text });
@@ -49,10 +54,8 @@ fn files(reproduction: &Reproduction) -> Result<Vec<DataFile>, ReproduceError> {
         add("claims.csv".to_owned(), claims_csv(&reproduction.claims));
         add("claims.json".to_owned(), claims_json(&reproduction.claims)?);
     }
-    if let Some(readings) = &reproduction.readings {
-        add("readings.csv".to_owned(), readings_csv(readings));
-        add("readings.json".to_owned(), readings_json(readings));
-        add("small-samples.csv".to_owned(), small_samples_csv(readings));
+    if !reproduction.percentages.is_empty() {
+        add("percentages.csv".to_owned(), percentages_csv(&reproduction.percentages));
     }
     if let Some(animation) = &reproduction.animation {
         for (ending, text) in [("html", &animation.html), ("csv", &animation.csv), ("json", &animation.json)] {
@@ -83,7 +86,6 @@ fn lead(reproduction: &Reproduction) -> Vec<String> {
     if !reproduction.claims.is_empty() {
         lead.push(verdicts::sentence(&reproduction.claims));
     }
-    lead.extend(readings::paragraph(reproduction));
     lead
 }
 
@@ -102,6 +104,15 @@ fn claims_section(reproduction: &Reproduction) -> Option<Section> {
     let parts =
         vec![verdicts::table(&reproduction.claims), verdicts::details(&reproduction.claims, &reproduction.figures)];
     Some(Section::new("claims", "Are the papers right?", parts))
+}
+
+fn percentages_section(reproduction: &Reproduction) -> Option<Section> {
+    let rows = &reproduction.percentages;
+    if rows.is_empty() {
+        return None;
+    }
+    let parts = vec![Part::List(percentages::summary(rows)), Part::Table(percentages::table(rows))];
+    Some(Section::new("percentages", "The percentages that LG prints", parts))
 }
 
 fn shares_section(reproduction: &Reproduction) -> Option<Section> {

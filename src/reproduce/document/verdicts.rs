@@ -10,8 +10,8 @@ use apportion::report::document::{Cell, Column, Link, Mark, OnPhone, Part, Table
 fn badge(verdict: &Verdict) -> Cell {
     let mark = match verdict {
         Verdict::Reproduced => Mark::Good,
-        Verdict::Partly { .. } => Mark::Mixed,
-        Verdict::NotReproduced | Verdict::Contradicts { .. } => Mark::Bad,
+        Verdict::NotReproduced => Mark::Mixed,
+        Verdict::Contradicted { .. } => Mark::Bad,
     };
     Cell::marked(verdict.word(), mark)
 }
@@ -19,18 +19,18 @@ fn badge(verdict: &Verdict) -> Cell {
 /// The table of verdicts, a line or two each.
 pub(super) fn table(claims: &[Claim]) -> Part {
     let row = |claim: &Claim| {
-        let place = match &claim.verdict {
-            Verdict::Contradicts { own } => format!("the paper's own {own}"),
-            other => other.place().to_owned(),
-        };
+        let own = claim.verdict.own();
+        let own = if own.is_empty() { String::new() } else { format!("by the paper's own {own}") };
         vec![
             claim.number.to_string().into(),
             format!("{} ({})", typeset(claim.statement), claim.source).into(),
-            Cell { note: typeset(&place), ..badge(&claim.verdict) },
+            Cell { note: typeset(&own), ..badge(&claim.verdict) },
+            typeset(&claim.range).into(),
         ]
     };
-    let caption = "Each claim of the papers, and our answer: computed, not typed in.";
-    let table = Table::new(caption, Column::list(3, &["", "claim", "verdict, and where"]));
+    let caption = "Each claim of the papers, and our answer, as the paper shows it (at its figure's scene, with its \
+                   constants) and over the whole ranges of the general study.";
+    let table = Table::new(caption, Column::list(4, &["", "claim", "as the paper shows it", "over the whole ranges"]));
     Part::Table(Table { on_phone: OnPhone::Stack, ..table.with_rows(claims.iter().map(row)) })
 }
 
@@ -53,20 +53,16 @@ pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
     }
 }
 
-/// `The papers make 20 claims, some of two parts; of 24 answers 9 are reproduced, 10 partly so, ...`.
+/// `Of 25 answers to the papers' 20 claims, 14 are reproduced, 8 are not, and 3 are contradicted ...`.
 pub(super) fn sentence(claims: &[Claim]) -> String {
-    let count = |test: fn(&Verdict) -> bool| claims.iter().filter(|claim| test(&claim.verdict)).count();
-    let parts = [
-        (count(|v| *v == Verdict::Reproduced), "are reproduced"),
-        (count(|v| matches!(v, Verdict::Partly { .. })), "partly so"),
-        (count(|v| *v == Verdict::NotReproduced), "not reproduced"),
-        (count(|v| matches!(v, Verdict::Contradicts { .. })), "contradicted by what the papers themselves give"),
-    ];
-    let said: Vec<String> = parts.iter().filter(|(n, _)| *n > 0).map(|(n, words)| format!("{n} {words}")).collect();
+    let count = |word: &str| claims.iter().filter(|claim| claim.verdict.word() == word).count();
     format!(
-        "The papers make {} claims, some of two parts; of {} answers {}.",
-        claims.last().map_or(0, |claim| claim.number),
+        "Of {} answers to the papers' {} claims, {} are reproduced, {} are not reproduced, and {} are contradicted by the \
+         same paper.",
         claims.len(),
-        apportion::report::listed(&said)
+        claims.last().map_or(0, |claim| claim.number),
+        count("reproduced"),
+        count("not reproduced"),
+        count("contradicted")
     )
 }

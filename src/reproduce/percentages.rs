@@ -1,0 +1,313 @@
+//! The percentages that LG prints, next to ours under each meaning that they most plausibly have.
+//!
+//! LG does not say of what its percentages are. [`percentages()`] gives our shares by first-order and by total index, of
+//! the critical force and of its logarithm, under each friction model and under LuGre friction with the viscous
+//! coefficient that brings the velocity to its printed share. Nothing is tuned beyond that one coefficient.
+
+use super::published::published;
+use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, STUDIES};
+use apportion::report::csv::{Csv, fields};
+use apportion::report::document::{Cell, Column, Table, Value};
+use apportion::report::{EffectRecord, fixed};
+use apportion::study::Study;
+
+/// Within so many percentage points a distance counts as met: three times the rounding of the printed numbers.
+const MET: f64 = 1.5;
+
+/// The friction model whose percentages are printed.
+const PRINTED: &str = "lugre";
+
+/// The viscous coefficient at which the velocity has its printed share, in place of the printed 1e-7 N s/m.
+const VISCOUS: &str = "afm.viscous_friction=0.3 N s/m";
+
+/// What the shares are of: an output and its symbol.
+const OUTPUTS: [(&str, &str); 2] = [("critical_force", "F_cr"), ("log_critical_force", "ln F_cr")];
+
+/// A kind of share: its symbol, and where an effect has it.
+type Measure = (&'static str, fn(&EffectRecord) -> Option<f64>);
+
+const MEASURES: [Measure; 2] =
+    [("S_1", |effect: &EffectRecord| effect.share_first_order), ("S_T", |effect: &EffectRecord| effect.share_total)];
+
+/// Our percentages in the three studies under one friction model, by one measure of one output.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Percentages {
+    /// The friction model.
+    pub friction: &'static str,
+    /// `S_1` or `S_T`, divided by the sum over the factors.
+    pub measure: &'static str,
+    /// `F_cr` or `ln F_cr`.
+    pub output: &'static str,
+    /// One entry per study, in the order of [`GROUPS`].
+    pub studies: Vec<StudyShares>,
+}
+
+/// The percentages of one study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StudyShares {
+    /// The study's group.
+    pub group: &'static str,
+    /// Each factor with its share in percent, in the order of the study.
+    pub shares: Vec<(String, f64)>,
+    /// Distance to the printed percentages in percentage points, see [`distance`].
+    pub distance: f64,
+}
+
+impl StudyShares {
+    fn share(&self, factor: &str) -> Option<f64> {
+        self.shares.iter().find(|(name, _)| name == factor).map(|(_, share)| *share)
+    }
+}
+
+impl Percentages {
+    fn name(&self) -> String {
+        format!("{} of {} under {} friction", self.measure, self.output, self.friction)
+    }
+
+    fn mean_distance(&self) -> f64 {
+        self.studies.iter().map(|study| study.distance).sum::<f64>() / self.studies.len() as f64
+    }
+
+    /// The part of the thickness among thickness, length and width in one study, in percent.
+    fn thickness_part(&self, group: &str) -> Option<f64> {
+        let study = self.studies.iter().find(|study| study.group == group)?;
+        thickness_part(|factor| study.share(factor))
+    }
+}
+
+fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+    let [t, l, w] = ["thickness", "length", "width"].map(share);
+    Some(100.0 * t? / (t? + l? + w?))
+}
+
+/// The printed percentage of a factor in the study of `group`, where there is one.
+fn printed(group: &str, factor: &str) -> Option<f64> {
+    published(group, PRINTED).shares.iter().find(|(name, _)| *name == factor).map(|(_, share)| *share)
+}
+
+/// The distance of `shares`, percentages of all factors of the study `group`, to those that LG prints, in percentage
+/// points: the root mean square of the differences over the printed factors and, as one more, the sum of all other
+/// factors, which is printed implicitly as what remains to 100. A printed factor without a share counts as one of 0.
+pub fn distance<'a>(group: &str, shares: impl IntoIterator<Item = (&'a str, f64)>) -> f64 {
+    let printed = published(group, PRINTED).shares;
+    let rest = 100.0 - printed.iter().map(|(_, share)| share).sum::<f64>();
+    let mut differences: Vec<f64> = printed.iter().map(|(_, share)| -share).chain([-rest]).collect();
+    for (factor, share) in shares {
+        differences[printed.iter().position(|(name, _)| *name == factor).unwrap_or(printed.len())] += share;
+    }
+    (differences.iter().map(|x| x * x).sum::<f64>() / differences.len() as f64).sqrt()
+}
+
+/// Runs the studies of the three groups under each friction model and the viscous variant, and shares out both outputs by
+/// both measures.
+///
+/// # Errors
+/// [`ReproduceError`] if a study cannot be run or its indices have no positive sum.
+pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, ReproduceError> {
+    let viscous = ("viscous LuGre", PRINTED, &[VISCOUS][..]);
+    let models = FRICTIONS.iter().map(|friction| (friction.name, friction.key, &[][..])).chain([viscous]);
+    let mut rows = Vec::new();
+    for (friction, key, settings) in models {
+        let first = rows.len();
+        for (_, output) in OUTPUTS {
+            let row = |(measure, _): Measure| Percentages { friction, measure, output, studies: Vec::new() };
+            rows.extend(MEASURES.map(row));
+        }
+        for group in GROUPS {
+            let name = format!("{key}-{}", group.key);
+            let of_study = shares_of_study(&name, group.key, settings, effort, threads)?;
+            rows[first..].iter_mut().zip(of_study).for_each(|(row, shares)| row.studies.push(shares));
+        }
+    }
+    Ok(rows)
+}
+
+/// The shares of one study: for each output, by each measure.
+fn shares_of_study(
+    name: &str,
+    group: &'static str,
+    settings: &[&str],
+    effort: Effort,
+    threads: usize,
+) -> Result<Vec<StudyShares>, ReproduceError> {
+    let text = STUDIES.iter().find(|(study, _)| *study == name).map_or("", |(_, text)| text);
+    let names = OUTPUTS.map(|(output, _)| format!("{output:?}")).join(", ");
+    let quick = if effort == Effort::Quick { &QUICK[..] } else { &[] };
+    let overrides: Vec<String> = [format!("outputs=[{names}]")]
+        .into_iter()
+        .chain(settings.iter().chain(quick).map(|setting| (*setting).to_owned()))
+        .collect();
+    let study = Study::parse(text, format!("studies/{name}.toml").as_ref(), &overrides)?;
+    let result = apportion::report::ResultFile::new(&study, &study.runner().threads(threads).run()?);
+    let mut of_study = Vec::new();
+    for output in &result.outputs {
+        for (measure, share) in MEASURES {
+            let indices = output.indices.iter().flatten();
+            let shares = indices.map(|index| Some((index.factor.clone(), share(&index.effect)?))).collect();
+            let shares: Vec<(String, f64)> = Option::filter(shares, |shares: &Vec<_>| !shares.is_empty())
+                .ok_or_else(|| ReproduceError::NoPercentages { study: name.to_owned(), measure })?;
+            let distance = distance(group, shares.iter().map(|(factor, share)| (factor.as_str(), *share)));
+            of_study.push(StudyShares { group, shares, distance });
+        }
+    }
+    Ok(of_study)
+}
+
+/// What the percentages say: that LG does not define its own and that they contradict each other; which of ours are
+/// nearest; and what the share of the velocity takes.
+pub fn summary(rows: &[Percentages]) -> Vec<String> {
+    [undefined(rows), nearest(rows), velocity(rows)].into_iter().flatten().collect()
+}
+
+fn undefined(rows: &[Percentages]) -> Option<String> {
+    let ours = rows.iter().find(|row| (row.friction, row.measure, row.output) == ("LuGre", "S_1", "F_cr"))?;
+    Some(format!(
+        "LG does not say of what its percentages are, and they contradict each other: of thickness, length and width \
+         together, the thickness has {} % in the dimensional and {} % in the general study, where a force that is a \
+         product of powers gives the same part in both (ours: {} and {} %).",
+        fixed(printed("dimensional", "thickness")?, 0),
+        fixed(thickness_part(|factor| printed("general", factor))?, 1),
+        fixed(ours.thickness_part("dimensional")?, 1),
+        fixed(ours.thickness_part("general")?, 1)
+    ))
+}
+
+fn nearest(rows: &[Percentages]) -> Option<String> {
+    let nearest = rows.iter().min_by(|a, b| a.mean_distance().total_cmp(&b.mean_distance()))?;
+    let meets_all = nearest.studies.iter().all(|study| study.distance <= MET);
+    let distances = nearest.studies.iter().map(|study| format!("{} {}", study.group, fixed(study.distance, 1)));
+    Some(format!(
+        "{} of all three studies to {MET} points: the nearest on the mean is {} ({} points).",
+        if meets_all { "One reading meets the percentages" } else { "No reading meets the percentages" },
+        nearest.name(),
+        distances.collect::<Vec<_>>().join(", ")
+    ))
+}
+
+fn velocity(rows: &[Percentages]) -> Option<String> {
+    const GROUP: &str = "environmental";
+    let share = |friction: &str| {
+        let row = rows.iter().find(|row| (row.friction, row.measure, row.output) == (friction, "S_1", "F_cr"))?;
+        row.studies.iter().find(|study| study.group == GROUP)?.share("velocity")
+    };
+    Some(format!(
+        "The {} % printed for the velocity take a viscous coefficient of 0.3 N s/m ({} %) instead of the 1e-7 N s/m that LG \
+         prints ({} %).",
+        printed(GROUP, "velocity")?,
+        fixed(share("viscous LuGre")?, 1),
+        fixed(share("LuGre")?, 1)
+    ))
+}
+
+/// The printed factors of each study with the headings of their columns; each study ends in its distance.
+fn columns() -> Vec<(&'static str, Option<&'static str>)> {
+    let of_group = |group: &'static str| {
+        let factors = published(group, PRINTED).shares.iter().map(|(factor, _)| Some(*factor));
+        factors.chain([None]).map(move |factor| (group, factor))
+    };
+    GROUPS.iter().flat_map(|group| of_group(group.key)).collect()
+}
+
+/// The table of the page: what is printed, then a row for each friction model, output and measure.
+pub fn table(rows: &[Percentages]) -> Table {
+    let heading = |(group, factor): &(&str, Option<&str>)| match factor {
+        Some(factor) => Column::number(format!("{group}: {}", factor.replace('_', " "))),
+        None => Column::number(format!("{group}: distance")),
+    };
+    let columns = columns();
+    let number = |value: Option<f64>| value.map_or_else(Cell::default, |value| fixed(value, 1).into());
+    let first = ["printed", "", ""].map(Cell::from).into_iter();
+    let first = first.chain(columns.iter().map(|(group, factor)| number(factor.and_then(|f| printed(group, f)))));
+    let row = |row: &Percentages| -> Vec<Cell> {
+        let cell = |(group, factor): &(&str, Option<&str>)| {
+            let study = row.studies.iter().find(|study| study.group == *group);
+            number(study.and_then(|study| factor.map_or(Some(study.distance), |factor| study.share(factor))))
+        };
+        [row.friction, row.output, row.measure].map(Cell::from).into_iter().chain(columns.iter().map(cell)).collect()
+    };
+    let caption = "Our shares in percent under each reading, and their distance to the printed percentages of each study: \
+                   the root mean square, in percentage points, over the factors with a printed percentage and all others \
+                   taken together.";
+    let names = ["friction", "output", "share of the sum of"].map(Column::text).into_iter();
+    Table::new(caption, names.chain(columns.iter().map(heading)))
+        .with_rows([first.collect()].into_iter().chain(rows.iter().map(row)))
+}
+
+/// One line per friction model, output, measure, study and factor; percentages and distances as in [`table`].
+pub fn percentages_csv(rows: &[Percentages]) -> String {
+    let names = ["friction", "output", "measure", "group", "factor", "share", "published", "distance"];
+    let mut csv = Csv::new(fields(&names, &[]));
+    for row in rows {
+        for study in &row.studies {
+            for (factor, share) in &study.shares {
+                csv.row::<Value>([
+                    row.friction.into(),
+                    row.output.into(),
+                    row.measure.into(),
+                    study.group.into(),
+                    factor.into(),
+                    (*share).into(),
+                    printed(study.group, factor).into(),
+                    study.distance.into(),
+                ]);
+            }
+        }
+    }
+    csv.text()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_shares_have_distance_zero_however_the_rest_is_spread() {
+        for group in GROUPS {
+            let printed = published(group.key, PRINTED).shares.iter().copied();
+            let rest = 100.0 - printed.clone().map(|(_, share)| share).sum::<f64>();
+            assert_eq!(distance(group.key, printed.chain([("height", rest - 5.0), ("adhesion", 5.0)])), 0.0);
+        }
+    }
+
+    #[test]
+    fn a_distance_is_a_root_mean_square() {
+        // 1e-12: rounding of percentages. With one printed factor the rest differs by as much.
+        let shares = [("thickness", 55.3), ("length", 31.1), ("width", 13.6), ("height", 0.0)];
+        assert!((distance("dimensional", shares) - 20.7).abs() < 1e-12);
+        // 74 and 26 are missed by 3, the rest is met: the root of (9 + 9 + 0)/3.
+        let shares = [("elastic_modulus", 77.0), ("velocity", 23.0)];
+        assert!((distance("environmental", shares) - 6_f64.sqrt()).abs() < 1e-12);
+        let none: [(&str, f64); 0] = [];
+        assert!((distance("dimensional", none) - ((76.0_f64.powi(2) + 24.0_f64.powi(2)) / 2.0).sqrt()).abs() < 1e-12);
+    }
+
+    /// Exact shares of a product of powers of uniform factors, of the force and of its logarithm.
+    #[test]
+    fn the_shares_are_those_of_the_product_form() {
+        let rows = percentages(Effort::Quick, 0).unwrap();
+        assert_eq!(rows.len(), 4 * OUTPUTS.len() * MEASURES.len());
+        let share = |output: &str, factor: &str| {
+            let row = |row: &&Percentages| (row.friction, row.measure, row.output) == ("LuGre", "S_1", output);
+            rows.iter().find(row).unwrap().studies[0].share(factor).unwrap()
+        };
+        // V(t^3), V(L^-2), V(w) over squared means; Var(ln) of the same powers. 0.3: the error at 8192 base samples.
+        let [t, l, w] = [1.05755, 0.595_238, 0.259_516];
+        assert!((share("F_cr", "thickness") - 100.0 * t / (t + l + w)).abs() < 0.3);
+        let variance_of_log = |a: f64, b: f64| {
+            let product = a * b / (b - a).powi(2) * (b / a).ln().powi(2);
+            1.0 - product
+        };
+        let [t, l, w] =
+            [9.0 * variance_of_log(0.25, 2.5), 4.0 * variance_of_log(200.0, 700.0), variance_of_log(5.0, 80.0)];
+        assert!((share("ln F_cr", "thickness") - 100.0 * t / (t + l + w)).abs() < 0.3);
+        assert_eq!(summary(&rows).len(), 3);
+        // The viscous variant brings the velocity to what is printed, and the force of the others does not know it.
+        let distance = |friction: &str| {
+            let row = |row: &&Percentages| (row.friction, row.measure, row.output) == (friction, "S_1", "F_cr");
+            rows.iter().find(row).unwrap().studies[1].distance
+        };
+        assert!(distance("viscous LuGre") < MET && distance("LuGre") > 10.0);
+        let csv = percentages_csv(&rows);
+        assert_eq!(csv::Reader::from_reader(csv.as_bytes()).records().count(), rows.len() * (4 + 4 + 8));
+    }
+}
