@@ -114,7 +114,7 @@ pub fn prepare_folder(folder: &Path) -> Result<(), WriteError> {
 }
 
 /// Checks that `path` can be written: a file can be created beside it, its name is one the system takes, and it is no
-/// folder.
+/// folder. What runs that were killed have left behind half written is removed.
 ///
 /// # Errors
 /// [`WriteError`] with the reason.
@@ -132,7 +132,10 @@ pub fn prepare_file(path: &Path) -> Result<(), WriteError> {
         match std::fs::metadata(&target) {
             Ok(metadata) if !metadata.is_file() => Ok(()),
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
-            _ => temporary_in(folder)?.close(),
+            _ => {
+                remove_left_overs(folder);
+                temporary_in(folder)?.close()
+            }
         }
     };
     attempt().map_err(|source| WriteError { path: path.to_owned(), source })
