@@ -130,30 +130,56 @@ fn a_hundred_thousand_factors_are_refused_at_once() {
     refused(&folder, &["check", text(&path)], "100000 factors are too many: at most 10000 are possible");
 }
 
+/// Every key of a study that names a path, with one that leads out of the folder, by its name or through a link. Tables of
+/// measured values may lie anywhere: nothing but numbers is read from them.
 #[cfg(unix)]
 #[test]
-fn a_template_reads_no_file_outside_of_the_studys_folder_unless_it_says_so() {
+fn no_path_leads_out_of_the_studys_folder_unless_it_says_so() {
+    const TEMPLATE: &str = "template = \"own.in\"\n";
+    const KEYS: [(&str, &str, bool); 16] = [
+        ("template = \"../secret.in\"", "", true),
+        ("template = \"link.in\"", "", true),
+        ("files = [\"../secret.in\"]", TEMPLATE, true),
+        ("files = [\"link/secret.in\"]", TEMPLATE, true),
+        ("keep = \"/tmp/x\"", TEMPLATE, true),
+        ("keep = \"../../x\"", TEMPLATE, true),
+        ("keep = \"new/../../x\"", TEMPLATE, true),
+        ("keep = \"link\"", TEMPLATE, true),
+        ("keep = \"link/new\"", TEMPLATE, true),
+        ("keep = \"dangling\"", TEMPLATE, true),
+        ("keep = \"runs/of/mine\"", TEMPLATE, false),
+        ("depends_on = [\"../secret.in\"]", TEMPLATE, true),
+        ("directory = \"..\"", TEMPLATE, true),
+        ("outputs.z = { file = \"/etc/passwd\", regex = \"(.*)\" }", TEMPLATE, true),
+        ("outputs.z = { file = \"../y.out\", regex = \"(.*)\" }", TEMPLATE, true),
+        ("outputs.z = { file = \"out/y.out\", regex = \"(.*)\" }", TEMPLATE, false),
+    ];
     let folder = Folder::new();
     let inner = folder.path("inner");
     std::fs::create_dir(&inner).unwrap();
     folder.with("secret.in", "{{a}}\n");
     folder.with("inner/own.in", "{{a}}\n");
-    std::os::unix::fs::symlink("../secret.in", inner.join("link.in")).unwrap();
-    let study = |keys: &str| {
-        format!(
-            "model = \"command\"\n[command]\nprogram = [\"true\"]\n{keys}\noutputs.y = {{ regex = \"(.*)\" }}\n\
-             [[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n"
-        )
-    };
-    let outside = "the file lies outside of the study's folder";
-    for keys in
-        ["template = \"../secret.in\"", "template = \"link.in\"", "template = \"own.in\"\nfiles = [\"../secret.in\"]"]
-    {
-        let path = folder.with("inner/s.toml", study(keys));
-        let error = apportion::study::Study::load(&path, &[]).unwrap_err().to_string();
-        assert!(error.contains(outside) && error.contains("files_outside = true"), "{error}");
-        let allowed = folder.with("inner/s.toml", study(&format!("{keys}\nfiles_outside = true")));
-        apportion::study::Study::load(&allowed, &[]).unwrap();
+    for (target, link) in [("../secret.in", "link.in"), ("..", "link"), ("../nowhere", "dangling")] {
+        std::os::unix::fs::symlink(target, inner.join(link)).unwrap();
     }
-    apportion::study::Study::load(&folder.with("inner/s.toml", study("template = \"own.in\"")), &[]).unwrap();
+    let load = |keys: &str, more: &str| {
+        let study = format!(
+            "model = \"command\"\n[command]\nprogram = [\"true\"]\n{keys}\n{more}outputs.y = {{ regex = \"(.*)\" }}\n\
+             [[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n"
+        );
+        apportion::study::Study::load(&folder.with("inner/s.toml", study), &[]).map_err(|error| error.to_string())
+    };
+    for (keys, more, is_refused) in KEYS {
+        match load(keys, more) {
+            Ok(_) => assert!(!is_refused, "{keys}"),
+            Err(error) => assert!(is_refused && error.contains("files_outside = true"), "{keys}: {error}"),
+        }
+        if !keys.contains("dangling") {
+            load(keys, &format!("files_outside = true\n{more}")).unwrap();
+        }
+    }
+    folder.with("table.csv", "1\n2\n4\n7\n");
+    let measured = "model = \"expression\"\n[expression]\noutputs.y = \"a\"\n[[factor]]\nname = \"a\"\n\
+                    distribution = \"empirical\"\nfile = \"../table.csv\"\n";
+    apportion::study::Study::load(&folder.with("inner/s.toml", measured), &[]).unwrap();
 }

@@ -5,6 +5,7 @@ use sha2::{Digest, Sha256};
 use super::at::At;
 use super::context::{Context, Fault};
 use super::error::Problem;
+use super::paths::{Reach, resolve};
 use crate::files::read_whole;
 use crate::names::nearest;
 use crate::space::distribution::MeasuredFile;
@@ -38,7 +39,7 @@ pub(super) fn read(
     file: &At<String>,
     column: Option<&At<String>>,
 ) -> Result<(Vec<f64>, MeasuredFile), Fault> {
-    let path = context.path.parent().unwrap_or("".as_ref()).join(file.get_ref());
+    let path = resolve(context, file, Reach::Anywhere)?;
     let wrong = |line: Option<usize>, reason: String| {
         let place = line.map_or_else(|| path.display().to_string(), |line| format!("{}:{line}", path.display()));
         context.fault(file.span(), Problem::Measured { place, reason })

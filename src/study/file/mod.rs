@@ -25,6 +25,7 @@ mod names;
 mod noise;
 mod nominal;
 mod overrides;
+mod paths;
 mod read;
 mod resolve;
 mod schema;

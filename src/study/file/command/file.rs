@@ -52,7 +52,7 @@ pub struct CommandSection {
     #[serde(default)]
     pub env: BTreeMap<String, String>,
     /// Other files that decide its answers, relative to the study, such as its data: answers on record from before one of them
-    /// changed are not mixed with new ones. Sources that the program names or imports need no mention.
+    /// changed are not mixed with new ones. The program and the files among its arguments need no mention, what they import does.
     #[serde(default)]
     pub depends_on: Vec<At<String>>,
     /// Template of an input file, in which {{name}} stands for the value of a factor: the program then runs once for each
@@ -63,7 +63,7 @@ pub struct CommandSection {
     /// Files that are copied to the directory of each run, relative to the study.
     #[serde(default)]
     pub files: Vec<At<String>>,
-    /// Whether the template and the files may lie outside of the study's folder.
+    /// Whether the paths of this table may lead out of the study's folder.
     pub files_outside: Option<At<bool>>,
     /// Folder in which the directories of runs are kept, relative to the study; by default each is removed after its run.
     pub keep: Option<At<String>>,

@@ -4,7 +4,7 @@ pub(super) mod file;
 mod outputs;
 mod runs;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use serde_json::{Value, json};
@@ -15,6 +15,7 @@ use super::analysis::seconds;
 use super::context::{Context, Fault};
 use super::context::{choice, wrong};
 use super::error::Problem;
+use super::paths::{Reach, folder, resolve};
 use super::sections::{At, FactorSection};
 use super::subjects::CommandSubject;
 use super::units::own_inputs;
@@ -56,10 +57,9 @@ pub(super) fn subject(
         }
     };
     let arguments = arguments(context, key, program)?;
-    let folder = folder(context);
     let directory = match &section.directory {
-        None => folder.clone(),
-        Some(typed) => existing_directory(context, &folder, typed)?,
+        None => folder(context),
+        Some(typed) => existing_directory(context, section, typed)?,
     };
     let environment: Vec<(String, String)> = section.env.clone().into_iter().collect();
     if let Some((name, _)) =
@@ -106,7 +106,7 @@ pub(super) fn subject(
         stated.push(("depends_on", json!(section.depends_on.iter().map(At::get_ref).collect::<Vec<_>>())));
     }
     let depends_on =
-        section.depends_on.iter().map(|typed| existing_file(context, &folder, typed)).collect::<Result<_, _>>()?;
+        section.depends_on.iter().map(|typed| existing_file(context, section, typed)).collect::<Result<_, _>>()?;
     stated.push(("outputs", outputs::stated(&all)));
     let settings = CommandSettings {
         program: Program { arguments, directory, environment },
@@ -132,16 +132,14 @@ fn arguments(context: &Context<'_>, key: &At<CommandKey>, program: &[At<String>]
     Ok(program.iter().map(|argument| argument.get_ref().clone()).collect())
 }
 
-/// The folder of the study, absolute: programs run elsewhere.
-fn folder(context: &Context<'_>) -> PathBuf {
-    let folder = context.path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-    // Without the "." that stood for here.
-    absolute.components().collect()
+/// How far the paths of the study may lead.
+fn reach(section: &CommandSection) -> Reach {
+    let is_free = section.files_outside.as_ref().is_some_and(|allowed| *allowed.get_ref());
+    if is_free { Reach::Anywhere } else { Reach::Inside }
 }
 
-fn existing_file(context: &Context<'_>, folder: &Path, typed: &At<String>) -> Result<PathBuf, Fault> {
-    let path = folder.join(typed.get_ref());
+fn existing_file(context: &Context<'_>, section: &CommandSection, typed: &At<String>) -> Result<PathBuf, Fault> {
+    let path = resolve(context, typed, reach(section))?;
     if path.is_file() {
         return Ok(path);
     }
@@ -150,8 +148,8 @@ fn existing_file(context: &Context<'_>, folder: &Path, typed: &At<String>) -> Re
     Err(context.fault(typed.span(), Problem::ProgramFile { place, reason, help }))
 }
 
-fn existing_directory(context: &Context<'_>, folder: &Path, typed: &At<String>) -> Result<PathBuf, Fault> {
-    let directory = folder.join(typed.get_ref());
+fn existing_directory(context: &Context<'_>, section: &CommandSection, typed: &At<String>) -> Result<PathBuf, Fault> {
+    let directory = resolve(context, typed, reach(section))?;
     if directory.is_dir() {
         return Ok(directory);
     }
@@ -170,7 +168,6 @@ fn protocol(context: &Context<'_>, section: &CommandSection, picks: &[&At<toml::
         ("input", section.input.as_ref().map(At::span)),
         ("files", section.files.first().map(At::span)),
         ("keep", section.keep.as_ref().map(At::span)),
-        ("files_outside", section.files_outside.as_ref().map(At::span)),
         ("regex, column, pointer, file, match", picks.first().map(|value| value.span())),
     ];
     if let Some((key, span)) = spans.into_iter().find_map(|(key, span)| Some((key, span?))) {

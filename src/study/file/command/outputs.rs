@@ -12,6 +12,7 @@ use crate::study::file::at::At;
 use crate::study::file::context::wrong;
 use crate::study::file::context::{Context, Fault};
 use crate::study::file::error::Problem;
+use crate::study::file::paths::refuse_outside_of_run;
 use crate::study::file::series::{self, SERIES_KEYS, refuse_repeated};
 use crate::study::file::units::output_unit;
 
@@ -64,8 +65,11 @@ pub(super) fn outputs<'a>(
     for (name, value) in entries {
         refuse_name(context, name)?;
         let (output, axis) = output(context, name, value)?;
-        if output.pick.is_some() {
+        if let Some(pick) = &output.pick {
             all.picks.push(value);
+            if let Source::File(file) = &pick.source {
+                refuse_outside_of_run(context, value.span(), file, super::reach(section))?;
+            }
         }
         match axis {
             None => all.outputs.push(output),

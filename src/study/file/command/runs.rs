@@ -3,7 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::file::CommandSection;
-use super::{Context, Fault, folder};
+use super::{Context, Fault, existing_file, reach};
 use crate::files::read_text;
 use crate::model::{InputTemplate, PerRun, TemplateProblem};
 use crate::names::nearest;
@@ -11,6 +11,7 @@ use crate::space::Space;
 use crate::study::file::at::At;
 use crate::study::file::context::wrong;
 use crate::study::file::error::Problem;
+use crate::study::file::paths::resolve;
 
 /// Names that the engine writes in the directory of a run.
 const TAKEN: [&str; 3] = ["stdout.txt", "stderr.txt", "factors.csv"];
@@ -30,11 +31,9 @@ pub(super) fn form(
         let expected = "only of a program that is kept alive, without `template`";
         return Err(context.fault(typed.span(), wrong("row_numbers", expected, "beside one".to_owned())));
     }
-    let folder = folder(context);
-    let template_file = folder.join(template.get_ref());
+    let template_file = resolve(context, template, reach(section))?;
     let file_name = template_file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let input = section.input.as_ref().map_or(file_name, |input| input.get_ref().clone());
-    inside(context, section, &folder, template)?;
     let span = || section.input.as_ref().map_or_else(|| template.span(), At::span);
     refuse_place("input", &input).map_err(|problem| context.fault(span(), problem))?;
     let read = read_template(&template_file, space).map_err(|problem| context.fault(template.span(), problem))?;
@@ -43,28 +42,9 @@ pub(super) fn form(
         .filter(unused)
         .map(|number| format!("factor `{}` does not stand in the template", space.factors()[number].name));
     let notes = notes.collect();
-    let files = files(context, section, &folder, &input)?;
-    let keep = section.keep.as_ref().map(|keep| folder.join(keep.get_ref()));
+    let files = files(context, section, &input)?;
+    let keep = section.keep.as_ref().map(|keep| resolve(context, keep, reach(section))).transpose()?;
     Ok((PerRun { template_file, template: read, input, files, keep }, notes))
-}
-
-/// A study that somebody hands on reads no file elsewhere, by whatever path or link, unless it says so.
-fn inside(context: &Context<'_>, section: &CommandSection, folder: &Path, typed: &At<String>) -> Result<(), Fault> {
-    if section.files_outside.as_ref().is_some_and(|allowed| *allowed.get_ref()) {
-        return Ok(());
-    }
-    let path = folder.join(typed.get_ref());
-    // What is not there is told of by whoever reads it.
-    let (Ok(real), Ok(folder)) = (path.canonicalize(), folder.canonicalize()) else { return Ok(()) };
-    if real.starts_with(folder) {
-        return Ok(());
-    }
-    let problem = Problem::ProgramFile {
-        place: path.display().to_string(),
-        reason: "the file lies outside of the study's folder".to_owned(),
-        help: "move it there, or add files_outside = true to [command]".to_owned(),
-    };
-    Err(context.fault(typed.span(), problem))
 }
 
 fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
@@ -107,17 +87,11 @@ fn refuse_place(key: &str, name: &str) -> Result<(), Problem> {
     Ok(())
 }
 
-fn files(context: &Context<'_>, section: &CommandSection, folder: &Path, input: &str) -> Result<Vec<PathBuf>, Fault> {
+fn files(context: &Context<'_>, section: &CommandSection, input: &str) -> Result<Vec<PathBuf>, Fault> {
     let mut paths: Vec<PathBuf> = Vec::with_capacity(section.files.len());
     for typed in &section.files {
-        let path = folder.join(typed.get_ref());
+        let path = existing_file(context, section, typed)?;
         let fault = |problem| context.fault(typed.span(), problem);
-        inside(context, section, folder, typed)?;
-        if !path.is_file() {
-            let (place, reason) = (path.display().to_string(), "there is no such file".to_owned());
-            let help = "the path is relative to the study; folders are not copied".to_owned();
-            return Err(fault(Problem::ProgramFile { place, reason, help }));
-        }
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         refuse_place("files", &name).map_err(fault)?;
         if name == input || paths.iter().any(|other| other.file_name() == path.file_name()) {
