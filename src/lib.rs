@@ -117,8 +117,6 @@ pub mod uncertainty;
 
 // The modules that are hidden are open to the program, which is a crate of its own, and promise nothing.
 pub use analysis::MOST_ROWS_OF_MEASURES;
-#[doc(hidden)]
-pub use analysis::MixedModels;
 pub use analysis::{
     Aggregate, Analysis, Direction, FailureCount, LookupError, LowRuns, NoDirections, NoIndices, OutputAnalysis,
     RunMeasures, SeriesAnalysis, Spending, StopReason, Stopped,

@@ -42,7 +42,6 @@ pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
         wall_seconds: run.wall_seconds,
         lows: run.lows.iter().map(low_runs).collect(),
         spending: None,
-        mixed_models: Vec::new(),
     }
 }
 

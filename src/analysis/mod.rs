@@ -18,5 +18,5 @@ pub use measures::{MOST_ROWS_OF_MEASURES, RunMeasures};
 #[cfg(feature = "charts")]
 pub(crate) use output::LOST;
 pub use output::{FailureCount, LookupError, NoIndices, OutputAnalysis};
-pub use result::{Aggregate, Analysis, LowRuns, MixedModels, Spending, StopReason, Stopped};
+pub use result::{Aggregate, Analysis, LowRuns, Spending, StopReason, Stopped};
 pub use series::SeriesAnalysis;

@@ -53,8 +53,6 @@ pub struct Analysis {
     pub lows: Vec<LowRuns>,
     /// What a run that was to be accurate chose, and why; `None` for others.
     pub spending: Option<Spending>,
-    /// Where more than one version of the model answered, or may have: an entry for each reason; empty otherwise.
-    pub mixed_models: Vec<MixedModels>,
 }
 
 /// What a run that was asked for an [accuracy](crate::Target::accuracy) chose, and why.
@@ -87,16 +85,6 @@ pub struct LowRuns {
     pub own_base_samples: u64,
     /// Runs of that.
     pub own_runs: u64,
-}
-
-/// Runs that another version of the model answered.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct MixedModels {
-    /// The files of the model that differ.
-    pub files: String,
-    /// How many of the runs on record were evaluated with others; `None` if the files changed while the run was under way.
-    pub runs: Option<u64>,
 }
 
 /// Indices over several outputs together.
@@ -181,23 +169,6 @@ impl fmt::Display for StopReason {
 }
 
 impl Analysis {
-    /// Notes that runs were answered by another version of the model, and warns of it at every output.
-    pub(crate) fn note_mixed_models(&mut self, files: &str, runs: Option<u64>) {
-        let warning = match runs {
-            Some(runs) => format!(
-                "{runs} of the runs on record were evaluated with another {files} than the others: the numbers mix two models"
-            ),
-            None => format!(
-                "{files} changed while the run was under way: its runs may have been answered by either version, and the \
-                 numbers may mix two models"
-            ),
-        };
-        self.mixed_models.push(MixedModels { files: files.to_owned(), runs });
-        for output in &mut self.outputs {
-            output.warnings.push(warning.clone());
-        }
-    }
-
     /// The output called `name`.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use apportion::model::{ModelKind, Output, RunContext};
+use apportion::model::{ModelKind, Output, RunContext, imported_neighbours};
 use apportion::report::{significant, table, with_unit};
 use apportion::run::{Job, Pilot};
 use apportion::space::distribution::Parameter;
@@ -78,6 +78,11 @@ fn files(study: &Study) -> String {
     text
 }
 
+fn file_names_of(files: &[PathBuf]) -> String {
+    let name = |file: &PathBuf| file.file_name().map(|name| name.to_string_lossy().into_owned());
+    files.iter().filter_map(name).collect::<Vec<_>>().join(", ")
+}
+
 fn subject(study: &Study) -> String {
     let mut text = format!("study {}", study.name());
     if let Some(title) = &study.title() {
@@ -86,6 +91,19 @@ fn subject(study: &Study) -> String {
     let about =
         ModelKind::from_name(study.subject().name()).map_or_else(String::new, |kind| format!(": {}", kind.description));
     text.push_str(&format!("\nmodel {}{about}\n", study.subject().name()));
+    let files = study.subject().files();
+    if study.subject().name() == ModelKind::COMMAND.name {
+        let names = if files.is_empty() { "none".to_owned() } else { file_names_of(&files) };
+        text.push_str(&format!("files that a journal knows it by: {names}\n"));
+    }
+    let imported = imported_neighbours(&files);
+    if !imported.is_empty() {
+        text.push_str(&format!(
+            "warning: the program imports {}, which a journal does not know: if it changes, runs of before are used as if it had \
+             not; list it in `depends_on` of [command]\n",
+            file_names_of(&imported)
+        ));
+    }
     for (name, value) in study.settings() {
         match value.as_object() {
             Some(table) => table.iter().for_each(|(key, value)| text.push_str(&format!("  {name}.{key} = {value}\n"))),

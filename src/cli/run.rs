@@ -52,9 +52,6 @@ struct RecordArguments {
     /// Evaluate the runs that failed again, and keep all others
     #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
     retry_failed: bool,
-    /// Use runs on record that were evaluated with other files of the model than those of now too; the result says so
-    #[arg(long, conflicts_with_all = ["restart", "no_journal", "shard"])]
-    mix_models: bool,
     /// Evaluate every run anew; a journal that is there is moved aside
     #[arg(long)]
     restart: bool,
@@ -123,7 +120,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     };
     // From here on: whoever waits for an input that never comes can be ended at once.
     let stop = stop::on_signal();
-    let mut runner = runner.on_message(say).stop(stop).resume(asked.resume()).mix_models(asked.mix_models);
+    let mut runner = runner.on_message(say).stop(stop).resume(asked.resume());
     if let Some(journal) = &journal {
         runner = runner.journal(journal);
     }

@@ -1,5 +1,7 @@
 //! From a study and its analysis to the result file.
 
+use std::path::Path;
+
 use rayon::prelude::*;
 use serde_json::Value;
 
@@ -7,8 +9,8 @@ use super::build_output::OutputRecords;
 use super::records::dependence_record;
 use super::result::{
     AggregateIndexRecord, AggregateRecord, ConstantRecord, DirectionRecord, EffortRecord, FactorRecord, LowRecord,
-    MixedModels, Provenance, ResultFile, RungRecord, SeriesRecord, SpendingRecord, StoppingRecord, StudyRecord,
-    ValidityRecord, estimate_record,
+    Provenance, ResultFile, RungRecord, SeriesRecord, SpendingRecord, StoppingRecord, StudyRecord, ValidityRecord,
+    estimate_record,
 };
 use crate::analysis::{Analysis, Direction, LowRuns, SeriesAnalysis, Spending};
 use crate::estimate::{FirstOrder, Scaling, Total};
@@ -133,8 +135,6 @@ fn provenance(study: &Study, analysis: &Analysis) -> Provenance {
     let (design, options) = (&analysis.design, &study.analysis);
     let settings = design.settings();
     let alone = settings.replicates == 1 && options.intervals == IntervalMethod::Replicates;
-    let mixed = analysis.mixed_models.iter();
-    let mixed = mixed.map(|mixed| MixedModels { files: mixed.files.clone(), runs: mixed.runs });
     Provenance {
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: settings.seed,
@@ -152,8 +152,12 @@ fn provenance(study: &Study, analysis: &Analysis) -> Provenance {
         interval: (!alone).then(|| options.intervals.words(settings.replicates, options.resamples)),
         interval_method: options.intervals.name().to_owned(),
         threshold: options.threshold,
-        mixed_models: mixed.collect(),
+        model_files: study.subject.files().iter().map(|file| name_of(file)).collect(),
     }
+}
+
+fn name_of(file: &Path) -> String {
+    file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 fn factor_records(study: &Study) -> Vec<FactorRecord> {

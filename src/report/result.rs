@@ -167,19 +167,9 @@ pub struct Provenance {
     /// The total index above which a factor counts as one that matters.
     #[serde(default)]
     pub threshold: f64,
-    /// Where more than one version of the model answered, or may have: an entry for each reason; empty otherwise.
+    /// The files of the model that a journal knows: the runs of a journal are not used once one of them has changed.
     #[serde(default)]
-    pub mixed_models: Vec<MixedModels>,
-}
-
-/// Runs that another version of the model answered.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct MixedModels {
-    /// The files of the model that differ.
-    pub files: String,
-    /// How many of the runs on record were evaluated with others; `null` if the files changed while the run was under way.
-    pub runs: Option<u64>,
+    pub model_files: Vec<String>,
 }
 
 /// A factor.

@@ -199,7 +199,7 @@ impl Attempt<'_> {
     }
 
     fn run(&mut self, study: &Study, kind: Option<&str>, store: Option<&Store>) -> Result<Analysis, RunError> {
-        let Runner { journal, resume, mixes_models, stop, threads, remote, .. } = self.runner;
+        let Runner { journal, resume, stop, threads, remote, .. } = self.runner;
         let journal = match (journal, kind) {
             (Some(path), Some(kind)) => Some(beside(path, kind)),
             (path, _) => path.clone(),
@@ -214,7 +214,6 @@ impl Attempt<'_> {
             stop: *stop,
             journal,
             resume,
-            mixes_models: *mixes_models,
             store: self.runner.store.or(store),
         };
         let record = part.open(None, self.context.messages())?;

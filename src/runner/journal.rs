@@ -3,18 +3,17 @@
 mod recall;
 
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 
 use serde_json::{Value, json};
 
 use super::Resume;
-use super::model_files::{ModelFiles, differing};
+use super::model_files::{differing, digests};
 use crate::model::Messages;
 use crate::run::journal::{Checkpoint, Contents, Journal, JournalError, differences, read_journal_file, with_ending};
 use crate::run::{Piece, RunError, Shard, Store, Sums};
 use crate::study::Study;
-pub(super) use recall::{Foreign, part};
-use recall::{Recalled, filled, recall, rows_on_record};
+pub(super) use recall::recorded;
+use recall::rows_on_record;
 
 /// Outputs of more bytes than this are not put on record for quick runs: it takes longer than to evaluate them again.
 const LARGE: u64 = 64 << 20;
@@ -23,77 +22,40 @@ const LARGE: u64 = 64 << 20;
 #[derive(Clone, Copy)]
 pub(super) struct JournalRequest {
     pub resume: Resume,
-    /// Whether runs that were evaluated with other files of the model are used too.
-    pub mixes_models: bool,
     pub shard: Option<Shard>,
     pub needs_outputs: bool,
 }
 
 /// The runs of a study that are on record, and where more are put on record.
-pub(super) struct OpenJournal {
-    kind: Kind,
-    /// Those of them that another model answered, if they were asked for.
-    pub foreign: Option<Foreign>,
-}
-
-enum Kind {
+pub(super) enum OpenJournal {
     None,
-    Outputs(Outputs),
+    Outputs(Store, Journal),
     Sums(Checkpoint, Option<Sums>),
 }
 
-struct Outputs {
-    store: Store,
-    journal: Journal,
-    files: ModelFiles,
-    /// Whether the journal says that the files have changed under the run.
-    is_uncertain: Mutex<bool>,
-}
-
 impl OpenJournal {
-    /// No record.
-    pub fn none() -> Self {
-        Self { kind: Kind::None, foreign: None }
-    }
-
-    fn from_outputs(store: Store, journal: Journal, files: ModelFiles) -> Self {
-        let outputs = Outputs { store, journal, files, is_uncertain: Mutex::new(false) };
-        Self { kind: Kind::Outputs(outputs), foreign: None }
-    }
-
-    fn from_sums(checkpoint: Checkpoint, sums: Sums) -> Self {
-        Self { kind: Kind::Sums(checkpoint, Some(sums)), foreign: None }
-    }
-
     /// The outputs on record, if outputs are.
     pub fn store(&self) -> Option<&Store> {
-        if let Kind::Outputs(outputs) = &self.kind { Some(&outputs.store) } else { None }
+        if let Self::Outputs(store, _) = self { Some(store) } else { None }
     }
 
     pub fn checkpoint(&self) -> Option<&Checkpoint> {
-        if let Kind::Sums(checkpoint, _) = &self.kind { Some(checkpoint) } else { None }
+        if let Self::Sums(checkpoint, _) = self { Some(checkpoint) } else { None }
     }
 
     /// The sums on record, if sums are.
     pub fn take_sums(&mut self) -> Option<Sums> {
-        if let Kind::Sums(_, sums) = &mut self.kind { sums.take() } else { None }
+        if let Self::Sums(_, sums) = self { sums.take() } else { None }
     }
 
-    /// Puts a piece on record, with the files that it was evaluated with.
+    /// Puts a piece on record.
     pub fn append(&self, piece: &Piece) -> std::io::Result<()> {
-        let Kind::Outputs(Outputs { journal, files, is_uncertain, .. }) = &self.kind else { return Ok(()) };
-        // Held until the piece is there: it must not come to lie on the wrong side of the note.
-        let mut is_uncertain = is_uncertain.lock().unwrap_or_else(PoisonError::into_inner);
-        if !*is_uncertain && files.changed().is_some() {
-            journal.append_files(&files.uncertain())?;
-            *is_uncertain = true;
-        }
-        journal.append(piece)
+        if let Self::Outputs(_, journal) = self { journal.append(piece) } else { Ok(()) }
     }
 
     /// Forces what is on record to the disk.
     pub fn sync(&self) -> Result<(), RunError> {
-        let Kind::Outputs(Outputs { journal, .. }) = &self.kind else { return Ok(()) };
+        let Self::Outputs(_, journal) = self else { return Ok(()) };
         journal.sync().map_err(|source| RunError::NotKept { source })
     }
 }
@@ -111,16 +73,14 @@ pub(super) fn open_for_parts(
     files: &Value,
     messages: &Messages,
 ) -> Result<OpenJournal, RunError> {
-    let of_parts = ModelFiles::from_record(files);
     if path.exists() {
         match Journal::resume(path) {
             Ok((journal, contents)) => {
-                let recalled = recall(study, &contents, files, Resume::IfThere);
                 let why = match &contents.sums {
                     Some(_) => Some("the journal holds sums, and parts are merged by their outputs".to_owned()),
-                    None => another_study(study, &contents.header).or_else(|| recalled.of_another_model()),
+                    None => another_study(study, &contents.header).or_else(|| another_model(&contents.header, files)),
                 };
-                let Some(why) = why else { return go_on(journal, &contents, recalled.own, of_parts) };
+                let Some(why) = why else { return Ok(OpenJournal::Outputs(recorded(study, &contents), journal)) };
                 drop(journal);
                 move_aside(path, &why, messages)?;
             }
@@ -130,7 +90,7 @@ pub(super) fn open_for_parts(
             Err(error) => return Err(error.into()),
         }
     }
-    begin(study, path, None, of_parts)
+    begin(study, path, None, files)
 }
 
 /// Opens the record of `study` at `path`. A journal of something else, or one that is not wanted, is moved aside.
@@ -140,7 +100,7 @@ pub(super) fn open(
     request: JournalRequest,
     messages: &Messages,
 ) -> Result<OpenJournal, RunError> {
-    let JournalRequest { resume, mixes_models, .. } = request;
+    let JournalRequest { resume, .. } = request;
     if !path.exists() {
         // Quick runs with many outputs are not recorded: a result of theirs is doubled by evaluating all of them.
         if resume.is_required() && resume != Resume::Double {
@@ -165,14 +125,12 @@ pub(super) fn open(
     if let Some(sums) = contents.sums.take() {
         return open_sums(study, path, journal, sums, other, request, messages);
     }
-    let files = ModelFiles::new(study);
-    let recalled = recall(study, &contents, files.begun(), resume);
-    let why = match resume {
-        Resume::Never => Some("--restart".to_owned()),
-        _ if mixes_models => other,
-        _ if resume.is_required() => recalled.refuse(path, resume).map(|()| None)?,
-        _ => other.or_else(|| recalled.of_another_model()),
-    };
+    let changed = another_model(&contents.header, &digests(study));
+    if let Some(changed) = changed.as_ref().filter(|_| resume != Resume::Never && !contents.pieces.is_empty()) {
+        let advice = "its runs are of the program as it was. Undo the change, or begin again with --restart";
+        return Err(refused(path, format!("{changed}: {advice}")));
+    }
+    let why = if resume == Resume::Never { Some("--restart".to_owned()) } else { other.or(changed) };
     if why.is_some() || contents.pieces.is_empty() && !request.needs_outputs {
         drop(journal);
         return anew(study, path, request, contents.pieces.is_empty(), why, messages);
@@ -181,32 +139,16 @@ pub(super) fn open(
         let what = "behind its last whole record, of runs that are evaluated again";
         messages.send(&format!("note: {}: {} bytes were cut off {what}", path.display(), contents.cut_off));
     }
+    let store = recorded(study, &contents);
     if resume == Resume::RetryFailed {
-        match recalled.forgotten {
+        match store.forget_failures() {
             0 => messages.send(&format!("note: no run on record in {} has failed", path.display())),
             1 => messages.send("note: the run that failed is evaluated again"),
             failed => messages.send(&format!("note: the {failed} runs that failed are evaluated again")),
         }
     }
-    let Recalled { own, all, foreign, .. } = recalled;
-    let store = match (&foreign, mixes_models) {
-        (None, _) => own,
-        (Some(Foreign { names, rows }), true) => {
-            messages.send(&format!(
-                "warning: {rows} of the runs on record were evaluated with another {names}: the result mixes both"
-            ));
-            all.unwrap_or(own)
-        }
-        (Some(Foreign { names, rows }), false) => {
-            messages.send(&format!(
-                "note: {rows} of the runs on record were evaluated with another {names}: they are evaluated again"
-            ));
-            own
-        }
-    };
     tell_recorded(study, path, rows_on_record(study, &store), messages);
-    let record = go_on(journal, &contents, store, files)?;
-    Ok(OpenJournal { foreign: foreign.filter(|_| mixes_models), ..record })
+    Ok(OpenJournal::Outputs(store, journal))
 }
 
 /// Opens a record of sums, which is of another study if `other` says so.
@@ -257,7 +199,7 @@ fn open_sums(
             }
             messages
                 .send(&format!("note: {}: {what}: it stays as it is, and this run is not recorded", path.display()));
-            return Ok(OpenJournal::none());
+            return Ok(OpenJournal::None);
         }
         None if !needs_outputs => (),
         why => {
@@ -265,14 +207,14 @@ fn open_sums(
             return anew(study, path, request, is_empty, why, messages);
         }
     }
-    let header = header(study, None, &ModelFiles::new(study));
+    let header = header(study, None, &digests(study));
     if resume == Resume::RetryFailed {
         messages.send("note: the journal holds sums: all runs are evaluated anew, those that failed among them");
         let checkpoint = journal.into_checkpoint(&header);
-        return Ok(OpenJournal::from_sums(checkpoint, Sums::new(settings.replicates)));
+        return Ok(OpenJournal::Sums(checkpoint, Some(Sums::new(settings.replicates))));
     }
     tell_recorded(study, path, sums.rows(), messages);
-    Ok(OpenJournal::from_sums(journal.into_checkpoint(&header), sums))
+    Ok(OpenJournal::Sums(journal.into_checkpoint(&header), Some(sums)))
 }
 
 fn tell_recorded(study: &Study, path: &Path, rows: u64, messages: &Messages) {
@@ -299,42 +241,33 @@ fn anew(
     fresh(study, path, request)
 }
 
-/// A record that goes on in a journal: if it ends with other files, the journal says that there are new ones.
-fn go_on(journal: Journal, contents: &Contents, store: Store, files: ModelFiles) -> Result<OpenJournal, RunError> {
-    let last = contents.stretches.last().map_or(&Value::Null, |stretch| &stretch.files);
-    if differing(last, files.begun()).is_some() {
-        journal.append_files(files.begun()).map_err(|source| RunError::NotKept { source })?;
-    }
-    Ok(OpenJournal::from_outputs(store, journal, files))
-}
-
 fn fresh(study: &Study, path: &Path, request: JournalRequest) -> Result<OpenJournal, RunError> {
-    let (model, files) = (study.model(), ModelFiles::new(study));
+    let (model, files) = (study.model(), digests(study));
     if !request.needs_outputs {
         let sums = Sums::new(study.design.settings().replicates);
         let checkpoint = Checkpoint::create(path, &header(study, None, &files), &sums)?;
-        return Ok(OpenJournal::from_sums(checkpoint, sums));
+        return Ok(OpenJournal::Sums(checkpoint, Some(sums)));
     }
     let bytes = study.design.rows().saturating_mul(8 * model.outputs().len() as u64);
     if request.shard.is_some() || model.concurrency().is_some() || bytes <= LARGE {
-        begin(study, path, request.shard, files)
+        begin(study, path, request.shard, &files)
     } else {
-        Ok(OpenJournal::none())
+        Ok(OpenJournal::None)
     }
 }
 
-fn begin(study: &Study, path: &Path, shard: Option<Shard>, files: ModelFiles) -> Result<OpenJournal, RunError> {
+fn begin(study: &Study, path: &Path, shard: Option<Shard>, files: &Value) -> Result<OpenJournal, RunError> {
     let store = Store::new(&study.design, study.model().as_ref());
-    let journal = Journal::create(path, &header(study, shard, &files))?;
-    Ok(OpenJournal::from_outputs(store, journal, files))
+    let journal = Journal::create(path, &header(study, shard, files))?;
+    Ok(OpenJournal::Outputs(store, journal))
 }
 
-fn header(study: &Study, shard: Option<Shard>, files: &ModelFiles) -> Value {
+fn header(study: &Study, shard: Option<Shard>, files: &Value) -> Value {
     json!({
         "study": study.name,
         "shard": shard.map(|shard| shard.to_string()),
         "identity": study.identity(),
-        "files": files.begun(),
+        "files": files,
     })
 }
 
@@ -343,6 +276,11 @@ fn another_study(study: &Study, header: &Value) -> Option<String> {
     let found = differences(&header["identity"], &study.identity());
     let name = header["study"].as_str().unwrap_or_default();
     (!found.is_empty()).then(|| format!("the journal is of another study ({name}): {}", found.join("; ")))
+}
+
+/// Why a journal with this header is of another version of the model than that of `files` (path: digest), if it is.
+fn another_model(header: &Value, files: &Value) -> Option<String> {
+    differing(&header["files"], files).map(|names| format!("{names} changed since the journal was written"))
 }
 
 /// Moves a journal out of the way, to a name that no other has.
@@ -382,6 +320,6 @@ pub(super) fn recorded_runs(study: &Study, path: &Path) -> Result<u64, RunError>
     let contents = read(study, path)?;
     Ok(match &contents.sums {
         Some(sums) => sums.rows(),
-        None => rows_on_record(study, &filled(study, &contents)),
+        None => rows_on_record(study, &recorded(study, &contents)),
     })
 }

@@ -85,14 +85,13 @@ impl LowPart {
         let longest = study.design.longest();
         let takes_its_time = model.concurrency().is_some();
         let record = match runner.journal.as_deref().filter(|_| takes_its_time) {
-            None => OpenJournal::none(),
+            None => OpenJournal::None,
             Some(path) => {
                 let resume = match runner.resume {
                     Resume::Require | Resume::Double => Resume::IfThere,
                     other => other,
                 };
-                let request =
-                    JournalRequest { resume, mixes_models: runner.mixes_models, shard: None, needs_outputs: true };
+                let request = JournalRequest { resume, shard: None, needs_outputs: true };
                 journal::open(&study, &beside(path, kind), request, context.messages())?
             }
         };

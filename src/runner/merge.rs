@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::journal::{self, OpenJournal, refused};
+use super::journal::{self, OpenJournal, recorded, refused};
 use super::model_files::differing;
 use crate::model::Messages;
 use crate::run::{Piece, RunError, Shard, Store};
@@ -28,7 +28,7 @@ pub(super) fn merged(
     let mut shards = Shards::default();
     for journal in journals {
         let contents = journal::read(study, journal)?;
-        let (part, _) = journal::part(study, journal, &contents)?;
+        let part = recorded(study, &contents);
         shards.note(study, contents.header["shard"].as_str(), &part);
         for piece in part.pieces() {
             let rows = piece.first..piece.first + piece.rows(part.outputs());
@@ -66,7 +66,7 @@ fn files_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, RunError> 
     let mut first: Option<(&PathBuf, Value)> = None;
     for journal in journals {
         let contents = journal::read(study, journal)?;
-        let (_, files) = journal::part(study, journal, &contents)?;
+        let files = contents.header["files"].clone();
         let Some((other, known)) = &first else {
             first = Some((journal, files));
             continue;

@@ -19,7 +19,6 @@ use crate::run::{GrowingRun, Job, Piece, Progress, Remote, RemoteWorkers, RunErr
 use crate::study::Study;
 use journal::{JournalRequest, OpenJournal};
 use low_fidelity::{LowRun, LowStudy, sinks};
-use model_files::ModelFiles;
 pub use worker::WorkerStudy;
 
 impl Study {
@@ -53,7 +52,6 @@ impl Study {
             stop: None,
             journal: None,
             resume: Resume::IfThere,
-            mixes_models: false,
             store: None,
         }
     }
@@ -116,7 +114,6 @@ pub struct Runner<'a> {
     stop: Option<&'a AtomicBool>,
     journal: Option<PathBuf>,
     resume: Resume,
-    mixes_models: bool,
     store: Option<&'a Store>,
 }
 
@@ -165,12 +162,6 @@ impl<'a> Runner<'a> {
     /// What becomes of runs that are on record in the journal.
     pub fn resume(self, resume: Resume) -> Self {
         Self { resume, ..self }
-    }
-
-    /// Whether runs on record are used that were evaluated with other files of the model than those of now; the result
-    /// then says so.
-    pub fn mix_models(self, mixes_models: bool) -> Self {
-        Self { mixes_models, ..self }
     }
 
     /// Uses the outputs in `store`, and puts all others there.
@@ -258,10 +249,10 @@ impl<'a> Runner<'a> {
         if matches!(self.resume, Resume::Require | Resume::RetryFailed) {
             self.journal_for("a run that goes on with another one")?;
         }
-        let Some(path) = &self.journal else { return Ok(OpenJournal::none()) };
-        let Self { study, resume, mixes_models, store, .. } = self;
+        let Some(path) = &self.journal else { return Ok(OpenJournal::None) };
+        let Self { study, resume, store, .. } = self;
         let needs_outputs = shard.is_some() || journal::needs_outputs(study, store.is_some());
-        let request = JournalRequest { resume: *resume, mixes_models: *mixes_models, shard, needs_outputs };
+        let request = JournalRequest { resume: *resume, shard, needs_outputs };
         journal::open(study, path, request, messages)
     }
 
@@ -290,10 +281,9 @@ impl<'a> Runner<'a> {
 
     fn analyse(&self, context: &RunContext<'_>, mut record: OpenJournal) -> Result<Analysis, RunError> {
         let (study, model) = (self.study, self.study.model());
-        let files = ModelFiles::new(study);
         let longest = if study.target.grows() { study.design.longest() } else { study.design.clone() };
         let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
-        let (foreign, sums) = (record.foreign.take(), record.take_sums());
+        let sums = record.take_sums();
         let own = Store::new(&longest, model.as_ref());
         if let Some((given, recorded)) = self.store.zip(record.store()) {
             for piece in recorded.pieces() {
@@ -337,13 +327,7 @@ impl<'a> Runner<'a> {
             threads: threads_in_force(self.threads) + self.remote.map_or(0, RemoteWorkers::count),
             wall_seconds: run.elapsed().as_secs_f64(),
         };
-        let mut result = run.install(|| analysis(&finished, stopped));
-        if let Some(foreign) = foreign {
-            result.note_mixed_models(&foreign.names, Some(foreign.rows));
-        }
-        if let Some(names) = files.changed() {
-            result.note_mixed_models(names, None);
-        }
+        let result = run.install(|| analysis(&finished, stopped));
         Ok(result)
     }
 }

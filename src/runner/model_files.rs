@@ -4,20 +4,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, OnceLock};
-use std::time::SystemTime;
 
 use crate::study::Study;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-/// The digests of files (path: SHA-256); files that cannot be read are left out.
-fn digests(paths: &[PathBuf]) -> Value {
+/// The digests of the files of `study` (path: SHA-256); files that cannot be read are left out.
+pub(super) fn digests(study: &Study) -> Value {
     let digest = |path: &PathBuf| {
         let hex: String = sha256(path).ok()?.iter().map(|byte| format!("{byte:02x}")).collect();
         Some((path.display().to_string(), json!(hex)))
     };
-    Value::Object(paths.iter().filter_map(digest).collect())
+    Value::Object(study.subject.files().iter().filter_map(digest).collect())
 }
 
 /// Piece by piece: data may be larger than the memory.
@@ -54,68 +52,6 @@ fn by_name(files: &Value) -> BTreeMap<String, Vec<String>> {
         }
     }
     known
-}
-
-/// What tells at a glance that a file may have changed.
-type Stamp = Option<(SystemTime, u64)>;
-
-/// The files of a study as they were when its run began, looked at again while it goes on.
-pub(super) struct ModelFiles {
-    paths: Vec<PathBuf>,
-    begun: Value,
-    seen: Mutex<Vec<Stamp>>,
-    changed: OnceLock<String>,
-}
-
-impl ModelFiles {
-    /// The files of `study` as they are now.
-    pub fn new(study: &Study) -> Self {
-        let paths = study.subject.files();
-        // Before the digests: a change in between is seen.
-        let seen = Mutex::new(stamps(&paths));
-        Self { begun: digests(&paths), seen, paths, changed: OnceLock::new() }
-    }
-
-    /// Files that nobody evaluates anything with here.
-    pub fn from_record(files: &Value) -> Self {
-        Self { paths: Vec::new(), begun: files.clone(), seen: Mutex::default(), changed: OnceLock::new() }
-    }
-
-    /// Their digests when the run began (path: SHA-256).
-    pub fn begun(&self) -> &Value {
-        &self.begun
-    }
-
-    /// The names of those that have changed since, if any; they are not forgiven if they change back.
-    pub fn changed(&self) -> Option<&str> {
-        if let Some(names) = self.changed.get() {
-            return Some(names);
-        }
-        let now = stamps(&self.paths);
-        if let Ok(mut seen) = self.seen.lock()
-            && *seen != now
-        {
-            *seen = now;
-            if let Some(names) = differing(&self.begun, &digests(&self.paths)) {
-                return Some(self.changed.get_or_init(|| names));
-            }
-        }
-        self.changed.get().map(String::as_str)
-    }
-
-    /// What stands in the place of their digests when it cannot be told which version answered. It is like no digest.
-    pub fn uncertain(&self) -> Value {
-        let paths = self.begun.as_object().into_iter().flatten().map(|(path, _)| path.clone());
-        Value::Object(paths.map(|path| (path, json!("changed while the run was under way"))).collect::<Map<_, _>>())
-    }
-}
-
-fn stamps(paths: &[PathBuf]) -> Vec<Stamp> {
-    let stamp = |path: &PathBuf| {
-        let about = std::fs::metadata(path).ok()?;
-        Some((about.modified().ok()?, about.len()))
-    };
-    paths.iter().map(stamp).collect()
 }
 
 #[cfg(test)]

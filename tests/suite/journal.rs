@@ -242,9 +242,9 @@ fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed(
     std::fs::remove_file(out.join("sum-shard-1-of-2.journal")).unwrap();
     assert_eq!(merge().status.code(), Some(0));
     // What was merged is still of the program before.
-    let anew = run(&there.join("sum.toml"), &[]);
-    assert_eq!(on_record(&anew), 0, "{anew}");
-    assert!(anew.contains("sum.py changed since the journal was written: the journal was moved to "), "{anew}");
+    let again = apportion(&["run", text(&there.join("sum.toml")), "--out", text(&out)]);
+    refused(&again, 2, "sum.py changed since the journal was written");
+    assert_eq!(on_record(&run(&there.join("sum.toml"), &["--restart"])), 0);
 }
 
 #[test]

@@ -1,11 +1,11 @@
-//! A program that changes under its journal: no result mixes two models in silence.
+//! A program that changes under its journal: no result mixes two models.
 
 use std::path::PathBuf;
 use std::process::Output;
 
 use apportion::report::{ResultFile, read_result};
 
-use crate::common::{Folder, apportion, stderr, text};
+use crate::common::{Folder, apportion, stderr, succeed, text};
 
 const STUDY: &str = "model = \"command\"\ncommand = [\"python3\", \"model.py\"]\noutputs = [\"y\"]\n\
                      design.base_samples = 64\n\
@@ -14,9 +14,12 @@ const STUDY: &str = "model = \"command\"\ncommand = [\"python3\", \"model.py\"]\
 /// Runs of the study: 64 base points of A, B and two swaps.
 const RUNS: u64 = 256;
 
+const CHANGED: &str = "model.py changed since the journal was written";
+
 fn program(formula: &str) -> String {
     format!(
-        "import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    a, b = float(x['a']), float(x['b'])\n    print(x['id'], {formula}, sep=',', flush=True)\n"
+        "import csv, sys\nfor x in csv.DictReader(sys.stdin):\n    a, b = float(x['a']), float(x['b'])\n    \
+         print(x['id'], {formula}, sep=',', flush=True)\n"
     )
 }
 
@@ -61,74 +64,27 @@ impl Case {
 }
 
 #[test]
-fn edited_resumed_reverted_resumed_is_never_a_silent_mixture() {
-    const DOUBLE: [&str; 2] = ["--base-samples", "128"];
-    let with = |more: &'static str| [&DOUBLE[..], &[more]].concat();
+fn a_journal_of_another_program_is_refused_until_it_is_restarted() {
     let case = Case::new("a + b");
-    case.result(&[]);
-    // Edited.
+    let (first, _) = case.result(&[]);
+    assert_eq!(first.provenance.model_files, ["model.py"]);
     case.model("a + b + 10");
-    let refusal = format!("model.py changed since {RUNS} of the runs on record were evaluated");
-    case.refused(&with("--resume"), &refusal);
-    case.refused(&with("--retry-failed"), &refusal);
-    let (mixed, said) = case.result(&[&DOUBLE[..], &["--resume", "--mix-models"]].concat());
-    assert!(
-        said.contains(&format!("warning: {RUNS} of the runs on record were evaluated with another model.py")),
-        "{said}"
-    );
-    let noted = &mixed.provenance.mixed_models;
-    assert_eq!((noted.len(), noted[0].files.as_str(), noted[0].runs), (1, "model.py", Some(RUNS)));
-    assert!(mixed.outputs[0].warnings.iter().any(|warning| warning.contains("the numbers mix two models")));
-    let page = std::fs::read_to_string(case.out().join("study.html")).unwrap();
-    assert!(page.contains("mix two models") && page.contains("another version of the model"));
-    // Reverted: the other half is the stranger now.
+    for more in [&[][..], &["--resume"], &["--retry-failed"], &["--base-samples", "128"]] {
+        case.refused(more, CHANGED);
+    }
+    case.refused(&[], "--restart");
+    // Undone.
     case.model("a + b");
-    case.refused(&with("--resume"), &refusal);
-    let (plain, said) = case.result(&DOUBLE);
-    assert!(said.contains("were evaluated with another model.py: they are evaluated again"), "{said}");
-    let fresh = Case::new("a + b").result(&DOUBLE).0;
-    assert_eq!((plain.outputs, plain.provenance.mixed_models.len()), (fresh.outputs, 0));
-    // And all is well again.
-    let (again, said) = case.result(&with("--resume"));
-    assert!(said.contains(&format!("note: {} of {} runs are on record", 2 * RUNS, 2 * RUNS)), "{said}");
-    assert!(again.provenance.mixed_models.is_empty());
-    assert!(
-        !again.outputs[0].warnings.iter().any(|warning| warning.contains("mix")),
-        "{:?}",
-        again.outputs[0].warnings
-    );
-}
-
-#[test]
-fn a_journal_all_of_another_model_makes_way() {
-    let case = Case::new("a + b");
-    case.result(&[]);
+    let (_, said) = case.result(&["--resume"]);
+    assert!(said.contains(&format!("note: {RUNS} of {RUNS} runs are on record")), "{said}");
     case.model("a - b");
-    let (result, said) = case.result(&[]);
-    assert!(said.contains("model.py changed since the journal was written: the journal was moved to "), "{said}");
-    assert_eq!(result.outputs, Case::new("a - b").result(&[]).0.outputs);
+    let (restarted, _) = case.result(&["--restart"]);
+    assert_eq!(restarted.outputs, Case::new("a - b").result(&[]).0.outputs);
 }
 
+/// Parts of a mixture are not merged.
 #[test]
-fn a_program_that_changes_under_the_run_is_noticed() {
-    let case = Case::new("a + b");
-    // It changes itself in the middle, as an editor would.
-    let text = program("a + b").replace(
-        "    print(",
-        "    count = globals().get('count', 0) + 1\n    if count == 40: open('model.py', 'a').write('# edited\\n')\n    print(",
-    );
-    case.folder.with("model.py", text);
-    let (result, _) = case.result(&["--threads", "1"]);
-    let noted = &result.provenance.mixed_models;
-    assert_eq!((noted.len(), noted[0].files.as_str(), noted[0].runs), (1, "model.py", None));
-    assert!(result.outputs[0].warnings[0].contains("model.py changed while the run was under way"));
-    // Which rows are of which version nobody knows: neither counts as the one of now.
-    case.refused(&["--resume"], "model.py changed since");
-}
-
-/// Parts of a mixture are not merged, however they came about.
-#[test]
-fn a_part_is_of_one_model() {
+fn parts_of_two_programs_are_not_merged() {
     let case = Case::new("a + b");
     assert_eq!(case.run(&["--shard", "1/2"]).status.code(), Some(0));
     case.model("a - b");
@@ -139,31 +95,25 @@ fn a_part_is_of_one_model() {
     assert!(stderr(&merged).contains("evaluated with another model.py than"), "{}", stderr(&merged));
 }
 
-/// However the command comes to it, a file that computes the answers is one of the model's.
 #[test]
-fn sources_that_a_program_names_or_imports_are_its_own() {
-    let (of_helper, script) =
-        ("helper.f(a, b)", "#!/bin/sh\n# Reads and writes as it is told.\nexec python3 model.py\n");
+fn a_module_that_is_imported_is_known_if_it_is_listed_and_warned_of_if_not() {
     let helper = |number: u64| format!("def f(a, b): return a + b + {number}\n");
-    let ways: [(&str, &str, &str); 5] = [
-        ("[\"python3\", \"model.py\"]", "import helper\n", "helper.py"),
-        ("[\"python3\", \"-m\", \"model\"]", "import helper\n", "helper.py"),
-        ("[\"sh\", \"-c\", \"exec python3 model.py\"]", "import helper\n", "helper.py"),
-        ("[\"sh\", \"run.sh\"]", "import helper\n", "helper.py"),
-        // Nothing tells of this one but the study.
-        ("[\"python3\", \"model.py\"]", "helper = __import__('hel' + 'per')\n", "helper.py"),
-    ];
-    for (place, (command, import, changed)) in ways.into_iter().enumerate() {
-        let case = Case::new(of_helper);
-        let of_study = if place == 4 { "command.depends_on = [\"helper.py\"]\n" } else { "" };
-        let command = format!("command.program = {command}\n{of_study}");
+    for is_listed in [true, false] {
+        let case = Case::new("helper.f(a, b)");
+        let listed = if is_listed { "command.depends_on = [\"helper.py\"]\n" } else { "" };
+        let command = format!("command.program = [\"python3\", \"model.py\"]\n{listed}");
         case.folder.with("study.toml", STUDY.replace("command = [\"python3\", \"model.py\"]\n", &command));
-        case.folder.with("model.py", format!("{import}{}", program(of_helper)));
-        case.folder.with("run.sh", script);
+        case.folder.with("model.py", format!("import helper\n{}", program("helper.f(a, b)")));
         case.folder.with("helper.py", helper(0));
+        let checked = succeed(&["check", text(&case.folder.path("study.toml"))]);
+        assert_eq!(checked.contains("imports helper.py"), !is_listed, "{checked}");
         case.result(&[]);
         case.folder.with("helper.py", helper(1_000_000));
-        case.refused(&["--resume", "--base-samples", "128"], &format!("{changed} changed since {RUNS} of the runs"));
+        if is_listed {
+            case.refused(&["--resume", "--base-samples", "128"], "helper.py changed since the journal was written");
+        } else {
+            case.result(&["--resume", "--base-samples", "128"]);
+        }
     }
     let case = Case::new("a + b");
     let nowhere = "command.program = [\"python3\", \"model.py\"]\ncommand.depends_on = [\"nowhere.dat\"]\n";

@@ -23,7 +23,7 @@ use std::time::Duration;
 pub use per_run::PerRun;
 pub use pick::{Match, Pick, PickError, Source, Way};
 pub use program::Program;
-pub use program_files::program_files;
+pub use program_files::{imported_neighbours, program_files};
 pub use protocol::{Answer, Protocol, parse_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 

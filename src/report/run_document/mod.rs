@@ -23,7 +23,7 @@ use crate::study::edited;
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
 use super::file_names::FileNames;
-use super::format::{count, grouped, name, significant};
+use super::format::{grouped, name, significant};
 use super::records::StudySetup;
 use super::result::{AggregateRecord, LowRecord, ResultFile, SpendingRecord};
 use super::study_sections::{study_section, validity_section};
@@ -290,11 +290,9 @@ fn provenance(result: &ResultFile) -> Vec<Part> {
         ("intervals", interval),
         ("study file, SHA-256", format!("`{}`", provenance.study_sha256)),
     ];
-    let mixed = provenance.mixed_models.iter().map(|mixed| {
-        let runs = mixed.runs.map_or_else(|| "an unknown number of runs".to_owned(), |runs| count(runs, "run", "runs"));
-        ("another version of the model", format!("answered {runs} ({})", mixed.files))
-    });
-    let rows = rows.into_iter().chain(mixed);
+    let files = &provenance.model_files;
+    let files = (!files.is_empty()).then(|| ("files of the model that a journal knows", files.join(", ")));
+    let rows = rows.into_iter().chain(files);
     let text = "The same study file, seed and version give the same numbers, on any number of threads. Cite the result by these three, \
                 with the digest (SHA-256) for the study file; CITATION.cff in the sources of the program says how to cite the program.";
     vec![Part::Text(text.to_owned()), Table::pairs("How the answer came about.", rows).into()]

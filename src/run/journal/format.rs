@@ -26,53 +26,12 @@ pub struct Contents {
     pub header: Value,
     /// Its pieces, in the order in which they were written: later ones stand in place of earlier ones.
     pub pieces: Vec<Piece>,
-    /// The files of the model that the pieces were evaluated with: the first stretch is that of the header, and there is
-    /// another one wherever they changed.
-    pub stretches: Vec<Stretch>,
     /// The sums of a journal of sums, which has no pieces.
     pub sums: Option<Sums>,
     /// Bytes up to the end of the last whole record.
     pub length: u64,
     /// Bytes after it: of a record that was cut short or damaged, and all that follows.
     pub cut_off: u64,
-}
-
-/// Consecutive pieces of a journal that were evaluated with the same files.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Stretch {
-    /// Number of its first piece in [`Contents::pieces`].
-    pub first: usize,
-    /// The files (path: digest), as in the header.
-    pub files: Value,
-}
-
-impl Contents {
-    /// Every piece with the files that it was evaluated with.
-    pub fn pieces_with_files(&self) -> impl Iterator<Item = (&Piece, &Value)> {
-        let mut stretches = self.stretches.iter().peekable();
-        let mut files = &Value::Null;
-        self.pieces.iter().enumerate().map(move |(number, piece)| {
-            while let Some(stretch) = stretches.next_if(|stretch| stretch.first <= number) {
-                files = &stretch.files;
-            }
-            (piece, files)
-        })
-    }
-}
-
-/// The replicate of a record that holds no rows, but files, as the reason of its only failure: no design has as many
-/// replicates, so that programs that know nothing of files pass it over.
-const FILES: u64 = u64::MAX;
-
-pub(super) fn write_files(out: &mut Vec<u8>, files: &Value) {
-    let failures = vec![(0, 0, RowFailure::new(&files.to_string()))];
-    write_record(out, &Piece { replicate: FILES, failures, ..Piece::default() });
-}
-
-/// The files in a record that holds some; `None` within if they cannot be read.
-fn files_in(piece: &Piece) -> Option<Option<Value>> {
-    let text = || piece.failures.first().map(|(.., text)| text.to_string());
-    (piece.replicate == FILES).then(|| serde_json::from_str(&text()?).ok())
 }
 
 pub(super) fn write_header(out: &mut Vec<u8>, header: &Value) {
@@ -158,22 +117,16 @@ pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError>
     let header: Value = serde_json::from_slice(text).map_err(|error| wrong(&error.to_string()))?;
     if version == SUMS {
         let sums = sums(&mut reader).ok_or_else(|| wrong("its sums are damaged"))?;
-        let stretches = vec![Stretch { first: 0, files: header["files"].clone() }];
         let length = bytes.len() as u64;
-        return Ok(Contents { header, pieces: Vec::new(), stretches, sums: Some(sums), length, cut_off: 0 });
+        return Ok(Contents { header, pieces: Vec::new(), sums: Some(sums), length, cut_off: 0 });
     }
     let mut pieces = Vec::new();
-    let mut stretches = vec![Stretch { first: 0, files: header["files"].clone() }];
     let mut whole = reader.bytes.len();
     while let Some(piece) = record(&mut reader) {
-        match files_in(&piece) {
-            None => pieces.push(piece),
-            Some(Some(files)) => stretches.push(Stretch { first: pieces.len(), files }),
-            Some(None) => break,
-        }
+        pieces.push(piece);
         whole = reader.bytes.len();
     }
-    Ok(Contents { header, pieces, stretches, sums: None, length: (bytes.len() - whole) as u64, cut_off: whole as u64 })
+    Ok(Contents { header, pieces, sums: None, length: (bytes.len() - whole) as u64, cut_off: whole as u64 })
 }
 
 fn sums(reader: &mut Reader<'_>) -> Option<Sums> {

@@ -26,7 +26,7 @@ use serde_json::Value;
 
 pub use checkpoint::Checkpoint;
 pub use error::JournalError;
-pub use format::{Contents, Stretch, read_journal};
+pub use format::{Contents, read_journal};
 pub(super) use format::{record, write_record};
 pub use identity::differences;
 
@@ -110,22 +110,10 @@ impl Journal {
     /// # Errors
     /// What the operating system says; the journal then ends with the record before.
     pub fn append(&self, piece: &Piece) -> std::io::Result<()> {
-        self.append_record(|buffer| format::write_record(buffer, piece))
-    }
-
-    /// Appends that the pieces from here on are evaluated with `files` of the model (path: digest).
-    ///
-    /// # Errors
-    /// As for [`append`](Self::append).
-    pub fn append_files(&self, files: &Value) -> std::io::Result<()> {
-        self.append_record(|buffer| format::write_files(buffer, files))
-    }
-
-    fn append_record(&self, write: impl FnOnce(&mut Vec<u8>)) -> std::io::Result<()> {
         let mut writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
         let mut buffer = std::mem::take(&mut writer.buffer);
         buffer.clear();
-        write(&mut buffer);
+        format::write_record(&mut buffer, piece);
         let written = writer.append(&buffer);
         writer.buffer = buffer;
         written

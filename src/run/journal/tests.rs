@@ -99,35 +99,6 @@ fn other_files_are_refused_with_the_reason() {
     assert!(refused(b"apportion journal\x01\0\0\0\xff\xff\xff\xff\0\0\0\0").contains("cut short"));
 }
 
-#[test]
-fn pieces_know_the_files_that_they_were_evaluated_with() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.journal");
-    let files = |digest: &str| json!({ "model.py": digest });
-    let journal = Journal::create(&path, &json!({ "files": files("ab") })).unwrap();
-    journal.append(&piece(0, 2)).unwrap();
-    journal.append_files(&files("cd")).unwrap();
-    journal.append_files(&files("ef")).unwrap();
-    journal.append(&piece(2, 1)).unwrap();
-    journal.append(&piece(3, 1)).unwrap();
-    journal.append_files(&files("ab")).unwrap();
-    drop(journal);
-    let bytes = std::fs::read(&path).unwrap();
-    let contents = read_journal(&path, &bytes).unwrap();
-    assert_same(&contents.pieces, &[piece(0, 2), piece(2, 1), piece(3, 1)]);
-    let of_pieces: Vec<&Value> = contents.pieces_with_files().map(|(_, files)| files).collect();
-    assert_eq!(of_pieces, [&files("ab"), &files("ef"), &files("ef")]);
-    assert_eq!((contents.stretches.last().unwrap().files.clone(), contents.cut_off), (files("ab"), 0));
-    // Cut within a record of files, the rest is as it was.
-    let cut = read_journal(&path, &bytes[..bytes.len() - 3]).unwrap();
-    assert_eq!((cut.pieces.len(), cut.stretches.len()), (3, 3));
-    // One that holds no JSON is damage.
-    let mut damaged = bytes.clone();
-    format::write_record(&mut damaged, &Piece { replicate: u64::MAX, ..Piece::default() });
-    let contents = read_journal(&path, &damaged).unwrap();
-    assert_eq!(contents.cut_off, (damaged.len() - bytes.len()) as u64);
-}
-
 #[cfg(unix)]
 #[test]
 fn what_is_no_file_is_refused_at_once() {
