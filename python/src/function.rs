@@ -134,6 +134,10 @@ impl Model for PythonModel {
         }
     }
 
+    fn may_be_random(&self) -> bool {
+        true
+    }
+
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         Box::new(PythonWorker { model: self, context })
     }

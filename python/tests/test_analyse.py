@@ -436,3 +436,11 @@ def test_dependent_factors_have_shapley_effects():
     with pytest.raises(ap.StudyError, match="nearest"):
         three = factors | {"c": ap.Normal(0, 1)}
         ap.analyse(lambda a, b, c: a, three, dependence={("a", "b"): 0.9, ("b", "c"): 0.9, ("a", "c"): -0.9})
+
+
+def test_a_function_that_draws_random_numbers_is_noticed(cube):
+    draw = np.random.default_rng(1)
+    result = ap.analyse(lambda x1, x2, x3: x1 + draw.random(np.shape(x1)), cube, base_samples=256)
+    assert any("stochastic-models.md" in warning for warning in result.warnings)
+    result = ap.analyse(lambda x1, x2, x3: x1 + x2, cube, base_samples=256)
+    assert not any("stochastic-models.md" in warning for warning in result.warnings)

@@ -7,6 +7,7 @@ use super::series::SeriesAnalysis;
 use crate::design::Design;
 use crate::estimate::{Scaling, Undefined};
 use crate::model::{Counter, Flag};
+use crate::run::Repeats;
 use crate::study::SurrogateChoice;
 use crate::uncertainty::AggregateIndices;
 
@@ -169,6 +170,13 @@ impl fmt::Display for StopReason {
 }
 
 impl Analysis {
+    /// Warns of the outputs that had other values when rows were run again.
+    pub(crate) fn note_repeats(&mut self, repeats: &Repeats, has_noise: bool) {
+        for (output, differing) in self.outputs.iter_mut().zip(&repeats.differing) {
+            output.warnings.extend(repeats.warning(*differing, has_noise));
+        }
+    }
+
     /// The output called `name`.
     ///
     /// # Errors

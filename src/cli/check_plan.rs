@@ -23,7 +23,10 @@ pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String 
             if let Some(reason) = &pilot.reason {
                 failures = format!("warning: {} of {} failed: {reason}\n", pilot.failed, runs(pilot.runs));
             }
-            failures.push_str(random(study, pilot));
+            let has_noise = study.space().noise().is_some();
+            let of_output = |differing: &u64| pilot.repeats.as_ref()?.warning(*differing, has_noise);
+            let random = pilot.repeats.iter().flat_map(|repeats| &repeats.differing).find_map(of_output);
+            failures.extend(random.map(|warning| format!("warning: {warning}\n")));
             match pilot.failed == pilot.runs {
                 true => "in a time that cannot be told".to_owned(),
                 false => format!(
@@ -58,21 +61,6 @@ pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String 
         text.push_str(&format!("warning: {warning}\n"));
     }
     text
-}
-
-/// What to do where the same row has two answers.
-fn random(study: &Study, pilot: &Pilot) -> &'static str {
-    match (pilot.is_random, study.space().noise()) {
-        (false, _) => "",
-        (true, None) => {
-            "warning: the same row had two different answers: the program is random; give it a seed with every row by `noise = \
-             \"seed\"` (docs/stochastic-models.md)\n"
-        }
-        (true, Some(_)) => {
-            "warning: the same row with the same seed had two different answers: the program draws random numbers without its \
-             seed, and a resumed run is not repeatable\n"
-        }
-    }
 }
 
 /// What the start of the program takes, where it is worth a word.

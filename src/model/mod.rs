@@ -137,6 +137,12 @@ pub trait Model: Send + Sync {
         None
     }
 
+    /// Whether the same row may have another answer when it is run again, as far as is known: a run then repeats a few rows
+    /// at its end to see.
+    fn may_be_random(&self) -> bool {
+        false
+    }
+
     /// A worker for one thread of the run that `context` tells of.
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a>;
 }
@@ -160,6 +166,10 @@ impl<M: Model + ?Sized> Model for Arc<M> {
 
     fn concurrency(&self) -> Option<usize> {
         (**self).concurrency()
+    }
+
+    fn may_be_random(&self) -> bool {
+        (**self).may_be_random()
     }
 
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {

@@ -94,6 +94,10 @@ impl Model for RepeatedModel {
         self.model.concurrency()
     }
 
+    fn may_be_random(&self) -> bool {
+        self.model.may_be_random()
+    }
+
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         let batch = Batch::new(&*self.model);
         Box::new(RepeatedWorker { of: self, worker: self.model.worker(context), batch, columns: Vec::new() })

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 use std::time::Instant;
 
-use super::{GrowingRun, Job, RowValues, RunError};
+use super::repeats::compare;
+use super::{GrowingRun, Job, Repeats, RowValues, RunError};
 use crate::design::{Design, DesignError, DesignSettings};
 use crate::model::{Batch, RunContext};
 
@@ -16,8 +17,8 @@ pub struct Pilot {
     pub seconds: f64,
     /// Seconds that a worker takes before its first run, where it takes any.
     pub startup: f64,
-    /// Whether the first row had other outputs when it was run once more: known of models that take their time.
-    pub is_random: bool,
+    /// What the first row says of the model, run once more by a new worker; `None` of models that are known to be no random ones.
+    pub repeats: Option<Repeats>,
     /// Runs that failed in some output.
     pub failed: u64,
     /// Why the first of them did.
@@ -57,7 +58,7 @@ impl Pilot {
                     runs: part.rows(),
                     seconds: seconds * share,
                     startup: 0.0,
-                    is_random: false,
+                    repeats: None,
                     failed: totals.iter().map(|totals| totals.failed_runs).sum(),
                     reason: first.map(|(reason, _)| reason.to_string()),
                 });
@@ -73,8 +74,7 @@ impl Pilot {
         const MOST: u64 = 4096;
         let Job { design, model, .. } = job;
         let (mut worker, mut batch, mut values) = (model.worker(context), Batch::new(model), RowValues::default());
-        let (mut failed, mut reason, mut is_random) = (0, None, false);
-        let mut before: Option<Vec<u64>> = None;
+        let (mut failed, mut reason, mut first_row) = (0, None, Vec::new());
         let mut timed = |rows: u64| {
             let columns = values.values(job, 0, 0..rows);
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
@@ -82,9 +82,8 @@ impl Pilot {
             let start = Instant::now();
             worker.run(&inputs, &mut batch);
             let seconds = start.elapsed().as_secs_f64();
-            // Every piece begins with the first row, which a model that draws from nothing but its inputs answers alike.
-            let outputs: Vec<u64> = (0..batch.outputs()).map(|output| batch.column(output)[0].to_bits()).collect();
-            is_random |= before.replace(outputs.clone()).is_some_and(|before| before != outputs);
+            // Every batch begins with the first row.
+            first_row = (0..batch.outputs()).map(|output| batch.column(output)[0]).collect();
             // So that the last one has them all.
             let rows: BTreeSet<usize> = batch.failures().iter().map(|(_, row, _)| *row).collect();
             failed = rows.len() as u64;
@@ -99,7 +98,9 @@ impl Pilot {
             runs = (runs * 4).min(rows).min(MOST);
             seconds = timed(runs)?;
         }
+        let repeats = || compare(job, context, &[(0, 0)], &[first_row]);
+        let repeats = model.may_be_random().then(repeats).transpose()?;
         let whole = seconds * design.rows() as f64 / runs as f64 / workers as f64;
-        Ok(Self { runs, seconds: whole + startup, startup, is_random, failed, reason })
+        Ok(Self { runs, seconds: whole + startup, startup, repeats, failed, reason })
     }
 }

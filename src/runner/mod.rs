@@ -11,11 +11,14 @@ mod worker;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::analysis::{Analysis, FinishedRun, LowTotals, analysis};
 use crate::model::{Messages, RunContext};
-use crate::run::{GrowingRun, Job, Piece, Progress, Remote, RemoteWorkers, RunError, Shard, Store, threads_in_force};
+use crate::run::{
+    GrowingRun, Job, Piece, Progress, Remote, RemoteWorkers, Repeats, RunError, Shard, Store, repeat_rows,
+    rows_to_repeat, threads_in_force,
+};
 use crate::study::Study;
 use journal::{JournalRequest, OpenJournal};
 use low_fidelity::{LowRun, LowStudy, sinks};
@@ -304,8 +307,13 @@ impl<'a> Runner<'a> {
         let low_studies = LowStudy::all(self, context)?;
         let low_sinks = sinks(&low_studies);
         let mut lows = LowRun::all(self, &low_studies, &low_sinks, context)?;
+        let evaluated = AtomicU64::new(0);
+        let on_progress = |progress: Progress| {
+            evaluated.fetch_max(progress.done.saturating_sub(progress.recalled), Ordering::Relaxed);
+            (self.on_progress)(progress);
+        };
         let grown = run
-            .grow_to(points, &*self.on_progress)
+            .grow_to(points, &on_progress)
             .and_then(|()| if study.target.is_free { Ok(()) } else { self.begin_lows(&run, &mut lows) })
             .and_then(|()| if study.target.grows() { self.grow(&mut run, &mut lows).map(Some) } else { Ok(None) });
         let (grown, surrogates) = match grown {
@@ -327,9 +335,21 @@ impl<'a> Runner<'a> {
             threads: threads_in_force(self.threads) + self.remote.map_or(0, RemoteWorkers::count),
             wall_seconds: run.elapsed().as_secs_f64(),
         };
-        let result = run.install(|| analysis(&finished, stopped));
+        let mut result = run.install(|| analysis(&finished, stopped));
+        let evaluated = evaluated.into_inner();
+        if let Some(repeats) = repeats_of(Job { design: &design, ..job }, context, evaluated, store) {
+            result.note_repeats(&repeats, study.space.noise().is_some());
+        }
         Ok(result)
     }
+}
+
+/// Runs some rows of a run again, of which so many were evaluated now, if its model may be random. A model that does not answer
+/// any more does not cost the result.
+fn repeats_of(job: Job<'_>, context: &RunContext<'_>, evaluated: u64, store: Option<&Store>) -> Option<Repeats> {
+    let rows = rows_to_repeat(job.design, evaluated);
+    let is_worth_it = job.model.may_be_random() && !rows.is_empty();
+    if is_worth_it { repeat_rows(job, context, &rows, store).ok() } else { None }
 }
 
 /// The outcome of a run whose record was written as `recorded` says. An error of the run is told before one of the record.

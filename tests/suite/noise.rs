@@ -230,14 +230,35 @@ fn program(folder: &Folder, draws: &str) -> std::path::PathBuf {
 fn check_finds_programs_that_draw_without_their_seed() {
     let folder = Folder::new();
     let seeded = program(&folder, "y = x + random.Random(int(row['seed'])).gauss(0, 1)");
-    assert!(!succeed(&["check", text(&seeded)]).contains("two different answers"));
+    assert!(!succeed(&["check", text(&seeded)]).contains("stochastic-models.md"));
     let unseeded = program(&folder, "y = x + random.gauss(0, 1)");
     let said = succeed(&["check", text(&unseeded)]);
-    assert!(said.contains("the same row with the same seed had two different answers"), "{said}");
+    assert!(said.contains("draws random numbers without its seed"), "{said}");
     let plain = std::fs::read_to_string(&unseeded).unwrap().replace("noise = \"seed\"\n", "");
     let plain = folder.with("plain.toml", plain);
     let said = succeed(&["check", text(&plain)]);
-    assert!(said.contains("the program is random; give it a seed with every row by `noise = \"seed\"`"), "{said}");
+    assert!(said.contains("give the model a seed with every row (noise = \"seed\")"), "{said}");
+}
+
+#[test]
+fn a_run_tells_random_programs_from_those_that_remember() {
+    let folder = Folder::new();
+    for (draws, expected) in [
+        ("y = x", None),
+        ("y = x + random.random()", Some("the model draws random numbers")),
+        // From one seed at its start.
+        ("n = globals().get('n') or random.Random(1); y = x + n.random()", Some("depends on the rows before")),
+    ] {
+        let study = program(&folder, draws);
+        let study = folder.with("s.toml", std::fs::read_to_string(study).unwrap().replace("noise = \"seed\"\n", ""));
+        let out = folder.path("out");
+        succeed(&["run", text(&study), "--restart", "--charts", "none", "--out", text(&out)]);
+        let result = apportion::report::read_result(&out.join("s.json")).unwrap();
+        let warnings: Vec<&String> =
+            result.outputs[0].warnings.iter().filter(|warning| warning.contains("stochastic-models.md")).collect();
+        assert_eq!(warnings.len(), usize::from(expected.is_some()), "{draws}: {warnings:?}");
+        assert!(expected.is_none_or(|expected| warnings[0].contains(expected)), "{draws}: {warnings:?}");
+    }
 }
 
 /// The seed is a part of the row: a journal gives the same result, and so does a table that somebody else has filled.

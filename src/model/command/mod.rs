@@ -199,6 +199,10 @@ impl Model for CommandModel {
         Some(self.settings.workers.unwrap_or_else(cores))
     }
 
+    fn may_be_random(&self) -> bool {
+        true
+    }
+
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         match &self.settings.form {
             Form::KeptAlive(protocol) => Box::new(KeptAliveWorker::new(self, context, *protocol)),

@@ -149,7 +149,7 @@ fn standard_error_is_passed_on_and_counted() {
     let talks = "    print('row', line.strip(), '\\x1b[2J', file=sys.stderr)\n    answer(y)\n";
     let said = is_whole(&Case::each_row("", talks));
     assert_eq!(said.matches("the program: row").count(), 20, "{said}");
-    contains(&said, &["the program: 140 more lines on standard error left out"]);
+    contains(&said, &["the program: 141 more lines on standard error left out"]);
     assert!(!said.contains('\x1b'));
 }
 

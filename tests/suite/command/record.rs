@@ -33,7 +33,8 @@ fn only_rows_that_failed_are_asked_again_and_the_result_is_that_of_a_run_without
     let (case, sound) = (new(), new());
     let bad = rows_where(|x| x > 0.9);
     let (first, _) = case.result();
-    assert_eq!((first.outputs[0].runs_failed, asked(&case).len()), (bad, 160));
+    // One of them is asked again at the end, to see whether the program is random.
+    assert_eq!((first.outputs[0].runs_failed, asked(&case).len()), (bad, 161));
     case.write("licence", "");
     let retried = case.run_with(&["--retry-failed"]);
     assert_eq!(retried.status.code(), Some(0), "{}", stderr(&retried));
@@ -80,9 +81,10 @@ fn an_engine_that_is_killed_asks_no_row_on_record_again_and_leaves_no_process() 
     assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
     contains(&stderr(&resumed), &[&format!("{before} of {ROWS} runs are on record")]);
     let rows = asked(&case);
-    // Those that are not on record, each once.
-    assert_eq!(rows.len(), ROWS - before);
-    assert_eq!(rows.iter().collect::<BTreeSet<_>>().len(), rows.len());
+    // Those that are not on record, each once; and at the end some of all rows again, to see whether the program is random.
+    let (evaluated, again) = rows.split_at(ROWS - before);
+    assert_eq!(again.len(), (evaluated.len() / 100).clamp(1, 16));
+    assert_eq!(evaluated.iter().collect::<BTreeSet<_>>().len(), evaluated.len());
     seen.extend(rows);
     assert_eq!(seen.len(), ROWS);
     within(60, "all have ended", || !processes(&case).iter().any(is_alive));

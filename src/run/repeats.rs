@@ -1,0 +1,216 @@
+//! Rows that are run again, to see whether the model gives the same answer.
+
+use super::{Job, RowValues, RunError, Store};
+use crate::design::Design;
+use crate::model::{Batch, RunContext};
+
+/// One of so many runs is run again, but no more rows than these.
+const RUNS_PER_REPEAT: u64 = 100;
+const MAX_ROWS: u64 = 16;
+/// Shorter runs repeat none.
+const MIN_RUNS: u64 = 50;
+
+/// Answers that are apart by no more than this share of them are the same: sums in another order differ in their last digits.
+const ROUNDING: f64 = 1e-9;
+
+/// What became of rows that were run again.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Repeats {
+    /// Rows that were run again.
+    pub rows: u64,
+    /// How many of them had another answer, by output.
+    pub differing: Vec<u64>,
+    /// Why, if any had.
+    pub cause: Option<Irreproducible>,
+}
+
+/// Why a model does not give the same answer to the same row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Irreproducible {
+    /// New workers that are asked the same rows in the same order give different answers: it draws random numbers.
+    Random,
+    /// They give the same answers, but others than in the run: it remembers the rows before.
+    Remembers,
+}
+
+impl Repeats {
+    /// What is wrong with the indices of an output of which so many rows had another answer, and what to do; `None` if no row
+    /// had. `has_noise` says whether the model gets a seed with every row.
+    pub fn warning(&self, differing: u64, has_noise: bool) -> Option<String> {
+        let cause = self.cause.filter(|_| differing > 0)?;
+        let why = match (cause, has_noise) {
+            (Irreproducible::Random, false) => {
+                "the model draws random numbers, and the indices of the factors hold their noise too, the total indices most of \
+                 all; give the model a seed with every row (noise = \"seed\"), so that the noise has indices of its own"
+            }
+            (Irreproducible::Random, true) => {
+                "the model draws random numbers without its seed, and the indices of the factors hold their noise too"
+            }
+            (Irreproducible::Remembers, _) => {
+                "the answer depends on the rows before (on what the model keeps in variables or files, or on random numbers from \
+                 one seed at its start), and the indices of the factors hold this as noise; answer each row by its own values \
+                 alone, random numbers from a seed of its row (noise = \"seed\")"
+            }
+        };
+        let rows = if self.rows == 1 { "row that was" } else { "rows that were" };
+        Some(format!(
+            "{differing} of {} {rows} run again had another answer: {why} (docs/stochastic-models.md)",
+            self.rows
+        ))
+    }
+}
+
+/// The rows that a run of `evaluated` runs of `design` runs again, as (replicate, row): a function of these alone.
+pub(crate) fn rows_to_repeat(design: &Design, evaluated: u64) -> Vec<(u64, u64)> {
+    if evaluated < MIN_RUNS {
+        return Vec::new();
+    }
+    let count = (evaluated / RUNS_PER_REPEAT).clamp(1, MAX_ROWS);
+    let of_replicate = design.points_per_replicate() * design.rows_per_point();
+    let all = of_replicate * design.settings().replicates;
+    let place = |number: u64| (u128::from(2 * number + 1) * u128::from(all) / u128::from(2 * count)) as u64;
+    (0..count).map(place).map(|place| (place / of_replicate, place % of_replicate)).collect()
+}
+
+/// Runs `rows` again by a new worker, and compares their outputs with those in `known`; with those of another new worker where
+/// they are not all there.
+///
+/// # Errors
+/// [`RunError`] if the model gives up or the run of `context` is to end.
+pub(crate) fn repeat_rows(
+    job: Job<'_>,
+    context: &RunContext<'_>,
+    rows: &[(u64, u64)],
+    known: Option<&Store>,
+) -> Result<Repeats, RunError> {
+    let of_store = |store: &Store| -> Option<Vec<Vec<f64>>> {
+        rows.iter().map(|(replicate, row)| Some(store.piece(*replicate, *row..*row + 1)?.values)).collect()
+    };
+    let first = match known.and_then(of_store) {
+        Some(outputs) => outputs,
+        None => outputs_of(job, context, rows)?,
+    };
+    compare(job, context, rows, &first)
+}
+
+/// The same with the outputs of the rows as they were `before`.
+///
+/// # Errors
+/// As for [`repeat_rows`].
+pub(crate) fn compare(
+    job: Job<'_>,
+    context: &RunContext<'_>,
+    rows: &[(u64, u64)],
+    before: &[Vec<f64>],
+) -> Result<Repeats, RunError> {
+    // In another order: the answer to a row does not depend on its place.
+    let backwards: Vec<(u64, u64)> = rows.iter().rev().copied().collect();
+    let again = || outputs_of(job, context, &backwards);
+    let second = again()?;
+    let mut differing = vec![0; job.model.outputs().len()];
+    for (outputs, others) in before.iter().zip(second.iter().rev()) {
+        for (count, (a, b)) in differing.iter_mut().zip(outputs.iter().zip(others)) {
+            *count += u64::from(!is_same(*a, *b));
+        }
+    }
+    let cause = match differing.iter().any(|count| *count > 0) {
+        false => None,
+        true => {
+            let third = again()?;
+            let is_repeated = second.iter().flatten().zip(third.iter().flatten()).all(|(a, b)| is_same(*a, *b));
+            Some(if is_repeated { Irreproducible::Remembers } else { Irreproducible::Random })
+        }
+    };
+    Ok(Repeats { rows: rows.len() as u64, differing, cause })
+}
+
+/// Outputs without a value are no answers that could differ.
+fn is_same(a: f64, b: f64) -> bool {
+    !a.is_finite() || !b.is_finite() || (a - b).abs() <= ROUNDING * a.abs().max(b.abs())
+}
+
+/// The outputs of rows by a new worker.
+fn outputs_of(job: Job<'_>, context: &RunContext<'_>, rows: &[(u64, u64)]) -> Result<Vec<Vec<f64>>, RunError> {
+    let mut inputs = vec![Vec::with_capacity(rows.len()); job.design.factors()];
+    let mut values = RowValues::default();
+    for (replicate, row) in rows {
+        let of_row = values.values(job, *replicate, *row..*row + 1);
+        inputs.iter_mut().zip(of_row).for_each(|(column, value)| column.extend_from_slice(value));
+    }
+    let inputs: Vec<&[f64]> = inputs.iter().map(Vec::as_slice).collect();
+    let mut batch = Batch::new(job.model);
+    batch.reset(rows.len());
+    job.model.worker(context).run(&inputs, &mut batch);
+    if let Some(give_up) = batch.given_up() {
+        return Err(RunError::GaveUp(give_up.clone()));
+    }
+    Ok((0..rows.len()).map(|row| (0..batch.outputs()).map(|output| batch.column(output)[row]).collect()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicU32, Ordering};
+
+    use super::*;
+    use crate::design::{DesignSettings, Rows, Sampler};
+    use crate::model::{Model, Output, Worker};
+    use crate::quantity::Unit;
+    use crate::space::{Distribution, Factor, Space};
+
+    /// Adds what its workers count, from a start of their own or all together.
+    struct Counting {
+        outputs: Vec<Output>,
+        together: AtomicU32,
+        own: f64,
+        shared: f64,
+    }
+
+    struct CountingWorker<'a>(&'a Counting, f64);
+
+    impl Model for Counting {
+        fn outputs(&self) -> &[Output] {
+            &self.outputs
+        }
+
+        fn worker<'a>(&'a self, _: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
+            Box::new(CountingWorker(self, 0.0))
+        }
+    }
+
+    impl Worker for CountingWorker<'_> {
+        fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
+            for (row, x) in inputs[0].iter().enumerate() {
+                self.1 += 1.0;
+                let together = f64::from(self.0.together.fetch_add(1, Ordering::Relaxed));
+                batch.set(row, 0, x + self.0.own * self.1 + self.0.shared * together);
+                batch.set(row, 1, 1.0);
+            }
+        }
+    }
+
+    #[test]
+    fn random_models_are_told_from_those_that_remember_and_from_pure_ones() {
+        let settings = DesignSettings { sampler: Sampler::Sobol, base_samples: 64, replicates: 4, seed: 1 };
+        let design = Design::new(settings, 1, Rows::default()).unwrap();
+        let law = Distribution::uniform(0.0, 1.0).unwrap();
+        let space = Space::new(vec![Factor::new("x", Unit::dimensionless(), law).unwrap()]);
+        let rows = rows_to_repeat(&design, 192);
+        assert_eq!((rows.len(), rows_to_repeat(&design, 49).len(), rows_to_repeat(&design, 1 << 40).len()), (1, 0, 16));
+        let rows = rows_to_repeat(&design, 500);
+        let output = |name| Output::new(name, Unit::dimensionless(), "");
+        for (own, shared, cause) in [
+            (0.0, 0.0, None),
+            (1e-12, 0.0, None),
+            (0.5, 0.0, Some(Irreproducible::Remembers)),
+            (0.0, 0.5, Some(Irreproducible::Random)),
+        ] {
+            let model =
+                Counting { outputs: vec![output("y"), output("one")], together: AtomicU32::new(0), own, shared };
+            let job = Job { design: &design, space: &space, model: &model };
+            let repeats = repeat_rows(job, &RunContext::default(), &rows, None).unwrap();
+            assert_eq!((repeats.rows, repeats.cause, repeats.differing[1]), (5, cause, 0));
+            assert_eq!(repeats.differing[0] > 0, cause.is_some());
+            assert_eq!(repeats.warning(repeats.differing[0], false).is_some(), cause.is_some());
+        }
+    }
+}
