@@ -318,6 +318,9 @@ pub(super) fn read(study: &Study, path: &Path) -> Result<Contents, RunError> {
 /// Runs of `study` on record in the journal at `path`.
 pub(super) fn recorded_runs(study: &Study, path: &Path) -> Result<u64, RunError> {
     let contents = read(study, path)?;
+    if let Some(why) = another_model(&contents.header, &digests(study)) {
+        return Err(refused(path, why));
+    }
     Ok(match &contents.sums {
         Some(sums) => sums.rows(),
         None => rows_on_record(study, &recorded(study, &contents)),
