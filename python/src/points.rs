@@ -2,7 +2,7 @@
 
 use apportion::given::{Column, Method, analyse, measures as measured, surrogate_indices};
 use apportion::report::given::{GivenFacts, build_given, given_document};
-use apportion::salib::{SalibLayout, salib_indices as indices_of};
+use apportion::salib::{SalibLayout, SalibProblem, salib_study};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
@@ -64,7 +64,10 @@ pub fn given_data(
 /// An estimate with the ends of its interval.
 type Triple = (f64, f64, f64);
 
-/// First-order, total and second-order indices of outputs in SALib's layout; the last ones as (first, second, index).
+/// Indices by SALib's formulas: first-order, total and second-order ones, the last ones as (first, second, index), and warnings.
+type SalibIndices = (Vec<Triple>, Vec<Triple>, Vec<(usize, usize, Triple)>, Vec<String>);
+
+/// First-order, total and second-order indices of outputs in SALib's layout, with what is to be known of them.
 #[pyfunction]
 #[pyo3(signature = (y, d, *, second_order, resamples, seed))]
 pub fn salib_indices(
@@ -74,24 +77,35 @@ pub fn salib_indices(
     second_order: bool,
     resamples: usize,
     seed: u64,
-) -> PyResult<(Vec<Triple>, Vec<Triple>, Vec<(usize, usize, Triple)>)> {
+) -> PyResult<SalibIndices> {
     let y = y.as_array().to_vec();
     let layout = if second_order { SalibLayout::SecondOrder } else { SalibLayout::FirstOrder };
     let rows = layout.rows_per_point(d);
     if d == 0 || y.is_empty() || !y.len().is_multiple_of(rows) || y.len() < 2 * rows {
         return Err(input(format!("{} outputs: expected a multiple of {rows}, at least {}", y.len(), 2 * rows)));
     }
-    if let Some(row) = y.iter().position(|y| !y.is_finite()) {
-        return Err(input(format!("output {row} (from 0) is not finite")));
-    }
-    let found = watched(py, move |_| indices_of(&y, d, layout, resamples, seed))?.map_err(input)?;
+    let work = move |_: &Stop| -> Result<_, String> {
+        let problem = SalibProblem::of_inputs((0..d).map(|j| format!("x{j}")).collect());
+        let outputs = [Column { name: "y".to_owned(), values: y }];
+        let unlikely = apportion::Unlikely::find(&outputs[0].values).map(|found| found.words(found.first + 1));
+        let problem = problem.map_err(|error| error.to_string())?;
+        let made = salib_study("salib", &problem, &outputs, layout, (resamples, seed));
+        let (study, store) = made.map_err(|error| error.to_string())?;
+        let analysis = study.runner().store(&store).run().map_err(|error| error.to_string())?;
+        Ok((analysis, study.layout().pair_list(), unlikely))
+    };
+    let (mut analysis, pairs, unlikely) = watched(py, work)?.map_err(input)?;
+    let output = analysis.outputs.remove(0);
+    let found = output.indices.map_err(|reason| input(reason.to_string()))?;
     let triple = |of: apportion::Estimate| {
         let interval = of.interval.map_or((f64::NAN, f64::NAN), |interval| (interval.low, interval.high));
         (of.estimate, interval.0, interval.1)
     };
+    let pairs = pairs.into_iter().zip(found.second_order).map(|((j, k), index)| (j, k, triple(index)));
     Ok((
-        found.indices.iter().map(|index| triple(index.first_order)).collect(),
-        found.indices.iter().map(|index| triple(index.total)).collect(),
-        found.pairs.iter().map(|pair| (pair.pair.0, pair.pair.1, triple(pair.second_order))).collect(),
+        found.factors.iter().map(|factor| triple(factor.first_order)).collect(),
+        found.factors.iter().map(|factor| triple(factor.total)).collect(),
+        pairs.collect(),
+        unlikely.into_iter().chain(output.warnings).collect(),
     ))
 }

@@ -30,7 +30,6 @@ mod result;
 mod run_charts;
 mod run_document;
 #[doc(hidden)]
-pub mod salib;
 #[doc(hidden)]
 pub mod scatter;
 mod schema;

@@ -25,14 +25,6 @@ impl SalibLayout {
         }
     }
 
-    /// Its name in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::FirstOrder => "first-order",
-            Self::SecondOrder => "second-order",
-        }
-    }
-
     fn words(self) -> &'static str {
         match self {
             Self::FirstOrder => "without second order (calc_second_order=False)",
@@ -91,106 +83,81 @@ pub enum LayoutError {
         rows: usize,
     },
     /// A row that is not what its place in the layout says.
-    #[error(transparent)]
-    WrongRow(#[from] Box<WrongRow>),
+    #[error(
+        "row {row} should be the row {kind} of its base point, {layout}, but its `{input}` is {found} instead of {expected}: the \
+         rows are in another order, or the points are not those of SALib"
+    )]
+    WrongRow {
+        /// Row of the table, from 1.
+        row: usize,
+        /// What it should be.
+        kind: String,
+        /// The layout, in words.
+        layout: &'static str,
+        /// The input.
+        input: String,
+        /// Its value, in words.
+        found: String,
+        /// The value that it should have, in words.
+        expected: String,
+    },
 }
 
-/// A row that is not what its place in the layout says.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error(
-    "row {row} should be the row {kind} of its base point (rows {first} to {last}), {layout}, but its {input} is {found} \
-     where {from} has {expected}: the rows are in another order, or the points are not those of SALib"
-)]
-pub struct WrongRow {
-    /// Row of the table, from 1.
-    pub row: usize,
-    /// What it should be.
-    pub kind: String,
-    /// First row of the base point, from 1.
-    pub first: usize,
-    /// Last row of the base point.
-    pub last: usize,
-    /// The layout, in words.
-    pub layout: &'static str,
-    /// The input.
-    pub input: String,
-    /// Its value.
-    pub found: String,
-    /// A or B.
-    pub from: &'static str,
-    /// The value there.
-    pub expected: String,
-}
+/// Inputs by name, a column each.
+pub type Inputs = [(String, Vec<f64>)];
 
-/// The layout of `rows` rows for `d` inputs or groups: the one `asked` for, or the only one that the number of rows
-/// fits, or the one that `fits` says of those it fits.
+/// The layout of `rows` rows for the indices of `members`: the one `asked` for, or the only one that the number of rows and
+/// the `inputs`, if they are known, fit. Members have the numbers of their inputs.
 ///
 /// # Errors
-/// [`LayoutError`] if the number fits none, or both and nothing tells which.
+/// [`LayoutError`] if the rows fit none, or both.
 pub fn recognise(
     rows: usize,
-    d: usize,
+    members: &[(String, Vec<usize>)],
     asked: Option<SalibLayout>,
-    fits: Option<&dyn Fn(SalibLayout) -> Result<(), LayoutError>>,
+    inputs: Option<&Inputs>,
 ) -> Result<SalibLayout, LayoutError> {
+    let d = members.len();
     let candidates: Vec<SalibLayout> = asked.map_or(SalibLayout::ALL.to_vec(), |asked| vec![asked]);
     let whole = |layout: &SalibLayout| rows > 0 && rows.is_multiple_of(layout.rows_per_point(d));
     let possible: Vec<SalibLayout> = candidates.iter().copied().filter(whole).collect();
-    let Some(&first) = possible.first() else {
-        let words = |layout: &SalibLayout| format!("{} rows each {}", layout.rows_per_point(d), layout.words());
-        let expected = candidates.iter().map(words).collect::<Vec<_>>().join(", ");
-        return Err(LayoutError::NoMultiple { rows, d, expected });
-    };
-    let fitting: Vec<SalibLayout> = match fits {
-        None => possible,
-        Some(fits) => {
-            let fitting: Vec<SalibLayout> = possible.iter().copied().filter(|layout| fits(*layout).is_ok()).collect();
-            if fitting.is_empty() {
-                fits(first)?;
-            }
-            fitting
+    let fits = |layout| inputs.map_or(Ok(()), |inputs| check_points(inputs, members, layout));
+    let fitting: Vec<SalibLayout> = possible.iter().copied().filter(|layout| fits(*layout).is_ok()).collect();
+    match (&fitting[..], possible.first()) {
+        (_, None) => {
+            let words = |layout: &SalibLayout| format!("{} rows each {}", layout.rows_per_point(d), layout.words());
+            let expected = candidates.iter().map(words).collect::<Vec<_>>().join(", ");
+            Err(LayoutError::NoMultiple { rows, d, expected })
         }
-    };
-    match fitting[..] {
-        [layout] if rows == layout.rows_per_point(d) => Err(LayoutError::OnePoint { rows }),
-        [layout] => Ok(layout),
+        ([], Some(first)) => fits(*first).map(|()| *first),
+        ([layout], _) if rows == layout.rows_per_point(d) => Err(LayoutError::OnePoint { rows }),
+        ([layout], _) => Ok(*layout),
         _ => Err(LayoutError::Ambiguous { rows, d }),
     }
 }
 
 /// Whether the points are laid out so: in every base point the rows between A and B are those of one with the inputs of
-/// their member from the other. `inputs` are columns with their names, `members` the numbers of the inputs of every index.
-///
-/// # Errors
-/// [`LayoutError::WrongRow`] with the first row that is not.
-pub fn check_points(
-    inputs: &[(String, Vec<f64>)],
-    members: &[(String, Vec<usize>)],
-    layout: SalibLayout,
-) -> Result<(), LayoutError> {
+/// their member from the other.
+fn check_points(inputs: &Inputs, members: &[(String, Vec<usize>)], layout: SalibLayout) -> Result<(), LayoutError> {
     let (d, step) = (members.len(), layout.rows_per_point(members.len()));
     let rows = inputs.first().map_or(0, |(_, column)| column.len());
     for first in (0..rows).step_by(step) {
         let (a, b) = (first, first + step - 1);
         for row in first + 1..b {
             let number = row - first - 1;
-            let swapped = &members[number % d].1;
-            let (base, other) = if number < d { ((a, "A"), (b, "B")) } else { ((b, "B"), (a, "A")) };
+            let (base, other) = if number < d { (a, b) } else { (b, a) };
             for (place, (name, column)) in inputs.iter().enumerate() {
-                let (source, from) = if swapped.contains(&place) { other } else { base };
+                let source = if members[number % d].1.contains(&place) { other } else { base };
                 let (found, expected) = (column[row], column[source]);
                 if !is_same(found, expected) {
-                    return Err(LayoutError::from(Box::new(WrongRow {
+                    return Err(LayoutError::WrongRow {
                         row: row + 1,
                         kind: layout.row_name(row - first, d),
-                        first: first + 1,
-                        last: b + 1,
                         layout: layout.words(),
-                        input: format!("`{name}`"),
+                        input: name.clone(),
                         found: found.to_string(),
-                        from,
                         expected: expected.to_string(),
-                    })));
+                    });
                 }
             }
         }

@@ -4,16 +4,14 @@
 //! point one after another: A, then AB_j for every input, then, with second order, BA_j for every input, then B. AB_j is A
 //! with input j from B, BA_j is B with input j from A; with groups, j counts the groups.
 
-mod estimate;
 mod layout;
 mod problem;
+mod study;
 #[cfg(test)]
 mod tests;
 
 #[doc(hidden)]
-pub use estimate::PairIndex;
-pub use estimate::{SalibIndex, SalibIndices, salib_indices};
+pub use layout::recognise;
 pub use layout::{LayoutError, SalibLayout};
-#[doc(hidden)]
-pub use layout::{WrongRow, check_points, recognise};
 pub use problem::{ProblemError, SalibProblem};
+pub use study::salib_study;

@@ -1,6 +1,5 @@
-use proptest::prelude::*;
-
 use super::*;
+use crate::given::Column;
 
 /// Points of SALib's layout for `d` inputs, from base points that are all different.
 fn points(d: usize, n: usize, layout: SalibLayout) -> Vec<(String, Vec<f64>)> {
@@ -32,23 +31,30 @@ fn both_layouts_are_recognised_by_their_points() {
     for layout in SalibLayout::ALL {
         // 12 base points of 4 rows are 8 of 6 rows.
         let columns = points(2, 48 / layout.rows_per_point(2), layout);
-        let fits = |layout| check_points(&columns, &members, layout);
-        assert_eq!(recognise(48, 2, None, Some(&fits)), Ok(layout));
-        assert_eq!(recognise(48, 2, None, None), Err(LayoutError::Ambiguous { rows: 48, d: 2 }));
-        assert_eq!(recognise(48, 2, Some(layout), None), Ok(layout));
+        let inputs = Some(&columns[..]);
+        assert_eq!(recognise(48, &members, None, inputs), Ok(layout));
+        assert_eq!(recognise(48, &members, None, None), Err(LayoutError::Ambiguous { rows: 48, d: 2 }));
+        assert_eq!(recognise(48, &members, Some(layout), None), Ok(layout));
     }
-    assert_eq!(recognise(18, 2, None, None), Ok(SalibLayout::SecondOrder));
-    assert!(matches!(recognise(7, 2, None, None), Err(LayoutError::NoMultiple { .. })));
-    assert_eq!(recognise(4, 2, None, None), Err(LayoutError::OnePoint { rows: 4 }));
+    assert_eq!(recognise(18, &members, None, None), Ok(SalibLayout::SecondOrder));
+    assert!(matches!(recognise(7, &members, None, None), Err(LayoutError::NoMultiple { .. })));
+    assert_eq!(recognise(4, &members, None, None), Err(LayoutError::OnePoint { rows: 4 }));
 }
 
 #[test]
 fn shuffled_rows_are_found() {
-    let members = problem(3).members;
     let mut columns = points(3, 4, SalibLayout::SecondOrder);
     columns.iter_mut().for_each(|(_, column)| column.swap(9, 13));
-    let error = check_points(&columns, &members, SalibLayout::SecondOrder).unwrap_err().to_string();
-    assert!(error.starts_with("row 10 should be the row AB_1 of its base point (rows 9 to 16)"), "{error}");
+    let error = recognise(32, &problem(3).members, None, Some(&columns)).unwrap_err();
+    let LayoutError::WrongRow { row, kind, .. } = error else { panic!("{error}") };
+    assert_eq!((row, kind.as_str()), (10, "AB_1"));
+}
+
+/// The analysis of outputs of `d` inputs in this layout, with intervals by the delta method.
+fn analysis(y: &[f64], d: usize, layout: SalibLayout) -> crate::Analysis {
+    let outputs = [Column { name: "y".to_owned(), values: y.to_vec() }];
+    let (study, store) = salib_study("s", &problem(d), &outputs, layout, (0, 0)).unwrap();
+    study.runner().threads(1).store(&store).run().unwrap()
 }
 
 /// y = x1 + 2 x2 x3: first and second order by the formulas as SALib writes them.
@@ -58,7 +64,8 @@ fn estimates_are_those_of_the_formulas() {
     let columns = points(d, n, SalibLayout::SecondOrder);
     let y: Vec<f64> =
         (0..columns[0].1.len()).map(|row| columns[0].1[row] + 2.0 * columns[1].1[row] * columns[2].1[row]).collect();
-    let indices = salib_indices(&y, d, SalibLayout::SecondOrder, 0, 0).unwrap();
+    let analysis = analysis(&y, d, SalibLayout::SecondOrder);
+    let indices = analysis.outputs[0].indices.as_ref().unwrap();
     let mean = y.iter().sum::<f64>() / y.len() as f64;
     let row = |k: usize| -> Vec<f64> { y.iter().skip(k).step_by(8).map(|y| y - mean).collect() };
     let both = [row(0), row(7)].concat();
@@ -66,14 +73,60 @@ fn estimates_are_those_of_the_formulas() {
     let variance = both.iter().map(|y| (y - middle).powi(2)).sum::<f64>() / both.len() as f64;
     let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>() / n as f64;
     let s1 = |j: usize| (dot(&row(7), &row(1 + j)) - dot(&row(7), &row(0))) / variance;
-    let closed = (dot(&row(4 + 1), &row(1 + 2)) - dot(&row(0), &row(7))) / variance;
+    let st = |j: usize| row(0).iter().zip(row(1 + j)).map(|(a, ab)| (a - ab).powi(2)).sum::<f64>() / (2.0 * n as f64);
     // Sums of 64 numbers of size 1 in another order.
     let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-13, "{a} {b}");
-    (0..d).for_each(|j| close(indices.indices[j].first_order.estimate, s1(j)));
-    assert_eq!(indices.pairs[2].pair, (1, 2));
-    close(indices.pairs[2].second_order.estimate, closed - s1(1) - s1(2));
-    assert_eq!(indices.indices[0].total.interval, None);
-    assert!(salib_indices(&[1.0; 16], 3, SalibLayout::SecondOrder, 0, 0).is_err());
+    for (j, factor) in indices.factors.iter().enumerate() {
+        close(factor.first_order.estimate, s1(j));
+        close(factor.total.estimate, st(j) / variance);
+    }
+    for (place, (j, k)) in [(0, 1), (0, 2), (1, 2)].into_iter().enumerate() {
+        let closed = (dot(&row(4 + j), &row(1 + k)) - dot(&row(0), &row(7))) / variance;
+        close(indices.second_order[place].estimate, closed - s1(j) - s1(k));
+    }
+}
+
+#[test]
+fn a_missing_output_leaves_its_base_point_out() {
+    let columns = points(2, 64, SalibLayout::FirstOrder);
+    let y: Vec<f64> = columns[0].1.iter().zip(&columns[1].1).map(|(a, b)| a + a * b).collect();
+    let mut missing = y.clone();
+    missing[4 * 10 + 3] = f64::NAN;
+    let without: Vec<f64> = [&y[..40], &y[44..]].concat();
+    let [found, expected] = [missing, without].map(|y| analysis(&y, 2, SalibLayout::FirstOrder));
+    assert_eq!((found.outputs[0].runs_failed, found.outputs[0].base_points_used), (1, 63));
+    assert!(!found.outputs[0].warnings.is_empty());
+    let total = |analysis: &crate::Analysis| analysis.outputs[0].indices.as_ref().unwrap().factors[1].total.estimate;
+    assert!((total(&found) - total(&expected)).abs() < 1e-13);
+}
+
+#[test]
+fn rows_of_another_order_are_warned_of() {
+    // As good as random: splitmix64.
+    let noise = |row: u64| {
+        let mut z = row.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (z ^ z >> 31) as f64 / 2f64.powi(64)
+    };
+    let y: Vec<f64> = (1..=512 * 5).map(noise).collect();
+    let warnings = &analysis(&y, 3, SalibLayout::FirstOrder).outputs[0].warnings;
+    assert!(warnings.iter().any(|warning| warning.contains("another order")), "{warnings:?}");
+    let columns = points(3, 256, SalibLayout::FirstOrder);
+    let y: Vec<f64> = columns[0].1.iter().zip(&columns[1].1).map(|(a, b)| a + b).collect();
+    let warnings = &analysis(&y, 3, SalibLayout::FirstOrder).outputs[0].warnings;
+    assert!(!warnings.iter().any(|warning| warning.contains("another order")), "{warnings:?}");
+}
+
+#[test]
+fn codes_for_missing_values_give_total_indices_above_1_with_a_word() {
+    let columns = points(3, 128, SalibLayout::FirstOrder);
+    let mut y: Vec<f64> = columns[0].1.iter().zip(&columns[1].1).map(|(a, b)| a + b).collect();
+    y.iter_mut().step_by(49).for_each(|y| *y = -9999.0);
+    let found = crate::Unlikely::find(&y).unwrap();
+    assert_eq!((found.value, found.count, found.first), (-9999.0, 14, 0));
+    let warnings = &analysis(&y, 3, SalibLayout::FirstOrder).outputs[0].warnings;
+    assert!(warnings.iter().any(|warning| warning.contains("above 1")), "{warnings:?}");
 }
 
 #[test]
@@ -85,23 +138,4 @@ fn a_problem_says_its_groups() {
     );
     assert!(parse(r#"{"names": ["a", "a"]}"#).unwrap_err().contains("two inputs are called `a`"));
     assert!(parse("[]").unwrap_err().starts_with("not a problem of SALib"));
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
-
-    #[test]
-    fn an_offset_and_a_scale_change_nothing(offset in -1e6f64..1e6, exponent in -200i32..200) {
-        let columns = points(2, 32, SalibLayout::FirstOrder);
-        let y: Vec<f64> = columns[0].1.iter().zip(&columns[1].1).map(|(a, b)| a + a * b).collect();
-        let scale = 2f64.powi(exponent);
-        let other: Vec<f64> = y.iter().map(|y| (y + offset) * scale).collect();
-        let of = |y: &[f64]| salib_indices(y, 2, SalibLayout::FirstOrder, 20, 1).unwrap();
-        // Rounding of y + offset: 1e6 eps.
-        for (a, b) in of(&y).indices.iter().zip(&of(&other).indices) {
-            prop_assert!((a.first_order.estimate - b.first_order.estimate).abs() < 1e-8);
-            prop_assert!((a.total.estimate - b.total.estimate).abs() < 1e-8);
-            prop_assert!((a.total.interval.unwrap().high - b.total.interval.unwrap().high).abs() < 1e-8);
-        }
-    }
 }

@@ -184,6 +184,7 @@ impl Study {
             subsets: self.analysis.subsets.len(),
             dummy: self.analysis.dummy,
             estimators: self.analysis.estimators.clone(),
+            salib: self.analysis.salib,
             second_order: self.analysis.second_order,
             dependent: self.space.copula().is_some(),
             shapley: self.analysis.shapley_of(&self.space),

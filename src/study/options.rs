@@ -15,6 +15,9 @@ use crate::uncertainty::IntervalMethod;
 pub struct AnalysisOptions {
     /// Estimators whose indices stand beside those of the default ones.
     pub estimators: Vec<Estimator>,
+    /// Whether the formulas of SALib take the place of the default ones: for outputs at points that SALib made, which are not
+    /// known here.
+    pub salib: bool,
     /// Whether second-order indices are estimated.
     pub second_order: bool,
     /// Sets of factors, by number, whose joint indices are asked for.
@@ -54,6 +57,7 @@ impl AnalysisOptions {
     pub fn for_sampler(sampler: Sampler) -> Self {
         Self {
             estimators: Vec::new(),
+            salib: false,
             second_order: false,
             subsets: Vec::new(),
             shapley: None,

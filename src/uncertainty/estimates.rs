@@ -4,7 +4,8 @@
 
 use super::concentration::Side;
 use crate::estimate::{
-    Estimator, Indices, Moments, SecondOrder, ShapleyMethod, ShapleyMoments, shapley_effects, shares,
+    Estimator, Indices, Moments, SecondOrder, ShapleyMethod, ShapleyMoments, second_order_of_salib, shapley_effects,
+    shares,
 };
 
 /// What is estimated from the swaps of a design, which come in this order. Of dependent factors the swaps of factors, groups and
@@ -21,6 +22,8 @@ pub struct Layout {
     pub dummy: bool,
     /// Estimators whose indices stand beside the default ones.
     pub estimators: Vec<Estimator>,
+    /// Whether the formulas of SALib take the place of the default ones.
+    pub salib: bool,
     /// Whether there are second-order indices of the factors.
     pub second_order: bool,
     /// Whether factors depend on each other.
@@ -92,9 +95,21 @@ const PER_ESTIMATOR: usize = 4;
 impl Layout {
     /// Factors only.
     pub fn plain(factors: usize) -> Self {
-        let (groups, subsets, dummy, second_order, dependent, shapley) = Default::default();
+        let (groups, subsets, dummy, salib, second_order, dependent, shapley) = Default::default();
         let (estimators, players) = (Vec::new(), (0..factors).collect());
-        Self { factors, groups, subsets, dummy, estimators, second_order, dependent, shapley, players, noise: None }
+        Self {
+            factors,
+            groups,
+            subsets,
+            dummy,
+            estimators,
+            salib,
+            second_order,
+            dependent,
+            shapley,
+            players,
+            noise: None,
+        }
     }
 
     /// Number of factors, groups and subsets.
@@ -188,7 +203,8 @@ impl Layout {
 
 /// Everything reported about an output with `moments`, NaN for what does not exist. `None` if there are no indices.
 pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>> {
-    let Indices { first_order, total, check } = Indices::of(moments).ok()?;
+    let indices = if layout.salib { Indices::of_salib(moments) } else { Indices::of(moments) };
+    let Indices { first_order, total, check } = indices.ok()?;
     let share_first_order = all_shares(layout, &first_order);
     let share_total = all_shares(layout, &total);
     let factors = 0..layout.factors;
@@ -206,7 +222,11 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
         }
     }
     if layout.second_order {
-        list.extend(layout.pair_list().into_iter().map(|(j, k)| SecondOrder::Difference.estimate(moments, j, k)));
+        let of_pair = |(j, k)| match layout.salib {
+            true => second_order_of_salib(moments, j, k),
+            false => SecondOrder::Difference.estimate(moments, j, k),
+        };
+        list.extend(layout.pair_list().into_iter().map(of_pair));
     }
     match layout.shapley {
         None => (),

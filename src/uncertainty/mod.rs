@@ -27,7 +27,6 @@ mod unseen;
 
 pub use aggregate::{AggregateIndices, aggregate_indices};
 #[cfg(feature = "study")]
-pub(crate) use by_points::quantile;
 pub use convergence::{Stage, points_of_stages, stages};
 pub use corrected::{LowFidelityUse, SurrogateEstimates, SurrogateTerm, SurrogateUse};
 pub use effects::{DependentEstimates, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};

@@ -78,7 +78,7 @@ def main():
                         checks.close(f"{what}: {index}", [i[key]["estimate"] for i in ours["indices"]], theirs[index])
                     if second_order:
                         pairs = theirs["S2"][np.triu_indices(len(theirs["S1"]), 1)]
-                        checks.close(f"{what}: S2", [p["second_order"]["estimate"] for p in ours["second_order"]], pairs)
+                        checks.close(f"{what}: S2", [p["index"]["estimate"] for p in ours["second_order"]], pairs)
     print(f"{checks.count} comparisons, {checks.failed} failed")
     sys.exit(1 if checks.failed else 0)
 

@@ -122,11 +122,6 @@ fn every_command_that_draws_writes_a_page() {
     let table = folder.with("table.csv", format!("x,y\n{rows}"));
     succeed(&[&["given-data", text(&table), "--outputs", "y"], &to[..]].concat());
     whole(&out, "table");
-    let outputs =
-        folder.with("s.csv", format!("y\n{}", (0..64).map(|k| format!("{}\n", k * 37 % 61)).collect::<String>()));
-    let salib = ["analyze", text(&outputs), "--layout", "salib", "--names", "a,b", "--first-order-only"];
-    succeed(&[&salib[..], &to].concat());
-    whole(&out, "s");
 }
 
 #[test]

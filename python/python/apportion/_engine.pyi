@@ -101,5 +101,6 @@ def salib_indices(
     list[tuple[float, float, float]],
     list[tuple[float, float, float]],
     list[tuple[int, int, tuple[float, float, float]]],
+    list[str],
 ]: ...
 def read_result(json: str) -> Document: ...

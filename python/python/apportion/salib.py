@@ -11,6 +11,7 @@ The rest of a script that was written for SALib runs with these two changes:
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -27,6 +28,7 @@ __all__ = ["Sensitivities", "analyze", "from_problem", "sample"]
 
 # As the program has it.
 _MOST_RESAMPLES = 10**6
+_LEAST_RESAMPLES = 100
 
 
 def from_problem(problem: Mapping[str, Any]) -> dict[str, Factor]:
@@ -129,7 +131,8 @@ def analyze(
 ) -> Sensitivities:
     """Indices by SALib's estimators from the outputs `Y` at points of `sample`, or of SALib's own.
 
-    `*_conf` are half widths of the percentile bootstrap's 95 % intervals; other levels are not offered.
+    `*_conf` are half widths of the percentile bootstrap's 95 % intervals (of at least 100 resamples; without any, of intervals by
+    the delta method); other levels are not offered. A `nan` in `Y` leaves its base point out, with a warning.
     """
     num_resamples = whole("num_resamples", num_resamples, 0, _MOST_RESAMPLES)
     seed = whole("seed", seed, 0, MOST_SEED)
@@ -137,9 +140,12 @@ def analyze(
         raise StudyError("conf_level: the intervals are those of 95 %")
     names = [member for member, _ in _members(problem)]
     y = numbers(Y, "the outputs are").ravel()
-    first, total, pairs = _engine.salib_indices(
-        y, len(names), second_order=calc_second_order, resamples=num_resamples, seed=seed
+    resamples = max(num_resamples, _LEAST_RESAMPLES) if num_resamples else 0
+    first, total, pairs, told = _engine.salib_indices(
+        y, len(names), second_order=calc_second_order, resamples=resamples, seed=seed
     )
+    for warning in told:
+        warnings.warn(warning, stacklevel=2)
 
     def halves(triples: list[tuple[float, float, float]]) -> np.ndarray:
         return np.array([(high - low) / 2 for _, low, high in triples])

@@ -5,15 +5,18 @@ mod salib;
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::exchange::{AnswersError, AnswersRequest, Manifest, MissingOutputs, RowReader, open_rows, read_answers};
+use apportion::exchange::{AnswersRequest, Manifest, MissingOutputs, open_table, read_answers};
 use apportion::files::read_text;
 use apportion::quantity::Unit;
 use apportion::report::ResultFile;
+use apportion::run::Store;
+use apportion::study::Study;
+use apportion::unlikely_outputs;
 
-use super::evaluate::say_of_table;
 use super::live::LiveArguments;
 use super::output::{ChartArguments, default_folder};
 use super::run::{deliver, file_names, with_inputs};
+use super::table::{TableArguments, say_of_table};
 use super::{Failure, Threads, say, say_notes};
 
 #[derive(clap::Args)]
@@ -21,9 +24,10 @@ use super::{Failure, Threads, say, say_notes};
                         apportion analyze design.csv --outputs y      (the design file with a column y added)\n  \
                         apportion analyze y.npy --layout salib --names x1,x2,x3")]
 pub struct Arguments {
-    /// The outputs, a row for each point in the order of the points, with or without the points themselves (.csv,
-    /// .parquet or .npy)
+    /// The outputs, a row for each point in the order of the points, with or without the points themselves (CSV or NPY)
     data: PathBuf,
+    #[command(flatten)]
+    table: TableArguments,
     /// The file of points that `sample` wrote, with its manifest beside it [default: DATA]
     #[arg(long, value_name = "FILE", conflicts_with = "layout")]
     design: Option<PathBuf>,
@@ -60,10 +64,31 @@ fn output_unit(text: &str) -> Result<(String, Unit), String> {
     Ok((name.trim().to_owned(), Unit::label(unit)))
 }
 
+/// A table of outputs as the runs of a study.
+struct Read {
+    study: Study,
+    store: Store,
+    /// A sentence on the unlikely value of each output, if it has one.
+    unlikely: Vec<Option<String>>,
+}
+
 pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
-    if arguments.layout.is_some() {
-        return salib::analyze(arguments);
+    let read = if arguments.layout.is_some() { salib::study(arguments)? } else { of_design(arguments)? };
+    let Read { study, store, unlikely } = read;
+    say_notes(&study);
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
+    let artefacts = arguments.charts.artefacts(folder).beside_input(&arguments.data);
+    artefacts.check(&file_names(&study, &arguments.live))?;
+    let runner = study.runner().threads(arguments.threads.number()).store(&store);
+    let mut analysis = runner.run().map_err(|error| with_inputs(&study, error))?;
+    for (output, unlikely) in analysis.outputs.iter_mut().zip(unlikely) {
+        output.warnings.splice(0..0, unlikely);
     }
+    deliver(&study, &artefacts, &ResultFile::new(&study, &analysis), &arguments.live)
+}
+
+/// The outputs of a design that `sample` wrote.
+fn of_design(arguments: &Arguments) -> Result<Read, Failure> {
     let data = arguments.data.display();
     let path = manifest_path(arguments)?;
     let of_manifest = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", path.display()));
@@ -72,35 +97,15 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     let missing = if arguments.missing_as_failed { MissingOutputs::Failed } else { MissingOutputs::Refuse };
     let request = AnswersRequest { manifest: &manifest, outputs: &arguments.outputs, units: &arguments.units, missing };
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{data}: {error}"));
-    let mut reader = open_rows(&arguments.data).map_err(|error| wrong(&error))?;
-    let header = numbers_as_names(reader.as_ref());
-    let answers = read_answers(reader.as_mut(), &request).map_err(|error| match error {
-        AnswersError::MissingRows { .. } | AnswersError::UnknownOutput { .. } => wrong(&format!("{error}{header}")),
-        _ => wrong(&error),
-    })?;
+    let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).map_err(|error| wrong(&error))?;
+    let answers = read_answers(reader.as_mut(), &request).map_err(|error| wrong(&error))?;
     say_of_table(&arguments.data, &[], reader.is_unended());
-    let study = &answers.study;
-    say_notes(study);
     match answers.compared.len() {
         0 => say("note: the file holds no points: its rows are taken in the order of the design"),
         _ => say("the points in the file are those of the design, in its order"),
     }
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
-    let artefacts = arguments.charts.artefacts(folder);
-    artefacts.check(&file_names(study, &arguments.live))?;
-    let runner = study.runner().threads(arguments.threads.number()).store(&answers.store);
-    let analysis = runner.run().map_err(|error| with_inputs(study, error))?;
-    deliver(study, &artefacts, &ResultFile::new(study, &analysis), &arguments.live)
-}
-
-/// A remark for a file with the wrong number of rows, if its first line seems to be a row.
-fn numbers_as_names(reader: &dyn RowReader) -> &'static str {
-    match reader.names() {
-        Some(names) if names.iter().all(|name| name.parse::<f64>().is_ok()) => {
-            "; the first line is taken as the names of the columns, and holds numbers: is there no header?"
-        }
-        _ => "",
-    }
+    let unlikely = unlikely_outputs(&answers.study, &answers.store);
+    Ok(Read { study: answers.study, store: answers.store, unlikely })
 }
 
 /// The manifest that was named, or the one beside the points.

@@ -3,18 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::exchange::{ColumnKind, RowReader, open_rows};
-use apportion::files::{read_text, read_whole};
+use apportion::Unlikely;
+use apportion::exchange::{ColumnKind, RowReader, open_table};
+use apportion::files::read_text;
 use apportion::given::Column;
-use apportion::report::refused_name;
-use apportion::report::salib::{SalibFacts, build_salib, file_names, salib_document};
-use apportion::salib::{LayoutError, SalibLayout, SalibProblem, check_points, recognise, salib_indices};
+use apportion::salib::{SalibLayout, SalibProblem, recognise, salib_study};
 use apportion::study::Study;
-use sha2::{Digest, Sha256};
 
-use super::super::Failure;
-use super::super::evaluate::say_of_table;
-use super::super::output::{default_folder, deliver, stem};
+use super::super::output::stem;
+use super::super::table::say_of_table;
+use super::super::{Failure, say};
 
 #[derive(clap::Args)]
 pub struct SalibArguments {
@@ -30,7 +28,7 @@ pub struct SalibArguments {
     /// The points were made without second order (calc_second_order=False)
     #[arg(long, requires = "layout")]
     first_order_only: bool,
-    /// Resamples of the bootstrap that gives the intervals; 0 for none
+    /// Resamples of the bootstrap that gives the intervals; 0 for the delta method instead
     #[arg(long, value_name = "N", requires = "layout", default_value_t = 1000, value_parser = resamples)]
     resamples: usize,
     /// Seed of the bootstrap
@@ -52,42 +50,28 @@ struct Table {
     /// The inputs, if the file holds them.
     inputs: Option<Vec<(String, Vec<f64>)>>,
     outputs: Vec<Column>,
-    /// What is to be said of the header if the number of rows is wrong.
-    header: &'static str,
 }
 
-pub fn analyze(arguments: &super::Arguments) -> Result<(), Failure> {
+/// The outputs in a table in SALib's order, as the runs of a study.
+pub fn study(arguments: &super::Arguments) -> Result<super::Read, Failure> {
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", arguments.data.display()));
-    let bytes = read_whole(&arguments.data).map_err(|error| wrong(&format!("cannot read the file: {error}")))?;
-    let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-    drop(bytes);
-    let Table { problem, inputs, outputs, header } = table(arguments)?;
-    let (rows, d) = (outputs[0].values.len(), problem.members.len());
+    let Table { problem, inputs, outputs } = table(arguments)?;
+    let rows = outputs[0].values.len();
     let SalibArguments { second_order, first_order_only, resamples, seed, .. } = arguments.salib;
     let asked = match (second_order, first_order_only) {
         (true, _) => Some(SalibLayout::SecondOrder),
         (_, true) => Some(SalibLayout::FirstOrder),
         _ => None,
     };
-    let fits = inputs.as_ref().map(|inputs| |layout| check_points(inputs, &problem.members, layout));
-    let fits = fits.as_ref().map(|fits| fits as &dyn Fn(SalibLayout) -> _);
-    let layout = recognise(rows, d, asked, fits).map_err(|error| match error {
-        LayoutError::NoMultiple { .. } => wrong(&format!("{error}{header}")),
-        _ => wrong(&error),
-    })?;
-    let name = stem(&arguments.data);
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&name));
-    let artefacts = arguments.charts.artefacts(folder).beside_input(&arguments.data);
-    artefacts.check(&file_names(&name, &outputs.iter().map(|column| column.name.as_str()).collect::<Vec<_>>()))?;
-    let names: Vec<String> = problem.members.iter().map(|(name, _)| name.clone()).collect();
-    let analysed = outputs.into_iter().map(|column| {
-        let indices = salib_indices(&column.values, d, layout, resamples, seed);
-        (column, indices)
-    });
-    let file = arguments.data.display().to_string();
-    let facts = SalibFacts { file, sha256, layout, points_checked: inputs.is_some(), bootstrap: (resamples, seed) };
-    let result = build_salib(&names, &analysed.collect::<Vec<_>>(), &facts);
-    deliver(&artefacts, &salib_document(&result, &name))
+    let layout = recognise(rows, &problem.members, asked, inputs.as_deref()).map_err(|error| wrong(&error))?;
+    match inputs {
+        Some(_) => say("the points in the file are laid out as SALib makes them"),
+        None => say("note: the file holds no points: its rows are taken in the order in which SALib makes them"),
+    }
+    let made = salib_study(&stem(&arguments.data), &problem, &outputs, layout, (resamples, seed));
+    let (study, store) = made.map_err(|error| wrong(&error))?;
+    let unlikely = |output: &Column| Unlikely::find(&output.values).map(|found| found.words(found.first + 1));
+    Ok(super::Read { study, store, unlikely: outputs.iter().map(unlikely).collect() })
 }
 
 /// What the problem file says, if there is one.
@@ -112,8 +96,7 @@ fn problem(arguments: &SalibArguments) -> Result<Option<SalibProblem>, Failure> 
 
 fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", arguments.data.display()));
-    let mut reader = open_rows(&arguments.data).map_err(|error| wrong(&error))?;
-    let header = super::numbers_as_names(reader.as_ref());
+    let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).map_err(|error| wrong(&error))?;
     let problem = problem(&arguments.salib)?;
     let known = problem.as_ref().map(|problem| problem.inputs.clone());
     let (inputs, outputs) = columns(reader.as_ref(), known, &arguments.outputs).map_err(|error| wrong(&error))?;
@@ -122,10 +105,6 @@ fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
         Some(problem) => problem,
         None => SalibProblem::of_inputs(input_names).map_err(|error| wrong(&error))?,
     };
-    let names = problem.members.iter().map(|(name, _)| name).chain(outputs.iter().map(|(_, name)| name));
-    if let Some((name, expected)) = names.into_iter().find_map(|name| Some((name, refused_name(name)?))) {
-        return Err(wrong(&format!("the name {:.60?} of an input or output: expected {expected}", name)));
-    }
     let wanted: Vec<(usize, ColumnKind)> =
         inputs.iter().chain(&outputs).map(|(place, name)| (*place, ColumnKind::numbers(name))).collect();
     let (mut all, mut part) = (vec![Vec::new(); wanted.len()], vec![Vec::new(); wanted.len()]);
@@ -133,16 +112,15 @@ fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
         all.iter_mut().zip(&part).for_each(|(all, part)| all.extend_from_slice(part));
     }
     say_of_table(&arguments.data, &[], reader.is_unended());
-    for ((_, kind), column) in wanted.iter().zip(&all) {
+    for ((_, kind), column) in wanted.iter().zip(&all).take(inputs.len()) {
         if let Some(row) = column.iter().position(|value| !value.is_finite()) {
-            let found = if column[row].is_nan() { "the value is missing" } else { "the value is infinite" };
-            return Err(wrong(&format!("row {}, column `{}`: {found}", row + 1, kind.name)));
+            return Err(wrong(&format!("row {}, column `{}`: the input is missing", row + 1, kind.name)));
         }
     }
     let values = all.split_off(inputs.len());
     let outputs = outputs.into_iter().zip(values).map(|((_, name), values)| Column { name, values }).collect();
     let inputs: Vec<(String, Vec<f64>)> = inputs.into_iter().map(|(_, name)| name).zip(all).collect();
-    Ok(Table { problem, inputs: (!inputs.is_empty()).then_some(inputs), outputs, header })
+    Ok(Table { problem, inputs: (!inputs.is_empty()).then_some(inputs), outputs })
 }
 
 /// Columns with their names.

@@ -30,6 +30,7 @@ pub(super) fn analysis(
     Ok(AnalysisOptions {
         estimators: estimators(context, section)?,
         measures: measures(context, section)?,
+        salib: false,
         second_order: flag(&section.second_order),
         subsets: subsets(context, section, space)?,
         shapley: shapley.asked,
