@@ -15,8 +15,7 @@
 //! # Features
 //!
 //! Without default features the crate is the engine, the physics of the nanoparticle and the known functions. `study` adds
-//! study files, programs as models and `exchange`; `parquet` its tables in Parquet; `charts` adds `report`: results as
-//! JSON, text, CSV and SVG; `png` its charts as pictures, `pdf` as figures of papers; `page` its pages and folders of files.
+//! study files, programs as models and `exchange`; `charts` adds `report`: results as JSON, text, CSV and SVG; `png` its charts as pictures, `pdf` as figures of papers; `page` its pages and folders of files.
 //! `cli`, the default, is the program with all of them, and `mpi` the same on the ranks of an MPI job.
 //!
 //! # An example
@@ -121,6 +120,8 @@ pub use analysis::{
     Aggregate, Analysis, Direction, FailureCount, LookupError, LowRuns, NoDirections, NoIndices, OutputAnalysis,
     RunMeasures, SeriesAnalysis, Spending, StopReason, Stopped,
 };
+#[doc(hidden)]
+pub use analysis::{Unlikely, unlikely_outputs};
 pub use design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyMethod, ShapleyPlayers, Total, Undefined};
 pub use model::{

@@ -9,7 +9,7 @@ use super::measures::FirstRows;
 use super::output::{FailureCount, NoIndices, OutputAnalysis};
 use super::result::{Aggregate, Analysis, LowRuns, Stopped};
 use super::series::{series, single_outputs, together};
-use super::warnings;
+use super::{unlikely, warnings};
 use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs, Scaling, merged};
 use crate::model::{MANY_OUTPUTS, Output, RowFailure};
@@ -180,6 +180,11 @@ fn output_analysis(
         warnings.extend(warnings::of_values(&totals.values));
         warnings.extend(warnings::of_indices(study, indices));
     }
+    let samples: Vec<Vec<f64>> = run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect();
+    // Of a table all rows are looked at when it is read.
+    if !study.subject.is_external() {
+        warnings.extend(unlikely::of_samples(run.design, output, &samples));
+    }
     let factors = study.space.factors().iter().map(|factor| factor.name.clone()).collect();
     let of_stage = |points: u64| corrected.stages.get(&points).filter(|_| surrogate.is_some())?.get(number)?.as_ref();
     let asked = indices.as_ref().ok().filter(|_| study.analysis.convergence);
@@ -196,7 +201,7 @@ fn output_analysis(
         convergence: convergence.unwrap_or_default(),
         indices,
         values: totals.values,
-        samples: run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect(),
+        samples,
         measures: None,
         warnings,
         names: [factors, study.space.groups().into_iter().map(|group| group.name).collect()],

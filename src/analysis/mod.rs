@@ -7,6 +7,7 @@ mod measures;
 mod output;
 mod result;
 mod series;
+mod unlikely;
 pub(crate) mod warnings;
 
 pub use directions::{Direction, NoDirections};
@@ -20,3 +21,4 @@ pub(crate) use output::LOST;
 pub use output::{FailureCount, LookupError, NoIndices, OutputAnalysis};
 pub use result::{Aggregate, Analysis, LowRuns, Spending, StopReason, Stopped};
 pub use series::SeriesAnalysis;
+pub use unlikely::{Unlikely, unlikely_outputs};

@@ -196,6 +196,23 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<String> 
             "the sum of the first-order indices may be 0: {why}; shares of the first-order indices mean nothing"
         ));
     }
+    for (name, effect) in names_of_swaps(study).iter().zip(indices.effects()) {
+        if clearly_above(effect.total, Some(1.0)) {
+            warnings.push(format!(
+                "{name}: the total index {:.4} is above 1 by more than its error: too few samples, or rows that do not belong \
+                 together",
+                effect.total.estimate
+            ));
+        }
+    }
+    // Where this program runs the model, its rows are in order.
+    if study.subject.is_external() && looks_shuffled(indices) {
+        warnings.push(
+            "every total index is near 1 and every first-order index near 0, as rows in another order than that of the design \
+             give; if the order is right, the output is all interaction"
+                .to_owned(),
+        );
+    }
     if clearly_above(indices.sum_first_order, Some(1.0)) {
         warnings.push(format!(
             "the first-order indices sum to {:.4}, beyond 1 by more than their error: too few samples",
@@ -244,6 +261,15 @@ fn disagreements(study: &Study, name: &str, effect: &EffectEstimates) -> Vec<Str
         }
     }
     warnings
+}
+
+/// Whether the rows A, B and AB of a base point are as different as any others: no factor acts alone, and each takes part in all.
+fn looks_shuffled(indices: &OutputIndices) -> bool {
+    const NEAR: f64 = 0.15;
+    let all = |near: &dyn Fn(&EffectEstimates) -> bool| indices.factors.iter().all(near);
+    indices.factors.len() > 1
+        && all(&|effect| (effect.total.estimate - 1.0).abs() < NEAR)
+        && all(&|effect| effect.first_order.estimate.abs() < NEAR)
 }
 
 fn high(estimate: Estimate) -> Option<f64> {

@@ -6,6 +6,7 @@ use super::sentences;
 use super::surrogate::{
     GivenSurrogateOutput, GivenSurrogateRecord, SurrogateResult, surrogate_output, surrogate_record,
 };
+use crate::analysis::Unlikely;
 use crate::exchange::{LeftOut, TextColumn, TextKind};
 use crate::given::{
     Binned, Column, GivenIndices, InputIndices, Method, NoVariance, OutputIndices, PointSet, SurrogateOutput,
@@ -219,6 +220,7 @@ pub fn build_given(
     };
     let outputs: Vec<GivenOutputRecord> = indices.outputs.iter().zip(outputs).enumerate().map(of_output).collect();
     let serves = outputs.iter().any(GivenOutputRecord::is_served);
+    let warnings = sentences::warnings(indices, surrogates, facts.method, facts.dropped);
     GivenFile {
         format: "apportion-given-data".to_owned(),
         version: 1,
@@ -248,9 +250,14 @@ pub fn build_given(
         }),
         surrogate: surrogates.map(surrogate_record),
         outputs,
-        warnings: sentences::warnings(indices, surrogates, facts.method, facts.dropped),
+        warnings: inputs.iter().filter_map(unlikely).chain(warnings).collect(),
         notes: sentences::notes(serves),
     }
+}
+
+/// A sentence on the unlikely value of a column, if it has one.
+fn unlikely(column: &Column) -> Option<String> {
+    Unlikely::find(&column.values).map(|found| format!("{}: {}", column.name, found.words(found.first + 1)))
 }
 
 fn points_name(points: &PointSet) -> &'static str {
@@ -278,7 +285,7 @@ fn output_record(output: &OutputIndices, surrogate: Option<&SurrogateOutput>, co
         surrogate: surrogate.zip(indices.ok()).map(|(surrogate, inputs)| surrogate_output(surrogate, inputs)),
         measures: None,
         reason: indices.err().map(ToString::to_string),
-        warnings: sentences::output_warnings(output, surrogate),
+        warnings: unlikely(column).into_iter().chain(sentences::output_warnings(output, surrogate)).collect(),
     }
 }
 
