@@ -40,13 +40,15 @@ impl ResultFile {
             share: *raised as f64 / runs as f64,
         });
         let records = OutputRecords::new(study, analysis);
+        let is_item = |place: &usize| analysis.series.iter().any(|all| all.series.places().contains(place));
+        let outputs = analysis.outputs.par_iter().enumerate();
         Self {
             format: "apportion-result".to_owned(),
             version: 1,
             study: study_record(study),
             provenance: provenance(study, analysis),
             factors: factor_records(study),
-            outputs: analysis.outputs.par_iter().map(|output| records.record(output)).collect(),
+            outputs: outputs.map(|(place, output)| records.record(output, is_item(&place))).collect(),
             validity: validity.collect(),
             effort: effort_record(analysis),
             aggregate: aggregate_record(study, analysis),
@@ -135,6 +137,10 @@ fn provenance(study: &Study, analysis: &Analysis) -> Provenance {
     let (design, options) = (&analysis.design, &study.analysis);
     let settings = design.settings();
     let alone = settings.replicates == 1 && options.intervals == IntervalMethod::Replicates;
+    let (first_order, total) = match options.salib {
+        true => (FirstOrder::Saltelli2010, Total::Jansen1999),
+        false => (FirstOrder::of_rows(design.companions()), Total::of_rows(design.companions())),
+    };
     Provenance {
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: settings.seed,
@@ -146,8 +152,8 @@ fn provenance(study: &Study, analysis: &Analysis) -> Provenance {
         threads: analysis.threads,
         wall_seconds: analysis.wall_seconds,
         study_sha256: study.sha256.clone(),
-        first_order_estimator: FirstOrder::of_rows(design.companions()).source().to_owned(),
-        total_estimator: Total::of_rows(design.companions()).source().to_owned(),
+        first_order_estimator: first_order.source().to_owned(),
+        total_estimator: total.source().to_owned(),
         shapley_method: options.shapley_of(&study.space).map(|method| method.name().to_owned()),
         interval: (!alone).then(|| options.intervals.words(settings.replicates, options.resamples)),
         interval_method: options.intervals.name().to_owned(),

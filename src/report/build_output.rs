@@ -35,8 +35,8 @@ impl<'a> OutputRecords<'a> {
         Self { study, runs_per_point: design.rows_per_point(), rows: FirstRows::of(design) }
     }
 
-    /// The record of `output`.
-    pub fn record(&self, output: &OutputAnalysis) -> OutputRecord {
+    /// The record of `output`, which may be a value of a series: a series has pictures as a whole.
+    pub fn record(&self, output: &OutputAnalysis, is_item: bool) -> OutputRecord {
         let (study, unit) = (self.study, &output.unit);
         let squared = |x: f64| unit.span_from_si(unit.span_from_si(x));
         let in_unit = |x: f64| unit.from_si(x);
@@ -66,7 +66,7 @@ impl<'a> OutputRecords<'a> {
             estimators: Vec::new(),
             surrogate: None,
             convergence: output.convergence.iter().map(stage).collect(),
-            distribution: distribution_record(output),
+            distribution: distribution_record(output, is_item),
             scatter: None,
             reason: output.indices.as_ref().err().map(ToString::to_string),
             warnings: output.warnings.clone(),
@@ -74,7 +74,8 @@ impl<'a> OutputRecords<'a> {
         if let Ok(indices) = &output.indices {
             add_indices(&mut record, study, indices);
         }
-        let indices = record.indices.as_deref();
+        // At points of SALib nothing is known of the inputs.
+        let indices = record.indices.as_deref().filter(|_| !study.analysis.salib && !is_item);
         record.scatter = indices.and_then(|indices| scatter_record(&self.rows, &study.space, output, indices));
         record
     }
@@ -260,16 +261,23 @@ fn interval_record(interval: Option<Interval>, convert: &dyn Fn(f64) -> f64) -> 
 }
 
 /// Moments and range from all values of the rows A and B, the rest from those that were kept. `None` without values, and
-/// where a number is beyond double precision in the unit.
-fn distribution_record(output: &OutputAnalysis) -> Option<DistributionRecord> {
+/// where a number is beyond double precision in the unit. A value of a series has neither histogram nor density.
+fn distribution_record(output: &OutputAnalysis, is_item: bool) -> Option<DistributionRecord> {
     let (values, unit) = (&output.values, &output.unit);
     let kept: Vec<f64> = output.samples.iter().flatten().copied().filter(|value| value.is_finite()).collect();
     let mut sample = OutputDistribution::of(&kept, unit).ok()?;
     let (min, max) = values.range()?;
     (sample.mean, sample.min, sample.max) = (unit.from_si(values.mean()?), unit.from_si(min), unit.from_si(max));
     let n = values.count();
-    let sd = (values.variance()? * (n as f64 / (n as f64 - 1.0))).sqrt();
-    sample.sd = (n > 1).then(|| unit.span_from_si(sd)).filter(|sd| sd.is_finite());
+    let variance = values.variance()?;
+    let sd = (variance * (n as f64 / (n as f64 - 1.0))).sqrt();
+    // Of values that vary by 1e-160 the variance is beyond double precision; that of the kept ones is scaled.
+    if variance.is_normal() || min == max {
+        sample.sd = (n > 1).then(|| unit.span_from_si(sd)).filter(|sd| sd.is_finite());
+    }
+    if is_item {
+        (sample.histogram, sample.density) = (None, None);
+    }
     (sample.skewness, sample.excess_kurtosis) = (values.skewness(), values.excess_kurtosis());
     let quantiles = sample.quantiles.iter().map(|quantile| quantile.value);
     let edges = sample.histogram.iter().flat_map(|histogram| histogram.edges.iter().copied());
@@ -280,7 +288,8 @@ fn distribution_record(output: &OutputAnalysis) -> Option<DistributionRecord> {
 
 fn failure_record(study: &Study, failure: &FailureCount) -> FailureRecord {
     let named = |(factor, value): (&crate::space::Factor, &f64)| (factor.name.clone(), input_value(factor, *value));
-    let first_inputs: Map<String, Value> = study.space.factors().iter().zip(&failure.first_inputs).map(named).collect();
+    let first_inputs: Map<String, Value> =
+        study.space.factors().iter().zip(&failure.first_inputs).filter(|_| !study.analysis.salib).map(named).collect();
     FailureRecord { reason: failure.reason.clone(), runs: failure.runs, first_row: failure.first_row, first_inputs }
 }
 

@@ -123,12 +123,12 @@ fn output_parts(output: &GivenOutputRecord, table: Table) -> Vec<Part> {
 }
 
 /// The name of a file without its folder.
-pub(in crate::report) fn file_name(file: &str) -> String {
+fn file_name(file: &str) -> String {
     Path::new(file).file_name().map_or_else(|| file.to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
 /// Mean and standard deviation of an output in words.
-pub(in crate::report) fn moments(distribution: &OutputDistribution) -> String {
+fn moments(distribution: &OutputDistribution) -> String {
     match distribution.sd {
         Some(sd) => format!("Mean {}, standard deviation {}.", significant(distribution.mean), significant(sd)),
         None => format!("Mean {}.", significant(distribution.mean)),

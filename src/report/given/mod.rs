@@ -10,7 +10,6 @@ mod surrogate;
 pub use super::result::measures::{GivenMeasuresRecord, MeasuredRecord};
 pub use chart::given_chart;
 pub use document::given_document;
-pub(super) use document::{file_name, moments};
 pub(super) use measures::{agreement, table as measures_table};
 pub use record::{
     BinnedRecord, ColumnLeftOut, DependenceRecord, GivenFacts, GivenFile, GivenIndexRecord, GivenInputRecord,
