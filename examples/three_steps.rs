@@ -7,7 +7,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use apportion::Study;
-use apportion::exchange::{AnswersRequest, Format, Manifest, MissingOutputs, open_rows, read_answers, sample};
+use apportion::exchange::{
+    AnswersRequest, Format, Manifest, MissingOutputs, ReadOptions, open_table, read_answers, sample,
+};
 use apportion::report::{ResultFile, run_document, stream_atomically, write_atomically};
 
 const STUDY: &str = r#"
@@ -61,7 +63,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     // The third: outputs that are not those of the points in the manifest are refused, with the first place that shows it.
     let manifest = Manifest::parse(&std::fs::read_to_string(Manifest::path_beside(&points))?)?;
     let request = AnswersRequest { manifest: &manifest, outputs: &[], units: &[], missing: MissingOutputs::Refuse };
-    let answers = read_answers(open_rows(&outputs)?.as_mut(), &request)?;
+    let answers = read_answers(open_table(&outputs, &ReadOptions::default())?.as_mut(), &request)?;
     let analysis = answers.study.runner().store(&answers.store).run()?;
     print!("{}", run_document(&ResultFile::new(&answers.study, &analysis)).text());
 

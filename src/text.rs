@@ -78,8 +78,8 @@ pub fn csv_field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
 }
 
-/// What a text begins with that a spreadsheet takes for a formula.
-const FORMULA: [char; 4] = ['=', '+', '-', '@'];
+/// What a text begins with that a spreadsheet takes for a formula, or a reader of tables for a comment.
+const FORMULA: [char; 5] = ['=', '+', '-', '@', '#'];
 
 /// A cell that no spreadsheet runs: a text that it would take for a formula begins with an apostrophe. Numbers stay.
 pub fn inert(text: String) -> String {
@@ -102,6 +102,7 @@ mod tests {
             ("+x", "'+x"),
             ("-a", "'-a"),
             ("@SUM(1)", "'@SUM(1)"),
+            ("# 1", "'# 1"),
             ("-1.5e-3", "-1.5e-3"),
             ("+4", "+4"),
             ("a-b", "a-b"),

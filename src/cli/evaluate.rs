@@ -1,6 +1,6 @@
 //! `apportion evaluate`: the model at the user's own points.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::anyhow;
 use apportion::exchange::{EvaluateError, Evaluated, evaluate_in, open_table};
@@ -10,18 +10,21 @@ use apportion::run::Halt;
 use apportion::space::Space;
 
 use super::stop::{Stoppable, on_signal};
+use super::table::{TableArguments, say_of_table};
 use super::{Failure, StudyArguments, same_file, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// The points: columns named after factors, values in the study's units, as CSV (cells separated by commas, semicolons
-    /// or tabs), Parquet or NPY
+    /// The points: columns named after factors, values in the study's units, as CSV (cells separated by commas, semicolons,
+    /// tabs or blanks) or NPY
     points: PathBuf,
     /// Names of the columns, separated by commas, of a file that has none: NPY, or text without a header
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     names: Vec<String>,
+    #[command(flatten)]
+    table: TableArguments,
     /// The points too, before their outputs: a table for `apportion given-data`
     #[arg(long)]
     with_points: bool,
@@ -33,9 +36,9 @@ pub struct Arguments {
 pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
     let points = arguments.points.display();
-    let names: Vec<String> = arguments.names.iter().map(|name| name.trim().to_owned()).collect();
-    let mut rows =
-        open_table(&arguments.points, &names).map_err(|error| Failure::Input(anyhow!("{points}: {error}")))?;
+    let options = arguments.table.options(&arguments.names);
+    let rows = open_table(&arguments.points, &options);
+    let mut rows = rows.map_err(|error| Failure::Input(anyhow!("{points}: {error}")))?;
     for input in [&arguments.points, &arguments.study.study] {
         if same_file(input, &arguments.output) {
             let output = arguments.output.display();
@@ -92,17 +95,4 @@ fn report(evaluated: &Evaluated, arguments: &Arguments, space: &Space) {
         say("warning: the file holds a header but no points");
     }
     say(&format!("wrote {} points to {}", evaluated.points, arguments.output.display()));
-}
-
-/// Says which columns of a table were not read, and that it may have been cut short.
-pub fn say_of_table(path: &Path, skipped: &[String], unended: bool) {
-    let path = path.display();
-    if !skipped.is_empty() {
-        say(&format!("note: {path}: columns of text are skipped: {}", skipped.join(", ")));
-    }
-    if unended {
-        say(&format!(
-            "warning: {path}: the last line has no end: if the file was cut short, its last number may be wrong"
-        ));
-    }
 }

@@ -1,9 +1,9 @@
 //! `apportion given-data`: indices from a table that exists already.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::anyhow;
-use apportion::exchange::{Missing, Selection, Table, read_table, table_of_bytes};
+use apportion::exchange::{ColumnKind, Missing, Selection, Table, factor_column, read_table, table_of_bytes};
 use apportion::files::read_whole;
 use apportion::given::{Column, Method, analyse, measures, surrogate_indices};
 use apportion::report::given::{GivenFacts, build_given, given_document};
@@ -11,17 +11,19 @@ use apportion::{Distribution, Study};
 use sha2::{Digest, Sha256};
 
 use super::Failure;
-use super::evaluate::say_of_table;
 use super::output::{ChartArguments, default_folder, deliver, stem};
+use super::table::{TableArguments, say_of_table};
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The table: columns by name, a row of numbers per run, as CSV (cells separated by commas, semicolons or tabs),
-    /// Parquet or NPY
+    /// The table: columns by name, a row of numbers per run, as CSV (cells separated by commas, semicolons, tabs or
+    /// blanks) or NPY
     table: PathBuf,
     /// Names of the columns, separated by commas, of a table that has none: NPY, or text without a header
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
     names: Vec<String>,
+    #[command(flatten)]
+    reading: TableArguments,
     /// Columns that are outputs, separated by commas
     #[arg(long, value_name = "NAMES", required = true, value_delimiter = ',', value_parser = column_name)]
     outputs: Vec<String>,
@@ -35,9 +37,9 @@ pub struct Arguments {
     /// the rows and corrected by those that it has not seen
     #[arg(long)]
     surrogate: bool,
-    /// Study whose factors the inputs are, by name and in their units: a surrogate that knows their distributions is more
-    /// accurate
-    #[arg(long, value_name = "STUDY", requires = "surrogate")]
+    /// Study whose factors the inputs are, by name and in their units: it knows the labels of categories, and a surrogate that
+    /// knows the distributions is more accurate
+    #[arg(long, value_name = "STUDY")]
     study: Option<PathBuf>,
     /// Other measures too: Borgonovo's delta, distances after Kolmogorov and Kuiper, PAWN, R2-HSIC, and S_1 by the spectrum
     #[arg(long)]
@@ -70,15 +72,20 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{path}: {error}"));
     let bytes = read_whole(&arguments.table).map_err(|error| wrong(&format!("cannot read the table: {error}")))?;
     let missing = if arguments.drop_missing { Missing::Drop } else { Missing::Refuse };
-    let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing };
+    let study = arguments.study.as_deref().map(|study| Study::load(study, &[])).transpose()?;
+    let kinds: Vec<ColumnKind> =
+        study.iter().flat_map(|study| study.space().factors().iter().map(factor_column)).collect();
+    let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing, kinds: &kinds };
     let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-    let mut rows = table_of_bytes(bytes, &arguments.names).map_err(|error| wrong(&error))?;
+    let mut rows =
+        table_of_bytes(bytes, &arguments.reading.options(&arguments.names)).map_err(|error| wrong(&error))?;
     let table = read_table(rows.as_mut(), &selection).map_err(|error| wrong(&error))?;
     let Table { inputs, outputs, dropped, skipped } = table;
     let names: Vec<String> = skipped.iter().map(|column| column.name.clone()).collect();
     say_of_table(&arguments.table, &names, rows.is_unended());
     let indices = analyse(&inputs, &outputs, arguments.method, arguments.seed).map_err(|error| wrong(&error))?;
-    let distributions = arguments.study.as_deref().map(|study| distributions(study, &inputs)).transpose()?;
+    let known = study.as_ref().filter(|_| arguments.surrogate);
+    let distributions = known.map(|study| distributions(study, &inputs)).transpose()?;
     let fit = || surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());
     let surrogates = arguments.surrogate.then(fit);
     let name = stem(&arguments.table);
@@ -98,16 +105,14 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     deliver(&artefacts, &given_document(&result, &name))
 }
 
-/// The distributions that the study of this file has for the `inputs`.
-fn distributions(path: &Path, inputs: &[Column]) -> Result<Vec<Distribution>, Failure> {
-    let study = Study::load(path, &[])?;
+/// The distributions that the study has for the `inputs`.
+fn distributions(study: &Study, inputs: &[Column]) -> Result<Vec<Distribution>, Failure> {
     let of_input = |input: &Column| {
         let factor = study.space().factors().iter().find(|factor| factor.name == input.name);
         factor.map(|factor| factor.distribution().clone()).ok_or_else(|| {
             let known: Vec<&str> = study.space().factors().iter().map(|factor| factor.name.as_str()).collect();
             Failure::Input(anyhow!(
-                "{}: the input `{}` is no factor of the study, which are {}; choose the inputs by --inputs",
-                path.display(),
+                "--study: the input `{}` is no factor of the study, which are {}; choose the inputs by --inputs",
                 input.name,
                 known.join(", ")
             ))

@@ -25,6 +25,7 @@ mod screen;
 mod simulate;
 mod stop;
 mod sweep;
+mod table;
 mod trade;
 mod trade_extremes;
 

@@ -33,7 +33,7 @@ pub struct Arguments {
     charts: ChartArguments,
     #[command(flatten)]
     threads: Threads,
-    /// Also write the points and outputs of all runs to a file (.csv, .parquet or .npy)
+    /// Also write the points and outputs of all runs to a file (.csv or .npy)
     #[arg(long, value_name = "FILE", conflicts_with = "shard")]
     save_outputs: Option<PathBuf>,
     #[command(flatten)]

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::exchange::{Format, Manifest, open_rows, random_points, sample as write_sample};
+use apportion::exchange::{Format, Manifest, ReadOptions, open_table, random_points, sample as write_sample};
 use apportion::files::read_text;
 use apportion::report::{prepare_file, stream_atomically, write_atomically};
 
@@ -29,7 +29,7 @@ pub struct Arguments {
     /// Overwrite a file that exists and is no design of this study
     #[arg(long)]
     force: bool,
-    /// The file for the points, .csv, .parquet or .npy [default: NAME-design.csv, or NAME-random.csv]
+    /// The file for the points, .csv or .npy [default: NAME-design.csv, or NAME-random.csv]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -93,7 +93,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
 /// outputs have been put in.
 fn is_own(path: &Path, name: &str) -> bool {
     let manifest = read_text(&Manifest::path_beside(path)).ok().and_then(|text| Manifest::parse(&text).ok());
-    let width = open_rows(path).map(|rows| rows.width());
+    let width = open_table(path, &ReadOptions::default()).map(|rows| rows.width());
     manifest
         .zip(width.ok())
         .is_some_and(|(manifest, width)| manifest.study.name == name && manifest.factors.len() == width)

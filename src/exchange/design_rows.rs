@@ -94,7 +94,7 @@ fn at_the_edge(unit: &Unit, si: f64) -> f64 {
 }
 
 /// The column of a factor in files of rows.
-pub(super) fn factor_column(factor: &Factor) -> ColumnKind {
+pub fn factor_column(factor: &Factor) -> ColumnKind {
     let law = factor.distribution();
     let labels = law.labels().unwrap_or_default().iter();
     let labels = labels.filter_map(|label| Some((label.clone(), law.value_of(label)?))).collect();

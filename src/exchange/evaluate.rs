@@ -5,13 +5,13 @@ use std::io::Write;
 
 use thiserror::Error;
 
+use super::design_rows::factor_column;
 use super::points::{PointsError, PointsReader};
-use super::rows::RowReader;
+use super::rows::{ColumnKind, Format, RowReader, row_writer};
 use crate::model::{Batch, Output, RowFailure, RunContext};
 use crate::run::{Executor, Halt};
 use crate::space::Factor;
 use crate::study::Study;
-use crate::text::csv_field;
 
 /// Why points could not be evaluated.
 #[derive(Debug, Error)]
@@ -87,11 +87,10 @@ pub fn evaluate_in(
         nominal: reader.missing(factors.len()),
         ..Evaluated::default()
     };
-    let mut out = std::io::BufWriter::new(outputs);
     let copied: &[Factor] = if with_points { factors } else { &[] };
-    let names = copied.iter().map(|factor| csv_field(&factor.name));
-    let names: Vec<_> = names.chain(model.outputs().iter().map(|output| csv_field(&output.name))).collect();
-    writeln!(out, "{}", names.join(","))?;
+    let kinds = copied.iter().map(factor_column);
+    let kinds = kinds.chain(model.outputs().iter().map(|output| ColumnKind::numbers(&output.name))).collect();
+    let mut writer = row_writer(Format::Csv, outputs, kinds, 0)?;
     loop {
         let rows = reader.read(factors, most, &mut columns)?;
         if rows == 0 {
@@ -108,40 +107,20 @@ pub fn evaluate_in(
         let points = evaluated.points;
         executor.run_table(&inputs, &mut batch).map_err(|halt| EvaluateError::Halted { points, halt })?;
         evaluated.count(model.outputs(), &batch);
-        write_rows(&mut out, copied, &typed, model.outputs(), &batch)?;
+        let answers: Vec<Vec<f64>> =
+            model.outputs().iter().enumerate().map(|(k, output)| in_unit(output, batch.column(k))).collect();
+        let all: Vec<&[f64]> = typed.iter().chain(&answers).map(Vec::as_slice).collect();
+        writer.write(&all)?;
     }
-    out.flush()?;
+    writer.finish()?;
     context.messages().finish();
     evaluated.unended = reader.is_unended();
     Ok(evaluated)
 }
 
-fn write_rows(
-    out: &mut impl Write,
-    factors: &[Factor],
-    points: &[Vec<f64>],
-    outputs: &[Output],
-    batch: &Batch,
-) -> std::io::Result<()> {
-    for row in 0..batch.rows() {
-        for (factor, column) in factors.iter().zip(points) {
-            write!(out, "{},", csv_field(&factor.in_words(column[row], |number| number.to_string())))?;
-        }
-        for (number, output) in outputs.iter().enumerate() {
-            if number > 0 {
-                write!(out, ",")?;
-            }
-            let value = batch.column(number)[row];
-            if value.is_finite() {
-                write!(out, "{}", output.unit.from_si(value))?;
-            } else if outputs.len() == 1 && factors.is_empty() {
-                // An empty cell by itself would be an empty line, which readers skip.
-                write!(out, "\"\"")?;
-            }
-        }
-        writeln!(out)?;
-    }
-    Ok(())
+/// Values of an output in its unit; NaN where there is none.
+fn in_unit(output: &Output, values: &[f64]) -> Vec<f64> {
+    values.iter().map(|value| if value.is_finite() { output.unit.from_si(*value) } else { f64::NAN }).collect()
 }
 
 impl Evaluated {

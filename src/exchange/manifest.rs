@@ -128,7 +128,7 @@ pub enum ManifestError {
     #[error("{what}: the manifest says {stated}, but its study means {meant}")]
     OtherDesign {
         /// Which part of the design.
-        what: &'static str,
+        what: String,
         /// In the manifest.
         stated: String,
         /// By the study.
@@ -247,15 +247,7 @@ impl Manifest {
             return Err(ManifestError::ChangedStudy { found: study.sha256, expected: sha256.clone() });
         }
         let (stated, meant) = (&self.design, Self::new(&study, Path::new(file), self.design.sha256.clone()).design);
-        let parts: [(&'static str, String, String); 6] = [
-            ("sampler", stated.sampler.clone(), meant.sampler.clone()),
-            ("seed", stated.seed.to_string(), meant.seed.to_string()),
-            ("replicates", stated.replicates.to_string(), meant.replicates.to_string()),
-            ("base samples", stated.base_samples.to_string(), meant.base_samples.to_string()),
-            ("rows", stated.rows.to_string(), meant.rows.to_string()),
-            ("rows of a base point", format!("{:?}", stated.layout), format!("{:?}", meant.layout)),
-        ];
-        if let Some((what, stated, meant)) = parts.into_iter().find(|(_, stated, meant)| stated != meant) {
+        if let Some((what, stated, meant)) = first_difference(stated, &meant)? {
             return Err(ManifestError::OtherDesign { what, stated, meant });
         }
         study.target = Target::default();
@@ -273,6 +265,18 @@ impl Manifest {
         let (here, written) = (env!("CARGO_PKG_VERSION").to_owned(), self.apportion_version.clone());
         Err(ManifestError::OtherPoints { here, written })
     }
+}
+
+/// The first field in which two designs differ, and its values in JSON.
+fn first_difference(
+    stated: &ManifestDesign,
+    meant: &ManifestDesign,
+) -> serde_json::Result<Option<(String, String, String)>> {
+    let [stated, meant] = [serde_json::to_value(stated)?, serde_json::to_value(meant)?];
+    let fields = meant.as_object().into_iter().flatten();
+    let mut fields = fields.map(|(field, meant)| (field, &stated[field], meant));
+    let found = fields.find(|(_, stated, meant)| stated != meant);
+    Ok(found.map(|(field, stated, meant)| (field.clone(), stated.to_string(), meant.to_string())))
 }
 
 fn matrix(matrix: Matrix) -> String {

@@ -18,7 +18,7 @@ mod text_column;
 pub use answers::{AnswersError, AnswersRequest, MissingOutputs, read_answers};
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::{Manifest, ManifestError};
-pub use rows::{Format, RowReader, RowsError, open_rows};
+pub use rows::{Format, ReadOptions, RowReader, RowsError, open_table};
 pub use sample::{random_points, sample};
 pub use save::{SaveError, save_outputs};
 pub use table::{Missing, Selection, Table, TableError, read_table};
@@ -28,10 +28,10 @@ pub use text_column::{LeftOut, TextColumn, TextKind};
 #[doc(hidden)]
 pub use {
     answers::Answers,
-    design_rows::{DesignRows, RowBlock},
+    design_rows::{DesignRows, RowBlock, factor_column},
     evaluate::evaluate_in,
     manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},
     points::{PointsError, PointsReader},
-    rows::{ColumnKind, RowWriter, open_table, row_writer, rows_of_bytes, table_of_bytes},
+    rows::{ColumnKind, RowWriter, row_writer, table_of_bytes},
     table::DroppedRows,
 };

@@ -22,7 +22,7 @@ pub enum PointsError {
         known: String,
     },
     /// A column that is no factor.
-    #[error("column {column}: `{name}` is no factor of the study{}; its factors are {known}{}", hint(.nearest), header(.name))]
+    #[error("column {column}: `{name}` is no factor of the study{}; its factors are {known}", hint(.nearest))]
     UnknownColumn {
         /// Number of the column, from 1.
         column: usize,
@@ -33,31 +33,17 @@ pub enum PointsError {
         /// The factors of the study.
         known: String,
     },
-    /// A cell that is not a finite number.
-    #[error("{place}: column {column} (`{name}`): expected a finite number in {unit}, not {found}")]
-    NotANumber {
+    /// A cell that is no value of its factor.
+    #[error("{place}: column {column} (`{name}`): expected {expected}, not {found}")]
+    WrongCell {
         /// Line of the file, or row of the table, in words.
         place: String,
         /// Number of the column, from 1.
         column: usize,
         /// Its header.
         name: String,
-        /// The unit the number would be in.
-        unit: String,
-        /// What stands there, in words.
-        found: String,
-    },
-    /// A cell that is no category of its factor.
-    #[error("{place}: column {column} (`{name}`): expected one of {known}, not {found}")]
-    NoCategory {
-        /// Line of the file, or row of the table, in words.
-        place: String,
-        /// Number of the column, from 1.
-        column: usize,
-        /// Its header.
-        name: String,
-        /// The labels of the factor.
-        known: String,
+        /// What would be right.
+        expected: String,
         /// What stands there, in words.
         found: String,
     },
@@ -65,14 +51,6 @@ pub enum PointsError {
 
 fn hint(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
-}
-
-/// A remark on a name that is a number.
-fn header(name: &str) -> &'static str {
-    match name.parse::<f64>() {
-        Ok(_) => " (the first line holds numbers: is there no header? --names gives the names)",
-        Err(_) => "",
-    }
 }
 
 /// Reads points block by block.
@@ -168,8 +146,9 @@ pub(super) fn in_words(line: Option<u64>, row: u64) -> String {
 
 fn wrong_cell(factor: &Factor, place: String, column: usize, found: String) -> PointsError {
     let name = factor.name.clone();
-    match factor.distribution().labels() {
-        Some(labels) => PointsError::NoCategory { place, column, name, known: labels.join(", "), found },
-        None => PointsError::NotANumber { place, column, name, unit: factor.unit().to_string(), found },
-    }
+    let expected = match factor.distribution().labels() {
+        Some(labels) => format!("one of {}", labels.join(", ")),
+        None => format!("a finite number in {}", factor.unit()),
+    };
+    PointsError::WrongCell { place, column, name, expected, found }
 }

@@ -14,12 +14,7 @@ use crate::study::Study;
 ///
 /// # Errors
 /// Whatever the file's system says.
-pub fn sample(
-    study: &Study,
-    study_file: &Path,
-    format: Format,
-    out: &mut (dyn Write + Send),
-) -> std::io::Result<Manifest> {
+pub fn sample(study: &Study, study_file: &Path, format: Format, out: &mut dyn Write) -> std::io::Result<Manifest> {
     let digest = write(study, &study.design, study.design.rows(), format, out)?;
     Ok(Manifest::new(study, study_file, digest))
 }
@@ -33,7 +28,7 @@ pub fn random_points(
     study: &Study,
     rows: u64,
     format: Format,
-    out: &mut (dyn Write + Send),
+    out: &mut dyn Write,
 ) -> Result<std::io::Result<()>, DesignError> {
     // The rows A and B of a design without any other.
     let settings = DesignSettings {
@@ -48,13 +43,7 @@ pub fn random_points(
 }
 
 /// Writes the first `most` rows of `design`, and returns their digest.
-fn write(
-    study: &Study,
-    design: &Design,
-    most: u64,
-    format: Format,
-    out: &mut (dyn Write + Send),
-) -> std::io::Result<String> {
+fn write(study: &Study, design: &Design, most: u64, format: Format, out: &mut dyn Write) -> std::io::Result<String> {
     let space = &study.space;
     let kinds = space.factors().iter().map(factor_column).collect();
     let mut writer = row_writer(format, out, kinds, most)?;

@@ -34,8 +34,7 @@ impl From<SaveError> for std::io::Error {
 }
 
 /// Writes the rows of `design` with the outputs that `store` has of them: the factors of `study`, then its outputs, each
-/// in its unit, in the order of [`Design::locate`]. An output that failed is an empty cell (CSV), a null (Parquet), or NaN
-/// (NPY). Runs in constant memory beside the store.
+/// in its unit, in the order of [`Design::locate`]. An output that failed is an empty cell (CSV) or NaN (NPY). Runs in constant memory beside the store.
 ///
 /// # Errors
 /// [`SaveError`] if the file cannot be written, or rows are missing in the store.
@@ -44,12 +43,12 @@ pub fn save_outputs(
     design: &Design,
     store: &Store,
     format: Format,
-    out: &mut (dyn Write + Send),
+    out: &mut dyn Write,
 ) -> Result<(), SaveError> {
     let (space, model) = (&study.space, study.model());
     let outputs = model.outputs();
-    let output = |name: &str| ColumnKind { optional: true, ..ColumnKind::numbers(name) };
-    let kinds = space.factors().iter().map(factor_column).chain(outputs.iter().map(|o| output(&o.name))).collect();
+    let kinds = space.factors().iter().map(factor_column);
+    let kinds = kinds.chain(outputs.iter().map(|output| ColumnKind::numbers(&output.name))).collect();
     let mut writer = row_writer(format, out, kinds, design.rows())?;
     let mut rows = DesignRows::new(space, design);
     let mut points = vec![Vec::new(); design.factors()];

@@ -22,7 +22,7 @@ pub enum TableError {
         width: usize,
     },
     /// An input or output that is no column.
-    #[error("no column is called `{name}`{}; the columns are {known}{}", hint(.nearest), header(.known))]
+    #[error("no column is called `{name}`{}; the columns are {known}", hint(.nearest))]
     UnknownColumn {
         /// The name asked for.
         name: String,
@@ -75,14 +75,6 @@ fn hint(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
 }
 
-/// A remark on names that are numbers.
-fn header(known: &str) -> &'static str {
-    match known.split(", ").all(|name| name.parse::<f64>().is_ok()) {
-        true => " (the first line holds numbers: is there no header? --names gives the names)",
-        false => "",
-    }
-}
-
 /// Why columns of text are no inputs, and what would make them so.
 fn why(skipped: &[TextColumn]) -> String {
     let kinds = LeftOut::of(skipped);
@@ -109,7 +101,7 @@ pub enum Missing {
 }
 
 /// Which columns of a table are used, and how.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Selection<'a> {
     /// Names of the outputs.
     pub outputs: &'a [String],
@@ -117,6 +109,8 @@ pub struct Selection<'a> {
     pub inputs: &'a [String],
     /// What to do with rows that lack a value in one of these columns.
     pub missing: Missing,
+    /// Columns that hold labels, or may: those of the factors of a study.
+    pub kinds: &'a [ColumnKind],
 }
 
 /// Rows that were left out.
@@ -147,7 +141,8 @@ const BLOCK: usize = 1 << 12;
 /// Reads a table of numbers. Columns that are not selected may hold anything; where the inputs are not named, columns of
 /// text are none.
 ///
-/// A value is missing if its cell is empty or says `nan`, `na`, `n/a`, `null`, `none` or `-`, in capitals or not.
+/// A value is missing if its cell is empty or says `nan`, `na`, `n/a`, `null`, `none`, `.` or `-`, in capitals or not, or is an
+/// error of a spreadsheet such as `#N/A`; or if it is one of the [numbers](super::ReadOptions::missing) that stand for it.
 ///
 /// # Errors
 /// [`TableError`] with the place of the first fault.
@@ -158,7 +153,8 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
     let (mut inputs, outputs) = places(&names, selection)?;
     let mut skipped = Vec::new();
     if selection.inputs.is_empty() {
-        let text = reader.text_columns()?;
+        let is_known = |place: &usize| selection.kinds.iter().any(|kind| kind.name == names[*place]);
+        let text: Vec<usize> = reader.text_columns()?.into_iter().filter(|place| !is_known(place)).collect();
         let (of_text, of_numbers): (Vec<usize>, Vec<usize>) = inputs.iter().partition(|place| text.contains(place));
         let column = |place: usize| TextColumn { name: names[place].clone(), example: reader.text_example(place) };
         skipped = of_text.into_iter().map(column).collect();
@@ -168,7 +164,9 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
         return Err(TableError::NoInputs { known: names.join(", "), skipped });
     }
     let chosen: Vec<usize> = inputs.iter().chain(&outputs).copied().collect();
-    let wanted: Vec<_> = chosen.iter().map(|&place| (place, ColumnKind::numbers(&names[place]))).collect();
+    let kind = |name: &String| selection.kinds.iter().find(|kind| kind.name == *name).cloned();
+    let kind = |place: usize| kind(&names[place]).unwrap_or_else(|| ColumnKind::numbers(&names[place]));
+    let wanted: Vec<_> = chosen.iter().map(|&place| (place, kind(place))).collect();
     let mut columns: Vec<Column> =
         chosen.iter().map(|&place| Column { name: names[place].clone(), values: Vec::new() }).collect();
     let not_a_number = |place: String, at: usize, found: String| {
@@ -234,20 +232,14 @@ fn places(names: &[String], selection: &Selection<'_>) -> Result<(Vec<usize>, Ve
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exchange::table_of_bytes;
+    use crate::exchange::{ReadOptions, table_of_bytes};
     use proptest::prelude::*;
 
     fn read(text: &str, outputs: &[&str], inputs: &[&str], missing: Missing) -> Result<Table, TableError> {
         let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
         let (outputs, inputs) = (owned(outputs), owned(inputs));
-        let mut rows = table_of_bytes(text.as_bytes().to_vec(), &[])?;
-        read_table(rows.as_mut(), &Selection { outputs: &outputs, inputs: &inputs, missing })
-    }
-
-    #[track_caller]
-    fn refused(text: &str, outputs: &[&str], inputs: &[&str], expected: &str) {
-        let message = read(text, outputs, inputs, Missing::Refuse).unwrap_err().to_string();
-        assert!(message.contains(expected), "no {expected:?} in {message:?}");
+        let mut rows = table_of_bytes(text.as_bytes().to_vec(), &ReadOptions::default())?;
+        read_table(rows.as_mut(), &Selection { outputs: &outputs, inputs: &inputs, missing, kinds: &[] })
     }
 
     #[test]
@@ -263,45 +255,28 @@ mod tests {
 
     #[test]
     fn faults_are_named_with_their_place() {
-        refused("", &["y"], &[], "the file is empty");
-        refused("\n\n", &["y"], &[], "the file is empty");
-        refused("a,,y\n", &["y"], &[], "column 2 has no name");
-        refused(",a,y\n", &["y"], &[], "column 1 has no name: if it is the index that pandas writes");
-        refused("a,b,a\n", &["b"], &[], "column 3: `a` is also the name of column 1");
-        refused(
-            "a,force\n",
-            &["forse"],
-            &[],
-            "no column is called `forse`: did you mean `force`?; the columns are a, force",
+        let refused = |text: &str, inputs: &[&str]| read(text, &["y"], inputs, Missing::Refuse).unwrap_err();
+        assert!(matches!(refused("\n\n", &[]), TableError::Rows(RowsError::Empty)));
+        assert!(matches!(refused("y\n1\n", &[]), TableError::NoInputs { .. }));
+        assert!(matches!(refused("a,y\n", &["y"]), TableError::AskedTwice { .. }));
+        assert!(
+            matches!(refused("a,yy\n", &[]), TableError::UnknownColumn { nearest: Some(name), .. } if name == "yy")
         );
-        refused("a,y\n", &["y"], &["y"], "`y` is asked for twice");
-        refused("y\n1\n", &["y"], &[], "no column of numbers is left as an input");
-        refused("a,y\n1,2\n3,nan\n", &["y"], &[], "line 3: column 2 (`y`): the value is missing; --drop-missing");
-        refused("a,y\n1,2\n,2\n", &["y"], &[], "line 3: column 1 (`a`): the value is missing");
-        refused(
-            "a,y\n1,2\nred,2\n",
-            &["y"],
-            &[],
-            "line 3: column 1 (`a`): expected a finite number, not \"red\"; if the",
-        );
-        refused("1,2\n3,4\n", &["y"], &[], "the first line holds numbers: is there no header? --names");
-        let comma = "line 2: column 1 (`a`): expected a finite number, not \"1,5\"; write the numbers with a point";
-        refused("a;y\n1,5;2\n", &["y"], &["a"], comma);
-        refused(
-            "a;b;y\n1,5;red;2\n",
-            &["y"],
-            &[],
-            "no column of numbers is left as an input: the column `a` holds numbers with a decimal comma (1,5): write the numbers \
-             with a point (1.5, not 1,5) and the column `b` holds text (red): if it",
-        );
-        refused(
-            "a;y\n5 mm;2\n",
-            &["y"],
-            &[],
-            "holds numbers with their unit in the cell (5 mm): leave the numbers alone",
-        );
-        refused("a,y\n1,inf\n", &["y"], &["a"], "line 2: column 2 (`y`): expected a finite number, not \"inf\"");
-        refused("a,y\n1,2\n3\n", &["y"], &[], "line 3: expected 2 cells as in the header, not 1");
+        for (text, at) in [("a,y\n1,2\n3,nan\n", 2), ("a,y\n1,2\n,2\n", 1), ("# a\na,y\n1,#N/A\n", 2)] {
+            let TableError::Missing { place, column, .. } = refused(text, &[]) else { panic!("{text:?}") };
+            assert_eq!((place.as_str(), column), ("line 3", at), "{text:?}");
+        }
+        for (text, inputs, cell) in [
+            ("a,y\n1,2\nred,2\n", &[][..], "red"),
+            ("a;y\n2;2\n1,5;2\n", &["a"], "1,5"),
+            ("a,y\n1,2\n1,inf\n", &["a"], "inf"),
+        ] {
+            let TableError::NotANumber { place, found, .. } = refused(text, inputs) else { panic!("{text:?}") };
+            assert_eq!((place.as_str(), found.as_str()), ("line 3", cell), "{text:?}");
+        }
+        let columns = "a;b;y\n1,5;red;2\n";
+        let TableError::NoInputs { skipped, .. } = refused(columns, &[]) else { panic!("inputs in {columns:?}") };
+        assert_eq!([skipped[0].kind(), skipped[1].kind()], [TextKind::DecimalComma, TextKind::Text]);
     }
 
     #[test]
@@ -333,9 +308,9 @@ mod tests {
         fn no_file_panics(bytes in prop::collection::vec(any::<u8>(), 0..60), near in "[a,y\n\r\"0-9.e-]{0,40}") {
             let outputs = ["y".to_owned()];
             for missing in [Missing::Refuse, Missing::Drop] {
-                let selection = Selection { outputs: &outputs, inputs: &[], missing };
+                let selection = Selection { outputs: &outputs, inputs: &[], missing, kinds: &[] };
                 for bytes in [&bytes[..], near.as_bytes()] {
-                    if let Ok(mut rows) = table_of_bytes(bytes.to_vec(), &[]) {
+                    if let Ok(mut rows) = table_of_bytes(bytes.to_vec(), &ReadOptions::default()) {
                         let _ = read_table(rows.as_mut(), &selection);
                     }
                 }

@@ -138,20 +138,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn columns_are_told_with_their_remedy() {
-        let column = |name: &str, example: &str| TextColumn { name: name.into(), example: Some(example.into()) };
-        let columns = [column("mat", "alu"), column("T", "57,3"), column("p", "1,0")];
-        let said: Vec<String> = LeftOut::of(&columns).iter().map(ToString::to_string).collect();
-        assert_eq!(
-            said,
-            [
-                "the columns `T` and `p` hold numbers with a decimal comma (57,3), and were left out: the indices are those of the \
-                 other inputs alone; write the numbers with a point (1.5, not 1,5)",
-                "the column `mat` holds text (alu), and was left out: the indices are those of the other inputs alone; if it is an \
-                 input, write a number in the place of each of its words",
-            ]
-        );
-    }
 }

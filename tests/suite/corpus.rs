@@ -79,11 +79,6 @@ fn files_of_rows() {
 }
 
 #[test]
-fn parquet_files() {
-    all_of("parquet");
-}
-
-#[test]
 fn formulas() {
     all_of("expression");
 }

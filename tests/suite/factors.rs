@@ -87,7 +87,7 @@ fn labels_are_kept_in_results_points_and_sweeps() {
     let values = folder.path("values.csv");
     succeed(&["evaluate", text(&study), text(&points), "-o", text(&values)]);
     // n and r are left out: they stand at 4 and 51.
-    assert_eq!(std::fs::read_to_string(&values).unwrap(), "y\n66\n75\n55\n");
+    assert_eq!(std::fs::read_to_string(&values).unwrap(), "y\n66.0\n75.0\n55.0\n");
 
     succeed(&["sweep", text(&study), "--factor", "material", "--against", "wet=false,true", "--out", text(&out)]);
     let csv = std::fs::read_to_string(out.join("study-sweep.csv")).unwrap();

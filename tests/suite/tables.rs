@@ -12,7 +12,7 @@ const STUDY: &str = "model = \"ishigami\"\n[design]\nbase_samples = 64\nsampler 
 fn points_of_every_format_give_the_same_outputs() {
     let folder = Folder::new();
     let study = folder.with("s.toml", STUDY);
-    for name in ["p.csv", "p.parquet", "p.npy"] {
+    for name in ["p.csv", "p.npy"] {
         succeed(&["sample", text(&study), "-o", text(&folder.path(name))]);
     }
     let plain = std::fs::read_to_string(folder.path("p.csv")).unwrap();
@@ -34,14 +34,9 @@ fn points_of_every_format_give_the_same_outputs() {
     let (_, _, expected) = evaluate("p.csv", &[]);
     assert_eq!(expected.lines().count(), 64 * 5 + 1);
     let names = ["--names", "x1, x2, x3"];
-    for (points, more) in [
-        ("p.parquet", &[][..]),
-        ("p.npy", &names),
-        ("semicolons.txt", &[]),
-        ("tabs.tsv", &[]),
-        ("bare.csv", &names),
-        ("bare.dat", &names),
-    ] {
+    for (points, more) in
+        [("p.npy", &names[..]), ("semicolons.txt", &[]), ("tabs.tsv", &[]), ("bare.csv", &names), ("bare.dat", &names)]
+    {
         let (code, said, outputs) = evaluate(points, more);
         assert_eq!(code, Some(0), "{points}: {said}");
         assert!(outputs == expected && !said.contains("warning"), "{points}: {said}");
@@ -51,9 +46,9 @@ fn points_of_every_format_give_the_same_outputs() {
     // What is missing is asked for.
     for (points, more, reason) in [
         ("p.npy", &[][..], "its 3 columns have no names"),
-        ("bare.csv", &[], "the first line holds numbers: is there no header? --names gives the names"),
+        ("bare.csv", &[], "line 1 holds numbers where the names of the columns are expected"),
         ("bare.csv", &["--names", "x1,x2"], "2 names are given, but it has 3 columns"),
-        ("p.parquet", &names, "it names its columns itself (x1, x2, x3): leave --names out"),
+        ("p.csv", &names, "it names its columns itself (x1, x2, x3): leave --names out"),
     ] {
         let (code, said, _) = evaluate(points, more);
         assert!(code == Some(2) && said.contains(reason), "{points}: {said}");
@@ -96,9 +91,7 @@ fn tables_of_every_format_give_the_same_indices() {
     };
     let expected = given("t.csv", &[]).2.unwrap();
     let names = ["--names", "x1,x2,x3,y"];
-    for (table, more) in
-        [("t.parquet", &[][..]), ("t.npy", &names), ("t.txt", &[]), ("bare.csv", &names), ("kinds.tsv", &[])]
-    {
+    for (table, more) in [("t.npy", &names[..]), ("t.txt", &[]), ("bare.csv", &names), ("kinds.tsv", &[])] {
         let (code, said, result) = given(table, more);
         assert_eq!(code, Some(0), "{table}: {said}");
         let result = result.unwrap();
@@ -111,7 +104,7 @@ fn tables_of_every_format_give_the_same_indices() {
         "{said}"
     );
     let (code, said, _) = given("bare.csv", &[]);
-    assert!(code == Some(2) && said.contains("is there no header? --names"), "{said}");
+    assert!(code == Some(2) && said.contains("line 1 holds numbers"), "{said}");
 }
 
 #[test]
@@ -137,9 +130,9 @@ fn outputs_that_may_have_been_cut_short_are_doubted() {
             whole.len() - 4,
             (Some(0), "the last line has no end: if the file was cut short, its last number may be wrong"),
         ),
-        (last + 1, (Some(2), "1 of the 320 rows of the design is missing")),
-        (last - 2, (Some(2), "1 of the 320 rows of the design is missing")),
-        (whole.len() / 2, (Some(2), "rows of the design are missing")),
+        (last + 1, (Some(2), "and the design 320")),
+        (last - 2, (Some(2), "and the design 320")),
+        (whole.len() / 2, (Some(2), "and the design 320")),
     ] {
         let (code, said) = analyze(&whole[..end]);
         assert!(code == expected.0 && said.contains(expected.1), "{end}: {said}");
@@ -162,4 +155,48 @@ fn doubling_beyond_the_runs_allowed_is_refused() {
         stderr(&output)
     );
     assert_eq!(run(&["--double", "--set", "design.max_runs=640"]).status.code(), Some(0));
+}
+
+/// The result of `given-data` on a table with an output `y`.
+fn given(folder: &Folder, table: &str, more: &[&str]) -> GivenFile {
+    let (path, out) = (folder.path(table), folder.path("out"));
+    succeed(&[&["given-data", text(&path), "--outputs", "y", "--out", text(&out)], more].concat());
+    let stem = table.split('.').next().unwrap();
+    serde_json::from_slice(&std::fs::read(out.join(format!("{stem}.json"))).unwrap()).unwrap()
+}
+
+#[test]
+fn labels_that_evaluate_wrote_are_read_by_the_study() {
+    let folder = Folder::new();
+    let study = "model = \"expression\"\nexpression.outputs.y = \"a + wet + 2*probe\"\n[factors]\na = { min = 0, max = 1 }\n\
+                 wet = { distribution = \"boolean\" }\nprobe = { distribution = \"categorical\", labels = [\"steel\", \"#2, brass\"] }\n";
+    let study = folder.with("s.toml", study);
+    let (rows, table) = (folder.path("rows.csv"), folder.path("table.csv"));
+    succeed(&["sample", text(&study), "--random", "400", "-o", text(&rows)]);
+    succeed(&["evaluate", text(&study), text(&rows), "--with-points", "-o", text(&table)]);
+    let result = given(&folder, "table.csv", &["--study", text(&study)]);
+    let inputs: Vec<&str> = result.inputs.iter().map(|input| input.name.as_str()).collect();
+    assert_eq!(inputs, ["a", "wet", "probe"]);
+    assert_eq!((result.inputs[2].min, result.inputs[2].max), (0.0, 1.0));
+    // V = 1/12 + 1/4 + 1: the probe has 3/4 of it.
+    let index = result.outputs[0].indices.as_ref().unwrap()[2].binned.as_ref().unwrap();
+    assert!((index.estimate.estimate - 0.75).abs() < 0.05, "{:?}", index.estimate);
+    let without = given(&folder, "table.csv", &[]);
+    assert_eq!(without.table.columns_left_out[0].name, "probe");
+}
+
+#[test]
+fn codes_for_missing_values_are_warned_of_and_left_out_if_asked() {
+    let folder = Folder::new();
+    let columns = random(2, 300, 3);
+    let row = |k: usize| {
+        format!("{},{},{}\n", columns[0][k], columns[1][k], if k % 60 == 7 { -999.0 } else { columns[0][k] })
+    };
+    folder.with("codes.csv", format!("a,b,y\n{}", (0..300).map(row).collect::<String>()));
+    let result = given(&folder, "codes.csv", &[]);
+    let warning = &result.outputs[0].warnings[0];
+    assert!(warning.contains("-999.0 stands in 5 of 300 rows (the first is row 8)"), "{warning}");
+    let result = given(&folder, "codes.csv", &["--missing-value=-999", "--drop-missing"]);
+    assert_eq!((result.table.rows, result.table.rows_dropped), (295, 5));
+    assert!(!result.outputs[0].warnings.iter().any(|warning| warning.contains("-999")));
 }

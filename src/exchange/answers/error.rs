@@ -83,12 +83,9 @@ pub enum AnswersError {
         /// Outputs expected.
         outputs: usize,
     },
-    /// A value that is not the one of the design.
-    #[error(
-        "row {row}, column `{name}`: {found} stands where the design has {expected}: the points have been changed, or \
-         printed with less than ten digits, or belong to another design"
-    )]
-    ChangedValue {
+    /// A row with another value than that of the design.
+    #[error("row {row}, column `{name}`: {found} stands where the design has {expected}: {}", cause(*.row, *.is))]
+    OtherRow {
         /// Row of the file, from 1.
         row: u64,
         /// The factor.
@@ -97,36 +94,16 @@ pub enum AnswersError {
         found: String,
         /// In the design.
         expected: String,
+        /// The row of the design with the values of this one, from 1.
+        is: Option<u64>,
     },
-    /// As many rows as the design has, in another order.
-    #[error("the rows are in another order than those of the design: row {row} of the file is row {is} of the design")]
-    Reordered {
-        /// Row of the file, from 1.
-        row: u64,
-        /// Row of the design, from 1.
-        is: u64,
-    },
-    /// Fewer rows than the design has.
-    #[error("{} of the {expected} rows of the design {} missing: the file has {found}{place}", .expected - .found,
-        if .expected - .found == 1 { "is" } else { "are" })]
-    MissingRows {
+    /// More or fewer rows than the design has.
+    #[error("the file has {found} rows, and the design {expected}")]
+    RowCount {
         /// Rows of the file.
         found: u64,
         /// Rows of the design.
         expected: u64,
-        /// Where the first one is missing, in words.
-        place: String,
-    },
-    /// More rows than the design has.
-    #[error("the file has {} row{} more than the {expected} of the design: {place}", .found - .expected,
-        if .found - .expected == 1 { "" } else { "s" })]
-    ExtraRows {
-        /// Rows of the file.
-        found: u64,
-        /// Rows of the design.
-        expected: u64,
-        /// Which the first one is, in words.
-        place: String,
     },
     /// A row without an output.
     #[error(
@@ -145,4 +122,15 @@ pub enum AnswersError {
 
 fn hint(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
+}
+
+/// What may have happened to a row that is row `is` of the design.
+fn cause(row: u64, is: Option<u64>) -> String {
+    match is {
+        None => {
+            "the points have been changed, or printed with less than ten digits, or belong to another design".to_owned()
+        }
+        Some(is) if is > row => format!("it is row {is} of the design: rows are missing, or in another order"),
+        Some(is) => format!("it is row {is} of the design: rows are repeated, or in another order"),
+    }
 }

@@ -103,17 +103,14 @@ impl Reading<'_> {
             let (answers, found) = cells.split_at(self.columns.outputs.len());
             self.compare(&points, found, count)?;
             if count < block.rows {
-                let (found, place) = (self.row + count as u64, String::new());
-                return Err(AnswersError::MissingRows { found, expected: design.rows(), place });
+                return Err(AnswersError::RowCount { found: self.row + count as u64, expected: design.rows() });
             }
             store.insert(&self.piece(block, answers, missing)?);
             self.row += count as u64;
         }
         let more = self.count_rest()?;
         if more > 0 {
-            let (found, expected) = (self.row + more, design.rows());
-            let place = format!("row {} is the first of them", expected + 1);
-            return Err(AnswersError::ExtraRows { found, expected, place });
+            return Err(AnswersError::RowCount { found: self.row + more, expected: design.rows() });
         }
         Ok(digest.finish())
     }
@@ -155,27 +152,13 @@ impl Reading<'_> {
             true => "nothing".to_owned(),
             false => factor.in_words(value, |number| number.to_string()),
         };
-        let changed = AnswersError::ChangedValue {
+        let there: Vec<f64> = found.iter().map(|column| column[row]).collect();
+        Err(AnswersError::OtherRow {
             row: self.row + row as u64 + 1,
             name: factor.name.clone(),
             found: words(column[row]),
             expected: words(points[number][row]),
-        };
-        let there: Vec<f64> = found.iter().map(|column| column[row]).collect();
-        let Some(is) = self.find(&there) else { return Err(changed) };
-        let (row, is) = (self.row + row as u64 + 1, is + 1);
-        let (total, expected) = (self.row + count as u64 + self.count_rest()?, self.study.design.rows());
-        let words = format!("row {row} of the file is row {is} of the design");
-        Err(match total.cmp(&expected) {
-            std::cmp::Ordering::Less if is > row => AnswersError::MissingRows {
-                found: total,
-                expected,
-                place: format!("; the first is row {row}: {words}"),
-            },
-            std::cmp::Ordering::Greater if is < row => {
-                AnswersError::ExtraRows { found: total, expected, place: format!("{words} again") }
-            }
-            _ => AnswersError::Reordered { row, is },
+            is: self.find(&there).map(|is| is + 1),
         })
     }
 

@@ -1,25 +1,22 @@
-//! Rows as CSV: with commas, semicolons or tabs between the cells.
+//! Rows as CSV: with commas, semicolons, tabs or blanks between the cells.
 
 use std::collections::VecDeque;
-use std::io::{BufWriter, Cursor, Read, Write};
+use std::io::{BufWriter, Read, Write};
 
-use super::plain_lines::PlainLines;
-use super::{ColumnKind, RowReader, RowWriter, RowsError, check_names, expanded};
+use super::lines::Lines;
+use super::{ColumnKind, ReadOptions, RowReader, RowWriter, RowsError, check_names, expanded, is_error_word, number};
 use crate::text::{csv_field, plain_field};
 
 /// Rows that are looked at to tell columns of text from those of numbers.
 const AHEAD: usize = 100;
 
-/// Most bytes of the first line that are looked at for what separates its cells.
-const FIRST_LINE: usize = 1 << 16;
-
-/// A text with its beginning read already.
-type Begun<R> = std::io::Chain<Cursor<Vec<u8>>, R>;
-
-/// Reads CSV: a byte-order mark and spaces around cells are ignored, empty lines are skipped.
-pub(super) struct CsvRows<R: Read> {
-    csv: csv::Reader<PlainLines<Begun<R>>>,
-    names: Vec<String>,
+/// Reads CSV: spaces around cells are ignored, empty lines and comments (`#`) are skipped.
+pub(super) struct CsvRows {
+    csv: csv::Reader<Lines>,
+    names: Option<Vec<String>>,
+    width: usize,
+    /// Numbers that stand for a missing value.
+    missing: Vec<f64>,
     record: csv::StringRecord,
     /// Rows looked at before they are asked for, each with its line.
     ahead: VecDeque<(csv::StringRecord, u64)>,
@@ -29,109 +26,116 @@ pub(super) struct CsvRows<R: Read> {
     rows: u64,
 }
 
-impl<R: Read> CsvRows<R> {
-    /// A table with a header, or one of columns with these names.
-    pub(super) fn new(mut reader: R, names: &[String]) -> Result<Self, RowsError> {
-        let begin = first_line(&mut reader)?;
-        let delimiter = separator(&begin);
-        let text = PlainLines::new(Cursor::new(begin).chain(reader));
+impl CsvRows {
+    pub(super) fn new(text: Box<dyn Read>, options: &ReadOptions) -> Result<Self, RowsError> {
+        let lines = Lines::new(text)?;
         let mut builder = csv::ReaderBuilder::new();
-        // A cell of the header may stand for several columns: how long rows must be is known when it has been read.
-        builder.trim(csv::Trim::All).delimiter(delimiter).has_headers(names.is_empty()).flexible(true);
-        let mut csv = builder.from_reader(text);
-        let named = if names.is_empty() {
-            let header = csv.headers().map_err(|source| wrong_record(source, 1))?;
-            let name = |name: &str| plain_field(name.trim_start_matches('\u{feff}').trim()).to_owned();
-            expanded(header.iter().map(name))
-        } else {
-            expanded(names.iter().cloned())
+        builder.trim(csv::Trim::All).delimiter(lines.separator).has_headers(false).flexible(true);
+        let mut rows = Self {
+            csv: builder.from_reader(lines),
+            names: None,
+            width: 0,
+            missing: options.missing.clone(),
+            record: csv::StringRecord::new(),
+            ahead: VecDeque::new(),
+            lines: Vec::new(),
+            rows: 0,
         };
-        check_names(&named)?;
-        let (record, ahead, lines) = Default::default();
-        let mut rows = Self { csv, names: named, record, ahead, lines, rows: 0 };
-        if !names.is_empty() {
-            rows.check_width()?;
-        }
+        rows.read_header(options)?;
         Ok(rows)
     }
 
-    /// Whether the first row of a table without a header has a cell for every name.
-    fn check_width(&mut self) -> Result<(), RowsError> {
-        let Some((mut first, line)) = self.record_as_it_is()? else { return Ok(()) };
-        if first.len() != self.names.len() {
-            return Err(RowsError::OtherWidth { width: first.len(), names: self.names.len() });
+    /// Reads the names of the columns, or looks at the first row of a table without.
+    fn read_header(&mut self, options: &ReadOptions) -> Result<(), RowsError> {
+        let mut comment = Vec::new();
+        let first = loop {
+            match self.next_record()? {
+                Some((record, 1)) if record[0].to_lowercase().starts_with("sep=") => (),
+                Some((record, _)) if record[0].starts_with('#') && !is_error_word(&record[0]) => {
+                    let cells = record.iter().map(|cell| cell.trim_start_matches('#').trim());
+                    // A mark by itself is a cell where blanks separate them.
+                    comment = cells.skip(usize::from(&record[0] == "#")).map(str::to_owned).collect();
+                }
+                first => break first,
+            }
+        };
+        let Some((record, line)) = first else {
+            let (names, comment) = (expanded(&options.names), expanded(&comment));
+            let names = if names.is_empty() { comment } else { names };
+            check_names(&names)?;
+            (self.width, self.names) = (names.len(), Some(names));
+            return Ok(());
+        };
+        let numbers = record.iter().filter_map(number).collect::<Vec<f64>>();
+        let (has_numbers, of_numbers) = (!numbers.is_empty(), numbers.len() == record.len());
+        let is_row = options.no_header || has_numbers && (!options.names.is_empty() || comment.len() == record.len());
+        if !is_row {
+            // Whole numbers may be names among others, such as those of years.
+            if of_numbers || numbers.iter().any(|value| value.fract() != 0.0) {
+                return Err(RowsError::NumbersForNames { line });
+            }
+            let cells: Vec<String> = record.iter().map(|cell| plain_field(cell).to_owned()).collect();
+            if !options.names.is_empty() {
+                return Err(RowsError::HasNames { known: cells.join(", ") });
+            }
+            let names = expanded(&cells);
+            check_names(&names)?;
+            (self.width, self.names) = (names.len(), Some(names));
+            return Ok(());
         }
-        // The mark would be part of the first number.
-        if let Some(cell) = first.get(0).and_then(|cell| cell.strip_prefix('\u{feff}')) {
-            let cells: Vec<&str> = std::iter::once(cell).chain(first.iter().skip(1)).collect();
-            first = csv::StringRecord::from(cells);
+        let names = if options.names.is_empty() && !options.no_header { comment } else { options.names.clone() };
+        let names = expanded(&names);
+        self.width = record.len();
+        if !names.is_empty() {
+            if names.len() != self.width {
+                return Err(RowsError::OtherWidth { width: self.width, names: names.len() });
+            }
+            check_names(&names)?;
+            self.names = Some(names);
         }
-        self.ahead.push_back((first, line));
+        self.ahead.push_back((record, line));
         Ok(())
     }
 
-    /// The next row with its line, from the text: a cell for every name.
-    fn next_record(&mut self) -> Result<Option<(csv::StringRecord, u64)>, RowsError> {
-        let next = self.record_as_it_is()?;
-        let (expected, found) = (self.names.len() as u64, |record: &csv::StringRecord| record.len() as u64);
-        match next {
-            Some((record, line)) if found(&record) != expected => {
-                Err(RowsError::WrongLength { line, expected, found: found(&record) })
+    /// The next row with its line, from the text.
+    fn next_row(&mut self) -> Result<Option<(csv::StringRecord, u64)>, RowsError> {
+        while let Some((record, line)) = self.next_record()? {
+            if record.len() == self.width && !(record[0].starts_with("# ") || &record[0] == "#") {
+                return Ok(Some((record, line)));
             }
-            next => Ok(next),
+            if !record[0].starts_with('#') || is_error_word(&record[0]) {
+                let (expected, found) = (self.width as u64, record.len() as u64);
+                return Err(RowsError::WrongLength { line, expected, found });
+            }
         }
+        Ok(None)
     }
 
-    fn record_as_it_is(&mut self) -> Result<Option<(csv::StringRecord, u64)>, RowsError> {
+    fn next_record(&mut self) -> Result<Option<(csv::StringRecord, u64)>, RowsError> {
         let read = self.csv.read_record(&mut self.record);
         // The reader stands at the start of the next line.
         let line = self.csv.position().line().saturating_sub(1);
         let is_one = read.map_err(|source| wrong_record(source, line))?;
         Ok(is_one.then(|| (std::mem::take(&mut self.record), line)))
     }
-}
 
-/// The beginning of a text up to the end of its first line, and maybe beyond.
-fn first_line(reader: &mut impl Read) -> std::io::Result<Vec<u8>> {
-    let (mut begin, mut part) = (Vec::new(), [0; 4096]);
-    while begin.len() < FIRST_LINE && !begin.contains(&b'\n') {
-        match reader.read(&mut part) {
-            Ok(0) => break,
-            Ok(count) => begin.extend_from_slice(&part[..count]),
-            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => (),
-            Err(error) => return Err(error),
-        }
+    fn name(&self, place: usize) -> String {
+        self.names.as_ref().map_or_else(|| format!("number {}", place + 1), |names| names[place].clone())
     }
-    Ok(begin)
 }
 
-/// What separates the cells of a first line: a comma if there is one outside of quotes, else a semicolon or a tab.
-fn separator(begin: &[u8]) -> u8 {
-    let (mut quoted, mut found) = (false, None);
-    for byte in begin {
-        match byte {
-            b'"' => quoted = !quoted,
-            b'\n' if !quoted => break,
-            b',' if !quoted => return b',',
-            b';' | b'\t' if !quoted => found = found.or(Some(*byte)),
-            _ => (),
-        }
-    }
-    found.unwrap_or(b',')
-}
-
-impl<R: Read> RowReader for CsvRows<R> {
+impl RowReader for CsvRows {
     fn names(&self) -> Option<&[String]> {
-        Some(&self.names)
+        self.names.as_deref()
     }
 
     fn width(&self) -> usize {
-        self.names.len()
+        self.width
     }
 
     fn text_columns(&mut self) -> Result<Vec<usize>, RowsError> {
         while self.ahead.len() < AHEAD
-            && let Some(next) = self.next_record()?
+            && let Some(next) = self.next_row()?
         {
             self.ahead.push_back(next);
         }
@@ -141,7 +145,7 @@ impl<R: Read> RowReader for CsvRows<R> {
             let mut values = cells.map(|cell| number.value(cell)).filter(|value| !value.is_some_and(f64::is_nan));
             values.next().is_some_and(|value| value.is_none())
         };
-        Ok((0..self.names.len()).filter(is_text).collect())
+        Ok((0..self.width).filter(is_text).collect())
     }
 
     fn text_example(&self, place: usize) -> Option<String> {
@@ -164,7 +168,7 @@ impl<R: Read> RowReader for CsvRows<R> {
         for row in 0..rows {
             let next = match self.ahead.pop_front() {
                 Some(next) => Some(next),
-                None => self.next_record()?,
+                None => self.next_row()?,
             };
             let Some((record, line)) = next else { return Ok(row) };
             self.rows += 1;
@@ -172,17 +176,17 @@ impl<R: Read> RowReader for CsvRows<R> {
             for ((place, kind), column) in wanted.iter().zip(&mut *into) {
                 let cell = &record[*place];
                 let value = kind.value(cell).or_else(|| kind.value(plain_field(cell))).ok_or_else(|| {
-                    let decimal_comma = kind.labels.is_empty() && cell.replacen(',', ".", 1).parse::<f64>().is_ok();
+                    let decimal_comma = kind.labels.is_empty() && number(&cell.replacen(',', ".", 1)).is_some();
                     RowsError::WrongCell {
                         row: self.rows,
                         line: Some(line),
                         column: place + 1,
-                        name: self.names[*place].clone(),
+                        name: self.name(*place),
                         expected: kind.expected() + if decimal_comma { " with a decimal point" } else { "" },
                         found: cell.to_owned(),
                     }
                 })?;
-                column.push(value);
+                column.push(if self.missing.contains(&value) { f64::NAN } else { value });
             }
             // Its memory serves the next row.
             self.record = record;
@@ -203,12 +207,12 @@ fn wrong_record(source: csv::Error, line: u64) -> RowsError {
 
 /// Writes CSV, every number with as many digits as it takes to read the same bits back.
 pub(super) struct CsvWriter<'a> {
-    out: BufWriter<&'a mut (dyn Write + Send)>,
+    out: BufWriter<&'a mut dyn Write>,
     columns: Vec<ColumnKind>,
 }
 
 impl<'a> CsvWriter<'a> {
-    pub(super) fn new(out: &'a mut (dyn Write + Send), columns: Vec<ColumnKind>) -> std::io::Result<Self> {
+    pub(super) fn new(out: &'a mut dyn Write, columns: Vec<ColumnKind>) -> std::io::Result<Self> {
         let mut out = BufWriter::new(out);
         let names: Vec<String> = columns.iter().map(|column| csv_field(&column.name)).collect();
         writeln!(out, "{}", names.join(","))?;

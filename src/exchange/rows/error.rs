@@ -8,7 +8,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum RowsError {
     /// The name does not say the format.
-    #[error("the ending of the name tells the format: expected .csv, .parquet or .npy{}", ending(path))]
+    #[error("the ending of the name tells the format: expected .csv or .npy{}", ending(path))]
     UnknownEnding {
         /// The file.
         path: PathBuf,
@@ -63,7 +63,7 @@ pub enum RowsError {
         names: usize,
     },
     /// Names given for columns that have some.
-    #[error("it names its columns itself ({known}): leave --names out")]
+    #[error("it names its columns itself ({known}): leave --names out, or add --no-header if the first line is a row")]
     HasNames {
         /// The names.
         known: String,
@@ -94,25 +94,36 @@ pub enum RowsError {
         /// The cell.
         found: String,
     },
-    /// A file that is no Parquet, or damaged, or written in a way that is not read here.
-    #[error("not a Parquet file that can be read: {0}")]
-    NoParquet(String),
-    /// A Parquet file, and the library was built without the feature that reads and writes them.
-    #[error("Parquet files need the feature `parquet`, which this build does not have")]
-    WithoutParquet,
-    /// A Parquet column of something else than numbers or text.
-    #[error("column `{name}` is {found}; columns of numbers (double, float, integer, boolean) and of text are read")]
-    WrongColumn {
-        /// The column.
-        name: String,
-        /// Its type in words.
-        found: String,
+    /// A first line of numbers.
+    #[error(
+        "line {line} holds numbers where the names of the columns are expected: if the file has no header, add --no-header (and \
+         --names for the names of the columns in their order)"
+    )]
+    NumbersForNames {
+        /// Line of the file, from 1.
+        line: u64,
     },
+    /// A Parquet file.
+    #[error(
+        "it is a Parquet file: write it as CSV, in Python with `pandas.read_parquet(\"FILE.parquet\").to_csv(\"FILE.csv\", \
+         index=False)`"
+    )]
+    Parquet,
+    /// A workbook of a spreadsheet, or an archive.
+    #[error("it is a workbook or an archive (.xlsx, .xls, .ods, .zip, .npz): save the table as CSV")]
+    Spreadsheet,
     /// A file that is no NPY, or holds something else than a table of numbers.
     #[error("not an NPY file that can be read: {0}")]
     NoNpy(String),
 }
 
 fn ending(path: &Path) -> String {
-    path.extension().map_or_else(String::new, |ending| format!(", not .{}", ending.to_string_lossy()))
+    match path.extension().map(|ending| ending.to_string_lossy()) {
+        None => String::new(),
+        Some(ending) if ending.eq_ignore_ascii_case("parquet") => {
+            ", not .parquet: in Python `pandas.read_csv(\"FILE.csv\").to_parquet(\"FILE.parquet\")` makes one of a CSV file"
+                .to_owned()
+        }
+        Some(ending) => format!(", not .{ending}"),
+    }
 }

@@ -1,4 +1,4 @@
-//! Tables of numbers by rows, in three formats behind one interface: CSV, Parquet and NPY.
+//! Tables of numbers by rows, as CSV or NPY, behind one interface.
 //!
 //! Every cell is a number. A value that is missing is NaN; a label of a category is the number that stands for it, by
 //! the labels that the caller knows of the column. Readers and writers take blocks of rows, so that a file may be
@@ -6,12 +6,8 @@
 
 mod csv_rows;
 mod error;
+mod lines;
 mod npy;
-#[cfg(feature = "parquet")]
-mod parquet_pages;
-#[cfg(feature = "parquet")]
-mod parquet_rows;
-mod plain_lines;
 #[cfg(test)]
 mod tests;
 
@@ -19,6 +15,8 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Cursor, Read, Seek, Write};
 use std::path::Path;
+
+use flate2::read::MultiGzDecoder;
 
 pub use error::RowsError;
 
@@ -31,21 +29,18 @@ use crate::names::refused_name;
 pub enum Format {
     /// Text: a header of names, then one line per row.
     Csv,
-    /// Apache Parquet: columns by name.
-    Parquet,
     /// NumPy's array file: numbers in rows and columns, without names.
     Npy,
 }
 
 impl Format {
-    /// All formats, each known by the ending of a file's name.
-    pub const ALL: [Self; 3] = [Self::Csv, Self::Parquet, Self::Npy];
+    /// Both, each known by the ending of a file's name.
+    pub const ALL: [Self; 2] = [Self::Csv, Self::Npy];
 
     /// The ending of file names, without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Csv => "csv",
-            Self::Parquet => "parquet",
             Self::Npy => "npy",
         }
     }
@@ -67,15 +62,17 @@ impl Format {
         let known = |format: &Self| ending.as_deref() == Some(format.ending());
         Self::ALL.into_iter().find(known).ok_or_else(|| RowsError::UnknownEnding { path: path.to_owned() })
     }
+}
 
-    /// The format of a file that begins with these bytes: that of text, if it is no other.
-    fn of_beginning(bytes: &[u8]) -> Self {
-        match bytes {
-            [b'P', b'A', b'R', b'1', ..] => Self::Parquet,
-            [b'\x93', b'N', b'U', b'M', b'P', b'Y', ..] => Self::Npy,
-            _ => Self::Csv,
-        }
-    }
+/// What the file of a table does not say itself.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ReadOptions {
+    /// Names of the columns of a table that has none.
+    pub names: Vec<String>,
+    /// Whether the first line of a text is a row, even if it does not look like one.
+    pub no_header: bool,
+    /// Numbers that stand for a missing value.
+    pub missing: Vec<f64>,
 }
 
 /// A column to be written or read.
@@ -85,14 +82,12 @@ pub struct ColumnKind {
     pub name: String,
     /// The labels of a column of categories, each with the number that stands for it; none for a column of numbers.
     pub labels: Vec<(String, f64)>,
-    /// Whether values may be missing (NaN).
-    pub optional: bool,
     /// Whether all values are whole numbers, which text has without a decimal point.
     pub whole: bool,
 }
 
 impl ColumnKind {
-    /// A column of numbers, none of which is missing.
+    /// A column of numbers.
     pub fn numbers(name: &str) -> Self {
         Self { name: name.to_owned(), ..Self::default() }
     }
@@ -102,20 +97,27 @@ impl ColumnKind {
     }
 
     fn value_of(&self, label: &str) -> Option<f64> {
-        self.labels.iter().find(|(known, _)| known == label).map(|(_, value)| *value)
+        // Python and spreadsheets write the labels of a boolean in capitals.
+        let is_it =
+            |known: &str| known == label || matches!(known, "true" | "false") && known.eq_ignore_ascii_case(label);
+        self.labels.iter().find(|(known, _)| is_it(known)).map(|(_, value)| *value)
     }
 
     /// The number in a cell of text: that of a label, or of a label's number; of a column of numbers any number,
-    /// infinities too. `None` if it is neither; NaN if the value is missing.
+    /// infinities too, and 1 and 0 for `true` and `false`. `None` if it is neither; NaN if the value is missing.
     fn value(&self, cell: &str) -> Option<f64> {
-        const MISSING: [&str; 8] = ["", "nan", "-nan", "na", "n/a", "null", "none", "-"];
+        const MISSING: [&str; 9] = ["", "nan", "-nan", "na", "n/a", "null", "none", "-", "."];
         if let Some(value) = self.value_of(cell) {
             return Some(value);
         }
-        if MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) {
+        if MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) || is_error_word(cell) {
             return Some(f64::NAN);
         }
-        cell.parse().ok().filter(|value| self.labels.is_empty() || self.label(*value).is_some())
+        match cell {
+            "true" | "True" | "TRUE" if self.labels.is_empty() => Some(1.0),
+            "false" | "False" | "FALSE" if self.labels.is_empty() => Some(0.0),
+            cell => number(cell).filter(|value| self.labels.is_empty() || self.label(*value).is_some()),
+        }
     }
 
     fn expected(&self) -> String {
@@ -125,6 +127,21 @@ impl ColumnKind {
         let labels: Vec<&str> = self.labels.iter().map(|(label, _)| label.as_str()).collect();
         format!("one of {}", labels.join(", "))
     }
+}
+
+/// A number as programs print it, that of Fortran with `D` before the exponent too.
+fn number(cell: &str) -> Option<f64> {
+    let of_fortran = || {
+        let is_plain = cell.bytes().all(|byte| byte.is_ascii_digit() || b"+-.dD".contains(&byte));
+        if is_plain { cell.replace(['d', 'D'], "e").parse().ok() } else { None }
+    };
+    cell.parse().ok().or_else(of_fortran)
+}
+
+/// Whether a spreadsheet has written that the cell has no value, as `#N/A` and `#DIV/0!` say.
+fn is_error_word(cell: &str) -> bool {
+    const WORDS: [&str; 7] = ["#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NUM!", "#NAME?", "#NULL!"];
+    WORDS.iter().any(|word| cell.eq_ignore_ascii_case(word))
 }
 
 /// Reads a table block by block.
@@ -168,29 +185,12 @@ pub trait RowReader {
     fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>]) -> Result<usize, RowsError>;
 }
 
-/// Opens the table in `path`, in the format that its ending says.
+/// Opens the table in `path`, in the format that its first bytes say, whatever its name: NPY, or text as CSV, which may be
+/// compressed by gzip. Text is read in constant memory, from a pipe too.
 ///
 /// # Errors
-/// [`RowsError`] if the ending is unknown, or the file cannot be read or is not of that format.
-pub fn open_rows(path: &Path) -> Result<Box<dyn RowReader>, RowsError> {
-    let format = Format::of(path)?;
-    let file = File::open(path)?;
-    if file.metadata()?.is_dir() {
-        return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
-    }
-    Ok(match format {
-        Format::Csv => Box::new(csv_rows::CsvRows::new(file, &[])?),
-        Format::Parquet => parquet_reader(file)?,
-        Format::Npy => Box::new(npy::NpyRows::new(file)?),
-    })
-}
-
-/// Opens the table in `path`, whatever its name, in the format that its first bytes say. `names` are those of its columns,
-/// if it has none itself; a text is then one without a header.
-///
-/// # Errors
-/// [`RowsError`] if the file cannot be read or is not of that format, or names do not fit.
-pub fn open_table(path: &Path, names: &[String]) -> Result<Box<dyn RowReader>, RowsError> {
+/// [`RowsError`] if the file cannot be read or is of another format, or names do not fit.
+pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReader>, RowsError> {
     let mut file = File::open(path)?;
     let about = file.metadata()?;
     if about.is_dir() {
@@ -198,101 +198,38 @@ pub fn open_table(path: &Path, names: &[String]) -> Result<Box<dyn RowReader>, R
     }
     let mut begin = Vec::new();
     (&mut file).take(8).read_to_end(&mut begin)?;
-    match Format::of_beginning(&begin) {
-        // In constant memory, from a pipe too.
-        Format::Csv => Ok(Box::new(csv_rows::CsvRows::new(Cursor::new(begin).chain(file), names)?)),
-        Format::Npy if about.is_file() => {
-            file.rewind()?;
-            named(Box::new(npy::NpyRows::new(file)?), names)
-        }
-        Format::Parquet if about.is_file() => {
-            file.rewind()?;
-            named(parquet_reader(file)?, names)
-        }
-        _ => {
-            begin.extend(read_opened(&mut file)?);
-            table_of_bytes(begin, names)
-        }
+    if !begin.starts_with(npy::MAGIC) {
+        return text(&begin.clone(), Box::new(Cursor::new(begin).chain(file)), options);
     }
+    if about.is_file() {
+        file.rewind()?;
+        return Ok(Box::new(npy::NpyRows::new(file, options)?));
+    }
+    begin.extend(read_opened(&mut file)?);
+    table_of_bytes(begin, options)
 }
 
 /// The table in `bytes`, as [`open_table`] reads it.
 ///
 /// # Errors
 /// As for [`open_table`].
-pub fn table_of_bytes(bytes: Vec<u8>, names: &[String]) -> Result<Box<dyn RowReader>, RowsError> {
-    match Format::of_beginning(&bytes) {
-        Format::Csv => Ok(Box::new(csv_rows::CsvRows::new(Cursor::new(bytes), names)?)),
-        format => named(rows_of_bytes(format, bytes)?, names),
+pub fn table_of_bytes(bytes: Vec<u8>, options: &ReadOptions) -> Result<Box<dyn RowReader>, RowsError> {
+    if bytes.starts_with(npy::MAGIC) {
+        return Ok(Box::new(npy::NpyRows::new(Cursor::new(bytes), options)?));
     }
+    let begin: Vec<u8> = bytes.iter().take(8).copied().collect();
+    text(&begin, Box::new(Cursor::new(bytes)), options)
 }
 
-/// The table in `bytes`.
-///
-/// # Errors
-/// [`RowsError`] if they are not of that format.
-pub fn rows_of_bytes(format: Format, bytes: Vec<u8>) -> Result<Box<dyn RowReader>, RowsError> {
-    Ok(match format {
-        Format::Csv => Box::new(csv_rows::CsvRows::new(Cursor::new(bytes), &[])?),
-        Format::Parquet => parquet_of_bytes(bytes)?,
-        Format::Npy => Box::new(npy::NpyRows::new(Cursor::new(bytes))?),
-    })
-}
-
-#[cfg(feature = "parquet")]
-fn parquet_reader(file: File) -> Result<Box<dyn RowReader>, RowsError> {
-    Ok(Box::new(parquet_rows::ParquetRows::new(file)?))
-}
-
-#[cfg(feature = "parquet")]
-fn parquet_of_bytes(bytes: Vec<u8>) -> Result<Box<dyn RowReader>, RowsError> {
-    Ok(Box::new(parquet_rows::ParquetRows::new(bytes::Bytes::from(bytes))?))
-}
-
-#[cfg(not(feature = "parquet"))]
-fn parquet_reader(_file: File) -> Result<Box<dyn RowReader>, RowsError> {
-    Err(RowsError::WithoutParquet)
-}
-
-#[cfg(not(feature = "parquet"))]
-fn parquet_of_bytes(_bytes: Vec<u8>) -> Result<Box<dyn RowReader>, RowsError> {
-    Err(RowsError::WithoutParquet)
-}
-
-/// `rows` with names given for its columns.
-fn named(rows: Box<dyn RowReader>, names: &[String]) -> Result<Box<dyn RowReader>, RowsError> {
-    if names.is_empty() {
-        return Ok(rows);
-    }
-    if let Some(known) = rows.names() {
-        return Err(RowsError::HasNames { known: known.join(", ") });
-    }
-    let names = expanded(names.iter().cloned());
-    if rows.width() != names.len() {
-        return Err(RowsError::OtherWidth { width: rows.width(), names: names.len() });
-    }
-    check_names(&names)?;
-    Ok(Box::new(Named { rows, names }))
-}
-
-/// A table of a format without names, with names from elsewhere.
-struct Named {
-    rows: Box<dyn RowReader>,
-    names: Vec<String>,
-}
-
-impl RowReader for Named {
-    fn names(&self) -> Option<&[String]> {
-        Some(&self.names)
-    }
-
-    fn width(&self) -> usize {
-        self.rows.width()
-    }
-
-    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>]) -> Result<usize, RowsError> {
-        self.rows.read(wanted, rows, into)
-    }
+/// The table in a text that begins so.
+fn text(begin: &[u8], all: Box<dyn Read>, options: &ReadOptions) -> Result<Box<dyn RowReader>, RowsError> {
+    let all: Box<dyn Read> = match begin {
+        [b'P', b'A', b'R', b'1', ..] => return Err(RowsError::Parquet),
+        [b'P', b'K', 3 | 5, 4 | 6, ..] | [0xd0, 0xcf, 0x11, 0xe0, ..] => return Err(RowsError::Spreadsheet),
+        [0x1f, 0x8b, ..] => Box::new(MultiGzDecoder::new(all)),
+        _ => all,
+    };
+    Ok(Box::new(csv_rows::CsvRows::new(all, options)?))
 }
 
 /// Writes a table block by block.
@@ -312,34 +249,29 @@ pub trait RowWriter {
 
 /// A writer of `rows` rows of these columns to `out`. Numbers come back from reading as the same bits.
 ///
-/// Labels are written as text in CSV and Parquet, as their numbers in NPY; a missing value is an empty cell, a null, or
-/// NaN.
+/// Labels are written as text in CSV, as their numbers in NPY; a missing value is an empty cell, or NaN.
 ///
 /// # Errors
 /// Whatever the file's system says.
 pub fn row_writer<'a>(
     format: Format,
-    out: &'a mut (dyn Write + Send),
+    out: &'a mut dyn Write,
     columns: Vec<ColumnKind>,
     rows: u64,
 ) -> std::io::Result<Box<dyn RowWriter + 'a>> {
     Ok(match format {
         Format::Csv => Box::new(csv_rows::CsvWriter::new(out, columns)?),
-        #[cfg(feature = "parquet")]
-        Format::Parquet => Box::new(parquet_rows::ParquetWriter::new(out, columns)?),
-        #[cfg(not(feature = "parquet"))]
-        Format::Parquet => return Err(std::io::Error::other(RowsError::WithoutParquet)),
         Format::Npy => Box::new(npy::NpyWriter::new(out, (rows, columns.len()))?),
     })
 }
 
 /// Names of all columns: `y[0..3]` stands for the columns `y[0]`, `y[1]` and `y[2]`.
-fn expanded(names: impl Iterator<Item = String>) -> Vec<String> {
+fn expanded(names: &[String]) -> Vec<String> {
     let mut all = Vec::new();
     for name in names {
-        match items_of_header(&name) {
+        match items_of_header(name) {
             Some(items) => all.extend(items),
-            None => all.push(name),
+            None => all.push(name.clone()),
         }
     }
     all

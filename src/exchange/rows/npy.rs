@@ -5,15 +5,16 @@
 
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 
-use super::{ColumnKind, RowReader, RowWriter, RowsError};
+use super::{ColumnKind, ReadOptions, RowReader, RowWriter, RowsError, check_names, expanded};
 
-const MAGIC: &[u8; 6] = b"\x93NUMPY";
+/// The first bytes of such a file.
+pub(super) const MAGIC: &[u8; 6] = b"\x93NUMPY";
 
 /// The header's length is a multiple of this, as NumPy has it.
 const ALIGNMENT: usize = 64;
 
 /// Longest header that is read: some hundred bytes are usual.
-const MOST_HEADER: usize = 1 << 16;
+const MAX_HEADER: usize = 1 << 16;
 
 /// The type of the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,14 +30,10 @@ impl Element {
     /// From a description such as `<f8`.
     fn parse(text: &str) -> Option<Self> {
         let [order, kind, size] = *text.as_bytes() else { return None };
+        let known =
+            matches!((kind, size), (b'f', b'4' | b'8') | (b'i' | b'u', b'1' | b'2' | b'4' | b'8') | (b'b', b'1'));
         let size = usize::from(size.checked_sub(b'0')?);
-        let known = match kind {
-            b'f' => matches!(size, 4 | 8),
-            b'i' | b'u' => matches!(size, 1 | 2 | 4 | 8),
-            b'b' => size == 1,
-            _ => false,
-        };
-        (known && matches!(order, b'<' | b'>' | b'|' | b'=')).then_some(Self { big_endian: order == b'>', kind, size })
+        (known && b"<>|=".contains(&order)).then_some(Self { big_endian: order == b'>', kind, size })
     }
 
     fn value(self, bytes: &[u8]) -> f64 {
@@ -61,6 +58,9 @@ impl Element {
 /// Reads NPY.
 pub(super) struct NpyRows<R> {
     reader: R,
+    names: Option<Vec<String>>,
+    /// Numbers that stand for a missing value.
+    missing: Vec<f64>,
     element: Element,
     fortran: bool,
     rows: u64,
@@ -77,59 +77,54 @@ fn refused(reason: impl Into<String>) -> RowsError {
 }
 
 impl<R: Read + Seek> NpyRows<R> {
-    pub(super) fn new(mut reader: R) -> Result<Self, RowsError> {
+    pub(super) fn new(mut reader: R, options: &ReadOptions) -> Result<Self, RowsError> {
         let length = reader.seek(SeekFrom::End(0))?;
         reader.rewind()?;
-        let mut exactly = |bytes: &mut [u8]| {
-            reader.read_exact(bytes).map_err(|error| match error.kind() {
-                std::io::ErrorKind::UnexpectedEof => refused("it ends within its header"),
-                _ => error.into(),
-            })
-        };
-        let mut preamble = [0; 8];
-        exactly(&mut preamble)?;
-        if !preamble.starts_with(MAGIC) {
-            return Err(refused("it does not begin as one"));
-        }
-        let (size, lead) = match preamble[6] {
-            1 => {
-                let mut size = [0; 2];
-                exactly(&mut size)?;
-                (usize::from(u16::from_le_bytes(size)), 10)
+        let mut exactly = |count: usize| {
+            let mut bytes = vec![0; count];
+            match reader.read_exact(&mut bytes) {
+                Err(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+                    Err(refused("it ends within its header"))
+                }
+                read => Ok(read.map(|()| bytes)?),
             }
-            2 | 3 => {
-                let mut size = [0; 4];
-                exactly(&mut size)?;
-                (u32::from_le_bytes(size) as usize, 12)
-            }
-            version => return Err(refused(format!("version {version} of the format is not known here"))),
         };
-        if size > MOST_HEADER {
-            return Err(refused(format!("its header of {size} bytes is longer than {MOST_HEADER}")));
+        let version = exactly(MAGIC.len() + 2)?[MAGIC.len()];
+        // Two bytes of the size of the header in the first version, four in the others.
+        let bytes = exactly(if version == 1 { 2 } else { 4 })?;
+        let size = bytes.iter().rev().fold(0, |size, byte| size << 8 | usize::from(*byte));
+        if !(1..=3).contains(&version) || size > MAX_HEADER {
+            return Err(refused(format!("its version is {version}, and its header has {size} bytes")));
         }
-        let mut header = vec![0; size];
-        exactly(&mut header)?;
-        let header = String::from_utf8(header).map_err(|_| refused("its header is no text"))?;
+        let start = (MAGIC.len() + 2 + bytes.len() + size) as u64;
+        let header = String::from_utf8(exactly(size)?).map_err(|_| refused("its header is no text"))?;
         let (element, fortran, shape) = parse_header(&header)?;
         let (rows, width) = match shape[..] {
             [rows] => (rows, 1),
             [rows, width] => (rows, width),
             _ => return Err(refused(format!("it has {} dimensions: expected rows and columns", shape.len()))),
         };
-        let start = lead + size as u64;
         let needed = rows.checked_mul(width).and_then(|n| n.checked_mul(element.size as u64));
-        let there = length - start;
-        if needed != Some(there) || width == 0 {
+        let found = length - start;
+        if needed != Some(found) || width == 0 {
             return Err(refused(format!(
-                "{rows} rows of {width} numbers of {} bytes should follow the header, but {there} bytes do",
+                "{rows} rows of {width} numbers of {} bytes should follow the header, but {found} bytes do",
                 element.size
             )));
         }
         let width = usize::try_from(width).map_err(|_| refused("it has too many columns"))?;
-        Ok(Self { reader, element, fortran, rows, width, start, read: 0, bytes: Vec::new() })
+        let names = expanded(&options.names);
+        if !names.is_empty() {
+            if names.len() != width {
+                return Err(RowsError::OtherWidth { width, names: names.len() });
+            }
+            check_names(&names)?;
+        }
+        let (names, missing) = (Some(names).filter(|names| !names.is_empty()), options.missing.clone());
+        Ok(Self { reader, names, missing, element, fortran, rows, width, start, read: 0, bytes: Vec::new() })
     }
 
-    /// The `count` numbers from number `first` on, as they lie in the file.
+    /// Reads the `count` numbers from number `first` on, as they lie in the file.
     fn numbers(&mut self, first: u64, count: usize) -> Result<(), RowsError> {
         self.bytes.resize(count * self.element.size, 0);
         self.reader.seek(SeekFrom::Start(self.start + first * self.element.size as u64))?;
@@ -139,36 +134,26 @@ impl<R: Read + Seek> NpyRows<R> {
 
 /// Type of the numbers, whether columns lie together, and shape: from a Python dictionary of literals.
 fn parse_header(header: &str) -> Result<(Element, bool, Vec<u64>), RowsError> {
+    let header = header.replace('"', "'");
     let after = |key: &str| {
-        [format!("'{key}':"), format!("\"{key}\":")]
-            .iter()
-            .find_map(|quoted| header.split_once(quoted.as_str()))
-            .map(|(_, rest)| rest.trim_start())
-            .ok_or_else(|| refused(format!("its header says no {key}")))
+        let rest = header.split_once(&format!("'{key}':")).map(|(_, rest)| rest.trim_start());
+        rest.ok_or_else(|| refused(format!("its header says no {key}")))
     };
-    let text = after("descr")?;
-    let quote = text.chars().next().filter(|quote| matches!(quote, '\'' | '"'));
-    let described = quote.and_then(|quote| text[1..].split(quote).next());
-    let element = described.and_then(Element::parse).ok_or_else(|| {
-        let found: String = described.unwrap_or(text).chars().take(40).collect();
+    let described = after("descr")?.strip_prefix('\'').and_then(|text| text.split('\'').next()).unwrap_or_default();
+    let element = Element::parse(described).ok_or_else(|| {
+        let found: String = described.chars().take(40).collect();
         refused(format!("its numbers are {found:?}: doubles, floats, integers and booleans are read"))
     })?;
-    let order = after("fortran_order")?;
-    let fortran = order.starts_with("True");
-    if !fortran && !order.starts_with("False") {
-        return Err(refused("its header says neither C nor Fortran order"));
-    }
-    let shape = after("shape")?.strip_prefix('(').and_then(|rest| rest.split_once(')'));
-    let numbers = shape.map(|(inside, _)| {
-        inside.split(',').map(str::trim).filter(|n| !n.is_empty()).map(str::parse).collect::<Result<Vec<u64>, _>>()
-    });
-    let Some(Ok(shape)) = numbers else { return Err(refused("its header says no shape")) };
-    Ok((element, fortran, shape))
+    let fortran = after("fortran_order")?.starts_with("True");
+    let shape = after("shape")?.strip_prefix('(').and_then(|rest| rest.split_once(')')).map(|(inside, _)| inside);
+    let numbers = shape.unwrap_or_default().split(',').map(str::trim).filter(|n| !n.is_empty());
+    let shape: Result<Vec<u64>, _> = numbers.map(str::parse).collect();
+    Ok((element, fortran, shape.map_err(|_| refused("its header says no shape"))?))
 }
 
 impl<R: Read + Seek> RowReader for NpyRows<R> {
     fn names(&self) -> Option<&[String]> {
-        None
+        self.names.as_deref()
     }
 
     fn width(&self) -> usize {
@@ -179,19 +164,17 @@ impl<R: Read + Seek> RowReader for NpyRows<R> {
         into.iter_mut().for_each(Vec::clear);
         let rows = (self.rows - self.read).min(rows as u64) as usize;
         let (element, first) = (self.element, self.read);
-        if self.fortran {
-            for ((place, _), column) in wanted.iter().zip(&mut *into) {
-                self.numbers(*place as u64 * self.rows + first, rows)?;
-                column.extend(self.bytes.chunks_exact(element.size).map(|bytes| element.value(bytes)));
-            }
-        } else {
+        if !self.fortran {
             self.numbers(first * self.width as u64, rows * self.width)?;
-            for ((place, _), column) in wanted.iter().zip(&mut *into) {
-                let cells = self.bytes.chunks_exact(element.size).skip(*place).step_by(self.width);
-                column.extend(cells.map(|bytes| element.value(bytes)));
-            }
         }
-        for ((place, kind), column) in wanted.iter().zip(&*into) {
+        for ((place, kind), column) in wanted.iter().zip(into) {
+            let (skipped, step) = if self.fortran { (0, 1) } else { (*place, self.width) };
+            if self.fortran {
+                self.numbers(*place as u64 * self.rows + first, rows)?;
+            }
+            let cells = self.bytes.chunks_exact(element.size).skip(skipped).step_by(step);
+            let values = cells.map(|bytes| element.value(bytes));
+            column.extend(values.map(|value| if self.missing.contains(&value) { f64::NAN } else { value }));
             let unknown = |value: &f64| !kind.labels.is_empty() && !value.is_nan() && kind.label(*value).is_none();
             if let Some(row) = column.iter().position(unknown) {
                 let numbers: Vec<String> = kind.labels.iter().map(|(label, n)| format!("{n} ({label})")).collect();
@@ -212,23 +195,21 @@ impl<R: Read + Seek> RowReader for NpyRows<R> {
 
 /// Writes NPY.
 pub(super) struct NpyWriter<'a> {
-    out: BufWriter<&'a mut (dyn Write + Send)>,
+    out: BufWriter<&'a mut dyn Write>,
     /// Rows still to come.
     left: u64,
 }
 
 impl<'a> NpyWriter<'a> {
-    pub(super) fn new(out: &'a mut (dyn Write + Send), (rows, width): (u64, usize)) -> std::io::Result<Self> {
+    pub(super) fn new(out: &'a mut dyn Write, (rows, width): (u64, usize)) -> std::io::Result<Self> {
         let mut out = BufWriter::new(out);
-        let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {width}), }}");
+        let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {width}), }}");
         let lead = MAGIC.len() + 4;
         let padded = (lead + header.len() + 1).next_multiple_of(ALIGNMENT) - lead - 1;
-        header.push_str(&" ".repeat(padded - header.len()));
-        header.push('\n');
         out.write_all(MAGIC)?;
         out.write_all(&[1, 0])?;
-        out.write_all(&(header.len() as u16).to_le_bytes())?;
-        out.write_all(header.as_bytes())?;
+        out.write_all(&(padded as u16 + 1).to_le_bytes())?;
+        writeln!(out, "{header:<padded$}")?;
         Ok(Self { out, left: rows })
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn external() -> String {
     "  model = \"external\"\n\n  [external]\n  outputs.force = \"nN\"\n  outputs.ratio = \"1\"\n\n\
          Factors are those of the study, with names and units of its own. The three steps:\n\n  \
          apportion sample STUDY.toml -o design.csv\n  (the model computes its outputs, row by row, into outputs.csv)\n  \
-         apportion analyze outputs.csv --design design.csv\n\nFiles are CSV, Parquet or NPY, by their ending.\n"
+         apportion analyze outputs.csv --design design.csv\n\nFiles are CSV or NPY, by their ending.\n"
         .to_owned()
 }
 

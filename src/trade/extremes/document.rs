@@ -7,6 +7,7 @@ use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, OnPhone, Part, Section, Table, Value};
 use crate::report::format::{grouped, short};
 use crate::report::{FileNames, capitalised, inputs, json, study_section};
+use crate::text::csv_field;
 
 /// What the names of the charts end in.
 const SUFFIXES: [&str; 5] = ["-below", "-above", "-scale", "-offset", "-length"];
@@ -185,7 +186,7 @@ fn reasons(file: &ExtremesFile) -> Table {
 /// The inputs of the examples, for `apportion evaluate`: a column for each factor.
 fn points(file: &ExtremesFile) -> String {
     let names: Vec<&str> = file.study.factors.iter().map(|factor| factor.name.as_str()).collect();
-    let mut text = names.join(",") + "\n";
+    let mut text = names.iter().map(|name| csv_field(name)).collect::<Vec<_>>().join(",") + "\n";
     for reason in file.reasons.iter().filter(|reason| !reason.inputs.is_empty()) {
         let number = |name: &&str| reason.inputs.get(*name).map(ToString::to_string).unwrap_or_default();
         text.push_str(&(names.iter().map(number).collect::<Vec<_>>().join(",") + "\n"));

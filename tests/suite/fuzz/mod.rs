@@ -23,11 +23,10 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 8] = [
+pub const TARGETS: [Target; 7] = [
     Target { name: "answers", run: answers::run, dictionary: include_str!("answers.dict") },
     Target { name: "expression", run: expression::run, dictionary: include_str!("expression.dict") },
     Target { name: "journal", run: journal::run, dictionary: "" },
-    Target { name: "parquet", run: rows::run_parquet, dictionary: "" },
     Target { name: "result", run: result::run, dictionary: include_str!("result.dict") },
     Target { name: "rows", run: rows::run, dictionary: include_str!("rows.dict") },
     Target { name: "study", run: study::run, dictionary: include_str!("study.dict") },

@@ -1,15 +1,15 @@
 //! Files of points and outputs, and what stands beside them.
 
-use apportion::exchange::{ColumnKind, Format, Manifest, rows_of_bytes};
+use apportion::exchange::{ColumnKind, Manifest, ReadOptions, table_of_bytes};
 use apportion::salib::SalibProblem;
 
 /// Rows up to which a table is read.
 const ROWS: usize = 1 << 16;
 
-/// Each kind of file is refused with a reason, or read to its end. (Parquet has a target of its own.)
+/// Each kind of file is refused with a reason, or read to its end.
 pub fn run(bytes: &[u8]) {
-    read(Format::Csv, bytes);
-    read(Format::Npy, bytes);
+    read(bytes, &ReadOptions::default());
+    read(bytes, &ReadOptions { no_header: true, missing: vec![-999.0], ..ReadOptions::default() });
     if let Ok(text) = std::str::from_utf8(bytes) {
         if let Ok(manifest) = Manifest::parse(text) {
             assert!(Manifest::parse(&manifest.json()).is_ok());
@@ -18,17 +18,12 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// A Parquet file is refused with a reason, or read to its end; the panics of its crate over damaged ones are errors.
-pub fn run_parquet(bytes: &[u8]) {
-    read(Format::Parquet, bytes);
-}
-
 /// Reads some columns of a table to its end.
-fn read(format: Format, bytes: &[u8]) {
-    let Ok(mut rows) = rows_of_bytes(format, bytes.to_vec()) else { return };
+fn read(bytes: &[u8], options: &ReadOptions) {
+    let Ok(mut rows) = table_of_bytes(bytes.to_vec(), options) else { return };
     assert!(rows.names().is_none_or(|names| names.len() == rows.width()));
     let labels = vec![("steel".to_owned(), 1.0), ("brass".to_owned(), 2.0)];
-    let kinds = [ColumnKind::numbers("a"), ColumnKind { name: "b".to_owned(), labels, optional: true, whole: false }];
+    let kinds = [ColumnKind::numbers("a"), ColumnKind { name: "b".to_owned(), labels, whole: false }];
     let wanted: Vec<(usize, ColumnKind)> = kinds.into_iter().enumerate().take(rows.width()).collect();
     let mut columns = vec![Vec::new(); wanted.len()];
     let mut all = 0;

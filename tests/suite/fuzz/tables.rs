@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use apportion::exchange::{Missing, RowReader, Selection, Table, evaluate, read_table, table_of_bytes};
+use apportion::exchange::{Missing, ReadOptions, RowReader, Selection, Table, evaluate, read_table, table_of_bytes};
 use apportion::given::{Method, analyse};
 use apportion::report::given::{GivenFacts, build_given, given_document};
 use apportion::study::Study;
@@ -38,7 +38,7 @@ pub fn run(bytes: &[u8]) {
     };
     let (outputs, inputs) = (names(outputs), names(inputs));
     for missing in [Missing::Refuse, Missing::Drop] {
-        let selection = Selection { outputs: &outputs, inputs: &inputs, missing };
+        let selection = Selection { outputs: &outputs, inputs: &inputs, missing, kinds: &[] };
         let Some(mut rows) = rows(csv, &[]) else { continue };
         if let Ok(table) = read_table(rows.as_mut(), &selection) {
             analysed(&table);
@@ -57,7 +57,7 @@ pub fn run(bytes: &[u8]) {
 }
 
 fn rows(bytes: &[u8], names: &[String]) -> Option<Box<dyn RowReader>> {
-    table_of_bytes(bytes.to_vec(), names).ok()
+    table_of_bytes(bytes.to_vec(), &ReadOptions { names: names.to_vec(), ..ReadOptions::default() }).ok()
 }
 
 fn analysed(table: &Table) {

@@ -1,3 +1,0 @@
-#![no_main]
-
-apportion_fuzz::fuzz!("parquet");
