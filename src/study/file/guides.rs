@@ -27,21 +27,20 @@ pub(super) fn external() -> String {
 /// A program.
 pub(super) fn command() -> String {
     "  model = \"command\"\n  outputs = [\"y\"]\n  [command]\n  \
-         program = [\"python3\", \"my_model.py\"]    # relative to the study; no shell reads it\n  \
-         row_numbers = true\n\nThe program is kept alive. It reads the names of the columns and then a line for each row, its number \
+         program = [\"python3\", \"my_model.py\"]    # relative to the study; no shell reads it\n\n\
+         The program is kept alive. It reads the names of the columns and then a line for each row, its number \
          and the values in the\nunits of the study, and prints a line for each, the number and the outputs, at once:\n\n  \
          import csv, sys\n  for row in csv.DictReader(sys.stdin):\n      number = row.pop(\"id\")\n      \
          x = {name: float(value) for name, value in row.items()}\n      \
          print(number, x[\"x1\"] * x[\"x2\"], sep=\",\", flush=True)\n\nor \"error: \" and a reason behind the number where there is no \
-         answer. Without row_numbers there is no column `id`;\nanswers then count only once the program has ended with one for each \
-         row. With units and choices:\n\n  \
-         [command]\n  program = [\"python3\", \"my_model.py\"]\n  row_numbers = true\n  outputs.force = \"nN\"\n  outputs.time = \"s\"\n  \
+         answer. With units and choices:\n\n  \
+         [command]\n  program = [\"python3\", \"my_model.py\"]\n  outputs.force = \"nN\"\n  outputs.time = \"s\"\n  \
          protocol = \"json-lines\"      # an object for each row in, and one out [csv]\n  \
          workers = 4                  # processes at once [one for each core]\n  \
          timeout = \"60 s\"             # for a row [none]\n  \
          retries = 1                  # of a row on which the program died, hung or printed rubbish\n  \
          directory = \"model\"          # where it runs [the folder of the study]\n  \
-         depends_on = [\"mesh.dat\"]    # files that decide its answers, beside its sources\n  \
+         depends_on = [\"mesh.dat\"]    # files that decide its answers, beside those in `program`\n  \
          env.OMP_NUM_THREADS = \"1\"\n\nA program that reads an input file runs once for each row, in a directory of its own:\n\n  \
          [command]\n  program = [\"simulator\", \"beam.in\"]\n  \
          template = \"beam.in\"         # text in which {{name}} stands for a factor\n  \
