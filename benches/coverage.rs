@@ -10,11 +10,7 @@
 //! `cargo bench --bench coverage` writes `docs/coverage.csv` and `docs/coverage.md`. The functions below the line were
 //! not looked at when the constants of the method were chosen. `cargo bench --bench coverage -- 50` takes 50 seeds
 //! and writes nothing; `-- skewed 200` measures the functions with rare, large outputs alone, and writes
-//! `docs/coverage-skewed.csv`, of which `docs/coverage-skewed.md` tells; `-- nets 60` compares few searched nets with several
-//! of the Sobol' sequence and prints the tables of `docs/accuracy/nets.md`; `-- nets 60 only random` takes the functions whose
-//! names begin with `random`.
-
-mod coverage_nets;
+//! `docs/coverage-skewed.csv`, of which `docs/coverage-skewed.md` tells.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -275,11 +271,6 @@ fn main() {
     if std::env::args().any(|argument| argument == "skewed") {
         let csv = skewed(seeds.unwrap_or(2 * SEEDS));
         std::fs::write(format!("{docs}/coverage-skewed.csv"), csv).expect("docs/ can be written");
-        return;
-    }
-    if std::env::args().any(|argument| argument == "nets") {
-        let prefix = std::env::args().skip_while(|argument| argument != "only").nth(1).unwrap_or_default();
-        coverage_nets::measure(seeds.unwrap_or(SEEDS), &prefix);
         return;
     }
     let seeds = seeds.unwrap_or(SEEDS);

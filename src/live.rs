@@ -25,17 +25,13 @@ pub enum LiveError {
     },
     /// A page has the points of so many factors.
     #[error(
-        "a page cannot run the study {study}: it has {factors} factors, more than {most} (of the sampler {sampler})"
+        "a page cannot run the study {study}: it has {factors} factors, more than {MAX_FACTORS}"
     )]
     Factors {
         /// The name of the study.
         study: String,
         /// How many factors it has.
         factors: usize,
-        /// Its sampler.
-        sampler: &'static str,
-        /// How many factors a page has points of it for.
-        most: usize,
     },
     /// The study is not whole without files beside it.
     #[error("a page cannot run the study {study}: it needs files beside it ({source})")]
@@ -71,10 +67,7 @@ const PRESETS: [(&str, &str); 4] = [
 ];
 
 /// Two columns of Sobol' points for each, of the 1024 that the engine has in a page.
-const MOST_FACTORS: usize = 512;
-
-/// The same of the sampler whose nets are made for pick-freeze designs.
-const MOST_SEARCHED_FACTORS: usize = 32;
+const MAX_FACTORS: usize = 512;
 
 /// What the page shows of a result, in this order, where the result has it.
 const SECTIONS: [&str; 7] = ["mind", "indices", "shares", "series-1", "interactions", "distribution", "validity"];
@@ -162,10 +155,8 @@ pub fn own_text(study: &Study) -> Result<String, LiveError> {
         return Err(LiveError::Model { study: study.name().to_owned() });
     }
     let factors = study.space().factors().len();
-    let sampler = study.design().settings().sampler;
-    let most = if sampler == Sampler::SobolPickFreeze { MOST_SEARCHED_FACTORS } else { MOST_FACTORS };
-    if factors > most {
-        return Err(LiveError::Factors { study: study.name().to_owned(), factors, sampler: sampler.name(), most });
+    if factors > MAX_FACTORS {
+        return Err(LiveError::Factors { study: study.name().to_owned(), factors });
     }
     let text = edited(study.source(), study.overrides())?;
     let text = without_target(&text).unwrap_or(text);

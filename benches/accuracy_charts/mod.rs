@@ -43,7 +43,6 @@ fn samplers(all: &[Curve]) -> Chart {
         };
         let colour = match curve.sampler {
             Sampler::Sobol => Colour::Series(0),
-            Sampler::SobolPickFreeze => Colour::Series(4),
             Sampler::Random => Colour::Series(1),
             Sampler::LatinHypercube => Colour::Series(6),
         };

@@ -47,9 +47,7 @@ impl BasePoints {
         let (matrices, plain_rows) = (rows.companions.matrices(), rows.plain_rows as usize);
         let length = settings.base_samples / settings.replicates;
         let of = |dimensions, length, stream| match sampler {
-            Sampler::Sobol | Sampler::SobolPickFreeze => {
-                Points::Sobol(SobolSequence::scrambled(dimensions, seed, stream))
-            }
+            Sampler::Sobol => Points::Sobol(SobolSequence::scrambled(dimensions, seed, stream)),
             Sampler::LatinHypercube => Points::Latin(LatinHypercube::new(dimensions, length, seed, stream)),
             Sampler::Random => Points::Random(RandomPoints::new(dimensions, seed, stream)),
         };
@@ -58,10 +56,7 @@ impl BasePoints {
         let of_sequence = if sampler.is_digital() { matrices } else { 2 };
         let third = (matrices > of_sequence).then(|| of(factors, length, replicate | THIRD_STREAM));
         let dimensions = factors * of_sequence;
-        let points = match sampler {
-            Sampler::SobolPickFreeze => Points::Sobol(SobolSequence::pick_freeze(factors, matrices, seed, replicate)),
-            _ => of(dimensions, length, replicate),
-        };
+        let points = of(dimensions, length, replicate);
         Self { points, third, plain, factors, dimensions, mixed: None, steps: None, matrices }
     }
 

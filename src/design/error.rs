@@ -4,7 +4,6 @@ use thiserror::Error;
 
 use super::{
     MAX_DIMENSIONS, MAX_FACTORS, MAX_ORDERED_FACTORS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_POINTS, MAX_REPLICATES,
-    MAX_SEARCHED_FACTORS,
 };
 
 /// Why a design cannot be made.
@@ -32,14 +31,6 @@ pub enum DesignError {
         factors: usize,
         /// Matrices of the design: 2 for A and B, 3 with C.
         matrices: usize,
-    },
-    /// More factors than nets were searched for.
-    #[error(
-        "{factors} factors are too many for the sampler \"sobol-pick-freeze\", whose nets serve at most {MAX_SEARCHED_FACTORS}: use the sampler \"sobol\""
-    )]
-    NoSearchedNets {
-        /// The number asked for.
-        factors: usize,
     },
     /// No replicate at all.
     #[error("replicates = 0: at least 1 is needed, and at least 2 for intervals")]

@@ -14,7 +14,6 @@ mod joe_kuo;
 mod latin;
 mod mixed;
 mod orders;
-mod pick_freeze;
 mod random;
 mod rows;
 mod settings;
@@ -24,7 +23,6 @@ pub use base::BasePoints;
 pub use error::DesignError;
 pub use joe_kuo::MAX_DIMENSIONS;
 pub use latin::LatinHypercube;
-pub use pick_freeze::MAX_SEARCHED_FACTORS;
 pub use random::RandomPoints;
 pub use rows::{Companions, Matrix, RowKind, Rows, Run, Swap};
 pub use settings::{DesignSettings, Sampler};
@@ -87,8 +85,7 @@ impl Design {
     ///
     /// # Errors
     /// [`DesignError`] if there is no factor, no replicate or more than [`MAX_REPLICATES`], fewer than two or more than
-    /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for or than there are searched nets for, a swap of a column that
-    /// does not exist, second-order indices without the rows BA or of more than [`MAX_PAIRED_FACTORS`] factors, or second-order
+    /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for, a swap of a column that does not exist, second-order indices without the rows BA or of more than [`MAX_PAIRED_FACTORS`] factors, or second-order
     /// indices or plain rows of dependent factors.
     pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
@@ -104,9 +101,6 @@ impl Design {
         }
         if rows.plain_rows > MAX_PLAIN_ROWS {
             return Err(DesignError::TooManyPlainRows { plain_rows: rows.plain_rows });
-        }
-        if sampler == Sampler::SobolPickFreeze && factors > MAX_SEARCHED_FACTORS {
-            return Err(DesignError::NoSearchedNets { factors });
         }
         if replicates == 0 {
             return Err(DesignError::NoReplicates);

@@ -8,9 +8,6 @@ use serde::Serialize;
 pub enum Sampler {
     /// Owen-scrambled Sobol' points: the default, and the most accurate one for most models.
     Sobol,
-    /// Owen-scrambled nets whose generator matrices were searched for pick-freeze designs of just as many factors, up to
-    /// [`MAX_SEARCHED_FACTORS`](super::MAX_SEARCHED_FACTORS).
-    SobolPickFreeze,
     /// Independent uniform points.
     Random,
     /// Latin hypercube points.
@@ -19,13 +16,12 @@ pub enum Sampler {
 
 impl Sampler {
     /// All samplers, the default first.
-    pub const ALL: [Self; 4] = [Self::Sobol, Self::SobolPickFreeze, Self::Random, Self::LatinHypercube];
+    pub const ALL: [Self; 3] = [Self::Sobol, Self::Random, Self::LatinHypercube];
 
     /// The name used in study files and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sobol => "sobol",
-            Self::SobolPickFreeze => "sobol-pick-freeze",
             Self::Random => "random",
             Self::LatinHypercube => "latin-hypercube",
         }
@@ -33,7 +29,7 @@ impl Sampler {
 
     /// Whether its points are scrambled digital nets, complete at powers of two.
     pub fn is_digital(self) -> bool {
-        matches!(self, Self::Sobol | Self::SobolPickFreeze)
+        self == Self::Sobol
     }
 }
 

@@ -1,12 +1,11 @@
 //! Owen-scrambled Sobol' points, addressed by index.
 
 use multiversion::multiversion;
-use rand::{Rng, RngExt, SeedableRng};
+use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sobol_burley::parts::owen_scramble_rev;
 
 use super::joe_kuo::{BITS, Directions, directions};
-use super::pick_freeze::{Pair, pairs};
 
 /// One randomised Sobol' sequence of up to 2^32 points: every call for the same index gives the same point.
 ///
@@ -32,32 +31,9 @@ pub struct SobolSequence {
 impl SobolSequence {
     /// The scrambled sequence of `dimensions` coordinates. Sequences of another `seed` or `replicate` are independent.
     pub fn scrambled(dimensions: usize, seed: u64, replicate: u64) -> Self {
-        Self::plain(dimensions).with_scrambles(seed, replicate)
-    }
-
-    /// The scrambled sequence for pick-freeze of `factors` factors, from 1 to [`MAX_SEARCHED_FACTORS`](super::MAX_SEARCHED_FACTORS), in `matrices` matrices,
-    /// 2 or 3: the first `factors` dimensions are those of A, the next those of B, then those of C. Sequences of another
-    /// `seed` or `replicate` are independent.
-    ///
-    /// A and B have searched generator matrices (`examples/search_nets.rs`), which come in pairs (A_i, B_i); the
-    /// pairs are dealt to the factors at random, anew for every replicate, so that no factor has a better place
-    /// than another. C has the dimensions of the Sobol' sequence that follow those of A and B there.
-    ///
-    /// # Panics
-    /// If there are no tables for so many factors; [`crate::design::Design`] checks this before.
-    pub fn pick_freeze(factors: usize, matrices: usize, seed: u64, replicate: u64) -> Self {
-        let pairs = dealt(pairs(factors), seed, replicate);
-        let of_a_and_b = pairs.iter().map(|pair| &pair[0]).chain(pairs.iter().map(|pair| &pair[1]));
-        let of_c = &directions(factors * matrices)[2 * factors..];
-        let sequence = Self { directions: of_a_and_b.chain(of_c).collect(), scrambles: None };
-        sequence.with_scrambles(seed, replicate)
-    }
-
-    fn with_scrambles(self, seed: u64, replicate: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(replicate);
-        let scrambles = Some(self.directions.iter().map(|_| rng.next_u32()).collect());
-        Self { scrambles, ..self }
+        Self { scrambles: Some((0..dimensions).map(|_| rng.next_u32()).collect()), ..Self::plain(dimensions) }
     }
 
     /// The sequence without scrambling, as published: for tests and comparisons, its first point is (nearly) 0.
@@ -126,20 +102,6 @@ fn coordinates(origin: u32, tile: &[u32; TILE], scramble: Option<u32>) -> [f64; 
 #[inline(always)]
 fn in_cell(reversed: u32) -> f64 {
     (f64::from(reversed.reverse_bits()) + 0.5) * CELL
-}
-
-/// Streams of the deals are apart from those of the scrambles: replicates count below 2^12.
-const DEAL_STREAM: u64 = 1 << 61;
-
-/// `pairs` in the order in which the factors of a replicate get them.
-fn dealt(pairs: &'static [Pair], seed: u64, replicate: u64) -> Vec<&'static Pair> {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    rng.set_stream(replicate | DEAL_STREAM);
-    let mut pairs: Vec<&Pair> = pairs.iter().collect();
-    for last in (1..pairs.len()).rev() {
-        pairs.swap(last, rng.random_range(0..=last as u64) as usize);
-    }
-    pairs
 }
 
 const CELL: f64 = 1.0 / (1u64 << BITS) as f64;

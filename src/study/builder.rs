@@ -246,7 +246,7 @@ impl StudyBuilder {
         }
         let target = checked_target(self.target, self.sampler)?;
         let is_split = self.plain_rows > 0 || self.budget_runs.is_some();
-        let replicates = self.replicates.unwrap_or(analysis.default_replicates(self.sampler, is_split));
+        let replicates = self.replicates.unwrap_or(analysis.intervals.default_replicates());
         if let Some(why) = analysis.refuses_plain_rows(self.sampler, replicates).filter(|_| is_split) {
             return Err(BuildError::PlainRows { why });
         }

@@ -104,18 +104,6 @@ impl AnalysisOptions {
         shapley_players(self.shapley_players.unwrap_or_default(), space)
     }
 
-    /// Replicates where nothing else is said: as many as the kind of interval works best with on points of `sampler`, and
-    /// enough for surrogates where these are asked for, by `surrogate = "on"` or by plain rows.
-    pub(crate) fn default_replicates(&self, sampler: Sampler, has_plain_rows: bool) -> u64 {
-        let of_intervals = self.intervals.default_replicates(sampler);
-        let asks = self.surrogate == SurrogateChoice::On || has_plain_rows && self.surrogate == SurrogateChoice::Auto;
-        if asks && self.intervals == IntervalMethod::Nets {
-            of_intervals.max(DesignSettings::default().replicates)
-        } else {
-            of_intervals
-        }
-    }
-
     /// Why plain rows, which only surrogates learn from, would be of no use; `None` if they are.
     pub(super) fn refuses_plain_rows(&self, sampler: Sampler, replicates: u64) -> Option<String> {
         let fewest = FEWEST_NETS as u64;

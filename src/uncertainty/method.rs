@@ -39,7 +39,7 @@ impl IntervalMethod {
     /// The one that serves points of `sampler` best.
     pub fn default_for(sampler: Sampler) -> Self {
         match sampler {
-            Sampler::Sobol | Sampler::SobolPickFreeze => Self::Nets,
+            Sampler::Sobol => Self::Nets,
             Sampler::Random => Self::Batches,
             Sampler::LatinHypercube => Self::Replicates,
         }
@@ -54,11 +54,9 @@ impl IntervalMethod {
         }
     }
 
-    /// How many replicates of points of `sampler` it works best with. Searched nets are dealt to the factors anew in every
-    /// replicate, so that two of them already show how much depends on luck (`docs/accuracy/nets.md`).
-    pub fn default_replicates(self, sampler: Sampler) -> u64 {
+    /// How many replicates it works best with.
+    pub fn default_replicates(self) -> u64 {
         match self {
-            Self::Nets if sampler == Sampler::SobolPickFreeze => 2,
             Self::Nets => 4,
             Self::Replicates => 16,
             Self::Batches | Self::Delta | Self::Percentile | Self::Bca => 1,

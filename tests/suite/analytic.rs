@@ -139,7 +139,7 @@ fn ishigami_and_sobol_g_are_within_1e_3_and_3e_3() {
 fn every_sampler_finds_the_same_indices() {
     // Random points err like N^-1/2: with 2^16 base samples some 5e-3 here, five of which are allowed.
     let exact = exact("ishigami");
-    for sampler in ["sobol-pick-freeze", "random", "latin-hypercube"] {
+    for sampler in ["random", "latin-hypercube"] {
         let result = analysed("ishigami", &[&format!("design.sampler={sampler}")]);
         let (first, total) = numbers(&result.outputs[0]);
         assert!(gap(&first, &exact.0).max(gap(&total, &exact.1)) < 0.025, "{sampler}");

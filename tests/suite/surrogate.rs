@@ -218,22 +218,6 @@ fn a_design_without_surrogates_has_no_use_for_plain_rows() {
 }
 
 #[test]
-fn searched_nets_come_in_two_and_in_four_for_surrogates() {
-    let replicates = |more: &[&str]| {
-        let nets = ["design.sampler=\"sobol-pick-freeze\"", "design.base_samples=64"];
-        let study = study("model = \"ishigami\"", &[&nets[..], more].concat());
-        let has_surrogate = study.run().unwrap().outputs[0].indices.as_ref().unwrap().surrogate.is_some();
-        (study.design().settings().replicates, has_surrogate, study.notes().join("; "))
-    };
-    assert_eq!(replicates(&[]), (2, false, String::new()));
-    assert_eq!(replicates(&[ON]), (4, true, String::new()));
-    let (two, has_surrogate, notes) = replicates(&[ON, "design.replicates=2"]);
-    assert!(two == 2 && !has_surrogate && notes.contains("fewer than 3 replicates"), "{notes}");
-    let plain = study("model = \"ishigami\"", &["design.sampler=\"sobol-pick-freeze\"", "design.budget_runs=100"]);
-    assert_eq!(plain.design().settings().replicates, 4);
-}
-
-#[test]
 fn shards_and_files_of_outputs_give_the_bits_of_one_run() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);

@@ -151,7 +151,7 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
     let (sampler, is_radial) = (settings.design.sampler(), matches!(settings.design, ScreeningDesign::Radial { .. }));
     let levels = if let ScreeningDesign::Trajectory { levels } = settings.design { Some(levels) } else { None };
     let what = match sampler {
-        Some(Sampler::Sobol | Sampler::SobolPickFreeze | Sampler::LatinHypercube) => "randomisations of the design",
+        Some(Sampler::Sobol | Sampler::LatinHypercube) => "randomisations of the design",
         _ if parts == settings.trajectories => "trajectories",
         _ => "equal parts of the trajectories",
     };

@@ -90,7 +90,7 @@ impl Curve {
             AnalysisOptions { intervals, surrogate, estimators, second_order: false, ..study.analysis.clone() };
         let replicates = match self.sampler == study.design.settings().sampler {
             true => study.design.settings().replicates,
-            false => analysis.default_replicates(self.sampler, false),
+            false => analysis.intervals.default_replicates(),
         };
         let settings = DesignSettings { sampler: self.sampler, base_samples, replicates, seed };
         let rows = crate::study::rows(&analysis, &study.space, 0);
