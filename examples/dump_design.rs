@@ -77,7 +77,7 @@ fn dump(case: &Case, folder: &Path) -> anyhow::Result<Value> {
         columns.extend(inputs.iter().enumerate().map(|(j, column)| (format!("x_{matrix}_{}", j + 1), &column[..])));
     }
     columns.extend(["y_A", "y_B"].iter().zip(&outputs.runs).map(|(name, run)| ((*name).to_owned(), &run[..])));
-    let rows = [("AB", design.ab_runs()), ("BA", design.ba_runs()), ("BC", design.bc_runs()), ("CB", design.cb_runs())];
+    let rows = [("AB", design.ab_runs()), ("BA", design.ba_runs())];
     for (row, runs) in rows {
         columns.extend(runs.iter().enumerate().map(|(j, &run)| (format!("y_{row}_{}", j + 1), &outputs.runs[run][..])));
     }

@@ -122,7 +122,7 @@ pub use analysis::{
 };
 #[doc(hidden)]
 pub use analysis::{Unlikely, unlikely_outputs};
-pub use design::{Companions, Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
+pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyMethod, ShapleyPlayers, Total, Undefined};
 pub use model::{
     AfmModel, AfmOutput, Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag,

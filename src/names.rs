@@ -1,7 +1,28 @@
-//! Names that users give: what they may be, and the names of files made of them.
+//! Names that users give: what they may be, and the names of files made of them; and enums that are chosen by name.
 //!
 //! A name stands in tables, charts, pages, on terminals, and in the names of files. It is checked when it is read; the
 //! names of files are safe and unique all the same, whatever the names they are made of.
+
+/// Declares an enum without fields together with `ALL` and `name`, so that the three cannot drift apart.
+macro_rules! named {
+    ($(#[$meta:meta])* pub enum $type:ident { $($(#[$variant_meta:meta])* $variant:ident = $name:literal,)+ }) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum $type { $($(#[$variant_meta])* $variant,)+ }
+
+        impl $type {
+            /// All of them, in the order of declaration.
+            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
+
+            /// The name used in study files and results.
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name),+ }
+            }
+        }
+    };
+}
+
+pub(crate) use named;
 
 /// Most characters of the name of a factor, output, group or label: far more than any table or chart has room for.
 pub const LONGEST_NAME: usize = 200;

@@ -2,26 +2,23 @@
 
 use std::ops::Range;
 
-use apportion::design::{Companions, Design, DesignSettings, Rows};
+use apportion::design::{Design, DesignSettings, Rows};
 use apportion::estimate::{BlockOutputs, Moments, Workspace};
 use apportion::model::{KnownAnswer, KnownFunction};
-
-/// Every kind of companion row: what all estimators together need.
-pub const ALL_COMPANIONS: Companions = Companions { ba: true, bc: true, cb: true };
 
 /// A function of the list, with its default parameters.
 pub fn function(name: &str) -> KnownFunction {
     KnownAnswer::from_name(name).expect("a function of the list").default_function()
 }
 
-/// A design of one factor a swap over `factors` factors, with all companions.
+/// A design of one factor a swap over `factors` factors, with rows BA.
 pub fn design(settings: DesignSettings, factors: usize, second_order: bool) -> Design {
     let swaps = (0..factors).map(|j| vec![j]).collect();
-    Design::new(settings, factors, Rows { swaps, companions: ALL_COMPANIONS, second_order, ..Rows::default() })
+    Design::new(settings, factors, Rows { swaps, ba: true, second_order, ..Rows::default() })
         .expect("a design")
 }
 
-/// The inputs at the points of the first replicate, in columns: those of the matrix A, then B, then C.
+/// The inputs at the points of the first replicate, in columns: those of the matrix A, then B.
 pub fn inputs(function: &KnownFunction, design: &Design) -> Vec<Vec<f64>> {
     let mut columns = vec![vec![0.0; design.points_per_replicate() as usize]; design.columns()];
     design.replicate(0).fill(0, &mut columns);
@@ -68,8 +65,6 @@ impl<'a> Outputs<'a> {
             b: column(&1),
             ab: &of(design.ab_runs()),
             ba: &of(design.ba_runs()),
-            bc: &of(design.bc_runs()),
-            cb: &of(design.cb_runs()),
             paired: design.paired(),
             ..BlockOutputs::default()
         };

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::design::{Companions, Design};
+use apportion::design::Design;
 use apportion::estimate::{FirstOrder, ShapleyMethod, Total};
 use apportion::report::{grouped, significant};
 use apportion::run::{BLOCK, FailurePolicy, Pilot};
@@ -166,8 +166,8 @@ fn asked(study: &Study) -> String {
     if !lows.is_empty() {
         parts.push(format!("cheaper models {}", lows.join(", ")));
     }
-    let companions = study.design().companions();
-    let (first, total) = (FirstOrder::of_rows(companions), Total::of_rows(companions));
+    let has_ba = study.design().has_ba();
+    let (first, total) = (FirstOrder::default_for(has_ba), Total::default_for(has_ba));
     let none = "none: a single replicate says nothing about its error".to_owned();
     let intervals = if alone(study) {
         none
@@ -194,7 +194,6 @@ fn asked(study: &Study) -> String {
 fn rows(study: &Study) -> String {
     let (design, analysis) = (study.design(), study.analysis());
     let swaps = design.swaps().len();
-    let Companions { ba, bc, cb } = design.companions();
     let has_subsets = analysis.shapley_of(study.space()) == Some(ShapleyMethod::Subsets);
     let asked = match (design.is_dependent(), has_subsets) {
         (false, false) => "one for each factor, group, subset and dummy",
@@ -205,15 +204,11 @@ fn rows(study: &Study) -> String {
         }
     };
     let mut words = vec!["A and B".to_owned(), format!("{} AB ({asked})", rows_of(swaps))];
-    let askers = |needs: fn(Companions) -> bool| {
-        let pairs =
-            (analysis.second_order && needs(Companions { ba: true, ..Companions::NONE })).then_some("second order");
-        let estimators = analysis.estimators.iter().filter(|estimator| needs(estimator.needs()));
-        pairs.into_iter().chain(estimators.map(|estimator| estimator.name())).collect::<Vec<_>>().join(", ")
-    };
-    words.extend(ba.then(|| format!("{} BA ({})", rows_of(swaps), askers(|rows| rows.ba))));
-    words.extend(bc.then(|| format!("{} BC ({})", rows_of(swaps), askers(|rows| rows.bc))));
-    words.extend(cb.then(|| format!("{} CB ({})", rows_of(swaps), askers(|rows| rows.cb))));
+    if design.has_ba() {
+        let estimators = analysis.estimators.iter().filter(|estimator| estimator.needs_ba());
+        let askers = analysis.second_order.then_some("second order").into_iter().chain(estimators.map(|e| e.name()));
+        words.push(format!("{} BA ({})", rows_of(swaps), askers.collect::<Vec<_>>().join(", ")));
+    }
     let plain = design.plain_rows();
     words.extend((plain > 0).then(|| format!("{plain} plain, for surrogates alone")));
     let steps = design.step_runs().len();
@@ -221,7 +216,7 @@ fn rows(study: &Study) -> String {
         let players = analysis.shapley_players.unwrap_or_default().name();
         format!("{} along a random order of the {players}, for Shapley effects", rows_of(steps))
     }));
-    let all = 2 + swaps as u64 * (1 + design.companions().count()) + u64::from(plain) + steps as u64;
+    let all = 2 + swaps as u64 * (1 + u64::from(design.has_ba())) + u64::from(plain) + steps as u64;
     let saved = all - design.rows_per_point();
     let once = if saved > 0 {
         format!("; {saved} of them the same point as another, which is run once")

@@ -1,6 +1,5 @@
 //! `apportion models`: what can be studied.
 
-use apportion::design::Companions;
 use apportion::estimate::{Estimator, FirstOrder, Total};
 use apportion::model::{Basis, Exact, ExactIndices, Input, KnownAnswer, KnownFunction, ModelKind, known_inputs};
 use apportion::report::{significant, table};
@@ -38,12 +37,9 @@ fn estimators() -> String {
     let mut sources = String::new();
     for estimator in Estimator::ALL {
         let (first_order, total) = estimator.formulas();
-        let count = 1 + estimator.needs().count();
-        let times = if count == 1 { String::new() } else { format!("{count} ") };
+        let (count, times) = if estimator.needs_ba() { (2, "2 ") } else { (1, "") };
         let (first, all) = match estimator {
-            Estimator::Default => {
-                (FirstOrder::of_rows(Companions::NONE).name(), Total::of_rows(Companions::NONE).name())
-            }
+            Estimator::Default => (FirstOrder::default_for(false).name(), Total::default_for(false).name()),
             _ => (first_order.map_or("-", FirstOrder::name), total.map_or("-", Total::name)),
         };
         let cost = (2 + FACTORS * count).to_string();
@@ -53,8 +49,7 @@ fn estimators() -> String {
             (Some(first), Some(total)) if first != total => format!("{first}; total: {total}"),
             (Some(source), _) | (None, Some(source)) => source.to_owned(),
             (None, None) => {
-                let rows = Companions { ba: true, ..Companions::NONE };
-                let (first, total) = (FirstOrder::of_rows(rows), Total::of_rows(rows));
+                let (first, total) = (FirstOrder::default_for(true), Total::default_for(true));
                 format!(
                     "{}; {}. Where second order or another estimator brings rows BA along: {} and {}",
                     FirstOrder::SaltelliPooled.source(),

@@ -6,31 +6,22 @@ use super::mixed::MixedColumns;
 use super::orders::{OrderColumns, Orders};
 use super::{DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 
-/// Third matrices of random and Latin hypercube points come from streams of their own, so that A and B do not depend
-/// on whether there is a third: replicates count below 2^12, and the permutations of the hypercube have bit 63.
-const THIRD_STREAM: u64 = 1 << 62;
-
-/// Plain rows have a stream of their own, of every sampler.
+/// Plain rows have a stream of their own, of every sampler: replicates count below 2^12, and the permutations of the
+/// hypercube have bit 63.
 const PLAIN_STREAM: u64 = 1 << 61;
 
-/// The base points of one replicate: a column for each dimension, the first d of A, the next d of B, if there is a third
-/// matrix the next d of C, and the last ones of the plain rows. The columns of A and B are the same with and without the
-/// others.
+/// The base points of one replicate: a column for each dimension, the first d of A, the next d of B, and the last ones
+/// of the plain rows. The columns of A and B are the same with and without the others.
 #[derive(Debug, Clone)]
 pub struct BasePoints {
     points: Points,
-    /// The third matrix, where it is not part of the same sequence.
-    third: Option<Points>,
     /// The points of the plain rows, those of a base point one after the other, and how many it has.
     plain: Option<(Points, usize)>,
     factors: usize,
-    /// Dimensions of `points`.
-    dimensions: usize,
     /// The columns of dependent factors.
     mixed: Option<Arc<MixedColumns>>,
     /// Those of steps along random orders of the factors, and the orders.
     steps: Option<(Arc<OrderColumns>, Orders)>,
-    matrices: usize,
 }
 
 #[derive(Debug, Clone)]
@@ -41,10 +32,10 @@ enum Points {
 }
 
 impl BasePoints {
-    /// The points of `replicate` in `factors` columns for each matrix that `rows` are made of.
+    /// The points of `replicate` in `factors` columns for each of A and B and the plain ones of `rows`.
     pub(super) fn new(settings: &DesignSettings, replicate: u64, factors: usize, rows: &Rows) -> Self {
         let DesignSettings { sampler, seed, .. } = *settings;
-        let (matrices, plain_rows) = (rows.companions.matrices(), rows.plain_rows as usize);
+        let plain_rows = rows.plain_rows as usize;
         let length = settings.base_samples / settings.replicates;
         let of = |dimensions, length, stream| match sampler {
             Sampler::Sobol => Points::Sobol(SobolSequence::scrambled(dimensions, seed, stream)),
@@ -53,11 +44,8 @@ impl BasePoints {
         };
         let plain_points = || of(factors, length * plain_rows as u64, replicate | PLAIN_STREAM);
         let plain = (plain_rows > 0).then(|| (plain_points(), plain_rows));
-        let of_sequence = if sampler.is_digital() { matrices } else { 2 };
-        let third = (matrices > of_sequence).then(|| of(factors, length, replicate | THIRD_STREAM));
-        let dimensions = factors * of_sequence;
-        let points = of(dimensions, length, replicate);
-        Self { points, third, plain, factors, dimensions, mixed: None, steps: None, matrices }
+        let points = of(2 * factors, length, replicate);
+        Self { points, plain, factors, mixed: None, steps: None }
     }
 
     /// The same points with the columns of dependent factors.
@@ -75,7 +63,7 @@ impl BasePoints {
     pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
         self.fill_independent(first, columns);
         if let Some(mixed) = &self.mixed {
-            mixed.fill(columns, self.factors, self.matrices);
+            mixed.fill(columns, self.factors);
         }
         if let Some((steps, orders)) = &self.steps {
             steps.fill(orders, first, columns);
@@ -83,12 +71,8 @@ impl BasePoints {
     }
 
     fn fill_independent(&self, first: u64, columns: &mut [Vec<f64>]) {
-        let (own, rest) = columns.split_at_mut(self.dimensions.min(columns.len()));
+        let (own, plain) = columns.split_at_mut((2 * self.factors).min(columns.len()));
         self.points.fill(first, own);
-        let (third, plain) = rest.split_at_mut(if self.third.is_some() { self.factors.min(rest.len()) } else { 0 });
-        if let Some(points) = &self.third {
-            points.fill(first, third);
-        }
         if let (Some((points, rows)), Some(length)) = (&self.plain, plain.first().map(Vec::len)) {
             let mut all = vec![vec![0.0; length * rows]; self.factors];
             points.fill(first * *rows as u64, &mut all);

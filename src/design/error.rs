@@ -22,15 +22,13 @@ pub enum DesignError {
     },
     /// More factors than the direction numbers serve.
     #[error(
-        "{factors} factors need {} dimensions of the Sobol' sequence ({matrices} for each), which has {MAX_DIMENSIONS}: at most {} factors, or another sampler",
-        factors * matrices,
-        MAX_DIMENSIONS / matrices
+        "{factors} factors need {} dimensions of the Sobol' sequence (2 for each), which has {MAX_DIMENSIONS}: at most {} factors, or another sampler",
+        2 * factors,
+        MAX_DIMENSIONS / 2
     )]
     TooManyFactors {
         /// The number asked for.
         factors: usize,
-        /// Matrices of the design: 2 for A and B, 3 with C.
-        matrices: usize,
     },
     /// No replicate at all.
     #[error("replicates = 0: at least 1 is needed, and at least 2 for intervals")]

@@ -113,15 +113,15 @@ impl MixedColumns {
             })
     }
 
-    /// Makes the columns of `matrices` matrices dependent, `factors` each, and fills the mixed ones behind all others.
-    pub fn fill(&self, columns: &mut [Vec<f64>], factors: usize, matrices: usize) {
+    /// Makes the columns of A and B dependent, `factors` each, and fills the mixed ones behind all others.
+    pub fn fill(&self, columns: &mut [Vec<f64>], factors: usize) {
         let (own, mixed) = columns.split_at_mut(self.first.min(columns.len()));
-        own.chunks_mut(factors).take(matrices).for_each(|matrix| self.copula.correlate(matrix));
+        own.chunks_mut(factors).take(2).for_each(|matrix| self.copula.correlate(matrix));
         if mixed.is_empty() {
             return;
         }
         let scores: Vec<Vec<f64>> =
-            own.chunks(factors).take(matrices).flat_map(|matrix| self.copula.scores(matrix)).collect();
+            own.chunks(factors).take(2).flat_map(|matrix| self.copula.scores(matrix)).collect();
         for (MixedColumn { source, .. }, column) in self.columns.iter().zip(&mut *mixed) {
             let Source::Linear { start, terms } = source else { continue };
             column.copy_from_slice(&scores[*start]);

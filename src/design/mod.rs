@@ -4,9 +4,8 @@
 //! is one point of a 2d-dimensional sequence: its first d coordinates are the row of A, its last d the row of B. (Two
 //! sequences of d dimensions each would look alike, but the indices then never converge.) Every base point stands
 //! for `2 + k` rows: A, B, and one row AB_s for each of the k [`Swap`]s, which is A with some columns taken from B
-//! (Saltelli et al. 2010, Comput. Phys. Commun. 181, 259-270, "radial" scheme of its table 2). [`Companions`] add rows
-//! BA_s, BC_s and CB_s for the estimators that need them; C is then the coordinates 2d to 3d. Rows that are the same
-//! point are one row: they are run once. Plain rows, at points of a sequence of their own, teach surrogates.
+//! (Saltelli et al. 2010, Comput. Phys. Commun. 181, 259-270, "radial" scheme of its table 2). Rows BA_s, B with columns
+//! from A, are added for the estimators that need them. Rows that are the same point are one row: they are run once. Plain rows, at points of a sequence of their own, teach surrogates.
 
 mod base;
 mod error;
@@ -24,7 +23,7 @@ pub use error::DesignError;
 pub use joe_kuo::MAX_DIMENSIONS;
 pub use latin::LatinHypercube;
 pub use random::RandomPoints;
-pub use rows::{Companions, Matrix, RowKind, Rows, Run, Swap};
+pub use rows::{Matrix, RowKind, Rows, Run, Swap};
 pub use settings::{DesignSettings, Sampler};
 pub use sobol::SobolSequence;
 
@@ -89,15 +88,14 @@ impl Design {
     /// indices or plain rows of dependent factors.
     pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
-        let matrices = rows.companions.matrices();
         if factors == 0 {
             return Err(DesignError::NoFactors);
         }
         if factors > MAX_FACTORS {
             return Err(DesignError::FarTooManyFactors { factors });
         }
-        if sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / matrices {
-            return Err(DesignError::TooManyFactors { factors, matrices });
+        if sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / 2 {
+            return Err(DesignError::TooManyFactors { factors });
         }
         if rows.plain_rows > MAX_PLAIN_ROWS {
             return Err(DesignError::TooManyPlainRows { plain_rows: rows.plain_rows });
@@ -119,7 +117,7 @@ impl Design {
             return Err(DesignError::TooManySamples { base_samples, replicates });
         }
         let single = single_factors(&rows.swaps, factors);
-        if rows.second_order && !rows.companions.ba {
+        if rows.second_order && !rows.ba {
             return Err(DesignError::SecondOrderWithoutBa);
         }
         if rows.second_order && single.len() > MAX_PAIRED_FACTORS {
@@ -203,9 +201,9 @@ impl Design {
         &self.asked.swaps
     }
 
-    /// The companions of every AB_s.
-    pub fn companions(&self) -> Companions {
-        self.asked.companions
+    /// Whether every AB_s has a row BA_s.
+    pub fn has_ba(&self) -> bool {
+        self.asked.ba
     }
 
     /// The swaps whose pairs have second-order indices: those of one factor each, the first one of every factor. Empty
@@ -214,12 +212,12 @@ impl Design {
         if self.asked.second_order { &self.single } else { &[] }
     }
 
-    /// Columns of the base points: d for each of the matrices A, B, C if there are rows of it, and the plain ones; then those of
+    /// Columns of the base points: d for each of the matrices A, B and the plain ones; then those of
     /// dependent factors that follow others, and those of the steps along random orders.
     pub fn columns(&self) -> usize {
         let mixed = self.runs.mixed.as_ref().map_or(0, |mixed| mixed.columns.len());
         let steps = self.runs.orders.as_ref().map_or(0, |orders| orders.count());
-        self.factors * (self.asked.companions.matrices() + self.asked.plain_rows as usize) + mixed + steps
+        self.factors * (2 + self.asked.plain_rows as usize) + mixed + steps
     }
 
     /// The factor whose column is that number.
@@ -248,7 +246,7 @@ impl Design {
 
     /// The number of the first of the d columns of `matrix`.
     pub fn first_column(&self, matrix: Matrix) -> usize {
-        self.factors * matrix.place(self.asked.companions.matrices())
+        self.factors * matrix.place()
     }
 
     /// Rows of every base point that only surrogates learn from.
@@ -266,19 +264,9 @@ impl Design {
         &self.runs.ab
     }
 
-    /// For each swap: which of [`Design::runs`] is its row BA_s; empty without these companions.
+    /// For each swap: which of [`Design::runs`] is its row BA_s; empty without these rows.
     pub fn ba_runs(&self) -> &[usize] {
         &self.runs.ba
-    }
-
-    /// For each swap: which of [`Design::runs`] is its row BC_s; empty without these companions.
-    pub fn bc_runs(&self) -> &[usize] {
-        &self.runs.bc
-    }
-
-    /// For each swap: which of [`Design::runs`] is its row CB_s; empty without these companions.
-    pub fn cb_runs(&self) -> &[usize] {
-        &self.runs.cb
     }
 
     /// Which of [`Design::runs`] are the steps along random orders of the [players](Rows::players), in the order of the steps.

@@ -8,53 +8,17 @@ use super::orders::OrderColumns;
 use crate::space::Copula;
 
 /// The columns that one row AB_s takes from B: those of one factor, or of a group of factors. An empty swap is a dummy
-/// factor: its rows repeat A, B or C but are run again, and show the noise of a model that is not deterministic.
+/// factor: its rows repeat A or B but are run again, and show the noise of a model that is not deterministic.
 pub type Swap = Vec<usize>;
-
-/// Which rows a design has beside A, B and AB_s, for every swap s; C is a third independent matrix.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Companions {
-    /// BA_s: B with the columns s from A.
-    pub ba: bool,
-    /// BC_s: B with the columns s from C.
-    pub bc: bool,
-    /// CB_s: C with the columns s from B.
-    pub cb: bool,
-}
-
-impl Companions {
-    /// No companion rows.
-    pub const NONE: Self = Self { ba: false, bc: false, cb: false };
-
-    /// The rows of either.
-    pub fn union(self, other: Self) -> Self {
-        Self { ba: self.ba || other.ba, bc: self.bc || other.bc, cb: self.cb || other.cb }
-    }
-
-    /// Whether every row of `other` is among these.
-    pub fn serve(self, other: Self) -> bool {
-        self.union(other) == self
-    }
-
-    /// Kinds of companion rows: 0 to 3.
-    pub fn count(self) -> u64 {
-        u64::from(self.ba) + u64::from(self.bc) + u64::from(self.cb)
-    }
-
-    /// Independent matrices that the rows are made of: 2, or 3 with C.
-    pub fn matrices(self) -> usize {
-        if self.bc || self.cb { 3 } else { 2 }
-    }
-}
 
 /// The rows that a design is asked for beside A and B.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Rows {
     /// One row AB_s for each; column numbers count from 0.
     pub swaps: Vec<Swap>,
-    /// The companions of every AB_s.
-    pub companions: Companions,
-    /// Whether the sums for second-order indices are kept; needs the companions BA.
+    /// Whether there is a row BA_s, B with the columns of the swap from A, for every AB_s.
+    pub ba: bool,
+    /// Whether the sums for second-order indices are kept; needs the rows BA.
     pub second_order: bool,
     /// Rows of every base point at points of their own, which only surrogates learn from ([`crate::surrogate`]).
     pub plain_rows: u32,
@@ -68,7 +32,7 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// The rows AB_s of `swaps`, without companions.
+    /// The rows AB_s of `swaps`, without rows BA.
     pub fn plain(swaps: Vec<Swap>) -> Self {
         Self { swaps, ..Self::default() }
     }
@@ -85,10 +49,6 @@ pub enum RowKind {
     Ab(usize),
     /// B with the columns of the swap from A.
     Ba(usize),
-    /// B with the columns of the swap from C.
-    Bc(usize),
-    /// C with the columns of the swap from B.
-    Cb(usize),
     /// A point that no other row of the design shares a column with; the number counts those of a base point.
     Plain(u32),
     /// A with the columns of the first players of the order of its base point from B: of one player in step 0, and so on.
@@ -102,20 +62,17 @@ pub enum Matrix {
     A,
     /// Dimensions d to 2d.
     B,
-    /// Dimensions 2d to 3d.
-    C,
     /// Points of a sequence of its own, of which every base point has as many as it has plain rows.
     Plain(u32),
 }
 
 impl Matrix {
-    /// Its place among the matrices of a design: A, B, C if there are `matrices` = 3, and the plain ones.
-    pub(super) fn place(self, matrices: usize) -> usize {
+    /// Its place among the matrices of a design: A, B and the plain ones.
+    pub(super) fn place(self) -> usize {
         match self {
             Self::A => 0,
             Self::B => 1,
-            Self::C => 2,
-            Self::Plain(number) => matrices + number as usize,
+            Self::Plain(number) => 2 + number as usize,
         }
     }
 }
@@ -148,12 +105,8 @@ pub(super) struct Runs {
     pub runs: Vec<Run>,
     /// For each swap the number of the run that is its row AB_s.
     pub ab: Vec<usize>,
-    /// Likewise BA_s; empty without these companions.
+    /// Likewise BA_s; empty without these rows.
     pub ba: Vec<usize>,
-    /// Likewise BC_s.
-    pub bc: Vec<usize>,
-    /// Likewise CB_s.
-    pub cb: Vec<usize>,
     /// The steps along random orders, in their order.
     pub steps: Vec<usize>,
     /// The columns of dependent factors that come from no matrix.
@@ -163,13 +116,12 @@ pub(super) struct Runs {
 }
 
 impl Runs {
-    /// The runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s, BC_s, CB_s of their first rows, then the
+    /// The runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s of their first rows, then the
     /// plain ones and the steps along random orders.
     pub fn of(rows: &Rows, factors: usize) -> Self {
-        let matrices = rows.companions.matrices();
-        let first = factors * (matrices + rows.plain_rows as usize);
+        let first = factors * (2 + rows.plain_rows as usize);
         let mixed = rows.copula.clone().map(|copula| MixedColumns::new(copula, first));
-        let mut unique = Unique { factors, matrices, runs: Vec::new(), numbers: BTreeMap::new(), mixed };
+        let mut unique = Unique { factors, runs: Vec::new(), numbers: BTreeMap::new(), mixed };
         unique.number(RowKind::A, Matrix::A, &[], Matrix::B);
         unique.number(RowKind::B, Matrix::B, &[], Matrix::A);
         let mut series = |asked: bool, kind: fn(usize) -> RowKind, base, from| -> Vec<usize> {
@@ -177,11 +129,8 @@ impl Runs {
             let redrawn = |number: usize| rows.redrawn.contains(&number);
             swaps.map(|(number, swap)| unique.swapped(kind(number), base, swap, redrawn(number), from)).collect()
         };
-        let Companions { ba, bc, cb } = rows.companions;
         let ab = series(true, RowKind::Ab, Matrix::A, Matrix::B);
-        let ba = series(ba, RowKind::Ba, Matrix::B, Matrix::A);
-        let bc = series(bc, RowKind::Bc, Matrix::B, Matrix::C);
-        let cb = series(cb, RowKind::Cb, Matrix::C, Matrix::B);
+        let ba = series(rows.ba, RowKind::Ba, Matrix::B, Matrix::A);
         let plain = |number| {
             let matrix = Matrix::Plain(number);
             Run::of(RowKind::Plain(number), matrix, Vec::new(), matrix)
@@ -197,7 +146,7 @@ impl Runs {
         let before = runs.len();
         runs.extend(of_orders.map(step));
         let steps = (before..runs.len()).collect();
-        Self { runs, ab, ba, bc, cb, steps, mixed: mixed.map(Arc::new), orders: orders.map(Arc::new) }
+        Self { runs, ab, ba, steps, mixed: mixed.map(Arc::new), orders: orders.map(Arc::new) }
     }
 }
 
@@ -207,7 +156,6 @@ type Key = (Matrix, Matrix, Vec<usize>);
 /// Runs so far, and their numbers by what they are made of.
 struct Unique {
     factors: usize,
-    matrices: usize,
     runs: Vec<Run>,
     /// With the columns of dependent factors that follow others.
     numbers: BTreeMap<(Key, Vec<(usize, usize)>), usize>,
@@ -223,7 +171,7 @@ impl Unique {
         let mut columns = swap.clone();
         columns.sort_unstable();
         columns.dedup();
-        let firsts = [base, from].map(|matrix| self.factors * matrix.place(self.matrices));
+        let firsts = [base, from].map(|matrix| self.factors * matrix.place());
         let of_row = |mixed: &mut MixedColumns| mixed.of_row(&columns, redrawn, firsts[0], firsts[1]);
         let mixed = self.mixed.as_mut().map(of_row).unwrap_or_default();
         let number = self.numbered((key(self.factors, base, &columns, from), mixed.clone()));
@@ -247,7 +195,7 @@ impl Unique {
     }
 }
 
-/// What a row is made of, written in one way only: the matrix of most of its columns first, A before B before C where
+/// What a row is made of, written in one way only: the matrix of most of its columns first, A before B where
 /// both have half, and a row of one matrix alone with that matrix twice.
 fn key(factors: usize, base: Matrix, columns: &[usize], from: Matrix) -> Key {
     let (swapped, kept) = (columns.len(), factors - columns.len());
@@ -268,16 +216,14 @@ fn key(factors: usize, base: Matrix, columns: &[usize], from: Matrix) -> Key {
 mod tests {
     use super::*;
 
-    const ALL: Companions = Companions { ba: true, bc: true, cb: true };
-
-    fn runs(factors: usize, swaps: &[&[usize]], companions: Companions) -> Runs {
+    fn runs(factors: usize, swaps: &[&[usize]], ba: bool) -> Runs {
         let swaps = swaps.iter().map(|swap| swap.to_vec()).collect();
-        Runs::of(&Rows { swaps, companions, ..Rows::default() }, factors)
+        Runs::of(&Rows { swaps, ba, ..Rows::default() }, factors)
     }
 
     /// The row of a kind, column by column, straight from its definition.
     fn definition(kind: RowKind, factors: usize, swaps: &[&[usize]]) -> Vec<Matrix> {
-        use Matrix::{A, B, C};
+        use Matrix::{A, B};
         let mixed = |base, swap: usize, from| {
             (0..factors).map(|column| if swaps[swap].contains(&column) { from } else { base }).collect()
         };
@@ -286,8 +232,6 @@ mod tests {
             RowKind::B => vec![B; factors],
             RowKind::Ab(s) => mixed(A, s, B),
             RowKind::Ba(s) => mixed(B, s, A),
-            RowKind::Bc(s) => mixed(B, s, C),
-            RowKind::Cb(s) => mixed(C, s, B),
             RowKind::Plain(number) => vec![Matrix::Plain(number); factors],
             RowKind::Step(_) => unreachable!("steps answer for no row of a swap"),
         }
@@ -309,14 +253,14 @@ mod tests {
             (6, &[&[0, 1, 2], &[3, 4, 5]]),
         ];
         for (factors, swaps) in cases {
-            for companions in [Companions::NONE, Companions { ba: true, ..Companions::NONE }, ALL] {
-                let runs = runs(factors, swaps, companions);
+            for ba in [false, true] {
+                let runs = runs(factors, swaps, ba);
                 let all: Vec<Vec<Matrix>> = runs.runs.iter().map(|run| made(run, factors)).collect();
                 for (number, point) in all.iter().enumerate() {
                     assert!(!all[..number].contains(point), "{factors} {swaps:?}: run {number} is repeated");
                 }
-                let kinds: [fn(usize) -> RowKind; 4] = [RowKind::Ab, RowKind::Ba, RowKind::Bc, RowKind::Cb];
-                for (numbers, kind) in [&runs.ab, &runs.ba, &runs.bc, &runs.cb].into_iter().zip(kinds) {
+                let kinds: [fn(usize) -> RowKind; 2] = [RowKind::Ab, RowKind::Ba];
+                for (numbers, kind) in [&runs.ab, &runs.ba].into_iter().zip(kinds) {
                     for (swap, &number) in numbers.iter().enumerate() {
                         assert_eq!(all[number], definition(kind(swap), factors, swaps), "{:?}", kind(swap));
                     }
@@ -327,24 +271,20 @@ mod tests {
 
     #[test]
     fn runs_are_counted_by_hand() {
-        let of = |factors, swaps: &[&[usize]], companions| runs(factors, swaps, companions).runs.len();
-        let ba = Companions { ba: true, ..Companions::NONE };
-        assert_eq!(of(1, &[&[0]], Companions::NONE), 2, "AB is B");
-        assert_eq!(of(1, &[&[0]], ALL), 3, "BC is C and CB is B");
-        assert_eq!(of(2, &[&[0], &[1]], ba), 4, "BA_1 is AB_2");
-        assert_eq!(of(3, &[&[0], &[1], &[2]], ba), 8);
-        assert_eq!(of(3, &[&[0], &[1], &[2], &[0, 1, 2], &[0], &[1, 2]], ba), 8, "complements and repeats");
-        assert_eq!(of(3, &[&[0], &[1], &[2]], ALL), 14);
+        let count = |factors, swaps: &[&[usize]], ba| runs(factors, swaps, ba).runs.len();
+        assert_eq!(count(1, &[&[0]], false), 2, "AB is B");
+        assert_eq!(count(2, &[&[0], &[1]], true), 4, "BA_1 is AB_2");
+        assert_eq!(count(3, &[&[0], &[1], &[2]], true), 8);
+        assert_eq!(count(3, &[&[0], &[1], &[2], &[0, 1, 2], &[0], &[1, 2]], true), 8, "complements and repeats");
     }
 
     #[test]
     fn a_dummy_factor_is_run_again() {
-        let runs = runs(2, &[&[0], &[1], &[], &[]], ALL);
-        // A, B; AB_0, AB_1, two dummies; BA_0 is AB_1 and BA_1 is AB_0, two dummies; BC_0, BC_1, two dummies; CB_0 is
-        // BC_1 and CB_1 is BC_0, two dummies.
-        assert_eq!(runs.runs.len(), 2 + 4 + 2 + 4 + 2);
+        let runs = runs(2, &[&[0], &[1], &[], &[]], true);
+        // A, B; AB_0, AB_1, two dummies; BA_0 is AB_1 and BA_1 is AB_0, two dummies.
+        assert_eq!(runs.runs.len(), 2 + 4 + 2);
         assert_eq!(made(&runs.runs[runs.ab[2]], 2), [Matrix::A; 2]);
         assert_ne!(runs.ab[2], runs.ab[3]);
-        assert_eq!(made(&runs.runs[runs.cb[3]], 2), [Matrix::C; 2]);
+        assert_eq!(made(&runs.runs[runs.ba[3]], 2), [Matrix::B; 2]);
     }
 }

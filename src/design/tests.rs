@@ -22,17 +22,16 @@ fn swapped_rows_are_a_with_the_named_columns_of_b() {
     }
 }
 
-/// The same points with all companions of the same swaps.
-fn with_companions(sampler: Sampler) -> Design {
+/// The same points with rows BA of the same swaps.
+fn with_ba(sampler: Sampler) -> Design {
     let plain = design(sampler);
-    let companions = Companions { ba: true, bc: true, cb: true };
-    Design::new(plain.settings.clone(), 3, Rows { companions, second_order: true, ..plain.asked }).unwrap()
+    Design::new(plain.settings.clone(), 3, Rows { ba: true, second_order: true, ..plain.asked }).unwrap()
 }
 
 #[test]
 fn plain_rows_have_points_of_their_own_that_fill_the_cube_together() {
     for sampler in Sampler::ALL {
-        for without in [design(sampler), with_companions(sampler)] {
+        for without in [design(sampler), with_ba(sampler)] {
             let rows = Rows { plain_rows: 4, ..without.asked.clone() };
             let design = Design::new(without.settings.clone(), 3, rows).unwrap();
             let (all, plain) = (design.rows_per_point(), without.rows_per_point());
@@ -64,12 +63,12 @@ fn plain_rows_have_points_of_their_own_that_fill_the_cube_together() {
 }
 
 #[test]
-fn companions_mix_a_b_and_c_and_every_run_is_where_it_is_said_to_be() {
+fn rows_mix_a_and_b_and_every_run_is_where_it_is_said_to_be() {
     for sampler in Sampler::ALL {
-        let design = with_companions(sampler);
-        assert_eq!((design.columns(), design.paired()), (9, &[0, 1, 2][..]));
-        // A, B, 4 AB; BA_3 is AB_1 and BA_1 is AB_3; 4 BC; CB_1 is BC_3 and CB_3 is BC_1.
-        assert_eq!(design.rows_per_point(), 2 + 4 + 2 + 4 + 2);
+        let design = with_ba(sampler);
+        assert_eq!((design.columns(), design.paired()), (6, &[0, 1, 2][..]));
+        // A, B, 4 AB; BA_3 is AB_1 and BA_1 is AB_3.
+        assert_eq!(design.rows_per_point(), 2 + 4 + 2);
         let (replicate, point) = (2, 11);
         let first_row = (replicate * 16 + point) * design.rows_per_point();
         let row = |run: usize| {
@@ -77,9 +76,9 @@ fn companions_mix_a_b_and_c_and_every_run_is_where_it_is_said_to_be() {
             design.point(first_row + run as u64, &mut u);
             u
         };
-        let mut columns = vec![vec![0.0]; 9];
+        let mut columns = vec![vec![0.0]; 6];
         design.replicate(replicate).fill(point, &mut columns);
-        let [a, b, c] = [0, 3, 6].map(|first| [columns[first][0], columns[first + 1][0], columns[first + 2][0]]);
+        let [a, b] = [0, 3].map(|first| [columns[first][0], columns[first + 1][0], columns[first + 2][0]]);
         assert_eq!([row(0), row(1)], [a, b]);
         let with = |mut base: [f64; 3], swap: usize, from: [f64; 3]| {
             design.swaps()[swap].iter().for_each(|&column| base[column] = from[column]);
@@ -88,13 +87,11 @@ fn companions_mix_a_b_and_c_and_every_run_is_where_it_is_said_to_be() {
         for swap in 0..4 {
             assert_eq!(row(design.ab_runs()[swap]), with(a, swap, b));
             assert_eq!(row(design.ba_runs()[swap]), with(b, swap, a));
-            assert_eq!(row(design.bc_runs()[swap]), with(b, swap, c));
-            assert_eq!(row(design.cb_runs()[swap]), with(c, swap, b));
         }
         for (run, expected) in design.runs().iter().enumerate() {
             assert_eq!(design.locate(first_row + run as u64), (replicate, point, expected.kind));
         }
-        assert!(design.runs().iter().any(|run| run.kind == RowKind::Cb(2)));
+        assert!(design.runs().iter().any(|run| run.kind == RowKind::Ba(2)));
         let mut all: Vec<[f64; 3]> = (0..design.runs().len()).map(row).collect();
         all.sort_by(|x, y| x.partial_cmp(y).unwrap());
         all.dedup();
@@ -103,35 +100,17 @@ fn companions_mix_a_b_and_c_and_every_run_is_where_it_is_said_to_be() {
 }
 
 #[test]
-fn a_third_matrix_leaves_a_and_b_as_they_are_and_is_another_one() {
-    for sampler in Sampler::ALL {
-        let (plain, more) = (design(sampler), with_companions(sampler));
-        let mut two = vec![vec![0.0; 16]; plain.columns()];
-        let mut three = vec![vec![0.0; 16]; more.columns()];
-        plain.replicate(1).fill(0, &mut two);
-        more.replicate(1).fill(0, &mut three);
-        assert_eq!(two[..], three[..6], "{sampler:?}");
-        assert_eq!(
-            (plain.first_points(1, 16), more.first_points(1, 9)[5][..].to_vec()),
-            (two.clone(), two[5][..9].to_vec())
-        );
-        assert!(three[6..].iter().flatten().all(|u| *u > 0.0 && *u < 1.0 && !two.concat().contains(u)));
-    }
-}
-
-#[test]
 fn second_order_indices_are_of_single_factors_each_once() {
-    let ba = Companions { ba: true, ..Companions::NONE };
     let swaps = vec![vec![0, 1], vec![2], vec![], vec![0], vec![2], vec![1, 1]];
-    let rows = Rows { swaps, companions: ba, second_order: true, ..Rows::default() };
+    let rows = Rows { swaps, ba: true, second_order: true, ..Rows::default() };
     let paired = |rows: &Rows| Design::new(DesignSettings::default(), 3, rows.clone()).map(|d| d.paired().to_vec());
     assert_eq!(paired(&rows), Ok(vec![1, 3]));
     assert_eq!(paired(&Rows { second_order: false, ..rows.clone() }), Ok(vec![]));
-    let without = Rows { companions: Companions::NONE, ..rows };
+    let without = Rows { ba: false, ..rows };
     assert_eq!(paired(&without), Err(DesignError::SecondOrderWithoutBa));
     let all = |d: usize| Rows {
         swaps: (0..d).map(|j| vec![j]).collect(),
-        companions: ba,
+        ba: true,
         second_order: true,
         ..Rows::default()
     };
@@ -139,17 +118,6 @@ fn second_order_indices_are_of_single_factors_each_once() {
     let error = Design::new(DesignSettings::default(), 257, all(257)).unwrap_err();
     assert_eq!(error, DesignError::TooManyPairs { factors: 257 });
     assert!(error.to_string().contains("32896 pairs"));
-}
-
-#[test]
-fn a_third_matrix_needs_dimensions_too() {
-    let bc = Rows { companions: Companions { bc: true, ..Companions::NONE }, ..Rows::default() };
-    assert!(Design::new(DesignSettings::default(), 1365, bc.clone()).is_ok());
-    let error = Design::new(DesignSettings::default(), 1366, bc.clone()).unwrap_err();
-    assert_eq!(error, DesignError::TooManyFactors { factors: 1366, matrices: 3 });
-    assert!(error.to_string().contains("4098 dimensions") && error.to_string().contains("at most 1365"));
-    let random = DesignSettings { sampler: Sampler::Random, ..DesignSettings::default() };
-    assert!(Design::new(random, 1366, bc).is_ok());
 }
 
 #[test]
@@ -166,7 +134,7 @@ fn impossible_designs_are_refused_with_the_reason() {
     let settings = || DesignSettings { replicates: 16, ..DesignSettings::default() };
     let of = |settings, factors| Design::new(settings, factors, Rows::default()).unwrap_err();
     assert_eq!(of(settings(), 0), DesignError::NoFactors);
-    assert_eq!(of(settings(), 3000), DesignError::TooManyFactors { factors: 3000, matrices: 2 });
+    assert_eq!(of(settings(), 3000), DesignError::TooManyFactors { factors: 3000 });
     assert_eq!(of(DesignSettings { replicates: 0, ..settings() }, 1), DesignError::NoReplicates);
     for base_samples in [0, 1, 31] {
         let error = of(DesignSettings { base_samples, ..settings() }, 1);

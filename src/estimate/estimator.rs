@@ -1,74 +1,40 @@
 //! The estimators by the names of study files.
 
 use super::of_one_index::{FirstOrder, Total};
-use crate::design::Companions;
+use crate::names::named;
 
+named! {
 /// What a study file names: a paper's estimators of first-order and total indices. The variants that say nothing else
 /// have both.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Default)]
 pub enum Estimator {
     /// The most accurate of the rows that there are.
     #[default]
-    Default,
+    Default = "default",
     /// Sobol' 1993: first order only.
-    Sobol1993,
+    Sobol1993 = "sobol-1993",
     /// Homma and Saltelli 1996.
-    HommaSaltelli,
+    HommaSaltelli = "homma-saltelli",
     /// Saltelli 2002: first order only.
-    Saltelli2002,
+    Saltelli2002 = "saltelli-2002",
     /// Sobol' et al. 2007.
-    Sobol2007,
+    Sobol2007 = "sobol-2007",
     /// Saltelli et al. 2010: first order only.
-    Saltelli2010,
+    Saltelli2010 = "saltelli-2010",
     /// Jansen 1999.
-    Jansen,
+    Jansen = "jansen",
     /// Janon et al. 2014 and Monod et al. 2006.
-    JanonMonod,
+    JanonMonod = "janon-monod",
     /// Martinez 2011.
-    Martinez,
+    Martinez = "martinez",
     /// Glen and Isaacs 2012.
-    GlenIsaacs,
-    /// Owen 2013.
-    Owen,
+    GlenIsaacs = "glen-isaacs",
     /// Azzini et al. 2021.
-    Azzini,
+    Azzini = "azzini",
+}
 }
 
 impl Estimator {
-    /// All of them, the default first.
-    pub const ALL: [Self; 12] = [
-        Self::Default,
-        Self::Sobol1993,
-        Self::HommaSaltelli,
-        Self::Saltelli2002,
-        Self::Sobol2007,
-        Self::Saltelli2010,
-        Self::Jansen,
-        Self::JanonMonod,
-        Self::Martinez,
-        Self::GlenIsaacs,
-        Self::Owen,
-        Self::Azzini,
-    ];
-
-    /// The name used in study files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Default => "default",
-            Self::Sobol1993 => "sobol-1993",
-            Self::HommaSaltelli => "homma-saltelli",
-            Self::Saltelli2002 => "saltelli-2002",
-            Self::Sobol2007 => "sobol-2007",
-            Self::Saltelli2010 => "saltelli-2010",
-            Self::Jansen => "jansen",
-            Self::JanonMonod => "janon-monod",
-            Self::Martinez => "martinez",
-            Self::GlenIsaacs => "glen-isaacs",
-            Self::Owen => "owen",
-            Self::Azzini => "azzini",
-        }
-    }
-
     /// Its estimators of first-order and of total indices; `None` where the paper has none of its own, and the default
     /// for the rows that there are is used.
     pub fn formulas(self) -> (Option<FirstOrder>, Option<Total>) {
@@ -83,29 +49,25 @@ impl Estimator {
             Self::JanonMonod => (Some(FirstOrder::JanonMonod2014), Some(Total::JanonMonod2014)),
             Self::Martinez => (Some(FirstOrder::Martinez2011), Some(Total::Martinez2011)),
             Self::GlenIsaacs => (Some(FirstOrder::GlenIsaacs2012), Some(Total::GlenIsaacs2012)),
-            Self::Owen => (Some(FirstOrder::Owen2013), Some(Total::Owen2013)),
             Self::Azzini => (Some(FirstOrder::Azzini2021), Some(Total::Azzini2021)),
         }
     }
 
-    /// Its estimators, with the default ones for rows `companions` where it has none of its own.
+    /// Its estimators, with the default ones where it has none of its own; `has_ba` says whether there are rows BA.
     ///
     /// ```
-    /// use apportion::Companions;
     /// use apportion::{Estimator, FirstOrder, Total};
     ///
-    /// let plain = Estimator::Sobol1993.with_rows(Companions::NONE);
-    /// assert_eq!(plain, (FirstOrder::Sobol1993, Total::JansenPooled));
+    /// assert_eq!(Estimator::Sobol1993.with_rows(false), (FirstOrder::Sobol1993, Total::JansenPooled));
     /// ```
-    pub fn with_rows(self, companions: Companions) -> (FirstOrder, Total) {
+    pub fn with_rows(self, has_ba: bool) -> (FirstOrder, Total) {
         let (first_order, total) = self.formulas();
-        let or_default = first_order.unwrap_or_else(|| FirstOrder::of_rows(companions));
-        (or_default, total.unwrap_or_else(|| Total::of_rows(companions)))
+        (first_order.unwrap_or(FirstOrder::default_for(has_ba)), total.unwrap_or(Total::default_for(has_ba)))
     }
 
-    /// The rows it needs beside A, B and AB.
-    pub fn needs(self) -> Companions {
+    /// Whether it needs the rows BA beside A, B and AB.
+    pub fn needs_ba(self) -> bool {
         let (first_order, total) = self.formulas();
-        first_order.map_or(Companions::NONE, FirstOrder::needs).union(total.map_or(Companions::NONE, Total::needs))
+        first_order.is_some_and(FirstOrder::needs_ba) || total.is_some_and(Total::needs_ba)
     }
 }

@@ -21,8 +21,8 @@ impl Indices {
     /// # Errors
     /// [`Undefined`] if there are fewer than two base points or the output has no usable variance.
     pub fn of(moments: &Moments) -> Result<Self, Undefined> {
-        let companions = moments.companions();
-        Self::by(moments, FirstOrder::of_rows(companions), Total::of_rows(companions))
+        let has_ba = moments.has_ba();
+        Self::by(moments, FirstOrder::default_for(has_ba), Total::default_for(has_ba))
     }
 
     /// The indices by given estimators.
@@ -38,10 +38,9 @@ impl Indices {
             return Err(Undefined::ZeroVariance);
         }
         usable_variance(moments.base())?;
-        let companions = moments.companions();
-        for (estimator, needs) in [(first_order.name(), first_order.needs()), (total.name(), total.needs())] {
-            if !companions.serve(needs) && moments.swaps() > 0 {
-                return Err(Undefined::NoCompanions { estimator });
+        for (estimator, needs_ba) in [(first_order.name(), first_order.needs_ba()), (total.name(), total.needs_ba())] {
+            if needs_ba && !moments.has_ba() && moments.swaps() > 0 {
+                return Err(Undefined::NoRowsBa { estimator });
             }
         }
         for swap in (0..moments.swaps()).map(|swap| moments.swap(swap)).filter(|swap| swap.base != *moments.base()) {

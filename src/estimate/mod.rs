@@ -40,7 +40,7 @@ pub(crate) use salib::second_order_of_salib;
 pub use second_order::{PairIndex, SecondOrder};
 pub use shapley::{MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets, shapley_effects};
 pub use shapley_moments::{ShapleyMoments, contributions};
-pub use swap_moments::{BaMoments, BcMoments, CbMoments, SwapMoments};
+pub use swap_moments::{BaMoments, SwapMoments};
 pub use workspace::Workspace;
 
 /// Why an output has no indices.
@@ -61,8 +61,8 @@ pub enum Undefined {
     #[error("the variance of the output over- or underflows double precision: give the output in another unit")]
     Unrepresentable,
     /// An estimator needs rows that the design does not have.
-    #[error("the estimator {estimator} needs companion rows that the design does not have")]
-    NoCompanions {
+    #[error("the estimator {estimator} needs rows BA that the design does not have")]
+    NoRowsBa {
         /// Name of the estimator.
         estimator: &'static str,
     },

@@ -6,12 +6,12 @@ use super::shapley_moments::ShapleyMoments;
 use super::swap_moments::{Columns, SwapMoments};
 use super::workspace::Workspace;
 use crate::binary::{Binary, Reader};
-use crate::design::{Companions, Design};
+use crate::design::Design;
 use crate::sum;
 
 /// First and second moments of the outputs of a Saltelli design, all centred on their own means.
 ///
-/// Every swap has sums of its own over the base points at which its rows, A, B, AB_s and its companions, all have an
+/// Every swap has sums of its own over the base points at which its rows, A, B, AB_s and perhaps BA_s, all have an
 /// output: a row that fails costs its own swap a base point, and the others none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Moments {
@@ -58,10 +58,6 @@ pub struct BlockOutputs<'a> {
     pub ab: &'a [&'a [f64]],
     /// Outputs of the rows BA_s, one slice per swap, or empty without these rows.
     pub ba: &'a [&'a [f64]],
-    /// Outputs of the rows BC_s, likewise.
-    pub bc: &'a [&'a [f64]],
-    /// Outputs of the rows CB_s, likewise.
-    pub cb: &'a [&'a [f64]],
     /// The swaps whose pairs are counted for second-order indices, in rising order; none without `ba`.
     pub paired: &'a [usize],
     /// What every player adds, one slice for each ([`contributions`](super::contributions)); none without rows along random orders.
@@ -87,19 +83,12 @@ impl Moments {
     /// # Ok::<(), apportion::Undefined>(())
     /// ```
     pub fn of_block(outputs: BlockOutputs<'_>, work: &mut Workspace) -> Self {
-        let BlockOutputs { a, b, ab, ba, bc, cb, paired, shapley } = outputs;
+        let BlockOutputs { a, b, ab, ba, paired, shapley } = outputs;
         let all = BaseMoments::of(a, b);
         let complete = Some(all).filter(|all| all.mean_a.is_finite() && all.mean_b.is_finite());
         let swaps = (0..ab.len())
             .map(|swap| {
-                let columns = Columns {
-                    a,
-                    b,
-                    ab: ab[swap],
-                    ba: ba.get(swap).copied(),
-                    bc: bc.get(swap).copied(),
-                    cb: cb.get(swap).copied(),
-                };
+                let columns = Columns { a, b, ab: ab[swap], ba: ba.get(swap).copied() };
                 SwapMoments::of(complete, columns, work)
             })
             .collect();
@@ -190,10 +179,9 @@ impl Moments {
         &self.swaps[swap]
     }
 
-    /// The rows beside A, B and AB that the swaps have sums of.
-    pub fn companions(&self) -> Companions {
-        let has = |row: fn(&SwapMoments) -> bool| !self.swaps.is_empty() && self.swaps.iter().all(row);
-        Companions { ba: has(|s| s.ba.is_some()), bc: has(|s| s.bc.is_some()), cb: has(|s| s.cb.is_some()) }
+    /// Whether the swaps have sums of rows BA.
+    pub fn has_ba(&self) -> bool {
+        !self.swaps.is_empty() && self.swaps.iter().all(|swap| swap.ba.is_some())
     }
 
     /// Whether they may be moments of the rows of `design`.
@@ -202,7 +190,7 @@ impl Moments {
         let pairs = self.pairs.as_ref().is_none_or(|pairs| pairs.fits(design.paired()));
         let players = design.asked().players.len();
         let shapley = self.shapley.as_ref().is_none_or(|shapley| shapley.sums.len() == players);
-        swaps && pairs && shapley && (self.swaps.is_empty() || self.companions() == design.companions())
+        swaps && pairs && shapley && (self.swaps.is_empty() || self.has_ba() == design.has_ba())
     }
 
     /// The sums of y_A and y_B.

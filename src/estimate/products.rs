@@ -5,7 +5,7 @@
 
 use super::pair_moments::PairMoments;
 use super::shapley_moments::ShapleyMoments;
-use super::swap_moments::{BaMoments, BcMoments, CbMoments};
+use super::swap_moments::BaMoments;
 use super::{BaseMoments, BlockOutputs, Moments, SwapMoments};
 
 /// The letters of which products are made: 1 at a base point that counts, and the outputs and differences of
@@ -15,19 +15,15 @@ const A: usize = 1;
 const B: usize = 2;
 const D: usize = 3;
 const E: usize = 4;
-const F: usize = 5;
-const G: usize = 6;
-const LETTERS: usize = 7;
+const LETTERS: usize = 5;
 
 type Product = (usize, usize);
 
 /// Products of the rows A and B; the first counts the points.
 const BASE: [Product; 6] = [(ONE, ONE), (A, ONE), (B, ONE), (A, A), (B, B), (A, B)];
-/// Products that the rows AB, BA, BC and CB of a swap add.
+/// Products that the rows AB and BA of a swap add.
 const WITH_AB: [Product; 4] = [(D, ONE), (D, D), (A, D), (B, D)];
 const WITH_BA: [Product; 5] = [(E, ONE), (E, E), (A, E), (B, E), (D, E)];
-const WITH_BC: [Product; 2] = [(F, ONE), (D, F)];
-const WITH_CB: [Product; 4] = [(G, ONE), (A, G), (B, G), (E, G)];
 
 /// Which products of the outputs at a base point the moments are made of, and how.
 ///
@@ -60,10 +56,9 @@ pub struct ProductWork {
 impl Products {
     /// The products behind `whole`, the moments of all base points.
     pub fn of(whole: Moments) -> Self {
-        let companions = whole.companions();
         let mut of_swap = WITH_AB.to_vec();
-        for (asked, products) in [(companions.ba, &WITH_BA[..]), (companions.bc, &WITH_BC), (companions.cb, &WITH_CB)] {
-            of_swap.extend(products.iter().filter(|_| asked));
+        if whole.has_ba() {
+            of_swap.extend(WITH_BA);
         }
         let count = whole.count();
         let own: Vec<bool> = (0..whole.swaps()).map(|swap| whole.swap(swap).base.n != count).collect();
@@ -117,7 +112,7 @@ impl Products {
         put(letters, &BASE);
         for (swap, own) in self.own.iter().enumerate() {
             let moments = self.whole.swap(swap);
-            let rows = [block.ab, block.ba, block.bc, block.cb].map(|rows| rows.get(swap).copied());
+            let rows = [block.ab, block.ba].map(|rows| rows.get(swap).copied());
             let letters = if *own {
                 let asked: Vec<&[f64]> = [block.a, block.b].into_iter().chain(rows.into_iter().flatten()).collect();
                 set_mask(&mut of_swap[ONE], points, &asked);
@@ -128,22 +123,11 @@ impl Products {
             } else {
                 &mut *letters
             };
-            let [ab, ba, bc, cb] = rows;
-            let means = [
-                moments.mean_d,
-                moments.ba.map_or(0.0, |ba| ba.mean_e),
-                moments.bc.map_or(0.0, |bc| bc.mean_f),
-                moments.cb.map_or(0.0, |cb| cb.mean_g),
-            ];
-            for (place, (row, origin)) in
-                [(ab, block.a), (ba, block.b), (bc, block.b), (cb, block.b)].into_iter().enumerate()
-            {
-                match row {
-                    Some(row) => set_centred(letters, D + place, row, Some(origin), means[place]),
-                    None => {
-                        letters[D + place].clear();
-                        letters[D + place].resize(points, 0.0);
-                    }
+            let mean_e = moments.ba.map_or(0.0, |ba| ba.mean_e);
+            let [ab, ba] = rows;
+            for (letter, row, origin, mean) in [(D, ab, block.a, moments.mean_d), (E, ba, block.b, mean_e)] {
+                if let Some(row) = row {
+                    set_centred(letters, letter, row, Some(origin), mean);
                 }
             }
             put(letters, &self.of_swap);
@@ -276,29 +260,14 @@ fn swap_moments(
 ) -> SwapMoments {
     let n = if base.n == 0 { 1.0 } else { base.n as f64 };
     let [d, dd, ad, bd] = std::array::from_fn(|_| next());
-    let mut e = 0.0;
     let ba = whole.ba.map(|ba| {
-        e = next();
-        let [ee, ae, be, de] = std::array::from_fn(|_| next());
+        let [e, ee, ae, be, de] = std::array::from_fn(|_| next());
         BaMoments {
             mean_e: ba.mean_e + e / n,
             ee: recentred_square(ee, e, n),
             ae: recentred(ae, a, e, n),
             be: recentred(be, b, e, n),
             de: recentred(de, d, e, n),
-        }
-    });
-    let bc = whole.bc.map(|bc| {
-        let [f, df] = std::array::from_fn(|_| next());
-        BcMoments { mean_f: bc.mean_f + f / n, df: recentred(df, d, f, n) }
-    });
-    let cb = whole.cb.map(|cb| {
-        let [g, ag, bg, eg] = std::array::from_fn(|_| next());
-        CbMoments {
-            mean_g: cb.mean_g + g / n,
-            ag: recentred(ag, a, g, n),
-            bg: recentred(bg, b, g, n),
-            eg: recentred(eg, e, g, n),
         }
     });
     SwapMoments {
@@ -308,7 +277,5 @@ fn swap_moments(
         ad: recentred(ad, a, d, n),
         bd: recentred(bd, b, d, n),
         ba,
-        bc,
-        cb,
     }
 }

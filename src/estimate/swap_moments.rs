@@ -8,8 +8,8 @@ use crate::sum::{centred_product, centred_products, mean};
 /// Means and sums of centred products of the outputs of one swap s, over the base points at which all of its rows have
 /// an output.
 ///
-/// Differences are kept instead of outputs, D = y_AB - y_A, E = y_BA - y_B, F = y_BC - y_B and G = y_CB - y_B: a factor
-/// of little effect has D, E and F near 0, and forming them from sums of the outputs would cancel.
+/// Differences are kept instead of outputs, D = y_AB - y_A and E = y_BA - y_B: a factor of little effect has D and E near 0,
+/// and forming them from sums of the outputs would cancel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SwapMoments {
     /// y_A and y_B.
@@ -24,10 +24,6 @@ pub struct SwapMoments {
     pub bd: f64,
     /// What the row BA_s adds.
     pub ba: Option<BaMoments>,
-    /// What the row BC_s adds.
-    pub bc: Option<BcMoments>,
-    /// What the row CB_s adds.
-    pub cb: Option<CbMoments>,
 }
 
 /// Sums with E = y_BA - y_B.
@@ -45,32 +41,8 @@ pub struct BaMoments {
     pub de: f64,
 }
 
-/// Sums with F = y_BC - y_B.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct BcMoments {
-    /// Mean of F.
-    pub mean_f: f64,
-    /// Sum of products of D and F.
-    pub df: f64,
-}
-
-/// Sums with G = y_CB - y_B.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct CbMoments {
-    /// Mean of G.
-    pub mean_g: f64,
-    /// Sum of products of y_A and G.
-    pub ag: f64,
-    /// Sum of products of y_B and G.
-    pub bg: f64,
-    /// Sum of products of E and G; 0 without the row BA_s, when no estimator reads it.
-    pub eg: f64,
-}
-
-binary_fields!(SwapMoments { base, mean_d, dd, ad, bd, ba, bc, cb });
+binary_fields!(SwapMoments { base, mean_d, dd, ad, bd, ba });
 binary_fields!(BaMoments { mean_e, ee, ae, be, de });
-binary_fields!(BcMoments { mean_f, df });
-binary_fields!(CbMoments { mean_g, ag, bg, eg });
 
 /// Outputs of the rows of one swap, and of A and B.
 #[derive(Clone, Copy)]
@@ -79,8 +51,6 @@ pub(super) struct Columns<'a> {
     pub b: &'a [f64],
     pub ab: &'a [f64],
     pub ba: Option<&'a [f64]>,
-    pub bc: Option<&'a [f64]>,
-    pub cb: Option<&'a [f64]>,
 }
 
 impl SwapMoments {
@@ -99,38 +69,21 @@ impl SwapMoments {
     }
 
     fn finite(&self) -> bool {
-        let Self { mean_d, ba, bc, cb, .. } = self;
-        mean_d.is_finite()
-            && ba.is_none_or(|ba| ba.mean_e.is_finite())
-            && bc.is_none_or(|bc| bc.mean_f.is_finite())
-            && cb.is_none_or(|cb| cb.mean_g.is_finite())
+        self.mean_d.is_finite() && self.ba.is_none_or(|ba| ba.mean_e.is_finite())
     }
 
     fn of_complete(base: BaseMoments, columns: Columns<'_>, work: &mut Workspace) -> Self {
-        let Columns { a, b, ab, ba, bc, cb } = columns;
-        let [buffer_d, buffer_e, buffer_f] = &mut work.differences;
+        let Columns { a, b, ab, ba } = columns;
+        let [buffer_d, buffer_e] = &mut work.differences;
         let (a, b) = ((a, base.mean_a), (b, base.mean_b));
         let d = difference(ab, a.0, buffer_d);
         let e = ba.map(|ba| difference(ba, b.0, buffer_e));
-        let bc = bc.map(|bc| {
-            let f = difference(bc, b.0, buffer_f);
-            BcMoments { mean_f: f.1, df: centred_product(d, f) }
-        });
-        let cb = cb.map(|cb| {
-            let g = difference(cb, b.0, buffer_f);
-            CbMoments {
-                mean_g: g.1,
-                ag: centred_product(a, g),
-                bg: centred_product(b, g),
-                eg: e.map_or(0.0, |e| centred_product(e, g)),
-            }
-        });
         let ba = e.map(|e| {
             let [ae, be, ee] = centred_products(a, b, e);
             BaMoments { mean_e: e.1, ee, ae, be, de: centred_product(d, e) }
         });
         let [ad, bd, dd] = centred_products(a, b, d);
-        Self { base, mean_d: d.1, dd, ad, bd, ba, bc, cb }
+        Self { base, mean_d: d.1, dd, ad, bd, ba }
     }
 
     /// Adds other base points of the same swap.
@@ -149,26 +102,13 @@ impl SwapMoments {
         self.ad += other.ad + a * d * weight;
         self.bd += other.bd + b * d * weight;
         self.mean_d += d * share;
-        let mut e = 0.0;
         if let (Some(mine), Some(theirs)) = (&mut self.ba, &other.ba) {
-            e = theirs.mean_e - mine.mean_e;
+            let e = theirs.mean_e - mine.mean_e;
             mine.ee += theirs.ee + e * e * weight;
             mine.ae += theirs.ae + a * e * weight;
             mine.be += theirs.be + b * e * weight;
             mine.de += theirs.de + d * e * weight;
             mine.mean_e += e * share;
-        }
-        if let (Some(mine), Some(theirs)) = (&mut self.bc, &other.bc) {
-            let f = theirs.mean_f - mine.mean_f;
-            mine.df += theirs.df + d * f * weight;
-            mine.mean_f += f * share;
-        }
-        if let (Some(mine), Some(theirs)) = (&mut self.cb, &other.cb) {
-            let g = theirs.mean_g - mine.mean_g;
-            mine.ag += theirs.ag + a * g * weight;
-            mine.bg += theirs.bg + b * g * weight;
-            mine.eg += theirs.eg + e * g * weight;
-            mine.mean_g += g * share;
         }
     }
 
@@ -200,12 +140,12 @@ impl SwapMoments {
 }
 
 impl<'a> Columns<'a> {
-    fn all(&self) -> [Option<&'a [f64]>; 6] {
-        [Some(self.a), Some(self.b), Some(self.ab), self.ba, self.bc, self.cb]
+    fn all(&self) -> [Option<&'a [f64]>; 4] {
+        [Some(self.a), Some(self.b), Some(self.ab), self.ba]
     }
 
     /// The base points whose outputs are all finite, copied to `kept`.
-    fn without_failures<'k>(&self, kept: &'k mut [Vec<f64>; 6]) -> Columns<'k> {
+    fn without_failures<'k>(&self, kept: &'k mut [Vec<f64>; 4]) -> Columns<'k> {
         let columns = self.all();
         for (kept, column) in kept.iter_mut().zip(columns) {
             kept.clear();
@@ -213,9 +153,8 @@ impl<'a> Columns<'a> {
             let complete = |row: usize| columns.iter().flatten().all(|column| column[row].is_finite());
             kept.extend(rows.filter(|(row, _)| complete(*row)).map(|(_, y)| y));
         }
-        let [a, b, ab, ba, bc, cb] = &*kept;
-        let asked = |column: Option<&[f64]>, kept: &'k [f64]| column.map(|_| kept);
-        Columns { a, b, ab, ba: asked(self.ba, ba), bc: asked(self.bc, bc), cb: asked(self.cb, cb) }
+        let [a, b, ab, ba] = &*kept;
+        Columns { a, b, ab, ba: self.ba.map(|_| &ba[..]) }
     }
 }
 

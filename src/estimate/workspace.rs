@@ -4,9 +4,9 @@
 #[derive(Debug, Default)]
 pub struct Workspace {
     /// Differences of the swap at hand.
-    pub(super) differences: [Vec<f64>; 3],
+    pub(super) differences: [Vec<f64>; 2],
     /// Columns of A, B and the rows of a swap without the base points that failed.
-    pub(super) kept: [Vec<f64>; 6],
+    pub(super) kept: [Vec<f64>; 4],
     /// Differences of all paired swaps.
     pub(super) paired: Vec<PairedColumns>,
 }

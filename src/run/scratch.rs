@@ -131,21 +131,20 @@ impl OutputTotals {
         let columns = |of: &[usize]| of.iter().map(|run| runs[*run]).collect::<Vec<&[f64]>>();
         let (a, b) = (runs[0], runs[1]);
         let (ab, ba) = (columns(design.ab_runs()), columns(design.ba_runs()));
-        let (bc, cb) = (columns(design.bc_runs()), columns(design.cb_runs()));
         let shapley = contributions(design, place.first.replicate, place.first.point, runs);
         let shapley: Vec<&[f64]> = shapley.iter().map(Vec::as_slice).collect();
         let length = place.part_length as usize;
         let mut parts = Vec::with_capacity(a.len().div_ceil(length));
-        let mut cut: [Vec<&[f64]>; 5] = Default::default();
+        let mut cut: [Vec<&[f64]>; 3] = Default::default();
         for first in (0..a.len()).step_by(length) {
             let part = first..(first + length).min(a.len());
-            for (cut, whole) in cut.iter_mut().zip([&ab, &ba, &bc, &cb, &shapley]) {
+            for (cut, whole) in cut.iter_mut().zip([&ab, &ba, &shapley]) {
                 cut.clear();
                 cut.extend(whole.iter().map(|column| &column[part.clone()]));
             }
-            let [ab, ba, bc, cb, shapley] = cut.each_ref().map(Vec::as_slice);
+            let [ab, ba, shapley] = cut.each_ref().map(Vec::as_slice);
             let (a, b, paired) = (&a[part.clone()], &b[part.clone()], design.paired());
-            let outputs = BlockOutputs { a, b, ab, ba, bc, cb, paired, shapley };
+            let outputs = BlockOutputs { a, b, ab, ba, paired, shapley };
             parts.push(Moments::of_block(outputs, work));
         }
         if place.keeps_outputs {

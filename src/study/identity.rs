@@ -38,7 +38,8 @@ impl Study {
             "replicates": settings_of_design.replicates,
             "rows_per_point": design.rows_per_point(),
             "swaps": design.swaps().iter().map(|swap| names(swap).join("+")).collect::<Vec<_>>(),
-            "companions": { "ba": design.companions().ba, "bc": design.companions().bc, "cb": design.companions().cb },
+            // The form of journals that are there: rows BC and CB exist no more.
+            "companions": { "ba": design.has_ba(), "bc": false, "cb": false },
         });
         if design.plain_rows() > 0 {
             points["plain_rows"] = json!(design.plain_rows());

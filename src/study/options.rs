@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::design::{Companions, Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
+use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets};
 use crate::given::Measure;
 use crate::run::FailurePolicy;
@@ -323,14 +323,13 @@ pub(crate) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
         swaps.extend(proper_subsets(players.len()).into_iter().map(joined));
         redrawn.extend(first..swaps.len());
     }
-    let second_order = Companions { ba: analysis.second_order, ..Companions::NONE };
-    let companions = analysis.estimators.iter().fold(second_order, |all, estimator| all.union(estimator.needs()));
+    let ba = analysis.second_order || analysis.estimators.iter().any(|estimator| estimator.needs_ba());
     let (second_order, copula) = (analysis.second_order, space.copula().cloned());
     let players = match shapley {
         Some(ShapleyMethod::Permutations) => players,
         _ => Vec::new(),
     };
-    Rows { swaps, companions, second_order, plain_rows, copula, redrawn, players }
+    Rows { swaps, ba, second_order, plain_rows, copula, redrawn, players }
 }
 
 /// The players of `space`: the number of each among the factors and groups in their order, and its factors.

@@ -45,9 +45,7 @@ pub fn aggregate_indices(
     method: IntervalMethod,
 ) -> Result<AggregateIndices, Undefined> {
     let of = |moments: &Moments| {
-        let companions = moments.companions();
-        let indices = Indices::by(moments, FirstOrder::of_rows(companions), Total::of_rows(companions));
-        indices.map(|Indices { first_order, total, .. }| (moments.variance(), [first_order, total].concat()))
+        Indices::of(moments).map(|Indices { first_order, total, .. }| (moments.variance(), [first_order, total].concat()))
     };
     // Output by output: the sums of all at once, without each part, would fill the memory.
     let all: Vec<LeftOut<_>> = outputs.par_iter().map(|replicates| LeftOut::of(replicates, &of)).collect();

@@ -87,7 +87,6 @@ impl Chunk<'_> {
         for (place, columns) in &self.blocks {
             let rows = |runs: &[usize]| runs.iter().map(|run| columns[*run]).collect::<Vec<&[f64]>>();
             let (ab, ba) = (rows(design.ab_runs()), rows(design.ba_runs()));
-            let (bc, cb) = (rows(design.bc_runs()), rows(design.cb_runs()));
             let shapley = contributions(design, place.0, place.1, columns);
             let shapley: Vec<&[f64]> = shapley.iter().map(Vec::as_slice).collect();
             let block = BlockOutputs {
@@ -95,8 +94,6 @@ impl Chunk<'_> {
                 b: columns[1],
                 ab: &ab,
                 ba: &ba,
-                bc: &bc,
-                cb: &cb,
                 paired: design.paired(),
                 shapley: &shapley,
             };

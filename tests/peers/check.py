@@ -62,9 +62,7 @@ class Outputs:
 
         self.d = d
         self.a, self.b = column("y_A"), column("y_B")
-        self.ab, self.ba, self.bc, self.cb = (
-            [column(f"y_{row}_{j + 1}") for j in range(d)] for row in ("AB", "BA", "BC", "CB")
-        )
+        self.ab, self.ba = ([column(f"y_{row}_{j + 1}") for j in range(d)] for row in ("AB", "BA"))
 
 
 # The papers' formulas. a, b, ... are the outputs at A, B, ...; j is the factor.
@@ -153,11 +151,6 @@ def glen_isaacs(y, j):
     return c - p * w / (1 - u * w), 1 - (rest - p * u / (1 - u * w))
 
 
-def owen_closed(f_x, f_zx, f_xy, f_y, v):
-    """Owen (2013), his second correlation: mean of (f(x) - f(z_u:x_-u)) (f(x_u:y_-u) - f(y))."""
-    return np.mean((f_x - f_zx) * (f_xy - f_y)) / v
-
-
 def azzini(y, j):
     """Azzini, Mara and Rosati (2021): first-order and total index."""
     a, b, ab, ba = y.a, y.b, y.ab[j], y.ba[j]
@@ -215,8 +208,6 @@ FIRST_ORDER = {
     "saltelli-pooled": saltelli_pooled,
     "martinez-2011": lambda y, j: correlation(y.b, y.ab[j]),
     "glen-isaacs-2012": lambda y, j: glen_isaacs(y, j)[0],
-    # x is B, y is A, z is C, u the factor.
-    "owen-2013": lambda y, j: owen_closed(y.b, y.bc[j], y.ab[j], y.a, pooled(y)[1]),
     "janon-monod-2014": lambda y, j: janon(y.b, y.ab[j]),
     "azzini-2021": lambda y, j: azzini(y, j)[0],
 }
@@ -228,8 +219,6 @@ TOTAL = {
     "sobol-2007": sobol_2007_total,
     "martinez-2011": lambda y, j: 1 - correlation(y.a, y.ab[j]),
     "glen-isaacs-2012": lambda y, j: glen_isaacs(y, j)[1],
-    # The same with u all other factors: f(z_u:x_-u) is C with the factor from B.
-    "owen-2013": lambda y, j: 1 - owen_closed(y.b, y.cb[j], y.ba[j], y.a, pooled(y)[1]),
     "janon-monod-2014": lambda y, j: 1 - janon(y.a, y.ab[j]),
     "azzini-2021": lambda y, j: azzini(y, j)[1],
 }

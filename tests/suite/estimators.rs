@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::design::{Companions, Design, DesignSettings, Rows, Sampler};
+use apportion::design::{Design, DesignSettings, Rows, Sampler};
 use apportion::estimate::{FirstOrder, Moments, Total};
 use apportion::model::{Basis, KnownAnswer};
 use apportion::run::{Job, run};
@@ -16,7 +16,7 @@ fn estimates(study: &Study, sampler: Sampler, base_samples: u64) -> Vec<Vec<f64>
     let of_seed = |seed| {
         let rows = Rows {
             swaps: (0..factors).map(|j| vec![j]).collect(),
-            companions: Companions { ba: true, bc: true, cb: true },
+            ba: true,
             ..Rows::default()
         };
         let settings = DesignSettings { sampler, base_samples, replicates: 1, seed };

@@ -42,9 +42,9 @@ fn one_minus_correlation(xx: f64, xd: f64, dd: f64) -> f64 {
 /// v = (1 - q - p c)/(1 - p^2), and
 /// S = c - p v/(1 - u v), ST = q + p u/(1 - u v).
 ///
-/// `None` without the rows BA.
-pub fn glen_isaacs(swap: &SwapMoments) -> Option<(f64, f64)> {
-    let ba = swap.ba.as_ref()?;
+/// NaN without the rows BA.
+fn glen_isaacs(swap: &SwapMoments) -> (f64, f64) {
+    let Some(ba) = &swap.ba else { return (f64::NAN, f64::NAN) };
     let (n, base) = (swap.n(), &swap.base);
     let (s_a, s_b) = ((base.aa / n).sqrt(), (base.bb / n).sqrt());
     let (s_ab, s_ba) = (swap.variance_ab().sqrt(), ((base.bb + 2.0 * ba.be + ba.ee) / n).sqrt());
@@ -56,5 +56,15 @@ pub fn glen_isaacs(swap: &SwapMoments) -> Option<(f64, f64)> {
         / 2.0;
     let independent = 1.0 - p * p;
     let (u, v) = ((c - p + p * q) / independent, (1.0 - q - p * c) / independent);
-    Some((c - p * v / (1.0 - u * v), q + p * u / (1.0 - u * v)))
+    (c - p * v / (1.0 - u * v), q + p * u / (1.0 - u * v))
+}
+
+/// The first-order index of [`glen_isaacs`].
+pub fn glen_isaacs_first_order(swap: &SwapMoments) -> f64 {
+    glen_isaacs(swap).0
+}
+
+/// The total index of [`glen_isaacs`].
+pub fn glen_isaacs_total(swap: &SwapMoments) -> f64 {
+    glen_isaacs(swap).1
 }

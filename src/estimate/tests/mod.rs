@@ -7,21 +7,19 @@ mod failures;
 mod invariance;
 mod textbook;
 
-/// Outputs of one swap with all of its companions, and of another one for pairs.
+/// Outputs of one swap with rows BA, and of another one for pairs.
 #[derive(Clone)]
 struct Sample {
     a: Vec<f64>,
     b: Vec<f64>,
     ab: [Vec<f64>; 2],
     ba: [Vec<f64>; 2],
-    bc: [Vec<f64>; 2],
-    cb: [Vec<f64>; 2],
 }
 
 impl Sample {
     /// `n` base points of columns that are correlated somehow, with `offset`.
     fn noise(n: usize, offset: f64) -> Self {
-        let raw: Vec<Vec<f64>> = (1..=10).map(|salt| noise(n, salt)).collect();
+        let raw: Vec<Vec<f64>> = (1..=6).map(|salt| noise(n, salt)).collect();
         let column = |own: usize, shared: &[usize]| -> Vec<f64> {
             (0..n).map(|i| raw[own][i] + 0.7 * shared.iter().map(|&k| raw[k][i]).sum::<f64>() + offset).collect()
         };
@@ -30,14 +28,12 @@ impl Sample {
             b: column(1, &[]),
             ab: [column(2, &[0]), column(3, &[0, 1])],
             ba: [column(4, &[1]), column(5, &[1, 0])],
-            bc: [column(6, &[1]), column(7, &[1, 2])],
-            cb: [column(8, &[]), column(9, &[1])],
         }
     }
 
     fn columns(&mut self) -> Vec<&mut Vec<f64>> {
-        let Self { a, b, ab, ba, bc, cb } = self;
-        [a, b].into_iter().chain(ab).chain(ba).chain(bc).chain(cb).collect()
+        let Self { a, b, ab, ba } = self;
+        [a, b].into_iter().chain(ab).chain(ba).collect()
     }
 
     fn map(&self, f: impl Fn(f64) -> f64) -> Self {
@@ -53,14 +49,12 @@ impl Sample {
     }
 
     fn moments(&self) -> Moments {
-        let [ab, ba, bc, cb] = [&self.ab, &self.ba, &self.bc, &self.cb].map(|s| [&s[0][..], &s[1][..]]);
+        let [ab, ba] = [&self.ab, &self.ba].map(|s| [&s[0][..], &s[1][..]]);
         let block = BlockOutputs {
             a: &self.a,
             b: &self.b,
             ab: &ab,
             ba: &ba,
-            bc: &bc,
-            cb: &cb,
             paired: &[0, 1],
             ..BlockOutputs::default()
         };
@@ -117,43 +111,36 @@ fn names_are_unique_and_sources_are_given() {
 
 #[test]
 fn a_design_that_serves_the_name_in_a_study_serves_its_estimators() {
-    use crate::design::Companions;
     for estimator in Estimator::ALL {
-        for rows in [estimator.needs(), Companions { ba: true, bc: true, cb: true }] {
-            let (first_order, total) = estimator.with_rows(rows);
-            assert!(rows.serve(first_order.needs()) && rows.serve(total.needs()), "{estimator:?}");
+        for has_ba in [estimator.needs_ba(), true] {
+            let (first_order, total) = estimator.with_rows(has_ba);
+            assert!(has_ba || !first_order.needs_ba() && !total.needs_ba(), "{estimator:?}");
             let own = estimator.formulas();
             assert!(own.0.is_none_or(|own| own == first_order) && own.1.is_none_or(|own| own == total));
         }
     }
-    let ba = Companions { ba: true, ..Companions::NONE };
-    assert_eq!(Estimator::Default.with_rows(Companions::NONE), (FirstOrder::SaltelliPooled, Total::JansenPooled));
-    assert_eq!(Estimator::default().with_rows(ba), (FirstOrder::Azzini2021, Total::Azzini2021));
+    assert_eq!(Estimator::Default.with_rows(false), (FirstOrder::SaltelliPooled, Total::JansenPooled));
+    assert_eq!(Estimator::default().with_rows(true), (FirstOrder::Azzini2021, Total::Azzini2021));
 }
 
 #[test]
 fn an_estimator_gives_an_index_exactly_if_it_has_the_rows_that_it_needs() {
     let sample = Sample::noise(50, 0.0);
-    let series = |on: bool, series: &'_ [Vec<f64>; 2]| if on { series.to_vec() } else { vec![] };
-    for bits in 0..8 {
-        let companions = crate::design::Companions { ba: bits & 1 > 0, bc: bits & 2 > 0, cb: bits & 4 > 0 };
-        let owned = [(companions.ba, &sample.ba), (companions.bc, &sample.bc), (companions.cb, &sample.cb)]
-            .map(|(on, columns)| series(on, columns));
-        let [ba, bc, cb] = owned.each_ref().map(|s| s.iter().map(Vec::as_slice).collect::<Vec<_>>());
-        let ab = [&sample.ab[0][..], &sample.ab[1][..]];
-        let block =
-            BlockOutputs { a: &sample.a, b: &sample.b, ab: &ab, ba: &ba, bc: &bc, cb: &cb, ..BlockOutputs::default() };
+    let [ab, ba] = [&sample.ab, &sample.ba].map(|rows| [&rows[0][..], &rows[1][..]]);
+    for has_ba in [false, true] {
+        let ba = if has_ba { &ba[..] } else { &[] };
+        let block = BlockOutputs { a: &sample.a, b: &sample.b, ab: &ab, ba, ..BlockOutputs::default() };
         let moments = Moments::of_block(block, &mut Workspace::default());
-        assert_eq!(moments.companions(), companions);
+        assert_eq!(moments.has_ba(), has_ba);
         for first_order in FirstOrder::ALL {
-            let served = companions.serve(first_order.needs());
+            let served = has_ba || !first_order.needs_ba();
             assert_eq!(first_order.estimate(&moments, 1).is_finite(), served, "{first_order:?}");
             let indices = Indices::by(&moments, first_order, Total::Jansen1999);
-            let refused = Err(Undefined::NoCompanions { estimator: first_order.name() });
+            let refused = Err(Undefined::NoRowsBa { estimator: first_order.name() });
             assert!(if served { indices.is_ok() } else { indices == refused });
         }
         for total in Total::ALL {
-            let served = companions.serve(total.needs());
+            let served = has_ba || !total.needs_ba();
             assert_eq!(total.estimate(&moments, 1).is_finite(), served, "{total:?}");
         }
     }
@@ -162,16 +149,16 @@ fn an_estimator_gives_an_index_exactly_if_it_has_the_rows_that_it_needs() {
 #[test]
 fn runs_are_those_of_a_design_that_serves_the_estimator() {
     use crate::design::{Design, DesignSettings, Rows};
-    let runs = |companions, d: usize| {
-        let rows = Rows { swaps: (0..d).map(|j| vec![j]).collect(), companions, ..Rows::default() };
+    let runs = |ba, d: usize| {
+        let rows = Rows { swaps: (0..d).map(|j| vec![j]).collect(), ba, ..Rows::default() };
         Design::new(DesignSettings::default(), d, rows).unwrap().rows_per_point()
     };
     for d in [3, 7] {
         for estimator in FirstOrder::ALL {
-            assert_eq!(estimator.runs_per_point(d as u64), runs(estimator.needs(), d), "{estimator:?}");
+            assert_eq!(estimator.runs_per_point(d as u64), runs(estimator.needs_ba(), d), "{estimator:?}");
         }
         for estimator in Total::ALL {
-            assert_eq!(estimator.runs_per_point(d as u64), runs(estimator.needs(), d), "{estimator:?}");
+            assert_eq!(estimator.runs_per_point(d as u64), runs(estimator.needs_ba(), d), "{estimator:?}");
         }
     }
 }

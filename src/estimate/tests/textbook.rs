@@ -67,7 +67,7 @@ fn mixture(n: f64, none: f64, one: f64) -> f64 {
 }
 
 fn first_order(estimator: FirstOrder, s: &Sample, j: usize) -> f64 {
-    let (n, a, b, ab, ba, bc) = (s.a.len(), &s.a, &s.b, &s.ab[j], &s.ba[j], &s.bc[j]);
+    let (n, a, b, ab, ba) = (s.a.len(), &s.a, &s.b, &s.ab[j], &s.ba[j]);
     let (f0, v) = pooled(s);
     match estimator {
         FirstOrder::Sobol1993 => {
@@ -90,13 +90,12 @@ fn first_order(estimator: FirstOrder, s: &Sample, j: usize) -> f64 {
         FirstOrder::JanonMonod2014 => janon_monod(b, ab),
         FirstOrder::Martinez2011 => r(b, ab),
         FirstOrder::GlenIsaacs2012 => glen_isaacs(s, j).0,
-        FirstOrder::Owen2013 => mean(|i| (b[i] - bc[i]) * (ab[i] - a[i]), n) / v,
         FirstOrder::Azzini2021 => 2.0 * mean(|i| (ba[i] - b[i]) * (a[i] - ab[i]), n) / azzini_denominator(s, j),
     }
 }
 
 fn total(estimator: Total, s: &Sample, j: usize) -> f64 {
-    let (n, a, b, ab, ba, cb) = (s.a.len(), &s.a, &s.b, &s.ab[j], &s.ba[j], &s.cb[j]);
+    let (n, a, b, ab, ba) = (s.a.len(), &s.a, &s.b, &s.ab[j], &s.ba[j]);
     let (f0, v) = pooled(s);
     match estimator {
         Total::HommaSaltelli1996 => (v - mean(|i| a[i] * ab[i], n) + f0 * f0) / v,
@@ -108,7 +107,6 @@ fn total(estimator: Total, s: &Sample, j: usize) -> f64 {
         Total::JanonMonod2014 => 1.0 - janon_monod(a, ab),
         Total::Martinez2011 => 1.0 - r(a, ab),
         Total::GlenIsaacs2012 => glen_isaacs(s, j).1,
-        Total::Owen2013 => (v - mean(|i| (b[i] - cb[i]) * (ba[i] - a[i]), n)) / v,
         Total::Azzini2021 => mean(|i| (b[i] - ba[i]).powi(2) + (a[i] - ab[i]).powi(2), n) / azzini_denominator(s, j),
     }
 }

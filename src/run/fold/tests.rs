@@ -2,7 +2,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use super::*;
 use crate::binary::Reader;
-use crate::design::{Companions, Design, DesignSettings, Rows};
+use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{FunctionModel, Model, Output, RowFailure, RunContext};
 use crate::quantity::Unit;
 use crate::run::journal::{Checkpoint, read_journal_file};
@@ -18,8 +18,7 @@ fn space() -> Space {
 /// A design with all that moments may hold.
 fn design(base_samples: u64, replicates: u64) -> Design {
     let settings = DesignSettings { base_samples, replicates, seed: 1, ..DesignSettings::default() };
-    let companions = Companions { ba: true, bc: true, cb: true };
-    let rows = Rows { swaps: vec![vec![0], vec![1]], companions, second_order: true, ..Rows::default() };
+    let rows = Rows { swaps: vec![vec![0], vec![1]], ba: true, second_order: true, ..Rows::default() };
     Design::new(settings, 2, rows).unwrap()
 }
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::design::{Companions, Design, DesignSettings, Rows, Sampler};
+use crate::design::{Design, DesignSettings, Rows, Sampler};
 use crate::estimate::{BlockOutputs, Estimator, PointOutputs, ShapleyMethod, Workspace, contributions};
 use crate::uncertainty::bootstrap::counts_of;
 use crate::uncertainty::estimates::{Layout, quantities};
@@ -13,12 +13,10 @@ struct Sample {
     layout: Layout,
 }
 
-const ALL_ROWS: Companions = Companions { ba: true, bc: true, cb: true };
-
 impl Sample {
     /// x0 + 2 x1 + 3 x0 x1 + `offset`: the last factor does nothing.
-    fn new(points: u64, companions: Companions, offset: f64) -> Self {
-        Self::of(points, Rows { companions, second_order: companions.ba, ..Rows::default() }, offset)
+    fn new(points: u64, ba: bool, offset: f64) -> Self {
+        Self::of(points, Rows { ba, second_order: ba, ..Rows::default() }, offset)
     }
 
     /// The same along random orders of the factors.
@@ -27,7 +25,7 @@ impl Sample {
     }
 
     fn of(points: u64, rows: Rows, offset: f64) -> Self {
-        let (companions, second_order) = (rows.companions, rows.second_order);
+        let (has_ba, second_order) = (rows.ba, rows.second_order);
         let shapley = (!rows.players.is_empty()).then_some(ShapleyMethod::Permutations);
         let settings = DesignSettings { sampler: Sampler::Random, base_samples: points, replicates: 1, seed: 5 };
         let design = Design::new(settings, 3, Rows { swaps: vec![vec![0], vec![1], vec![2]], ..rows }).unwrap();
@@ -38,7 +36,7 @@ impl Sample {
             u[0] + 2.0 * u[1] + 3.0 * u[0] * u[1] + offset
         };
         let columns = (0..runs).map(|run| (0..points).map(|point| output(point, run)).collect()).collect();
-        let estimators = Estimator::ALL.into_iter().filter(|estimator| companions.serve(estimator.needs())).collect();
+        let estimators = Estimator::ALL.into_iter().filter(|estimator| has_ba || !estimator.needs_ba()).collect();
         let layout = Layout { estimators, second_order, shapley, ..Layout::plain(3) };
         Self { design, columns, layout }
     }
@@ -70,13 +68,12 @@ impl Sample {
         let columns: Vec<Vec<f64>> = self.columns.iter().map(repeated).collect();
         let rows = |runs: &[usize]| runs.iter().map(|run| &columns[*run][..]).collect::<Vec<&[f64]>>();
         let design = &self.design;
-        let (ab, ba, bc, cb) =
-            (rows(design.ab_runs()), rows(design.ba_runs()), rows(design.bc_runs()), rows(design.cb_runs()));
+        let (ab, ba) = (rows(design.ab_runs()), rows(design.ba_runs()));
         let (a, b) = (&columns[0], &columns[1]);
         let whole: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
         let added: Vec<Vec<f64>> = contributions(design, 0, 0, &whole).iter().map(repeated).collect();
         let added: Vec<&[f64]> = added.iter().map(Vec::as_slice).collect();
-        let block = BlockOutputs { a, b, ab: &ab, ba: &ba, bc: &bc, cb: &cb, paired: design.paired(), shapley: &added };
+        let block = BlockOutputs { a, b, ab: &ab, ba: &ba, paired: design.paired(), shapley: &added };
         Moments::of_block(block, &mut Workspace::default())
     }
 
@@ -109,13 +106,13 @@ fn assert_near(got: &[f64], expected: &[f64], tolerance: f64) {
 fn resampled_moments_are_those_of_resampled_rows() {
     // 10,000 points: two chunks, the second shorter. An offset costs the digits that the means of the outputs have not.
     let samples = [
-        (Sample::new(700, Companions::NONE, 0.0), 1e-11),
-        (Sample::new(700, ALL_ROWS, 0.0), 1e-11),
-        (Sample::new(700, ALL_ROWS, 0.0).with_failures(), 1e-11),
-        (Sample::new(10_000, Companions::NONE, 0.0).with_failures(), 1e-11),
+        (Sample::new(700, false, 0.0), 1e-11),
+        (Sample::new(700, true, 0.0), 1e-11),
+        (Sample::new(700, true, 0.0).with_failures(), 1e-11),
+        (Sample::new(10_000, false, 0.0).with_failures(), 1e-11),
         (Sample::with_orders(700), 1e-11),
         (Sample::with_orders(10_000).with_failures(), 1e-11),
-        (Sample::new(700, Companions { ba: true, ..Companions::NONE }, 0.0), 1e-11),
+        (Sample::new(700, true, 0.0), 1e-11),
     ];
     for (sample, tolerance) in samples {
         let kept = sample.kept();
@@ -138,7 +135,7 @@ fn resampled_moments_are_those_of_resampled_rows() {
 fn influences_are_what_another_copy_of_the_point_does() {
     // The influence of a point is the slope of the estimate in its weight: power sums against those from the jackknife,
     // which agree to first order in 1/n.
-    let plain = || Sample::new(2000, ALL_ROWS, 0.0);
+    let plain = || Sample::new(2000, true, 0.0);
     for sample in [plain(), plain().with_failures(), Sample::with_orders(2000)] {
         let kept = sample.kept();
         let replicates = [&kept];
@@ -172,7 +169,7 @@ fn influences_are_what_another_copy_of_the_point_does() {
 fn the_error_of_a_mean_is_the_textbook_one() {
     // Mean over A and B of independent columns: sd of (y_A + y_B)/2 over sqrt(n), whatever the offset.
     for offset in [0.0, 1e6] {
-        let sample = Sample::new(1000, Companions::NONE, offset);
+        let sample = Sample::new(1000, false, offset);
         let kept = sample.kept();
         let replicates = [&kept];
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();
@@ -191,7 +188,7 @@ fn the_error_of_a_mean_is_the_textbook_one() {
 
 #[test]
 fn the_inert_factor_has_intervals_of_no_width() {
-    let sample = Sample::new(300, Companions::NONE, 0.0);
+    let sample = Sample::new(300, false, 0.0);
     for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
         let (estimates, bounds) = sample.bounds(method);
         let inert = sample.layout.swap(2);
@@ -209,7 +206,7 @@ fn the_inert_factor_has_intervals_of_no_width() {
 
 #[test]
 fn the_same_bits_on_any_number_of_threads() {
-    let sample = Sample::new(9000, ALL_ROWS, 0.0).with_failures();
+    let sample = Sample::new(9000, true, 0.0).with_failures();
     for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
         let on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -228,7 +225,7 @@ fn the_same_bits_on_any_number_of_threads() {
 
 #[test]
 fn two_points_give_what_they_can() {
-    let sample = Sample::new(2, Companions::NONE, 0.0);
+    let sample = Sample::new(2, false, 0.0);
     for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
         let (estimates, bounds) = sample.bounds(method);
         assert_eq!(estimates.len(), bounds.len());
@@ -240,9 +237,9 @@ fn two_points_give_what_they_can() {
 
 #[test]
 fn scale_of_the_output_does_not_matter() {
-    let base = Sample::new(300, Companions::NONE, 0.0);
+    let base = Sample::new(300, false, 0.0);
     for scale in [1e-120, 1e-18, 1e120] {
-        let mut scaled = Sample::new(300, Companions::NONE, 0.0);
+        let mut scaled = Sample::new(300, false, 0.0);
         scaled.columns.iter_mut().flatten().for_each(|y| *y *= scale);
         for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
             let (expected, got) = (base.bounds(method).1, scaled.bounds(method).1);
@@ -256,7 +253,7 @@ fn scale_of_the_output_does_not_matter() {
 
 #[test]
 fn constant_outputs_have_a_certain_mean_and_no_indices() {
-    let mut sample = Sample::new(50, Companions::NONE, 0.0);
+    let mut sample = Sample::new(50, false, 0.0);
     sample.columns.iter_mut().flatten().for_each(|y| *y = 0.1);
     let kept = sample.kept();
     let replicates = [&kept];
