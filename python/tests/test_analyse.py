@@ -429,10 +429,9 @@ def test_dependent_factors_have_shapley_effects():
     rng = np.random.default_rng(1)
     first = rng.normal(size=100)
     measured = np.column_stack([first, first**2 + 0.1 * rng.normal(size=100)])
-    kernels = [{"factors": ["a", "b"], "measurements": measured, "copula": "kernel"}]
-    bent = ap.analyse(lambda a, b: b, factors, dependence=kernels, base_samples=1024)
-    # No correlation ties them, and yet a tells nearly all of b.
-    assert bent.first_order["a"].estimate > 0.7 and json.loads(bent.to_json())["study"]["dependences"][0]["kernels"]["measurements"] == 100
+    joint = [{"factors": ["a", "b"], "measurements": measured}]
+    tied = ap.analyse(lambda a, b: b, factors, dependence=joint, base_samples=1024)
+    assert tied.first_order["a"].estimate < 0.3
     with pytest.raises(ap.StudyError, match="nearest"):
         three = factors | {"c": ap.Normal(0, 1)}
         ap.analyse(lambda a, b, c: a, three, dependence={("a", "b"): 0.9, ("b", "c"): 0.9, ("a", "c"): -0.9})

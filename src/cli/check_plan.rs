@@ -122,11 +122,8 @@ fn methods(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
 /// The factors that depend on each other, and how.
 fn dependent(study: &Study) -> String {
     let line = |dependence: &Dependence| {
-        let how = match dependence.kernel_width().filter(|width| *width < 1.0) {
-            Some(width) => format!("by kernels of width {width:.3} around joint measurements"),
-            None => format!("by a Gaussian copula (correlations: {})", dependence.measure_in_force().name()),
-        };
-        format!("dependent: {} {how}\n", dependence.factors().join(", "))
+        let (factors, measure) = (dependence.factors().join(", "), dependence.measure_in_force().name());
+        format!("dependent: {factors} by a Gaussian copula (correlations: {measure})\n")
     };
     study.space().dependences().iter().map(line).collect()
 }

@@ -5,15 +5,14 @@
 //! 2021, Reliab. Eng. Syst. Saf. 213, 107702). Where factors depend on each other these are drawn anew given all others (Song,
 //! Nelson and Staum 2016, SIAM/ASA J. Uncertain. Quantif. 4, 1060-1083). In normal scores that is linear: with the correlations of
 //! the players from the last to the first as L L', and the innovations e_A = L^-1 a and e_B = L^-1 b, the scores are L e, where e
-//! comes from B for the players that are swapped, and from A for the others, which come before them. In a kernel copula innovations are
-//! the normal scores of conditional distribution functions.
+//! comes from B for the players that are swapped, and from A for the others, which come before them.
 
 use std::sync::Arc;
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::space::{Chain, CholeskyFactor, Copula, GaussianCopula, KernelCopula, from_score};
+use crate::space::{CholeskyFactor, GaussianCopula, from_score};
 
 /// Orders have a stream of their own, of every sampler.
 const ORDER_STREAM: u64 = 1 << 60;
@@ -26,7 +25,7 @@ pub(super) struct OrderColumns {
     /// The number of the first of the columns among those of the base points.
     pub first: usize,
     pub factors: usize,
-    pub copula: Option<Arc<Copula>>,
+    pub copula: Option<Arc<GaussianCopula>>,
 }
 
 impl OrderColumns {
@@ -64,21 +63,11 @@ impl OrderColumns {
                 }
             }
             if let Some(copula) = &self.copula {
-                let at_point = |factors: &[usize]| -> [Vec<f64>; 2] {
-                    [&a, &b].map(|scores| factors.iter().map(|factor| scores[*factor][point]).collect())
-                };
-                let gaussian = copula.gaussian();
-                let redrawn = Redrawn::new(gaussian, &places, &at_point(gaussian.dependent()));
-                let by_kernels = copula
-                    .kernels()
-                    .iter()
-                    .map(|kernel| RedrawnByKernels::new(kernel, &places, &at_point(kernel.factors())));
-                let by_kernels: Vec<RedrawnByKernels<'_>> = by_kernels.collect();
+                let at_point: [Vec<f64>; 2] =
+                    [&a, &b].map(|scores| copula.dependent().iter().map(|factor| scores[*factor][point]).collect());
+                let redrawn = Redrawn::new(copula, &places, &at_point);
                 for (step, columns) in steps.chunks_mut(self.factors).enumerate() {
                     redrawn.each(step, |factor, score| columns[factor][point] = from_score(score));
-                    for kernel in &by_kernels {
-                        kernel.each(step, |factor, u| columns[factor][point] = u);
-                    }
                 }
             }
         }
@@ -121,44 +110,6 @@ impl Redrawn {
         let e = [&a[..kept], &b[kept..]].concat();
         for row in kept..self.factors.len() {
             of_factor(self.factors[row].0, self.lower.score(row, &e));
-        }
-    }
-}
-
-/// The factors of a kernel copula at one base point.
-struct RedrawnByKernels<'a> {
-    kernel: &'a KernelCopula,
-    /// The places of its factors, those of the last player first.
-    order: Vec<usize>,
-    /// The places of their players in the order of players.
-    players: Vec<usize>,
-    chain: Chain,
-    /// The point of A, and the innovations of B.
-    a: Vec<f64>,
-    b: Vec<f64>,
-}
-
-impl<'a> RedrawnByKernels<'a> {
-    fn new(kernel: &'a KernelCopula, places: &[usize], scores: &[Vec<f64>; 2]) -> Self {
-        let player = |place: &usize| places[kernel.factors()[*place]];
-        let mut order: Vec<usize> = (0..kernel.factors().len()).collect();
-        order.sort_by_key(|place| std::cmp::Reverse(player(place)));
-        let chain = kernel.chain(&order);
-        let [a, b] = [0, 1]
-            .map(|matrix: usize| chain.whiten(&order.iter().map(|place| scores[matrix][*place]).collect::<Vec<f64>>()));
-        Self { kernel, players: order.iter().map(player).collect(), order, b: chain.innovations(&b, 0), chain, a }
-    }
-
-    /// The coordinate of every factor that is swapped in step `step` and drawn given others.
-    fn each(&self, step: usize, mut of_factor: impl FnMut(usize, f64)) {
-        let kept = self.players.partition_point(|player| *player > step);
-        if kept == 0 || kept == self.order.len() {
-            return;
-        }
-        let e = self.chain.point(&self.a[..kept], &self.b[kept..]);
-        for place in kept..self.order.len() {
-            let coordinate = self.kernel.coordinate(self.order[place], self.chain.score(place, &e));
-            of_factor(self.kernel.factors()[self.order[place]], coordinate);
         }
     }
 }
@@ -210,7 +161,7 @@ mod tests {
         Design::new(
             settings,
             4,
-            Rows { swaps, redrawn, players, copula: copula.map(|copula| Arc::new(copula.into())), ..Rows::default() },
+            Rows { swaps, redrawn, players, copula: copula.map(Arc::new), ..Rows::default() },
         )
         .unwrap()
     }

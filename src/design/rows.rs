@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::mixed::MixedColumns;
 use super::orders::OrderColumns;
-use crate::space::Copula;
+use crate::space::GaussianCopula;
 
 /// The columns that one row AB_s takes from B: those of one factor, or of a group of factors. An empty swap is a dummy
 /// factor: its rows repeat A or B but are run again, and show the noise of a model that is not deterministic.
@@ -23,7 +23,7 @@ pub struct Rows {
     /// Rows of every base point at points of their own, which only surrogates learn from ([`crate::surrogate`]).
     pub plain_rows: u32,
     /// The copula of dependent factors. A swap then takes its columns from B, and the other factors follow them.
-    pub copula: Option<Arc<Copula>>,
+    pub copula: Option<Arc<GaussianCopula>>,
     /// The swaps, by number, whose factors are drawn anew given all others instead; of independent factors that is the same.
     pub redrawn: Vec<usize>,
     /// The players whose Shapley effects are found along random orders: disjoint sets of factors, in rising order, that are all

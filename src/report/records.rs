@@ -5,7 +5,7 @@ use serde_json::{Map, Value};
 
 use super::chart::Chart;
 use super::result::{
-    ConstantRecord, CorrelationRecord, FactorRecord, KernelsRecord, ResultFile, StudyRecord, ValidityRecord,
+    ConstantRecord, CorrelationRecord, FactorRecord, ResultFile, StudyRecord, ValidityRecord,
 };
 use crate::model::Model;
 use crate::space::Dependence;
@@ -92,11 +92,6 @@ pub(super) fn dependence_record(dependence: &Dependence) -> CorrelationRecord {
         factors: dependence.factors().to_vec(),
         correlation: dependence.correlation().to_vec(),
         measure: dependence.measure_in_force().name().to_owned(),
-        kernels: dependence.kernels_made().map(|(measurements, width, log_likelihood_gain)| KernelsRecord {
-            measurements,
-            width,
-            log_likelihood_gain,
-        }),
     }
 }
 

@@ -86,7 +86,7 @@ pub struct StudyRecord {
     pub source: String,
 }
 
-/// Factors that depend on each other, by a Gaussian copula or by kernels around joint measurements.
+/// Factors that depend on each other, by a Gaussian copula.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[doc(hidden)]
 pub struct CorrelationRecord {
@@ -96,21 +96,6 @@ pub struct CorrelationRecord {
     pub correlation: Vec<Vec<f64>>,
     /// What they are correlations of, by its name in study files.
     pub measure: String,
-    /// The kernels, if the copula is made of them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub kernels: Option<KernelsRecord>,
-}
-
-/// Kernels around joint measurements.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct KernelsRecord {
-    /// Joint measurements.
-    pub measurements: usize,
-    /// The width of the kernels in normal scores; 1 is the Gaussian copula.
-    pub width: f64,
-    /// The mean over the measurements of the logarithm of how much likelier one is, given all others, than under the Gaussian copula.
-    pub log_likelihood_gain: f64,
 }
 
 /// An input fixed in the study.

@@ -6,7 +6,7 @@ use super::document::{Cell, Column, Mark, Part, Section, Table};
 use super::format::{grouped, name, share_of_runs, significant, three_digits, unit, value};
 use super::listed;
 use super::records::{FactorSetup, StudySetup};
-use super::result::{ConstantRecord, CorrelationRecord, KernelsRecord, ValidityRecord};
+use super::result::{ConstantRecord, CorrelationRecord, ValidityRecord};
 
 /// Most factors in the table of the study.
 const FACTORS: usize = 50;
@@ -91,27 +91,7 @@ pub(crate) fn study_section(study: &StudySetup) -> Section {
             })
         });
         let columns = Column::list(2, &["factors", "correlation"]);
-        let is_gaussian = study.dependences.iter().any(|record| record.kernels.is_none());
-        let mut caption = "Factors that depend on each other".to_owned();
-        caption.push_str(if is_gaussian { ", by a Gaussian copula." } else { "." });
-        for record in &study.dependences {
-            let Some(KernelsRecord { measurements, width, log_likelihood_gain: gain }) = &record.kernels else {
-                continue;
-            };
-            let names: Vec<String> = record.factors.iter().map(|factor| name(factor)).collect();
-            let how = match *width < 1.0 {
-                true => format!(
-                    "by kernels of width {} around {measurements} joint measurements, each of which is {} times as likely, given the \
-                     others, as under the Gaussian copula (geometric mean)",
-                    three_digits(*width),
-                    three_digits(libm::exp(*gain))
-                ),
-                false => format!(
-                    "by the Gaussian copula: no narrower kernels describe the {measurements} joint measurements better"
-                ),
-            };
-            caption.push_str(&format!(" {}: {how}.", listed(&names)));
-        }
+        let caption = "Factors that depend on each other, by a Gaussian copula.";
         parts.push(Part::Table(Table::new(caption, columns).with_rows(pairs)));
     }
     let mut choices = vec![("model".to_owned(), format!("`{}`", study.model))];

@@ -5,7 +5,7 @@ mod nataf;
 
 use nalgebra::DMatrix;
 
-use super::copula::{Copula, GaussianCopula, Joint, KernelCopula};
+use super::copula::GaussianCopula;
 use super::distribution::Distribution;
 use super::{Factor, Space};
 use crate::special::normal_quantile;
@@ -42,7 +42,7 @@ impl CorrelationMeasure {
     }
 }
 
-/// Factors that depend on each other, by a Gaussian copula with these correlations, or by kernels around joint measurements.
+/// Factors that depend on each other, by a Gaussian copula with these correlations.
 ///
 /// ```
 /// use apportion::{CorrelationMeasure, Dependence};
@@ -58,7 +58,6 @@ pub struct Dependence {
     measure: CorrelationMeasure,
     /// Whether the correlations are those of joint measurements, and not stated; that of a column with one value is NaN on the diagonal too.
     is_measured: bool,
-    joint: Option<Joint>,
 }
 
 impl Dependence {
@@ -66,7 +65,7 @@ impl Dependence {
     /// [`measure`](Self::measure) is set.
     pub fn new(factors: &[&str], correlation: Vec<Vec<f64>>) -> Self {
         let factors = factors.iter().map(|&factor| factor.to_owned()).collect();
-        Self { factors, correlation, measure: CorrelationMeasure::default(), is_measured: false, joint: None }
+        Self { factors, correlation, measure: CorrelationMeasure::default(), is_measured: false }
     }
 
     /// Two factors with this correlation.
@@ -78,42 +77,8 @@ impl Dependence {
     /// measurement. The correlations are those of the normal scores of the ranks (van der Waerden scores, ranks of equal values
     /// being averaged); the distributions of the factors are stated apart.
     pub fn from_measurements(factors: &[&str], columns: &[Vec<f64>]) -> Self {
-        Self::from_scores(factors, &columns.iter().map(|column| rank_scores(column)).collect::<Vec<_>>())
-    }
-
-    /// The dependence of factors that were measured together, as it is, beyond correlations: tails that are tied, clouds that are bent
-    /// or in parts. The copula is a mixture of kernels around the normal scores of the measurements, each of which is a row of
-    /// `columns`; of its width, between the measurements themselves and the Gaussian copula, that one is taken under which each
-    /// measurement is likeliest given all others. Such factors are in no other dependence. The time of a row grows with the number of
-    /// measurements, of which there are 10 to 4096.
-    ///
-    /// ```
-    /// use apportion::Dependence;
-    ///
-    /// // A width that is near its lower or its upper bound, whatever the length.
-    /// let length: Vec<f64> = (0..200).map(|k| f64::from(k * 37 % 200)).collect();
-    /// let width: Vec<f64> = length.iter().enumerate().map(|(k, l)| l / 50.0 + 10.0 * (k % 2) as f64).collect();
-    /// let dependence = Dependence::kernels(&["length", "width"], &[length, width]);
-    /// assert!(dependence.kernel_width().unwrap() < 0.5);
-    /// ```
-    pub fn kernels(factors: &[&str], columns: &[Vec<f64>]) -> Self {
         let scores: Vec<Vec<f64>> = columns.iter().map(|column| rank_scores(column)).collect();
-        let dependence = Self::from_scores(factors, &scores);
-        let (rows, n) = (scores.first().map_or(0, Vec::len), scores.len());
-        let is_correlation = |(i, j): (usize, usize)| i == j || dependence.correlation[i][j].abs() < 1.0;
-        let is_sound = scores.iter().all(|column| column.len() == rows)
-            && MEASUREMENTS.contains(&rows)
-            && (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).all(is_correlation);
-        if !is_sound {
-            // Refused with the space that it is for.
-            let joint = Joint { scores: scores.into(), width: 1.0, gain: 0.0 };
-            return Self { joint: Some(joint), ..dependence };
-        }
-        let correlation = DMatrix::from_fn(n, n, |i, j| dependence.correlation[i][j]);
-        Self { joint: Some(Joint::new(scores, &correlation)), ..dependence }
-    }
 
-    fn from_scores(factors: &[&str], scores: &[Vec<f64>]) -> Self {
         let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let correlation = |i: usize, j: usize| match i == j {
             true if product(&scores[i], &scores[i]) > 0.0 => 1.0,
@@ -140,17 +105,6 @@ impl Dependence {
     /// The matrix of correlations.
     pub fn correlation(&self) -> &[Vec<f64>] {
         &self.correlation
-    }
-
-    /// The width of the kernels in normal scores, 1 being that of the Gaussian copula; `None` if the dependence is one of correlations.
-    pub fn kernel_width(&self) -> Option<f64> {
-        self.joint.as_ref().map(|joint| joint.width)
-    }
-
-    /// How many measurements the kernels lie around, their width, and the mean logarithm of how much likelier a measurement is than
-    /// under the Gaussian copula.
-    pub(crate) fn kernels_made(&self) -> Option<(usize, f64, f64)> {
-        self.joint.as_ref().map(|joint| (joint.scores.first().map_or(0, Vec::len), joint.width, joint.gain))
     }
 
     /// What its numbers are correlations of.
@@ -193,12 +147,6 @@ impl Dependence {
             let [a, b] = [i, j].map(|k| self.factors[k].clone());
             return Err(DependenceError::Entry { a, b, found, expected });
         }
-        if let Some(joint) = &self.joint {
-            let found: Vec<usize> = joint.scores.iter().map(Vec::len).collect();
-            if found.iter().any(|rows| *rows != found[0] || !MEASUREMENTS.contains(rows)) {
-                return Err(DependenceError::Measurements { found });
-            }
-        }
         Ok(numbers)
     }
 }
@@ -206,26 +154,15 @@ impl Dependence {
 /// How near to 1 the correlation of measurements may come: nearer than this they have the same ranks, but for rounding.
 const EQUAL_RANKS: f64 = 1e-12;
 
-/// Joint measurements that kernels are put around: fewer tell of no copula, and of more each row would cost too much.
-const MEASUREMENTS: std::ops::RangeInclusive<usize> = 10..=4096;
-
 /// The copula of `space` with these dependences; `None` without any.
-pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option<Copula>, DependenceError> {
+pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option<GaussianCopula>, DependenceError> {
     let factors = space.factors();
     let mut scores = DMatrix::identity(factors.len(), factors.len());
     let mut stated = DMatrix::from_element(factors.len(), factors.len(), false);
-    // Whether a factor is in a dependence, and whether that is one by kernels.
-    let mut by_kernels: Vec<Option<bool>> = vec![None; factors.len()];
-    let mut kernels = Vec::new();
     for dependence in dependences {
         let numbers = dependence.checked(space)?;
         for &number in &numbers {
             refuse_uncorrelated(&factors[number])?;
-            let has_kernels = dependence.joint.is_some();
-            if by_kernels[number].is_some_and(|before| before || has_kernels) {
-                return Err(DependenceError::KernelsAndMore(factors[number].name.clone()));
-            }
-            by_kernels[number] = Some(has_kernels);
         }
         let pairs = (0..numbers.len()).flat_map(|i| (i + 1..numbers.len()).map(move |j| (i, j)));
         for (i, j) in pairs {
@@ -238,15 +175,11 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
             let of_scores = of_normal_scores(dependence.measure, dependence.correlation[i][j], first, second)?;
             (scores[(a, b)], scores[(b, a)]) = (of_scores, of_scores);
         }
-        // Kernels as wide as the Gaussian copula are that.
-        kernels.extend(
-            dependence.joint.as_ref().filter(|joint| joint.width < 1.0).map(|joint| (numbers, joint, dependence)),
-        );
     }
     if dependences.is_empty() {
         return Ok(None);
     }
-    let all = GaussianCopula::new(scores.clone()).map_err(|nearest| {
+    GaussianCopula::new(scores).map(Some).map_err(|nearest| {
         let is_tied = |i: &usize| (0..factors.len()).any(|j| j != *i && stated[(*i, j)]);
         let tied: Vec<usize> = (0..factors.len()).filter(is_tied).collect();
         let row = |i: &usize| tied.iter().map(|j| nearest[(*i, *j)]).collect();
@@ -254,21 +187,7 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
             factors: tied.iter().map(|&i| factors[i].name.clone()).collect(),
             nearest: tied.iter().map(row).collect(),
         }
-    })?;
-    if kernels.is_empty() {
-        return Ok(Some(Copula::new(all, Vec::new())));
-    }
-    // To the Gaussian copula factors with kernels are independent ones.
-    for (i, j) in (0..factors.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
-        let has_kernels = kernels.iter().any(|(numbers, ..)| numbers.contains(&i));
-        if has_kernels {
-            (scores[(i, j)], scores[(j, i)]) = (0.0, 0.0);
-        }
-    }
-    let others = GaussianCopula::new(scores).unwrap_or(all);
-    let kernels =
-        kernels.into_iter().map(|(numbers, joint, stated)| KernelCopula::new(&numbers, joint, &stated.correlation));
-    Ok(Some(Copula::new(others, kernels.collect())))
+    })
 }
 
 fn refuse_uncorrelated(factor: &Factor) -> Result<(), DependenceError> {

@@ -8,8 +8,8 @@ pub mod distribution;
 
 use std::sync::Arc;
 
-pub use copula::Copula;
-pub(crate) use copula::{Chain, CholeskyFactor, GaussianCopula, KernelCopula, from_score, normal_scores};
+pub use copula::GaussianCopula;
+pub(crate) use copula::{CholeskyFactor, from_score, normal_scores};
 pub use dependence::{CorrelationMeasure, Dependence, DependenceError};
 pub use distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
 
@@ -82,7 +82,7 @@ pub struct Group {
 pub struct Space {
     factors: Vec<Factor>,
     dependences: Vec<Dependence>,
-    copula: Option<Arc<Copula>>,
+    copula: Option<Arc<GaussianCopula>>,
 }
 
 impl Space {
@@ -115,7 +115,7 @@ impl Space {
     }
 
     /// The copula of the factors; `None` if they are independent.
-    pub(crate) fn copula(&self) -> Option<&Arc<Copula>> {
+    pub(crate) fn copula(&self) -> Option<&Arc<GaussianCopula>> {
         self.copula.as_ref()
     }
 

@@ -317,16 +317,10 @@ fn in_words(name: &str, design: &Design, space: &Space) -> String {
         let (factors, correlation) = (dependence.factors(), dependence.correlation());
         let measure = dependence.measure_in_force().name();
         // Debug forms of lists of texts and numbers are TOML.
-        let _ = match dependence.kernels_made() {
-            None => write!(
-                text,
-                "\n[[dependence]]\nfactors = {factors:?}\ncorrelation = {correlation:?}\nmeasure = {measure:?}\n"
-            ),
-            Some((measurements, width, _)) => write!(
-                text,
-                "\n[[dependence]]\nfactors = {factors:?}\n# {measurements} joint measurements, kernels of width {width}\n"
-            ),
-        };
+        let _ = write!(
+            text,
+            "\n[[dependence]]\nfactors = {factors:?}\ncorrelation = {correlation:?}\nmeasure = {measure:?}\n"
+        );
     }
     text
 }

@@ -45,10 +45,7 @@ impl Study {
             points["plain_rows"] = json!(design.plain_rows());
         }
         if let Some(copula) = self.space.copula() {
-            points["copula"] = json!(digest(&format!("{:?}", copula.gaussian())));
-            if !copula.kernels().is_empty() {
-                points["kernels"] = json!(digest(&format!("{:?}", copula.kernels())));
-            }
+            points["copula"] = json!(digest(&format!("{:?}", copula)));
             points["redrawn"] = json!(design.asked().redrawn);
         }
         if !design.asked().players.is_empty() {

@@ -70,6 +70,19 @@ fn joint_measurements_and_matrices_state_the_same() {
     );
     let told = succeed(&["run", text(&study), "--out", text(&folder.path("out"))]);
     assert!(told.contains("Shapley effect"), "{told}");
+    for wrong in [
+        "measurements = [[1, 2], [3]]",
+        "measurements = [[1, 2], [3, 1]]",
+        "measurements = [[1, 2]]\nfile = \"joint.csv\"",
+        "file = \"joint.csv\"\ncorrelation = 0.5",
+        "file = \"joint.csv\"\ncopula = \"kernel\"",
+    ] {
+        let study = folder.with(
+            "wrong.toml",
+            format!("{model}{factors}[dependence]\nfactors = [\"x1\", \"x2\"]\n{wrong}\n"),
+        );
+        assert_eq!(apportion(&["check", text(&study)]).status.code(), Some(2), "{wrong}");
+    }
 }
 
 /// Groups, subsets, a dummy factor and all outputs together have no Shapley effects, and their lines are as long as the others.

@@ -13,7 +13,6 @@ mod common;
 mod corpus;
 mod degenerate;
 mod dependent;
-mod dependent_kernels;
 mod dependent_program;
 mod distributions;
 mod endless;

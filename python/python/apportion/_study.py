@@ -49,7 +49,7 @@ class Study:
     `expression={...}`, `fidelity={...}`. Factors that depend on each other, by a Gaussian copula:
     `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of tables as in a study file, as in
     `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`; as an array of joint measurements has them, a row
-    each: `[{"factors": ["a", "b"], "measurements": array, "copula": "kernel"}]`.
+    each: `[{"factors": ["a", "b"], "measurements": array}]`.
     """
 
     def __init__(

@@ -25,11 +25,6 @@ impl CholeskyFactor {
         Self { rows }
     }
 
-    /// The row of the factor at `place`, up to the diagonal.
-    pub fn row(&self, place: usize) -> &[f64] {
-        &self.rows[place]
-    }
-
     /// e of the scores of the first factors.
     pub fn whiten(&self, scores: &[f64]) -> Vec<f64> {
         let mut e: Vec<f64> = Vec::with_capacity(scores.len());

@@ -76,6 +76,15 @@ impl GaussianCopula {
         }
     }
 
+    /// The scores of points of the unit cube, a column for each factor: empty for one that depends on no other.
+    pub(crate) fn scores(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let mut scores = vec![Vec::new(); columns.len()];
+        for &factor in &self.dependent {
+            scores[factor] = normal_scores(&columns[factor]);
+        }
+        scores
+    }
+
     /// The coefficients of E(score of `of` | scores of `given`) = sum of coefficient x score, in the order of `given`.
     pub fn regression(&self, of: usize, given: &[usize]) -> Vec<f64> {
         // Only those that are tied to it, be it by way of others, have a coefficient.

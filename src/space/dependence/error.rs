@@ -11,15 +11,6 @@ pub enum DependenceError {
     /// A factor twice, or fewer than two.
     #[error("a dependence is one of two factors or more, each named once")]
     Factors,
-    /// Joint measurements that are too few, too many, or not as many of each factor.
-    #[error(
-        "kernels are put around 10 to 4096 joint measurements, as many of each factor, and here are {found:?}: of more take every other \
-         one, for instance"
-    )]
-    Measurements {
-        /// How many there are of each factor.
-        found: Vec<usize>,
-    },
     /// Joint measurements of a factor that are all the same.
     #[error(
         "the joint measurements of `{0}` are all the same, so that they say of no other factor how it goes with this one: leave it out \
@@ -39,9 +30,6 @@ pub enum DependenceError {
         /// `same` or `opposite`.
         order: &'static str,
     },
-    /// A factor in a dependence by kernels and in another one.
-    #[error("`{0}` depends on others by kernels around joint measurements: it can be in no other dependence")]
-    KernelsAndMore(String),
     /// Two factors in more than one dependence.
     #[error("the correlation of `{0}` and `{1}` is stated twice")]
     Repeated(String, String),

@@ -2,7 +2,7 @@
 
 use super::context::{Context, Fault, choice, unknown_name, wrong};
 use super::error::Problem;
-use super::measured::{self, CopulaChoice};
+use super::measured;
 use super::sections::{At, Correlation, DependenceSection, NameList, StudyFile};
 use crate::space::{CorrelationMeasure, Dependence, Space};
 use crate::study::SurrogateChoice;
@@ -44,10 +44,6 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
     let names = factor_names(context, factors, space)?;
     let measured = measured_columns(context, section.get_ref())?;
     let text = |key: &At<String>| format!("{:?}", key.get_ref());
-    if let Some(copula) = section.get_ref().copula.as_ref().filter(|_| measured.is_none()) {
-        let expected = "it beside `file` or `measurements`: a copula is made of joint measurements";
-        return Err(context.fault(copula.span(), wrong("copula", expected, text(copula))));
-    }
     let measure = match measure {
         None => CorrelationMeasure::default(),
         Some(measure) if measured.is_some() => {
@@ -70,16 +66,7 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
             };
             Ok(Dependence::new(&names, matrix).measure(measure))
         }
-        (None, Some(columns)) => {
-            let copula = match &section.get_ref().copula {
-                None => CopulaChoice::default(),
-                Some(name) => choice(context, name, "copula", &CopulaChoice::ALL, CopulaChoice::name)?,
-            };
-            Ok(match copula {
-                CopulaChoice::Gaussian => Dependence::from_measurements(&names, &columns),
-                CopulaChoice::Kernel => Dependence::kernels(&names, &columns),
-            })
-        }
+        (None, Some(columns)) => Ok(Dependence::from_measurements(&names, &columns)),
         (_, measured) => {
             let problem = wrong(
                 "dependence",

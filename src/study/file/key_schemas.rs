@@ -4,7 +4,6 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
 use super::distribution_forms::FORMS;
-use super::measured::CopulaChoice;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
 use crate::design::Sampler;
 use crate::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
@@ -53,10 +52,6 @@ pub(super) fn measures() -> Value {
 
 pub(super) fn correlation_measures() -> Vec<&'static str> {
     names(&CorrelationMeasure::ALL, CorrelationMeasure::name)
-}
-
-pub(super) fn copulas() -> Vec<&'static str> {
-    names(&CopulaChoice::ALL, CopulaChoice::name)
 }
 
 pub(super) fn surrogates() -> Vec<&'static str> {

@@ -1,4 +1,4 @@
-//! `file = "measured.csv"`: the measured values of a factor, and what is made of those of several together.
+//! `file = "measured.csv"`: the measured values of a factor.
 
 use sha2::{Digest, Sha256};
 
@@ -9,28 +9,6 @@ use super::paths::{Reach, resolve};
 use crate::files::read_whole;
 use crate::names::nearest;
 use crate::space::distribution::MeasuredFile;
-
-/// What is made of joint measurements.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum CopulaChoice {
-    /// The Gaussian copula of their correlations.
-    #[default]
-    Gaussian,
-    /// Kernels around them.
-    Kernel,
-}
-
-impl CopulaChoice {
-    pub(super) const ALL: [Self; 2] = [Self::Gaussian, Self::Kernel];
-
-    /// The name in study files.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Gaussian => "gaussian",
-            Self::Kernel => "kernel",
-        }
-    }
-}
 
 /// Reads one column of numbers from a CSV file, whose path is relative to the study file: the column of that name, or
 /// the only one. A file whose first line is a number has no header. Empty lines are skipped.

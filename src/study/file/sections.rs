@@ -126,10 +126,6 @@ pub(super) struct DependenceSection {
     pub file: Option<At<String>>,
     /// In the place of `file`: the joint measurements themselves, each a list of one number for every factor.
     pub measurements: Option<At<Vec<Vec<f64>>>>,
-    /// What is made of joint measurements: a Gaussian copula of its correlations ("gaussian"), or a copula of kernels around its measurements
-    /// ("kernel"), which has tails that are tied and clouds that are bent as they have.
-    #[schemars(extend("enum" = key_schemas::copulas(), "default" = "gaussian"))]
-    pub copula: Option<At<String>>,
 }
 
 /// Correlations of factors.
