@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use apportion::design::Sampler;
 use apportion::model::ModelKind;
 use apportion::report::document::{DataFile, Document, DocumentError, Link, Part, Section, symbols};
 use apportion::report::{ResultFile, TRY, one_output, run_document};

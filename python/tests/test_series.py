@@ -18,10 +18,6 @@ def check(series, name="wave"):
             assert indices[factor].shape == (len(T), 3)
             assert np.abs(indices[factor][:, 0] - share).max() < 1e-6
         assert abs(series.total_of_all[factor].estimate - share.mean()) < 1e-6
-    directions = series.directions
-    assert len(directions) == 2 and abs(sum(of["share"] for of in directions) - 100) < 1e-6
-    assert directions[0]["loadings"].shape == T.shape
-    assert abs(directions[0]["first_order"].estimates.sum() - 1) < 1e-6
 
 
 def test_an_array_under_a_name_is_a_series():

@@ -1,6 +1,5 @@
 //! The result of a run as the engine knows it: from merged sums to indices with intervals, counts and reasons.
 
-mod directions;
 mod estimate;
 mod finished_run;
 mod measures;
@@ -10,7 +9,6 @@ mod series;
 mod unlikely;
 pub(crate) mod warnings;
 
-pub use directions::{Direction, NoDirections};
 pub(crate) use estimate::{analysis, interval_options, surrogates};
 pub(crate) use finished_run::{FinishedRun, LowTotals, outputs_kept};
 #[cfg(feature = "charts")]

@@ -1,6 +1,5 @@
-//! Outputs that are a series: one set of indices for all of its values, and its main directions.
+//! Outputs that are a series: one set of indices for all of its values.
 
-use super::directions::{Direction, NoDirections, OutputAnalyses, directions};
 use super::finished_run::FinishedRun;
 use crate::estimate::{MomentParts, Scaling, Undefined};
 use crate::model::{Model, OutputSeries};
@@ -16,8 +15,6 @@ pub struct SeriesAnalysis {
     /// Indices over all values together, which each value enters by its variance (Gamboa et al. 2014), of the factors, and
     /// then of the other swaps.
     pub aggregate: Result<AggregateIndices, Undefined>,
-    /// Its main directions, the one with the largest share of the variance first, or why there are none.
-    pub directions: Result<Vec<Direction>, NoDirections>,
 }
 
 /// What the run says of every series of its model; `whole` holds the counts over all replicates, `surrogates` what these make of
@@ -26,7 +23,6 @@ pub(super) fn series(
     run: &FinishedRun<'_>,
     whole: &Totals,
     surrogates: &[Option<SurrogateEstimates>],
-    analyses: OutputAnalyses<'_>,
 ) -> Vec<SeriesAnalysis> {
     let of_series = |series: &OutputSeries| {
         let plain = together(run.replicates, series.places(), Scaling::Plain, run);
@@ -39,7 +35,6 @@ pub(super) fn series(
                 Some(corrected) => plain.map(|plain| plain.corrected(&corrected)),
                 None => plain,
             },
-            directions: directions(run, series, whole, analyses),
         }
     };
     run.model.series().iter().map(of_series).collect()

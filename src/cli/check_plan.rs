@@ -262,7 +262,6 @@ fn memory(study: &Study) -> String {
         let (intervals, surrogate) = (study.analysis().intervals, study.analysis().surrogate);
         let needed = match intervals.keeps_outputs() {
             true => format!("intervals = \"{}\" need", intervals.name()),
-            false if !study.uses_surrogate(study.design()) => "the main directions of a series need".to_owned(),
             false => format!("surrogate = \"{}\" needs", surrogate.name()),
         };
         text.push_str(&format!("        and {:.1} MB for the outputs of all runs, which {needed}\n", bytes / 1e6));

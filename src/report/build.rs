@@ -8,11 +8,11 @@ use serde_json::Value;
 use super::build_output::OutputRecords;
 use super::records::dependence_record;
 use super::result::{
-    AggregateIndexRecord, AggregateRecord, ConstantRecord, DirectionRecord, EffortRecord, FactorRecord, LowRecord,
+    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, LowRecord,
     Provenance, ResultFile, RungRecord, SeriesRecord, SpendingRecord, StoppingRecord, StudyRecord, ValidityRecord,
     estimate_record,
 };
-use crate::analysis::{Analysis, Direction, LowRuns, SeriesAnalysis, Spending};
+use crate::analysis::{Analysis, LowRuns, SeriesAnalysis, Spending};
 use crate::estimate::{FirstOrder, Scaling, Total};
 use crate::model::{EVALUATIONS, LARGEST_ERROR, RUNGS};
 use crate::quantity::Unit;
@@ -207,9 +207,8 @@ fn together_record(study: &Study, all: &AggregateIndices, factor: usize) -> Aggr
 }
 
 fn series_record(study: &Study, analysis: &Analysis, found: &SeriesAnalysis) -> SeriesRecord {
-    let SeriesAnalysis { series, aggregate, directions } = found;
+    let SeriesAnalysis { series, aggregate } = found;
     let unit = &analysis.outputs[series.first].unit;
-    let directions = directions.as_ref();
     SeriesRecord {
         name: series.name.clone(),
         unit: unit.to_string(),
@@ -219,29 +218,5 @@ fn series_record(study: &Study, analysis: &Analysis, found: &SeriesAnalysis) -> 
         positions: series.axis.positions().to_vec(),
         indices: aggregate.as_ref().ok().map(|all| together_records(study, all)),
         reason: aggregate.as_ref().err().map(ToString::to_string),
-        directions: directions.ok().map(|all| all.iter().map(|one| direction_record(study, unit, one)).collect()),
-        no_directions: directions.err().map(ToString::to_string),
-    }
-}
-
-fn direction_record(study: &Study, unit: &Unit, direction: &Direction) -> DirectionRecord {
-    let indices = direction.score.indices.as_ref();
-    let factors = || study.space.factors().iter();
-    let known = |(factor, _): &(&crate::space::Factor, &EffectEstimates)| !factor.distribution().is_noise();
-    let record = |(factor, effect): (&crate::space::Factor, &EffectEstimates)| AggregateIndexRecord {
-        factor: factor.name.clone(),
-        first_order: estimate_record(effect.first_order),
-        total: estimate_record(effect.total),
-    };
-    DirectionRecord {
-        share: 100.0 * direction.share,
-        loadings: direction.loadings.iter().map(|y| unit.span_from_si(*y)).collect(),
-        // Indices of dependent factors sum to nothing.
-        sum_first_order: indices
-            .ok()
-            .filter(|_| study.space.copula().is_none())
-            .map(|indices| estimate_record(indices.sum_first_order)),
-        indices: indices.ok().map(|all| factors().zip(&all.factors).filter(known).map(record).collect()),
-        reason: indices.err().map(ToString::to_string),
     }
 }

@@ -3,8 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::document::{Cell, Column, Mark, Part, Section, Table};
-use super::format::{grouped, name, share_of_runs, significant, three_digits, unit, value};
-use super::listed;
+use super::format::{grouped, name, share_of_runs, significant, unit, value};
 use super::records::{FactorSetup, StudySetup};
 use super::result::{ConstantRecord, CorrelationRecord, ValidityRecord};
 

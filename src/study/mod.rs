@@ -220,14 +220,7 @@ impl Study {
 
     /// Whether the estimates need the outputs of every run, and not their sums alone.
     pub fn needs_outputs(&self) -> bool {
-        self.analysis.intervals.keeps_outputs() || self.uses_surrogate(&self.design) || self.needs_directions()
-    }
-
-    /// Whether the outputs of every run are kept for the main directions of a series: where that takes little memory.
-    fn needs_directions(&self) -> bool {
-        let model = self.model();
-        let values = self.design.rows().saturating_mul(model.outputs().len() as u64);
-        !model.series().is_empty() && values <= MOST_VALUES_OF_SERIES && !self.target.grows()
+        self.analysis.intervals.keeps_outputs() || self.uses_surrogate(&self.design)
     }
 
     /// The choices in force, such as the protocol of a program, in the terms of the study file.

@@ -152,9 +152,6 @@ pub(super) const MOST_AUTOMATIC_VALUES: u64 = 1 << 16;
 /// The same for programs, whose runs take longer than any fit: all outputs must fit into memory.
 pub(super) const MOST_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;
 
-/// Rows times outputs up to which the outputs of a study with a series are kept, for its main directions: 256 MiB.
-pub(super) const MOST_VALUES_OF_SERIES: u64 = 1 << 25;
-
 /// How well the indices must be known, and what that may cost: a run goes on by doubling until one of these is reached. A
 /// run without any has the size that its design says.
 ///

@@ -11,7 +11,7 @@ use super::influence::{Influences, LeftOut};
 use super::method::IntervalMethod;
 use super::noise::Noise;
 use super::output::{Judged, agreeing};
-use crate::estimate::{FirstOrder, Indices, MomentParts, Moments, Scaling, Total, Undefined, aggregated};
+use crate::estimate::{Indices, MomentParts, Moments, Scaling, Undefined, aggregated};
 
 /// Aggregated indices of every swap.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,10 @@
-//! Outputs that are series: indices of single values, of the whole, and of the main directions, where they are known.
+//! Outputs that are series: indices of single values and of the whole, where they are known.
 
 use std::f64::consts::TAU;
 
 use apportion::report::{ResultFile, run_document};
 use apportion::{
-    Analysis, CorrelationMeasure, Dependence, Distribution, FunctionModel, NoDirections, RowFailure, SeriesAxis, Study,
+    Analysis, CorrelationMeasure, Dependence, Distribution, FunctionModel, RowFailure, SeriesAxis, Study,
     StudyBuilder, SurrogateChoice, Target, Unit,
 };
 
@@ -66,21 +66,6 @@ fn two_factors_with_a_direction_each() {
         }
         let series = analysis.series("y").unwrap();
         assert!(series.aggregate.as_ref().unwrap().total.iter().all(|index| index.interval.is_some()));
-        let directions = series.directions.as_ref().unwrap();
-        assert_eq!(directions.len(), 2);
-        for (number, (direction, share)) in directions.iter().zip([0.8, 0.2]).enumerate() {
-            near(direction.share, share, tolerance);
-            for (place, index) in direction.score.indices.as_ref().unwrap().factors.iter().enumerate() {
-                let expected = f64::from(u8::from(place == number));
-                near(index.first_order.estimate, expected, tolerance);
-                near(index.total.estimate, expected, tolerance);
-            }
-        }
-        // One standard deviation of x1 is 1/sqrt(3); which end of it is the positive one, the largest loading says.
-        let sign = directions[0].loadings[count / 4].signum();
-        for (t, loading) in turn(count).into_iter().zip(&directions[0].loadings) {
-            near(*loading, sign * 2.0 * t.sin() / 3.0_f64.sqrt(), 2.0 * tolerance);
-        }
     }
 }
 
@@ -93,18 +78,10 @@ fn interactions_along_a_series() {
     for (found, expected) in first_order.iter().chain(&total).zip([0.8, 0.0, 1.0, 0.2]) {
         near(*found, expected, 0.01);
     }
-    let directions = analysis.series("y").unwrap().directions.as_ref().unwrap();
-    let second = &directions[1].score;
-    near(directions[1].share, 0.2, 3e-3);
-    for name in ["x1", "x2"] {
-        near(second.factor(name).unwrap().first_order.estimate, 0.0, 0.01);
-        near(second.factor(name).unwrap().total.estimate, 1.0, 0.01);
-    }
 }
 
 #[test]
-fn the_whole_is_the_mean_of_values_and_of_directions() {
-    // The generalised index is the same in any orthogonal directions: sum of shares times indices.
+fn the_whole_is_the_mean_of_values() {
     let wave = |x: &[f64], t: f64| Some((x[0] * t).sin() + x[1] * x[2] * t + x[2].exp() * t.cos());
     let positions: Vec<f64> = (0..5).map(f64::from).collect();
     let mut options = apportion::AnalysisOptions::for_sampler(apportion::Sampler::Sobol);
@@ -114,24 +91,17 @@ fn the_whole_is_the_mean_of_values_and_of_directions() {
     let (_, total) = whole(&analysis);
     let variances: Vec<f64> = analysis.outputs.iter().map(|output| output.values.variance().unwrap()).collect();
     let all: f64 = variances.iter().sum();
-    let directions = analysis.series("y").unwrap().directions.as_ref().unwrap();
-    let share: f64 = directions.iter().map(|direction| direction.share).sum();
-    assert!(share > 0.95 && share < 1.0 + 1e-12 && directions.is_sorted_by(|a, b| a.share >= b.share));
     for (place, name) in ["a", "b", "c"].into_iter().enumerate() {
         let of_value = |(output, variance): (&apportion::OutputAnalysis, &f64)| {
             variance / all * output.factor(name).unwrap().total.estimate
         };
         let by_values: f64 = analysis.outputs.iter().zip(&variances).map(of_value).sum();
         near(total[place], by_values, 1e-12);
-        let of_direction = |one: &apportion::Direction| one.share * one.score.factor(name).unwrap().total.estimate;
-        let by_directions: f64 = directions.iter().map(of_direction).sum();
-        // What the last directions leave is at most their share.
-        assert!(by_directions < total[place] + 1e-3 && by_directions > total[place] - (1.0 - share) - 1e-3);
     }
 }
 
 #[test]
-fn runs_that_fail_have_no_score_and_threads_do_not_matter() {
+fn runs_that_fail_are_left_out_and_threads_do_not_matter() {
     let wave = |x: &[f64], t: f64| (x[0] < 0.9).then(|| x[0] * t.sin() + 0.3 * x[1] * t.cos());
     let study = |threads| {
         let mut options = apportion::AnalysisOptions::for_sampler(apportion::Sampler::Sobol);
@@ -141,22 +111,12 @@ fn runs_that_fail_have_no_score_and_threads_do_not_matter() {
     };
     let (one, two) = (study(1), study(2));
     assert_eq!(format!("{:?}", one.series), format!("{:?}", two.series));
-    let directions = one.series("y").unwrap().directions.as_ref().unwrap();
-    assert_eq!(directions[0].score.runs_failed, one.outputs[0].runs_failed);
     assert!(one.outputs[0].runs_failed > 0);
-    near(directions[0].score.factor("x1").unwrap().first_order.estimate, 1.0, 0.02);
 }
 
 #[test]
-fn without_outputs_or_variance_there_are_no_directions() {
-    let wave = |x: &[f64], t: f64| Some(x[0] * t.sin());
-    let growing = study(&["x1"], turn(4), wave).until(Target::half_width(0.5)).build().unwrap();
-    let analysis = growing.run().unwrap();
-    let series = analysis.series("y").unwrap();
-    assert!(series.aggregate.is_ok());
-    assert_eq!(series.directions.as_ref().unwrap_err(), &NoDirections::NotKept);
+fn a_series_without_variance_has_no_indices() {
     let still = study(&["x1"], turn(4), |_, _| Some(1.0)).base_samples(64).build().unwrap().run().unwrap();
-    assert_eq!(still.series("y").unwrap().directions.as_ref().unwrap_err(), &NoDirections::NoVariance);
     assert!(still.series("y").unwrap().aggregate.is_err());
     assert!(still.series("z").unwrap_err().to_string().contains("no series `z`; there are: y"));
 }
@@ -200,8 +160,6 @@ fn a_series_beside_noise_names_its_factors_right() {
     let indices = result.series[0].indices.as_ref().unwrap();
     assert_eq!(indices.iter().map(|index| index.factor.as_str()).collect::<Vec<_>>(), ["x1", "x2"]);
     near(indices[0].total.estimate, 0.8, 0.02);
-    let first = &result.series[0].directions.as_ref().unwrap()[0];
-    near(first.indices.as_ref().unwrap()[0].total.estimate, 1.0, 0.02);
     assert!(run_document(&result).html().unwrap().contains("noise (seed)"));
 }
 

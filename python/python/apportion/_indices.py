@@ -241,17 +241,6 @@ class SeriesResult:
         """Total indices of the whole series."""
         return _of_factors(self.record["indices"], "total")
 
-    @property
-    def directions(self) -> list[dict[str, Any]]:
-        """Main directions: the `share` of the variance of all values in percent, the `loadings`, what a standard deviation of the
-        score adds to every value, and the indices of the score, `first_order` and `total`."""
-        records = self.record["directions"] or []
-        kinds = ("first_order", "total")
-        return [
-            {"share": of["share"], "loadings": np.array(of["loadings"])} | {k: _of_factors(of["indices"], k) for k in kinds}
-            for of in records
-        ]
-
     def _against(self, kind: str) -> dict[str, np.ndarray]:
         indices = [getattr(value, kind) for value in self.values]
         names = next((list(of) for of in indices if len(of)), [])

@@ -17,7 +17,7 @@ pub use indices::{indices_chart, interactions_chart};
 pub(super) use map::{map_chart, overall_order, together_chart};
 pub use pairs::pairs_chart;
 pub use scatter::scatter_chart;
-pub(super) use series::{SeriesOf, along_chart, directions_chart, layers_chart};
+pub(super) use series::{SeriesOf, along_chart, layers_chart};
 
 use super::format::name;
 use super::result::{OutputRecord, ResultFile};

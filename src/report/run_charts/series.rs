@@ -1,4 +1,4 @@
-//! Charts of a series: its indices against its axis, its variance as a stack of shares, and its main directions.
+//! Charts of a series: its indices against its axis, and its variance as a stack of shares.
 
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape};
 use super::super::factor_bars::INDEX;
@@ -168,23 +168,4 @@ pub(in crate::report) fn layers_chart(of: SeriesOf<'_>) -> Chart {
         }
     };
     Chart::new(of.title("shares of the variance"), caption).panels([panel])
-}
-
-/// What one standard deviation of the score of each main direction adds to every value.
-pub(in crate::report) fn directions_chart(of: SeriesOf<'_>) -> Chart {
-    let line = |(number, direction): (usize, &super::super::result::DirectionRecord)| {
-        let name = format!("direction {} ({} %)", number + 1, fixed(direction.share, 1));
-        let points = of.series.positions.iter().copied().zip(direction.loadings.iter().copied());
-        Series::new(name, Colour::Series(COLOURS[number % COLOURS.len()])).line(points.collect())
-    };
-    let lines = of.series.directions.iter().flatten().enumerate().map(line);
-    let y = Axis::new(format!("change of {}", name(&of.series.name)), axis_unit(&of.series.unit));
-    let panel = Panel::new(of.axis(), y).with(lines);
-    let caption = match &of.series.no_directions {
-        Some(reason) => format!("No main directions: {reason}."),
-        None => "What one standard deviation of each score adds to the series; in brackets its share of the variance of all \
-                 values together."
-            .to_owned(),
-    };
-    Chart::new(of.title("main directions"), caption).panels([panel])
 }

@@ -58,8 +58,8 @@ pub(super) fn overview_stems(study: &str, axes: usize) -> Vec<String> {
 }
 
 /// What the names of the charts of a series end in: its indices along the axis, the shares of its variance, the indices of
-/// the whole, the map, and its main directions.
-pub(super) const SERIES_SUFFIXES: [&str; 5] = ["-along", "-layers", "-together", "-map", "-directions"];
+/// the whole, and the map.
+pub(super) const SERIES_SUFFIXES: [&str; 4] = ["-along", "-layers", "-together", "-map"];
 
 /// Series whose charts are files; those of more are on the page alone.
 const SERIES_WITH_FILES: usize = 3;

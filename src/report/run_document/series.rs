@@ -1,4 +1,4 @@
-//! What the document says of a series: its indices along the axis, as a whole, and in its main directions.
+//! What the document says of a series: its indices along the axis and as a whole.
 
 use super::figures::{Figures, SERIES_SUFFIXES};
 use super::output::definitions;
@@ -8,14 +8,12 @@ use crate::report::format::{fixed, give_or_take, heading, name, significant};
 use crate::report::listed;
 use crate::report::output_axis::OutputAxis;
 use crate::report::result::{
-    AggregateIndexRecord, AggregateRecord, DirectionRecord, OutputRecord, ResultFile, SeriesRecord,
+    AggregateIndexRecord, AggregateRecord, OutputRecord, ResultFile, SeriesRecord,
 };
-use crate::report::run_charts::{SeriesOf, along_chart, directions_chart, layers_chart, map_chart, together_chart};
+use crate::report::run_charts::{SeriesOf, along_chart, layers_chart, map_chart, together_chart};
 
 /// Series that are told with all their charts, and whose single values are told too.
 const IN_FULL: usize = 4;
-/// Factors beside each direction.
-const COLUMNS: usize = 8;
 /// Bytes of the page that may be tables of single values, of all series together.
 const BYTES: usize = 800_000;
 /// Most stretches of the axis in a sentence.
@@ -116,7 +114,7 @@ fn in_full(
     is_first: bool,
 ) -> Vec<Part> {
     let (alone, study) = (figures.result, &of.result.study.name);
-    let [along, layers, together, map, directions] = stems;
+    let [along, layers, together, map] = stems;
     let mut parts = overview::mind(alone);
     if is_first {
         parts.extend(definitions(of.result));
@@ -151,8 +149,6 @@ fn in_full(
         numbers: Some(of.series.positions.clone()),
     };
     parts.push(figures.add(map_chart(alone, &axis), "map", map));
-    parts.push(Part::Heading("Main directions".to_owned()));
-    parts.extend(main_directions(of, figures, directions));
     parts
 }
 
@@ -164,49 +160,6 @@ fn single_values(figures: &mut Figures<'_>, bytes: usize) -> Vec<Part> {
     ];
     let told = told.into_iter().filter(|(_, parts)| !parts.is_empty());
     told.flat_map(|(title, parts)| std::iter::once(Part::Heading(title.to_owned())).chain(parts)).collect()
-}
-
-/// The principal components of the series, and what decides how far a run goes in each.
-fn main_directions(of: SeriesOf<'_>, figures: &mut Figures<'_>, stem: &str) -> Vec<Part> {
-    let figure = figures.add(directions_chart(of), "directions", stem);
-    let Some(directions) = &of.series.directions else {
-        let reason = of.series.no_directions.as_deref().unwrap_or("the result holds none");
-        let text = format!("There are no main directions: {reason}.");
-        // The chart says the same.
-        return vec![
-            Part::Notice { mark: Mark::Plain, kind: "Not known".to_owned(), texts: vec![text] },
-            Part::OnPage(vec![figure]),
-        ];
-    };
-    let shares: f64 = directions.iter().map(|direction| direction.share).sum();
-    let text = format!(
-        "The principal components of the values over the rows A and B, until they have 95 % of the variance and at most five: \
-         {} {} % of it together. The score of a run, how far it goes in a direction, is an output with indices like any other; \
-         a direction that one factor decides alone is what that factor does to the series.",
-        if directions.len() == 1 { "this one has" } else { "these have" },
-        fixed(shares, 1)
-    );
-    let order: Vec<usize> = of.order().into_iter().take(COLUMNS).collect();
-    let table = |caption: &str, read: fn(&AggregateIndexRecord) -> crate::report::result::EstimateRecord| {
-        let row = |(number, direction): (usize, &DirectionRecord)| -> Vec<Cell> {
-            let of_factor = |factor: &usize| -> Cell {
-                let index = direction.indices.as_ref().and_then(|indices| indices.get(*factor));
-                index.map_or_else(|| "–".to_owned(), |index| give_or_take(read(index))).into()
-            };
-            let mut row: Vec<Cell> = vec![format!("direction {}", number + 1).into(), fixed(direction.share, 1).into()];
-            row.extend(order.iter().map(of_factor));
-            row
-        };
-        let mut columns = vec![Column::text("score"), Column::number("% of the variance")];
-        columns.extend(order.iter().map(|&factor| Column::number(name(&of.result.factors[factor].name))));
-        Table::new(caption, columns).with_rows(directions.iter().enumerate().map(row))
-    };
-    vec![
-        Part::OnPage(vec![Part::Text(text)]),
-        figure,
-        table("Total indices S_T of the scores.", |index| index.total).into(),
-        table("First-order indices S_1 of the scores.", |index| index.first_order).into(),
-    ]
 }
 
 /// The paragraph at the top on a series: who leads over all of it, and where along its axis.
