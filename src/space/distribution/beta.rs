@@ -3,7 +3,7 @@
 //! The quantile is solved here rather than taken from statrs 0.19, whose `inv_beta_reg` stops at an absolute 1e-17
 //! (at alpha = 0.01, beta = 50 a quantile in the middle is off by 8 %) and takes up to 13 us.
 
-use super::error::{bounds, within};
+use super::error::{bounds, finite, positive, within};
 use super::family::{Family, Parameter};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
@@ -52,6 +52,26 @@ impl Distribution {
         let width = bounds(min, max, "beta")?;
         let (lower, upper) = (Side::new(alpha, beta), Side::new(beta, alpha));
         Self::Beta(Beta { alpha, beta, min, max, width, lower, upper }).finite()
+    }
+
+    /// The beta distribution on [`min`, `max`] of this mean and standard deviation.
+    ///
+    /// # Formula
+    ///
+    /// With the mean m and the variance v on [0, 1]: alpha = c m and beta = c (1 - m), where c = m (1 - m)/v - 1.
+    ///
+    /// # Errors
+    ///
+    /// As of [`beta`](Self::beta), and if no beta distribution has that mean and standard deviation.
+    pub fn beta_of_mean(mean: f64, sd: f64, min: f64, max: f64) -> Result<Self, DistributionError> {
+        let width = bounds(min, max, "beta")?;
+        let (m, spread) = ((finite("mean", mean)? - min) / width, positive("sd", sd)? / width);
+        let c = m * (1.0 - m) / (spread * spread) - 1.0;
+        if c.is_nan() || c <= 0.0 {
+            let statements = format!("mean = {mean} and sd = {sd}");
+            return Err(DistributionError::NoSuchDistribution { distribution: "beta", statements, first: "mean" });
+        }
+        Self::beta(c * m, c * (1.0 - m), min, max)
     }
 }
 

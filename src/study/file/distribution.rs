@@ -106,6 +106,10 @@ impl Keys<'_> {
             }
             "log-normal" => Distribution::log_normal(self.number("mean")?, self.number("sd")?),
             "triangular" => Distribution::triangular(self.number("min")?, self.number("mode")?, self.number("max")?),
+            "beta" if self.fields.mean.is_some() || self.fields.sd.is_some() => {
+                let (mean, sd) = (self.number("mean")?, self.number("sd")?);
+                Distribution::beta_of_mean(mean, sd, self.number("min")?, self.number("max")?)
+            }
             "beta" => {
                 let (alpha, beta) = (self.number("alpha")?, self.number("beta")?);
                 Distribution::beta(alpha, beta, self.number("min")?, self.number("max")?)

@@ -1,6 +1,5 @@
 //! Distributions by what people know of a factor: its mean and scatter, its mode, two of its quantiles.
 
-mod bounded;
 mod root;
 mod scaled;
 mod statistic;
@@ -8,94 +7,48 @@ mod statistic;
 use std::fmt::Write;
 
 use super::{Distribution, DistributionError};
+use crate::names::named;
 pub use statistic::Statistic;
 
+named! {
 /// A family that what is known of a factor can determine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law {
     /// [`Distribution::uniform`], by two.
-    Uniform,
+    Uniform = "uniform",
     /// [`Distribution::log_uniform`], by two.
-    LogUniform,
+    LogUniform = "log-uniform",
     /// [`Distribution::normal`], by two.
-    Normal,
+    Normal = "normal",
     /// [`Distribution::log_normal`], by two.
-    LogNormal,
+    LogNormal = "log-normal",
     /// [`Distribution::gumbel`], by two.
-    Gumbel,
+    Gumbel = "gumbel",
     /// [`Distribution::weibull`], by two and location 0, or by three.
-    Weibull,
+    Weibull = "weibull",
     /// [`Distribution::gamma`], by two and location 0, or by three.
-    Gamma,
+    Gamma = "gamma",
     /// [`Distribution::exponential`], by one and location 0, or by two.
-    Exponential,
+    Exponential = "exponential",
     /// [`Distribution::logistic`], by two.
-    Logistic,
+    Logistic = "logistic",
     /// [`Distribution::student_t`], by three.
-    StudentT,
+    StudentT = "student-t",
     /// [`Distribution::pareto`], by two.
-    Pareto,
+    Pareto = "pareto",
     /// [`Distribution::inverse_gaussian`], by two.
-    InverseGaussian,
+    InverseGaussian = "inverse-gaussian",
     /// [`Distribution::triangular`], by three.
-    Triangular,
-    /// [`Distribution::beta`], by its bounds and two.
-    Beta,
-    /// [`Distribution::truncated_normal`], by its bounds and two.
-    TruncatedNormal,
-    /// [`Distribution::truncated_gumbel`], by its bounds and two.
-    TruncatedGumbel,
+    Triangular = "triangular",
+}
 }
 
 /// What is stated, each with its value.
 type Statement = (Statistic, f64);
 
 impl Law {
-    /// All of them.
-    pub const ALL: [Self; 16] = [
-        Self::Uniform,
-        Self::LogUniform,
-        Self::Normal,
-        Self::LogNormal,
-        Self::Gumbel,
-        Self::Weibull,
-        Self::Gamma,
-        Self::Exponential,
-        Self::Logistic,
-        Self::StudentT,
-        Self::Pareto,
-        Self::InverseGaussian,
-        Self::Triangular,
-        Self::Beta,
-        Self::TruncatedNormal,
-        Self::TruncatedGumbel,
-    ];
-
-    /// The name in study files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Uniform => "uniform",
-            Self::LogUniform => "log-uniform",
-            Self::Normal => "normal",
-            Self::LogNormal => "log-normal",
-            Self::Gumbel => "gumbel",
-            Self::Weibull => "weibull",
-            Self::Gamma => "gamma",
-            Self::Exponential => "exponential",
-            Self::Logistic => "logistic",
-            Self::StudentT => "student-t",
-            Self::Pareto => "pareto",
-            Self::InverseGaussian => "inverse-gaussian",
-            Self::Triangular => "triangular",
-            Self::Beta => "beta",
-            Self::TruncatedNormal => "truncated-normal",
-            Self::TruncatedGumbel => "truncated-gumbel",
-        }
-    }
-
     /// Whether `statistic` can be stated of the family.
     pub fn takes(self, statistic: Statistic) -> bool {
-        use Statistic::{Alpha, Beta, Df, Location, LogMean, LogSd, Max, Mean, Min, Mode, Scale, Sd, Shape};
+        use Statistic::{Df, Location, LogMean, LogSd, Max, Mean, Min, Mode, Scale, Sd, Shape};
         let others: &[Statistic] = match self {
             Self::Uniform | Self::LogUniform => &[Min, Max, Mean, Sd],
             Self::Normal => &[Mean, Sd, Mode],
@@ -108,9 +61,6 @@ impl Law {
             Self::Pareto => &[Min, Shape, Mean, Sd],
             Self::InverseGaussian => &[Mean, Scale, Sd, Mode],
             Self::Triangular => &[Min, Mode, Max, Mean, Sd],
-            Self::Beta => &[Min, Max, Alpha, Beta, Mean, Sd, Mode],
-            Self::TruncatedNormal => &[Min, Max, Mean, Sd, Mode],
-            Self::TruncatedGumbel => &[Min, Max, Location, Scale, Mode],
         };
         statistic.is_quantile() || others.contains(&statistic)
     }
@@ -138,15 +88,6 @@ impl Law {
             Self::Pareto => "two of shape, min, mean, sd, p01, p05, p10, p25, p50, p75, p90, p95, p99",
             Self::InverseGaussian => "two of mean, scale, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99",
             Self::Triangular => "three of min, mode, max, mean, sd, p01, p05, p10, p25, p50, p75, p90, p95, p99",
-            Self::Beta => {
-                "min, max and two of alpha, beta, mean, sd, mode, p01, p05, p10, p25, p50, p75, p90, p95, p99"
-            }
-            Self::TruncatedNormal => {
-                "min, max and two of mean, sd, mode (all three before truncation), p01, p05, p10, p25, p50, p75, p90, p95, p99"
-            }
-            Self::TruncatedGumbel => {
-                "min, max and two of location, scale, mode (all three before truncation), p01, p05, p10, p25, p50, p75, p90, p95, p99"
-            }
         }
     }
 
@@ -163,9 +104,6 @@ impl Law {
             Self::Weibull | Self::Gamma => stated.len() == 3 || stated.len() == 2 && !states(Statistic::Location),
             Self::Exponential => stated.len() == 2 || stated.len() == 1 && !states(Statistic::Location),
             Self::Triangular | Self::StudentT => stated.len() == 3,
-            Self::Beta | Self::TruncatedNormal | Self::TruncatedGumbel => {
-                stated.len() == 4 && states(Statistic::Min) && states(Statistic::Max)
-            }
         }
     }
 }
@@ -173,7 +111,7 @@ impl Law {
 impl Distribution {
     /// The distribution of the family `law` of which all of `stated` is true.
     ///
-    /// Closed forms where a location and a scale are asked for; else a root in the one or two shapes, to the last
+    /// Closed forms where a location and a scale are asked for; else a root in the shape, to the last
     /// digits: each statement then holds to 1e-9 standard deviations. Where several distributions of the family fit
     /// (a log-normal one of given mean and 95 % quantile may be narrow or wide), it is the narrowest.
     ///
@@ -195,11 +133,7 @@ impl Distribution {
     /// ```
     pub fn stated(law: Law, stated: &[(Statistic, f64)]) -> Result<Self, DistributionError> {
         check(law, stated)?;
-        let found = match law {
-            Law::Beta | Law::TruncatedNormal | Law::TruncatedGumbel => bounded::solve(law, stated),
-            _ => scaled::solve(law, stated),
-        };
-        found.ok_or_else(|| DistributionError::NoSuchDistribution {
+        scaled::solve(law, stated).ok_or_else(|| DistributionError::NoSuchDistribution {
             distribution: law.name(),
             statements: in_words(stated),
             first: stated[0].0.name(),
@@ -267,7 +201,6 @@ fn is_as_stated(
         let Some(found) = value_of(*statistic) else { return false };
         // Of pure numbers, such as shapes, the relative error counts.
         let tolerance = match statistic {
-            Statistic::Alpha | Statistic::Beta => 1e-9 * value.abs(),
             shape if shape.is_shape() => 1e-9 * value.abs(),
             Statistic::LogMean => 1e-9,
             _ => 1e-9 * scale + 1e-13 * value.abs(),

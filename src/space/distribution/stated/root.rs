@@ -28,7 +28,7 @@ pub(super) fn first_zero<T>(
 }
 
 /// The zero between `low` (with its value) and `high`, where the function has the other sign.
-pub(super) fn bisected((mut low, start): (f64, f64), mut high: f64, function: &impl Fn(f64) -> f64) -> f64 {
+fn bisected((mut low, start): (f64, f64), mut high: f64, function: &impl Fn(f64) -> f64) -> f64 {
     loop {
         let middle = low + (high - low) / 2.0;
         if middle == low || middle == high {

@@ -60,7 +60,6 @@ fn standard(law: Law, shape: f64) -> Option<Distribution> {
         Law::Pareto => Distribution::pareto(shape, 1.0),
         Law::InverseGaussian => Distribution::inverse_gaussian(1.0, shape.powi(-2)),
         Law::Triangular => Distribution::triangular(0.0, shape, 1.0),
-        Law::Beta | Law::TruncatedNormal | Law::TruncatedGumbel => return None,
     }
     .ok()
 }
@@ -217,7 +216,6 @@ fn made(law: Law, location: f64, scale: f64, shape: f64, stated: &[Statement]) -
             let (min, max) = (or(Statistic::Min, location), or(Statistic::Max, location + scale));
             Distribution::triangular(min, or(Statistic::Mode, location + scale * shape).clamp(min, max), max)
         }
-        Law::Beta | Law::TruncatedNormal | Law::TruncatedGumbel => return None,
     }
     .ok()
 }
