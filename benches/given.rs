@@ -2,7 +2,9 @@
 //!
 //! Coverage of the 95 % intervals and root mean square error of both estimators, averaged over the inputs, over many
 //! seeds; then the share of tables taken for quasi-random or refused, by kind of points; then the time an analysis takes.
+//! `-- coverage 40` prints the table of `docs/existing-runs.md` alone, of 40 seeds.
 
+mod given_coverage;
 #[path = "../tests/suite/points.rs"]
 mod points;
 
@@ -127,6 +129,10 @@ fn detection() {
 }
 
 fn main() {
+    if std::env::args().any(|argument| argument == "coverage") {
+        let seeds = std::env::args().find_map(|argument| argument.parse().ok());
+        return println!("{}", given_coverage::table(seeds.unwrap_or(40)));
+    }
     println!("function, rows, estimator; {SEEDS} seeds:");
     for case in cases() {
         for rows in [30, 100, 300, 1000, 10_000] {

@@ -57,7 +57,7 @@ pub(super) fn of_output(output: &Column, inputs: &[Column], orders: &[Order], se
             input: input.name.clone(),
             constant: order.groups() < 2,
             rank: settings.rank.then(|| rank::of_order(order, &z, (settings.seed, j as u64))),
-            binned: settings.binned.then(|| binned::of_order(order, &z, settings.independent)),
+            binned: settings.binned.then(|| binned::of_order(order, &input.values, &z, settings.independent)),
         })
         .collect()
     });

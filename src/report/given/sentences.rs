@@ -9,11 +9,9 @@ pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateRe
     let bins = bins_for(indices.rows);
     let binned = match indices.points {
         PointSet::Independent => {
-            format!(
-                "binned: variance of the means over {bins} bins of equal probability, less that of noise (epsilon squared)"
-            )
+            format!("binned: variance of lines in {bins} bins of equal probability, less that of noise")
         }
-        _ => format!("binned: variance of the means over {bins} bins of equal probability"),
+        _ => format!("binned: variance of lines in {bins} bins of equal probability"),
     };
     let ranked = method != Method::Binned && indices.points == PointSet::Independent;
     let surrogate = surrogates.and_then(|result| result.as_ref().ok()).map(|all| {
