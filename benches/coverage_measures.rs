@@ -261,7 +261,7 @@ fn delta_cases() -> Vec<DeltaCase> {
     ]
 }
 
-/// Delta of runs of nets, and of random rows, by its own resamples and twins.
+/// Delta of runs of nets, and of random rows, by its own resamples.
 fn deltas(text: &mut String, seeds: u64) {
     let sizes = [100u64, 512];
     let heads = sizes.map(|n| format!("{} rows", 2 * n)).join(" | ");
@@ -304,7 +304,7 @@ fn given(text: &mut String, seeds: u64) {
     let indices = SLOPES.map(|slope| slope * slope / all);
     let deltas = indices.map(exact_delta);
     let mut held: [[Held; 3]; 2] = Default::default();
-    let mut found = [[[0.0; 4]; 7]; 2];
+    let mut found = [[[0.0; 4]; Measure::ALL.len()]; 2];
     for (place, rows) in ROWS.into_iter().enumerate() {
         for seed in 0..seeds {
             let mut builder = Study::builder("given", function_model("y", |x: &[f64]| x[0])).sampler(Sampler::Random);
@@ -380,11 +380,10 @@ fn main() {
     }
     shapley(&mut text, seeds);
     text += "\n## Measures of given data\n\nA sum of four independent normal inputs with slopes 3, 2, 1 and 0, random rows. \
-             The interval of delta is the union of that of resamples and that of a twin whose delta is known, and reaches up to what \
-             narrower kernels in finer classes point to ([how](given-data-format.md)).\n\n";
+             The interval of delta is that of resamples, and reaches up to what narrower kernels in finer classes point to ([how](given-data-format.md)).\n\n";
     given(&mut text, seeds);
     text += "\n## Delta of a run\n\n`measures = [\"delta\"]` in `[analysis]`: the first rows A and B, of random points and of four nets. The \
-             estimate is less its bias by resamples (Plischke, Borgonovo and Smith 2013); of an input that is idle every table in which \
+             estimate is less what permutations put there; of an input that is idle every table in which \
              the interval reaches 0 holds the truth. 40 seeds. In wide classes and under wide kernels little is seen of an output that goes \
              up and down with an input, as Ishigami's function does: its estimates are too small; the upper ends of their intervals \
              allow for that. Once, on Latin hypercubes, the intervals of the sum of normals held in 98.6 % (act) and 92.9 % (idle) of 140 \

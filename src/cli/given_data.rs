@@ -41,7 +41,7 @@ pub struct Arguments {
     /// knows the distributions is more accurate
     #[arg(long, value_name = "STUDY")]
     study: Option<PathBuf>,
-    /// Other measures too: Borgonovo's delta, distances after Kolmogorov and Kuiper, PAWN, R2-HSIC, and S_1 by the spectrum
+    /// Other measures too: Borgonovo's delta, the distance of Kolmogorov, PAWN, R2-HSIC, and S_1 by the spectrum
     #[arg(long)]
     measures: bool,
     /// Leave out rows without a value in one of these columns, and count them

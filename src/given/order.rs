@@ -3,6 +3,9 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+/// For every row the number of its class, from 0, and how many classes there are.
+pub(super) type Partition = (Vec<usize>, usize);
+
 /// Rows sorted by a column, with its ties.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Order {
@@ -15,13 +18,32 @@ pub(super) struct Order {
 impl Order {
     /// The order of `values`, which are finite. -0 and 0 are equal.
     pub fn of(values: &[f64]) -> Self {
+        Self::of_rounded(values, 0.0)
+    }
+
+    /// The same where neighbours that differ by at most this part of their size are equal.
+    pub fn of_rounded(values: &[f64], part: f64) -> Self {
         let mut rows: Vec<usize> = (0..values.len()).collect();
         let by_value = |a: &usize, b: &usize| (values[*a] + 0.0).total_cmp(&(values[*b] + 0.0)).then(a.cmp(b));
         rows.sort_unstable_by(by_value);
-        let new = |&k: &usize| k == 0 || values[rows[k]] != values[rows[k - 1]];
+        let new = |&k: &usize| {
+            let Some(before) = k.checked_sub(1).map(|before| values[rows[before]]) else { return true };
+            let value = values[rows[k]];
+            value != before && value - before > part * value.abs().max(before.abs())
+        };
         let mut starts: Vec<usize> = (0..rows.len()).filter(new).collect();
         starts.push(rows.len());
         Self { rows, starts }
+    }
+
+    /// The rows in ascending order of their values; of equal values in ascending order of their numbers.
+    pub fn rows(&self) -> &[usize] {
+        &self.rows
+    }
+
+    /// Where the rows of each value begin in [`rows`](Self::rows); at the end the number of rows.
+    pub fn starts(&self) -> &[usize] {
+        &self.starts
     }
 
     /// Number of different values.
@@ -71,7 +93,7 @@ impl Order {
 
     /// For every row the number, from 0, of one of at most `wanted` classes of about equal size that keep equal values
     /// together, and the number of classes. None is smaller than half of what equal sizes would give.
-    pub fn classes(&self, wanted: usize) -> (Vec<usize>, usize) {
+    pub fn classes(&self, wanted: usize) -> Partition {
         let n = self.rows.len();
         let least = n.div_ceil(2 * wanted);
         // For each value its class: a new one when the middle of its ranks has passed a boundary.

@@ -84,8 +84,6 @@ def check_given(checks, ours, table):
     fine = [distances(x[:, j], y, classes_for(len(y))) for j in range(3)]
     mean = [np.average(np.max(ends[:, 1:], axis=1), weights=ends[:, 0]) for ends in fine]
     checks.close("given data: Kolmogorov, SciPy's distances", values["kolmogorov"], mean)
-    mean = [np.average(np.sum(ends[:, 1:], axis=1), weights=ends[:, 0]) for ends in fine]
-    checks.close("given data: Kuiper, SciPy's distances", values["kuiper"], mean)
     checks.close("given data: R2-HSIC, formula", values["r2_hsic"], [r2_hsic(x[:, j], y) for j in range(3)])
     if openturns is None:
         print("OpenTURNS is not installed: nothing compared with it")

@@ -247,7 +247,7 @@ fn other_measures_stand_beside_the_indices() {
     let result: GivenFile =
         serde_json::from_str(&std::fs::read_to_string(run.out().join("table.json")).unwrap()).unwrap();
     let measures = result.outputs[0].measures.as_ref().unwrap();
-    for name in ["fourier", "delta", "kolmogorov", "kuiper", "pawn_median", "pawn_max", "r2_hsic"] {
+    for name in ["fourier", "delta", "kolmogorov", "pawn_median", "pawn_max", "r2_hsic"] {
         let of = |input: usize| measures[input].measures[name].estimate.estimate;
         assert!(of(0) > of(1) && of(1) > of(2).max(of(3)), "{name}: {:?}", [of(0), of(1), of(2), of(3)]);
         let p_value = |input: usize| measures[input].measures[name].p_value.unwrap();

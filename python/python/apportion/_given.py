@@ -31,7 +31,7 @@ def given_data(
 
     `inputs` and `outputs` are mappings from names to (rows,), `pandas.DataFrame`s, or arrays of (rows, columns). `method` is
     "rank", "binned" or "both". With `surrogate` there are total indices too; `factors` tells it the distributions. `measures`
-    adds Borgonovo's delta, distances after Kolmogorov and Kuiper, PAWN, R2-HSIC and S_1 by the spectrum, with p-values.
+    adds Borgonovo's delta, the distance of Kolmogorov, PAWN, R2-HSIC and S_1 by the spectrum, with p-values.
     A `StudyError` names the column that holds no numbers, or entries that are NaN, infinite, masked or missing.
     """
     x, y = _table(inputs, "x", "the inputs"), _table(outputs, "y", "the outputs")

@@ -1,63 +1,134 @@
-//! Kernel densities of an output, and how far those of classes lie from that of all rows.
+//! The distribution of an output, values that are counted and a density, and how far those of classes lie from that of all rows.
 
 use std::f64::consts::TAU;
+
+use crate::given::order::{Order, Partition};
+use crate::space::normal_scores;
 
 /// Points of the grid that densities are compared on.
 const GRID: usize = 100;
 
-/// The grid between the least and the largest output.
-pub struct Densities {
+/// Most different values of an output all of which are counted, however few rows have each.
+const MAX_COUNTED_VALUES: usize = 50;
+/// Of an output of more values one is counted, and no part of the density, where it has so many times the rows of the median value,
+const ATOM_OVER_MEDIAN: usize = 10;
+/// and at least one in so many of all rows.
+const ROWS_PER_ATOM: usize = 100;
+/// Kernels are no narrower than this, in steps of the grid: sums over it would not be integrals.
+const MIN_WIDTH: f64 = 0.5;
+/// Values that differ by less than this part of their size are one value in the digits of a double.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// The distribution of an output: atoms, single values that many rows have, and the density of the rest.
+pub struct OutputDistribution {
+    /// For every row the number of its value, if that is an atom.
+    atom_of: Vec<Option<usize>>,
+    atoms: usize,
+    /// Normal scores of the other rows among themselves, 0 for atoms: delta does not change when the output is bent, and kernels need
+    /// tails that are short.
+    scores: Vec<f64>,
+    /// The least score, and the step of the grid from there to the largest one.
     low: f64,
     step: f64,
 }
 
-impl Densities {
-    pub fn new(z: &[f64]) -> Self {
-        let (low, high) =
-            z.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(*z), high.max(*z)));
-        Self { low, step: (high - low) / (GRID - 1) as f64 }
+impl OutputDistribution {
+    pub fn new(values: &[f64]) -> Self {
+        let order = Order::of_rounded(values, ROUNDING);
+        let mut sizes: Vec<usize> = order.iter().map(<[usize]>::len).collect();
+        sizes.sort_unstable();
+        let least = (ATOM_OVER_MEDIAN * sizes[sizes.len() / 2]).max(values.len().div_ceil(ROWS_PER_ATOM));
+        let is_counted = |rows: &[usize]| order.groups() <= MAX_COUNTED_VALUES || rows.len() >= least;
+        let (mut atom_of, mut atoms) = (vec![None; values.len()], 0);
+        for rows in order.iter().filter(|rows| is_counted(rows)) {
+            rows.iter().for_each(|&row| atom_of[row] = Some(atoms));
+            atoms += 1;
+        }
+        let others: Vec<usize> = (0..values.len()).filter(|row| atom_of[*row].is_none()).collect();
+        let mut scores = vec![0.0; values.len()];
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let of_others = centred_scores(&Order::of(&others.iter().map(|&row| values[row]).collect::<Vec<f64>>()));
+        for (&row, score) in others.iter().zip(of_others) {
+            scores[row] = score;
+            (low, high) = (low.min(score), high.max(score));
+        }
+        Self { atom_of, atoms, scores, low, step: (high - low) / (GRID - 1) as f64 }
     }
 
-    /// Half of the mean over the classes of the distance between the density of the outputs there and that of all (Plischke et al.
-    /// 2013, eq. 26), by kernels of this part of Silverman's width. A row counts as often as its weight says. A class without spread is
-    /// a point, as far as can be from any density.
-    pub fn delta(&self, z: &[f64], (labels, count): &(Vec<usize>, usize), weights: &[f64], part: f64) -> f64 {
+    pub fn has_atoms(&self) -> bool {
+        self.atoms > 0
+    }
+
+    /// Half of the mean over the classes of the distance between the distribution of the outputs there and that of all: of atoms the
+    /// sum of the differences of their shares, of the density the integral (Plischke et al. 2013, eq. 26), by kernels of this part of
+    /// Silverman's width. A row counts as often as its weight says. Between 0 and 1.
+    pub fn delta(&self, (labels, count): &Partition, weights: &[f64], part: f64) -> f64 {
         let mut all = Spread::default();
         let mut classes = vec![Spread::default(); *count];
-        for ((&label, z), &weight) in labels.iter().zip(z).zip(weights) {
-            all.add(*z, weight);
-            classes[label].add(*z, weight);
+        let (mut total, mut sizes) = (0.0, vec![0.0; *count]);
+        let mut counted = vec![0.0; self.atoms * (count + 1)];
+        for ((&label, atom), (score, &weight)) in labels.iter().zip(&self.atom_of).zip(self.scores.iter().zip(weights))
+        {
+            total += weight;
+            sizes[label] += weight;
+            match atom {
+                Some(atom) => {
+                    counted[self.atoms * label + atom] += weight;
+                    counted[self.atoms * count + atom] += weight;
+                }
+                None => {
+                    all.add(*score, weight);
+                    classes[label].add(*score, weight);
+                }
+            }
         }
-        let width = |of: &Spread| part * of.width() / self.step;
+        let width = |of: &Spread| match part * of.width() / self.step {
+            width if width > 0.0 => width.max(MIN_WIDTH),
+            _ => 0.0,
+        };
         let (of_all, widths) = (width(&all), classes.iter().map(width).collect::<Vec<f64>>());
         let (mut density, mut densities) = ([0.0; GRID], vec![[0.0; GRID]; *count]);
-        for ((&label, z), &weight) in labels.iter().zip(z).zip(weights) {
-            if weight > 0.0 {
-                let place = (z - self.low) / self.step;
+        for ((&label, atom), (score, &weight)) in labels.iter().zip(&self.atom_of).zip(self.scores.iter().zip(weights))
+        {
+            if weight > 0.0 && atom.is_none() && of_all > 0.0 {
+                let place = (score - self.low) / self.step;
                 add_kernel(&mut density, place, of_all, weight);
                 if widths[label] > 0.0 {
                     add_kernel(&mut densities[label], place, widths[label], weight);
                 }
             }
         }
-        let share = |(class, (own, width)): (&Spread, (&[f64; GRID], &f64))| {
-            if class.weight == 0.0 {
+        let share = |class: usize| {
+            if sizes[class] == 0.0 {
                 return 0.0;
             }
-            if *width == 0.0 {
-                return class.weight;
-            }
-            let gap = |k: usize| (density[k] / (all.weight * of_all) - own[k] / (class.weight * width)).abs();
-            let gaps: f64 = (0..GRID).map(gap).sum::<f64>() - (gap(0) + gap(GRID - 1)) / 2.0;
-            class.weight * gaps / (2.0 * TAU.sqrt())
+            let of_class = &counted[self.atoms * class..self.atoms * (class + 1)];
+            let of_atoms = of_class.iter().zip(&counted[self.atoms * count..]);
+            let atoms: f64 = of_atoms.map(|(own, all)| (own / sizes[class] - all / total).abs()).sum();
+            let (own, width) = (&densities[class], widths[class]);
+            let smooth = if of_all == 0.0 || width == 0.0 {
+                // A class without spread is a point, as far as can be from any density.
+                all.weight / total + classes[class].weight / sizes[class]
+            } else {
+                let gap = |k: usize| (density[k] / (total * of_all) - own[k] / (sizes[class] * width)).abs();
+                ((0..GRID).map(gap).sum::<f64>() - (gap(0) + gap(GRID - 1)) / 2.0) / TAU.sqrt()
+            };
+            sizes[class] * ((atoms + smooth) / 2.0).min(1.0)
         };
-        classes.iter().zip(densities.iter().zip(&widths)).map(share).sum::<f64>() / all.weight
+        (0..*count).map(share).sum::<f64>() / total
     }
 }
 
+/// The quantile of the normal distribution at the middle of each row's place among all; equal rows share the middle of theirs.
+fn centred_scores(order: &Order) -> Vec<f64> {
+    let ranks = order.centred_ranks();
+    let rows = ranks.len() as f64;
+    normal_scores(&ranks.iter().map(|rank| rank / rows + 0.5).collect::<Vec<f64>>())
+}
+
 /// Adds the kernel at `place` of that `width`, both in steps of the grid, times its weight and the root of 2 pi times its width.
-pub(super) fn add_kernel<const POINTS: usize>(density: &mut [f64; POINTS], place: f64, width: f64, weight: f64) {
-    let nearest = place.round().clamp(0.0, (POINTS - 1) as f64);
+fn add_kernel(density: &mut [f64; GRID], place: f64, width: f64, weight: f64) {
+    let nearest = place.round().clamp(0.0, (GRID - 1) as f64);
     let (centre, away, step) = (nearest as usize, (nearest - place) / width, 1.0 / width);
     let top = weight * libm::exp(-away * away / 2.0);
     // From point to point the kernel changes by a ratio that itself changes by this one.
@@ -79,7 +150,7 @@ pub(super) fn add_kernel<const POINTS: usize>(density: &mut [f64; POINTS], place
 
 /// Moments of the outputs of a class.
 #[derive(Clone, Default)]
-pub(super) struct Spread {
+struct Spread {
     weight: f64,
     mean: f64,
     squares: f64,
@@ -123,8 +194,22 @@ mod tests {
 
     #[test]
     fn classes_that_are_points_are_as_far_as_can_be() {
-        let z: Vec<f64> = (0..40).map(|k| f64::from(k % 2)).collect();
-        let labels: Vec<usize> = (0..40).map(|k| k % 2).collect();
-        assert_eq!(Densities::new(&z).delta(&z, &(labels, 2), &[1.0; 40], 1.0), 1.0);
+        let values: Vec<f64> = (0..800).map(f64::from).collect();
+        let classes = ((0..800).collect(), 800);
+        assert_eq!(OutputDistribution::new(&values).delta(&classes, &[1.0; 800], 1.0), 1.0);
+    }
+
+    #[test]
+    fn values_are_counted_where_they_stand_out() {
+        let atoms = |values: &[f64]| OutputDistribution::new(values).atoms;
+        let rows = |of: fn(u32) -> f64| (0..1000u32).map(of).collect::<Vec<f64>>();
+        assert_eq!(atoms(&rows(f64::from)), 0);
+        assert_eq!(atoms(&rows(|k| f64::from(k % 50))), 50);
+        // Two thirds 0, or 1 in 100 rows; a fine rounding is as good as none.
+        assert_eq!(atoms(&rows(|k| if k % 3 > 0 { 0.0 } else { f64::from(k) })), 1);
+        assert_eq!(atoms(&rows(|k| if k % 100 > 0 { f64::from(k) } else { 0.5 })), 1);
+        assert_eq!(atoms(&rows(|k| f64::from(k % 200))), 0);
+        // Digits that are rounding make no values of their own, beside a huge one neither.
+        assert_eq!(atoms(&rows(|k| if k == 7 { 1e20 } else { f64::from(1 + k % 2) + f64::from(k % 3) * 2.3e-16 })), 3);
     }
 }

@@ -5,30 +5,40 @@ use std::f64::consts::TAU;
 /// Harmonics that count as the effect of the input.
 const HARMONICS: usize = 10;
 
-/// The first-order index from the centred outputs in ascending order of the input.
+/// The first-order index from the centred outputs in ascending order of the input; `starts` are the places at which a new value of the
+/// input begins, and the number of rows.
 ///
 /// Every second row up and the others down again make one period of a wave, whose first harmonics carry what the output owes to
-/// the input (Plischke 2010), less what noise would put there (Tissot and Prieur 2012).
-pub fn first_order(sorted: Vec<f64>) -> f64 {
+/// the input (Plischke 2010), less what noise would put there (Tissot and Prieur 2012). Rows with the same input have no order: the
+/// power is the mean over all of theirs, in closed form.
+pub fn first_order(sorted: &[f64], starts: &[usize]) -> f64 {
     let rows = sorted.len();
-    let up = sorted.iter().step_by(2);
-    let down = sorted.iter().skip(1).step_by(2).rev();
-    let wave: Vec<f64> = up.chain(down).copied().collect();
-    let total: f64 = wave.iter().map(|z| z * z).sum();
+    let ties: Vec<Tie> = starts.windows(2).map(|ends| Tie::new(&sorted[ends[0]..ends[1]])).collect();
+    let mut tie_of = vec![0; rows];
+    starts.windows(2).enumerate().for_each(|(tie, ends)| tie_of[ends[0]..ends[1]].fill(tie));
+    let wave: Vec<usize> = tie_of.iter().step_by(2).chain(tie_of.iter().skip(1).step_by(2).rev()).copied().collect();
+    let total: f64 = sorted.iter().map(|z| z * z).sum();
     let power = |harmonic: usize| {
         let (sine, cosine) = libm::sincos(TAU * harmonic as f64 / rows as f64);
-        let (mut re, mut im, mut at) = (0.0, 0.0, (1.0, 0.0));
-        for (k, z) in wave.iter().enumerate() {
-            // Anew from time to time: rounding would grow with the rows.
+        let (mut at, mut sums) = ((1.0, 0.0), vec![(0.0, 0.0); ties.len()]);
+        for (k, &tie) in wave.iter().enumerate() {
+            // Computed again from time to time: rounding would grow with the rows.
             if k % 256 == 0 {
                 let (sine, cosine) = libm::sincos(TAU * (harmonic * k % rows) as f64 / rows as f64);
                 at = (cosine, sine);
             }
-            re += z * at.0;
-            im += z * at.1;
+            let sum: &mut (f64, f64) = &mut sums[tie];
+            *sum = (sum.0 + at.0, sum.1 + at.1);
             at = (at.0 * cosine - at.1 * sine, at.0 * sine + at.1 * cosine);
         }
-        re * re + im * im
+        let (mut re, mut im, mut spread) = (0.0, 0.0, 0.0);
+        for (tie, (cosines, sines)) in ties.iter().zip(sums) {
+            re += tie.mean * cosines;
+            im += tie.mean * sines;
+            // Of values in random order at fixed places.
+            spread += tie.variance * (tie.rows - (cosines * cosines + sines * sines) / tie.rows);
+        }
+        re * re + im * im + spread
     };
     let harmonics = HARMONICS.min((rows - 1) / 2);
     let share = 2.0 * (1..=harmonics).map(power).sum::<f64>() / (rows as f64 * total);
@@ -36,17 +46,51 @@ pub fn first_order(sorted: Vec<f64>) -> f64 {
     share - noise / (1.0 - noise) * (1.0 - share)
 }
 
+/// Outputs of rows with the same input.
+struct Tie {
+    rows: f64,
+    mean: f64,
+    /// With the divisor of a sample; 0 of a single row.
+    variance: f64,
+}
+
+impl Tie {
+    fn new(outputs: &[f64]) -> Self {
+        let rows = outputs.len() as f64;
+        let mean = outputs.iter().sum::<f64>() / rows;
+        let squares: f64 = outputs.iter().map(|z| (z - mean) * (z - mean)).sum();
+        Self { rows, mean, variance: if rows > 1.0 { squares / (rows - 1.0) } else { 0.0 } }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn without_ties(sorted: &[f64]) -> f64 {
+        first_order(sorted, &(0..=sorted.len()).collect::<Vec<usize>>())
+    }
 
     #[test]
     fn a_wave_of_the_input_is_all_of_its_variance_and_noise_none() {
         let rows = 1000;
         // A cosine of one period in the order up and down.
         let sorted: Vec<f64> = (0..rows).map(|k| libm::cos(TAU * (k as f64) / (2.0 * rows as f64))).collect();
-        assert!((first_order(sorted) - 1.0).abs() < 1e-4);
+        assert!((without_ties(&sorted) - 1.0).abs() < 1e-4);
         let scattered: Vec<f64> = (0..rows).map(|k| ((k * 7919 % rows) as f64 - 499.5) / 500.0).collect();
-        assert!(first_order(scattered).abs() < 0.05);
+        assert!(without_ties(&scattered).abs() < 0.05);
+    }
+
+    #[test]
+    fn ties_are_averaged_over_their_orders() {
+        let (z, starts) = ([0.5, -1.5, 2.0, -0.25, 1.0, -1.75], [0, 3, 4, 6]);
+        let mut sum = 0.0;
+        for first in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+            for last in [[4, 5], [5, 4]] {
+                let rows = first.into_iter().chain([3]).chain(last);
+                sum += without_ties(&rows.map(|row| z[row]).collect::<Vec<f64>>());
+            }
+        }
+        assert!((first_order(&z, &starts) - sum / 12.0).abs() < 1e-14);
     }
 }

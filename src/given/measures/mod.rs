@@ -7,7 +7,6 @@ mod density;
 mod distances;
 mod fourier;
 mod hsic;
-mod twin;
 
 use std::collections::BTreeMap;
 
@@ -16,65 +15,46 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::column::{Column, NoVariance};
-use super::order::Order;
+use super::order::{Order, Partition};
 use super::{GivenIndices, PointSet, centred};
-use crate::space::normal_scores;
+use crate::names::named;
 use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
-use density::Densities;
-use distances::{Distance, distances};
+use density::OutputDistribution;
+use distances::distances;
 pub use hsic::MOST_ROWS as MOST_ROWS_OF_KERNELS;
-use twin::Twin;
 
+named! {
 /// A measure of the influence of an input on an output.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(PartialOrd, Ord)]
 pub enum Measure {
     /// First-order index from the spectrum of the output in the order of the input: EASI, Plischke (2010), Reliab. Eng. Syst. Saf.
     /// 95, 354-360, and RBD-FAST of given data, with the correction of Tissot and Prieur (2012). An estimate of S_1.
-    Fourier,
-    /// Borgonovo's (2007) delta: half of the mean distance between the density of the output and its densities where the input
-    /// is known. From kernel densities in classes of the input, less the bias by a bootstrap: Plischke, Borgonovo and Smith
-    /// (2013), Eur. J. Oper. Res. 226, 536-550.
-    Delta,
+    Fourier = "fourier",
+    /// Borgonovo's (2007) delta: half of the mean distance between the distribution of the output and its distributions where the
+    /// input is known. From shares of values and kernel densities in classes of the input (Plischke, Borgonovo and Smith 2013,
+    /// Eur. J. Oper. Res. 226, 536-550), less what chance would put there.
+    Delta = "delta",
     /// The mean over classes of the input of the largest distance between the distribution functions of the output in the class
     /// and overall: Baucells and Borgonovo (2013), Manage. Sci. 59, 2536-2549.
-    Kolmogorov,
-    /// The same of the sum of the largest distances above and below, after Kuiper.
-    Kuiper,
+    Kolmogorov = "kolmogorov",
     /// The median over ten classes of the input of the distance of Kolmogorov and Smirnov: PAWN, Pianosi and Wagener (2018),
     /// Environ. Model. Softw. 108, 197-207.
-    PawnMedian,
+    PawnMedian = "pawn_median",
     /// The largest of them.
-    PawnMax,
+    PawnMax = "pawn_max",
     /// The criterion of independence of Hilbert and Schmidt with Gaussian kernels, normalised (R2-HSIC): Gretton et al. (2005); Da
     /// Veiga (2015), J. Stat. Comput. Simul. 85, 1283-1305.
-    Hsic,
+    Hsic = "r2_hsic",
+}
 }
 
 impl Measure {
-    /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Fourier, Self::Delta, Self::Kolmogorov, Self::Kuiper, Self::PawnMedian, Self::PawnMax, Self::Hsic];
-
-    /// The name in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fourier => "fourier",
-            Self::Delta => "delta",
-            Self::Kolmogorov => "kolmogorov",
-            Self::Kuiper => "kuiper",
-            Self::PawnMedian => "pawn_median",
-            Self::PawnMax => "pawn_max",
-            Self::Hsic => "r2_hsic",
-        }
-    }
-
     /// The name in tables.
     pub fn heading(self) -> &'static str {
         match self {
             Self::Fourier => "S_1, Fourier",
             Self::Delta => "delta",
             Self::Kolmogorov => "Kolmogorov",
-            Self::Kuiper => "Kuiper",
             Self::PawnMedian => "PAWN median",
             Self::PawnMax => "PAWN max",
             Self::Hsic => "R2-HSIC",
@@ -103,7 +83,7 @@ pub struct InputMeasures {
     pub input: String,
     /// One entry per measure; NaN where it was not asked for, and of the kernels where the input or the output has one value in
     /// the rows that they look at.
-    pub values: [Measured; 7],
+    pub values: [Measured; Measure::ALL.len()],
 }
 
 impl InputMeasures {
@@ -119,7 +99,7 @@ pub const PERMUTATIONS: usize = 199;
 /// p-values below this are taken for influence.
 const LEVEL: f64 = 0.05;
 
-/// Resamples behind the bias and the interval of delta, and tables of its twin.
+/// Resamples behind the interval of delta.
 const RESAMPLES: usize = 100;
 
 /// Of the kernels that show what wider ones in half as many classes do not: the part of their width.
@@ -127,11 +107,14 @@ const NARROWER: f64 = 0.5;
 /// What they do not show either, in parts of the difference: as much again, where errors fall in proportion to the width.
 const LEFT: f64 = 1.0;
 
+/// Permutations that narrower kernels are tried with: their mean alone is asked for.
+const FINER_PERMUTATIONS: usize = 40;
+
 /// Classes of PAWN.
 const PAWN_CLASSES: usize = 10;
 
 /// What is measured by permutations: all but the kernels.
-const PERMUTED: usize = 6;
+const PERMUTED: usize = 5;
 
 /// The measures of every output with respect to every input, of the columns that gave `indices`.
 ///
@@ -147,8 +130,7 @@ pub fn measures(
     let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
     let is_random = indices.points == PointSet::Independent;
     let of_output = |(number, output): (usize, &Column)| {
-        let z = centred(&output.values)?;
-        let job = Job::new(&z, &Measure::ALL, [seed, number as u64]);
+        let job = Job::new(&output.values, &Measure::ALL, [seed, number as u64])?;
         Ok(job.measures(inputs, &orders, Known { has_p_values: is_random, has_intervals: is_random }))
     };
     outputs.iter().enumerate().map(of_output).collect()
@@ -164,10 +146,10 @@ pub(crate) fn measures_of_rows(
     seed: [u64; 2],
     independent: bool,
 ) -> Result<Vec<InputMeasures>, NoVariance> {
-    let z = centred(output)?;
+    let job = Job::new(output, wanted, seed)?;
     let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
     let known = Known { has_p_values: independent, has_intervals: true };
-    Ok(Job::new(&z, wanted, seed).measures(inputs, &orders, known))
+    Ok(job.measures(inputs, &orders, known))
 }
 
 /// What the rows say beside the measures themselves.
@@ -181,44 +163,47 @@ struct Known {
 /// One output.
 struct Job<'a> {
     wanted: &'a [Measure],
-    z: &'a [f64],
+    /// Less the mean: of the measures that are parts of a variance.
+    z: Vec<f64>,
+    /// Of the values themselves: no mean is taken off before ranks, next to a huge value it would leave one of the others.
     order: Order,
-    /// Normal scores of the outputs: delta does not change when the output is bent, and its kernels need tails that are short.
-    scores: Vec<f64>,
-    densities: Densities,
+    distribution: OutputDistribution,
     seed: [u64; 2],
 }
 
 /// Classes of the rows by one input.
 struct Classes {
-    /// The class of every row, and how many there are.
-    fine: (Vec<usize>, usize),
-    /// Twice as many.
-    finer: (Vec<usize>, usize),
+    /// Of the mean distance.
+    fine: Partition,
+    /// Those of delta, and twice as many.
+    delta: [Partition; 2],
     /// Those of PAWN.
-    coarse: (Vec<usize>, usize),
+    coarse: Partition,
 }
 
 impl Classes {
-    fn new(order: &Order, rows: usize) -> Self {
+    fn new(order: &Order, rows: usize, has_atoms: bool) -> Self {
         let count = classes_for(rows);
-        Self { fine: order.classes(count), finer: order.classes(2 * count), coarse: order.classes(PAWN_CLASSES) }
+        // Shares of values need fewer rows than densities, and lose more of an output that goes on inside a class.
+        let of_delta = if has_atoms { 2 * count } else { count };
+        let delta = [of_delta, 2 * of_delta].map(|count| order.classes(count));
+        Self { fine: order.classes(count), delta, coarse: order.classes(PAWN_CLASSES) }
     }
 
     /// The classes with the rows in another order.
     fn permuted(&self, rows: &[usize]) -> Self {
-        let permuted = |(labels, count): &(Vec<usize>, usize)| (rows.iter().map(|&row| labels[row]).collect(), *count);
-        Self { fine: permuted(&self.fine), finer: permuted(&self.finer), coarse: permuted(&self.coarse) }
+        let permuted = |(labels, count): &Partition| (rows.iter().map(|&row| labels[row]).collect(), *count);
+        Self { fine: permuted(&self.fine), delta: self.delta.each_ref().map(permuted), coarse: permuted(&self.coarse) }
     }
+}
 
-    /// What the measures of an input without influence depend on.
-    fn sizes(&self) -> [Vec<usize>; 2] {
-        [&self.fine, &self.coarse].map(|(labels, count)| {
-            let mut sizes = vec![0; *count];
-            labels.iter().for_each(|&label| sizes[label] += 1);
-            sizes
-        })
-    }
+/// The measures of inputs without influence.
+#[derive(Default)]
+struct Chance {
+    /// Of each permutation.
+    measures: Vec<[f64; PERMUTED]>,
+    /// The mean of delta by narrower kernels in twice as many classes.
+    finer_delta: f64,
 }
 
 /// Classes for delta and the mean distances (Plischke, Borgonovo and Smith 2013, as in SALib): at most 48.
@@ -229,10 +214,9 @@ fn classes_for(rows: usize) -> usize {
 }
 
 impl<'a> Job<'a> {
-    fn new(z: &'a [f64], wanted: &'a [Measure], seed: [u64; 2]) -> Self {
-        let order = Order::of(z);
-        let scores = centred_scores(&order);
-        Self { wanted, z, order, densities: Densities::new(&scores), scores, seed }
+    fn new(values: &[f64], wanted: &'a [Measure], seed: [u64; 2]) -> Result<Self, NoVariance> {
+        let (z, order, distribution) = (centred(values)?, Order::of(values), OutputDistribution::new(values));
+        Ok(Self { wanted, z, order, distribution, seed })
     }
 
     fn wants(&self, measure: Measure) -> bool {
@@ -246,151 +230,128 @@ impl<'a> Job<'a> {
     }
 
     fn measures(&self, inputs: &[Column], orders: &[Order], known: Known) -> Vec<InputMeasures> {
-        let classes: Vec<Classes> = orders.iter().map(|order| Classes::new(order, self.z.len())).collect();
-        let mut chance: BTreeMap<[Vec<usize>; 2], Vec<[f64; PERMUTED]>> = BTreeMap::new();
+        let has_atoms = self.distribution.has_atoms();
+        let classes: Vec<Classes> = orders.iter().map(|order| Classes::new(order, self.z.len(), has_atoms)).collect();
         let has_interval = known.has_intervals && self.wants(Measure::Delta);
-        // An interval asks what chance does too.
+        // What chance does depends on the ties of an input alone. An interval asks for it too.
+        let mut chance: BTreeMap<&[usize], Chance> = BTreeMap::new();
         if known.has_p_values || has_interval {
-            for classes in &classes {
-                chance.entry(classes.sizes()).or_insert_with(|| self.by_chance(classes));
+            for (order, classes) in orders.iter().zip(&classes) {
+                chance.entry(order.starts()).or_insert_with(|| self.by_chance(order, classes));
             }
         }
-        let outputs = if self.wants(Measure::Hsic) { hsic::Outputs::new(self.z, self.seed[0]) } else { None };
+        let outputs = if self.wants(Measure::Hsic) { hsic::Outputs::new(&self.z, self.seed[0]) } else { None };
+        let nothing = Measured { estimate: Estimate { estimate: 0.0, interval: None }, p_value: None };
         let of_input = |number: usize| {
             let (classes, order) = (&classes[number], &orders[number]);
-            let values = match order.groups() {
-                0 | 1 => [Measured { estimate: Estimate { estimate: 0.0, interval: None }, p_value: None }; 7],
-                _ => {
-                    let rows = order.shuffled(self.seed[0], number as u64);
-                    let chance = chance.get(&classes.sizes()).map_or(&[][..], Vec::as_slice);
-                    let mut values = self.judged(self.plain(classes, &rows), chance);
-                    if has_interval {
-                        let delta = &mut values[Measure::Delta as usize];
-                        delta.estimate = self.delta(classes, &order.centred_ranks(), number as u64);
-                        if let (Some(interval), Some(LEVEL..)) = (&mut delta.estimate.interval, delta.p_value) {
-                            // What is not told from chance may be nothing.
-                            interval.low = interval.low.min(0.0);
-                        }
-                    }
-                    let kernels = outputs.as_ref().and_then(|outputs| outputs.with(&inputs[number].values));
-                    let (r2, p_value) = kernels.unwrap_or((f64::NAN, None));
-                    let estimate = Estimate { estimate: r2, interval: None };
-                    values[Measure::Hsic as usize] = Measured { estimate, p_value };
-                    if !known.has_p_values {
-                        values.iter_mut().for_each(|measured| measured.p_value = None);
-                    }
-                    values
+            let mut values = [nothing; Measure::ALL.len()];
+            if order.groups() > 1 {
+                let found = self.plain(order, classes, order.rows());
+                let by_chance = chance.get(order.starts());
+                let permutations = by_chance.map_or(&[][..], |chance| &chance.measures);
+                for (place, (measured, found)) in values.iter_mut().zip(found).enumerate() {
+                    let larger = permutations.iter().filter(|by_chance| by_chance[place] >= found).count();
+                    let p_value = (1 + larger) as f64 / (1 + permutations.len()) as f64;
+                    let estimate = Estimate { estimate: found, interval: None };
+                    *measured = Measured { estimate, p_value: (!permutations.is_empty()).then_some(p_value) };
                 }
-            };
+                if let Some(chance) = by_chance.filter(|_| has_interval) {
+                    let delta = &mut values[Measure::Delta as usize];
+                    delta.estimate = self.delta(classes, delta.estimate.estimate, chance, number as u64);
+                    if let (Some(interval), Some(LEVEL..)) = (&mut delta.estimate.interval, delta.p_value) {
+                        // What is not told from chance may be nothing.
+                        interval.low = 0.0;
+                    }
+                }
+                let kernels = outputs.as_ref().and_then(|outputs| outputs.with(&inputs[number].values));
+                let (r2, p_value) = kernels.unwrap_or((f64::NAN, None));
+                values[Measure::Hsic as usize] =
+                    Measured { estimate: Estimate { estimate: r2, interval: None }, p_value };
+                if !known.has_p_values {
+                    values.iter_mut().for_each(|measured| measured.p_value = None);
+                }
+            }
             let unasked = Measured { estimate: Estimate { estimate: f64::NAN, interval: None }, p_value: None };
             let of_measure = |measure: Measure| if self.wants(measure) { values[measure as usize] } else { unasked };
-            let values = Measure::ALL.map(of_measure);
-            InputMeasures { input: inputs[number].name.clone(), values }
+            InputMeasures { input: inputs[number].name.clone(), values: Measure::ALL.map(of_measure) }
         };
         (0..inputs.len()).into_par_iter().map(of_input).collect()
     }
 
     /// All but the kernels, of the rows in the order of the input.
-    fn plain(&self, classes: &Classes, rows: &[usize]) -> [f64; PERMUTED] {
-        let weights = vec![1.0; self.z.len()];
-        let fine = distances(&self.order, &classes.fine, &weights);
-        let coarse = distances(&self.order, &classes.coarse, &weights);
-        let mean = |of: fn(&Distance) -> f64| {
-            let sum: f64 = fine.iter().map(|distance| distance.weight * of(distance)).sum();
-            sum / self.z.len() as f64
-        };
-        let mut slides: Vec<f64> = coarse.iter().map(Distance::kolmogorov).collect();
+    fn plain(&self, order: &Order, classes: &Classes, rows: &[usize]) -> [f64; PERMUTED] {
+        let fine = distances(&self.order, &classes.fine);
+        let mut slides: Vec<f64> = distances(&self.order, &classes.coarse).iter().map(|of| of.largest).collect();
         slides.sort_by(f64::total_cmp);
         let middle = slides.len() / 2;
         let median = if slides.len() % 2 == 1 { slides[middle] } else { (slides[middle - 1] + slides[middle]) / 2.0 };
         [
-            fourier::first_order(rows.iter().map(|&row| self.z[row]).collect()),
-            if self.wants(Measure::Delta) {
-                self.densities.delta(&self.scores, &classes.fine, &weights, 1.0)
-            } else {
-                f64::NAN
-            },
-            mean(Distance::kolmogorov),
-            mean(Distance::kuiper),
+            fourier::first_order(&rows.iter().map(|&row| self.z[row]).collect::<Vec<f64>>(), order.starts()),
+            if self.wants(Measure::Delta) { self.plain_delta(&classes.delta[0], 1.0) } else { f64::NAN },
+            fine.iter().map(|distance| distance.rows * distance.largest).sum::<f64>() / self.z.len() as f64,
             median,
             slides[slides.len() - 1],
         ]
     }
 
-    /// The measures of inputs with such classes and without influence.
-    fn by_chance(&self, classes: &Classes) -> Vec<[f64; PERMUTED]> {
+    fn plain_delta(&self, classes: &Partition, part: f64) -> f64 {
+        self.distribution.delta(classes, &vec![1.0; self.z.len()], part)
+    }
+
+    /// The measures of inputs with such ties and without influence.
+    fn by_chance(&self, order: &Order, classes: &Classes) -> Chance {
         let permutation = |number: usize| {
             let mut random = self.random(1 << 16 | number as u64);
             let mut rows: Vec<usize> = (0..self.z.len()).collect();
             for k in (1..rows.len()).rev() {
                 rows.swap(k, random.random_range(0..=k as u64) as usize);
             }
-            self.plain(&classes.permuted(&rows), &rows)
+            let classes = classes.permuted(&rows);
+            let finer = number < FINER_PERMUTATIONS && self.wants(Measure::Delta);
+            let finer = finer.then(|| self.plain_delta(&classes.delta[1], NARROWER));
+            (self.plain(order, &classes, &rows), finer)
         };
-        (0..PERMUTATIONS).into_par_iter().map(permutation).collect()
+        let all: Vec<([f64; PERMUTED], Option<f64>)> = (0..PERMUTATIONS).into_par_iter().map(permutation).collect();
+        let finer_delta = all.iter().filter_map(|(_, finer)| *finer).sum::<f64>() / FINER_PERMUTATIONS as f64;
+        Chance { measures: all.into_iter().map(|(measures, _)| measures).collect(), finer_delta }
     }
 
-    fn judged(&self, found: [f64; PERMUTED], chance: &[[f64; PERMUTED]]) -> [Measured; 7] {
-        std::array::from_fn(|place| {
-            let Some(&found) = found.get(place) else {
-                return Measured { estimate: Estimate { estimate: 0.0, interval: None }, p_value: None };
-            };
-            let larger = chance.iter().filter(|by_chance| by_chance[place] >= found).count();
-            let p_value = (!chance.is_empty()).then(|| (1 + larger) as f64 / (1 + chance.len()) as f64);
-            Measured { estimate: Estimate { estimate: found, interval: None }, p_value }
-        })
-    }
-
-    /// Delta less its bias by resamples of the rows (Plischke et al. 2013). Its interval is that of the resamples and that of
-    /// tables of a [`Twin`], whose delta is known, together: it reaches from the lower end of both to the upper one, and as high as
-    /// narrower kernels in finer classes say, and what they leave.
-    fn delta(&self, classes: &Classes, ranks: &[f64], input: u64) -> Estimate {
-        let (z, rows) = (&self.scores[..], self.z.len());
-        let ones = vec![1.0; rows];
-        let resampled = |classes: &(Vec<usize>, usize), part: f64| {
-            let plain = self.densities.delta(z, classes, &ones, part);
+    /// Delta, of which `plain` is the estimate with all of its noise. An input without influence has d_0, the mean over permutations,
+    /// of which sqrt(d^2 - d_0^2) is freed. The interval is that of resamples of the rows; its upper end is as high as narrower
+    /// kernels in finer classes say, and what they leave.
+    fn delta(&self, classes: &Classes, plain: f64, chance: &Chance, input: u64) -> Estimate {
+        let noise = chance.measures.iter().map(|measures| measures[Measure::Delta as usize]).sum::<f64>();
+        let noise = noise / chance.measures.len() as f64;
+        let freed = |found: f64, noise: f64| (found.max(0.0).powi(2) - noise * noise).max(0.0).sqrt();
+        let half_width = |classes: &Partition, part: f64| {
             let resample = |number: usize| {
                 let mut random = self.random(1 << 24 | input << 8 | number as u64);
-                let mut weights = vec![0.0; rows];
+                let (rows, mut weights) = (self.z.len(), vec![0.0; self.z.len()]);
                 (0..rows).for_each(|_| weights[random.random_range(0..rows as u64) as usize] += 1.0);
-                self.densities.delta(z, classes, &weights, part)
+                self.distribution.delta(classes, &weights, part)
             };
-            let (mean, half_width) = moments(&(0..RESAMPLES).into_par_iter().map(resample).collect::<Vec<f64>>());
-            (plain, 2.0 * plain - mean, half_width)
+            half_width(&(0..RESAMPLES).into_par_iter().map(resample).collect::<Vec<f64>>())
         };
-        let (plain, estimate, half_width) = resampled(&classes.fine, 1.0);
-        let mut interval = Interval { low: estimate - half_width, high: estimate + half_width };
-        let (_, finer, half_width) = resampled(&classes.finer, NARROWER);
-        interval.high = interval.high.max(finer + LEFT * (finer - estimate) + half_width);
-        if let Some(twin) = Twin::new(z, ranks, &classes.fine) {
-            let of_table = |number: usize| {
-                let outputs = twin.outputs(&mut self.random(1 << 26 | input << 8 | number as u64));
-                Densities::new(&outputs).delta(&outputs, &classes.fine, &ones, 1.0)
-            };
-            let (mean, half_width) = moments(&(0..RESAMPLES).into_par_iter().map(of_table).collect::<Vec<f64>>());
-            let unbiased = plain - (mean - twin.delta());
-            interval.low = interval.low.min(unbiased - half_width);
-            interval.high = interval.high.max(unbiased + half_width);
-        }
+        let estimate = freed(plain, noise);
+        let around = half_width(&classes.delta[0], 1.0);
+        let finer = self.plain_delta(&classes.delta[1], NARROWER);
+        let around_finer = half_width(&classes.delta[1], NARROWER);
+        let left = LEFT * (freed(finer, chance.finer_delta) - estimate);
+        let high = freed(plain + around, noise).max(freed(finer + around_finer, chance.finer_delta) + left);
         // No delta is above 1.
-        interval.high = interval.high.min(1.0).max(estimate);
-        Estimate { estimate, interval: Some(interval) }
+        Estimate {
+            estimate,
+            interval: Some(Interval { low: freed(plain - around, noise), high: high.clamp(estimate, 1.0) }),
+        }
     }
 }
 
-/// The quantile of the normal distribution at the middle of each row's place among all; equal rows share the middle of theirs.
-fn centred_scores(order: &Order) -> Vec<f64> {
-    let ranks = order.centred_ranks();
-    let rows = ranks.len() as f64;
-    normal_scores(&ranks.iter().map(|rank| rank / rows + 0.5).collect::<Vec<f64>>())
-}
-
-/// The mean of what resamples gave, and the half width of the interval of one of them.
-fn moments(resampled: &[f64]) -> (f64, f64) {
+/// The half width of the interval of one of these resamples.
+fn half_width(resampled: &[f64]) -> f64 {
     let count = resampled.len() as f64;
     let mean = resampled.iter().sum::<f64>() / count;
     let squares: f64 = resampled.iter().map(|delta| (delta - mean).powi(2)).sum();
-    (mean, NORMAL_QUANTILE * (squares / (count - 1.0)).sqrt())
+    NORMAL_QUANTILE * (squares / (count - 1.0)).sqrt()
 }
 
 #[cfg(test)]
