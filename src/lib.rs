@@ -117,8 +117,8 @@ pub mod uncertainty;
 // The modules that are hidden are open to the program, which is a crate of its own, and promise nothing.
 pub use analysis::MOST_ROWS_OF_MEASURES;
 pub use analysis::{
-    Aggregate, Analysis, FailureCount, LookupError, LowRuns, NoIndices, OutputAnalysis,
-    RunMeasures, SeriesAnalysis, Spending, StopReason, Stopped,
+    Aggregate, Analysis, FailureCount, LookupError, LowRuns, NoIndices, OutputAnalysis, RunMeasures, SeriesAnalysis,
+    Spending, StopReason, Stopped,
 };
 #[doc(hidden)]
 pub use analysis::{Unlikely, unlikely_outputs};

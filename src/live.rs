@@ -23,9 +23,7 @@ pub enum LiveError {
         study: String,
     },
     /// A page has the points of so many factors.
-    #[error(
-        "a page cannot run the study {study}: it has {factors} factors, more than {MAX_FACTORS}"
-    )]
+    #[error("a page cannot run the study {study}: it has {factors} factors, more than {MAX_FACTORS}")]
     Factors {
         /// The name of the study.
         study: String,

@@ -64,7 +64,7 @@ fn series(name: &str) -> Series {
     let families = [
         (Stroke::Dotted, ["sobol-1993", "homma-saltelli-1996", "saltelli-2002", "sobol-2007", ""]),
         (Stroke::Dashed, ["martinez-2011", "glen-isaacs-2012", "janon-monod-2014", "", ""]),
-        (Stroke::SolidWithPoints, ["saltelli-2010", "jansen-1999", "azzini-2021", POOLED[0]]),
+        (Stroke::SolidWithPoints, ["saltelli-2010", "jansen-1999", "azzini-2021", POOLED[0], ""]),
         (Stroke::SolidWithPoints, ["", "", "", "", POOLED[1]]),
     ];
     let colours = [0, 1, 2, 4, 6].map(Colour::Series);

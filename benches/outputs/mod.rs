@@ -14,8 +14,7 @@ pub fn function(name: &str) -> KnownFunction {
 /// A design of one factor a swap over `factors` factors, with rows BA.
 pub fn design(settings: DesignSettings, factors: usize, second_order: bool) -> Design {
     let swaps = (0..factors).map(|j| vec![j]).collect();
-    Design::new(settings, factors, Rows { swaps, ba: true, second_order, ..Rows::default() })
-        .expect("a design")
+    Design::new(settings, factors, Rows { swaps, ba: true, second_order, ..Rows::default() }).expect("a design")
 }
 
 /// The inputs at the points of the first replicate, in columns: those of the matrix A, then B.

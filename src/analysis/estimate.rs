@@ -28,13 +28,14 @@ pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analy
     let mut whole = Totals::none(model);
     replicates.iter().for_each(|totals| whole.add_counts(totals));
     let corrected = Corrections::of(run);
+    let series = series(run, &whole, &corrected.whole);
     Analysis {
         design: run.design.clone(),
         outputs: output_analyses(run, &whole, &corrected),
         flags: model.flags().iter().cloned().zip(whole.flags).collect(),
         counts: model.counters().iter().cloned().zip(whole.counts.values()).collect(),
         aggregate: aggregate(run),
-        series: series(run, &whole, &corrected.whole),
+        series,
         stopped,
         threads: run.threads,
         wall_seconds: run.wall_seconds,

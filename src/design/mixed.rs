@@ -75,8 +75,7 @@ impl MixedColumns {
         if mixed.is_empty() {
             return;
         }
-        let scores: Vec<Vec<f64>> =
-            own.chunks(factors).take(2).flat_map(|matrix| self.copula.scores(matrix)).collect();
+        let scores: Vec<Vec<f64>> = own.chunks(factors).take(2).flat_map(|matrix| self.copula.scores(matrix)).collect();
         for (MixedColumn { start, terms, .. }, column) in self.columns.iter().zip(mixed) {
             column.copy_from_slice(&scores[*start]);
             for (coefficient, plus, less) in terms {

@@ -158,12 +158,8 @@ mod tests {
         let settings = DesignSettings { sampler, base_samples: 64, replicates: 4, seed: 3 };
         let swaps = (0..4).map(|factor| vec![factor]).collect();
         let redrawn = if copula.is_some() { (0..4).collect() } else { Vec::new() };
-        Design::new(
-            settings,
-            4,
-            Rows { swaps, redrawn, players, copula: copula.map(Arc::new), ..Rows::default() },
-        )
-        .unwrap()
+        Design::new(settings, 4, Rows { swaps, redrawn, players, copula: copula.map(Arc::new), ..Rows::default() })
+            .unwrap()
     }
 
     fn single() -> Vec<Vec<usize>> {

@@ -41,12 +41,6 @@ impl SobolSequence {
         Self { directions: directions(dimensions).iter().collect(), scrambles: None }
     }
 
-    /// The direction numbers of `dimension`.
-    #[cfg(test)]
-    pub(super) fn directions(&self, dimension: usize) -> &'static Directions {
-        self.directions[dimension]
-    }
-
     /// Coordinate `dimension` of the points `first`, `first + 1`, ... into `out`.
     ///
     /// # Panics

@@ -108,12 +108,8 @@ fn second_order_indices_are_of_single_factors_each_once() {
     assert_eq!(paired(&Rows { second_order: false, ..rows.clone() }), Ok(vec![]));
     let without = Rows { ba: false, ..rows };
     assert_eq!(paired(&without), Err(DesignError::SecondOrderWithoutBa));
-    let all = |d: usize| Rows {
-        swaps: (0..d).map(|j| vec![j]).collect(),
-        ba: true,
-        second_order: true,
-        ..Rows::default()
-    };
+    let all =
+        |d: usize| Rows { swaps: (0..d).map(|j| vec![j]).collect(), ba: true, second_order: true, ..Rows::default() };
     assert!(Design::new(DesignSettings::default(), 256, all(256)).is_ok());
     let error = Design::new(DesignSettings::default(), 257, all(257)).unwrap_err();
     assert_eq!(error, DesignError::TooManyPairs { factors: 257 });

@@ -15,9 +15,8 @@ use super::result::{
 use crate::analysis::{Analysis, LowRuns, SeriesAnalysis, Spending};
 use crate::estimate::{FirstOrder, Scaling, Total};
 use crate::model::{EVALUATIONS, LARGEST_ERROR, RUNGS};
-use crate::quantity::Unit;
 use crate::study::Study;
-use crate::uncertainty::{AggregateIndices, EffectEstimates, IntervalMethod};
+use crate::uncertainty::{AggregateIndices, IntervalMethod};
 
 /// How long a run took, and on how many threads.
 #[derive(Debug, Clone, Copy, PartialEq)]

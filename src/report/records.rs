@@ -4,9 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::chart::Chart;
-use super::result::{
-    ConstantRecord, CorrelationRecord, FactorRecord, ResultFile, StudyRecord, ValidityRecord,
-};
+use super::result::{ConstantRecord, CorrelationRecord, FactorRecord, ResultFile, StudyRecord, ValidityRecord};
 use crate::model::Model;
 use crate::space::Dependence;
 use crate::study::Study;

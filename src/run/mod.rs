@@ -45,7 +45,6 @@ pub(crate) use remote::{Remote, Request};
 pub use repeats::{Irreproducible, Repeats};
 pub(crate) use repeats::{repeat_rows, rows_to_repeat};
 pub use rows::RowValues;
-pub(crate) use scratch::BlockPlace;
 pub use serve::Requests;
 pub(crate) use serve::{refuse, serve};
 pub use shard::{Shard, ShardError};

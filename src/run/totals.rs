@@ -134,12 +134,6 @@ impl Totals {
 }
 
 impl OutputTotals {
-    /// Adds the rows that follow in the same replicate.
-    pub(crate) fn append(&mut self, following: &Self) {
-        self.add_counts(following);
-        self.append_sums(following);
-    }
-
     fn append_sums(&mut self, following: &Self) {
         self.moments.append(&following.moments);
         self.sample.extend_from_slice(&following.sample);

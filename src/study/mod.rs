@@ -35,7 +35,7 @@ use crate::surrogate::{FEWEST_NETS, fewest_points};
 use crate::uncertainty::{IntervalMethod, Layout, NoiseLayout};
 #[cfg(feature = "charts")]
 pub(crate) use options::rows;
-use options::{MOST_AUTOMATIC_VALUES, MOST_AUTOMATIC_VALUES_OF_PROGRAMS, MOST_VALUES_OF_SERIES};
+use options::{MOST_AUTOMATIC_VALUES, MOST_AUTOMATIC_VALUES_OF_PROGRAMS};
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
 #[derive(Debug, Clone)]

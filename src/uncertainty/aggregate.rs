@@ -45,7 +45,8 @@ pub fn aggregate_indices(
     method: IntervalMethod,
 ) -> Result<AggregateIndices, Undefined> {
     let of = |moments: &Moments| {
-        Indices::of(moments).map(|Indices { first_order, total, .. }| (moments.variance(), [first_order, total].concat()))
+        Indices::of(moments)
+            .map(|Indices { first_order, total, .. }| (moments.variance(), [first_order, total].concat()))
     };
     // Output by output: the sums of all at once, without each part, would fill the memory.
     let all: Vec<LeftOut<_>> = outputs.par_iter().map(|replicates| LeftOut::of(replicates, &of)).collect();

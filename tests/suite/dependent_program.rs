@@ -77,10 +77,8 @@ fn joint_measurements_and_matrices_state_the_same() {
         "file = \"joint.csv\"\ncorrelation = 0.5",
         "file = \"joint.csv\"\ncopula = \"kernel\"",
     ] {
-        let study = folder.with(
-            "wrong.toml",
-            format!("{model}{factors}[dependence]\nfactors = [\"x1\", \"x2\"]\n{wrong}\n"),
-        );
+        let study =
+            folder.with("wrong.toml", format!("{model}{factors}[dependence]\nfactors = [\"x1\", \"x2\"]\n{wrong}\n"));
         assert_eq!(apportion(&["check", text(&study)]).status.code(), Some(2), "{wrong}");
     }
 }

@@ -14,11 +14,7 @@ const SEEDS: u64 = 16;
 fn estimates(study: &Study, sampler: Sampler, base_samples: u64) -> Vec<Vec<f64>> {
     let (factors, model) = (study.space().factors().len(), study.model());
     let of_seed = |seed| {
-        let rows = Rows {
-            swaps: (0..factors).map(|j| vec![j]).collect(),
-            ba: true,
-            ..Rows::default()
-        };
+        let rows = Rows { swaps: (0..factors).map(|j| vec![j]).collect(), ba: true, ..Rows::default() };
         let settings = DesignSettings { sampler, base_samples, replicates: 1, seed };
         let design = Design::new(settings, factors, rows).unwrap();
         let job = Job { design: &design, space: study.space(), model: model.as_ref() };

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use apportion::report::{ResultFile, run_document};
 use apportion::{
-    Analysis, CorrelationMeasure, Dependence, Distribution, FunctionModel, RowFailure, SeriesAxis, Study,
-    StudyBuilder, SurrogateChoice, Target, Unit,
+    Analysis, CorrelationMeasure, Dependence, Distribution, FunctionModel, RowFailure, SeriesAxis, Study, StudyBuilder,
+    SurrogateChoice, Target, Unit,
 };
 
 /// A study of a series of `f` at `positions`, of factors between -1 and 1.

@@ -64,9 +64,7 @@ fn ishigami_and_the_portfolio_have_their_effects() {
     let pi = std::f64::consts::PI;
     let ishigami = |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
     let (s1, s2, s13) = (0.313_905, 0.442_411, 0.243_684);
-    for (sampler, offset, tolerance) in
-        [(Sampler::Sobol, 0.0, 0.01), (Sampler::Random, 1e7, 0.02)]
-    {
+    for (sampler, offset, tolerance) in [(Sampler::Sobol, 0.0, 0.01), (Sampler::Random, 1e7, 0.02)] {
         let mut builder = Study::builder("ishigami", function_model("y", move |x: &[f64]| ishigami(x) + offset));
         for name in ["x1", "x2", "x3"] {
             builder = builder.factor(name, Distribution::uniform(-pi, pi).unwrap());

@@ -7,12 +7,7 @@ fn factorial(f: impl Fn(f64, f64) -> f64) -> Sample {
     let level = |point: usize, coordinate: u32| (point / 3usize.pow(coordinate) % 3) as f64 - 1.0;
     // Coordinates 0, 1 are A; 2, 3 are B.
     let column = |x: u32, y: u32| (0..81).map(|point| f(level(point, x), level(point, y))).collect::<Vec<f64>>();
-    Sample {
-        a: column(0, 1),
-        b: column(2, 3),
-        ab: [column(2, 1), column(0, 3)],
-        ba: [column(0, 3), column(2, 1)],
-    }
+    Sample { a: column(0, 1), b: column(2, 3), ab: [column(2, 1), column(0, 3)], ba: [column(0, 3), column(2, 1)] }
 }
 
 /// Partial variances V_1, V_2 and V_12 of f over the nine points, by the definition of the decomposition.
@@ -75,12 +70,8 @@ fn an_inert_factor_has_exactly_no_effect_in_the_difference_forms_at_any_offset()
         sample.ab[0] = sample.a.clone();
         sample.ba[0] = sample.b.clone();
         let moments = sample.moments();
-        let exact = [
-            FirstOrder::Sobol2007,
-            FirstOrder::Saltelli2010,
-            FirstOrder::SaltelliPooled,
-            FirstOrder::Azzini2021,
-        ];
+        let exact =
+            [FirstOrder::Sobol2007, FirstOrder::Saltelli2010, FirstOrder::SaltelliPooled, FirstOrder::Azzini2021];
         for estimator in exact {
             assert_eq!(estimator.estimate(&moments, 0).abs(), 0.0, "{estimator:?} at {offset}");
         }

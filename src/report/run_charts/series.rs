@@ -2,7 +2,7 @@
 
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape};
 use super::super::factor_bars::INDEX;
-use super::super::format::{axis_unit, fixed, name};
+use super::super::format::{axis_unit, name};
 use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile, SeriesRecord};
 use super::headline;
 

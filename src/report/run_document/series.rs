@@ -3,13 +3,11 @@
 use super::figures::{Figures, SERIES_SUFFIXES};
 use super::output::definitions;
 use super::overview;
-use crate::report::document::{Cell, Column, Mark, Part, Section, Table};
-use crate::report::format::{fixed, give_or_take, heading, name, significant};
+use crate::report::document::{Part, Section, Table};
+use crate::report::format::{heading, name, significant};
 use crate::report::listed;
 use crate::report::output_axis::OutputAxis;
-use crate::report::result::{
-    AggregateIndexRecord, AggregateRecord, OutputRecord, ResultFile, SeriesRecord,
-};
+use crate::report::result::{AggregateRecord, OutputRecord, ResultFile, SeriesRecord};
 use crate::report::run_charts::{SeriesOf, along_chart, layers_chart, map_chart, together_chart};
 
 /// Series that are told with all their charts, and whose single values are told too.

@@ -51,7 +51,7 @@ mod tests {
         for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0]] {
             let lower = CholeskyFactor::new(3, |row, column| correlations[order[row]][order[column]]);
             for (i, j) in (0..3).flat_map(|i| (0..=i).map(move |j| (i, j))) {
-                let product: f64 = lower.row(i).iter().zip(lower.row(j)).map(|(a, b)| a * b).sum();
+                let product: f64 = lower.rows[i].iter().zip(&lower.rows[j]).map(|(a, b)| a * b).sum();
                 assert!((product - correlations[order[i]][order[j]]).abs() < 1e-15);
             }
             let e = lower.whiten(&[0.3, -1.0, 2.0]);

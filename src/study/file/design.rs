@@ -39,8 +39,6 @@ pub(super) fn plan(context: &Context<'_>, file: &StudyFile, space: &Space, outpu
     let target = analysis::target(context, section, sampler)?;
     let target = fidelity::accuracy(context, file, target, sampler)?;
     let or = |value: &Option<At<u64>>, default| value.as_ref().map_or(default, |value| *value.get_ref());
-    let has_plain_rows =
-        section.budget_runs.is_some() || section.plain_rows.as_ref().is_some_and(|rows| *rows.get_ref() > 0);
     let replicates = or(&section.replicates, analysis.intervals.default_replicates());
     let split = sizes_within_budget(context, section, &analysis, space, sampler, replicates)?;
     let (base_samples, plain_rows) =
