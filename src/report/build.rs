@@ -8,9 +8,8 @@ use serde_json::Value;
 use super::build_output::OutputRecords;
 use super::records::dependence_record;
 use super::result::{
-    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, LowRecord,
-    Provenance, ResultFile, RungRecord, SeriesRecord, SpendingRecord, StoppingRecord, StudyRecord, ValidityRecord,
-    estimate_record,
+    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, LowRecord, Provenance,
+    ResultFile, RungRecord, SeriesRecord, SpendingRecord, StoppingRecord, StudyRecord, ValidityRecord, estimate_record,
 };
 use crate::analysis::{Analysis, LowRuns, SeriesAnalysis, Spending};
 use crate::estimate::{FirstOrder, Scaling, Total};
