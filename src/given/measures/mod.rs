@@ -317,12 +317,15 @@ impl<'a> Job<'a> {
     }
 
     /// Delta, of which `plain` is the estimate with all of its noise. An input without influence has d_0, the mean over permutations,
-    /// of which sqrt(d^2 - d_0^2) is freed. The interval is that of resamples of the rows; its upper end is as high as narrower
+    /// of which d is freed: sqrt((d^2 - d_0^2)/(1 - d_0^2)), for what is certain has no noise. The interval is that of resamples of the rows; its upper end is as high as narrower
     /// kernels in finer classes say, and what they leave.
     fn delta(&self, classes: &Classes, plain: f64, chance: &Chance, input: u64) -> Estimate {
         let noise = chance.measures.iter().map(|measures| measures[Measure::Delta as usize]).sum::<f64>();
         let noise = noise / chance.measures.len() as f64;
-        let freed = |found: f64, noise: f64| (found.max(0.0).powi(2) - noise * noise).max(0.0).sqrt();
+        let freed = |found: f64, noise: f64| {
+            let square = found.clamp(0.0, 1.0).powi(2);
+            ((square - noise * noise).max(0.0) / (1.0 - noise * noise).max(f64::MIN_POSITIVE)).sqrt()
+        };
         let half_width = |classes: &Partition, part: f64| {
             let resample = |number: usize| {
                 let mut random = self.random(1 << 24 | input << 8 | number as u64);
