@@ -137,7 +137,7 @@ fn provenance(study: &Study, analysis: &Analysis) -> Provenance {
     let alone = settings.replicates == 1 && options.intervals == IntervalMethod::Replicates;
     let (first_order, total) = match options.salib {
         true => (FirstOrder::Saltelli2010, Total::Jansen1999),
-        false => (FirstOrder::of_rows(design.companions()), Total::of_rows(design.companions())),
+        false => (FirstOrder::default_for(design.has_ba()), Total::default_for(design.has_ba())),
     };
     Provenance {
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
