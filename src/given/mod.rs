@@ -38,36 +38,25 @@ pub use surrogate::{
     LEAST_EXPLAINED, SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, surrogate_indices,
 };
 
+use crate::names::named;
 pub(crate) use column::centred;
 use order::Order;
 
 /// Fewest rows that are analysed: below, an interval is wider than the range of an index.
 pub const FEWEST_ROWS: usize = 30;
 
+named! {
 /// How indices are estimated from given data.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Default)]
 pub enum Method {
     /// By ranks: [`rank_first_order`].
-    Rank,
+    Rank = "rank",
     /// By bins: [`binned_first_order`].
-    Binned,
+    Binned = "binned",
     /// By ranks, with the bins as a check.
     #[default]
-    Both,
+    Both = "both",
 }
-
-impl Method {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Rank, Self::Binned, Self::Both];
-
-    /// The name on the command line and in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rank => "rank",
-            Self::Binned => "binned",
-            Self::Both => "both",
-        }
-    }
 }
 
 /// Why a table is not analysed.
