@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use apportion::report::{ResultFile, run_document};
 use apportion::{
     Analysis, CorrelationMeasure, Dependence, Distribution, FunctionModel, RowFailure, SeriesAxis, Study, StudyBuilder,
-    SurrogateChoice, Target, Unit,
+    SurrogateChoice, Unit,
 };
 
 /// A study of a series of `f` at `positions`, of factors between -1 and 1.
