@@ -6,8 +6,7 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, MetadataProvider};
+use ttf_parser::Face as FontFace;
 
 /// Family name of the embedded faces.
 #[cfg(feature = "png")]
@@ -79,18 +78,16 @@ static BOLD_ADVANCES: LazyLock<HashMap<char, f64>> = LazyLock::new(|| advances(B
 
 /// Advances in em by character; empty if the bytes are no font, which a test rules out.
 fn advances(font: &[u8]) -> HashMap<char, f64> {
-    let Ok(font) = FontRef::new(font) else {
-        return HashMap::new();
-    };
-    let metrics = font.glyph_metrics(Size::unscaled(), LocationRef::default());
-    let em = f64::from(font.metrics(Size::unscaled(), LocationRef::default()).units_per_em);
-    font.charmap()
-        .mappings()
-        .filter_map(|(code, glyph)| {
-            let advance = f64::from(metrics.advance_width(glyph)?);
-            Some((char::from_u32(code)?, advance / em))
-        })
-        .collect()
+    let Ok(font) = FontFace::parse(font, 0) else { return HashMap::new() };
+    let em = f64::from(font.units_per_em());
+    let mut advances = HashMap::new();
+    for table in font.tables().cmap.iter().flat_map(|cmap| cmap.subtables).filter(|table| table.is_unicode()) {
+        table.codepoints(|code| {
+            let advance = table.glyph_index(code).and_then(|glyph| font.glyph_hor_advance(glyph));
+            advances.extend(char::from_u32(code).zip(advance.map(|advance| f64::from(advance) / em)));
+        });
+    }
+    advances
 }
 
 #[cfg(test)]

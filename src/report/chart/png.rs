@@ -71,7 +71,7 @@ pub(super) fn options() -> Options<'static> {
 /// Pixels per inch of a picture for paper, as journals want them of lines and letters.
 const PAPER_DPI: f64 = 600.0;
 /// Pixels per inch of 1 px of an SVG (CSS).
-const CSS_DPI: f64 = 96.0;
+pub(super) const CSS_DPI: f64 = 96.0;
 
 /// Draws an SVG chart of this crate as a PNG picture on white: [`PNG_SCALE`] pixels per px, or 600 per inch where the width of
 /// the chart is that on paper. The file says which, so that it is set in its size.
@@ -120,16 +120,6 @@ fn encoded(pixels: &Pixmap, dpi: f64) -> Result<Vec<u8>, EncodingError> {
     let colours: Vec<u8> = pixels.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
     encoder.write_header()?.write_image_data(&colours)?;
     Ok(file)
-}
-
-/// The smallest rectangle that holds every mark and letter, as (left, top, right, bottom), px, and the size of the view.
-#[cfg(test)]
-pub(super) fn extent(svg: &str) -> ([f32; 4], [f32; 2]) {
-    let document = roxmltree::Document::parse(svg).expect("well-formed");
-    let tree = Tree::from_xmltree(&document, &options()).expect("an SVG");
-    let bounds = tree.root().abs_bounding_box();
-    let size = tree.size();
-    ([bounds.left(), bounds.top(), bounds.right(), bounds.bottom()], [size.width(), size.height()])
 }
 
 /// Characters of drawn text without a glyph.
