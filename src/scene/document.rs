@@ -1,7 +1,6 @@
 //! A scene, and the diagram of its modes, as documents.
 
 use super::{ModeDiagram, SceneStory, mode_diagram_chart, player_page, scene_charts, scene_csv, scene_json};
-use apportion::report::FileNames;
 use apportion::report::chart::ChartError;
 use apportion::report::csv::{Csv, Field};
 use apportion::report::document::{DataFile, Document, DocumentError, Figure, Part, Section, Table, Value};
@@ -12,7 +11,7 @@ use apportion::report::format::{minus, with_unit};
 /// # Errors
 /// [`DocumentError`] if the animation cannot be made.
 pub fn scene_document(story: &SceneStory, study: &str) -> Result<Document, DocumentError> {
-    let names = file_names(study);
+    let name = format!("{study}-scene");
     let mut sections = Vec::new();
     if !story.samples.is_empty() {
         let frame = Part::Frame { title: "The scene as an animation".to_owned(), html: player_page(story)? };
@@ -20,7 +19,7 @@ pub fn scene_document(story: &SceneStory, study: &str) -> Result<Document, Docum
     }
     let charts = scene_charts(story).into_iter().enumerate().map(|(place, chart)| {
         let stem = format!("{study}-{}", chart.stem);
-        Part::from(Figure::new(place + 1, chart.chart, stem, &names.data[1]))
+        Part::from(Figure::new(place + 1, chart.chart, stem, format!("{name}.csv")))
     });
     sections.push(Section::new("charts", "Charts", charts.collect()));
     if !story.setting.is_empty() {
@@ -29,28 +28,18 @@ pub fn scene_document(story: &SceneStory, study: &str) -> Result<Document, Docum
         sections.push(Section::new("setting", "Setting", vec![Part::OnPage(vec![details])]));
     }
     Ok(Document {
-        name: names.name,
+        name: name.clone(),
         kicker: "A scene in time".to_owned(),
         title: story.title.clone(),
         lead: [Some(story.outcome()), numbers(story)].into_iter().flatten().collect(),
         sections,
         footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
         files: vec![
-            DataFile::new(names.data[0].clone(), scene_json(story)),
-            DataFile::new(names.data[1].clone(), scene_csv(story)),
+            DataFile::new(format!("{name}.json"), scene_json(story)),
+            DataFile::new(format!("{name}.csv"), scene_csv(story)),
         ],
         ..Document::default()
     })
-}
-
-/// The names of the files of a scene of the study called `study`.
-pub fn file_names(study: &str) -> FileNames {
-    let stems = ["forces", "pushing", "positions", "contacts", "angles"];
-    FileNames {
-        name: format!("{study}-scene"),
-        data: ["json", "csv"].map(|ending| format!("{study}-scene.{ending}")).to_vec(),
-        charts: stems.map(|stem| format!("{study}-scene-{stem}")).to_vec(),
-    }
 }
 
 /// Forces at the slip, and how far the particle has come in the end.
@@ -75,7 +64,7 @@ fn numbers(story: &SceneStory) -> Option<String> {
 /// # Errors
 /// [`ChartError`] if the diagram cannot be drawn.
 pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Result<Document, ChartError> {
-    let names = mode_file_names(study);
+    let name = format!("{study}-modes");
     let chart = mode_diagram_chart(diagram)?;
     let of_mode = |mode: &str| Field::new(format!("{mode}_N"));
     let fields = diagram.forces.iter().map(|line| of_mode(&line.mode));
@@ -84,10 +73,10 @@ pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Result<
         let forces = diagram.forces.iter().map(|line| Value::from(line.force[row]));
         csv.row([Value::from(*angle)].into_iter().chain(forces));
     }
-    let (lead, data) = (vec![chart.caption().to_owned()], names.data[0].clone());
-    let figure = Figure::new(1, chart, &names.name, &data);
+    let (lead, data) = (vec![chart.caption().to_owned()], format!("{name}.csv"));
+    let figure = Figure::new(1, chart, &name, &data);
     Ok(Document {
-        name: names.name,
+        name,
         kicker: "Modes of motion".to_owned(),
         title: title.to_owned(),
         lead,
@@ -98,22 +87,15 @@ pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Result<
     })
 }
 
-/// The names of the files of the diagram of modes.
-pub fn mode_file_names(study: &str) -> FileNames {
-    let name = format!("{study}-modes");
-    FileNames { data: vec![format!("{name}.csv")], charts: vec![name.clone()], name }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::fixture;
     use super::*;
 
     #[test]
-    fn a_scene_has_the_files_that_were_announced() {
+    fn a_scene_has_a_page() {
         let mut story = fixture::story();
         let document = scene_document(&story, "s").unwrap();
-        assert_eq!(document.file_names(), file_names("s"));
         assert!(document.lead[1].contains("lateral") && document.html().unwrap().contains("srcdoc="));
         story.samples.clear();
         assert_eq!(scene_document(&story, "s").unwrap().lead.len(), 1);

@@ -7,7 +7,6 @@
 pub(crate) mod charts;
 mod columns;
 mod document;
-mod film;
 #[cfg(test)]
 mod fixture;
 pub(crate) mod mode_diagram;
@@ -17,8 +16,7 @@ mod view;
 
 pub use charts::{law_colour, scene_charts};
 pub use columns::{scene_csv, scene_json};
-pub use document::{file_names, mode_document, mode_file_names, scene_document};
-pub use film::film_strip;
+pub use document::{mode_document, scene_document};
 pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
 pub use player::player_page;
 

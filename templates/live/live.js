@@ -118,8 +118,8 @@ const request = (wanted, samples, more = {}) => ({ wanted, text: text(), changes
 
 // --- What is shown ----------------------------------------------------------------------------------------------------
 
-const QUICK = ["mind", "indices", "shares", "series-1"];
-const ALL = ["mind", "indices", "shares", "series-1", "interactions", "distribution", "validity"];
+const QUICK = ["warnings", "indices", "shares", "series-1"];
+const ALL = ["warnings", "indices", "shares", "series-1", "interactions", "distribution", "validity"];
 // Of which settings the result is, and for which there is none.
 let shown = { settings: null, samples: 0 };
 let refused = { settings: null, problem: null };

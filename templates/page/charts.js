@@ -43,16 +43,6 @@ addEventListener("scroll", hide, { passive: true, capture: true });
 addEventListener("keydown", (event) => { if (event.key === "Escape") hide(); });
 document.addEventListener("pointerleave", hide);
 
-// Where a logarithmic axis shows more, all such figures change together.
-document.body.classList.add("scripted");
-addEventListener("click", (event) => {
-  const button = event.target instanceof Element && event.target.closest("button.scale");
-  if (!button) return;
-  document.body.classList.toggle("log", button.dataset.scale === "log");
-  const other = button.parentElement.querySelector(`.scale:not([data-scale="${button.dataset.scale}"])`);
-  if (other) other.focus({ preventScroll: true });
-});
-
 // An entry of a legend lifts its series out of the others; a click puts the series away or back.
 const colour = (mark) => [mark.getAttribute("fill"), mark.getAttribute("stroke")].find((ink) => ink && ink !== "none");
 const entry = (target) => {

@@ -170,11 +170,6 @@ def behaviour(arguments, browser, page_file, folder):
     for hidden in (True, False):
         page.locator("#indices .wide .legend text").first.click()
         expect((bar.evaluate("bar => getComputedStyle(bar).visibility") == "hidden") == hidden, "the legend switches nothing")
-    figure = page.locator("#indices figure.two-scales")
-    for scale, dots in (("log", True), ("linear", False)):
-        figure.locator(f".scale[data-scale={scale}]").click()
-        expect(figure.locator(".wide.log").is_visible() == dots, f"no {scale} axis")
-        expect(figure.locator(".wide:not(.log)").is_visible() != dots, f"two axes on {scale}")
     box = page.locator("fieldset[data-factor=length] input[data-key=smallest]").bounding_box()
     share = page.evaluate("(() => { const i = document.querySelector('fieldset[data-factor=length] input[data-key=smallest]'); return i.value / 1000; })()")
     x, y = box["x"] + 11 + share * (box["width"] - 22), box["y"] + box["height"] / 2

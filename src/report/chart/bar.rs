@@ -35,7 +35,7 @@ impl Bar {
     /// The bar as it is drawn; `None` if it cannot be.
     pub(super) fn drawn(&self) -> Option<Self> {
         drawable(self.from).and(drawable(self.to))?;
-        let interval = self.interval.and_then(drawable_pair);
+        let interval = self.interval.and_then(|(low, high)| drawable(low).zip(drawable(high)));
         Some(Self { interval, ..self.clone() })
     }
 
@@ -50,9 +50,4 @@ impl Bar {
     pub(super) fn diamond(&self) -> Option<f64> {
         self.published.and_then(drawable)
     }
-}
-
-/// Both bounds if both can be drawn.
-pub(super) fn drawable_pair((low, high): (f64, f64)) -> Option<(f64, f64)> {
-    drawable(low).zip(drawable(high))
 }

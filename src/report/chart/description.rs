@@ -1,8 +1,8 @@
 //! What a chart says of itself besides title and caption: its legend, and its data in words.
 
-use super::bar::{Bar, drawable_pair};
+use super::bar::Bar;
 use super::figure::{Entry, Key};
-use super::model::{Body, Chart, Mark, Panel, Point, Shape};
+use super::model::{Chart, Mark, Panel, Point, Shape};
 use super::text::percent;
 
 impl Chart {
@@ -14,7 +14,7 @@ impl Chart {
             let key = match shape {
                 Shape::Line(_) => points(series.stroke.has_line(), series.stroke.has_points()),
                 Shape::Dots(_) | Shape::Point(_) => points(false, true),
-                Shape::Bar(_) | Shape::Layer(_) | Shape::Tile(_) | Shape::Stretches(..) => Key::Swatch(series.colour),
+                Shape::Bar(_) | Shape::Tile(_) => Key::Swatch(series.colour),
                 _ => continue,
             };
             let other = match shape {
@@ -31,11 +31,10 @@ impl Chart {
         let any = |test: fn(&Shape) -> bool| self.marks().any(|mark| test(&mark.shape));
         let has_interval = |shape: &Shape| match shape {
             Shape::Bar(bar) => bar.drawn().is_some_and(|bar| bar.interval.is_some()),
-            Shape::Interval(_, low, high) => drawable_pair((*low, *high)).is_some(),
             _ => false,
         };
         if any(has_interval) {
-            entries.push(Entry { name: self.interval_name.clone(), key: Key::Whisker });
+            entries.push(Entry { name: "95 % interval".to_owned(), key: Key::Whisker });
         }
         if any(|shape| matches!(shape, Shape::Bar(bar) if bar.diamond().is_some())) {
             entries.push(Entry { name: self.published_name.clone(), key: Key::Diamond });
@@ -45,10 +44,7 @@ impl Chart {
 
     /// What the chart shows in words: its caption, then axes, series and, where they are few, all numbers.
     pub fn description(&self) -> String {
-        match self.body {
-            Body::Panels(_) => format!("{} {}", self.caption, self.data()).trim().to_owned(),
-            Body::Picture(_) => self.caption.clone(),
-        }
+        format!("{} {}", self.caption, self.data()).trim().to_owned()
     }
 
     /// Axes, series and numbers in words.
@@ -68,14 +64,11 @@ impl Chart {
         }
         for Mark { series, shape } in &panel.marks {
             let said = match shape {
-                Shape::Line(_) | Shape::Layer(_) => series.name.clone(),
+                Shape::Line(_) => series.name.clone(),
                 Shape::Dots(dots) => format!("{}: {} points", series.name, dots.len()),
                 Shape::Point(point) => point_in_words(&series.name, point),
                 Shape::Bar(bar) => self.bar_in_words(panel, &series.name, bar),
                 Shape::Note(row, note) => format!("{}: {note}", name(panel, *row)),
-                Shape::Interval(row, low, high) => {
-                    format!("{}, {}: {low} to {high}", name(panel, *row), self.interval_name)
-                }
                 Shape::Rule(x, label) if !label.trim().is_empty() => {
                     let place = panel.x.names.get(*x as usize).cloned();
                     format!("{label} at {}", place.unwrap_or_else(|| x.to_string()))
@@ -89,12 +82,6 @@ impl Chart {
                 panel.tiles().filter(|(_, tile)| tile.row == row).map(|(_, tile)| tile.letter.as_str()).collect();
             if !letters.is_empty() {
                 text.push_str(&format!("; {name}: {}", letters.join(" ")));
-            }
-            let stretches =
-                panel.marks.iter().filter(|mark| matches!(mark.shape, Shape::Stretches(of, _) if of == row));
-            let shades: Vec<&str> = stretches.map(|mark| mark.series.name.as_str()).collect();
-            if !shades.is_empty() {
-                text.push_str(&format!("; {name}: {}", shades.join(", ")));
             }
         }
         text + "."

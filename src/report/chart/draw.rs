@@ -4,12 +4,12 @@ use super::figure::{Figure, Words};
 use super::flags::{self, Flag};
 use super::labels::{self, Area, Label};
 use super::layout::{Cell, Layout, slope_label};
-use super::model::{Body, Chart, Mark, Point, Shape};
+use super::model::{Chart, Mark, Point, Shape};
 use super::path::{closed, open, runs, thin};
 use super::plot::Plot;
 use super::scale::Scale;
 use super::series::Series;
-use super::style::{ChartWidth, MUTED, Medium, PANEL_TITLE, PAPER, PaperWidth, TICK};
+use super::style::{ChartWidth, MUTED, Medium, PANEL_TITLE, TICK};
 use super::svg::{Anchor, Attributes, Canvas, Text};
 use super::symbols::Ends;
 use super::text::shorten;
@@ -63,23 +63,13 @@ impl Chart {
     }
 
     fn drawn(&self, medium: Medium) -> Result<String, ChartError> {
-        match &self.body {
-            Body::Picture(picture) => {
-                let drawing = medium.width.choose(&picture.wide, &picture.narrow);
-                Ok(match medium.width.paper() {
-                    Some(width) => on_paper(&drawing.inline, width),
-                    None if medium.inline => drawing.inline.clone(),
-                    None => drawing.document.clone(),
-                })
-            }
-            Body::Panels(panels) if panels.is_empty() => Err(ChartError::NoPanels { chart: self.title.clone() }),
-            Body::Panels(_) => {
-                let words = Words { title: &self.title, caption: &self.caption };
-                let mut figure = Figure::begin(medium, words, &self.legend());
-                let bottom = self.draw_panels(&mut figure, medium.width);
-                Ok(figure.finish(bottom, &self.data()))
-            }
+        if self.panels.is_empty() {
+            return Err(ChartError::NoPanels { chart: self.title.clone() });
         }
+        let words = Words { title: &self.title, caption: &self.caption };
+        let mut figure = Figure::begin(medium, words, &self.legend());
+        let bottom = self.draw_panels(&mut figure, medium.width);
+        Ok(figure.finish(bottom, &self.data()))
     }
 
     /// Draws all panels from the figure's free room on; gives the lower edge.
@@ -101,14 +91,6 @@ impl Chart {
             top = bottom + HEAD;
         }
         bottom
-    }
-}
-
-/// An element of a page as a document of its own, so wide on paper.
-fn on_paper(inline: &str, width: PaperWidth) -> String {
-    match inline.strip_prefix("<svg") {
-        Some(rest) => format!("<svg width=\"{}mm\"{rest}", width.millimetres()),
-        None => inline.to_owned(),
     }
 }
 
@@ -186,11 +168,8 @@ impl<'a> Sheet<'a> {
             }
         }
         for Mark { series, shape } in marks {
-            match shape {
-                // The rim of a band has the contrast that its light filling lacks; a white one parts layers of like lightness.
-                Shape::Band(edges) => self.band(canvas, series, "band", "0.18", series.colour.hex(), edges),
-                Shape::Layer(edges) => self.band(canvas, series, "layer", "1", PAPER, edges),
-                _ => (),
+            if let Shape::Band(edges) = shape {
+                self.band(canvas, series, edges);
             }
         }
         for Mark { series, shape } in marks {
@@ -219,29 +198,21 @@ impl<'a> Sheet<'a> {
     fn shows(&self, mark: &Mark) -> bool {
         match &mark.shape {
             Shape::Line(points) | Shape::Dots(points) => points.iter().any(|&point| self.at(point).is_some()),
-            Shape::Band(edges) | Shape::Layer(edges) => edges.iter().any(|edges| self.edges(edges).is_some()),
+            Shape::Band(edges) => edges.iter().any(|edges| self.edges(edges).is_some()),
             Shape::Point(point) => self.at((point.x, point.y)).is_some(),
             _ => false,
         }
     }
 
-    /// A band or layer of a series: its kind, how opaque it is, and the colour of its rim.
-    fn band(
-        &self,
-        canvas: &mut Canvas,
-        series: &Series,
-        kind: &str,
-        opacity: &str,
-        rim: &str,
-        edges: &[(f64, f64, f64)],
-    ) {
+    /// A band of a series. Its rim has the contrast that its light filling lacks.
+    fn band(&self, canvas: &mut Canvas, series: &Series, edges: &[(f64, f64, f64)]) {
         for run in runs(edges.iter().map(|edges| self.edges(edges))) {
             let lower: Vec<_> = run.iter().map(|edges| edges[0]).collect();
             let upper: Vec<_> = run.iter().map(|edges| edges[1]).collect();
             let d = closed(&thin(&lower), &thin(&upper));
             let fill = series.colour.hex();
-            let filling: Attributes = &[("class", &kind), ("d", &d), ("fill", &fill), ("fill-opacity", &opacity)];
-            canvas.leaf("path", &[filling, &[("stroke", &rim), ("stroke-width", &"0.7")]].concat());
+            let filling: Attributes = &[("class", &"band"), ("d", &d), ("fill", &fill), ("fill-opacity", &"0.18")];
+            canvas.leaf("path", &[filling, &[("stroke", &fill), ("stroke-width", &"0.7")]].concat());
         }
     }
 

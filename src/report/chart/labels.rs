@@ -141,24 +141,6 @@ mod tests {
         assert!(edge.area.right <= 300.0 && edge.leader.is_none());
     }
 
-    #[test]
-    fn a_label_keeps_clear_of_marks_where_it_can() {
-        let level = Area { left: 50.0, right: 150.0, top: 99.0, bottom: 101.0 };
-        let beside = place(&[wanted(100.0, 100.0)], &[level], BOUNDS)[0].unwrap();
-        assert!(!beside.area.overlaps(&level) && beside.leader.is_none());
-        let everywhere = place(&[wanted(100.0, 100.0)], &[BOUNDS], BOUNDS);
-        assert_eq!(everywhere, place(&[wanted(100.0, 100.0)], &[], BOUNDS));
-    }
-
-    #[test]
-    fn a_crowd_keeps_the_labels_that_fit() {
-        let places = place(&vec![wanted(150.0, 100.0); 60], &[], BOUNDS);
-        let placed = places.iter().flatten().count();
-        // There is room on every side, but not for all.
-        assert!((4..60).contains(&placed), "{placed}");
-        assert!(places[0].is_some());
-    }
-
     proptest! {
         #[test]
         fn labels_touch_nothing(points in prop::collection::vec((5.0..295.0, 5.0..195.0), 1..40)) {

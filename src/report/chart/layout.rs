@@ -1,6 +1,6 @@
 //! Where the panels of a chart stand, and which scales they have.
 
-use super::bar::{Bar, drawable_pair};
+use super::bar::Bar;
 use super::model::{Arrangement, Chart, Mark, Panel, Shape, Tile};
 use super::plot::{TICK_GAP, tick_room, title_room};
 use super::scale::{Scale, ScaleOptions, Spacing};
@@ -133,14 +133,9 @@ impl Panel {
         })
     }
 
-    /// Whether it has the stretches of a map.
-    pub(super) fn has_stretches(&self) -> bool {
-        self.marks.iter().any(|mark| matches!(mark.shape, Shape::Stretches(..)))
-    }
-
     /// Whether it is a map, whose rows stand for themselves and not about a value.
     pub(super) fn is_map(&self) -> bool {
-        self.has_stretches() || self.tiles().next().is_some()
+        self.tiles().next().is_some()
     }
 
     /// The rules as (place, label).
@@ -165,9 +160,7 @@ impl Panel {
         let level = |x: f64| (x, 0.0);
         let of_mark = |mark: &Mark| match &mark.shape {
             Shape::Line(points) | Shape::Dots(points) => points.clone(),
-            Shape::Band(edges) | Shape::Layer(edges) => {
-                edges.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]).collect()
-            }
+            Shape::Band(edges) => edges.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]).collect(),
             Shape::Point(point) => {
                 let beside = point.x_interval.map(|(low, high)| [(low, point.y), (high, point.y)]);
                 let above = point.y_interval.map(|(low, high)| [(point.x, low), (point.x, high)]);
@@ -177,20 +170,14 @@ impl Panel {
                 Some(bar) => bar.ends().into_iter().map(level).collect(),
                 None => bar.diamond().into_iter().map(level).collect(),
             },
-            Shape::Interval(_, low, high) => {
-                drawable_pair((*low, *high)).into_iter().flat_map(|(low, high)| [level(low), level(high)]).collect()
-            }
             Shape::Slope(..) => vec![(0.0, 0.0)],
-            Shape::Stretches(_, stretches) => {
-                stretches.iter().flat_map(|&(from, to)| [level(from), level(to)]).collect()
-            }
             Shape::Tile(_) | Shape::Note(..) | Shape::Rule(..) => Vec::new(),
         };
         self.marks.iter().flat_map(of_mark).collect()
     }
 
     fn x_values(&self) -> Vec<f64> {
-        let base = (self.has_rows() && !self.has_stretches()).then(|| self.base());
+        let base = self.has_rows().then(|| self.base());
         self.places().into_iter().map(|place| place.0).chain(self.rules().map(|rule| rule.0)).chain(base).collect()
     }
 
@@ -257,7 +244,6 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
     values.extend(room_for_labels(panels, &values, width));
     let marks = || panels.iter().flat_map(|panel| &panel.marks);
     let air = match () {
-        () if panels.iter().any(Panel::has_stretches) => 0.0,
         () if panels.iter().any(Panel::has_rows) => 0.03,
         () if panels.iter().any(Panel::has_slopes) => 0.06,
         // Points need air at the ends; lines run from edge to edge.

@@ -11,20 +11,15 @@ mod description;
 mod draw;
 mod error;
 mod figure;
-mod film_strip;
 mod flags;
 mod font;
 mod labels;
 mod layout;
-#[cfg(any(feature = "page", test))]
-mod logarithmic;
 mod model;
 mod palette;
 mod path;
 #[cfg(feature = "pdf")]
 mod pdf;
-#[cfg(feature = "pdf")]
-mod pdf_font;
 mod plot;
 #[cfg(feature = "png")]
 mod png;
@@ -37,15 +32,11 @@ mod symbols;
 mod text;
 
 #[cfg(test)]
-mod reading;
-#[cfg(test)]
 mod tests;
 
 pub use bar::Bar;
 pub use error::ChartError;
-#[doc(hidden)]
-pub use film_strip::{FilmStrip, Look, Sketch};
-pub use model::{Arrangement, Axis, Chart, Drawing, Mark, Panel, Picture, Point, Shape, Tile};
+pub use model::{Arrangement, Axis, Chart, Mark, Panel, Point, Shape, Tile};
 pub use palette::Colour;
 #[cfg(feature = "pdf")]
 pub use pdf::{PdfError, pdf};

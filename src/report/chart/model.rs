@@ -4,7 +4,7 @@ use super::bar::Bar;
 use super::scale::Spacing;
 use super::series::Series;
 
-/// A chart: headline, caption, and panels of marks; or a picture that was drawn elsewhere.
+/// A chart: headline, caption, and panels of marks.
 ///
 /// The legend names every series once, in the order in which the marks come.
 ///
@@ -22,34 +22,9 @@ use super::series::Series;
 pub struct Chart {
     pub(super) title: String,
     pub(super) caption: String,
-    pub(super) body: Body,
+    pub(super) panels: Vec<Panel>,
     pub(super) arrangement: Arrangement,
-    pub(super) interval_name: String,
     pub(super) published_name: String,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Body {
-    Panels(Vec<Panel>),
-    Picture(Box<Picture>),
-}
-
-/// A picture that was drawn elsewhere.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Picture {
-    /// For a page column.
-    pub wide: Drawing,
-    /// For a phone.
-    pub narrow: Drawing,
-}
-
-/// A picture for one width.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Drawing {
-    /// As an SVG document.
-    pub document: String,
-    /// As an SVG element for a page that sets title and caption as text, see [`Chart::inline`].
-    pub inline: String,
 }
 
 /// How the panels of a chart stand.
@@ -89,7 +64,7 @@ pub struct Axis {
 }
 
 /// A mark of a series. Numbers that cannot be drawn (not finite, beyond 1e300, not positive on a logarithmic axis) leave
-/// gaps in lines, bands and layers; other marks are left out.
+/// gaps in lines and bands; other marks are left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
     /// Its series.
@@ -105,20 +80,14 @@ pub enum Shape {
     Line(Vec<(f64, f64)>),
     /// A shaded band as (x, low, high).
     Band(Vec<(f64, f64, f64)>),
-    /// A filled layer of a stack as (x, low, high).
-    Layer(Vec<(f64, f64, f64)>),
     /// A cloud of small dots.
     Dots(Vec<(f64, f64)>),
     /// A point with its label and intervals.
     Point(Point),
     /// A level bar in a row of a vertical axis of names; the bars of a row share it in the order they come.
     Bar(Bar),
-    /// An interval over a whole row: row, low, high.
-    Interval(usize, f64, f64),
     /// A cell of a map, on two axes of names.
     Tile(Tile),
-    /// Stretches of a row of a map as (from, to), on a horizontal axis of numbers.
-    Stretches(usize, Vec<(f64, f64)>),
     /// Text beside a row.
     Note(usize, String),
     /// A vertical line at x with a label above; bars stand about the first of them, else about 0.
@@ -161,18 +130,15 @@ impl Chart {
         Self {
             title: title.into(),
             caption: caption.into(),
-            body: Body::Panels(Vec::new()),
+            panels: Vec::new(),
             arrangement: Arrangement::Stacked,
-            interval_name: "95 % interval".to_owned(),
             published_name: "published".to_owned(),
         }
     }
 
     /// The chart with more panels.
     pub fn panels(mut self, panels: impl IntoIterator<Item = Panel>) -> Self {
-        if let Body::Panels(all) = &mut self.body {
-            all.extend(panels);
-        }
+        self.panels.extend(panels);
         self
     }
 
@@ -181,19 +147,9 @@ impl Chart {
         Self { arrangement: Arrangement::SideBySide, ..self }
     }
 
-    /// The chart with a name for intervals in the legend.
-    pub fn interval_name(self, name: impl Into<String>) -> Self {
-        Self { interval_name: name.into(), ..self }
-    }
-
     /// The chart with a name for published values in the legend.
     pub fn published_name(self, name: impl Into<String>) -> Self {
         Self { published_name: name.into(), ..self }
-    }
-
-    /// A chart that is a picture.
-    pub fn from_picture(title: impl Into<String>, caption: impl Into<String>, picture: Picture) -> Self {
-        Self { body: Body::Picture(Box::new(picture)), ..Self::new(title, caption) }
     }
 
     /// Headline of the chart.
@@ -216,12 +172,9 @@ impl Chart {
         self.caption = caption.into();
     }
 
-    /// The panels; none if it is a picture.
+    /// The panels.
     pub fn all_panels(&self) -> &[Panel] {
-        match &self.body {
-            Body::Panels(panels) => panels,
-            Body::Picture(_) => &[],
-        }
+        &self.panels
     }
 
     /// All marks of all panels.
@@ -257,7 +210,7 @@ impl Panel {
         self.marks.retain_mut(|mark| match &mut mark.shape {
             Shape::Bar(bar) => place(&mut bar.row),
             Shape::Tile(tile) => place(&mut tile.row),
-            Shape::Interval(row, ..) | Shape::Note(row, _) | Shape::Stretches(row, _) => place(row),
+            Shape::Note(row, _) => place(row),
             _ => true,
         });
         self.y.names = order.iter().map(|&row| self.y.names[row].clone()).collect();

@@ -116,29 +116,6 @@ mod tests {
 
     proptest! {
         #[test]
-        fn crowds_keep_ends_and_extremes_of_every_column(
-            run in prop::collection::vec((0.0..3.0, -9.0..9.0), 1..80), sorted in any::<bool>(),
-        ) {
-            let mut run: Vec<Point> = run;
-            if sorted {
-                run.sort_by(|a, b| a.0.total_cmp(&b.0));
-                prop_assert!(uncrowd(&run).len() <= 24);
-            }
-            let thinned = uncrowd(&run);
-            prop_assert_eq!((thinned[0], thinned[thinned.len() - 1]), (run[0], run[run.len() - 1]));
-            // A subsequence with the same range in every column.
-            let mut rest = run.iter();
-            prop_assert!(thinned.iter().all(|p| rest.any(|q| p == q)));
-            let range = |points: &[Point], column: f64| {
-                let ys = points.iter().filter(|p| (p.0 / COLUMN).floor() == column).map(|p| p.1);
-                ys.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)))
-            };
-            for column in 0..6 {
-                prop_assert_eq!(range(&run, f64::from(column)), range(&thinned, f64::from(column)));
-            }
-        }
-
-        #[test]
         fn every_point_stays_by_the_straightened_line(
             run in prop::collection::vec((0.0..3.0, 0.0..0.3), 1..60),
         ) {

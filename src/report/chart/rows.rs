@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use super::bar::{Bar, drawable_pair};
+use super::bar::Bar;
 use super::draw::Sheet;
 use super::layout::{ROW_GAP, TEXT_GAP, row_name, row_note};
 use super::model::{Mark, Panel, Shape};
@@ -41,7 +41,6 @@ impl<'a> Sheet<'a> {
         let lanes: Vec<Lane<'_>> = rows.clone().flat_map(|row| self.lanes(row)).collect();
         self.bars(canvas, &lanes);
         self.tiles(canvas);
-        self.stretches(canvas);
         if let Some(x) = self.x(panel.base()).filter(|_| !panel.is_map()) {
             canvas.open("g", &[("class", &"baseline"), ("stroke", &INK), ("stroke-width", &"1")]);
             canvas.line((x, self.plot.top), (x, self.plot.bottom()));
@@ -153,29 +152,6 @@ impl<'a> Sheet<'a> {
         canvas.close("g");
     }
 
-    /// The stretches of the rows of a map. There may be thousands, so that those of a mark are one path.
-    fn stretches(&self, canvas: &mut Canvas) {
-        let panel = self.cell.panel;
-        if !panel.has_stretches() {
-            return;
-        }
-        // Neighbours touch without a seam.
-        canvas.open("g", &[("class", &"stretches"), ("shape-rendering", &"crispEdges")]);
-        for Mark { series, shape } in &panel.marks {
-            let Shape::Stretches(row, stretches) = shape else { continue };
-            let Some(name) = panel.y.names.get(*row) else { continue };
-            let (top, height) = (self.middle(*row) - self.layout.rows.bars / 2.0, self.layout.rows.bars);
-            let mut d = String::new();
-            for (left, right) in stretches.iter().filter_map(|&(from, to)| self.x(from).zip(self.x(to))) {
-                let width = Px(right - left).to_string();
-                d.push_str(&format!("M{} {}h{width}v{}h-{width}z", Px(left), Px(top), Px(height)));
-            }
-            let tip = format!("{name}: {}", series.name);
-            canvas.tipped("path", &[("d", &d), ("fill", &series.colour.hex())], &tip);
-        }
-        canvas.close("g");
-    }
-
     fn intervals(&self, canvas: &mut Canvas, lanes: &[Lane<'_>]) {
         let of_lane = |lane: &Lane<'_>| {
             let (low, high) = lane.bar.drawn().and_then(|bar| bar.interval)?;
@@ -187,15 +163,6 @@ impl<'a> Sheet<'a> {
         canvas.close("g");
         canvas.open("g", &[("class", &"whiskers")]);
         of_bars.iter().for_each(|&(ends, y, cap)| canvas.whisker(ends, y, cap));
-        for mark in &self.cell.panel.marks {
-            if let Shape::Interval(row, low, high) = mark.shape
-                && row < self.cell.panel.y.names.len()
-                && let Some((low, high)) = drawable_pair((low, high))
-                && let Some(ends) = self.x(low).zip(self.x(high))
-            {
-                canvas.whisker(ends, self.middle(row), 7.0);
-            }
-        }
         canvas.close("g");
     }
 
@@ -246,8 +213,6 @@ impl<'a> Sheet<'a> {
         let is_empty = !panel.marks.iter().any(|mark| match &mark.shape {
             Shape::Bar(bar) => bar.row == row,
             Shape::Tile(tile) => tile.row == row,
-            Shape::Stretches(of, stretches) => *of == row && !stretches.is_empty(),
-            Shape::Interval(of, low, high) => *of == row && drawable_pair((*low, *high)).is_some(),
             _ => false,
         });
         if is_empty {

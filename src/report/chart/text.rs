@@ -101,15 +101,6 @@ mod tests {
     }
 
     #[test]
-    fn lines_beyond_the_most_end_in_an_ellipsis() {
-        let width = FACE.width("surface energy");
-        assert_eq!(wrap_within("surface energy of tip", width, 2, FACE), ["surface energy", "of tip"]);
-        let three = wrap_within("surface energy of tip and particle and more", width, 2, FACE);
-        assert_eq!(three[0], "surface energy");
-        assert!(three.len() == 2 && three[1].starts_with("of tip") && three[1].ends_with('…'), "{three:?}");
-    }
-
-    #[test]
     fn numbers_read_as_in_print() {
         assert_eq!(percent(46.05), "46.0");
         assert_eq!(percent(-0.5), "\u{2212}0.5");

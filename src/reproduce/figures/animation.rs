@@ -1,8 +1,8 @@
-//! TS04 figure 14, the animation: on paper a film strip, on screen a page that moves.
+//! TS04 figure 14, the animation: a page that moves.
 
+use super::FiguresError;
 use super::history::story;
-use super::{FiguresError, PaperFigure};
-use crate::scene::{SceneStory, film_strip, player_page, scene_csv, scene_json};
+use crate::scene::{player_page, scene_csv, scene_json};
 use apportion::afm::FrictionLaw;
 
 /// Name of the animation's files without extension.
@@ -34,17 +34,4 @@ pub struct Animation {
 pub fn animation() -> Result<Animation, FiguresError> {
     let story = story(FrictionLaw::Coulomb, |_| ())?;
     Ok(Animation { html: player_page(&story)?, csv: scene_csv(&story), json: scene_json(&story) })
-}
-
-/// The film strip of the same scene.
-pub(super) fn film() -> Result<PaperFigure, FiguresError> {
-    let story = story(FrictionLaw::Coulomb, |_| ())?;
-    let film = film_strip(&story);
-    Ok(PaperFigure {
-        stem: "ts04-14",
-        label: "TS04 fig. 14",
-        theirs: "An animation of the tip pushing the particle over the substrate.",
-        chart: film.chart,
-        csv: scene_csv(&SceneStory { samples: film.frames, ..story }),
-    })
 }

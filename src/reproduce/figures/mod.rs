@@ -69,7 +69,7 @@ pub enum FiguresError {
 }
 
 /// The stems of all figures, in the order of the papers: CHK, LG, TS04, then the friction models side by side.
-const ORDER: [&str; 34] = [
+const ORDER: [&str; 33] = [
     "chk-5",
     "chk-6",
     "chk-7",
@@ -100,7 +100,6 @@ const ORDER: [&str; 34] = [
     "ts04-12",
     "ts04-12-contact-angle",
     "ts04-13",
-    "ts04-14",
     "dimensional",
     "environmental",
     "general",
@@ -128,7 +127,6 @@ pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure
     let mut figures = sweep::sweeps(effort)?;
     figures.extend(history::histories()?);
     figures.extend(modes::modes(effort)?);
-    figures.push(animation::film()?);
     figures.extend(shares::shares(studies));
     figures.sort_by_key(|figure| ORDER.iter().position(|stem| *stem == figure.stem));
     Ok(figures)

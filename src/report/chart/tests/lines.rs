@@ -2,7 +2,7 @@
 
 use resvg::usvg::roxmltree::{Document, Node};
 
-use super::super::reading::{groups, path_numbers, texts, y_axis};
+use super::reading::{groups, path_numbers, y_axis};
 use super::*;
 
 fn panel(marks: Vec<Mark>) -> Panel {
@@ -37,27 +37,6 @@ fn points_stand_at_their_values_and_gaps_stay_open() {
     let step = drawn[0][2] - drawn[0][0];
     assert!((drawn[1][0] - drawn[0][0] - 3.0 * step).abs() < 0.03);
     assert!((drawn[2][2] - drawn[0][0] - 6.0 * step).abs() < 0.06);
-}
-
-#[test]
-fn stacked_panels_share_the_horizontal_axis_and_the_legend() {
-    let upper =
-        vec![series(0).line(vec![(0.0, 1.0), (10.0, 2.0)]), Mark::rule(10.0, "event"), Mark::rule(f64::NAN, "never")];
-    let lower = vec![series(0).line(vec![(0.0, 1.0), (20.0, 2.0)])];
-    let svg = svg(vec![panel(upper), panel(lower)]);
-    let document = Document::parse(&svg).expect("well-formed");
-    assert_eq!(texts(groups(&document, "legend")[0]), ["model A"]);
-    let axes = groups(&document, "x-axis");
-    assert_eq!(axes.len(), 1);
-    assert_eq!(texts(axes[0]).last(), Some(&"Time (ms)"));
-    let drawn = paths(&document, "series");
-    assert_eq!(drawn[0][0], drawn[1][0]);
-    let half = (drawn[1][0] + drawn[1][2]) / 2.0;
-    assert!((drawn[0][2] - half).abs() < 0.02);
-    let rules = groups(&document, "rules");
-    assert_eq!(texts(rules[0]), ["event"]);
-    let pole = rules[0].descendants().find(|n| n.has_tag_name("line")).and_then(|n| n.attribute("x1")?.parse().ok());
-    assert_eq!(pole, Some(drawn[0][2]));
 }
 
 #[test]

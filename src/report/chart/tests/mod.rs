@@ -2,15 +2,14 @@
 
 mod bars;
 mod lines;
-#[cfg(feature = "pdf")]
-mod pdf;
 mod points;
+pub(super) mod reading;
 
 use resvg::usvg::roxmltree::Document;
 
-use super::reading::{assert_narrow, dark_pixels, groups, only_finite, texts};
 use super::*;
 use proptest::prelude::*;
+use reading::{assert_narrow, dark_pixels, groups, only_finite, texts};
 
 fn series(number: usize) -> Series {
     Series::new(["model A", "model B", "model C", "model D"][number % 4], Colour::Series(number))
@@ -58,7 +57,6 @@ fn any_mark() -> impl Strategy<Value = Mark> {
         1 => pairs().prop_map(Shape::Dots),
         1 => point.prop_map(Shape::Point),
         4 => bar.prop_map(Shape::Bar),
-        1 => (0_usize..8, any_number(), any_number()).prop_map(|(row, low, high)| Shape::Interval(row, low, high)),
         1 => (0_usize..8, text()).prop_map(|(row, note)| Shape::Note(row, note)),
         1 => (any_number(), text()).prop_map(|(x, label)| Shape::Rule(x, label)),
         1 => (any::<f64>(), text()).prop_map(|(slope, label)| Shape::Slope(slope, label)),

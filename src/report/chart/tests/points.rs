@@ -2,7 +2,7 @@
 
 use resvg::usvg::roxmltree::Document;
 
-use super::super::reading::{groups, number, path_numbers, texts, y_axis};
+use super::reading::{groups, number, path_numbers, texts, y_axis};
 use super::*;
 
 fn panel(dots: Vec<(f64, f64)>) -> Panel {
@@ -16,25 +16,6 @@ fn panel(dots: Vec<(f64, f64)>) -> Panel {
 }
 
 #[test]
-fn dots_are_one_path_at_their_values() {
-    let svg = svg(vec![panel(vec![(0.0, 10.0), (5.0, 40.0), (f64::NAN, 1.0), (10.0, 20.0)])]);
-    let document = Document::parse(&svg).expect("well-formed");
-    let (zero, scale) = y_axis(&groups(&document, "y-axis")[0]);
-    let clouds = groups(&document, "dots");
-    assert_eq!(clouds.len(), 1);
-    // M x y h 0 for each dot.
-    let drawn = path_numbers(&clouds[0]);
-    assert_eq!(drawn.len(), 3 * 3);
-    for (dot, value) in drawn.chunks(3).zip([10.0, 40.0, 20.0]) {
-        // One decimal, and tick labels give the scale to 1e-3.
-        assert!((zero - dot[1] - value * scale).abs() < 0.06 + 1e-3 * value * scale);
-        assert_eq!(dot[2], 0.0);
-    }
-    assert!((drawn[3] - drawn[0] - (drawn[6] - drawn[3])).abs() < 0.21, "equal steps");
-    assert_eq!(texts(groups(&document, "legend")[0]), ["model run", "mean"]);
-}
-
-#[test]
 fn dots_are_seen_in_the_picture() {
     let dots = Series::new("", Colour::Reference).mark(Shape::Dots(vec![(0.0, 0.0), (5.0, 5.0), (10.0, 10.0)]));
     let panel = Panel::new(Axis::new("x", ""), Axis::new("y", "")).with([dots]);
@@ -45,20 +26,6 @@ fn dots_are_seen_in_the_picture() {
     // Dark pixels once the dots are as dark as ink.
     let visible = |svg: &str| dark_pixels(&svg.replace("stroke-opacity=\"0.6\"", ""), 0.0, height);
     assert!(visible(&with) > visible(&without), "round ends of lines of no length are drawn");
-}
-
-#[test]
-fn panels_stand_in_even_rows_and_share_their_vertical_axis() {
-    for (count, wide, narrow) in [(1, 1, 1), (2, 2, 2), (3, 3, 2), (4, 2, 2), (5, 3, 2), (6, 3, 2)] {
-        let chart = chart(vec![panel(vec![(1.0, 2.0)]); count]).side_by_side();
-        for (width, columns) in [(ChartWidth::Wide, wide), (ChartWidth::Narrow, narrow)] {
-            let svg = chart.svg_at(width).expect("a chart");
-            let document = Document::parse(&svg).expect("well-formed");
-            assert_eq!(groups(&document, "panel").len(), count);
-            // One labelled axis in each row.
-            assert_eq!(groups(&document, "y-axis").len(), usize::div_ceil(count, columns), "{count} at {width:?}");
-        }
-    }
 }
 
 #[test]
@@ -100,25 +67,6 @@ fn points_stand_at_their_values_and_slopes_run_through_them() {
     }
     assert_eq!(texts(groups(&document, "labels")[0]), ["first", "second"]);
     assert_eq!(texts(groups(&document, "slopes")[0]), ["σ = 0.5 μ*", "σ = 2 μ*"]);
-}
-
-#[test]
-fn intervals_are_thin_lines_through_their_points() {
-    let (x_interval, y_interval) = (Some((30.0, 60.0)), Some((5.0, 25.0)));
-    let interval = Point { x_interval, y_interval, ..point(40.0, 20.0, "first") };
-    let none = Point { x_interval: Some((f64::NAN, 1.0)), ..point(10.0, 10.0, "second") };
-    let svg = svg(vec![labelled(vec![interval, none], &[1.0])]);
-    let document = Document::parse(&svg).expect("well-formed");
-    let (zero, scale) = y_axis(&groups(&document, "y-axis")[0]);
-    let (whiskers, points) = (groups(&document, "whisker"), groups(&document, "point"));
-    assert_eq!(whiskers.len(), 1);
-    // M from y H to M x from V to; the first point is the legend's.
-    let (drawn, point) = (path_numbers(&whiskers[0]), path_numbers(&points[1]));
-    assert_eq!((drawn[1], drawn[3]), (point[1], point[0]));
-    assert!((drawn[2] - drawn[0] - 3.0 * (point[0] - drawn[0])).abs() < 0.05, "30 to 60 about 40");
-    for (end, value) in [(drawn[4], 5.0), (drawn[5], 25.0)] {
-        assert!((zero - end - value * scale).abs() < 0.02 + 1e-3 * value * scale);
-    }
 }
 
 #[test]

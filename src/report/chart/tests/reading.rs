@@ -1,9 +1,10 @@
 //! Reads a chart's SVG back, for tests.
 
 use resvg::tiny_skia::Pixmap;
+use resvg::usvg::Tree;
 use resvg::usvg::roxmltree::{Document, Node};
 
-use super::png::extent;
+use super::super::png::options;
 use super::{Chart, ChartWidth, png};
 
 /// The groups of a class, in order.
@@ -67,6 +68,15 @@ pub(super) fn dark_pixels(svg: &str, from: f64, to: f64) -> usize {
     let rows = (2.0 * from) as u32..(2.0 * to) as u32;
     let dark = |x: u32, y: u32| pixels.pixel(x, y).is_some_and(|p| p.red().max(p.green()).max(p.blue()) < 90);
     rows.map(|y| (0..pixels.width()).filter(|&x| dark(x, y)).count()).sum()
+}
+
+/// The smallest rectangle that holds every mark and letter, as (left, top, right, bottom), px, and the size of the view.
+fn extent(svg: &str) -> ([f32; 4], [f32; 2]) {
+    let document = Document::parse(svg).expect("well-formed");
+    let tree = Tree::from_xmltree(&document, &options()).expect("an SVG");
+    let bounds = tree.root().abs_bounding_box();
+    let size = tree.size();
+    ([bounds.left(), bounds.top(), bounds.right(), bounds.bottom()], [size.width(), size.height()])
 }
 
 /// Asserts that a phone's drawing is 360 px wide and that nothing sticks out of it, as a document and on a page.
