@@ -118,7 +118,7 @@ pub mod uncertainty;
 pub use analysis::MOST_ROWS_OF_MEASURES;
 pub use analysis::{
     Aggregate, Analysis, FailureCount, LookupError, LowRuns, NoIndices, OutputAnalysis, RunMeasures, SeriesAnalysis,
-    Spending, StopReason, Stopped,
+    Spending, StopReason, Stopped, Warning,
 };
 #[doc(hidden)]
 pub use analysis::{Unlikely, unlikely_outputs};

@@ -7,7 +7,7 @@ mod output;
 mod result;
 mod series;
 mod unlikely;
-pub(crate) mod warnings;
+mod warnings;
 
 pub(crate) use estimate::{analysis, interval_options, surrogates};
 pub(crate) use finished_run::{FinishedRun, LowTotals, outputs_kept};
@@ -20,3 +20,4 @@ pub use output::{FailureCount, LookupError, NoIndices, OutputAnalysis};
 pub use result::{Aggregate, Analysis, LowRuns, Spending, StopReason, Stopped};
 pub use series::SeriesAnalysis;
 pub use unlikely::{Unlikely, unlikely_outputs};
+pub use warnings::Warning;

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::measures::RunMeasures;
+use super::warnings::Warning;
 use crate::estimate::{CentralMoments, Undefined};
 use crate::quantity::Unit;
 use crate::uncertainty::{EffectEstimates, Estimate, OutputIndices, Stage};
@@ -38,8 +39,8 @@ pub struct OutputAnalysis {
     /// Other measures of the influence of the factors, where the study asks for some; `None` too where the output does not vary, or too
     /// few runs have succeeded.
     pub measures: Option<RunMeasures>,
-    /// What a careful reader should know, in sentences.
-    pub warnings: Vec<String>,
+    /// What a careful reader should know.
+    pub warnings: Vec<Warning>,
     /// Names of the factors and of the groups, in the order of their indices.
     pub(super) names: [Vec<String>; 2],
 }

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::output::{LookupError, OutputAnalysis};
 use super::series::SeriesAnalysis;
+use super::warnings::Warning;
 use crate::design::Design;
 use crate::estimate::{Scaling, Undefined};
 use crate::model::{Counter, Flag};
@@ -173,7 +174,8 @@ impl Analysis {
     /// Warns of the outputs that had other values when rows were run again.
     pub(crate) fn note_repeats(&mut self, repeats: &Repeats, has_noise: bool) {
         for (output, differing) in self.outputs.iter_mut().zip(&repeats.differing) {
-            output.warnings.extend(repeats.warning(*differing, has_noise));
+            let text = repeats.warning(*differing, has_noise);
+            output.warnings.extend(text.map(|text| Warning::Irreproducible { text }));
         }
     }
 

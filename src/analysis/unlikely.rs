@@ -1,5 +1,6 @@
 //! Values that may stand for something else: codes for missing ones, and slips.
 
+use super::warnings::Warning;
 use crate::design::Design;
 use crate::model::Output;
 use crate::quantity::is_same;
@@ -99,7 +100,7 @@ pub fn unlikely_outputs(study: &Study, store: &Store) -> Vec<Option<String>> {
 }
 
 /// A sentence on the unlikely value among the `samples` of an output: of every replicate of `design` the first rows A and B.
-pub(super) fn of_samples(design: &Design, output: &Output, samples: &[Vec<f64>]) -> Option<String> {
+pub(super) fn of_samples(design: &Design, output: &Output, samples: &[Vec<f64>]) -> Option<Warning> {
     let values: Vec<f64> = samples.iter().flatten().map(|si| output.unit.from_si(*si)).collect();
     let found = Unlikely::find(&values)?;
     let (mut place, mut replicate) = (found.first, 0);
@@ -108,7 +109,8 @@ pub(super) fn of_samples(design: &Design, output: &Output, samples: &[Vec<f64>])
         replicate += 1;
     }
     let point = replicate as u64 * design.points_per_replicate() + place as u64 / 2;
-    Some(found.words((point * design.rows_per_point()) as usize + place % 2 + 1))
+    let text = found.words((point * design.rows_per_point()) as usize + place % 2 + 1);
+    Some(Warning::Unlikely { text })
 }
 
 #[cfg(test)]

@@ -11,11 +11,11 @@ use apportion::quantity::Unit;
 use apportion::report::ResultFile;
 use apportion::run::Store;
 use apportion::study::Study;
-use apportion::unlikely_outputs;
+use apportion::{Warning, unlikely_outputs};
 
 use super::live::LiveArguments;
 use super::output::{ChartArguments, default_folder};
-use super::run::{deliver, file_names, with_inputs};
+use super::run::{deliver, with_inputs};
 use super::table::{TableArguments, say_of_table};
 use super::{Failure, Threads, say, say_notes};
 
@@ -78,11 +78,11 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     say_notes(&study);
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let artefacts = arguments.charts.artefacts(folder).beside_input(&arguments.data);
-    artefacts.check(&file_names(&study, &arguments.live))?;
+    artefacts.prepare()?;
     let runner = study.runner().threads(arguments.threads.number()).store(&store);
     let mut analysis = runner.run().map_err(|error| with_inputs(&study, error))?;
     for (output, unlikely) in analysis.outputs.iter_mut().zip(unlikely) {
-        output.warnings.splice(0..0, unlikely);
+        output.warnings.splice(0..0, unlikely.map(|text| Warning::Unlikely { text }));
     }
     deliver(&study, &artefacts, &ResultFile::new(&study, &analysis), &arguments.live)
 }
