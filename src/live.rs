@@ -67,7 +67,7 @@ const PRESETS: [(&str, &str); 4] = [
 const MAX_FACTORS: usize = 512;
 
 /// What the page shows of a result, in this order, where the result has it.
-const SECTIONS: [&str; 7] = ["mind", "indices", "shares", "series-1", "interactions", "distribution", "validity"];
+const SECTIONS: [&str; 7] = ["warnings", "indices", "shares", "series-1", "interactions", "distribution", "validity"];
 
 #[derive(Template)]
 #[template(path = "live/live.html")]

@@ -11,10 +11,8 @@ use apportion::space::{Distribution, Factor};
 use apportion::study::Study;
 
 use super::check_plan::{plan, runs};
-use super::live::LiveArguments;
 use super::output::default_folder;
 use super::past_runs::past_runs;
-use super::run::file_names;
 use super::stop::on_signal;
 use super::{DesignChanges, Failure, StudyArguments, print, say, say_notes};
 
@@ -38,8 +36,11 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     text.push_str(&factors(&study));
     text.push_str(&plan(&study, &arguments.study.study, pilot.as_ref()));
     text.push_str(&past_runs(&study, &folder)?);
-    text.push_str(&format!("\nwill be written to {}:\n", folder.display()));
-    text.push_str(&files(&study));
+    text.push_str(&format!(
+        "\nwill be written to {}: the page {}.html, tables, charts\n",
+        folder.display(),
+        study.name()
+    ));
     print(&text)?;
     match pilot.filter(|pilot| pilot.failed == pilot.runs) {
         None => Ok(()),
@@ -54,28 +55,6 @@ fn pilot(study: &Study) -> Result<Pilot, Failure> {
     let model = study.model();
     let context = RunContext::new(Some(on_signal()), say);
     Ok(Pilot::new(Job { design: study.design(), space: study.space(), model: model.as_ref() }, &context)?)
-}
-
-/// The files of a run with what they hold.
-fn files(study: &Study) -> String {
-    const CONTENTS: [(&str, &str); 7] = [
-        ("-measures.csv", "other measures of the factors"),
-        ("-second-order.csv", "the second-order indices of all pairs"),
-        ("-estimators.csv", "the indices by the other estimators"),
-        ("-convergence.csv", "the indices at every stage of the run"),
-        (".json", "the result, for programs"),
-        ("-live.html", "a page to try other ranges in"),
-        (".csv", "the indices, for spreadsheets"),
-    ];
-    let names = file_names(study, &LiveArguments::default());
-    let mut text = format!("  {}  the result as a page, to read\n", names.page());
-    for file in &names.data {
-        let ending = file.strip_prefix(study.name()).unwrap_or(file);
-        let content = CONTENTS.iter().find(|(known, _)| *known == ending).map_or("", |(_, content)| *content);
-        text.push_str(&format!("  {file}  {content}\n"));
-    }
-    names.charts.iter().for_each(|chart| text.push_str(&format!("  charts/{chart}.svg, .png\n")));
-    text
 }
 
 fn file_names_of(files: &[PathBuf]) -> String {

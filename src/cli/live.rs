@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use apportion::report::document::Document;
 use apportion::report::{ResultFile, prepare_file, prepare_folder, write_atomically};
-use apportion::study::Study;
 
 use super::output::default_folder;
 use super::stop::on_signal;
@@ -33,11 +32,6 @@ pub struct LiveArguments {
 }
 
 impl LiveArguments {
-    /// The name of the page of `study`, if there will be one.
-    pub fn file_name(&self, study: &Study) -> Option<String> {
-        (!self.no_live && own_text(study).is_ok()).then(|| file_name(study.name()))
-    }
-
     /// Adds the page to the `document` of `result`, if there is to be one. Without it the result is whole still.
     pub fn put_beside(&self, document: &mut Document, result: &ResultFile) {
         if self.no_live {

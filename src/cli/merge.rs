@@ -4,12 +4,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::report::ResultFile;
-use apportion::report::prepare_folder;
 use apportion::run::RunError;
 
 use super::live::LiveArguments;
 use super::output::{ChartArguments, default_folder};
-use super::run::{deliver, file_names, journal_path};
+use super::run::{deliver, journal_path};
 use super::{DesignChanges, Failure, StudyArguments, Threads, quoted, say};
 
 #[derive(clap::Args)]
@@ -36,9 +35,8 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let journals =
         if arguments.journals.is_empty() { in_folder(&folder, study.name())? } else { arguments.journals.clone() };
-    prepare_folder(&folder)?;
     let artefacts = arguments.charts.artefacts(&folder);
-    artefacts.check(&file_names(&study, &arguments.live))?;
+    artefacts.prepare()?;
     let path = journal_path(&folder, study.name(), None);
     let runner = study.runner().threads(arguments.threads.number()).on_message(say).journal(&path);
     let result = runner.merge(&journals).map_err(|error| match error {

@@ -36,7 +36,7 @@ use std::process::ExitCode;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use apportion::model::GiveUp;
-use apportion::report::{ReadError, WriteError, wrapped};
+use apportion::report::{ReadError, WriteError};
 use apportion::run::RunError;
 use apportion::run::journal::JournalError;
 use apportion::study::{Study, StudyError};
@@ -339,7 +339,7 @@ fn print_raw(bytes: &[u8]) -> Result<(), Failure> {
 
 /// Writes `text` to standard output without panicking when nobody reads it.
 fn print(text: &str) -> Result<(), Failure> {
-    std::io::stdout().write_all(fitted(printable(text), stdout_width()).as_bytes()).map_err(unprinted)?;
+    std::io::stdout().write_all(printable(text).as_bytes()).map_err(unprinted)?;
     Ok(())
 }
 
@@ -350,20 +350,7 @@ fn unprinted(error: Error) -> Error {
 
 /// Writes a line to standard error; there is nowhere to complain if that fails.
 fn say(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{}", fitted(printable(line), stderr_width()));
-}
-
-/// A text whose lines are broken between words where a terminal of that width would break them anywhere.
-fn fitted(text: String, width: Option<usize>) -> String {
-    match width {
-        Some(width) => wrapped(&text, width),
-        None => text,
-    }
-}
-
-/// The columns of the terminal that standard output is.
-fn stdout_width() -> Option<usize> {
-    comfy_table::Table::new().width().map(usize::from).filter(|width| *width > 0)
+    let _ = writeln!(std::io::stderr(), "{}", printable(line));
 }
 
 /// The columns of the terminal that standard error is.

@@ -1,8 +1,8 @@
-//! What a study has behind it and before it: its journal, its last result, and what twice the runs would bring.
+//! What a study has behind it: its journal and its last result.
 
 use std::path::Path;
 
-use apportion::report::{ResultFile, indices_measured, read_result, two_digits, widest_interval, width_after_doubling};
+use apportion::report::{ResultFile, indices_measured, read_result, two_digits, widest_interval};
 use apportion::study::Study;
 
 use super::Failure;
@@ -40,18 +40,5 @@ fn last_result(result: &ResultFile) -> String {
         return format!("last result: {base_samples} base samples, without intervals\n");
     };
     let which = indices_measured(&result.outputs);
-    let known = format!("last result: {base_samples} base samples; {which} is known to {} or better", figure(width));
-    let doubled = result.outputs.iter().filter_map(|output| width_after_doubling(&output.convergence));
-    match doubled.reduce(f64::max) {
-        Some(expected) => format!(
-            "{known}\n  twice as many (run --double: {} more runs) can be expected to bring {}\n",
-            result.provenance.model_runs,
-            figure(expected)
-        ),
-        None => format!("{known}\n  no trend of the stages tells what twice as many would bring\n"),
-    }
-}
-
-fn figure(half_width: f64) -> String {
-    format!("\u{b1}{}", two_digits(half_width))
+    format!("last result: {base_samples} base samples; {which} is known to \u{b1}{} or better\n", two_digits(width))
 }

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, document, in_words, reproduce as run};
-use apportion::report::FileNames;
 use apportion::study::Study;
 
 use super::output::{ChartArguments, deliver_with};
@@ -53,7 +52,7 @@ impl From<ReproduceError> for Failure {
 pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
     let overrides = arguments.design.overrides();
     let artefacts = arguments.charts.artefacts(&arguments.out);
-    artefacts.check(&FileNames { name: "index".to_owned(), ..FileNames::default() })?;
+    artefacts.prepare()?;
     let request = Request {
         effort: if arguments.quick { Effort::Quick } else { Effort::Full },
         only: arguments.only.map(|part| match part {

@@ -7,8 +7,7 @@ use anyhow::anyhow;
 use apportion::Resume;
 use apportion::exchange::{Format, save_outputs};
 use apportion::report::{
-    Artefacts, FileNames, OutputNames, OutputRecord, ResultFile, RunTables, inputs_in_words, prepare_file,
-    prepare_folder, read_result, run_document, run_file_names, stream_atomically,
+    Artefacts, OutputRecord, ResultFile, inputs_in_words, prepare_file, read_result, run_document, stream_atomically,
 };
 use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
@@ -86,10 +85,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     let folder = folder_of(arguments, &study);
     let artefacts = arguments.charts.artefacts(&folder);
     let asked = &arguments.record;
-    prepare_folder(&folder)?;
-    if asked.shard.is_none() {
-        artefacts.check(&file_names(&study, &arguments.live))?;
-    } else if study.target().grows() {
+    artefacts.prepare()?;
+    if asked.shard.is_some() && study.target().grows() {
         return Err(Failure::Input(anyhow!("--shard: {}", RunError::NoSize)));
     }
     let saved = match &arguments.save_outputs {
@@ -229,23 +226,6 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
 
 fn folder_of(arguments: &Arguments, study: &Study) -> PathBuf {
     arguments.out.clone().unwrap_or_else(|| default_folder(study.name()))
-}
-
-/// The names of the files of a run of `study`.
-pub fn file_names(study: &Study, live: &LiveArguments) -> FileNames {
-    let model = study.model();
-    let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
-    let series: Vec<_> = model.series().iter().map(|series| (series.name.as_str(), series.places())).collect();
-    let outputs = OutputNames::new(&outputs, &series);
-    let analysis = study.analysis();
-    let tables = RunTables {
-        second_order: analysis.second_order,
-        estimators: !analysis.estimators.is_empty(),
-        measures: !analysis.measures.is_empty(),
-    };
-    let mut names = run_file_names(study.name(), &outputs, tables);
-    names.data.extend(live.file_name(study));
-    names
 }
 
 /// Writes the files of a result, and says what came out.

@@ -6,7 +6,7 @@ use std::time::Instant;
 use anyhow::anyhow;
 use apportion::model::RunContext;
 use apportion::report::RunFacts;
-use apportion::report::screening::{build_screening, file_names, screening_document};
+use apportion::report::screening::{build_screening, screening_document};
 use apportion::run::threads_in_force;
 use apportion::screening::{MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningJob};
 use apportion::screening::{ScreeningSettings, screen_in};
@@ -92,9 +92,8 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
     }
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let model = study.model();
-    let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
     let artefacts = arguments.charts.artefacts(folder);
-    artefacts.check(&file_names(study.name(), &outputs))?;
+    artefacts.prepare()?;
     let runs = in_force.trajectories * (study.space().factors().len() as u64 + 1);
     let meter = Meter::new(study.name(), runs);
     let start = Instant::now();

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::scene::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
-use crate::scene::{file_names, mode_document, mode_file_names, scene_document};
+use crate::scene::{mode_document, scene_document};
 use apportion::quantity::{Dimension, Quantity};
 
 use super::output::{ChartArguments, default_folder, deliver};
@@ -51,11 +51,11 @@ pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
     let failed = |error: anyhow::Error| Failure::Run(error);
     let document = if arguments.mode_diagram {
         let diagram = mode_diagram(&study)?;
-        artefacts.check(&mode_file_names(study.name()))?;
+        artefacts.prepare()?;
         let title = study.title().unwrap_or(study.name());
         mode_document(&diagram, study.name(), title).map_err(|error| failed(error.into()))?
     } else {
-        artefacts.check(&file_names(study.name()))?;
+        artefacts.prepare()?;
         let story = simulate_scene(&study, arguments.duration)?;
         scene_document(&story, study.name()).map_err(|error| failed(error.into()))?
     };

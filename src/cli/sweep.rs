@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use apportion::model::{GiveUp, RunContext};
-use apportion::report::sweep::{build_sweep, file_names, sweep_document};
+use apportion::report::sweep::{build_sweep, sweep_document};
 use apportion::run::Halt;
 use apportion::space::Space;
 use apportion::study::Study;
@@ -105,11 +105,8 @@ pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     request.check(study.space())?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let model = study.model();
-    let outputs: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
-    let factors: Vec<&str> =
-        request.factors.iter().map(|asked| study.space().factors()[asked.factor].name.as_str()).collect();
     let artefacts = arguments.charts.artefacts(folder);
-    artefacts.check(&file_names(study.name(), &factors, &outputs))?;
+    artefacts.prepare()?;
     let context = RunContext::new(Some(on_signal()), say);
     let sweeps = sweep_in(study.space(), model.as_ref(), &request, &context)?;
     deliver(&artefacts, &sweep_document(&build_sweep(&study, model.as_ref(), &sweeps)))

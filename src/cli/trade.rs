@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use apportion::Study;
 use apportion::report::Artefacts;
 use apportion::run::{RunError, threads_in_force};
-use apportion::trade::settings::{SettingsJob, build_settings, compare_settings, file_names, settings_document};
+use apportion::trade::settings::{SettingsJob, build_settings, compare_settings, settings_document};
 
 use super::output::{ChartArguments, default_folder, deliver};
 use super::stop::on_signal;
@@ -68,7 +68,7 @@ pub fn trade(arguments: &Arguments) -> Result<(), Failure> {
 
 /// The settings of the study against each other.
 fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> Result<(), Failure> {
-    artefacts.check(&file_names(study.name()))?;
+    artefacts.prepare()?;
     let usual = if arguments.quick { QUICK_SECONDS } else { SECONDS };
     let job = SettingsJob {
         study,

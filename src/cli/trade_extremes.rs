@@ -5,9 +5,7 @@ use std::time::Instant;
 use anyhow::anyhow;
 use apportion::Study;
 use apportion::report::Artefacts;
-use apportion::trade::extremes::{
-    ExtremesJob, ExtremesSettings, build_extremes, extremes, extremes_document, file_names,
-};
+use apportion::trade::extremes::{ExtremesJob, ExtremesSettings, build_extremes, extremes, extremes_document};
 
 use super::output::deliver;
 use super::progress::Meter;
@@ -33,7 +31,7 @@ pub fn trade_extremes(
     let own = ExtremesSettings::of(study);
     let &ExtremesArguments { cells, seed } = arguments;
     let settings = ExtremesSettings { points: cells.unwrap_or(own.points), seed: seed.unwrap_or(own.seed), ..own };
-    artefacts.check(&file_names(study.name()))?;
+    artefacts.prepare()?;
     let meter = Meter::new(study.name(), settings.points);
     let start = Instant::now();
     let job = ExtremesJob {

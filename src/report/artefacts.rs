@@ -1,21 +1,20 @@
-//! The files of a document: their names, whether they can be written, and the writing.
+//! The files of a document, and the writing of them.
 
 use std::borrow::Cow;
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::atomic_write::{WriteError, prepare_folder, prepare_in, write_in};
+use super::atomic_write::{WriteError, prepare_folder, write_atomically};
 use super::chart::{ChartError, ChartWidth};
 #[cfg(feature = "pdf")]
 use super::chart::{PdfError, pdf};
 #[cfg(feature = "png")]
 use super::chart::{PngError, png};
 use super::document::{Document, DocumentError};
-use super::file_names::{CHARTS, ChartFormat, FileNames, chart_path};
+use super::file_names::{CHARTS, ChartFormat};
 
 /// Why the files of a document were not written.
 #[derive(Debug, Error)]
@@ -58,12 +57,6 @@ pub enum ArtefactError {
     /// PNG is asked for, and the library was built without the feature that draws it.
     #[error("charts in PNG need the feature `png`, which this build does not have")]
     WithoutPng,
-    /// Two files would have one name.
-    #[error("two files would be called {name}")]
-    Twice {
-        /// The name.
-        name: String,
-    },
     /// A file would take the place of one that must stay.
     #[error("{path}: this is the input itself; choose another folder", path = path.display())]
     Input {
@@ -142,26 +135,12 @@ impl Artefacts {
         &self.formats
     }
 
-    /// Makes the folder and checks that every file can be written, so that a run fails in its first second and not in its
-    /// last.
+    /// Makes the folder and checks that it can be written to, so that a run fails in its first second and not in its last.
     ///
     /// # Errors
-    /// [`ArtefactError`] with the file and the reason.
-    pub fn check(&self, names: &FileNames) -> Result<(), ArtefactError> {
-        let paths: Vec<String> = std::iter::once(names.page()).chain(names.paths(&self.formats)).collect();
-        let mut seen = HashSet::new();
-        // There are file systems that do not tell capitals from small letters.
-        if let Some(name) = paths.iter().find(|path| !seen.insert(path.to_lowercase())) {
-            return Err(ArtefactError::Twice { name: name.clone() });
-        }
-        prepare_folder(&self.folder)?;
-        for path in &paths {
-            let (folder, name) = self.place(path);
-            self.refuse_input(&folder.join(name))?;
-            // A folder that is not there yet holds nothing that could be in the way.
-            prepare_in(if folder.exists() { &folder } else { &self.folder }, name)?;
-        }
-        Ok(())
+    /// [`WriteError`] with the reason.
+    pub fn prepare(&self) -> Result<(), WriteError> {
+        prepare_folder(&self.folder)
     }
 
     /// Writes all files of `document`: the page last, since it links to the others.
@@ -180,17 +159,17 @@ impl Artefacts {
         if stop.load(Ordering::SeqCst) {
             return Err(ArtefactError::Stopped);
         }
-        let names = document.file_names();
-        self.check(&names)?;
-        if names.paths(&self.formats).iter().any(|path| self.place(path).0 != self.folder) {
-            prepare_folder(&self.folder.join(CHARTS))?;
+        self.prepare()?;
+        let figures: Vec<_> = document.figures().into_iter().filter(|figure| !figure.stem.is_empty()).collect();
+        let has_charts = !figures.is_empty() && !self.formats.is_empty();
+        let charts = self.folder.join(CHARTS);
+        if has_charts || document.data_names().iter().any(|name| name.contains('/')) {
+            prepare_folder(&charts)?;
         }
         let data = document.data_files();
         let data = data.into_iter().map(|file| self.put(&file.name, stop, || Ok(Cow::Borrowed(file.text.as_bytes()))));
         let data = data.collect::<Result<_, _>>()?;
-        let figures = document.figures();
-        let drawn: Vec<_> = figures.into_iter().filter(|figure| !figure.stem.is_empty()).collect();
-        drawn.par_iter().try_for_each(|figure| {
+        figures.par_iter().try_for_each(|figure| {
             if self.formats.is_empty() || stop.load(Ordering::SeqCst) {
                 return Ok(());
             }
@@ -214,15 +193,13 @@ impl Artefacts {
                         .map(Cow::Owned)
                         .map_err(|source| ArtefactError::Pdf { file: figure.stem.clone(), source }),
                 };
-                self.put(&chart_path(&figure.stem, *format), stop, bytes).map(|_| ())
+                self.put(&format!("{CHARTS}/{}.{}", figure.stem, format.ending()), stop, bytes).map(|_| ())
             })
         })?;
         let page = self.put(&format!("{}.html", document.name), stop, || {
             Ok(Cow::Owned(document.html_in_folder(&self.formats)?.into_bytes()))
         })?;
-        let has_charts = !drawn.is_empty() && !self.formats.is_empty();
-        let charts = has_charts.then(|| (self.folder.join(CHARTS), drawn.len()));
-        Ok(Written { page, data, charts })
+        Ok(Written { page, data, charts: has_charts.then_some((charts, figures.len())) })
     }
 
     /// Writes the file at `path` below the folder, and gives where it lies.
@@ -235,25 +212,13 @@ impl Artefacts {
         if stop.load(Ordering::SeqCst) {
             return Err(ArtefactError::Stopped);
         }
-        let (folder, name) = self.place(path);
-        Ok(write_in(&folder, name, &bytes()?)?)
-    }
-
-    /// The folder and the name of the file at `path`, which may lie one folder down.
-    fn place<'a>(&self, path: &'a str) -> (PathBuf, &'a str) {
-        match path.split_once('/') {
-            Some((CHARTS, name)) => (self.folder.join(CHARTS), name),
-            _ => (self.folder.clone(), path),
-        }
-    }
-
-    fn refuse_input(&self, path: &Path) -> Result<(), ArtefactError> {
+        let path = self.folder.join(path);
         let real = |path: &Path| std::fs::canonicalize(path).ok();
-        let input = self.input.as_ref().and_then(|input| real(input));
-        match input.is_some() && real(path) == input {
-            true => Err(ArtefactError::Input { path: path.to_owned() }),
-            false => Ok(()),
+        if self.input.as_ref().is_some_and(|input| real(input).is_some() && real(input) == real(&path)) {
+            return Err(ArtefactError::Input { path });
         }
+        write_atomically(&path, &bytes()?)?;
+        Ok(path)
     }
 }
 
@@ -261,31 +226,6 @@ impl Artefacts {
 mod tests {
     use super::*;
     use crate::report::document::DataFile;
-
-    fn names(data: &[&str], charts: &[&str]) -> FileNames {
-        let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-        FileNames { name: "s".to_owned(), data: owned(data), charts: owned(charts) }
-    }
-
-    #[test]
-    fn files_are_checked_before_they_are_written() {
-        let folder = tempfile::tempdir().unwrap();
-        let artefacts = Artefacts::new(folder.path().join("out"));
-        artefacts.check(&names(&["s.json", "s.csv"], &["s", "s-y"])).unwrap();
-        assert!(artefacts.check(&names(&[], &[&"n".repeat(300)])).is_err());
-        let twice = artefacts.check(&names(&["s.json"], &["s-Y", "s-y"])).unwrap_err();
-        assert!(twice.to_string().contains("charts/s-y.svg"), "{twice}");
-        for outside in ["../s.csv", "/tmp/s.csv", "a/s.csv", "charts/../s.csv"] {
-            assert!(artefacts.check(&names(&[outside], &[])).is_err(), "{outside}");
-        }
-        assert!(artefacts.check(&names(&[], &["../../s"])).is_err());
-        std::fs::create_dir_all(folder.path().join("out/charts/s.png")).unwrap();
-        assert!(artefacts.check(&names(&[], &["s"])).unwrap_err().to_string().contains("charts/s.png"));
-        artefacts.clone().with_charts(&[ChartFormat::Svg]).check(&names(&[], &["s"])).unwrap();
-        std::fs::write(folder.path().join("out/s.csv"), "the input").unwrap();
-        let beside = artefacts.beside_input(folder.path().join("out/s.csv"));
-        assert!(beside.check(&names(&["s.csv"], &[])).unwrap_err().to_string().contains("the input itself"));
-    }
 
     #[test]
     fn nothing_is_written_once_it_shall_stop() {
@@ -299,6 +239,7 @@ mod tests {
         let written = artefacts.write(&document).unwrap();
         assert_eq!(written.data, ["s.json", "charts/s.csv"].map(|name| folder.path().join(name)));
         assert!(written.charts.is_none() && written.data.iter().all(|path| path.is_file()));
-        assert!(std::fs::read_to_string(written.page).unwrap().contains("href=\"s.json\""));
+        let overwriting = artefacts.beside_input(folder.path().join("s.json")).write(&document);
+        assert!(matches!(overwriting, Err(ArtefactError::Input { .. })));
     }
 }

@@ -69,7 +69,8 @@ impl<'a> OutputRecords<'a> {
             distribution: distribution_record(output, is_item),
             scatter: None,
             reason: output.indices.as_ref().err().map(ToString::to_string),
-            warnings: output.warnings.clone(),
+            warnings: output.warnings.iter().map(ToString::to_string).collect(),
+            warning_codes: output.warnings.iter().map(|warning| warning.code().to_owned()).collect(),
         };
         if let Ok(indices) = &output.indices {
             add_indices(&mut record, study, indices);
@@ -276,7 +277,7 @@ fn distribution_record(output: &OutputAnalysis, is_item: bool) -> Option<Distrib
         sample.sd = (n > 1).then(|| unit.span_from_si(sd)).filter(|sd| sd.is_finite());
     }
     if is_item {
-        (sample.histogram, sample.density) = (None, None);
+        sample.histogram = None;
     }
     (sample.skewness, sample.excess_kurtosis) = (values.skewness(), values.excess_kurtosis());
     let quantiles = sample.quantiles.iter().map(|quantile| quantile.value);

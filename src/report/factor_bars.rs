@@ -2,7 +2,7 @@
 
 use super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape};
 use super::format::{fixed, index as of_error, minus, name, two_digits};
-use super::leading::{Contender, may_lead, names};
+use super::leading::leader_of;
 use super::result::{EffectRecord, EstimateRecord, IntervalRecord, OutputRecord, ResultFile};
 
 /// Most factors in a chart; the rest are summed in a last row.
@@ -268,30 +268,10 @@ pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
         true => {
             "Indices of dependent factors share out nothing; Shapley effects would, and were not asked for.".to_owned()
         }
-        false => caption(output),
+        false => leader_of(output),
     };
     let series = Series::new(name(&output.name), Colour::Series(0));
     shares_chart(title, &caption, &factors, &[SharesSeries { series, output, published: Vec::new() }])
-}
-
-/// What is seen, in one sentence.
-fn caption(output: &OutputRecord) -> String {
-    let output_name = name(&output.name);
-    let factors: Vec<Contender> = output.indices.iter().flatten().map(Contender::of).collect();
-    let total = |contender: &Contender| of_error(contender.total);
-    match (&may_lead(&factors)[..], &output.reason) {
-        ([lead], _) => format!(
-            "Of all factors, {} has the largest total effect on {output_name}: its S_T is {}.",
-            factors[*lead].label,
-            total(&factors[*lead])
-        ),
-        (tied @ [_, ..], _) => format!(
-            "Which factor has the largest total effect on {output_name} cannot be told, by S_T: {}.",
-            names(&factors, tied, &total)
-        ),
-        ([], Some(reason)) => format!("No shares of {output_name}: {reason}."),
-        ([], None) => format!("No shares of {output_name}."),
-    }
 }
 
 #[cfg(test)]

@@ -34,34 +34,6 @@ impl ChartFormat {
     }
 }
 
-/// The names of the files of a document, which are known before the document is.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct FileNames {
-    /// The name of the page without its ending.
-    pub name: String,
-    /// The files for programs.
-    pub data: Vec<String>,
-    /// The charts, without the folder and without endings.
-    pub charts: Vec<String>,
-}
-
-impl FileNames {
-    /// The paths of all files but the page, below the folder of the page.
-    pub fn paths(&self, formats: &[ChartFormat]) -> Vec<String> {
-        let pictures = self.charts.iter().flat_map(|stem| formats.iter().map(move |format| chart_path(stem, *format)));
-        self.data.iter().cloned().chain(pictures).collect()
-    }
-
-    /// The page.
-    pub fn page(&self) -> String {
-        format!("{}.html", self.name)
-    }
-}
-
-pub(super) fn chart_path(stem: &str, format: ChartFormat) -> String {
-    format!("{CHARTS}/{stem}.{}", format.ending())
-}
-
 /// What the files of each of `names` begin with, so that with `suffixes` behind it no two files have one name, not even
 /// where capitals are not told from small letters: the name, with a number where it would stand for another's file.
 ///

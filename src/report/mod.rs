@@ -23,7 +23,6 @@ pub mod format;
 pub mod given;
 mod interval_widths;
 mod leading;
-mod output_axis;
 mod read;
 mod records;
 mod result;
@@ -76,12 +75,12 @@ pub use {
     build::RunFacts,
     build_output::inputs_in_words,
     factor_bars::SharesSeries,
-    file_names::{FileNames, file_stems},
+    file_names::file_stems,
     format::{fixed, give_or_take, grouped, share, share_of_runs, significant, two_digits, with_unit},
-    interval_widths::{indices_measured, widest_interval, width_after_doubling},
+    interval_widths::{indices_measured, widest_interval},
     read::ReadProblem,
     records::{Drawing, FactorSetup, StudySetup},
     result::*,
-    run_document::{OutputNames, RunTables, TRY, one_output, run_file_names},
-    text_table::{TextTable, table, wrapped},
+    run_document::{TRY, one_output},
+    text_table::{TextTable, table},
 };

@@ -243,6 +243,9 @@ pub struct OutputRecord {
     pub reason: Option<String>,
     /// What a careful reader should know.
     pub warnings: Vec<String>,
+    /// The kind of each warning, a name that stays the same.
+    #[serde(default)]
+    pub warning_codes: Vec<String>,
 }
 
 /// How the values of an output are distributed, as far as the rows A and B tell.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::Warning;
 use crate::given::Column;
 
 /// Points of SALib's layout for `d` inputs, from base points that are all different.
@@ -111,11 +112,11 @@ fn rows_of_another_order_are_warned_of() {
     };
     let y: Vec<f64> = (1..=512 * 5).map(noise).collect();
     let warnings = &analysis(&y, 3, SalibLayout::FirstOrder).outputs[0].warnings;
-    assert!(warnings.iter().any(|warning| warning.contains("another order")), "{warnings:?}");
+    assert!(warnings.contains(&Warning::Shuffled), "{warnings:?}");
     let columns = points(3, 256, SalibLayout::FirstOrder);
     let y: Vec<f64> = columns[0].1.iter().zip(&columns[1].1).map(|(a, b)| a + b).collect();
     let warnings = &analysis(&y, 3, SalibLayout::FirstOrder).outputs[0].warnings;
-    assert!(!warnings.iter().any(|warning| warning.contains("another order")), "{warnings:?}");
+    assert!(!warnings.contains(&Warning::Shuffled), "{warnings:?}");
 }
 
 #[test]
@@ -126,7 +127,7 @@ fn codes_for_missing_values_are_found() {
     let found = crate::Unlikely::find(&y).unwrap();
     assert_eq!((found.value, found.count, found.first), (-9999.0, 14, 0));
     let warnings = &analysis(&y, 3, SalibLayout::FirstOrder).outputs[0].warnings;
-    assert!(warnings.iter().any(|warning| warning.contains("rests on few rows")), "{warnings:?}");
+    assert!(warnings.iter().any(|warning| matches!(warning, Warning::FewRows { .. })), "{warnings:?}");
 }
 
 #[test]

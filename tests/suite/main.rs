@@ -25,7 +25,6 @@ mod factor_kinds;
 mod factors;
 mod failures;
 mod fidelity;
-mod first_paragraph;
 mod frozen;
 mod fuzz;
 mod given;

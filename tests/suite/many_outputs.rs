@@ -68,18 +68,10 @@ fn up_to_eleven_outputs_have_files_and_sections_of_their_own() {
     assert!(page(&out).contains("id=\"output-11\"") && printed.contains("For wave[0], a matters most"), "{printed}");
     assert!(!std::fs::read_to_string(out.join("s.csv")).unwrap().contains("aggregate"));
     let folder = Folder::new();
-    let (out, printed) = run(&folder, &study(12, design), &[]);
+    let (out, _) = run(&folder, &study(12, design), &[]);
     let expected = ["charts/s-map.png", "charts/s-map.svg", "charts/s-together.png", "charts/s-together.svg"];
     assert_eq!(charts(&out), expected.map(str::to_owned).into());
     assert!(page(&out).contains("id=\"overview\"") && !page(&out).contains("id=\"output-1\""));
-    assert!(printed.starts_with("Of 12 outputs, "), "{printed}");
-}
-
-#[test]
-fn the_overview_is_what_it_was() {
-    let folder = Folder::new();
-    let (_, printed) = run(&folder, &study(24, "[design]\nbase_samples = 256\n"), &["--threads", "1"]);
-    insta::assert_snapshot!(printed);
 }
 
 #[test]
@@ -151,7 +143,6 @@ fn outputs_that_are_told_apart_by_names_alone_have_rows() {
     assert!(names.iter().all(|name| map.contains(&format!(">{name}</text>"))), "{map}");
     assert!(map.contains("no indices"));
     assert!(printed.contains("There are no indices of flat: "), "{printed}");
-    assert!(printed.contains("one has no indices") || printed.contains("1 has no indices"), "{printed}");
 }
 
 #[test]

@@ -95,7 +95,7 @@ fn without_noise_all_is_as_without_it() {
     };
     let (silent, without) = (of(Distribution::seed()), of(Distribution::uniform(0.0, 1.0).unwrap()));
     let [silent, without] = [&silent, &without].map(|analysis| analysis.outputs[0].clone());
-    assert!(silent.warnings.iter().any(|warning| warning.starts_with("seed: no run changed")), "{:?}", silent.warnings);
+    assert!(silent.warnings.iter().any(|warning| warning.code() == "no-noise"), "{:?}", silent.warnings);
     let [silent, without] = [silent, without].map(|output| output.indices.unwrap());
     for number in 0..3 {
         let (a, b) = (&silent.factors[number], &without.factors[number]);
@@ -131,11 +131,7 @@ fn rows_of_a_factor_share_the_noise_of_their_point() {
     let indices = output.indices.as_ref().unwrap();
     assert!(indices.factors[..3].iter().all(|factor| factor.total.estimate == 0.0), "{:?}", indices.factors[0]);
     assert!((indices.factors[3].total.estimate - 1.0).abs() < 0.1);
-    assert!(
-        output.warnings.iter().any(|warning| warning.contains("all variance may be noise")),
-        "{:?}",
-        output.warnings
-    );
+    assert!(output.warnings.iter().any(|warning| warning.code() == "all-noise"), "{:?}", output.warnings);
 }
 
 /// The variance over the noise is x3^2: of its estimate by 8 runs, (1/5)(9/7) - 1/9 is the variance, of which the variance
@@ -273,13 +269,9 @@ fn the_example_says_which_question_each_number_answers() {
     let runs = ["--set", "design.base_samples=64"];
     let out = |name: &str| folder.path(name).to_str().unwrap().to_owned();
     let said = succeed(&["run", text(&study), runs[0], runs[1], "--out", &out("one")]);
-    for expected in [
-        "Of the variance of a single run,",
-        "is noise that no factor explains",
-        "The mean over the noise has the other",
-        "S_1 of the mean",
-        "noise (seed)",
-    ] {
+    for expected in
+        ["is noise that no factor explains", "The mean over the noise has", "S_1 of the mean", "noise (seed)"]
+    {
         assert!(said.contains(expected), "{expected}: {said}");
     }
     let result = |name: &str| {

@@ -175,10 +175,7 @@ fn charts_for_a_paper_have_its_width_and_no_title() {
     // 88 mm are 249.45 points; the faces are inside.
     let pdf = std::fs::read(out.join("charts/ishigami-indices.pdf")).unwrap();
     let pdf = String::from_utf8_lossy(&pdf);
-    assert!(
-        pdf.starts_with("%PDF-1.4") && pdf.contains("/MediaBox [0 0 249.4") && pdf.contains("/FontFile2 "),
-        "{pdf}"
-    );
+    assert!(pdf.contains("/MediaBox [0 0 249.4") && pdf.contains("/FontFile2 "), "{pdf}");
     assert!(std::fs::read_to_string(out.join("ishigami.html")).unwrap().contains("charts/ishigami-indices.pdf"));
     let said = apportion(&[&run[..], &["--chart-width", "20mm"]].concat());
     assert!(said.status.code() == Some(2) && stderr(&said).contains("60mm to 300mm"), "{}", stderr(&said));

@@ -100,7 +100,6 @@ fn the_program_states_them_beside_the_indices() {
     let file = folder.with("study.toml", study());
     let told = succeed(&["check", text(&file)]);
     assert!(told.contains("measures delta, pawn_median from the first 4096 rows A and B"), "{told}");
-    assert!(told.contains("study-measures.csv  other measures of the factors"), "{told}");
     let out = folder.path("out");
     let told = succeed(&["run", text(&file), "--out", text(&out)]);
     assert!(told.contains("All measures put a first for y.") && told.contains("PAWN median"), "{told}");

@@ -259,21 +259,3 @@ fn values_outside_of_the_range_are_told_as_such() {
     // The values rise or fall from one end to the other; the sentence tells no order.
     assert!(said.contains(" most: between ") && said.contains("output from (nN)"), "{said}");
 }
-
-/// Of 41 outputs nobody reads 41 sentences.
-#[test]
-fn many_outputs_are_told_together() {
-    let (folder, _, said) = swept("push-history", &["--points", "5", "--charts", "none"]);
-    let lead = "thickness matters most for 21 outputs: critical force and force history[0] to force history[19].";
-    assert!(
-        said.contains(lead) && said.contains("velocity matters most for 7 outputs: position history[0] to"),
-        "{said}"
-    );
-    let page = read(folder.path(), "push-history-sweep.html");
-    assert_eq!(page.matches("class=\"lead\"").count(), 4, "three factors, and where the model holds");
-    assert!(page.contains("Output by output") && page.matches("<details").count() >= 41);
-    let (folder, _, said) = screened("push-history", &["--trajectories", "8", "--charts", "none"]);
-    assert!(said.contains("Could be fixed for all of them: particle radius (the upper bound"), "{said}");
-    assert!(said.contains("By μ*, the mean size of effects, thickness matters most for 21 outputs"), "{said}");
-    assert!(read(folder.path(), "push-history-screen.html").matches("<details").count() >= 41);
-}

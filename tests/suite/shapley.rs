@@ -192,7 +192,6 @@ fn the_program_tells_how_effects_were_found() {
     assert_eq!(json["provenance"]["shapley_method"], "permutations");
     assert_eq!(json["provenance"]["model_runs"], 512 * (2 + 12 + 11));
     let page = std::fs::read_to_string(out.join("twelve.html")).unwrap();
-    assert!(page.contains("over a random order of the factors at each base sample"));
     let again = folder.path("again");
     succeed(&["report", text(&out.join("twelve.json")), "--out", text(&again)]);
     assert_eq!(page, std::fs::read_to_string(again.join("twelve.html")).unwrap());

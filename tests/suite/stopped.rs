@@ -97,14 +97,6 @@ fn a_journal_or_result_is_a_file() {
         for path in [journal, out.join("s-shard-1-of-1.journal")] {
             if path.is_dir() { std::fs::remove_dir(path).unwrap() } else { std::fs::remove_file(path).unwrap() }
         }
-        make(&out.join("s.html"));
-        let output = run(&[]);
-        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-        assert!(
-            stderr(&output).contains("s.html") && !stderr(&output).contains("model runs in"),
-            "{}",
-            stderr(&output)
-        );
         std::fs::remove_dir_all(&out).unwrap();
         std::fs::create_dir(&out).unwrap();
     }
@@ -127,32 +119,4 @@ fn a_file_beyond_the_limit_of_sizes_is_an_error_with_its_reason() {
     // With room enough it goes on.
     let output = apportion(&["run", text(&study), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-}
-
-#[test]
-fn what_a_killed_run_left_half_written_is_removed_by_the_next() {
-    let folder = Folder::new();
-    let study = folder.with("s.toml", many_charts());
-    let out = folder.path("out");
-    let mut left = 0;
-    for kill in 0..12 {
-        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("apportion"));
-        command.args(["run", text(&study), "--out", text(&out), "--no-journal"]);
-        let mut run = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        let begun = Instant::now();
-        while !out.join("charts/s-y0.svg").exists() && begun.elapsed() < Duration::from_secs(60) {
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        std::thread::sleep(Duration::from_millis(37 * kill));
-        run.kill().unwrap();
-        run.wait().unwrap();
-        left += all_files(&out).iter().filter(|name| name.contains(".apportion-")).count();
-    }
-    folder.with("out/.apportion-abcdef", "of a version before");
-    std::thread::sleep(Duration::from_millis(1100));
-    let small = folder.with("small.toml", "model = \"ishigami\"\n[design]\nbase_samples = 64\n");
-    let output = apportion(&["run", text(&small), "--out", text(&out)]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(!all_files(&out).iter().any(|name| name.contains(".apportion-")), "{left} were left behind");
-    assert_whole(&out);
 }

@@ -6,9 +6,7 @@ use crate::report::Drawing;
 use crate::report::chart::{Chart, Colour, Series};
 use crate::report::factor_bars::{INDEX, both_orders, difference_panel, index_panel, left_out};
 use crate::report::file_stems;
-use crate::report::format::{index, name};
-use crate::report::listed;
-use crate::report::result::EstimateRecord;
+use crate::report::format::name;
 
 /// For every output its indices side by side, then the differences. Of more than 21 factors, those with the largest total
 /// indices in either result.
@@ -68,51 +66,13 @@ fn larger_total(factor: &ComparedFactor) -> f64 {
     [factor.total.a, factor.total.b].into_iter().flatten().map(|index| index.estimate).fold(0.0, f64::max)
 }
 
-/// The largest change and whether it is more than the errors, then what is left out.
+/// How many differences are more than the errors, then what is left out.
 fn caption(output: &ComparedOutput) -> String {
-    let singles = single_factors(output);
-    let known = singles.iter().filter_map(|factor| Some((factor, factor.total.difference?)));
-    let largest = known.max_by(|a, b| a.1.estimate.abs().total_cmp(&b.1.estimate.abs()));
-    let mut caption = match largest {
-        None => {
-            let reason = output.reasons.iter().flatten().next().map_or("no factor is in both", String::as_str);
-            return format!("No differences of {}: {reason}.", name(&output.name));
-        }
-        Some((_, change)) if change.estimate == 0.0 => "No total index differs".to_owned(),
-        Some((factor, _)) if factor.total.differs == Some(false) => {
-            let surely = |factor: &&&ComparedFactor| factor.total.differs == Some(true);
-            let sure: Vec<String> = singles.iter().filter(surely).map(|factor| name(&factor.name)).collect();
-            match &sure[..] {
-                [] => "No total index differs by more than the errors of both".to_owned(),
-                sure => format!("Total indices that differ by more than the errors of both: {}", listed(sure)),
-            }
-        }
-        Some((factor, change)) => {
-            let certain = if factor.total.differs == Some(true) { ", more than the errors of both" } else { "" };
-            format!(
-                "The total index of {} differs most: it {} by {}{certain}",
-                name(&factor.name),
-                verb(change),
-                index(size(change))
-            )
-        }
-    };
-    caption.push('.');
-    caption + &left_out(singles.len())
-}
-
-fn verb(change: EstimateRecord) -> &'static str {
-    if change.estimate > 0.0 { "rises" } else { "falls" }
-}
-
-/// How much a change is, whatever its sign.
-fn size(change: EstimateRecord) -> EstimateRecord {
-    match change.estimate < 0.0 {
-        true => EstimateRecord {
-            estimate: -change.estimate,
-            low: change.high.map(|high| -high),
-            high: change.low.map(|low| -low),
-        },
-        false => change,
+    if let Some(reason) = output.reasons.iter().flatten().next() {
+        return format!("No differences of {}: {reason}.", name(&output.name));
     }
+    let singles = single_factors(output);
+    let sure = singles.iter().filter(|factor| factor.total.differs == Some(true)).count();
+    let left_out = left_out(singles.len());
+    format!("{sure} of {} total indices differ by more than the errors of both.{left_out}", singles.len())
 }

@@ -3,28 +3,17 @@
 use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile};
 use super::{comparison_charts, comparison_json};
-use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table, Value};
 use crate::report::format::{give_or_take, heading, name, significant};
-use crate::report::leading::{Contender, by_answer, may_lead, of_which};
+use crate::report::leading::{Contender, first_answers, may_lead};
 use crate::report::listed;
 use crate::report::result::{EstimateRecord, IntervalRecord};
 
 /// The document of a comparison, whose files begin with `name`. A star marks the differences whose intervals leave out 0.
 pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
-    let mut lead: Vec<String> = match file.outputs.len() {
-        ..MANY_OUTPUTS => {
-            let said = |output: &ComparedOutput| format!("For {}, {}.", name(&output.name), leaders(output));
-            file.outputs.iter().map(said).collect()
-        }
-        _ => {
-            let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
-            let said =
-                |(leaders, places): (String, Vec<usize>)| format!("For {}, {leaders}.", of_which(&names, &places));
-            by_answer(file.outputs.iter().map(leaders)).into_iter().map(said).collect()
-        }
-    };
+    let answers = file.outputs.iter().map(|output| format!("For {}, {}.", name(&output.name), leaders(output)));
+    let mut lead = first_answers(answers.collect());
     lead.push(legend(file));
     let mut sections = vec![Section::new("sides", "What is compared", sides(file))];
     let mut of_outputs = Vec::new();
@@ -126,9 +115,7 @@ fn cells(index: &ComparedIndex) -> [String; 3] {
 /// Which factor has the largest total index in each, as far as the intervals tell, without the output and a full stop.
 fn leaders(output: &ComparedOutput) -> String {
     let leaders = |of: fn(&ComparedFactor) -> Option<EstimateRecord>| -> Option<String> {
-        let contender = |factor: &ComparedFactor| {
-            Some(Contender { label: name(&factor.name), first_order: None, total: of(factor)?, probability: None })
-        };
+        let contender = |factor: &ComparedFactor| Some(Contender::new(name(&factor.name), of(factor)?));
         let known: Vec<Contender> = output.factors.iter().filter(|f| !f.group).filter_map(contender).collect();
         let names: Vec<&str> = may_lead(&known).into_iter().map(|place| known[place].label.as_str()).collect();
         match &names[..] {
@@ -156,14 +143,6 @@ fn legend(file: &ComparisonFile) -> String {
         "A star marks a difference whose 95 % interval leaves out 0: {differing} of {compared}, where chance alone makes \
          about one in twenty."
     );
-    let is_rounding = |index: &ComparedIndex| {
-        let leaves_out_0 =
-            |of: EstimateRecord| of.low.is_some_and(|low| low > 0.0) || of.high.is_some_and(|high| high < 0.0);
-        index.differs == Some(false) && index.difference.is_some_and(leaves_out_0)
-    };
-    if indices().any(is_rounding) {
-        text.push_str(" Differences up to 1e-12 are rounding and have none.");
-    }
     if indices().all(|index| index.a == index.b) {
         text.push_str(" All indices are the same, to the last bit.");
     } else if file.shared_points {

@@ -48,29 +48,6 @@ fn differences_of_known_indices_are_found() {
 }
 
 #[test]
-fn a_difference_that_may_be_chance_is_not_the_largest() {
-    let (a, b) = (linear("[1.0, 4.0, 2.0]", "seed = 1"), linear("[1.0, 4.0, 2.0]", "seed = 2"));
-    let mut file = compared(&a, &b).unwrap();
-    let change = |estimate: f64, half: f64| {
-        let record =
-            |estimate: f64| EstimateRecord { estimate, low: Some(estimate - half), high: Some(estimate + half) };
-        index::ComparedIndex::new(Some(record(0.2)), Some(record(0.2 + estimate)))
-    };
-    let caption = |file: &ComparisonFile| comparison_charts(file)[1].chart.caption().to_owned();
-    let totals = |file: &mut ComparisonFile, all: [(f64, f64); 3]| {
-        for (factor, (estimate, half)) in file.outputs[0].factors.iter_mut().zip(all) {
-            factor.total = change(estimate, half);
-        }
-    };
-    totals(&mut file, [(0.0001, 0.003), (-0.02, 0.1), (0.0, 0.01)]);
-    assert_eq!(caption(&file), "No total index differs by more than the errors of both.");
-    totals(&mut file, [(0.01, 0.001), (-0.02, 0.1), (0.0, 0.01)]);
-    assert_eq!(caption(&file), "Total indices that differ by more than the errors of both: x1.");
-    totals(&mut file, [(0.05, 0.001), (-0.02, 0.1), (0.0, 0.01)]);
-    assert!(caption(&file).starts_with("The total index of x1 differs most: it rises by 0.0500 ± 0.0014, more than"));
-}
-
-#[test]
 fn a_result_does_not_differ_from_itself() {
     let a = linear("[1.0, 4.0, 2.0]", "");
     let file = compared(&a, &a).unwrap();

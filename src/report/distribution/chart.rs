@@ -1,13 +1,13 @@
-//! Histogram and density of an output in one picture.
+//! The histogram of an output.
 
 use super::OutputDistribution;
 use crate::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
 use crate::report::format::{axis_unit, minus, name, short_among};
 use crate::report::significant;
 
-/// The distribution of an output: the histogram as a light area of steps, the kernel density as a line, and marks at the
+/// The distribution of an output: the histogram as an area of steps, and marks at the
 /// mean and at the 2.5, 50 and 97.5 % quantiles. A constant output has its mark alone.
-pub fn density_chart(distribution: &OutputDistribution, title: &str, output: &str) -> Chart {
+pub fn histogram_chart(distribution: &OutputDistribution, title: &str, output: &str) -> Chart {
     let symbol = &axis_unit(distribution.unit.symbol());
     let per_unit = match symbol.as_str() {
         "" => String::new(),
@@ -24,13 +24,7 @@ fn curves(distribution: &OutputDistribution) -> Vec<Mark> {
         let series = Series::new("all values", Colour::Series(0)).stroke(Stroke::Points);
         return vec![series.line(vec![(distribution.mean, 0.0)])];
     }
-    let series = Series::new("density (histogram: area, kernel estimate: line)", Colour::Series(0));
-    vec![series.band(histogram_steps(distribution)), series.line(density_points(distribution))]
-}
-
-fn density_points(distribution: &OutputDistribution) -> Vec<(f64, f64)> {
-    let density = distribution.density.iter();
-    density.flat_map(|d| d.x.iter().copied().zip(d.density.iter().copied())).collect()
+    vec![Series::new("histogram", Colour::Series(0)).band(histogram_steps(distribution))]
 }
 
 /// Both upper corners of every bin over its lower ones.

@@ -1,7 +1,6 @@
-//! The distribution of an output: moments, quantiles, histogram, density, and their chart.
+//! The distribution of an output: moments, quantiles, histogram, and their chart.
 
 mod chart;
-mod density;
 mod histogram;
 mod quantile;
 
@@ -9,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use chart::density_chart;
+pub use chart::histogram_chart;
 pub use quantile::{PERCENTS, quantile};
 
 use crate::quantity::Unit;
@@ -39,8 +38,6 @@ pub struct OutputDistribution {
     pub quantiles: Vec<QuantileRecord>,
     /// Histogram; `null` without variance.
     pub histogram: Option<Histogram>,
-    /// Kernel density; `null` without variance.
-    pub density: Option<Density>,
 }
 
 /// A quantile.
@@ -68,34 +65,6 @@ pub struct Histogram {
     pub below: u64,
     /// Values above the last edge.
     pub above: u64,
-}
-
-/// A kernel density estimate with Gaussian kernels, over the reach of the histogram.
-///
-/// Kernels that would reach beyond the smallest or largest value are reflected there, so that no density lies where there
-/// are no values and that of a bounded output does not sag at its bounds.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Density {
-    /// Standard deviation of the kernel.
-    pub bandwidth: f64,
-    /// How it was chosen.
-    pub rule: BandwidthRule,
-    /// Places, ascending, in equal steps.
-    pub x: Vec<f64>,
-    /// Densities there, per unit of the output; they integrate to the share of values within reach.
-    pub density: Vec<f64>,
-}
-
-/// How the bandwidth of a kernel density was chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum BandwidthRule {
-    /// Direct plug-in of two stages (Sheather and Jones 1991, J. R. Statist. Soc. B 53, 683-690, in the form of R's
-    /// `bw.SJ(method = "dpi")`).
-    SheatherJones,
-    /// 0.9 min(sd, IQR/1.34) n^(-1/5) (Silverman 1986, section 3.4), for fewer than 20 values and where the plug-in has no
-    /// answer; with the standard deviation alone where the IQR is 0.
-    Silverman,
 }
 
 /// Why a sample has no distribution.
@@ -144,7 +113,6 @@ impl OutputDistribution {
         let varied = max - min > ROUNDING;
         let sample = varied.then(|| Sample::of(&sorted, moments.sd));
         let histogram = sample.as_ref().map(|sample| histogram::of(sample));
-        let density = sample.as_ref().and_then(|sample| scale.density(density::of(sample)));
         Ok(Self {
             unit: unit.clone(),
             count: sorted.len() as u64,
@@ -159,7 +127,6 @@ impl OutputDistribution {
                 .map(|&percent| QuantileRecord { percent, value: scale.value(quantile(&sorted, percent / 100.0)) })
                 .collect(),
             histogram: histogram.map(|h| Histogram { edges: h.edges.iter().map(|&x| scale.value(x)).collect(), ..h }),
-            density,
         })
     }
 
@@ -203,19 +170,6 @@ impl Scale<'_> {
     fn span(&self, x: f64) -> f64 {
         self.unit.span_from_si(libm::scalbn(x, self.exponent))
     }
-
-    /// `None` if a density is beyond double precision, as for values near 1e-308.
-    fn density(&self, density: Density) -> Option<Density> {
-        let one = self.unit.span_from_si(1.0);
-        let converted = Density {
-            bandwidth: self.span(density.bandwidth),
-            x: density.x.iter().map(|&x| self.value(x)).collect(),
-            density: density.density.iter().map(|&d| libm::scalbn(d, -self.exponent) / one).collect(),
-            ..density
-        };
-        let finite = converted.density.iter().all(|d| d.is_finite());
-        (finite && converted.bandwidth > 0.0).then_some(converted)
-    }
 }
 
 /// Moments of values of order one.
@@ -242,12 +196,12 @@ impl Moments {
     }
 }
 
-/// A sorted sample that varies, with what histogram and density need of it.
+/// A sorted sample that varies, with what a histogram needs of it.
 struct Sample<'a> {
     sorted: &'a [f64],
     sd: f64,
     iqr: f64,
-    /// Where histogram and density begin and end.
+    /// Where the histogram begins and ends.
     reach: (f64, f64),
 }
 

@@ -9,18 +9,12 @@ pub(super) struct Drawings {
     pub wide: String,
     /// For a phone, or half of a column.
     pub narrow: String,
-    /// Both on a logarithmic axis, where that shows more.
-    pub logarithmic: Option<[String; 2]>,
 }
 
 impl Drawings {
     /// The drawings of `chart` as elements whose identifiers begin with `id`.
     pub fn of(id: &str, chart: &Chart) -> Result<Self, ChartError> {
-        let logarithmic = chart.logarithmic().map(|chart| {
-            let id = format!("{id}-log");
-            Ok([wide(&id, &chart)?, narrow(&id, &chart)?])
-        });
-        Ok(Self { wide: wide(id, chart)?, narrow: narrow(id, chart)?, logarithmic: logarithmic.transpose()? })
+        Ok(Self { wide: wide(id, chart)?, narrow: narrow(id, chart)? })
     }
 
     /// The small one alone.

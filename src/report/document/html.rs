@@ -2,7 +2,7 @@
 
 use askama::Template;
 
-use super::anchors::{check, href};
+use super::anchors::href;
 use super::drawing::Drawings;
 use super::symbols::{clean, escaped, symbols};
 use super::{Cell, Document, DocumentError, Figure, Link, Mark, OnPhone, Part, Section, Table};
@@ -88,7 +88,7 @@ impl Document {
     /// charts are drawn twice, for a page column and for a phone.
     ///
     /// # Errors
-    /// [`DocumentError`] if a chart cannot be drawn, or an anchor is malformed, there twice, or linked to and missing.
+    /// [`DocumentError`] if a chart cannot be drawn, or a template not be filled.
     ///
     /// # Example
     /// ```
@@ -125,12 +125,11 @@ impl Document {
 
     fn page(&self, around: &Surroundings<'_>) -> Result<String, DocumentError> {
         // Figures have links to their own files.
-        let data = if around.has_files { self.file_names().data } else { Vec::new() };
+        let data = if around.has_files { self.data_names() } else { Vec::new() };
         let links = data.into_iter().filter(|name| !name.contains('/')).map(|name| Link::new(name.clone(), name));
         let links: Vec<Link> = links.collect();
         let files = (!links.is_empty()).then(|| Section::new("files", "Files", vec![Part::Links(links)]));
         let all: Vec<&Section> = self.sections.iter().chain(&files).collect();
-        check(&all)?;
         let mut sections = Vec::with_capacity(all.len());
         for section in &all {
             let body = around.parts(&section.parts)?;

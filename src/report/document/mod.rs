@@ -1,7 +1,7 @@
 //! Documents: what a command has to say, made once and then written as a page, a text for the terminal and tables of CSV.
 //!
 //! A [`Document`] is plain data. [`Document::html`] is its page, [`Document::text`] what a terminal shows, and its files
-//! for programs are listed by [`Document::file_names`]; [`Artefacts`](crate::report::Artefacts) writes all of them.
+//! for programs are made by [`Document::data_files`]; [`Artefacts`](crate::report::Artefacts) writes all of them.
 
 #[cfg(feature = "page")]
 mod anchors;
@@ -22,7 +22,6 @@ pub use table::{Cell, Column, Mark, OnPhone, Table};
 
 use crate::model::MANY_OUTPUTS;
 use crate::report::chart::Chart;
-use crate::report::file_names::FileNames;
 
 /// A result to be read.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -59,14 +58,6 @@ pub enum DocumentError {
         figure: String,
         /// Why.
         source: crate::report::chart::ChartError,
-    },
-    /// An anchor of which a browser could make nothing.
-    #[error("the anchor {id:?} of the page {problem}")]
-    Anchor {
-        /// The anchor.
-        id: String,
-        /// What is wrong with it.
-        problem: &'static str,
     },
 }
 
@@ -203,7 +194,6 @@ impl Document {
                 tables.push(table);
             }
         });
-        tables.sort_by_key(|table| table.at_end);
         let mut files: Vec<(&str, Vec<&Table>)> = Vec::new();
         for table in tables.into_iter().filter(|table| self.files.iter().all(|file| file.name != table.file)) {
             match files.iter_mut().find(|(name, _)| *name == table.file) {
@@ -214,13 +204,10 @@ impl Document {
         files
     }
 
-    /// The names of its files, the page aside.
-    pub fn file_names(&self) -> FileNames {
-        let mut charts: Vec<String> = self.figures().into_iter().map(|figure| figure.stem.clone()).collect();
-        charts.retain(|stem| !stem.is_empty());
+    /// The names of the files for programs.
+    pub fn data_names(&self) -> Vec<String> {
         let of_tables = self.tables_by_file().into_iter().map(|(name, _)| name.to_owned());
-        let data = self.files.iter().map(|file| file.name.clone()).chain(of_tables).collect();
-        FileNames { name: self.name.clone(), data, charts }
+        self.files.iter().map(|file| file.name.clone()).chain(of_tables).collect()
     }
 
     /// A section for each output, with its heading; of many outputs one section, in which each is folded.

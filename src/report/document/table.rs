@@ -25,8 +25,6 @@ pub struct Table {
     pub on_phone: OnPhone,
     /// The file of CSV that its rows stand in; may be empty. Tables of the same columns may share one.
     pub file: String,
-    /// Whether its rows stand below those of all tables of the file that are not.
-    pub at_end: bool,
 }
 
 /// A column of a [`Table`].
@@ -165,11 +163,6 @@ impl Column {
     /// The column as it is called in the file.
     pub fn named(self, field: Field) -> Self {
         Self { field: Some(field), ..self }
-    }
-
-    /// Leaves the column to the file.
-    pub fn hide(&mut self) {
-        self.heading = None;
     }
 
     /// Columns of which the first `texts` are texts and the others numbers.

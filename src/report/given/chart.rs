@@ -3,9 +3,7 @@
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord};
 use crate::report::chart::{Chart, Colour, Series};
 use crate::report::factor_bars::{INDEX, index_panel, left_out};
-use crate::report::format::percent;
-use crate::report::leading::{Contender, may_lead, names};
-use crate::report::result::EstimateRecord;
+use crate::report::leading::{Contender, leader};
 
 /// The indices of one output as parts of its variance, one bar per input and method, with their intervals; the input of
 /// the largest index on top, of the largest total index where there are any.
@@ -35,48 +33,17 @@ pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
     Chart::new(format!("{title} of {}", output.name), caption(result, output) + &beyond).panels([panel])
 }
 
-/// What is more than this part of a variance is most of it.
-const HALF: f64 = 0.5;
-
-/// Whether an index cannot be told from 0.
-fn is_nothing(index: EstimateRecord) -> bool {
-    index.estimate <= 0.0 || index.low.is_some_and(|low| low <= 0.0)
-}
-
-/// What is seen, in one sentence.
+/// Which input alone explains most.
 fn caption(result: &GivenFile, output: &GivenOutputRecord) -> String {
-    let leading = |(number, index): (usize, &GivenIndexRecord)| {
+    let contender = |(number, index): (usize, &GivenIndexRecord)| {
         let by_surrogate = output.served().map(|of| of.indices[number].first_order);
-        let total = by_surrogate.or(index.rank).or(index.binned.map(|binned| binned.estimate))?;
-        Some(Contender { label: index.input.clone(), first_order: None, total, probability: None })
+        let index_of = by_surrogate.or(index.rank).or(index.binned.map(|binned| binned.estimate))?;
+        Some(Contender::new(&index.input, index_of))
     };
-    let known: Vec<Contender> = output.indices.iter().flatten().enumerate().filter_map(leading).collect();
-    let from = format!("From {} given rows", result.table.rows);
-    let inputs = if result.table.columns_left_out.is_empty() { "all inputs" } else { "the inputs that were read" };
-    match (&may_lead(&known)[..], &output.reason) {
-        ([lead, ..], _) if known.iter().all(|input| is_nothing(input.total)) => {
-            let (input, share) = (&known[*lead].label, percent(known[*lead].total));
-            let largest = if known[*lead].total.estimate > 0.0 {
-                format!("; the largest estimate is that of {input}, {share} of its variance")
-            } else {
-                String::new()
-            };
-            format!("{from}: no input alone explains a part of {} that can be told from 0{largest}.", output.name)
-        }
-        ([lead], _) => {
-            let (input, share) = (&known[*lead].label, percent(known[*lead].total));
-            let most = if known[*lead].total.estimate >= HALF { "most" } else { "the largest part" };
-            format!("{from}: of {inputs}, {input} alone explains {most} of {}, {share} of its variance.", output.name)
-        }
-        (leaders @ [_, ..], _) => {
-            let share = |contender: &Contender| percent(contender.total);
-            let names = names(&known, leaders, &share);
-            format!(
-                "{from}: which input alone explains the largest part of {} cannot be told apart: {names} of its variance.",
-                output.name
-            )
-        }
-        ([], Some(reason)) => format!("No indices of {}: {reason}.", output.name),
-        ([], None) => format!("No indices of {}.", output.name),
+    let known: Vec<Contender> = output.indices.iter().flatten().enumerate().filter_map(contender).collect();
+    match (leader(&known, &format!("For {}", output.name), "first-order index S_1", ""), &output.reason) {
+        (Some(sentence), _) => format!("{sentence} From {} given rows.", result.table.rows),
+        (None, Some(reason)) => format!("No indices of {}: {reason}.", output.name),
+        (None, None) => format!("No indices of {}.", output.name),
     }
 }

@@ -4,39 +4,33 @@ use std::path::Path;
 
 use super::{GivenFile, GivenIndexRecord, GivenOutputRecord, given_chart};
 use super::{measures, sentences};
-use crate::model::MANY_OUTPUTS;
 use crate::report::csv::Field;
 use crate::report::distribution::OutputDistribution;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::format::{index, name as words, significant};
+use crate::report::leading::first_answers;
 use crate::report::records::json;
 use crate::report::result::EstimateRecord;
 use crate::report::{file_stems, listed};
-
-/// Of many outputs, those with a paragraph at the top.
-const TOLD: usize = 6;
 
 /// The document of a result from given data, whose files begin with `name`.
 pub fn given_document(result: &GivenFile, name: &str) -> Document {
     let outputs: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
     let stems = file_stems(name, &outputs, &[""]);
     let mut sections =
-        vec![Section::new("mind", "What to mind", Part::warnings(&result.warnings).into_iter().collect())];
+        vec![Section::new("warnings", "Warnings", Part::warnings(&result.warnings).into_iter().collect())];
     sections.retain(|section| !section.parts.is_empty());
     let (mut lead, mut of_outputs) = (Vec::new(), Vec::new());
     for (place, (output, stem)) in result.outputs.iter().zip(stems).enumerate() {
         let chart = given_chart(result, output);
-        lead.push(format!("{}{}", chart.caption(), left(output)));
+        lead.push(chart.caption().to_owned());
         let figure = Figure::new(place + 1, chart, stem, data_name(name));
         let mut parts = output_parts(output, index_table(result, output, name));
         parts.push(figure.into());
         of_outputs.push((words(&output.name), parts));
     }
     sections.extend(Document::sections_of_outputs(of_outputs));
-    if outputs.len() >= MANY_OUTPUTS {
-        lead.truncate(TOLD);
-        lead.push(format!("{} more outputs have theirs below.", outputs.len() - TOLD));
-    }
+    lead = first_answers(lead);
     sections.extend(measures::section(result, name, result.outputs.len()));
     let notes = result.notes.iter().map(|note| format!("{}.", crate::report::capitalised(note))).collect();
     let note = Part::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts: notes };
@@ -58,35 +52,6 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
         files,
         ..Document::default()
     }
-}
-
-/// What the first-order indices leave of the variance, of which given data cannot say what it is; nothing that is within the
-/// errors of the indices.
-fn left(output: &GivenOutputRecord) -> String {
-    let indices: Vec<EstimateRecord> = match output.served() {
-        Some(of) => of.indices.iter().map(|index| index.first_order).collect(),
-        None => {
-            let leading = |index: &GivenIndexRecord| index.rank.or(index.binned.map(|binned| binned.estimate));
-            output.indices.iter().flatten().filter_map(leading).collect()
-        }
-    };
-    let sum = output.served().map(|of| of.sum_first_order).or(output.sum_first_order);
-    let Some(sum) = sum else { return String::new() };
-    let said = three(sum);
-    // As if the errors of the indices were independent of each other.
-    let towards_1 = |index: &EstimateRecord| {
-        let bound = if sum < 1.0 { index.high } else { index.low };
-        Some((bound? - index.estimate).powi(2))
-    };
-    let error = indices.iter().map(towards_1).sum::<Option<f64>>().map(f64::sqrt);
-    let missing = match error {
-        _ if said.parse() == Ok(1.0) => return " The first-order indices sum to 1.".to_owned(),
-        Some(error) if (1.0 - sum).abs() <= error => "1 to within their errors",
-        Some(_) if sum < 1.0 => "what is missing to 1 may be interactions, noise, or inputs that are not there",
-        None if sum < 1.0 => "what is missing to 1 may be error, interactions, noise, or inputs that are not there",
-        _ => "beyond 1 by error, or by inputs that go together",
-    };
-    format!(" The first-order indices sum to {said}: {missing}.")
 }
 
 /// Which columns are not among the inputs although nobody left them out.

@@ -1,9 +1,10 @@
 //! How the indices settled.
 
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
-use super::super::format::name as label;
+use super::super::factor_bars::not_drawn;
 use super::super::format::{grouped, name, two_digits};
-use super::super::interval_widths::{WIDE, widest_of};
+use super::super::interval_widths::widest_of;
+use super::super::leading::by_total;
 use super::super::result::{EstimateRecord, OutputRecord, ResultFile, StageIndexRecord, StageRecord};
 use super::headline;
 
@@ -13,7 +14,8 @@ const LINES: usize = 8;
 /// How the total indices and the half widths of their intervals changed with the number of model runs, for the factors with
 /// the largest total indices (at most eight). With a target, its line stands among the half widths.
 pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
-    let factors = largest(output);
+    let factors: Vec<usize> =
+        by_total(output).unwrap_or_default().into_iter().map(|(factor, _)| factor).take(LINES).collect();
     let stages = &output.convergence;
     let axis = |label: &str, spacing| Axis::new(label, "").spaced(spacing);
     let totals = factors.iter().enumerate().flat_map(|(place, &factor)| total_lines(stages, place, factor));
@@ -25,23 +27,13 @@ pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let widths = panel("Half widths of the intervals of the total indices", axis("half width", Spacing::Logarithmic))
         .with(widths);
     let title = format!("{}: how the indices of {} settled", headline(result), name(&output.name));
-    Chart::new(title, caption(result, output, factors.len()))
-        .panels([totals, widths.with(references.into_iter().flatten())])
-}
-
-/// Numbers of the factors with the largest total indices, these first.
-fn largest(output: &OutputRecord) -> Vec<usize> {
-    let Some(indices) = &output.indices else { return Vec::new() };
-    let mut order: Vec<usize> = (0..indices.len()).collect();
-    order.sort_by(|&a, &b| indices[b].effect.total.estimate.total_cmp(&indices[a].effect.total.estimate));
-    order.truncate(LINES);
-    order
+    Chart::new(title, caption(result, output)).panels([totals, widths.with(references.into_iter().flatten())])
 }
 
 /// The series of the factor that stands at `place` among the drawn ones.
 fn series(stages: &[StageRecord], place: usize, factor: usize) -> Series {
     let index = stages.first().and_then(|stage| stage.indices.get(factor));
-    let name = index.map_or_else(String::new, |index| label(&index.factor));
+    let name = index.map_or_else(String::new, |index| self::name(&index.factor));
     Series::new(name, Colour::Series(place)).stroke(Stroke::SolidWithPoints)
 }
 
@@ -77,31 +69,14 @@ fn target_line(stages: &[StageRecord], target: f64) -> Mark {
     Series::new("target", Colour::Reference).line(points.collect())
 }
 
-/// What is seen, in a sentence or two.
-fn caption(result: &ResultFile, output: &OutputRecord, lines: usize) -> String {
-    let Some(last) = output.convergence.last() else {
-        let reason = output.reason.as_deref().unwrap_or("too few base samples to be looked at in parts");
-        return format!("Nothing to see: {reason}.");
-    };
-    let runs = grouped(last.model_runs);
-    let mut caption = match widest_of(output) {
-        Some(WIDE..) => format!("After {runs} model runs the intervals are too wide to tell the indices"),
-        Some(width) => {
-            format!(
-                "After {runs} model runs every first-order and total index is known to ± {} or better",
-                two_digits(width)
-            )
+/// How well the indices are known at the end.
+fn caption(result: &ResultFile, output: &OutputRecord) -> String {
+    let known = match (output.convergence.last(), widest_of(output)) {
+        (Some(last), Some(width)) => format!("After {} model runs: ± {}.", grouped(last.model_runs), two_digits(width)),
+        (Some(last), None) => {
+            format!("After {} model runs there are indices without an interval.", grouped(last.model_runs))
         }
-        None => format!("After {runs} model runs there are indices without an interval"),
+        (None, _) => "There are too few base samples to be looked at in parts.".to_owned(),
     };
-    if let Some(stopping) = &result.stopping
-        && let (Some(target), Some(met)) = (stopping.target_half_width, stopping.target_met)
-    {
-        caption.push_str(&format!("; the target of {target} is {}", if met { "met" } else { "not met" }));
-    }
-    caption.push('.');
-    if result.factors.len() > lines && lines > 0 {
-        caption.push_str(&format!(" The {lines} factors with the largest total indices are drawn."));
-    }
-    caption
+    known + &not_drawn(result.factors.len(), LINES)
 }

@@ -1,7 +1,7 @@
 //! How an output is distributed.
 
 use super::super::chart::{Axis, Chart, Panel};
-use super::super::distribution::density_chart;
+use super::super::distribution::histogram_chart;
 use super::super::format::{grouped, name, words};
 use super::super::result::{OutputRecord, ResultFile};
 use super::headline;
@@ -13,7 +13,7 @@ pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     if let Some(distribution) = &output.distribution {
         // With the mean of the values, not that of the page, which surrogates may have corrected.
         let sample = &distribution.sample;
-        let mut chart = density_chart(sample, &title, &output_words);
+        let mut chart = histogram_chart(sample, &title, &output_words);
         if sample.count < distribution.values {
             let caption = format!("{} These were kept of all {}.", chart.caption(), grouped(distribution.values));
             chart.set_caption(caption);

@@ -1,12 +1,13 @@
 //! The output over its most influential factors.
 
-use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Spacing};
-use super::super::format::{axis_unit, name, printed, words};
+use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Spacing, Stroke};
+use super::super::factor_bars::not_drawn;
+use super::super::format::{axis_unit, name, words};
+use super::super::leading::no_indices;
 use super::super::result::{FactorRecord, OutputRecord, ResultFile, ScatterRecord};
 
 use super::categories::Categories;
-use super::slice_means::Means;
-use super::{headline, no_indices};
+use super::headline;
 
 /// Where the median lies below this part of the largest value, a linear axis would press most points into its foot.
 const PRESSED: f64 = 0.02;
@@ -21,16 +22,8 @@ pub fn scatter_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
         panels.push(Panel::new(Axis::default(), y));
     }
     let title = format!("{}: values of {} over its factors", headline(result), name(&output.name));
-    let caption = scatter.map_or_else(|| nothing(output), |scatter| caption(result, output, scatter));
+    let caption = scatter.map_or_else(|| no_indices(output), |scatter| caption(result, scatter));
     Chart::new(title, caption).side_by_side().panels(panels)
-}
-
-/// Why there is nothing to draw: no indices, or a result of an earlier version.
-fn nothing(output: &OutputRecord) -> String {
-    match output.indices {
-        None => no_indices(output),
-        Some(_) => format!("No scatter of {}: the result holds none.", name(&output.name)),
-    }
 }
 
 fn panels(result: &ResultFile, output: &OutputRecord, scatter: &ScatterRecord, y: &Axis) -> Vec<Panel> {
@@ -44,21 +37,25 @@ fn panels(result: &ResultFile, output: &OutputRecord, scatter: &ScatterRecord, y
         });
         let dots = scatter.points.iter().filter_map(|point| Some((*point.get(place)?, *point.last()?)));
         let means = scatter.conditional_means.iter().find(|means| means.factor == *name);
-        let means = means.map(Means::new);
-        let (x, dots, means) = match record.and_then(Categories::new) {
-            // Names have no unit.
-            Some(categories) => {
-                let (dots, means) = (categories.strips(dots), means.map(|means| categories.levels(means)));
-                (Axis::from_names(words(name), categories.labels), dots, means)
-            }
+        let categories = record.and_then(Categories::new);
+        let at = |x: f64| categories.as_ref().map_or(x, |categories| categories.place(x));
+        let (x, stroke) = match &categories {
+            // Names have no unit, and there is nothing between two of them.
+            Some(categories) => (Axis::from_names(words(name), categories.labels.clone()), Stroke::Points),
             None => {
                 let unit = record.map_or_else(String::new, |factor| axis_unit(&factor.unit));
-                let spacing = record.map_or(Spacing::Linear, factor_spacing);
-                (Axis::new(words(name), unit).spaced(spacing), dots.collect(), means)
+                (Axis::new(words(name), unit).spaced(record.map_or(Spacing::Linear, factor_spacing)), Stroke::Solid)
             }
         };
-        let lines = means.into_iter().flat_map(Means::marks);
-        Panel::new(x, y.clone()).titled(title).with([runs.mark(Shape::Dots(dots))]).with(lines)
+        let series = Series::new("mean over a slice of the factor", Colour::Reference).stroke(stroke);
+        let means = means.into_iter().flat_map(|means| {
+            let number = |list: &[Option<f64>], place: usize| list.get(place).copied().flatten().unwrap_or(f64::NAN);
+            let places = means.x.iter().map(|x| at(*x)).enumerate();
+            let band = places.clone().map(|(k, x)| (x, number(&means.low, k), number(&means.high, k))).collect();
+            [series.band(band), series.line(places.map(|(k, x)| (x, number(&means.mean, k))).collect())]
+        });
+        let dots = dots.map(|(x, y)| (at(x), y)).collect();
+        Panel::new(x, y.clone()).titled(title).with([runs.mark(Shape::Dots(dots))]).with(means.collect::<Vec<_>>())
     };
     scatter.factors.iter().enumerate().map(panel).collect()
 }
@@ -87,36 +84,12 @@ fn spacing(scatter: &ScatterRecord) -> Spacing {
     if pressed { Spacing::Logarithmic } else { Spacing::Linear }
 }
 
-/// What is seen, what the marks are, and which factors are left out.
-fn caption(result: &ResultFile, output: &OutputRecord, scatter: &ScatterRecord) -> String {
-    let unit = axis_unit(&output.unit);
-    let space = if unit.is_empty() { "" } else { " " };
-    let moved = scatter.conditional_means.first().and_then(|means| {
-        let known = || means.mean.iter().flatten().copied();
-        let (low, high) = (known().reduce(f64::min)?, known().reduce(f64::max)?);
-        Some(format!(
-            "Over the range of {} the mean of {} lies between {} and {}{space}{unit}. ",
-            name(&means.factor),
-            name(&output.name),
-            printed(low),
-            printed(high)
-        ))
-    });
-    let mut caption = moved.unwrap_or_default();
-    caption.push_str(&format!(
-        "Dots: {} of the model runs; line: mean over a slice of the factor, with 1.96 standard errors to both sides. The \
-         more of the dots' spread the line follows, the larger is the first-order index S_1.",
-        scatter.points.len()
-    ));
-    if spacing(scatter) == Spacing::Logarithmic {
-        caption.push_str(" The axis is logarithmic; most of the variance comes from the highest values.");
-    }
-    if result.factors.len() > scatter.factors.len() {
-        caption.push_str(&format!(
-            " Of {} factors, the {} with the largest total indices are drawn.",
-            result.factors.len(),
-            scatter.factors.len()
-        ));
-    }
-    caption
+/// What the marks are, and which factors are left out.
+fn caption(result: &ResultFile, scatter: &ScatterRecord) -> String {
+    format!(
+        "Dots: {} of the model runs; line: mean over a slice of the factor, with 1.96 standard errors to both sides. The more \
+         of the dots' spread the line follows, the larger is the first-order index S_1.{}",
+        scatter.points.len(),
+        not_drawn(result.factors.len(), scatter.factors.len())
+    )
 }

@@ -8,7 +8,7 @@ use crate::report::given::{agreement, measures_table};
 use crate::report::result::{MeasuresRecord, OutputRecord, ResultFile};
 
 /// What they say, and a row for each factor.
-pub(super) fn measures(result: &ResultFile, output: &OutputRecord) -> Vec<Part> {
+pub(super) fn measures(output: &OutputRecord) -> Vec<Part> {
     let Some(record) = &output.measures else { return Vec::new() };
     let wanted = wanted(record);
     let text = format!(
@@ -16,7 +16,7 @@ pub(super) fn measures(result: &ResultFile, output: &OutputRecord) -> Vec<Part> 
         agreement(&output.name, &record.factors, &wanted),
         grouped(record.rows)
     );
-    vec![Part::Text(text), Part::Table(table(result, output, record))]
+    vec![Part::Text(text), table(output, record).into()]
 }
 
 /// The measures of a record.
@@ -25,14 +25,14 @@ fn wanted(record: &MeasuresRecord) -> Vec<Measure> {
     Measure::ALL.into_iter().filter(is_there).collect()
 }
 
-fn table(result: &ResultFile, output: &OutputRecord, record: &MeasuresRecord) -> Table {
+fn table(output: &OutputRecord, record: &MeasuresRecord) -> Table {
     let table = measures_table(&output.name, ("factor", &record.factors), &wanted(record));
     let printed = Some((0..table.rows.len().min(FACTORS)).collect());
-    Table { file: format!("{}-measures.csv", result.study.name), printed, ..table }
+    Table { printed, ..table }
 }
 
 /// Those of all outputs.
 pub(super) fn measures_csv(result: &ResultFile) -> String {
-    let tables = result.outputs.iter().filter_map(|output| Some(table(result, output, output.measures.as_ref()?)));
+    let tables = result.outputs.iter().filter_map(|output| Some(table(output, output.measures.as_ref()?)));
     csv(tables)
 }

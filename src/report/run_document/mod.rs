@@ -1,7 +1,6 @@
 //! The document of one run: what came out, how sure that is, and how it was found.
 
 mod figures;
-mod interactions;
 mod lead;
 mod measures;
 mod noise;
@@ -12,17 +11,15 @@ mod tables;
 mod values;
 mod warnings;
 
-pub use figures::OutputNames;
-use figures::{Figures, Numbered, Stems, all_stems};
+use figures::{Figures, Numbered, Stems};
 use output::Topic;
 pub use series::one_output;
-use warnings::folded;
+use warnings::grouped_warnings;
 
 use crate::model::{MANY_OUTPUTS, ModelKind};
 use crate::study::edited;
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
-use super::file_names::FileNames;
 use super::format::{grouped, name, significant};
 use super::records::StudySetup;
 use super::result::{AggregateRecord, LowRecord, ResultFile, SpendingRecord};
@@ -48,7 +45,7 @@ use super::{capitalised, listed, result_json};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run_document(result: &ResultFile) -> Document {
-    let stems = Stems::new(&result.study.name, &OutputNames::of(result));
+    let stems = Stems::new(result);
     let (mut sections, drawn) = series::sections(result, &stems.series);
     // Series are told apart from all other outputs.
     let others = (!result.series.is_empty()).then(|| series::single_outputs(result));
@@ -70,24 +67,18 @@ pub fn run_document(result: &ResultFile) -> Document {
         lead: lead::lead(result, single),
         sections,
         footer: format!("Made by apportion {}.", result.provenance.apportion_version),
-        charts: figures.others(),
         files: vec![DataFile::new(format!("{}.json", study.name), result_json(result))],
+        ..Document::default()
     };
-    let has_indices = document.file_names().data.contains(&format!("{}.csv", study.name));
     let mut put = |ending: &str, text: String| {
         document.files.push(DataFile::new(format!("{}{ending}", study.name), text));
     };
-    if is_many || !result.series.is_empty() {
-        put(".csv", tables::indices_csv(result));
-        if result.outputs.iter().any(|output| output.second_order.is_some()) {
-            put("-second-order.csv", tables::pairs_csv(result));
-        }
-        if result.outputs.iter().any(|output| output.measures.is_some()) {
-            put("-measures.csv", measures::measures_csv(result));
-        }
-    } else if !has_indices {
-        // Without any index the table has a header still.
-        put(".csv", tables::no_indices_csv(result));
+    put(".csv", tables::indices_csv(result));
+    if result.outputs.iter().any(|output| output.second_order.is_some()) {
+        put("-second-order.csv", tables::pairs_csv(result));
+    }
+    if result.outputs.iter().any(|output| output.measures.is_some()) {
+        put("-measures.csv", measures::measures_csv(result));
     }
     if result.outputs.iter().any(|output| !output.estimators.is_empty()) {
         put("-estimators.csv", tables::estimators_csv(result));
@@ -102,8 +93,8 @@ fn of_outputs(figures: &mut Figures<'_>) -> Vec<Section> {
     let mut sections = Vec::new();
     let single = result.outputs.len() == 1 && figures.count() == 0;
     if !single {
-        let warnings: Vec<Part> = Part::warnings(&folded(&result.outputs)).into_iter().collect();
-        sections.extend((!warnings.is_empty()).then(|| Section::new("mind", "What to mind", warnings)));
+        let warnings = Part::warnings(&grouped_warnings(&result.outputs));
+        sections.extend(warnings.map(|part| Section::new("warnings", "Warnings", vec![part])));
     }
     for (place, output) in result.outputs.iter().enumerate() {
         let topics = output::topics(figures, Numbered { output, number: place + 1 });
@@ -128,40 +119,12 @@ fn under_headings(topics: Vec<Topic>) -> Vec<Part> {
     topics.into_iter().flat_map(under).collect()
 }
 
-/// What a run is asked for that has a file of its own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct RunTables {
-    /// Second-order indices.
-    pub second_order: bool,
-    /// Other estimators.
-    pub estimators: bool,
-    /// Other measures.
-    pub measures: bool,
-}
-
-/// The names of the files of a run of the study called `name` with these `outputs`.
-pub fn run_file_names(name: &str, outputs: &OutputNames<'_>, tables: RunTables) -> FileNames {
-    let mut data = vec![format!("{name}.json"), format!("{name}.csv")];
-    data.extend(tables.second_order.then(|| format!("{name}-second-order.csv")));
-    data.extend(tables.measures.then(|| format!("{name}-measures.csv")));
-    data.extend(tables.estimators.then(|| format!("{name}-estimators.csv")));
-    data.push(format!("{name}-convergence.csv"));
-    FileNames { name: name.to_owned(), data, charts: all_stems(name, outputs, tables.second_order) }
-}
-
 /// The indices over all outputs together, or why there are none.
 fn together(result: &ResultFile, aggregate: &AggregateRecord) -> Vec<Part> {
-    let varies =
-        |output: &&String| !result.outputs.iter().any(|other| other.name == **output && other.variance == Some(0.0));
-    let (varying, still): (Vec<&String>, Vec<&String>) = aggregate.outputs.iter().partition(varies);
-    let names = |outputs: &[&String]| listed(&outputs.iter().map(|output| name(output)).collect::<Vec<_>>());
-    let mut text = format!("Of {}: {}.", names(&varying), aggregate.weighting);
-    if !still.is_empty() {
-        text.push_str(&format!(" What does not vary has no part in them: {}.", names(&still)));
-    }
-    let mut parts = vec![Part::Text(text)];
+    let names: Vec<String> = aggregate.outputs.iter().map(|output| name(output)).collect();
+    let mut parts = vec![Part::Text(format!("Of {}: {}.", listed(&names), aggregate.weighting))];
     match (&aggregate.indices, &aggregate.reason) {
-        (Some(indices), _) => parts.push(tables::aggregate_of(result, aggregate, indices)),
+        (Some(indices), _) => parts.push(tables::aggregate_of(result, aggregate, indices).into()),
         (None, Some(reason)) => parts.push(Part::no_indices(format!("There are no such indices: {reason}."))),
         (None, None) => (),
     }
@@ -205,7 +168,7 @@ fn cost(result: &ResultFile) -> Vec<Part> {
     };
     if !result.lows.is_empty() {
         let lows: Vec<String> = result.lows.iter().map(low).collect();
-        parts.push(Part::Text(format!("Cheaper models were run beside the model: {}.", lows.join(", "))));
+        parts.push(Part::Text(format!("Low-fidelity models: {}.", lows.join(", "))));
     }
     if let Some(spending) = &result.spending {
         parts.push(Part::Notice {

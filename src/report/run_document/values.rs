@@ -21,13 +21,7 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
     let mut add = |label: &str, text: Option<String>| rows.extend(text.map(|text| (label.to_owned(), text)));
     let sample = &record.sample;
     add("values", Some(grouped(record.values)));
-    match corrected_from(output) {
-        Some(own) => {
-            add("mean, corrected by the surrogate", mean(output));
-            add("mean of the values", Some(minus(&own)));
-        }
-        None => add("mean", mean(output)),
-    }
+    add("mean", mean(output));
     add("standard deviation", sd(output));
     add(
         "coefficient of variation",
@@ -52,13 +46,6 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
 /// The mean of an output with its error and unit.
 pub(super) fn mean(output: &OutputRecord) -> Option<String> {
     Some(of_unit(output.mean?, output.mean_interval, &output.unit))
-}
-
-/// The mean of the values themselves, where a surrogate has corrected it visibly.
-pub(super) fn corrected_from(output: &OutputRecord) -> Option<String> {
-    let sample = &output.distribution.as_ref().filter(|_| output.surrogate.is_some())?.sample;
-    let number = |x: f64| among_with_unit(x, sample.spread(), &output.unit);
-    (number(output.mean?) != number(sample.mean)).then(|| number(sample.mean))
 }
 
 /// The standard deviation, by the divisor n - 1, as in the file; its interval is that of the variance. Where a surrogate knows the

@@ -3,7 +3,7 @@
 use super::super::Drawing;
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Point, Series, Shape};
 use super::super::format::{axis_unit, index, name, words};
-use super::super::leading::{Contender, may_lead, names};
+use super::super::leading::{self, Contender};
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile};
 use crate::report::file_stems;
 use crate::report::result::EstimateRecord;
@@ -16,16 +16,12 @@ const MOST_BARS: usize = 40;
 /// where there are several.
 pub fn screening_charts(file: &ScreeningFile) -> Vec<Drawing> {
     let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
-    let drawn = file.outputs.iter().zip(screening_suffixes(&names)).flat_map(|(output, [suffix, of_bars])| {
-        [Drawing { chart: scatter(file, output), suffix }, Drawing { chart: bars(file, output), suffix: of_bars }]
+    let stems = file_stems("-screen", &names, &["", "-bars"]);
+    let drawn = file.outputs.iter().zip(stems).flat_map(|(output, stem)| {
+        let of_bars = format!("{stem}-bars");
+        [Drawing { chart: scatter(file, output), suffix: stem }, Drawing { chart: bars(file, output), suffix: of_bars }]
     });
     drawn.collect()
-}
-
-/// What the files of the two charts of each output end in, after the study's name.
-pub fn screening_suffixes(outputs: &[&str]) -> Vec<[String; 2]> {
-    let stems = file_stems("-screen", outputs, &["", "-bars"]);
-    stems.into_iter().map(|stem| [stem.clone(), format!("{stem}-bars")]).collect()
 }
 
 /// The series of a reading: the calmest for the plainest.
@@ -63,11 +59,10 @@ fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
         })
     });
     let caption = format!(
-        "Mean size μ* of the {}, and their standard deviation σ, from {} trajectories. {}{}",
+        "Mean size μ* of the {}, and their standard deviation σ, from {} trajectories. {}",
         effects_of(file),
         file.provenance.trajectories,
-        leader(output),
-        idle(output)
+        leader(output)
     );
     let slopes = [(1.0, "σ = μ*"), (0.5, "σ = 0.5 μ*"), (0.1, "σ = 0.1 μ*")];
     let of = if is_derivative(file) { "derivatives" } else { "effects" };
@@ -91,17 +86,10 @@ fn bars(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
         let own = ranked.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
         own.filter_map(move |(row, factor)| {
             let mu_star = factor.mu_star?;
-            let interval = mu_star.low.zip(mu_star.high);
-            match (reading, interval) {
-                // A bar of no length would still be a colour in the legend.
-                (None, interval) => interval.map(|(low, high)| series(None).mark(Shape::Interval(row, low, high))),
-                _ => Some(series(reading).mark(Shape::Bar(Bar {
-                    row,
-                    to: mu_star.estimate,
-                    interval,
-                    ..Bar::default()
-                }))),
-            }
+            // A bar of no length would still be a colour in the legend.
+            let (to, interval) = (mu_star.estimate, mu_star.low.zip(mu_star.high));
+            let bar = Bar { row, to, interval, ..Bar::default() };
+            reading.map(|_| series(reading).mark(Shape::Bar(bar)))
         })
     });
     let notes = ranked.iter().enumerate().filter_map(|(row, factor)| {
@@ -133,16 +121,6 @@ fn of_unit(effect: EstimateRecord, unit: &str) -> String {
     format!("{} {}", index(effect), axis_unit(unit)).trim_end().to_owned()
 }
 
-/// Which factors have no effect, if some have one.
-fn idle(output: &OutputScreeningRecord) -> String {
-    let still = output.factors.iter().filter(|factor| factor.reading.is_none() && factor.mu_star.is_some());
-    let names: Vec<String> = still.map(|factor| words(&factor.factor)).collect();
-    if names.is_empty() || names.len() == output.factors.len() {
-        return String::new();
-    }
-    format!(" Without effect: {}.", names.join(", "))
-}
-
 /// What a screening takes the mean size of.
 fn effects_of(file: &ScreeningFile) -> &'static str {
     match is_derivative(file) {
@@ -155,32 +133,15 @@ fn is_derivative(file: &ScreeningFile) -> bool {
     file.provenance.derivative_step.is_some()
 }
 
-/// The factors that may matter most for an output, the largest μ* first: one where it surely does.
-pub(super) fn leaders(output: &OutputScreeningRecord) -> Vec<Contender> {
+/// Which factor matters most.
+pub(super) fn leader(output: &OutputScreeningRecord) -> String {
     let contender = |factor: &FactorScreeningRecord| {
         let total = factor.mu_star.filter(|mu_star| mu_star.estimate > 0.0)?;
-        Some(Contender { label: name(&factor.factor), first_order: None, total, probability: None })
+        Some(Contender::new(name(&factor.factor), total))
     };
     let moving: Vec<Contender> = output.factors.iter().filter_map(contender).collect();
-    may_lead(&moving).into_iter().map(|place| moving[place].clone()).collect()
-}
-
-/// What is seen, in one sentence.
-pub(super) fn leader(output: &OutputScreeningRecord) -> String {
-    let mu_star = |contender: &Contender| of_unit(contender.total, &output.unit);
     let output_name = name(&output.name);
-    match &leaders(output)[..] {
-        [] => format!("No factor has any effect on {output_name}."),
-        [lead] => {
-            let (label, size) = (&lead.label, mu_star(lead));
-            format!("For {output_name}, {label} matters most: μ*, the mean size of its effects, is {size}.")
-        }
-        tied => {
-            let all: Vec<usize> = (0..tied.len()).collect();
-            format!(
-                "What matters most for {output_name} cannot be told apart by μ*, the mean size of effects: {}.",
-                names(tied, &all, &mu_star)
-            )
-        }
-    }
+    let measure = "mean size μ* of its effects";
+    let found = leading::leader(&moving, &format!("For {output_name}"), measure, &axis_unit(&output.unit));
+    found.unwrap_or_else(|| format!("No factor has any effect on {output_name}."))
 }

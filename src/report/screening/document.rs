@@ -1,13 +1,11 @@
 //! A screening as a document.
 
-use super::charts::{leader, leaders, screening_suffixes};
+use super::charts::leader;
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile, screening_charts, screening_json};
-use crate::model::MANY_OUTPUTS;
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
-use crate::report::file_names::FileNames;
 use crate::report::format::{grouped, heading, index, name, short, words};
-use crate::report::leading::{by_answer, of_which};
+use crate::report::leading::first_answers;
 use crate::report::result::EstimateRecord;
 use crate::report::study_sections::{failures, inputs, study_section, validity_section};
 use crate::report::{capitalised, listed, validity};
@@ -32,12 +30,10 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
         of_outputs.push((heading(&output.name, &output.unit), parts));
     }
     let mut sections = Document::sections_of_outputs(of_outputs);
-    let mut lead = match file.outputs.len() {
-        ..MANY_OUTPUTS => file.outputs.iter().flat_map(|output| [leader(output), fixable(output)]).collect(),
-        _ => of_many(&file.outputs),
-    };
-    lead.push(validity::sentence(&file.validity));
-    lead.extend(validity::of_failures(file.provenance.failed_runs, file.provenance.model_runs, None));
+    let answers = file.outputs.iter().map(|output| format!("{} {}", leader(output), fixable(output)));
+    let mut lead = first_answers(answers.collect());
+    lead.extend(validity::sentence(&file.validity));
+    lead.extend(validity::of_failures(file.provenance.failed_runs, file.provenance.model_runs));
     if !file.notes.is_empty() {
         let texts = file.notes.iter().map(|note| format!("{}.", capitalised(note))).collect();
         let note = Part::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts };
@@ -55,16 +51,6 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
         footer: format!("Made by apportion {}.", file.provenance.apportion_version),
         files: vec![DataFile::new(format!("{study}-screen.json"), screening_json(file))],
         ..Document::default()
-    }
-}
-
-/// The names of the files of a screening of the study called `name` with these `outputs`.
-pub fn file_names(name: &str, outputs: &[&str]) -> FileNames {
-    let charts = screening_suffixes(outputs).into_iter().flatten().map(|suffix| format!("{name}{suffix}"));
-    FileNames {
-        name: format!("{name}-screen"),
-        data: vec![format!("{name}-screen.json"), format!("{name}-screen.csv")],
-        charts: charts.collect(),
     }
 }
 
@@ -142,53 +128,14 @@ const COLUMNS_BEFORE_NU: usize = 8;
 
 /// Which factors could be fixed, and by which rule.
 fn fixable(output: &OutputScreeningRecord) -> String {
-    let rule = fixing_rule();
     let fixable = output.factors.iter().filter(|f| f.could_be_fixed == Some(true)).map(|f| words(&f.factor));
     let fixable: Vec<String> = fixable.collect();
-    let has_effect = |factor: &FactorScreeningRecord| factor.mu_star.is_some_and(|mu_star| mu_star.estimate > 0.0);
-    if output.factors.iter().all(|factor| factor.could_be_fixed.is_none()) {
-        if output.factors.iter().any(has_effect) {
-            return format!("Nothing says which factors could be fixed for {}.", name(&output.name));
-        }
-        return format!("No factor has any effect on {} here: nothing to rank.", name(&output.name));
-    }
-    match &fixable[..] {
-        [] => format!("No factor could be fixed for {} ({rule}).", name(&output.name)),
-        names => format!("Could be fixed for {}: {} ({rule}).", name(&output.name), listed(names)),
-    }
-}
-
-fn fixing_rule() -> String {
-    format!("the upper bound of μ* below {} % of the largest μ*, by at least half of the effects", 100.0 * FIXABLE)
-}
-
-/// Which factors lead which of many outputs, and which could be fixed for all of them.
-fn of_many(outputs: &[OutputScreeningRecord]) -> Vec<String> {
-    let all: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).collect();
-    let leading = |output: &OutputScreeningRecord| leaders(output).into_iter().map(|lead| lead.label).collect();
-    let said = |(leaders, places): (Vec<String>, Vec<usize>)| match &leaders[..] {
-        [] => format!("No factor has any effect on some of them: {}.", of_which(&all, &places)),
-        [lead] => format!("By μ*, the mean size of effects, {lead} matters most for {}.", of_which(&all, &places)),
-        tied => format!("By μ*, {} cannot be told apart for {}.", listed(tied), of_which(&all, &places)),
-    };
-    let mut lead: Vec<String> = by_answer(outputs.iter().map(leading)).into_iter().map(said).collect();
-    let factors = outputs.first().map_or(&[][..], |output| &output.factors);
-    let known = |factor: &str| {
-        let of_output =
-            |output: &OutputScreeningRecord| output.factors.iter().find(|f| f.factor == factor)?.could_be_fixed;
-        outputs.iter().filter_map(of_output).collect::<Vec<bool>>()
-    };
-    let is_fixable = |factor: &&FactorScreeningRecord| {
-        let known = known(&factor.factor);
-        !known.is_empty() && known.into_iter().all(|could| could)
-    };
-    let mut names: Vec<String> = factors.iter().filter(is_fixable).map(|factor| words(&factor.factor)).collect();
-    names.sort();
-    lead.push(match &names[..] {
-        [] => format!("No factor could be fixed for all of them ({}).", fixing_rule()),
-        names => format!("Could be fixed for all of them: {} ({}).", listed(names), fixing_rule()),
-    });
-    lead
+    let names = if fixable.is_empty() { "none".to_owned() } else { listed(&fixable) };
+    format!(
+        "Could be fixed for {}: {names} (the upper bound of μ* below {} % of the largest μ*, by at least half of the effects).",
+        name(&output.name),
+        100.0 * FIXABLE
+    )
 }
 
 /// How the answer came about.

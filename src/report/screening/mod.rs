@@ -5,7 +5,7 @@ mod document;
 mod record;
 
 pub use charts::screening_charts;
-pub use document::{file_names, screening_document};
+pub use document::screening_document;
 pub use record::{
     FactorScreeningRecord, OutputScreeningRecord, ScreeningFailureRecord, ScreeningFile, ScreeningProvenance,
     build_screening,

@@ -3,7 +3,7 @@
 use super::super::Drawing;
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
 use super::super::format::{axis_unit, name, printed, short_with_unit, words};
-use crate::report::{capitalised, file_stems, listed};
+use crate::report::{file_stems, listed};
 
 use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines};
 
@@ -21,22 +21,15 @@ const WHOLE_RANGE: Colour = Colour::Series(6);
 /// One line chart per factor, `-sweep-FACTOR`, with a panel per output; then per output the ranges of all factors,
 /// `-sweep-ranges`, with the output's name at the end where there are several.
 pub fn sweep_charts(file: &SweepFile) -> Vec<Drawing> {
-    let factors: Vec<&str> = file.sweeps.iter().map(|sweep| sweep.factor.as_str()).collect();
-    let outputs: Vec<&str> = file.nominal.iter().map(|nominal| nominal.output.as_str()).collect();
     let charts = file.sweeps.iter().map(|sweep| lines(file, sweep));
     let of_outputs = file.nominal.iter().enumerate().map(|(number, nominal)| ranges(file, number, nominal));
-    let suffixes = sweep_suffixes(&factors, &outputs);
-    charts.chain(of_outputs).zip(suffixes).map(|(chart, suffix)| Drawing { suffix, chart }).collect()
-}
-
-/// What the files of the charts end in, after the study's name: those of the factors, then those of the outputs.
-pub fn sweep_suffixes(factors: &[&str], outputs: &[&str]) -> Vec<String> {
-    let of_outputs = outputs.iter().map(|output| match outputs.len() {
+    let ranges = file.nominal.iter().map(|nominal| match file.nominal.len() {
         1 => "ranges".to_owned(),
-        _ => format!("ranges-{output}"),
+        _ => format!("ranges-{}", nominal.output),
     });
-    let names: Vec<String> = factors.iter().map(|factor| (*factor).to_owned()).chain(of_outputs).collect();
-    file_stems("-sweep", &names.iter().map(String::as_str).collect::<Vec<_>>(), &[""])
+    let names: Vec<String> = file.sweeps.iter().map(|sweep| sweep.factor.clone()).chain(ranges).collect();
+    let suffixes = file_stems("-sweep", &names.iter().map(String::as_str).collect::<Vec<_>>(), &[""]);
+    charts.chain(of_outputs).zip(suffixes).map(|(chart, suffix)| Drawing { suffix, chart }).collect()
 }
 
 fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> Chart {
@@ -113,37 +106,18 @@ fn line(sweep: &FactorSweepRecord, curve: &CurveRecord, place: usize, number: us
     Series::new(name, Colour::Series(place)).stroke(stroke).line(points.collect())
 }
 
-/// The values that are seen, for the caption.
-fn values_seen(sweep: &FactorSweepRecord) -> String {
-    if sweep.labels.is_some() { format!("one of {}", from_to(sweep)) } else { from_to(sweep) }
-}
-
-/// What is seen: how far each output goes, its slope, and what is missing.
+/// What is seen: how far each output goes, and what is missing.
 fn caption(sweep: &FactorSweepRecord) -> String {
     let factor = words(&sweep.factor);
-    let mut text = match sweep.curves.iter().find_map(|curve| curve.against.as_ref()) {
-        Some(against) => format!(
-            "Over {factor}, {}, for {} values of {}; percentages are for its nominal value. Every other factor is nominal.",
-            values_seen(sweep),
-            sweep.curves.len() - 1,
-            name(&against.factor)
-        ),
-        None => format!("Over {factor}, {}; every other factor is nominal.", values_seen(sweep)),
+    let family = match sweep.curves.iter().find_map(|curve| curve.against.as_ref()) {
+        Some(against) => format!(" for {} values of {}", sweep.curves.len() - 1, name(&against.factor)),
+        None => String::new(),
     };
+    let mut text = format!("Over {factor}, {}{family}; every other factor is nominal.", from_to(sweep));
     for effect in &sweep.effects {
-        let output = name(&effect.output);
-        match (effect.percent, effect.elasticity) {
-            (Some(0.0), _) => text.push_str(&format!(" It does not change {output}.")),
-            (Some(percent), Some(elasticity)) => text.push_str(&format!(
-                " It moves {output} by {} % of the nominal value in all, and by {} % for each 1 % of the factor near the \
-                 nominal point.",
-                printed(percent),
-                signed(elasticity)
-            )),
-            (Some(percent), None) => {
-                text.push_str(&format!(" It moves {output} by {} % of the nominal value in all.", printed(percent)));
-            }
-            (None, _) => (),
+        if let Some(percent) = effect.percent {
+            let (output, percent) = (name(&effect.output), printed(percent));
+            text.push_str(&format!(" It moves {output} by {percent} % of the nominal value in all."));
         }
     }
     for line in gap_lines(sweep) {
@@ -166,11 +140,6 @@ fn from_to(sweep: &FactorSweepRecord) -> String {
     }
 }
 
-/// Three significant digits with a sign.
-fn signed(value: f64) -> String {
-    if value > 0.0 { format!("+{}", printed(value)) } else { printed(value) }
-}
-
 fn ranges(file: &SweepFile, number: usize, nominal: &NominalRecord) -> Chart {
     let mut sweeps: Vec<(&FactorSweepRecord, &SweepEffectRecord)> =
         file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
@@ -180,75 +149,36 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalRecord) -> Chart {
         more => format!(" {more} factors of less effect are not shown."),
     };
     let output = name(&nominal.output);
-    let missing = |read: fn(&SweepEffectRecord) -> Option<f64>, end: &str| {
-        let without = sweeps.iter().filter(|(sweep, effect)| sweep.labels.is_none() && read(effect).is_none());
-        let names: Vec<String> = without.map(|(sweep, _)| words(&sweep.factor)).collect();
-        if names.is_empty() { String::new() } else { format!(" No value at the {end} end: {}.", names.join(", ")) }
-    };
-    let gaps = missing(|effect| effect.first, "low") + &missing(|effect| effect.last, "high");
-    let categories = match sweeps.iter().any(|(sweep, _)| sweep.labels.is_some()) {
-        true => {
-            " Categories have no ends: their bar goes from the label with the least value to that with the largest."
-        }
-        false => "",
-    };
     sweeps.truncate(MOST_BARS);
     let caption = format!(
-        "{} with one factor at either end of its range and every other at its nominal value; the percentages \
-         are of the nominal value.{categories}{gaps}{beyond}",
-        capitalised(&format!("values of {output}"))
+        "Values of {output} with one factor at either end of its range and every other at its nominal value; the percentages are \
+         of the nominal value.{beyond}"
     );
     let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
     let rows = Axis::from_names("", sweeps.iter().map(|(sweep, _)| words(&sweep.factor)).collect());
     let label = |value| format!("nominal: {}", short_with_unit(value, &nominal.unit));
     let marks = sweeps.iter().enumerate();
-    let marks = marks.flat_map(|(row, (sweep, effect))| row_marks(row, sweep, effect, number, nominal.value));
+    let marks = marks.flat_map(|(row, (sweep, effect))| row_marks(row, sweep, effect, nominal.value));
     let panel = Panel::new(x, rows).with(nominal.value.map(|value| Mark::rule(value, label(value)))).with(marks);
-    Chart::new(format!("{}: how far each factor moves {output}", file.study.headline()), caption)
-        .interval_name("whole range, where the ends are not the extremes")
-        .panels([panel])
+    Chart::new(format!("{}: how far each factor moves {output}", file.study.headline()), caption).panels([panel])
 }
 
-/// The labels at which output `number` is least and largest.
-fn extreme_labels(sweep: &FactorSweepRecord, number: usize) -> Option<(&str, &str)> {
-    let (labels, values) = (sweep.labels.as_ref()?, &sweep.curves.first()?.outputs.get(number)?.values);
-    let known = || labels.iter().zip(values).filter_map(|(label, value)| Some((label.as_str(), (*value)?)));
-    let least = known().min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let largest = known().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some((least.0, largest.0))
-}
-
-/// The bars of a factor, its whole range if the ends are not the extremes, and how far it moves the output.
-fn row_marks(
-    row: usize,
-    sweep: &FactorSweepRecord,
-    effect: &SweepEffectRecord,
-    number: usize,
-    nominal: Option<f64>,
-) -> Vec<Mark> {
+/// The bars of a factor, and how far it moves the output: its ends, or its whole range where these are not the extremes.
+fn row_marks(row: usize, sweep: &FactorSweepRecord, effect: &SweepEffectRecord, nominal: Option<f64>) -> Vec<Mark> {
     let bar = |name: &str, colour, from, to| {
         Series::new(name, colour).mark(Shape::Bar(Bar { row, from, to, ..Bar::default() }))
     };
-    let range = effect.low.zip(effect.high);
-    let mut marks = match (nominal.filter(|_| sweep.labels.is_none()), range) {
-        (Some(from), Some(_)) => vec![
+    let ends = || [effect.first, effect.last, nominal].into_iter().flatten();
+    let beyond = |low: f64, high: f64| ends().all(|end| end > low) || ends().all(|end| end < high);
+    let mut marks = match (nominal, effect.low.zip(effect.high)) {
+        (_, None) => Vec::new(),
+        (Some(from), Some((low, high))) if sweep.labels.is_none() && !beyond(low, high) => vec![
             bar("factor at its low end", LOW_END, from, effect.first.unwrap_or(f64::NAN)),
             bar("factor at its high end", HIGH_END, from, effect.last.unwrap_or(f64::NAN)),
         ],
-        (None, Some((from, to))) => vec![bar("whole range", WHOLE_RANGE, from, to)],
-        (_, None) => Vec::new(),
-    };
-    let ends = || [effect.first, effect.last, nominal].into_iter().flatten();
-    let beyond = |(low, high): &(f64, f64)| ends().all(|end| end > *low) || ends().all(|end| end < *high);
-    if let Some((low, high)) = range.filter(|_| nominal.is_some() && sweep.labels.is_none()).filter(beyond) {
-        marks.push(Series::default().mark(Shape::Interval(row, low, high)));
-    }
-    let over = match extreme_labels(sweep, number) {
-        Some((least, largest)) if least == largest => least.to_owned(),
-        Some((least, largest)) => format!("{least} to {largest}"),
-        None => from_to(sweep),
+        (_, Some((low, high))) => vec![bar("whole range, where the ends are not the extremes", WHOLE_RANGE, low, high)],
     };
     let percent = effect.percent.map_or_else(String::new, |percent| format!("{} %: ", printed(percent)));
-    marks.push(Mark::note(row, percent + &over));
+    marks.push(Mark::note(row, percent + &from_to(sweep)));
     marks
 }

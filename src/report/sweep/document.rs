@@ -1,13 +1,12 @@
 //! Sweeps as a document.
 
-use super::charts::{sweep_charts, sweep_suffixes};
+use super::charts::sweep_charts;
 use super::{AgainstRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines, sweep_json};
 use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
-use crate::report::file_names::FileNames;
 use crate::report::format::{axis_unit, grouped, heading, name, short, short_with_unit, value};
-use crate::report::leading::{by_answer, of_which};
+use crate::report::leading::first_answers;
 use crate::report::study_sections::{study_section, validity_section};
 use crate::report::validity;
 
@@ -32,11 +31,9 @@ pub fn sweep_document(file: &SweepFile) -> Document {
         of_outputs.push((heading(&nominal.output, &nominal.unit), parts));
     }
     let mut sections = Document::sections_of_outputs(of_outputs);
-    let mut lead = match outputs {
-        ..MANY_OUTPUTS => (0..outputs).map(|place| widest(file, &file.nominal[place], place)).collect(),
-        _ => widest_of_many(file),
-    };
-    lead.push(validity::sentence(&file.validity));
+    let answers = (0..outputs).map(|place| widest(file, &file.nominal[place], place));
+    let mut lead = first_answers(answers.collect());
+    lead.extend(validity::sentence(&file.validity));
     let curve = |(figure, sweep): (Figure, &FactorSweepRecord)| match outputs {
         ..MANY_OUTPUTS => figure.into(),
         _ => Part::Details { summary: name(&sweep.factor), parts: vec![figure.into()] },
@@ -71,16 +68,6 @@ pub fn sweep_document(file: &SweepFile) -> Document {
     }
 }
 
-/// The names of the files of sweeps of these `factors` in the study called `name`.
-pub fn file_names(name: &str, factors: &[&str], outputs: &[&str]) -> FileNames {
-    let charts = sweep_suffixes(factors, outputs).into_iter().map(|suffix| format!("{name}{suffix}"));
-    FileNames {
-        name: format!("{name}-sweep"),
-        data: vec![format!("{name}-sweep.json"), format!("{name}-sweep.csv")],
-        charts: charts.collect(),
-    }
-}
-
 /// Which factor moves an output most.
 fn widest(file: &SweepFile, nominal: &NominalRecord, number: usize) -> String {
     let output = name(&nominal.output);
@@ -95,25 +82,6 @@ fn widest(file: &SweepFile, nominal: &NominalRecord, number: usize) -> String {
         Some(_) => format!("No factor alone moves {output}, as far as it has values."),
         None => format!("No factor was swept for {output}."),
     }
-}
-
-/// Which factor moves which of many outputs most.
-fn widest_of_many(file: &SweepFile) -> Vec<String> {
-    let outputs: Vec<&str> = file.nominal.iter().map(|nominal| nominal.output.as_str()).collect();
-    let widest = |number: usize| {
-        let (sweep, effect) = by_width(file, number).into_iter().next()?;
-        (effect.width() > 0.0).then_some((sweep.factor.as_str(), sweep.given))
-    };
-    let said = |(widest, places): (Option<(&str, bool)>, Vec<usize>)| match widest {
-        Some((factor, given)) => format!(
-            "Over {}, with all others nominal, {} matters most for {}.",
-            if given { "the given values" } else { "its range" },
-            name(factor),
-            of_which(&outputs, &places)
-        ),
-        None => format!("No factor alone moves them, as far as they have values: {}.", of_which(&outputs, &places)),
-    };
-    by_answer((0..outputs.len()).map(widest)).into_iter().map(said).collect()
 }
 
 /// The sweeps with what they do to an output, the widest first.

@@ -5,7 +5,7 @@ mod document;
 mod record;
 
 pub use charts::sweep_charts;
-pub use document::{file_names, sweep_document};
+pub use document::sweep_document;
 pub use record::{
     AgainstRecord, CurveRecord, FactorSweepRecord, GapRecord, NominalRecord, OutputCurveRecord, SweepEffectRecord,
     SweepFile, SweepProvenance, build_sweep,

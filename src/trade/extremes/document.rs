@@ -6,11 +6,8 @@ use super::record::{ExtremesFile, KindRecord, ReasonRecord, TallyRecord};
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, OnPhone, Part, Section, Table, Value};
 use crate::report::format::{grouped, short};
-use crate::report::{FileNames, capitalised, inputs, json, study_section};
+use crate::report::{capitalised, inputs, json, study_section};
 use crate::text::csv_field;
-
-/// What the names of the charts end in.
-const SUFFIXES: [&str; 5] = ["-below", "-above", "-scale", "-offset", "-length"];
 
 /// The document of a map.
 pub fn extremes_document(map: &Extremes, file: &ExtremesFile) -> Document {
@@ -45,16 +42,6 @@ pub fn extremes_document(map: &Extremes, file: &ExtremesFile) -> Document {
             DataFile::new(format!("{study}-extremes-points.csv"), points(file)),
         ],
         ..Document::default()
-    }
-}
-
-/// The names of the files of the study called `name`.
-pub fn file_names(name: &str) -> FileNames {
-    let data = ["-extremes.json", "-extremes-points.csv", "-extremes.csv"];
-    FileNames {
-        name: format!("{name}-extremes"),
-        data: data.map(|ending| format!("{name}{ending}")).to_vec(),
-        charts: SUFFIXES.map(|suffix| format!("{name}-extremes{suffix}")).to_vec(),
     }
 }
 

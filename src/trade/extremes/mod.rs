@@ -15,7 +15,7 @@ mod map;
 mod points;
 mod record;
 
-pub use document::{extremes_document, file_names};
+pub use document::extremes_document;
 pub use map::{Example, Extremes, Grid, Kind, Outcome, Reason, Tally};
 pub use record::{ExtremesFile, build_extremes};
 

@@ -5,7 +5,7 @@ use crate::report::chart::{Axis, Chart, Colour, Panel, Series, Spacing, Stroke};
 use crate::report::csv::{Field, Value};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table};
 use crate::report::format::{grouped, significant};
-use crate::report::{FileNames, json, study_section};
+use crate::report::{json, study_section};
 
 /// Errors below this are drawn there.
 const LEAST_ERROR: f64 = 1e-6;
@@ -44,15 +44,6 @@ pub fn settings_document(file: &SettingsFile) -> Document {
         footer: format!("Made by apportion {}.", file.apportion_version),
         files: vec![DataFile::new(format!("{study}-trade.json"), json(file))],
         ..Document::default()
-    }
-}
-
-/// The names of the files of a comparison in the study called `name`.
-pub fn file_names(name: &str) -> FileNames {
-    FileNames {
-        name: format!("{name}-trade"),
-        data: ["-trade.json", "-trade.csv"].map(|ending| format!("{name}{ending}")).to_vec(),
-        charts: ["-trade", "-trade-formulas"].map(|ending| format!("{name}{ending}")).to_vec(),
     }
 }
 

@@ -12,7 +12,7 @@ mod truth;
 use std::sync::atomic::AtomicBool;
 
 pub use curve::Axis;
-pub use document::{file_names, settings_document};
+pub use document::settings_document;
 pub use record::{SettingsFile, build_settings};
 
 use crate::analysis::Analysis;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::report::chart::{Axis, Chart, Colour, Drawing, Mark as ChartMark, Panel, Picture, Point, Series, Shape};
+use crate::report::chart::{Axis, Chart, Colour, Mark as ChartMark, Panel, Point, Series, Shape};
 use crate::report::document::Column;
 
 fn scatter(title: &str) -> Chart {
@@ -122,42 +122,10 @@ fn texts_cannot_break_out() {
 }
 
 #[test]
-fn anchors_are_there_once() {
-    let twice = vec![figure("f1", scatter("a")), figure("f1", scatter("b"))];
-    let cases = [
-        (twice, "\"f1\" of the page is there twice"),
-        (vec![figure("f 1", scatter("a"))], "is not made of letters"),
-        (vec![figure("content", scatter("a"))], "is there twice"),
-        (vec![Part::Gallery(vec![small("f1", scatter("a")), small("f1", scatter("b"))])], "is there twice"),
-        (vec![Part::Links(vec![Link { text: "x".to_owned(), to: "#nowhere".to_owned() }])], "linked to and not there"),
-    ];
-    for (parts, message) in cases {
-        let error = page(parts).html().unwrap_err().to_string();
-        assert!(error.contains(message), "{error}");
-    }
-    let fine = Part::Links(vec![Link { text: "x".to_owned(), to: "#two".to_owned() }]);
-    assert!(page(vec![fine]).html().unwrap().contains("href=\"#two\""));
-}
-
-#[test]
 fn a_chart_without_data_is_an_error_with_its_figure() {
     let chart = Chart::new("a", "No panels.");
     let error = page(vec![figure("f1", chart)]).html().unwrap_err();
     assert!(error.to_string().contains("figure \"f1\""), "{error}");
-}
-
-#[test]
-fn pictures_have_their_own_narrow_drawing() {
-    let picture = |words: &str| {
-        let inline = format!("<svg role=\"img\"><title>T</title><text>{words}</text></svg>");
-        Drawing { document: String::new(), inline }
-    };
-    let picture = Picture { wide: picture("for a column"), narrow: picture("for a phone") };
-    let chart = Chart::from_picture("Mode diagram", "Caption.", picture);
-    let html = page(vec![figure("f1", chart)]).html().unwrap();
-    let narrow = html.split_once("<div class=\"narrow\">").unwrap().1;
-    assert!(narrow.contains("for a phone") && !narrow.contains("for a column"));
-    assert!(html.contains("<b>Figure 1.</b> <strong>Mode diagram.</strong> Caption."));
 }
 
 #[test]

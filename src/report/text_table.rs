@@ -1,0 +1,93 @@
+//! Tables of text for a terminal.
+
+use std::fmt;
+
+use comfy_table::{
+    CellAlignment, ColumnConstraint, ContentArrangement, ContentLineStyle, LineStyle, Table, TableStyle, Width,
+};
+
+/// Rules above, under the header and below; nothing between the rows.
+const STYLE: TableStyle = TableStyle::new()
+    .top_border(LineStyle::new('─', '─', '─', '─'))
+    .header_lines(ContentLineStyle::new(' ', ' ', ' '))
+    .header_separator(LineStyle::new('─', '─', '─', '─'))
+    .content_lines(ContentLineStyle::new(' ', ' ', ' '))
+    .bottom_border(LineStyle::new('─', '─', '─', '─'));
+
+/// A table of text, no wider than the terminal where it is printed to one, as far as words allow.
+pub struct TextTable {
+    rows: Vec<Vec<String>>,
+    text: Vec<usize>,
+}
+
+/// An empty table in the program's one style. Columns stand to the right, as numbers do, but for those whose places are in
+/// `text`.
+pub fn table(header: &[&str], text: &[usize]) -> TextTable {
+    let header = header.iter().map(|name| (*name).to_owned()).collect();
+    TextTable { rows: vec![header], text: text.to_vec() }
+}
+
+impl TextTable {
+    /// Adds a row; cells that are left out are empty.
+    pub fn add_row<T: ToString>(&mut self, cells: impl IntoIterator<Item = T>) {
+        // An error stays on the line of its number.
+        self.rows.push(cells.into_iter().map(|cell| cell.to_string().replace(" ± ", "\u{a0}±\u{a0}")).collect());
+    }
+
+    fn drawn(&self, width: Option<u16>) -> String {
+        let mut table = Table::new();
+        table.load_style(STYLE);
+        if let Some(width) = width {
+            table.set_width(width).set_content_arrangement(ContentArrangement::Dynamic);
+        }
+        let mut rows = self.rows.iter();
+        if let Some(header) = rows.next().filter(|header| header.iter().any(|heading| !heading.is_empty())) {
+            table.set_header(header);
+        }
+        rows.for_each(|row| {
+            table.add_row(row);
+        });
+        for (place, column) in table.column_iter_mut().enumerate() {
+            let words = self.rows.iter().filter_map(|row| row.get(place)).flat_map(|cell| cell.split(' '));
+            let longest = words.map(|word| word.chars().count()).max().unwrap_or(0);
+            let padded = longest as u16 + column.padding_width();
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(padded)));
+            if !self.text.contains(&place) {
+                column.set_cell_alignment(CellAlignment::Right);
+            }
+        }
+        table.to_string().replace('\u{a0}', " ")
+    }
+}
+
+impl fmt::Display for TextTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Terminals that nobody looks at, such as those of mpirun, have no columns.
+        f.write_str(&self.drawn(Table::new().width().filter(|width| *width > 0)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Seven columns as those of a result: a name of fifteen letters once was broken inside at 80 columns.
+    #[test]
+    fn no_word_or_number_of_a_result_is_broken() {
+        let header = ["factor", "first order S1", "total ST", "share S1 %", "share ST %", "P(first)", "P(ST > 0.01)"];
+        let mut result = table(&header, &[0]);
+        for name in ["static_friction", "contact_modulus", "velocity"] {
+            result.add_row([name, "0.3374 ± 0.0024", "0.4374 ± 0.0124", "33.7 ± 0.2", "33.7 ± 0.2", "0.250", ">0.999"]);
+        }
+        result.add_row(["sum of factors", "0.9374 ± 0.0024"]);
+        let wide = result.drawn(None);
+        assert!(wide.contains("  static_friction   0.3374 ± 0.0024 "), "{wide}");
+        for width in [60, 100] {
+            let drawn = result.drawn(Some(width));
+            for word in ["static_friction", "0.3374 ± 0.0024", "0.4374 ± 0.0124", "P(first)", ">0.999"] {
+                assert!(drawn.contains(word), "no {word} at {width}:\n{drawn}");
+            }
+        }
+        assert_eq!(result.drawn(Some(200)), wide);
+    }
+}
