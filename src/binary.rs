@@ -1,7 +1,5 @@
 //! Numbers as bytes, little-endian, every bit kept: what files of a run are made of.
 
-use std::collections::BTreeMap;
-
 /// Bytes still to be read.
 #[derive(Clone, Copy)]
 pub(crate) struct Reader<'a> {
@@ -103,17 +101,6 @@ impl Binary for String {
     }
 }
 
-impl<A: Binary, B: Binary> Binary for (A, B) {
-    fn write(&self, out: &mut Vec<u8>) {
-        self.0.write(out);
-        self.1.write(out);
-    }
-
-    fn read(from: &mut Reader<'_>) -> Option<Self> {
-        Some((A::read(from)?, B::read(from)?))
-    }
-}
-
 impl<T: Binary> Binary for Option<T> {
     fn write(&self, out: &mut Vec<u8>) {
         self.is_some().write(out);
@@ -136,19 +123,5 @@ impl<T: Binary> Binary for Vec<T> {
     fn read(from: &mut Reader<'_>) -> Option<Self> {
         // Every value takes a byte at least: a count beyond the bytes ends with them, and reserves no memory.
         (0..u64::read(from)?).map(|_| T::read(from)).collect()
-    }
-}
-
-impl<K: Binary + Ord, V: Binary> Binary for BTreeMap<K, V> {
-    fn write(&self, out: &mut Vec<u8>) {
-        self.len().write(out);
-        for (key, value) in self {
-            key.write(out);
-            value.write(out);
-        }
-    }
-
-    fn read(from: &mut Reader<'_>) -> Option<Self> {
-        (0..u64::read(from)?).map(|_| <(K, V)>::read(from)).collect()
     }
 }

@@ -194,7 +194,7 @@ impl Study {
             "if-there" => Resume::IfThere,
             "require" => Resume::Require,
             "retry-failed" => Resume::RetryFailed,
-            "never" => Resume::Never,
+            "never" => Resume::Restart,
             _ => return Err(input("resume: expected \"if-there\", \"require\", \"retry-failed\" or \"never\"")),
         };
         let listeners = Listeners { progress, message };
@@ -244,7 +244,7 @@ impl Study {
                 }
             }
             batch.settle();
-            store.insert(&Piece::from_batch(replicate, 0, &batch));
+            store.insert(&Piece::from_batches(replicate, 0, std::slice::from_ref(&batch)));
         }
         py.detach(|| {
             let analysis = study.runner().store(&store).run().map_err(|error| run_error(&error))?;

@@ -13,12 +13,9 @@ pub fn past_runs(study: &Study, folder: &Path) -> Result<String, Failure> {
     let path = journal_path(folder, study.name(), None);
     let runner = study.runner().journal(&path);
     let megabytes = study.design().rows() as f64 * study.model().outputs().len() as f64 * 8e-6;
-    let mut text = if runner.records_outputs() {
-        let megabytes = two_digits(megabytes.max(0.01));
-        format!("disk: about {megabytes} MB for the journal {}, and as much memory for its outputs\n", path.display())
-    } else {
-        format!("disk: the journal {} holds the sums of the runs, whatever their number\n", path.display())
-    };
+    let (size, path_text) = (two_digits(megabytes.max(0.01)), path.display());
+    let when = if study.model().is_slow() { "" } else { ", if the run takes longer than 10 s" };
+    let mut text = format!("disk: about {size} MB for the journal {path_text}{when}\n");
     if path.exists() {
         text.push_str(&match runner.recorded_runs() {
             Ok(rows) => {

@@ -44,7 +44,7 @@ pub struct Arguments {
 /// What becomes of runs that are on record.
 #[derive(clap::Args)]
 struct RecordArguments {
-    /// Go on with an interrupted run; refused if its journal is missing or of another study. (Without this option a journal
+    /// Resume an interrupted run; refused if its journal is missing or of another study. (Without this option a journal
     /// of the same study is used if there is one)
     #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
     resume: bool,
@@ -54,6 +54,9 @@ struct RecordArguments {
     /// Evaluate every run anew; a journal that is there is moved aside
     #[arg(long)]
     restart: bool,
+    /// Keep a journal however quick the runs are (without this option: if they take longer than 10 s, or the model is a program)
+    #[arg(long, conflicts_with = "no_journal")]
+    journal: bool,
     /// Neither use nor write a journal
     #[arg(long)]
     no_journal: bool,
@@ -66,12 +69,13 @@ struct RecordArguments {
 }
 
 impl RecordArguments {
-    fn resume(&self) -> Resume {
+    fn resume(&self, has_journal: bool) -> Resume {
         match self {
             Self { retry_failed: true, .. } => Resume::RetryFailed,
             Self { resume: true, .. } => Resume::Require,
-            Self { restart: true, .. } => Resume::Never,
-            Self { double: true, .. } => Resume::Double,
+            Self { restart: true, .. } => Resume::Restart,
+            // A journal of another design has nothing that could be doubled.
+            Self { double: true, .. } if has_journal => Resume::Require,
             _ => Resume::IfThere,
         }
     }
@@ -117,9 +121,10 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     };
     // From here on: whoever waits for an input that never comes can be ended at once.
     let stop = stop::on_signal();
-    let mut runner = runner.on_message(say).stop(stop).resume(asked.resume());
+    let mut runner =
+        runner.on_message(say).stop(stop).resume(asked.resume(journal.as_ref().is_some_and(|path| path.exists())));
     if let Some(journal) = &journal {
-        runner = runner.journal(journal);
+        runner = if asked.journal { runner.journal(journal) } else { runner.journal_if_long(journal) };
     }
     if let Some(store) = &store {
         runner = runner.store(store);
@@ -256,7 +261,7 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failu
         return error.into();
     }
     let nothing = |journal: &Path| study.runner().journal(journal).recorded_runs().is_ok_and(|runs| runs == 0);
-    let kept = match (&error, journal) {
+    let kept = match (&error, journal.filter(|journal| journal.exists())) {
         (RunError::Interrupted { .. } | RunError::GaveUp(_), Some(journal)) if nothing(journal) => String::new(),
         (RunError::Interrupted { .. } | RunError::GaveUp(_) | RunError::NotKept { .. }, Some(journal)) => {
             // What failed before the model gave up is no answer of a model that has been mended.
@@ -267,7 +272,7 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failu
             let path = journal.display();
             format!("\nfinished runs are kept in {path}: the same command with {option} goes on with them{again}")
         }
-        (RunError::Interrupted { .. }, None) => "\nno journal was kept: the runs are lost".to_owned(),
+        (RunError::Interrupted { .. }, _) => "\nno journal was kept: the runs are lost".to_owned(),
         _ => return with_inputs(study, error),
     };
     Failure::Run(anyhow!("{error}{kept}"))

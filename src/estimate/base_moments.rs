@@ -1,6 +1,5 @@
 //! Moments of the rows A and B, on which those of every swap rest.
 
-use crate::binary::binary_fields;
 use crate::sum::{centred_product, mean};
 
 /// Means and sums of centred products of y_A and y_B over some base points.
@@ -22,8 +21,6 @@ pub struct BaseMoments {
     /// Sum of (y_A - mean_a)(y_B - mean_b).
     pub ab: f64,
 }
-
-binary_fields!(BaseMoments { n, mean_a, mean_b, aa, bb, ab });
 
 /// How far other base points lie from those they are merged into, and what they weigh.
 #[derive(Debug, Clone, Copy)]

@@ -2,7 +2,6 @@
 
 use multiversion::multiversion;
 
-use crate::binary::binary_fields;
 use crate::sum::{mean, range, sums_by};
 
 /// Count, mean, range, and sums of the second to fourth powers of the deviations from the mean, of single outputs.
@@ -26,8 +25,6 @@ pub struct CentralMoments {
     m4: f64,
     range: Option<(f64, f64)>,
 }
-
-binary_fields!(CentralMoments { n, mean, m2, m3, m4, range });
 
 impl CentralMoments {
     /// The moments of `values`, of which those that are not finite do not count.

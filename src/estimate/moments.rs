@@ -5,8 +5,6 @@ use super::pair_moments::PairMoments;
 use super::shapley_moments::ShapleyMoments;
 use super::swap_moments::{Columns, SwapMoments};
 use super::workspace::Workspace;
-use crate::binary::{Binary, Reader};
-use crate::design::Design;
 use crate::sum;
 
 /// First and second moments of the outputs of a Saltelli design, all centred on their own means.
@@ -21,30 +19,6 @@ pub struct Moments {
     swaps: Vec<SwapMoments>,
     pairs: Option<PairMoments>,
     shapley: Option<ShapleyMoments>,
-}
-
-/// Which sums there are beside those of the swaps is one byte: 1 for pairs, 2 for Shapley effects, 3 for both.
-impl Binary for Moments {
-    fn write(&self, out: &mut Vec<u8>) {
-        let Self { base, range, swaps, pairs, shapley } = self;
-        base.write(out);
-        range.write(out);
-        swaps.write(out);
-        out.push(u8::from(pairs.is_some()) | u8::from(shapley.is_some()) << 1);
-        pairs.iter().for_each(|pairs| pairs.write(out));
-        shapley.iter().for_each(|shapley| shapley.write(out));
-    }
-
-    fn read(from: &mut Reader<'_>) -> Option<Self> {
-        let (base, range, swaps) = (BaseMoments::read(from)?, Option::read(from)?, Vec::read(from)?);
-        let [kinds] = *from.take(1)? else { return None };
-        if kinds > 3 {
-            return None;
-        }
-        let pairs = if kinds & 1 == 1 { Some(PairMoments::read(from)?) } else { None };
-        let shapley = if kinds & 2 == 2 { Some(ShapleyMoments::read(from)?) } else { None };
-        Some(Self { base, range, swaps, pairs, shapley })
-    }
 }
 
 /// The outputs of a block of base points, columns of one length. An output that is not finite is a failed run.
@@ -182,15 +156,6 @@ impl Moments {
     /// Whether the swaps have sums of rows BA.
     pub fn has_ba(&self) -> bool {
         !self.swaps.is_empty() && self.swaps.iter().all(|swap| swap.ba.is_some())
-    }
-
-    /// Whether they may be moments of the rows of `design`.
-    pub(crate) fn fits(&self, design: &Design) -> bool {
-        let swaps = self.swaps.len() == design.swaps().len();
-        let pairs = self.pairs.as_ref().is_none_or(|pairs| pairs.fits(design.paired()));
-        let players = design.asked().players.len();
-        let shapley = self.shapley.as_ref().is_none_or(|shapley| shapley.sums.len() == players);
-        swaps && pairs && shapley && (self.swaps.is_empty() || self.has_ba() == design.has_ba())
     }
 
     /// The sums of y_A and y_B.

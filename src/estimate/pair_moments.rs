@@ -1,7 +1,6 @@
 //! The means from which second-order indices are read.
 
 use super::workspace::{Difference, PairedColumns, Workspace};
-use crate::binary::binary_fields;
 use crate::sum::{centred_product, mean};
 
 /// Means of E_j D_k over the ordered pairs j != k of the paired swaps, with D = y_AB - y_A and E = y_BA - y_B.
@@ -19,9 +18,6 @@ struct PairMean {
     n: u64,
     mean: f64,
 }
-
-binary_fields!(PairMoments { swaps, means });
-binary_fields!(PairMean { n, mean });
 
 impl Difference {
     fn set(&mut self, y: &[f64], origin: &[f64]) {
@@ -42,11 +38,6 @@ impl Difference {
 }
 
 impl PairMoments {
-    /// Whether they are means of the pairs of `swaps`.
-    pub(super) fn fits(&self, swaps: &[usize]) -> bool {
-        self.swaps == swaps && self.means.len() == swaps.len() * swaps.len().saturating_sub(1)
-    }
-
     /// The means of one block for `swaps`: `a` and `b` are the outputs of A and B, `ab` and `ba` those of all swaps.
     pub(super) fn of(
         swaps: &[usize],

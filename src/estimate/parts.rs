@@ -1,7 +1,6 @@
 //! The moments of nested parts of a run of base points: what shows how the error falls as the run grows.
 
 use super::Moments;
-use crate::binary::{Binary, Reader};
 
 /// Most parts that are kept.
 pub const MAX_PARTS: usize = 64;
@@ -21,21 +20,6 @@ pub struct MomentParts {
     /// Base points in all.
     points: u64,
     parts: Vec<Moments>,
-}
-
-impl Binary for MomentParts {
-    fn write(&self, out: &mut Vec<u8>) {
-        self.length.write(out);
-        self.points.write(out);
-        self.parts.write(out);
-    }
-
-    fn read(from: &mut Reader<'_>) -> Option<Self> {
-        let read = Self { length: u64::read(from)?, points: u64::read(from)?, parts: Vec::read(from)? };
-        let is_empty = read.length == 0 && read.points == 0 && read.parts.is_empty();
-        let is_whole = read.length.is_power_of_two() && read.points.div_ceil(read.length) == read.parts.len() as u64;
-        (is_empty || is_whole).then_some(read)
-    }
 }
 
 impl MomentParts {

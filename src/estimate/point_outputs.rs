@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::binary::{Binary, Reader};
-
 /// One output at every run of consecutive base points: a column per unique run, the points in order; not finite where a
 /// run failed. Held in blocks that are shared, so that appending copies no outputs.
 #[derive(Debug, Clone, Default)]
@@ -73,29 +71,6 @@ impl PointOutputs {
         };
         let sized = self.blocks.iter().map(move |block| (block, take(block)));
         sized.filter(|(_, taken)| *taken > 0).map(cut)
-    }
-}
-
-impl Binary for PointOutputs {
-    fn write(&self, out: &mut Vec<u8>) {
-        self.blocks.len().write(out);
-        for block in &self.blocks {
-            block.points.write(out);
-            block.outputs.write(out);
-        }
-    }
-
-    fn read(from: &mut Reader<'_>) -> Option<Self> {
-        let mut read = Self::default();
-        for _ in 0..u64::read(from)? {
-            let block = Block { points: usize::read(from)?, outputs: Vec::read(from)? };
-            if !block.outputs.len().is_multiple_of(block.points) {
-                return None;
-            }
-            read.points += block.points as u64;
-            read.blocks.push(Arc::new(block));
-        }
-        Some(read)
     }
 }
 

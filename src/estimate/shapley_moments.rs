@@ -1,6 +1,5 @@
 //! Sums from which Shapley effects are read where they are found along random orders of the factors.
 
-use crate::binary::binary_fields;
 use crate::design::Design;
 
 /// Sums of what every player adds to those before it in the order of a base point, over the base points of which all rows that
@@ -12,8 +11,6 @@ pub struct ShapleyMoments {
     /// The sum of each player.
     pub sums: Vec<f64>,
 }
-
-binary_fields!(ShapleyMoments { n, sums });
 
 impl ShapleyMoments {
     /// The sums of [`contributions`], a column for each player.

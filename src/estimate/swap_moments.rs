@@ -2,7 +2,6 @@
 
 use super::base_moments::{BaseMoments, Shift};
 use super::workspace::Workspace;
-use crate::binary::binary_fields;
 use crate::sum::{centred_product, centred_products, mean};
 
 /// Means and sums of centred products of the outputs of one swap s, over the base points at which all of its rows have
@@ -41,8 +40,6 @@ pub struct BaMoments {
     pub de: f64,
 }
 
-binary_fields!(SwapMoments { base, mean_d, dd, ad, bd, ba });
-binary_fields!(BaMoments { mean_e, ee, ae, be, de });
 
 /// Outputs of the rows of one swap, and of A and B.
 #[derive(Clone, Copy)]

@@ -155,6 +155,11 @@ impl Model for AfmModel {
         &self.counters
     }
 
+    /// Where the equations of motion are marched.
+    fn is_slow(&self) -> bool {
+        matches!(self.options.fidelity, Fidelity::Dynamic | Fidelity::FixedStep)
+    }
+
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         let forms = ClosedForms::new(&self.scene, &self.options, &self.factors).map(Box::new);
         let scene = self.scene;

@@ -79,11 +79,6 @@ impl Counts {
         self.entries.iter_mut().zip(&other.entries).for_each(|(mine, theirs)| mine.add(theirs.value));
     }
 
-    /// Whether both are counts of the same kinds.
-    pub(crate) fn is_like(&self, other: &Self) -> bool {
-        self.entries.iter().map(|count| count.kind).eq(other.entries.iter().map(|count| count.kind))
-    }
-
     pub(super) fn clear(&mut self) {
         self.entries.iter_mut().for_each(|count| count.value = 0.0);
     }

@@ -143,6 +143,12 @@ pub trait Model: Send + Sync {
         false
     }
 
+    /// Whether a row takes long enough for its outputs to be recorded row by row: rows of other models are evaluated in
+    /// blocks.
+    fn is_slow(&self) -> bool {
+        self.concurrency().is_some()
+    }
+
     /// A worker for one thread of the run that `context` tells of.
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a>;
 }
@@ -170,6 +176,10 @@ impl<M: Model + ?Sized> Model for Arc<M> {
 
     fn may_be_random(&self) -> bool {
         (**self).may_be_random()
+    }
+
+    fn is_slow(&self) -> bool {
+        (**self).is_slow()
     }
 
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {

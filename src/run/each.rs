@@ -1,10 +1,11 @@
 //! Work of a caller's own through the workers of a model, piece by piece.
 
-use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use super::executor::Executor;
-use super::task::{Evaluated, Finished, Task};
+use rayon::prelude::*;
+
+use super::growing::thread_pool;
+use super::tracker::Tracker;
 use super::{Progress, RunError};
 use crate::clock::Instant;
 use crate::model::{Model, RunContext, Worker};
@@ -35,46 +36,20 @@ pub fn run_each_in<T: Send>(
     evaluate: impl Fn(&mut dyn Worker, u64) -> T + Sync,
     on_progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<T>, RunError> {
-    let sink = (0..count).map(|_| None).collect();
-    let each = Each { evaluate, count, sink: Mutex::new((0, sink)) };
     let before = Progress { done: 0, recalled: 0, total: count, failed: 0, elapsed: Duration::ZERO };
-    Executor::new(model, context, threads).execute(&each, before, Instant::now(), on_progress)?;
-    let (_, outputs) = each.sink.into_inner().unwrap_or_else(PoisonError::into_inner);
-    Ok(outputs.into_iter().flatten().collect())
-}
-
-struct Each<F, T> {
-    evaluate: F,
-    count: u64,
-    /// The next number, and what has come of those before.
-    sink: Mutex<(u64, Vec<Option<T>>)>,
-}
-
-impl<T: Send, F: Fn(&mut dyn Worker, u64) -> T + Sync> Task for Each<F, T> {
-    type Piece = u64;
-    type Output = T;
-    type Scratch = ();
-
-    fn scratch(&self) {}
-
-    fn next(&self, _: u64, _: usize) -> Option<u64> {
-        let mut sink = self.sink.lock().unwrap_or_else(PoisonError::into_inner);
-        sink.0 += 1;
-        Some(sink.0 - 1).filter(|number| *number < self.count)
-    }
-
-    fn rows(&self, _: &u64) -> u64 {
-        1
-    }
-
-    fn evaluate(&self, worker: &mut dyn Worker, (): &mut (), number: &u64, _: &dyn Fn(u64)) -> Evaluated<T> {
-        let output = Some((self.evaluate)(worker, *number));
-        Evaluated { output, given_up: None }
-    }
-
-    fn accept(&self, number: &u64, output: T) -> Result<Finished, RunError> {
-        let mut sink = self.sink.lock().unwrap_or_else(PoisonError::into_inner);
-        sink.1[*number as usize] = Some(output);
-        Ok(Finished { rows: 1, failed: 0 })
-    }
+    let tracker = Tracker::new(context, before, Instant::now(), on_progress);
+    let evaluate = |worker: &mut Box<dyn Worker + '_>, number| {
+        tracker.goes_on().then(|| {
+            let output = evaluate(&mut **worker, number);
+            tracker.add(1, 0);
+            output
+        })
+    };
+    let all = || (0..count).into_par_iter().map_init(|| model.worker(context), evaluate).collect::<Option<Vec<T>>>();
+    let outputs = match thread_pool(threads)? {
+        Some(pool) => pool.install(all),
+        None => all(),
+    };
+    tracker.finish()?;
+    Ok(outputs.unwrap_or_default())
 }

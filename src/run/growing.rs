@@ -1,43 +1,40 @@
 //! A run of totals that can be doubled.
 
 use std::ops::Range;
-use std::sync::Arc;
-use std::time::Duration;
+use std::sync::Mutex;
 
-use super::blocks::{BlockOptions, Blocks};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
 use super::executor::Executor;
-use super::fold::{Fold, Sums};
-use super::journal::Checkpoint;
-use super::pool::thread_pool;
+use super::fold::Fold;
 use super::remote::Remote;
-use super::rows::{Known, MissingRows};
-use super::{BLOCK, FailurePolicy, Job, MAX_STORED_BYTES, PieceSink, Progress, RunError, Store, Totals};
+use super::rows::MissingRows;
+use super::tracker::Tracker;
+use super::{FailurePolicy, Job, MAX_STORED_BYTES, OutputSink, Progress, RunError, Store, Totals, threads_in_force};
 use crate::clock::Instant;
 use crate::design::Design;
 use crate::model::RunContext;
 
 /// A run that can go on: every replicate holds the same number of base points, and can be given more.
+///
+/// Blocks of base points of quick models are evaluated and folded at once. The rows of a model that takes its time, and
+/// those that remote workers share, go through a store: in batches of any size, and folded from there.
 pub struct GrowingRun<'a> {
     job: Job<'a>,
+    context: &'a RunContext<'a>,
     executor: Executor<'a>,
-    /// For what is estimated from the totals.
-    pool: Option<Arc<rayon::ThreadPool>>,
+    /// Threads for blocks, and for what is estimated from the totals; `None` for those of the caller.
+    pool: Option<ThreadPool>,
     start: Instant,
     failures: FailurePolicy,
     keeps_outputs: bool,
     store: Option<&'a Store>,
-    sink: Option<PieceSink<'a>>,
-    checkpoint: Option<&'a Checkpoint>,
-    /// Sums from which the run begins, until it does.
-    recorded: Option<Sums>,
-    /// The sums of all that was run, as bytes, if there is a checkpoint.
-    last_sums: Vec<u8>,
+    /// Of a run that needs a store and was given none.
+    own_store: Option<Store>,
+    sink: Option<&'a dyn OutputSink>,
     /// Base points of every replicate that have been run.
     points: u64,
-    /// See [`Sums`].
-    began: u64,
     totals: Vec<Totals>,
-    progress: Progress,
 }
 
 impl<'a> GrowingRun<'a> {
@@ -50,23 +47,19 @@ impl<'a> GrowingRun<'a> {
     /// [`RunError::Threads`] if the threads cannot be started.
     pub fn new(job: Job<'a>, context: &'a RunContext<'a>, threads: usize) -> Result<Self, RunError> {
         assert_eq!(job.space.factors().len(), job.design.factors(), "space and design have the same factors");
-        let pool = thread_pool(threads)?;
         Ok(Self {
             job,
+            context,
             executor: Executor::new(job.model, context, threads),
-            pool,
+            pool: thread_pool(threads)?,
             start: Instant::now(),
             failures: FailurePolicy::DropBlock,
             keeps_outputs: false,
             store: None,
+            own_store: None,
             sink: None,
-            checkpoint: None,
-            recorded: None,
-            last_sums: Vec::new(),
             points: 0,
-            began: 0,
             totals: Vec::new(),
-            progress: Progress { done: 0, recalled: 0, total: 0, failed: 0, elapsed: Duration::ZERO },
         })
     }
 
@@ -76,17 +69,16 @@ impl<'a> GrowingRun<'a> {
         Self { executor: self.executor.with_remote(remote), ..self }
     }
 
-    /// The same run with outputs kept in `store`: rows that are there are not evaluated. `sink` takes every piece of
-    /// outputs before it joins the store.
+    /// The same run with outputs kept in `store`: rows that are there are not evaluated.
     #[must_use]
-    pub fn with_store(self, store: &'a Store, sink: Option<PieceSink<'a>>) -> Self {
-        Self { store: Some(store), sink, ..self }
+    pub fn with_store(self, store: &'a Store) -> Self {
+        Self { store: Some(store), ..self }
     }
 
-    /// The same run with its sums recorded in `checkpoint` from time to time. It begins from `sums`.
+    /// The same run with `sink`, which takes every piece of outputs that is evaluated before its rows count as done.
     #[must_use]
-    pub fn with_checkpoint(self, checkpoint: &'a Checkpoint, sums: Sums) -> Self {
-        Self { checkpoint: Some(checkpoint), recorded: Some(sums), ..self }
+    pub fn with_sink(self, sink: &'a dyn OutputSink) -> Self {
+        Self { sink: Some(sink), ..self }
     }
 
     /// The same run under another policy than [`FailurePolicy::DropBlock`].
@@ -101,6 +93,11 @@ impl<'a> GrowingRun<'a> {
         Self { keeps_outputs, ..self }
     }
 
+    /// Whether rows go through a store.
+    fn needs_store(&self) -> bool {
+        self.store.is_some() || self.job.model.is_slow() || self.executor.has_remote()
+    }
+
     /// Whether the outputs of `points` base points of every replicate can be kept, where they are to be.
     ///
     /// # Errors
@@ -110,7 +107,7 @@ impl<'a> GrowingRun<'a> {
         let runs = points.saturating_mul(design.settings().replicates).saturating_mul(design.rows_per_point());
         let numbers = runs.saturating_mul(self.job.model.outputs().len() as u64);
         let bytes = numbers.saturating_mul(size_of::<f64>() as u64);
-        if (self.keeps_outputs || self.store.is_some()) && bytes > MAX_STORED_BYTES {
+        if (self.keeps_outputs || self.needs_store()) && bytes > MAX_STORED_BYTES {
             return Err(RunError::TooManyOutputs { runs, bytes });
         }
         Ok(())
@@ -132,69 +129,60 @@ impl<'a> GrowingRun<'a> {
     }
 
     /// Runs the base points that every replicate lacks to hold `points` of them, at most the design's. Those that have been
-    /// run are not run again. From one power of two to the next, from [`BLOCK`] on, the totals are
+    /// run are not run again. From one power of two to the next, from [`BLOCK`](super::BLOCK) on, the totals are
     /// the same bits as those of a run that began with the larger number.
     ///
     /// # Errors
     /// [`RunError::RowFailed`] if a row fails and the run is to stop at that; the run is then of no further use.
     /// [`RunError::TooManyOutputs`] if there is no [room](Self::room_for) for the outputs that are to be kept.
     pub fn grow_to(&mut self, points: u64, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<(), RunError> {
-        let points = points.min(self.job.design.points_per_replicate());
+        let design = self.job.design;
+        let points = points.min(design.points_per_replicate());
         if points <= self.points {
             return Ok(());
         }
         self.room_for(points)?;
-        let design = self.job.design;
+        if self.store.is_none() && self.own_store.is_none() && self.needs_store() {
+            self.own_store = Some(Store::new(design, self.job.model));
+        }
+        let store = self.store.or(self.own_store.as_ref());
         let replicates = design.settings().replicates;
-        if let Some(store) = self.store {
-            let rows = points * design.rows_per_point();
-            let all: Vec<(u64, Range<u64>)> = (0..replicates).map(|replicate| (replicate, 0..rows)).collect();
-            self.run_missing(&all, store, on_progress)?;
-        }
-        let sums = self.recorded.take().unwrap_or_else(|| self.sums());
-        self.began = sums.began;
+        let silent: &(dyn Fn(Progress) + Sync) = &|_| ();
+        let on_progress = match store {
+            None => on_progress,
+            Some(store) => {
+                let rows = points * design.rows_per_point();
+                let all: Vec<(u64, Range<u64>)> = (0..replicates).map(|replicate| (replicate, 0..rows)).collect();
+                self.run_missing(&all, store, on_progress)?;
+                silent
+            }
+        };
+        let [done, failed] = [|totals: &Totals| totals.runs, |totals: &Totals| totals.failed_runs]
+            .map(|count| self.totals.iter().map(count).sum::<u64>());
         let total = points * replicates * design.rows_per_point();
-        let known = |count: fn(&Totals) -> u64| sums.totals().map(count).sum::<u64>();
-        let (done, failed) = (known(|totals| totals.runs), known(|totals| totals.failed_runs));
-        let recalled = if self.points == 0 { done } else { self.progress.recalled };
-        let before = Progress { done, recalled, total, failed, elapsed: self.start.elapsed() };
-        if recalled > 0 {
-            on_progress(before);
-        }
-        let options = BlockOptions {
+        let before = Progress { done, recalled: 0, total, failed, elapsed: self.start.elapsed() };
+        let tracker = Tracker::new(self.context, before, self.start, on_progress);
+        let fold = Fold {
+            job: self.job,
+            context: self.context,
             failures: self.failures,
             keeps_outputs: self.keeps_outputs,
-            // Outputs that are here are folded here.
-            in_strips: self.store.is_none() && self.executor.has_remote(),
-            store: self.store,
-            checkpoint: self.checkpoint,
+            store,
+            sink: self.sink,
+            tracker: &tracker,
+            idle: Mutex::default(),
         };
-        let blocks = Blocks::new(self.job, self.executor.context(), Fold::new(sums), points, options);
-        let outcome = if self.store.is_some() {
-            // The rows were counted when they were evaluated.
-            self.executor.execute(&blocks, before, self.start, &|_| ())
+        let new = self.install(|| fold.run(self.points..points));
+        drop(fold);
+        tracker.finish()?;
+        let new = new.unwrap_or_default();
+        if self.totals.is_empty() {
+            self.totals = new;
         } else {
-            self.executor.execute(&blocks, before, self.start, on_progress)
-        };
-        let fold = blocks.into_fold();
-        if self.checkpoint.is_some() {
-            self.last_sums.clear();
-            fold.write_sums(&mut self.last_sums);
+            self.totals.iter_mut().zip(&new).for_each(|(totals, new)| totals.merge(new));
         }
-        self.progress = outcome?;
-        self.totals = fold.into_totals();
         self.points = points;
         Ok(())
-    }
-
-    /// The sums of all that has been run, to go on with.
-    fn sums(&mut self) -> Sums {
-        let replicates = self.job.design.settings().replicates;
-        if self.began == 0 && self.points > 0 && !(self.points.is_power_of_two() && self.points >= BLOCK) {
-            self.began = self.points;
-        }
-        let heads = std::mem::take(&mut self.totals);
-        Sums { began: self.began, from: self.points, heads, ..Sums::new(replicates) }
     }
 
     /// Evaluates those of `rows` (replicate, and rows counted within it) that `store` lacks.
@@ -204,32 +192,18 @@ impl<'a> GrowingRun<'a> {
     pub fn run_missing(
         &self,
         rows: &[(u64, Range<u64>)],
-        store: &'a Store,
+        store: &Store,
         on_progress: &(dyn Fn(Progress) + Sync),
     ) -> Result<(), RunError> {
-        let (task, known) = MissingRows::new(self.job, rows, store, self.sink, self.failures);
-        let Known { total, rows: done, failed } = known;
-        let before = Progress { done, recalled: done, total, failed, elapsed: self.start.elapsed() };
-        if done > 0 {
+        let (missing, before) = MissingRows::new(self.job, rows, store, self.sink, self.failures);
+        let before = Progress { elapsed: self.start.elapsed(), ..before };
+        if before.done > 0 {
             on_progress(before);
         }
-        if done < total {
-            self.executor.execute(&task, before, self.start, on_progress)?;
+        if before.done < before.total {
+            self.executor.execute(&missing, before, self.start, on_progress)?;
         }
         Ok(())
-    }
-
-    /// Writes a last checkpoint, if there are checkpoints.
-    ///
-    /// # Errors
-    /// [`RunError::NotKept`] if it cannot be written.
-    pub fn write_checkpoint(&self) -> Result<(), RunError> {
-        match self.checkpoint {
-            Some(checkpoint) if !self.last_sums.is_empty() => {
-                checkpoint.write(&self.last_sums).map_err(|source| RunError::NotKept { source })
-            }
-            _ => Ok(()),
-        }
     }
 
     /// The design that the run grows into.
@@ -252,7 +226,18 @@ impl<'a> GrowingRun<'a> {
     }
 
     /// Time since the run was made.
-    pub fn elapsed(&self) -> Duration {
+    pub fn elapsed(&self) -> std::time::Duration {
         self.start.elapsed()
     }
+}
+
+/// A pool of `threads` threads (0: one per core); `None` if those that the caller has are as many: to start a pool takes
+/// longer than many a run.
+pub(super) fn thread_pool(threads: usize) -> Result<Option<ThreadPool>, RunError> {
+    let threads = threads_in_force(threads);
+    if rayon::current_thread_index().is_none() && rayon::current_num_threads() == threads {
+        return Ok(None);
+    }
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map(Some).map_err(|source| RunError::Threads { threads, source: source.into() })
 }

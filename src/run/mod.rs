@@ -1,16 +1,13 @@
-//! Running a design through a model: fixed blocks of base points on threads of their own, folded into constant-size totals.
+//! Running a design through a model: fixed blocks of base points, folded into constant-size totals.
 //!
 //! A block is [`BLOCK`] base points with all of their rows. Blocks are merged in a binary tree whose shape depends on
-//! the number of blocks alone, so that the totals are the same bits on any number of threads; and only the totals of
-//! the open branches exist at any time, so that memory does not grow with the number of samples, unless the outputs are
-//! kept for intervals that need them.
+//! the number of blocks alone, so that the totals are the same bits on any number of threads; memory does not grow with
+//! the number of samples, unless outputs are kept.
 //!
 //! A run may keep the outputs of its rows in a [`Store`]: what is there already, from an interrupted run, another machine
-//! or a file, is not evaluated again, and what is not is evaluated in pieces of any size. The totals are then folded from
-//! the store, to the same bits. Without a store the open branches of the tree are recorded from time to time, which is
-//! all that it takes to go on.
+//! or a file, is not evaluated again, and what is not is evaluated in batches of any size. The totals are then folded from
+//! the store, to the same bits.
 
-mod blocks;
 mod each;
 mod error;
 mod executor;
@@ -19,7 +16,6 @@ mod fold;
 mod growing;
 pub mod journal;
 mod pilot;
-mod pool;
 mod remote;
 mod repeats;
 mod rows;
@@ -28,8 +24,8 @@ mod serve;
 mod shard;
 mod store;
 mod table;
-mod task;
 mod totals;
+mod tracker;
 
 use std::time::Duration;
 
@@ -37,7 +33,6 @@ pub use each::{run_each, run_each_in};
 pub use error::RunError;
 pub(crate) use executor::Executor;
 pub use failures::{Failures, MOST_REASONS, Place, Tally};
-pub use fold::Sums;
 pub use growing::GrowingRun;
 pub use pilot::Pilot;
 pub use remote::RemoteWorkers;
@@ -46,7 +41,7 @@ pub use repeats::{Irreproducible, Repeats};
 pub(crate) use repeats::{repeat_rows, rows_to_repeat};
 pub use rows::RowValues;
 pub use serve::Requests;
-pub(crate) use serve::{refuse, serve};
+pub(crate) use serve::{RemoteServer, refusal};
 pub use shard::{Shard, ShardError};
 pub use store::{Piece, Store};
 pub use table::Halt;
@@ -59,8 +54,8 @@ use crate::space::Space;
 /// Base points in a block: their columns stay in the cache, and a block takes long enough to be worth a task.
 pub const BLOCK: u64 = 256;
 
-/// How long is waited for other workers between two looks at whether the run is to end.
-const LOOK: Duration = Duration::from_millis(20);
+/// How long is waited for remote workers between two looks at whether the run is to end.
+const STOP_POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// What is run: every row of `design`, as points of `space`, through `model`.
 #[derive(Clone, Copy)]
@@ -108,9 +103,25 @@ pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)
     Ok(run.into_totals())
 }
 
-/// Takes every piece of outputs that a run evaluates, from the thread that did it, before the piece counts as done; an
-/// error ends the run.
-pub type PieceSink<'a> = &'a (dyn Fn(&Piece) -> std::io::Result<()> + Sync);
+/// Takes every piece of outputs that a run evaluates, from the thread that did it, before its rows count as done.
+pub trait OutputSink: Sync {
+    /// Whether it takes outputs at the moment.
+    fn is_open(&self) -> bool {
+        true
+    }
+
+    /// Takes a piece.
+    ///
+    /// # Errors
+    /// Why it cannot be kept, which ends the run.
+    fn append(&self, piece: &Piece) -> std::io::Result<()>;
+}
+
+impl<F: Fn(&Piece) -> std::io::Result<()> + Sync> OutputSink for F {
+    fn append(&self, piece: &Piece) -> std::io::Result<()> {
+        self(piece)
+    }
+}
 
 /// Number of threads that a run uses when asked for `threads`.
 pub fn threads_in_force(threads: usize) -> usize {

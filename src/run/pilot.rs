@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 use std::time::Instant;
 
 use super::repeats::compare;
-use super::{GrowingRun, Job, Repeats, RowValues, RunError};
-use crate::design::{Design, DesignError, DesignSettings};
+use super::{Job, Repeats, RowValues, RunError, threads_in_force};
 use crate::model::{Batch, RunContext};
 
 /// A few runs of a design, and how long the whole of it would take by them.
@@ -26,52 +25,14 @@ pub struct Pilot {
 }
 
 impl Pilot {
-    /// Runs ever larger first parts of the design until they take long enough to be measured, or are all of it.
+    /// Runs ever more first rows of the design by one worker until they take long enough to be measured, or are all of a
+    /// replicate. What the first row takes longer than the same row once more is the start.
     ///
     /// # Errors
     /// [`RunError`] if the model gives up or the run of `context` is to end.
     pub fn new(job: Job<'_>, context: &RunContext<'_>) -> Result<Self, RunError> {
-        const ENOUGH: f64 = 0.1;
-        let design = job.design;
-        if let Some(workers) = job.model.concurrency() {
-            return Self::of_one_worker(job, context, workers);
-        }
-        let shorter = |base_samples| {
-            let settings = DesignSettings { base_samples, replicates: 1, ..design.settings().clone() };
-            Design::new(settings, design.factors(), design.asked().clone())
-        };
-        let mut points = 2;
-        loop {
-            // A design that cannot be shorter is run as a whole.
-            let part = shorter(points).unwrap_or_else(|_: DesignError| design.clone());
-            let start = Instant::now();
-            let mut growing = GrowingRun::new(Job { design: &part, ..job }, context, 0)?;
-            growing.grow_to(part.points_per_replicate(), &|_| ())?;
-            let totals = growing.into_totals();
-            let seconds = start.elapsed().as_secs_f64();
-            if seconds >= ENOUGH || points >= design.settings().base_samples {
-                let share = design.rows() as f64 / part.rows() as f64;
-                let failures =
-                    totals.iter().flat_map(|totals| &totals.outputs).filter_map(|output| output.failures.first());
-                let first = failures.min_by_key(|(_, tally)| tally.first);
-                return Ok(Self {
-                    runs: part.rows(),
-                    seconds: seconds * share,
-                    startup: 0.0,
-                    repeats: None,
-                    failed: totals.iter().map(|totals| totals.failed_runs).sum(),
-                    reason: first.map(|(reason, _)| reason.to_string()),
-                });
-            }
-            points = (points * 4).min(design.settings().base_samples);
-        }
-    }
-
-    /// A pilot of a model that takes its time, by one of its workers. What the first row takes longer than the same row once
-    /// more is the start.
-    fn of_one_worker(job: Job<'_>, context: &RunContext<'_>, workers: usize) -> Result<Self, RunError> {
-        const ENOUGH: f64 = 0.5;
-        const MOST: u64 = 4096;
+        const MIN_SECONDS: f64 = 0.3;
+        const MAX_ROWS: u64 = 1 << 18;
         let Job { design, model, .. } = job;
         let (mut worker, mut batch, mut values) = (model.worker(context), Batch::new(model), RowValues::default());
         let (mut failed, mut reason, mut first_row) = (0, None, Vec::new());
@@ -82,6 +43,7 @@ impl Pilot {
             let start = Instant::now();
             worker.run(&inputs, &mut batch);
             let seconds = start.elapsed().as_secs_f64();
+            batch.settle();
             // Every batch begins with the first row.
             first_row = (0..batch.outputs()).map(|output| batch.column(output)[0]).collect();
             // So that the last one has them all.
@@ -94,12 +56,13 @@ impl Pilot {
         let rows = design.points_per_replicate() * design.rows_per_point();
         let (mut runs, mut seconds) = (1, timed(1)?);
         let startup = (first - seconds).max(0.0);
-        while seconds < ENOUGH && runs < rows.min(MOST) {
-            runs = (runs * 4).min(rows).min(MOST);
+        while seconds < MIN_SECONDS && runs < rows.min(MAX_ROWS) {
+            runs = (runs * 4).min(rows).min(MAX_ROWS);
             seconds = timed(runs)?;
         }
         let repeats = || compare(job, context, &[(0, 0)], &[first_row]);
         let repeats = model.may_be_random().then(repeats).transpose()?;
+        let workers = model.concurrency().unwrap_or_else(|| threads_in_force(0)).max(1);
         let whole = seconds * design.rows() as f64 / runs as f64 / workers as f64;
         Ok(Self { runs, seconds: whole + startup, startup, repeats, failed, reason })
     }

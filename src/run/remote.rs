@@ -1,21 +1,22 @@
-//! Workers in other processes: what they are asked, and what they answer.
+//! Workers in other processes: what they are sent, and what they reply.
 //!
-//! The other process knows the study. A request names one of its models and an [`Errand`] (which design, what is made of
-//! its rows), and a piece of it; the answer is what a thread of this process would have made of the piece. Blocks of quick
-//! models come back as sums of constant size.
+//! The other process knows the study. A request names one of its models, a design, and rows of that; the reply is the
+//! outputs of the rows.
 
 use std::io;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use super::LOOK;
+use super::executor::RowRange;
+use super::journal::{record, write_record};
+use super::{Piece, STOP_POLL_INTERVAL};
 use crate::binary::{Binary, Reader, binary_fields};
 use crate::design::{Design, DesignSettings, Rows, Sampler};
 use crate::model::{GiveUp, RunContext};
 
 /// Workers in other processes, which [`serve`](crate::WorkerStudy::serve) a study there.
 ///
-/// Each answers its requests in their order. Requests and answers are bytes of no meaning to the carrier.
+/// Each replies to its requests in their order. Requests and replies are bytes of no meaning to the carrier.
 pub trait RemoteWorkers: Sync {
     /// How many there are.
     fn count(&self) -> usize;
@@ -26,7 +27,7 @@ pub trait RemoteWorkers: Sync {
     /// What keeps it from being sent.
     fn send(&self, worker: usize, request: Vec<u8>) -> io::Result<()>;
 
-    /// The next answer of a worker, if there is one within `patience`.
+    /// The next reply of a worker, if there is one within `patience`.
     ///
     /// # Errors
     /// Why there will never be one.
@@ -51,32 +52,6 @@ impl<'a> Remote<'a> {
     }
 }
 
-/// How the pieces of a task and their outputs travel.
-pub(crate) trait Abroad<P, O>: Sync {
-    /// What the other process needs to know of the task.
-    fn errand(&self) -> Errand;
-    fn write_piece(&self, piece: &P, out: &mut Vec<u8>);
-    /// `None` if the bytes are no piece of the task.
-    fn read_piece(&self, from: &mut Reader<'_>) -> Option<P>;
-    fn write_output(&self, output: &O, out: &mut Vec<u8>);
-    /// `None` if the bytes are no output of the piece.
-    fn read_output(&self, piece: &P, from: &mut Reader<'_>) -> Option<O>;
-}
-
-/// What another process needs to know of a task, beside the study.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Errand {
-    /// Whether blocks are folded into sums; else rows are evaluated.
-    pub is_of_blocks: bool,
-    pub design: DesignKey,
-    /// The base points of every replicate whose blocks are meant.
-    pub from: u64,
-    pub end: u64,
-    pub keeps_outputs: bool,
-    /// Whether the run ends when a row fails.
-    pub fails: bool,
-}
-
 /// What designs of one study differ in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct DesignKey {
@@ -87,7 +62,6 @@ pub(crate) struct DesignKey {
     plain_rows: u64,
 }
 
-binary_fields!(Errand { is_of_blocks, design, from, end, keeps_outputs, fails });
 binary_fields!(DesignKey { sampler, base_samples, replicates, seed, plain_rows });
 
 impl DesignKey {
@@ -106,50 +80,65 @@ impl DesignKey {
     }
 }
 
-/// What a worker is asked.
-pub(crate) struct Request<'a> {
+/// Rows that a worker is to evaluate.
+pub(crate) struct Request {
     /// Which model: see [`Remote::subject`].
     pub subject: u64,
-    /// The task.
-    pub errand: Errand,
-    /// The bytes of the piece.
-    pub piece: &'a [u8],
+    pub design: DesignKey,
+    pub range: RowRange,
 }
 
-impl<'a> Request<'a> {
-    /// Reads a request; `None` if the bytes are none.
-    pub fn read(bytes: &'a [u8]) -> Option<Self> {
-        let mut from = Reader { bytes };
-        let (subject, errand) = (u64::read(&mut from)?, Errand::read(&mut from)?);
-        Some(Self { subject, errand, piece: from.bytes })
-    }
-}
-
-/// What a worker answers.
-pub(crate) struct Answer<O> {
-    /// How long the piece took.
-    pub seconds: f64,
-    pub given_up: Option<GiveUp>,
-    pub output: Option<O>,
-}
-
-impl<O> Answer<O> {
-    pub fn write(&self, write_output: impl FnOnce(&O, &mut Vec<u8>)) -> Vec<u8> {
+impl Request {
+    fn write(&self) -> Vec<u8> {
         let mut out = Vec::new();
-        self.seconds.write(&mut out);
-        self.given_up.write(&mut out);
-        self.output.is_some().write(&mut out);
-        if let Some(output) = &self.output {
-            write_output(output, &mut out);
-        }
+        let Self { subject, design, range: RowRange { replicate, rows } } = self;
+        subject.write(&mut out);
+        design.write(&mut out);
+        [*replicate, rows.start, rows.end].iter().for_each(|number| number.write(&mut out));
         out
     }
 
-    fn read(bytes: &[u8], read_output: impl FnOnce(&mut Reader<'_>) -> Option<O>) -> Option<Self> {
+    /// Reads a request; `None` if the bytes are none.
+    pub fn read(bytes: &[u8]) -> Option<Self> {
+        let mut from = Reader { bytes };
+        let (subject, design) = (u64::read(&mut from)?, DesignKey::read(&mut from)?);
+        let (replicate, rows) = (u64::read(&mut from)?, u64::read(&mut from)?..u64::read(&mut from)?);
+        from.bytes.is_empty().then_some(Self { subject, design, range: RowRange { replicate, rows } })
+    }
+}
+
+/// What a worker makes of a request.
+pub(crate) struct Reply {
+    /// How long the rows took.
+    pub seconds: f64,
+    pub given_up: Option<GiveUp>,
+    /// Outputs travel as they go on record.
+    pub pieces: Vec<Piece>,
+}
+
+impl Reply {
+    pub fn write(&self) -> Vec<u8> {
+        let mut out = Vec::new();
+        self.seconds.write(&mut out);
+        self.given_up.write(&mut out);
+        self.pieces.iter().for_each(|piece| write_record(&mut out, piece));
+        out
+    }
+
+    /// Reads the reply to a request for rows of `outputs` outputs each; `None` if the bytes are none.
+    fn read(bytes: &[u8], range: &RowRange, outputs: usize) -> Option<Self> {
         let mut from = Reader { bytes };
         let (seconds, given_up) = (f64::read(&mut from)?, Option::read(&mut from)?);
-        let output = if bool::read(&mut from)? { Some(read_output(&mut from)?) } else { None };
-        from.bytes.is_empty().then_some(Self { seconds, given_up, output })
+        let mut pieces = Vec::new();
+        while !from.bytes.is_empty() {
+            let piece = record(&mut from)?;
+            let end = piece.first.checked_add(piece.rows(outputs))?;
+            if piece.replicate != range.replicate || piece.first < range.rows.start || end > range.rows.end {
+                return None;
+            }
+            pieces.push(piece);
+        }
+        Some(Self { seconds, given_up, pieces })
     }
 }
 
@@ -166,26 +155,24 @@ impl Talk<'_> {
         self.worker
     }
 
-    /// Sends a piece of a task.
-    pub fn ask(&self, errand: &Errand, write_piece: impl FnOnce(&mut Vec<u8>)) -> io::Result<()> {
-        let mut request = Vec::new();
-        self.remote.subject.write(&mut request);
-        errand.write(&mut request);
-        write_piece(&mut request);
-        self.remote.workers.send(self.worker, request)
+    /// Sends a request for rows.
+    pub fn send(&self, design: DesignKey, range: &RowRange) -> io::Result<()> {
+        let request = Request { subject: self.remote.subject, design, range: range.clone() };
+        self.remote.workers.send(self.worker, request.write())
     }
 
-    /// The next answer. A worker that has long to do is told when the run is to end.
-    pub fn hear<O>(&self, read_output: impl FnOnce(&mut Reader<'_>) -> Option<O>) -> io::Result<Answer<O>> {
-        let answer = loop {
-            if let Some(answer) = self.remote.workers.receive(self.worker, LOOK)? {
-                break answer;
+    /// The reply to the oldest request that has none, which was for `range`. A worker that has long to do hears when the run
+    /// is to end.
+    pub fn receive(&self, range: &RowRange, outputs: usize) -> io::Result<Reply> {
+        let reply = loop {
+            if let Some(reply) = self.remote.workers.receive(self.worker, STOP_POLL_INTERVAL)? {
+                break reply;
             }
-            if self.context.is_stopped() && !self.told_to_stop.swap(true, std::sync::atomic::Ordering::Relaxed) {
+            if self.context.is_stopped() && !self.told_to_stop.swap(true, Ordering::Relaxed) {
                 self.remote.workers.stop();
             }
         };
-        let nonsense = || io::Error::new(io::ErrorKind::InvalidData, "it answers what was not asked");
-        Answer::read(&answer, read_output).ok_or_else(nonsense)
+        let nonsense = || io::Error::new(io::ErrorKind::InvalidData, "its reply is not to what was requested");
+        Reply::read(&reply, range, outputs).ok_or_else(nonsense)
     }
 }

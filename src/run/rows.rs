@@ -1,178 +1,122 @@
-//! Rows of a design as a task: those that a store lacks, through the workers into the store.
+//! The rows of a design that a store lacks: their values, and where their outputs go.
 
 use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
-use super::journal::{record, write_record};
-use super::remote::{Abroad, DesignKey, Errand};
+use super::executor::{RowRange, RowSource};
+use super::remote::DesignKey;
 use super::store::{Piece, Store};
-use super::task::{Evaluated, Finished, Task};
-use super::{FailurePolicy, Job, PieceSink, Place, RunError};
-use crate::binary::{Binary, Reader};
+use super::{FailurePolicy, Job, OutputSink, Place, Progress, RunError};
 use crate::design::BasePoints;
-use crate::model::{Batch, RowFailure, Worker};
+use crate::model::Batch;
 
 /// The rows of some replicates that a store lacks.
-pub(super) struct MissingRows<'a> {
+pub(crate) struct MissingRows<'a> {
     job: Job<'a>,
     store: &'a Store,
     /// Takes every piece before the store does.
-    sink: Option<PieceSink<'a>>,
+    sink: Option<&'a dyn OutputSink>,
     failures: FailurePolicy,
     waiting: Mutex<Waiting>,
 }
 
 struct Waiting {
-    /// As (replicate, rows), in the order in which they are run.
-    ranges: VecDeque<(u64, Range<u64>)>,
+    /// In the order in which they are run.
+    ranges: VecDeque<RowRange>,
     rows: u64,
 }
 
-/// How many of some rows are known, and how many of these have failed.
-pub(super) struct Known {
-    pub total: u64,
-    pub rows: u64,
-    pub failed: u64,
-}
-
 impl<'a> MissingRows<'a> {
-    /// Those of `rows` (replicate, and rows counted within it) that `store` lacks; and what it knows.
+    /// Those of `rows` (replicate, and rows counted within it) that `store` lacks; and how far the run has come by those
+    /// that it has.
     pub fn new(
         job: Job<'a>,
         rows: &[(u64, Range<u64>)],
         store: &'a Store,
-        sink: Option<PieceSink<'a>>,
+        sink: Option<&'a dyn OutputSink>,
         failures: FailurePolicy,
-    ) -> (Self, Known) {
-        let mut known = Known { total: 0, rows: 0, failed: 0 };
+    ) -> (Self, Progress) {
+        let mut known = Progress { done: 0, recalled: 0, total: 0, failed: 0, elapsed: Duration::ZERO };
         let mut ranges = VecDeque::new();
         for (replicate, rows) in rows {
             let (present, failed) = store.count(*replicate, rows.clone());
             known.total += rows.end - rows.start;
-            known.rows += present;
+            known.done += present;
             known.failed += failed;
-            ranges.extend(store.missing(*replicate, rows.clone()).into_iter().map(|range| (*replicate, range)));
+            let missing = store.missing(*replicate, rows.clone()).into_iter();
+            ranges.extend(missing.map(|rows| RowRange { replicate: *replicate, rows }));
         }
-        let waiting = Mutex::new(Waiting { ranges, rows: known.total - known.rows });
+        known.recalled = known.done;
+        let waiting = Mutex::new(Waiting { ranges, rows: known.total - known.done });
         (Self { job, store, sink, failures, waiting }, known)
     }
-}
 
-impl Task for MissingRows<'_> {
-    type Piece = (u64, Range<u64>);
-    type Output = Vec<Piece>;
-    type Scratch = (RowValues, Batch);
-
-    fn scratch(&self) -> Self::Scratch {
-        (RowValues::default(), Batch::new(self.job.model))
+    /// What tells the design from others of the study.
+    pub fn design_key(&self) -> DesignKey {
+        DesignKey::new(self.job.design)
     }
 
-    /// `most` rows, or fewer so that all workers have some to the end.
-    fn next(&self, most: u64, workers: usize) -> Option<Self::Piece> {
-        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
-        let share = (waiting.rows / (2 * workers as u64)).max(1);
-        let (replicate, rows) = waiting.ranges.front_mut()?;
-        let taken = rows.start..rows.end.min(rows.start + most.min(share));
-        rows.start = taken.end;
-        let replicate = *replicate;
-        if rows.is_empty() {
-            waiting.ranges.pop_front();
-        }
-        waiting.rows -= taken.end - taken.start;
-        Some((replicate, taken))
+    /// Outputs of every row.
+    pub fn outputs(&self) -> usize {
+        self.store.outputs()
     }
 
-    fn rows(&self, (_, rows): &Self::Piece) -> u64 {
-        rows.end - rows.start
-    }
-
-    fn evaluate(
-        &self,
-        worker: &mut dyn Worker,
-        (values, batch): &mut Self::Scratch,
-        (replicate, rows): &Self::Piece,
-        _: &dyn Fn(u64),
-    ) -> Evaluated<Vec<Piece>> {
-        let inputs: Vec<&[f64]> = values.values(self.job, *replicate, rows.clone()).iter().map(Vec::as_slice).collect();
-        batch.reset((rows.end - rows.start) as usize);
-        worker.run(&inputs, batch);
-        batch.settle();
-        let given_up = batch.given_up().cloned();
-        let piece = Piece::from_batch(*replicate, rows.start, batch);
-        let reason = given_up.as_ref().map(|give_up| &give_up.reason);
-        let output = Some(answered(piece, reason, self.store.outputs()));
-        Evaluated { output, given_up }
-    }
-
-    fn accept(&self, _: &Self::Piece, pieces: Vec<Piece>) -> Result<Finished, RunError> {
-        let mut finished = Finished { rows: 0, failed: 0 };
-        for piece in &pieces {
-            self.sink.map_or(Ok(()), |sink| sink(piece)).map_err(|source| RunError::NotKept { source })?;
+    /// Puts pieces where outputs are kept; returns the number of their rows, and how many of them failed.
+    pub fn keep(&self, pieces: &[Piece]) -> Result<(u64, u64), RunError> {
+        let (mut rows, mut failed) = (0, 0);
+        for piece in pieces {
+            self.sink.map_or(Ok(()), |sink| sink.append(piece)).map_err(|source| RunError::NotKept { source })?;
             self.store.insert(piece);
-            let mut failed: Vec<u32> = piece.failures.iter().map(|(row, ..)| *row).collect();
-            failed.dedup();
-            finished.rows += piece.rows(self.store.outputs());
-            finished.failed += failed.len() as u64;
+            let mut failed_rows: Vec<u32> = piece.failures.iter().map(|(row, ..)| *row).collect();
+            failed_rows.dedup();
+            rows += piece.rows(self.store.outputs());
+            failed += failed_rows.len() as u64;
             if let (FailurePolicy::Fail, Some((row, _, reason))) = (self.failures, piece.failures.first()) {
                 let (row, per_point) = (piece.first + u64::from(*row), self.job.design.rows_per_point());
                 let row = Place { replicate: piece.replicate, point: row / per_point, run: row % per_point };
                 return Err(RunError::RowFailed { row, reason: reason.clone() });
             }
         }
-        Ok(finished)
+        Ok((rows, failed))
+    }
+}
+
+impl RowSource for MissingRows<'_> {
+    /// Fewer rows than the most where all workers would not have some to the end.
+    fn next(&self, max_rows: u64, workers: usize) -> Option<RowRange> {
+        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        let share = (waiting.rows / (2 * workers as u64)).max(1);
+        let RowRange { replicate, rows } = waiting.ranges.front_mut()?;
+        let taken = rows.start..rows.end.min(rows.start + max_rows.min(share));
+        rows.start = taken.end;
+        let (replicate, is_empty) = (*replicate, rows.is_empty());
+        if is_empty {
+            waiting.ranges.pop_front();
+        }
+        waiting.rows -= taken.end - taken.start;
+        Some(RowRange { replicate, rows: taken })
     }
 
-    fn abroad(&self) -> Option<&dyn Abroad<Self::Piece, Vec<Piece>>> {
+    fn inputs<'s>(&'s self, values: &'s mut RowValues, RowRange { replicate, rows }: &RowRange) -> Vec<&'s [f64]> {
+        values.values(self.job, *replicate, rows.clone()).iter().map(Vec::as_slice).collect()
+    }
+
+    fn accept(&self, range: &RowRange, batch: &Batch) -> Result<(u64, u64), RunError> {
+        self.keep(&answered(range, batch))
+    }
+
+    fn remote(&self) -> Option<&MissingRows<'_>> {
         Some(self)
     }
 }
 
-impl Abroad<(u64, Range<u64>), Vec<Piece>> for MissingRows<'_> {
-    fn errand(&self) -> Errand {
-        Errand {
-            is_of_blocks: false,
-            design: DesignKey::new(self.job.design),
-            from: 0,
-            end: 0,
-            keeps_outputs: true,
-            fails: self.failures == FailurePolicy::Fail,
-        }
-    }
-
-    fn write_piece(&self, (replicate, rows): &(u64, Range<u64>), out: &mut Vec<u8>) {
-        [*replicate, rows.start, rows.end].iter().for_each(|number| number.write(out));
-    }
-
-    fn read_piece(&self, from: &mut Reader<'_>) -> Option<(u64, Range<u64>)> {
-        let (replicate, rows) = (u64::read(from)?, u64::read(from)?..u64::read(from)?);
-        let design = self.job.design;
-        let is_one = replicate < design.settings().replicates && rows.start < rows.end;
-        (is_one && rows.end <= design.points_per_replicate() * design.rows_per_point()).then_some((replicate, rows))
-    }
-
-    /// Pieces travel as they go on record.
-    fn write_output(&self, pieces: &Vec<Piece>, out: &mut Vec<u8>) {
-        pieces.iter().for_each(|piece| write_record(out, piece));
-    }
-
-    fn read_output(&self, (replicate, rows): &(u64, Range<u64>), from: &mut Reader<'_>) -> Option<Vec<Piece>> {
-        let mut pieces = Vec::new();
-        while !from.bytes.is_empty() {
-            let piece = record(from)?;
-            let end = piece.first.checked_add(piece.rows(self.store.outputs()))?;
-            if piece.replicate != *replicate || piece.first < rows.start || end > rows.end {
-                return None;
-            }
-            pieces.push(piece);
-        }
-        Some(pieces)
-    }
-}
-
-/// The rows of a piece that were answered: all, unless the model has given up for `reason`.
-fn answered(piece: Piece, reason: Option<&RowFailure>, outputs: usize) -> Vec<Piece> {
-    let Some(reason) = reason else { return vec![piece] };
+/// The rows of a settled batch that were answered, as pieces: one, unless the model has given up on some of them.
+pub(super) fn answered(range: &RowRange, batch: &Batch) -> Vec<Piece> {
+    let piece = Piece::from_batches(range.replicate, range.rows.start, std::slice::from_ref(batch));
+    let Some(reason) = batch.given_up().map(|give_up| &give_up.reason) else { return vec![piece] };
+    let outputs = batch.outputs();
     let open: Vec<u32> = piece.failures.iter().filter(|(.., why)| why == reason).map(|(row, ..)| *row).collect();
     let mut pieces: Vec<Piece> = Vec::new();
     let mut counted = Some((piece.flags, piece.counts));

@@ -64,15 +64,16 @@ impl Scratch {
         totals
     }
 
-    /// Evaluates the base points in the unit columns; `on_rows` is told of every batch. Returns why the model gave up, if
-    /// it did.
-    pub fn run_rows(
-        &mut self,
-        job: Job<'_>,
-        worker: &mut dyn Worker,
-        context: &RunContext<'_>,
-        on_rows: &dyn Fn(u64),
-    ) -> Option<GiveUp> {
+    /// The outputs that were evaluated or recalled last, a batch for each run of the design.
+    pub fn batches(&self) -> &[Batch] {
+        &self.batches
+    }
+
+    /// Evaluates the base points in the unit columns.
+    ///
+    /// # Errors
+    /// [`GiveUp`] if the model gave up.
+    pub fn run_rows(&mut self, job: Job<'_>, worker: &mut dyn Worker, context: &RunContext<'_>) -> Result<(), GiveUp> {
         let factors = job.design.factors();
         for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
             values.resize(unit.len(), 0.0);
@@ -83,7 +84,7 @@ impl Scratch {
         let mut inputs: Vec<&[f64]> = Vec::with_capacity(factors);
         for (run, batch) in job.design.runs().iter().zip(&mut self.batches) {
             if context.is_stopped() {
-                return Some(RowFailure::interrupted().into());
+                return Err(RowFailure::interrupted().into());
             }
             inputs.clear();
             inputs.extend(columns_of(run.base).iter().map(Vec::as_slice));
@@ -97,11 +98,10 @@ impl Scratch {
             worker.run(&inputs, batch);
             batch.settle();
             if let Some(reason) = batch.given_up() {
-                return Some(reason.clone());
+                return Err(reason.clone());
             }
-            on_rows(batch.rows() as u64);
         }
-        None
+        Ok(())
     }
 
     fn totals_of(&mut self, job: Job<'_>, output: usize, place: BlockPlace) -> OutputTotals {

@@ -1,77 +1,61 @@
-//! The other end of the talk with workers in other processes: requests are read there, and answered by a worker of theirs.
+//! The other end of the talk with workers in other processes: requests are read there, and their rows evaluated.
 
-use super::blocks::{BlockOptions, Blocks};
-use super::fold::{Fold, Sums};
-use super::remote::{Answer, Errand, Request};
-use super::rows::MissingRows;
-use super::task::{Evaluated, Task};
-use super::{FailurePolicy, Job, Store};
-use crate::binary::Reader;
-use crate::model::{RowFailure, RunContext, Worker};
+use super::Job;
+use super::remote::{DesignKey, Reply, Request};
+use super::rows::{RowValues, answered};
+use crate::clock::Instant;
+use crate::design::Design;
+use crate::model::{Batch, Model, RowFailure, RunContext, Worker};
+use crate::space::Space;
 
-/// Where requests come from, and where answers go.
+/// Where requests come from, and where replies go.
 pub trait Requests {
     /// The next request; `None` if there are no more.
     fn next(&mut self) -> Option<Vec<u8>>;
 
-    /// Sends the answer to the last one.
-    fn answer(&mut self, answer: Vec<u8>);
+    /// Sends the reply to the last one.
+    fn reply(&mut self, reply: Vec<u8>);
 }
 
-/// Answers `bytes`, a request of a piece for the model of `job`, and those that follow it of the same task, by `worker`;
-/// returns the first one that is of another.
-pub(crate) fn serve(
-    job: Job<'_>,
-    bytes: Vec<u8>,
-    worker: &mut dyn Worker,
-    context: &RunContext<'_>,
-    requests: &mut dyn Requests,
-) -> Option<Vec<u8>> {
-    let Some(Request { errand, .. }) = Request::read(&bytes) else { return refuse(requests, "no task that it knows") };
-    let Some(design) = errand.design.design(job.design) else { return refuse(requests, "no such design") };
-    let job = Job { design: &design, ..job };
-    let failures = if errand.fails { FailurePolicy::Fail } else { FailurePolicy::DropBlock };
-    if errand.is_of_blocks {
-        let keeps_outputs = errand.keeps_outputs;
-        let options = BlockOptions { failures, keeps_outputs, in_strips: true, store: None, checkpoint: None };
-        let sums = Sums { from: errand.from, began: errand.from, ..Sums::new(design.settings().replicates) };
-        serve_task(&Blocks::new(job, context, Fold::new(sums), errand.end, options), errand, bytes, worker, requests)
-    } else {
-        let store = Store::new(&design, job.model);
-        serve_task(&MissingRows::new(job, &[], &store, None, failures).0, errand, bytes, worker, requests)
+/// A worker of one model, which evaluates rows for other processes.
+pub(crate) struct RemoteServer<'a> {
+    space: &'a Space,
+    model: &'a dyn Model,
+    worker: Box<dyn Worker + 'a>,
+    batch: Batch,
+    /// The design of the last request, and the points of it that are known.
+    current: Option<(DesignKey, Design, RowValues)>,
+}
+
+impl<'a> RemoteServer<'a> {
+    pub fn new(space: &'a Space, model: &'a dyn Model, context: &'a RunContext<'a>) -> Self {
+        Self { space, model, worker: model.worker(context), batch: Batch::new(model), current: None }
+    }
+
+    /// Evaluates the rows of a request, of a design that differs from `design` by its key.
+    pub fn reply(&mut self, design: &Design, request: &Request) -> Reply {
+        if self.current.as_ref().is_none_or(|(key, ..)| *key != request.design) {
+            let Some(design) = request.design.design(design) else { return refusal("a design that the study has not") };
+            self.current = Some((request.design, design, RowValues::default()));
+        }
+        let Some((_, design, values)) = &mut self.current else { return refusal("no design") };
+        let (Request { range, .. }, rows) = (request, design.points_per_replicate() * design.rows_per_point());
+        if range.replicate >= design.settings().replicates || range.rows.is_empty() || range.rows.end > rows {
+            return refusal("rows that the design has not");
+        }
+        let begun = Instant::now();
+        let job = Job { design, space: self.space, model: self.model };
+        let inputs = values.values(job, range.replicate, range.rows.clone());
+        self.batch.reset(range.count() as usize);
+        self.worker.run(&inputs.iter().map(Vec::as_slice).collect::<Vec<_>>(), &mut self.batch);
+        self.batch.settle();
+        let seconds = begun.elapsed().as_secs_f64();
+        Reply { seconds, given_up: self.batch.given_up().cloned(), pieces: answered(range, &self.batch) }
     }
 }
 
-fn serve_task<T: Task>(
-    task: &T,
-    errand: Errand,
-    mut bytes: Vec<u8>,
-    worker: &mut dyn Worker,
-    requests: &mut dyn Requests,
-) -> Option<Vec<u8>> {
-    let Some(abroad) = task.abroad() else { return refuse(requests, "no task for other processes") };
-    let subject = Request::read(&bytes)?.subject;
-    let mut scratch = task.scratch();
-    loop {
-        let request = Request::read(&bytes).filter(|request| request.subject == subject);
-        let Some(request) = request.filter(|request| request.errand == errand) else { return Some(bytes) };
-        let Some(piece) = abroad.read_piece(&mut Reader { bytes: request.piece }) else {
-            return refuse(requests, "no piece of the task");
-        };
-        let began = crate::clock::Instant::now();
-        let evaluated = task.evaluate(worker, &mut scratch, &piece, &|_| ());
-        let seconds = began.elapsed().as_secs_f64();
-        let Evaluated { output, given_up } = evaluated;
-        let answer = Answer { seconds, given_up, output };
-        requests.answer(answer.write(|output, out| abroad.write_output(output, out)));
-        bytes = requests.next()?;
-    }
-}
-
-/// Answers that the last request cannot be met; returns the next one.
-pub(crate) fn refuse(requests: &mut dyn Requests, why: &str) -> Option<Vec<u8>> {
-    let given_up = Some(RowFailure::new(&format!("a worker in another process was asked for {why}")).into());
-    let answer = Answer { seconds: 0.0, given_up, output: None::<()> };
-    requests.answer(answer.write(|(), _| ()));
-    requests.next()
+/// The reply to a request that cannot be met.
+pub(crate) fn refusal(what: &str) -> Reply {
+    let given_up = Some(RowFailure::new(&format!("a worker in another process was asked for {what}")).into());
+    Reply { seconds: 0.0, given_up, pieces: Vec::new() }
 }

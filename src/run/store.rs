@@ -28,23 +28,33 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// The rows of a settled batch, from row `first` of `replicate` on.
-    pub fn from_batch(replicate: u64, first: u64, batch: &Batch) -> Self {
-        let outputs = batch.outputs();
-        let mut values = vec![f64::NAN; batch.rows() * outputs];
-        for output in 0..outputs {
-            for (row, value) in batch.column(output).iter().enumerate() {
-                values[row * outputs + output] = *value;
+    /// The rows from row `first` of `replicate` on of settled batches: one for each run of a base point, whose rows are the
+    /// base points; or a single one of consecutive rows.
+    pub fn from_batches(replicate: u64, first: u64, batches: &[Batch]) -> Self {
+        let (points, outputs) = batches.first().map_or((0, 0), |batch| (batch.rows(), batch.outputs()));
+        let (runs, mut piece) = (batches.len(), Self { replicate, first, ..Self::default() });
+        piece.values.resize(points * runs * outputs, f64::NAN);
+        for (run, batch) in batches.iter().enumerate() {
+            for output in 0..outputs {
+                for (point, value) in batch.column(output).iter().enumerate() {
+                    piece.values[(point * runs + run) * outputs + output] = *value;
+                }
+            }
+            for (output, point, why) in batch.failures() {
+                piece.failures.push(((point * runs + run) as u32, *output as u32, why.clone()));
+            }
+            if run == 0 {
+                (piece.flags, piece.counts) = (batch.flags().to_vec(), batch.counts().clone());
+            } else {
+                piece.flags.iter_mut().zip(batch.flags()).for_each(|(mine, theirs)| *mine += theirs);
+                piece.counts.merge(batch.counts());
             }
         }
-        let mut failures: Vec<_> =
-            batch.failures().iter().map(|(output, row, why)| (*row as u32, *output as u32, why.clone())).collect();
-        failures.sort_unstable();
-        for (row, output, _) in &failures {
-            values[*row as usize * outputs + *output as usize] = f64::NAN;
+        piece.failures.sort_unstable();
+        for (row, output, _) in &piece.failures {
+            piece.values[*row as usize * outputs + *output as usize] = f64::NAN;
         }
-        let (flags, counts) = (batch.flags().to_vec(), batch.counts().clone());
-        Self { replicate, first, values, failures, flags, counts }
+        piece
     }
 
     /// Whether flags were raised or anything counted over its rows: such a piece cannot be divided.

@@ -1,16 +1,15 @@
-//! A table of points as a task: its rows through the workers, their outputs into one batch.
+//! Tables of points: their rows through the workers, their outputs into one batch.
 
-use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use thiserror::Error;
 
-use super::executor::Executor;
-use super::task::{Evaluated, Finished, Task};
+use super::executor::{Executor, RowRange, RowSource};
+use super::rows::RowValues;
 use super::{Progress, RunError};
 use crate::clock::Instant;
-use crate::model::{Batch, GiveUp, Model, Worker};
+use crate::model::{Batch, GiveUp};
 
 /// Why rows were not evaluated to their end.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -24,7 +23,7 @@ pub enum Halt {
 }
 
 /// Fewest rows of a piece of a quick model: fewer are not worth a thread.
-const LEAST_QUICK: usize = 1024;
+const MIN_QUICK_ROWS: u64 = 1024;
 
 impl Executor<'_> {
     /// How many rows of a table are best handed over at once.
@@ -32,7 +31,8 @@ impl Executor<'_> {
         if self.model().concurrency().is_some() { 1 << 16 } else { 1 << 14 }
     }
 
-    /// Evaluates rows as [`Worker::run`] does, and settles the batch. It is the same for any number of workers.
+    /// Evaluates rows as [`Worker::run`](crate::model::Worker::run) does, and settles the batch. It is the same for any
+    /// number of workers.
     ///
     /// # Errors
     /// [`Halt`] if the model gave up or the run is to end; the batch then has no meaning.
@@ -41,11 +41,9 @@ impl Executor<'_> {
         if total == 0 {
             return Ok(());
         }
-        let elapsed = Duration::ZERO;
-        let before = Progress { done: 0, recalled: 0, total, failed: 0, elapsed };
+        let before = Progress { done: 0, recalled: 0, total, failed: 0, elapsed: Duration::ZERO };
         let is_quick = self.model().concurrency().is_none();
-        let sink = Mutex::new((0, batch));
-        let table = Table { model: self.model(), inputs, is_quick, sink };
+        let table = Table { inputs, is_quick, sink: Mutex::new((0, batch)) };
         self.execute(&table, before, Instant::now(), &|_| ()).map_err(|error| match error {
             RunError::GaveUp(give_up) => Halt::GaveUp(give_up),
             // A table has no failures that end it, and no sink that fails.
@@ -58,166 +56,36 @@ impl Executor<'_> {
 }
 
 struct Table<'a> {
-    model: &'a dyn Model,
     inputs: &'a [&'a [f64]],
     is_quick: bool,
     /// The next row, and where outputs go.
-    sink: Mutex<(usize, &'a mut Batch)>,
+    sink: Mutex<(u64, &'a mut Batch)>,
 }
 
-impl Task for Table<'_> {
-    type Piece = Range<usize>;
-    type Output = Batch;
-    type Scratch = ();
-
-    fn scratch(&self) {}
-
-    /// `most` rows, or fewer so that all workers have some to the end.
-    fn next(&self, most: u64, workers: usize) -> Option<Range<usize>> {
+impl RowSource for Table<'_> {
+    fn next(&self, max_rows: u64, workers: usize) -> Option<RowRange> {
         let mut sink = self.sink.lock().unwrap_or_else(PoisonError::into_inner);
-        let (first, rows) = (sink.0, sink.1.rows());
-        let share = ((rows - first) / (2 * workers)).max(1);
-        let length = if self.is_quick { share.max(LEAST_QUICK) } else { share.min(most as usize) };
+        let (first, rows) = (sink.0, sink.1.rows() as u64);
+        let share = ((rows - first) / (2 * workers as u64)).max(1);
+        let length = if self.is_quick { share.max(MIN_QUICK_ROWS) } else { share.min(max_rows) };
         sink.0 = rows.min(first + length);
-        (first < rows).then(|| first..sink.0)
+        (first < rows).then(|| RowRange { replicate: 0, rows: first..sink.0 })
     }
 
-    fn rows(&self, rows: &Range<usize>) -> u64 {
-        rows.len() as u64
+    fn inputs<'s>(&'s self, _: &'s mut RowValues, range: &RowRange) -> Vec<&'s [f64]> {
+        let rows = range.rows.start as usize..range.rows.end as usize;
+        self.inputs.iter().map(|column| &column[rows.clone()]).collect()
     }
 
-    fn evaluate(&self, worker: &mut dyn Worker, (): &mut (), rows: &Range<usize>, _: &dyn Fn(u64)) -> Evaluated<Batch> {
-        let inputs: Vec<&[f64]> = self.inputs.iter().map(|column| &column[rows.clone()]).collect();
-        let mut batch = Batch::new(self.model);
-        batch.reset(rows.len());
-        worker.run(&inputs, &mut batch);
-        batch.settle();
-        let given_up = batch.given_up().cloned();
-        Evaluated { output: given_up.is_none().then_some(batch), given_up }
-    }
-
-    fn accept(&self, rows: &Range<usize>, part: Batch) -> Result<Finished, RunError> {
+    fn accept(&self, range: &RowRange, part: &Batch) -> Result<(u64, u64), RunError> {
+        if part.given_up().is_some() {
+            return Ok((0, 0));
+        }
         let mut sink = self.sink.lock().unwrap_or_else(PoisonError::into_inner);
-        sink.1.take_over(rows.start, &part);
-        Ok(Finished { rows: rows.len() as u64, failed: 0 })
+        sink.1.take_over(range.rows.start as usize, part);
+        Ok((range.count(), 0))
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use std::sync::atomic::{AtomicBool, Ordering};
-    use std::thread;
-
-    use crate::model::{FunctionModel, Output, RowFailure, RunContext};
-    use crate::quantity::Unit;
-
-    /// A function of which several workers are asked for, until it gives up at a value.
-    struct Slow<M> {
-        inner: M,
-        workers: usize,
-        gives_up_at: f64,
-        threads: Mutex<Vec<thread::ThreadId>>,
-    }
-
-    struct SlowWorker<'a, M>(Box<dyn Worker + 'a>, &'a Slow<M>);
-
-    impl<M: Model> Model for Slow<M> {
-        fn outputs(&self) -> &[Output] {
-            self.inner.outputs()
-        }
-
-        fn concurrency(&self) -> Option<usize> {
-            Some(self.workers)
-        }
-
-        fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
-            Box::new(SlowWorker(self.inner.worker(context), self))
-        }
-    }
-
-    impl<M: Model> Worker for SlowWorker<'_, M> {
-        fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
-            self.1.threads.lock().unwrap().push(thread::current().id());
-            thread::sleep(Duration::from_millis(1));
-            self.0.run(inputs, batch);
-            if inputs[0].contains(&self.1.gives_up_at) {
-                batch.give_up(RowFailure::new("enough"));
-            }
-        }
-    }
-
-    fn slow(workers: usize, gives_up_at: f64) -> Slow<impl Model> {
-        let output = Output::new("y", Unit::dimensionless(), "");
-        let inner = FunctionModel::new(vec![output], |x: &[f64], y: &mut [f64]| {
-            if x[0] % 7.0 == 3.0 {
-                return Err(RowFailure::new("three"));
-            }
-            y[0] = if x[0] % 11.0 == 5.0 { f64::NAN } else { x[0] * 2.0 };
-            Ok(())
-        });
-        Slow { inner, workers, gives_up_at, threads: Mutex::default() }
-    }
-
-    fn rows(count: usize) -> Vec<f64> {
-        (0..count).map(|row| row as f64).collect()
-    }
-
-    #[test]
-    fn rows_keep_their_places_and_failures_for_any_number_of_workers() {
-        let x = rows(1000);
-        let alone = slow(1, -1.0);
-        let mut expected = Batch::new(&alone);
-        expected.reset(x.len());
-        alone.inner.worker(&RunContext::default()).run(&[&x], &mut expected);
-        expected.settle();
-        for workers in [1, 2, 3, 16, 1024] {
-            let model = slow(workers, -1.0);
-            let context = RunContext::default();
-            let (executor, mut batch) = (Executor::new(&model, &context, 0), Batch::new(&model));
-            for _ in 0..2 {
-                batch.reset(x.len());
-                executor.run_table(&[&x], &mut batch).unwrap();
-                assert_eq!(batch.failures(), expected.failures());
-                assert!(batch.column(0).iter().zip(expected.column(0)).all(|(a, b)| a.to_bits() == b.to_bits()));
-            }
-            let mut threads = std::mem::take(&mut *model.threads.lock().unwrap());
-            threads.sort_by_key(|id| format!("{id:?}"));
-            threads.dedup();
-            assert!(workers == 1 || threads.len() > 1);
-        }
-    }
-
-    #[test]
-    fn no_rows_are_no_work() {
-        let model = slow(4, -1.0);
-        let mut batch = Batch::new(&model);
-        batch.reset(0);
-        Executor::new(&model, &RunContext::default(), 0).run_table(&[&[]], &mut batch).unwrap();
-        assert!(batch.failures().is_empty());
-    }
-
-    #[test]
-    fn a_model_that_gives_up_ends_the_work() {
-        let x = rows(1000);
-        let model = slow(3, 500.0);
-        let mut batch = Batch::new(&model);
-        batch.reset(x.len());
-        let context = RunContext::default();
-        let halt = Executor::new(&model, &context, 0).run_table(&[&x], &mut batch).unwrap_err();
-        assert_eq!(halt, Halt::GaveUp(RowFailure::new("enough").into()));
-    }
-
-    #[test]
-    fn a_stop_ends_the_work() {
-        let (x, stop) = (rows(100_000), AtomicBool::new(false));
-        let model = slow(2, -1.0);
-        let mut batch = Batch::new(&model);
-        batch.reset(x.len());
-        let context = RunContext::new(Some(&stop), |_| ());
-        let executor = Executor::new(&model, &context, 0);
-        stop.store(true, Ordering::Relaxed);
-        assert_eq!(executor.run_table(&[&x], &mut batch), Err(Halt::Interrupted));
-        assert!(model.threads.lock().unwrap().is_empty());
-    }
-}
+mod tests;

@@ -1,8 +1,6 @@
 //! What a run leaves behind: constant in size unless outputs are kept, merged in a fixed tree.
 
 use super::failures::{Failures, Place};
-use crate::binary::{Binary, Reader, binary_fields};
-use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs};
 use crate::model::{Counts, Model, RowFailure};
 
@@ -56,31 +54,6 @@ pub struct Totals {
     pub counts: Counts,
 }
 
-binary_fields!(Totals { runs, failed_runs, outputs, flags, counts });
-
-/// Outputs that are kept are no part of the bytes: sums are written where none are.
-impl Binary for OutputTotals {
-    fn write(&self, out: &mut Vec<u8>) {
-        let Self { moments, values, sample, point_outputs: _, runs_failed, failures } = self;
-        moments.write(out);
-        values.write(out);
-        sample.write(out);
-        runs_failed.write(out);
-        failures.write(out);
-    }
-
-    fn read(from: &mut Reader<'_>) -> Option<Self> {
-        Some(Self {
-            moments: MomentParts::read(from)?,
-            values: CentralMoments::read(from)?,
-            sample: Vec::read(from)?,
-            point_outputs: PointOutputs::default(),
-            runs_failed: u64::read(from)?,
-            failures: Failures::read(from)?,
-        })
-    }
-}
-
 impl Totals {
     /// Totals of no rows through `model`.
     pub fn none(model: &dyn Model) -> Self {
@@ -98,16 +71,6 @@ impl Totals {
         let failures = self.outputs.iter().filter_map(|output| output.failures.first());
         let (reason, tally) = failures.min_by_key(|(_, tally)| tally.first)?;
         Some((tally.first, reason))
-    }
-
-    /// Whether they may be totals of rows of `design` through `model`.
-    pub(crate) fn fits(&self, design: &Design, model: &dyn Model) -> bool {
-        let none = Self::none(model);
-        let fits = |output: &OutputTotals| output.moments.parts().iter().all(|part| part.fits(design));
-        self.outputs.len() == none.outputs.len()
-            && self.flags.len() == none.flags.len()
-            && self.counts.is_like(&none.counts)
-            && self.outputs.iter().all(fits)
     }
 
     /// Adds the rows that follow in the same replicate.

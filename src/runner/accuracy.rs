@@ -6,9 +6,7 @@
 //! for errors that fall as those of random points do. If they have none, a split design is tried first, which is by far the
 //! cheapest where polynomials explain the model.
 
-use std::sync::Arc;
-
-use super::low_fidelity::beside;
+use super::low_fidelity::sibling_path;
 use super::{Resume, Runner};
 use crate::analysis::{Analysis, OutputAnalysis, Spending, StopReason};
 use crate::clock::Instant;
@@ -199,25 +197,15 @@ impl Attempt<'_> {
     }
 
     fn run(&mut self, study: &Study, kind: Option<&str>, store: Option<&Store>) -> Result<Analysis, RunError> {
-        let Runner { journal, resume, stop, threads, remote, .. } = self.runner;
+        let Runner { journal, resume, .. } = self.runner;
         let journal = match (journal, kind) {
-            (Some(path), Some(kind)) => Some(beside(path, kind)),
+            (Some(path), Some(kind)) => Some(sibling_path(path, kind)),
             (path, _) => path.clone(),
         };
         let resume = if *resume == Resume::Require { Resume::IfThere } else { *resume };
-        let part = Runner {
-            study,
-            threads: *threads,
-            remote: *remote,
-            on_progress: Box::new(|progress| (self.runner.on_progress)(progress)),
-            on_message: Arc::clone(&self.runner.on_message),
-            stop: *stop,
-            journal,
-            resume,
-            store: self.runner.store.or(store),
-        };
-        let record = part.open(None, self.context.messages())?;
-        let mut analysis = part.analyse(self.context, record)?;
+        let part = Runner { study, journal, resume, store: self.runner.store.or(store), ..self.runner.clone() };
+        let journal = part.open(None, self.context.messages())?;
+        let mut analysis = part.analyse(self.context, journal)?;
         self.runs += analysis.design.rows();
         let accuracy = study.target.half_width.unwrap_or_default();
         analysis.spending = Some(Spending {

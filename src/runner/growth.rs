@@ -6,7 +6,7 @@ use crate::analysis::{StopReason, Stopped, interval_options, surrogates};
 use crate::clock::Instant;
 use crate::design::Design;
 use crate::estimate::{MomentParts, PointOutputs, Undefined};
-use crate::run::{GrowingRun, RunError};
+use crate::run::{GrowingRun, Progress, RunError};
 use crate::study::{Study, Target};
 use crate::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, SurrogateEstimates, output_indices};
 
@@ -18,7 +18,7 @@ const FEW_BASE_SAMPLES: u64 = 1 << 12;
 const FEW_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
 
 /// Why a run that grew has ended, and what surrogates and cheaper models make of every output.
-type Grown = (Stopped, Vec<Option<SurrogateEstimates>>);
+pub(super) type Grown = (Stopped, Vec<Option<SurrogateEstimates>>);
 
 /// Part of the squared error that cheaper models need not go below.
 const ENOUGH: f64 = 1.0 / 16.0;
@@ -38,7 +38,12 @@ impl Runner<'_> {
 
     /// Doubles the run, or the own runs of a cheaper model, until there is a reason to stop; that, and what surrogates and
     /// cheaper models make of the outputs then.
-    pub(super) fn grow(&self, run: &mut GrowingRun<'_>, lows: &mut Vec<LowRun<'_>>) -> Result<Grown, RunError> {
+    pub(super) fn grow(
+        &self,
+        run: &mut GrowingRun<'_>,
+        lows: &mut Vec<LowRun<'_>>,
+        on_progress: &(dyn Fn(Progress) + Sync),
+    ) -> Result<Grown, RunError> {
         let longest = run.design();
         let is_met = |stopped: &Stopped| matches!(stopped.reason, StopReason::TargetMet { .. });
         let mut seconds = run.elapsed().as_secs_f64() - lows.iter().flat_map(LowRun::seconds).sum::<f64>();
@@ -73,7 +78,7 @@ impl Runner<'_> {
                 return Ok((stopped, surrogates));
             }
             let start = Instant::now();
-            run.grow_to(run.points_per_replicate() * 2, &*self.on_progress)?;
+            run.grow_to(run.points_per_replicate() * 2, on_progress)?;
             seconds += start.elapsed().as_secs_f64();
             lows.iter_mut().try_for_each(|low| low.follow(run.points_per_replicate()))?;
         }

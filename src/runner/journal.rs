@@ -1,139 +1,158 @@
-//! The journal of a study's run: found, checked against the study, and gone on with or begun anew.
+//! The journal of a study's run: found, checked against the study, and resumed or replaced.
 
 mod recall;
 
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, OnceLock, PoisonError};
+use std::time::Duration;
 
 use serde_json::{Value, json};
 
 use super::Resume;
 use super::model_files::{differing, digests};
 use crate::model::Messages;
-use crate::run::journal::{Checkpoint, Contents, Journal, JournalError, differences, read_journal_file, with_ending};
-use crate::run::{Piece, RunError, Shard, Store, Sums};
+use crate::run::journal::{Contents, Journal, JournalError, differences, read_journal_file, with_ending};
+use crate::run::{OutputSink, Piece, Progress, RunError, Shard, Store};
 use crate::study::Study;
 pub(super) use recall::recorded;
 use recall::rows_on_record;
 
-/// Outputs of more bytes than this are not put on record for quick runs: it takes longer than to evaluate them again.
-const LARGE: u64 = 64 << 20;
+/// Runs that are expected to take longer than this are worth a journal.
+const LONG_RUN: Duration = Duration::from_secs(10);
 
-/// What is asked of a record.
+/// What a run must have taken before its length is estimated.
+const MIN_ELAPSED: Duration = Duration::from_millis(200);
+
+/// Which journal a run keeps.
 #[derive(Clone, Copy)]
-pub(super) struct JournalRequest {
+pub(super) struct JournalRequest<'a> {
+    pub path: &'a Path,
     pub resume: Resume,
     pub shard: Option<Shard>,
-    pub needs_outputs: bool,
+    /// Whether a journal is begun only when the run is expected to be long.
+    pub only_if_long: bool,
 }
 
-/// The runs of a study that are on record, and where more are put on record.
-pub(super) enum OpenJournal {
-    None,
-    Outputs(Store, Journal),
-    Sums(Checkpoint, Option<Sums>),
+/// The runs of a study that are recorded, and where more are.
+pub(super) struct RunJournal {
+    /// Outputs that were recorded when the journal was opened.
+    pub store: Store,
+    open: OnceLock<Journal>,
+    /// Path and header of the journal of a run that has not proved to be long yet.
+    waiting: Mutex<Option<(PathBuf, Value)>>,
 }
 
-impl OpenJournal {
-    /// The outputs on record, if outputs are.
-    pub fn store(&self) -> Option<&Store> {
-        if let Self::Outputs(store, _) = self { Some(store) } else { None }
+impl RunJournal {
+    /// No journal.
+    pub fn none(study: &Study) -> Self {
+        Self {
+            store: Store::new(&study.design, study.model().as_ref()),
+            open: OnceLock::new(),
+            waiting: Mutex::new(None),
+        }
     }
 
-    pub fn checkpoint(&self) -> Option<&Checkpoint> {
-        if let Self::Sums(checkpoint, _) = self { Some(checkpoint) } else { None }
+    /// A new journal at `path`, of a study whose model has `files` (path: digest).
+    fn create(study: &Study, path: &Path, shard: Option<Shard>, files: &Value) -> Result<Self, RunError> {
+        Ok(Self { open: Journal::create(path, &header(study, shard, files))?.into(), ..Self::none(study) })
     }
 
-    /// The sums on record, if sums are.
-    pub fn take_sums(&mut self) -> Option<Sums> {
-        if let Self::Sums(_, sums) = self { sums.take() } else { None }
+    /// A journal that is resumed, whose outputs are in `store`.
+    fn resumed(study: &Study, journal: Journal, store: Store) -> Self {
+        Self { store, open: journal.into(), ..Self::none(study) }
     }
 
-    /// Puts a piece on record.
-    pub fn append(&self, piece: &Piece) -> std::io::Result<()> {
-        if let Self::Outputs(_, journal) = self { journal.append(piece) } else { Ok(()) }
+    /// Begins the journal of a run that proves to be long. One that cannot be begun is done without.
+    pub fn watch(&self, progress: Progress, outputs: usize, messages: &Messages) {
+        let Progress { done, recalled, total, elapsed, .. } = progress;
+        let share = done.saturating_sub(recalled) as f64 / total.saturating_sub(recalled).max(1) as f64;
+        if elapsed < MIN_ELAPSED || elapsed.as_secs_f64() < share * LONG_RUN.as_secs_f64() {
+            return;
+        }
+        let Some((path, header)) = self.waiting.lock().unwrap_or_else(PoisonError::into_inner).take() else { return };
+        match Journal::create(&path, &header) {
+            Ok(journal) => {
+                let megabytes = (total * outputs as u64 * 8).div_ceil(1_000_000);
+                messages.send(&format!(
+                    "note: the run is expected to take longer than {} s: from here on finished runs are kept in {}, about \
+                     {megabytes} MB in the end",
+                    LONG_RUN.as_secs(),
+                    path.display()
+                ));
+                let _ = self.open.set(journal);
+            }
+            Err(error) => messages.send(&format!("warning: no journal is kept: {error}")),
+        }
     }
 
-    /// Forces what is on record to the disk.
+    /// Forces what is recorded to the disk.
     pub fn sync(&self) -> Result<(), RunError> {
-        let Self::Outputs(_, journal) = self else { return Ok(()) };
-        journal.sync().map_err(|source| RunError::NotKept { source })
+        self.open.get().map_or(Ok(()), Journal::sync).map_err(|source| RunError::NotKept { source })
     }
 }
 
-/// Whether the outputs of every run of `study` are needed, besides their sums.
-pub(super) fn needs_outputs(study: &Study, saves_outputs: bool) -> bool {
-    saves_outputs || study.model().concurrency().is_some() || study.needs_outputs()
+impl OutputSink for RunJournal {
+    fn is_open(&self) -> bool {
+        self.open.get().is_some()
+    }
+
+    fn append(&self, piece: &Piece) -> std::io::Result<()> {
+        self.open.get().map_or(Ok(()), |journal| journal.append(piece))
+    }
 }
 
-/// Opens the record of `study` at `path` for parts that were evaluated with `files`, however quick its runs are. What is
-/// there is used if it was evaluated with the same files, and else moved aside.
+/// Opens the journal of `study` at `path` for parts that were evaluated with `files`. What is there is used if it was
+/// evaluated with the same files, and else moved aside.
 pub(super) fn open_for_parts(
     study: &Study,
     path: &Path,
     files: &Value,
     messages: &Messages,
-) -> Result<OpenJournal, RunError> {
-    if path.exists() {
-        match Journal::resume(path) {
-            Ok((journal, contents)) => {
-                let why = match &contents.sums {
-                    Some(_) => Some("the journal holds sums, and parts are merged by their outputs".to_owned()),
-                    None => another_study(study, &contents.header).or_else(|| another_model(&contents.header, files)),
-                };
-                let Some(why) = why else { return Ok(OpenJournal::Outputs(recorded(study, &contents), journal)) };
-                drop(journal);
-                move_aside(path, &why, messages)?;
-            }
-            Err(error @ (JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. })) => {
-                move_aside(path, &error.to_string(), messages)?;
-            }
-            Err(error) => return Err(error.into()),
+) -> Result<RunJournal, RunError> {
+    let Some((journal, contents)) = resume_file(path, Resume::IfThere, messages)? else {
+        return RunJournal::create(study, path, None, files);
+    };
+    match another_study(study, &contents.header).or_else(|| another_model(&contents.header, files)) {
+        None => Ok(RunJournal::resumed(study, journal, recorded(study, &contents))),
+        Some(why) => {
+            drop(journal);
+            move_aside(path, &why, messages)?;
+            RunJournal::create(study, path, None, files)
         }
     }
-    begin(study, path, None, files)
 }
 
-/// Opens the record of `study` at `path`. A journal of something else, or one that is not wanted, is moved aside.
-pub(super) fn open(
-    study: &Study,
-    path: &Path,
-    request: JournalRequest,
-    messages: &Messages,
-) -> Result<OpenJournal, RunError> {
-    let JournalRequest { resume, .. } = request;
-    if !path.exists() {
-        // Quick runs with many outputs are not recorded: a result of theirs is doubled by evaluating all of them.
-        if resume.is_required() && resume != Resume::Double {
-            return Err(refused(path, "there is no journal here: nothing is on record to go on with".to_owned()));
+/// Opens the journal that `request` asks for. A journal of something else, or one that is not wanted, is moved aside.
+pub(super) fn open(study: &Study, request: JournalRequest<'_>, messages: &Messages) -> Result<RunJournal, RunError> {
+    let JournalRequest { path, resume, shard, only_if_long } = request;
+    let files = digests(study);
+    let fresh = || {
+        // What a slow model answers may have cost much, however few its runs are.
+        if shard.is_some() || !only_if_long || study.model().is_slow() {
+            return RunJournal::create(study, path, shard, &files);
         }
-        return fresh(study, path, request);
-    }
-    let (journal, mut contents) = match Journal::resume(path) {
-        Ok(found) => found,
-        Err(error @ (JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. }))
-            if !resume.is_required() =>
-        {
-            move_aside(path, &error.to_string(), messages)?;
-            return fresh(study, path, request);
-        }
-        Err(error) => return Err(error.into()),
+        let waiting = Mutex::new(Some((path.to_owned(), header(study, None, &files))));
+        Ok(RunJournal { waiting, ..RunJournal::none(study) })
     };
+    let Some((journal, contents)) = resume_file(path, resume, messages)? else { return fresh() };
     let other = another_study(study, &contents.header);
     if let (true, Some(why)) = (resume.is_required(), &other) {
         return Err(refused(path, why.clone()));
     }
-    if let Some(sums) = contents.sums.take() {
-        return open_sums(study, path, journal, sums, other, request, messages);
-    }
-    let changed = another_model(&contents.header, &digests(study));
-    if let Some(changed) = changed.as_ref().filter(|_| resume != Resume::Never && !contents.pieces.is_empty()) {
+    let changed = another_model(&contents.header, &files);
+    if let Some(changed) = changed.as_ref().filter(|_| resume != Resume::Restart && !contents.pieces.is_empty()) {
         let advice = "its runs are of the program as it was. Undo the change, or begin again with --restart";
         return Err(refused(path, format!("{changed}: {advice}")));
     }
-    let why = if resume == Resume::Never { Some("--restart".to_owned()) } else { other.or(changed) };
-    if why.is_some() || contents.pieces.is_empty() && !request.needs_outputs {
+    let why = if resume == Resume::Restart { Some("--restart".to_owned()) } else { other.or(changed) };
+    if let Some(why) = why {
         drop(journal);
-        return anew(study, path, request, contents.pieces.is_empty(), why, messages);
+        if contents.pieces.is_empty() {
+            std::fs::remove_file(path).map_err(|error| in_the_way(path, &error))?;
+        } else {
+            move_aside(path, &why, messages)?;
+        }
+        return fresh();
     }
     if contents.cut_off > 0 {
         let what = "behind its last whole record, of runs that are evaluated again";
@@ -147,119 +166,32 @@ pub(super) fn open(
             failed => messages.send(&format!("note: the {failed} runs that failed are evaluated again")),
         }
     }
-    tell_recorded(study, path, rows_on_record(study, &store), messages);
-    Ok(OpenJournal::Outputs(store, journal))
-}
-
-/// Opens a record of sums, which is of another study if `other` says so.
-fn open_sums(
-    study: &Study,
-    path: &Path,
-    journal: Journal,
-    sums: Sums,
-    other: Option<String>,
-    request: JournalRequest,
-    messages: &Messages,
-) -> Result<OpenJournal, RunError> {
-    let JournalRequest { resume, needs_outputs, .. } = request;
-    let (model, settings) = (study.model(), study.design.settings());
-    let (points, grows) = (study.design.points_per_replicate(), study.target.grows());
-    let is_empty = sums.rows() == 0;
-    let fits = || {
-        let coherent = sums.is_coherent(settings.replicates);
-        coherent && sums.totals().all(|totals| totals.fits(&study.design, model.as_ref()))
-    };
-    let why = if resume == Resume::Never {
-        Some("--restart".to_owned())
-    } else if other.is_some() {
-        other
-    } else if needs_outputs && !is_empty {
-        let what = "the journal holds the sums of the runs, and their outputs are needed";
-        Some(if resume.is_required() { format!("{what}: leave out {}", resume.option()) } else { what.to_owned() })
-    } else if !fits() {
-        Some("this is no journal of a run: its sums are not of this design".to_owned())
-    } else if !sums.is_stage_of(points, grows) {
-        Some("the journal holds sums of a run that grew from another number of base samples".to_owned())
-    } else {
-        None
-    };
-    match why {
-        Some(why) if resume.is_required() => return Err(refused(path, why)),
-        None if !grows && sums.points() > points => {
-            let recorded = sums.points() * settings.replicates;
-            let what = format!(
-                "the journal holds the sums of {recorded} base samples, which cannot be divided into those of {}",
-                settings.base_samples
-            );
-            if resume.is_required() {
-                return Err(refused(
-                    path,
-                    format!("{what}: ask for as many or more, or leave out {}", resume.option()),
-                ));
-            }
-            messages
-                .send(&format!("note: {}: {what}: it stays as it is, and this run is not recorded", path.display()));
-            return Ok(OpenJournal::None);
-        }
-        None if !needs_outputs => (),
-        why => {
-            drop(journal);
-            return anew(study, path, request, is_empty, why, messages);
-        }
-    }
-    let header = header(study, None, &digests(study));
-    if resume == Resume::RetryFailed {
-        messages.send("note: the journal holds sums: all runs are evaluated anew, those that failed among them");
-        let checkpoint = journal.into_checkpoint(&header);
-        return Ok(OpenJournal::Sums(checkpoint, Some(Sums::new(settings.replicates))));
-    }
-    tell_recorded(study, path, sums.rows(), messages);
-    Ok(OpenJournal::Sums(journal.into_checkpoint(&header), Some(sums)))
-}
-
-fn tell_recorded(study: &Study, path: &Path, rows: u64, messages: &Messages) {
+    let rows = rows_on_record(study, &store);
     if rows > 0 {
         let total = study.design.rows();
         messages.send(&format!("note: {rows} of {total} runs are on record in {}", path.display()));
     }
+    Ok(RunJournal::resumed(study, journal, store))
 }
 
-/// Begins a record anew, in place of one that is moved aside if there is something in it.
-fn anew(
-    study: &Study,
-    path: &Path,
-    request: JournalRequest,
-    is_empty: bool,
-    why: Option<String>,
-    messages: &Messages,
-) -> Result<OpenJournal, RunError> {
-    if is_empty {
-        std::fs::remove_file(path).map_err(|error| in_the_way(path, &error))?;
-    } else {
-        move_aside(path, why.as_deref().unwrap_or_default(), messages)?;
+/// The journal at `path` and what it holds; `None` if there is none, or only something else that was moved aside.
+fn resume_file(path: &Path, resume: Resume, messages: &Messages) -> Result<Option<(Journal, Contents)>, RunError> {
+    if !path.exists() {
+        if resume.is_required() {
+            let why = "no journal found: there is nothing to resume (quick runs keep none)";
+            return Err(refused(path, why.to_owned()));
+        }
+        return Ok(None);
     }
-    fresh(study, path, request)
-}
-
-fn fresh(study: &Study, path: &Path, request: JournalRequest) -> Result<OpenJournal, RunError> {
-    let (model, files) = (study.model(), digests(study));
-    if !request.needs_outputs {
-        let sums = Sums::new(study.design.settings().replicates);
-        let checkpoint = Checkpoint::create(path, &header(study, None, &files), &sums)?;
-        return Ok(OpenJournal::Sums(checkpoint, Some(sums)));
+    match Journal::resume(path) {
+        Err(error @ (JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. }))
+            if !resume.is_required() =>
+        {
+            move_aside(path, &error.to_string(), messages)?;
+            Ok(None)
+        }
+        found => Ok(Some(found?)),
     }
-    let bytes = study.design.rows().saturating_mul(8 * model.outputs().len() as u64);
-    if request.shard.is_some() || model.concurrency().is_some() || bytes <= LARGE {
-        begin(study, path, request.shard, &files)
-    } else {
-        Ok(OpenJournal::None)
-    }
-}
-
-fn begin(study: &Study, path: &Path, shard: Option<Shard>, files: &Value) -> Result<OpenJournal, RunError> {
-    let store = Store::new(&study.design, study.model().as_ref());
-    let journal = Journal::create(path, &header(study, shard, files))?;
-    Ok(OpenJournal::Outputs(store, journal))
 }
 
 fn header(study: &Study, shard: Option<Shard>, files: &Value) -> Value {
@@ -321,8 +253,5 @@ pub(super) fn recorded_runs(study: &Study, path: &Path) -> Result<u64, RunError>
     if let Some(why) = another_model(&contents.header, &digests(study)) {
         return Err(refused(path, why));
     }
-    Ok(match &contents.sums {
-        Some(sums) => sums.rows(),
-        None => rows_on_record(study, &recorded(study, &contents)),
-    })
+    Ok(rows_on_record(study, &recorded(study, &contents)))
 }

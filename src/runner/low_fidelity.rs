@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use super::journal::{self, JournalRequest, OpenJournal};
+use super::journal::{self, RunJournal};
 use super::{Resume, Runner};
 use crate::analysis::{LowTotals, outputs_kept};
 use crate::clock::Instant;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Model, RunContext};
 use crate::run::journal::with_ending;
-use crate::run::{GrowingRun, Job, Piece, RunError, Store};
+use crate::run::{GrowingRun, Job, OutputSink as _, RunError};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::surrogate::families;
 use crate::surrogate::low_fidelity::OwnOutputs;
@@ -43,8 +43,7 @@ struct LowPart {
     study: Study,
     model: Box<dyn Model>,
     longest: Design,
-    record: OpenJournal,
-    store: Option<Store>,
+    journal: RunJournal,
 }
 
 impl LowStudy {
@@ -79,45 +78,27 @@ impl LowStudy {
 }
 
 impl LowPart {
-    /// The runs of a program are put on record beside those of the study, as its are.
+    /// The runs of a program are recorded beside those of the study, as its are.
     fn new(runner: &Runner<'_>, study: Study, kind: &str, context: &RunContext<'_>) -> Result<Self, RunError> {
         let model = study.model();
         let longest = study.design.longest();
-        let takes_its_time = model.concurrency().is_some();
-        let record = match runner.journal.as_deref().filter(|_| takes_its_time) {
-            None => OpenJournal::None,
+        let journal = match runner.journal.as_deref().filter(|_| model.concurrency().is_some()) {
+            None => RunJournal::none(&study),
             Some(path) => {
-                let resume = match runner.resume {
-                    Resume::Require | Resume::Double => Resume::IfThere,
-                    other => other,
-                };
-                let request = JournalRequest { resume, shard: None, needs_outputs: true };
-                journal::open(&study, &beside(path, kind), request, context.messages())?
+                let resume = if runner.resume == Resume::Require { Resume::IfThere } else { runner.resume };
+                journal::open(&study, runner.request(&sibling_path(path, kind), resume, None), context.messages())?
             }
         };
-        let store = (takes_its_time && record.store().is_none()).then(|| Store::new(&longest, model.as_ref()));
-        Ok(Self { study, model, longest, record, store })
-    }
-
-    fn sink(&self) -> impl Fn(&Piece) -> std::io::Result<()> + Sync + '_ {
-        |piece| self.record.append(piece)
+        Ok(Self { study, model, longest, journal })
     }
 }
 
 /// `NAME-KIND.journal` for `NAME.journal`, and `NAME-KIND` for any other name: what stands behind its last dot tells journals apart.
-pub(super) fn beside(path: &Path, kind: &str) -> std::path::PathBuf {
+pub(super) fn sibling_path(path: &Path, kind: &str) -> std::path::PathBuf {
     match path.extension() {
         Some(ending) if ending == "journal" => with_ending(&path.with_extension(""), &format!("-{kind}.journal")),
         _ => with_ending(path, &format!("-{kind}")),
     }
-}
-
-/// Takes the pieces of one part.
-pub(super) type Sink<'a> = Box<dyn Fn(&Piece) -> std::io::Result<()> + Sync + 'a>;
-
-/// The sinks of all parts of `studies`, in order.
-pub(super) fn sinks(studies: &[LowStudy]) -> Vec<Sink<'_>> {
-    studies.iter().flat_map(|study| &study.parts).map(|part| Box::new(part.sink()) as Sink<'_>).collect()
 }
 
 /// The runs of a cheaper model.
@@ -134,25 +115,22 @@ impl<'a> LowRun<'a> {
     pub fn all(
         runner: &Runner<'a>,
         studies: &'a [LowStudy],
-        sinks: &'a [Sink<'a>],
         context: &'a RunContext<'a>,
     ) -> Result<Vec<Self>, RunError> {
-        let run = |subject: u64, part: &'a LowPart, sink: &'a Sink<'a>| {
+        let run = |subject: u64, part: &'a LowPart| {
             let job = Job { design: &part.longest, space: &part.study.space, model: part.model.as_ref() };
             let run = GrowingRun::new(job, context, runner.threads)?;
-            let run = run.with_outputs_kept(true).with_remote(runner.remote_for(subject));
-            Ok::<_, RunError>(match part.record.store().or(part.store.as_ref()) {
-                Some(store) => (run.with_store(store, part.record.store().map(|_| &**sink as _)), 0.0),
-                None => (run, 0.0),
-            })
+            let run = run.with_outputs_kept(true).with_remote(runner.remote_for(subject)).with_sink(&part.journal);
+            let is_stored = part.model.is_slow() || part.journal.is_open();
+            Ok::<_, RunError>((if is_stored { run.with_store(&part.journal.store) } else { run }, 0.0))
         };
-        let of_study = |(number, (study, sinks)): (usize, (&'a LowStudy, &'a [Sink<'a>]))| {
+        let of_study = |(number, study): (usize, &'a LowStudy)| {
             let subject = number as u64 + 1;
             let [shared, own] = &study.parts;
-            let runs = [run(subject, shared, &sinks[0])?, run(subject, own, &sinks[1])?];
+            let runs = [run(subject, shared)?, run(subject, own)?];
             Ok(Self { study, runs, own: (own.study.design.clone(), Vec::new()) })
         };
-        studies.iter().zip(sinks.chunks(2)).enumerate().map(of_study).collect()
+        studies.iter().enumerate().map(of_study).collect()
     }
 
     fn grow(&mut self, part: usize, points: u64) -> Result<(), RunError> {
@@ -160,7 +138,7 @@ impl<'a> LowRun<'a> {
         let start = Instant::now();
         run.grow_to(points, &|_| ())?;
         *seconds += start.elapsed().as_secs_f64();
-        self.study.parts[part].record.sync()
+        self.study.parts[part].journal.sync()
     }
 
     /// Runs the model at the rows of the model for `points` base points of every replicate.
@@ -243,7 +221,7 @@ mod tests {
 
     #[test]
     fn journals_of_different_names_have_others_beside_them_of_different_names() {
-        let of = |name: &str| beside(Path::new(name), "split").display().to_string();
+        let of = |name: &str| sibling_path(Path::new(name), "split").display().to_string();
         assert_eq!(of("results/s.journal"), "results/s-split.journal");
         assert_eq!((of("jr/j_0.1"), of("jr/j_0.2")), ("jr/j_0.1-split".to_owned(), "jr/j_0.2-split".to_owned()));
         assert_eq!((of("a.b.journal"), of("a.b")), ("a.b-split.journal".to_owned(), "a.b-split".to_owned()));

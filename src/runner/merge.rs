@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::journal::{self, OpenJournal, recorded, refused};
+use super::journal::{self, RunJournal, recorded, refused};
 use super::model_files::differing;
 use crate::model::Messages;
-use crate::run::{Piece, RunError, Shard, Store};
+use crate::run::{OutputSink as _, Piece, RunError, Shard, Store};
 use crate::study::Study;
 
 /// The record at `path` with what is in `journals`, the whole of the design.
@@ -17,10 +17,10 @@ pub(super) fn merged(
     path: &Path,
     journals: &[PathBuf],
     messages: &Messages,
-) -> Result<OpenJournal, RunError> {
+) -> Result<RunJournal, RunError> {
     let files = files_of_all(study, journals)?;
     let record = journal::open_for_parts(study, path, &files, messages)?;
-    let Some(store) = record.store() else { return Ok(record) };
+    let store = &record.store;
     let put = |piece: &Piece| {
         store.insert(piece);
         record.append(piece).map_err(|source| RunError::NotKept { source })

@@ -16,12 +16,13 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use crate::analysis::{Analysis, FinishedRun, LowTotals, analysis};
 use crate::model::{Messages, RunContext};
 use crate::run::{
-    GrowingRun, Job, Piece, Progress, Remote, RemoteWorkers, Repeats, RunError, Shard, Store, repeat_rows,
+    GrowingRun, Job, OutputSink as _, Progress, Remote, RemoteWorkers, Repeats, RunError, Shard, Store, repeat_rows,
     rows_to_repeat, threads_in_force,
 };
 use crate::study::Study;
-use journal::{JournalRequest, OpenJournal};
-use low_fidelity::{LowRun, LowStudy, sinks};
+use growth::Grown;
+use journal::{JournalRequest, RunJournal};
+use low_fidelity::{LowRun, LowStudy};
 pub use worker::WorkerStudy;
 
 impl Study {
@@ -50,44 +51,39 @@ impl Study {
             study: self,
             threads: 0,
             remote: None,
-            on_progress: Box::new(|_| ()),
+            on_progress: Arc::new(|_| ()),
             on_message: Arc::new(|_: &str| ()),
             stop: None,
             journal: None,
+            only_if_long: false,
             resume: Resume::IfThere,
             store: None,
         }
     }
 }
 
-/// What to do with runs that are on record in a journal.
+/// What to do with runs that are recorded in a journal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Resume {
-    /// Use them if they are of this study, or else begin anew.
+    /// Use them if they are of this study, or else move the journal aside.
     #[default]
     IfThere,
     /// Refuse to run without them.
     Require,
     /// The same, but evaluate those that failed again.
     RetryFailed,
-    /// Refuse to run without them where there is a journal: the run is a finished one made longer.
-    Double,
-    /// Begin anew.
-    Never,
+    /// Move the journal aside.
+    Restart,
 }
 
 impl Resume {
     /// The option that asks for it.
     fn option(self) -> &'static str {
-        match self {
-            Self::RetryFailed => "--retry-failed",
-            Self::Double => "--double",
-            _ => "--resume",
-        }
+        if self == Self::RetryFailed { "--retry-failed" } else { "--resume" }
     }
 
     fn is_required(self) -> bool {
-        matches!(self, Self::Require | Self::RetryFailed | Self::Double)
+        matches!(self, Self::Require | Self::RetryFailed)
     }
 }
 
@@ -108,14 +104,16 @@ impl Resume {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
+#[derive(Clone)]
 pub struct Runner<'a> {
     study: &'a Study,
     threads: usize,
     remote: Option<&'a dyn RemoteWorkers>,
-    on_progress: Box<dyn Fn(Progress) + Sync + 'a>,
+    on_progress: Arc<dyn Fn(Progress) + Send + Sync + 'a>,
     on_message: Arc<dyn Fn(&str) + Send + Sync>,
     stop: Option<&'a AtomicBool>,
     journal: Option<PathBuf>,
+    only_if_long: bool,
     resume: Resume,
     store: Option<&'a Store>,
 }
@@ -141,8 +139,8 @@ impl<'a> Runner<'a> {
     }
 
     /// Calls `on_progress` from time to time, from any thread: calls may overtake each other.
-    pub fn on_progress(self, on_progress: impl Fn(Progress) + Sync + 'a) -> Self {
-        Self { on_progress: Box::new(on_progress), ..self }
+    pub fn on_progress(self, on_progress: impl Fn(Progress) + Send + Sync + 'a) -> Self {
+        Self { on_progress: Arc::new(on_progress), ..self }
     }
 
     /// Passes notes and warnings, a line each, to `on_message`: what becomes of a journal, and what programs say.
@@ -155,11 +153,15 @@ impl<'a> Runner<'a> {
         Self { stop: Some(stop), ..self }
     }
 
-    /// Keeps what is evaluated on record in a file, and uses what is there already. The record of a model that takes its
-    /// time, or whose outputs are needed, holds the outputs of every run; that of a quick model holds their sums, in
-    /// constant size.
+    /// Records the outputs of every run in a file, and uses those that are there already.
     pub fn journal(self, path: impl Into<PathBuf>) -> Self {
-        Self { journal: Some(path.into()), ..self }
+        Self { journal: Some(path.into()), only_if_long: false, ..self }
+    }
+
+    /// The same, but a journal that is not there yet is begun only for a slow model (programs, functions of Python row by row,
+    /// equations of motion that are marched), or once the run is expected to take longer than 10 s.
+    pub fn journal_if_long(self, path: impl Into<PathBuf>) -> Self {
+        Self { journal: Some(path.into()), only_if_long: true, ..self }
     }
 
     /// What becomes of runs that are on record in the journal.
@@ -185,7 +187,7 @@ impl<'a> Runner<'a> {
         let result = if self.study.target.is_free {
             accuracy::run_accurately(&self, &context)
         } else {
-            self.open(None, context.messages()).and_then(|record| self.analyse(&context, record))
+            self.open(None, context.messages()).and_then(|journal| self.analyse(&context, journal))
         };
         context.messages().finish();
         result
@@ -203,17 +205,15 @@ impl<'a> Runner<'a> {
         }
         let context = self.context();
         self.journal_for("a shard of a run")?;
-        let record = self.open(Some(shard), context.messages())?;
+        let journal = self.open(Some(shard), context.messages())?;
         let (study, model) = (self.study, self.study.model());
-        let own = Store::new(&study.design, model.as_ref());
-        let store = record.store().unwrap_or(&own);
         let rows = shard.rows(&study.design);
-        let sink = |piece: &Piece| record.append(piece);
         let filled = self
             .set_up(Job { design: &study.design, space: &study.space, model: model.as_ref() }, &context)
-            .and_then(|run| run.with_store(store, Some(&sink)).run_missing(&rows, store, &*self.on_progress));
+            .and_then(|run| run.with_sink(&journal).run_missing(&rows, &journal.store, &*self.on_progress));
         context.messages().finish();
-        finish(filled, record.sync())?;
+        filled?;
+        journal.sync()?;
         Ok(rows.iter().map(|(_, rows)| rows.end - rows.start).sum())
     }
 
@@ -226,8 +226,8 @@ impl<'a> Runner<'a> {
     pub fn merge(self, journals: &[PathBuf]) -> Result<Analysis, RunError> {
         let context = self.context();
         let path = self.journal_for("a run that is merged of its parts")?;
-        let record = merge::merged(self.study, path, journals, context.messages())?;
-        self.analyse(&context, record)
+        let journal = merge::merged(self.study, path, journals, context.messages())?;
+        self.analyse(&context, journal)
     }
 
     /// Runs on record in the journal that a run would use; nothing is locked or written.
@@ -238,25 +238,23 @@ impl<'a> Runner<'a> {
         journal::recorded_runs(self.study, self.journal_for("a number of recorded runs")?)
     }
 
-    /// Whether a journal of this run holds the outputs of every run, and not their sums alone.
-    pub fn records_outputs(&self) -> bool {
-        journal::needs_outputs(self.study, self.store.is_some())
-    }
-
     fn context(&self) -> RunContext<'a> {
         let on_message = Arc::clone(&self.on_message);
         RunContext::new(self.stop, move |line| on_message(line))
     }
 
-    fn open(&self, shard: Option<Shard>, messages: &Messages) -> Result<OpenJournal, RunError> {
-        if matches!(self.resume, Resume::Require | Resume::RetryFailed) {
-            self.journal_for("a run that goes on with another one")?;
+    fn open(&self, shard: Option<Shard>, messages: &Messages) -> Result<RunJournal, RunError> {
+        if self.resume.is_required() {
+            self.journal_for("a run that is resumed")?;
         }
-        let Some(path) = &self.journal else { return Ok(OpenJournal::None) };
-        let Self { study, resume, store, .. } = self;
-        let needs_outputs = shard.is_some() || journal::needs_outputs(study, store.is_some());
-        let request = JournalRequest { resume: *resume, shard, needs_outputs };
-        journal::open(study, path, request, messages)
+        match &self.journal {
+            None => Ok(RunJournal::none(self.study)),
+            Some(path) => journal::open(self.study, self.request(path, self.resume, shard), messages),
+        }
+    }
+
+    fn request<'p>(&self, path: &'p Path, resume: Resume, shard: Option<Shard>) -> JournalRequest<'p> {
+        JournalRequest { path, resume, shard, only_if_long: self.only_if_long }
     }
 
     fn journal_for(&self, what: &'static str) -> Result<&Path, RunError> {
@@ -282,47 +280,30 @@ impl<'a> Runner<'a> {
         self.remote.map(|workers| Remote { workers, subject })
     }
 
-    fn analyse(&self, context: &RunContext<'_>, mut record: OpenJournal) -> Result<Analysis, RunError> {
+    fn analyse(&self, context: &RunContext<'_>, journal: RunJournal) -> Result<Analysis, RunError> {
         let (study, model) = (self.study, self.study.model());
         let longest = if study.target.grows() { study.design.longest() } else { study.design.clone() };
         let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
-        let sums = record.take_sums();
-        let own = Store::new(&longest, model.as_ref());
-        if let Some((given, recorded)) = self.store.zip(record.store()) {
-            for piece in recorded.pieces() {
-                given.insert(&piece);
-            }
+        if let Some(store) = self.store {
+            journal.store.pieces().iter().for_each(|piece| _ = store.insert(piece));
         }
-        let store = self.store.or(record.store()).or_else(|| model.concurrency().map(|_| &own));
-        let sink = |piece: &Piece| record.append(piece);
-        let mut run = self.set_up(job, context)?;
-        if let Some(store) = store {
-            run = run.with_store(store, record.store().map(|_| &sink as _));
-        }
-        let mut points = study.design.points_per_replicate();
-        if let Some((checkpoint, sums)) = record.checkpoint().zip(sums) {
-            points = sums.first_stage(points, study.target.grows());
-            run = run.with_checkpoint(checkpoint, sums);
-        }
-        let low_studies = LowStudy::all(self, context)?;
-        let low_sinks = sinks(&low_studies);
-        let mut lows = LowRun::all(self, &low_studies, &low_sinks, context)?;
-        let evaluated = AtomicU64::new(0);
+        let (outputs, evaluated) = (model.outputs().len(), AtomicU64::new(0));
         let on_progress = |progress: Progress| {
             evaluated.fetch_max(progress.done.saturating_sub(progress.recalled), Ordering::Relaxed);
+            journal.watch(progress, outputs, context.messages());
             (self.on_progress)(progress);
         };
-        let grown = run
-            .grow_to(points, &on_progress)
-            .and_then(|()| if study.target.is_free { Ok(()) } else { self.begin_lows(&run, &mut lows) })
-            .and_then(|()| if study.target.grows() { self.grow(&mut run, &mut lows).map(Some) } else { Ok(None) });
-        let (grown, surrogates) = match grown {
-            Ok(Some((stopped, surrogates))) => (Ok(Some(stopped)), Some(surrogates)),
-            Ok(None) => (Ok(None), None),
-            Err(error) => (Err(error), None),
-        };
-        let recorded = run.write_checkpoint().and_then(|()| record.sync());
-        let stopped = finish(grown, recorded)?;
+        let mut run = self.set_up(job, context)?.with_sink(&journal);
+        let own = Some(&journal.store).filter(|_| journal.is_open() || model.is_slow());
+        let store = self.store.or(own);
+        if let Some(store) = store {
+            run = run.with_store(store);
+        }
+        let low_studies = LowStudy::all(self, context)?;
+        let mut lows = LowRun::all(self, &low_studies, context)?;
+        let grown = self.run_all(&mut run, &mut lows, &on_progress);
+        // An error of the run comes before one of its journal.
+        let (stopped, surrogates) = grown.and_then(|grown| journal.sync().map(|()| grown))?.unzip();
         let design = longest.with_points(run.points_per_replicate()).unwrap_or(longest.clone());
         let low_totals: Vec<LowTotals<'_>> = lows.iter().map(LowRun::totals).collect();
         let finished = FinishedRun {
@@ -342,6 +323,21 @@ impl<'a> Runner<'a> {
         }
         Ok(result)
     }
+
+    /// Runs the study, and its cheaper models; why it stopped, and what surrogates make of it, if it decides on its size.
+    fn run_all(
+        &self,
+        run: &mut GrowingRun<'_>,
+        lows: &mut Vec<LowRun<'_>>,
+        on_progress: &(dyn Fn(Progress) + Sync),
+    ) -> Result<Option<Grown>, RunError> {
+        let target = &self.study.target;
+        run.grow_to(self.study.design.points_per_replicate(), on_progress)?;
+        if !target.is_free {
+            self.begin_lows(run, lows)?;
+        }
+        if target.grows() { self.grow(run, lows, on_progress).map(Some) } else { Ok(None) }
+    }
 }
 
 /// Runs some rows of a run again, of which so many were evaluated now, if its model may be random. A model that does not answer
@@ -350,9 +346,4 @@ fn repeats_of(job: Job<'_>, context: &RunContext<'_>, evaluated: u64, store: Opt
     let rows = rows_to_repeat(job.design, evaluated);
     let is_worth_it = job.model.may_be_random() && !rows.is_empty();
     if is_worth_it { repeat_rows(job, context, &rows, store).ok() } else { None }
-}
-
-/// The outcome of a run whose record was written as `recorded` says. An error of the run is told before one of the record.
-fn finish<T>(outcome: Result<T, RunError>, recorded: Result<(), RunError>) -> Result<T, RunError> {
-    outcome.and_then(|value| recorded.map(|()| value))
 }

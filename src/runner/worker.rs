@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use crate::model::{Model, RunContext, Worker};
-use crate::run::{Job, Request, Requests, refuse, serve};
+use crate::model::{Model, RunContext};
+use crate::run::{RemoteServer, Request, Requests, refusal};
 use crate::study::Study;
 
 /// A study whose rows are evaluated for a run in another process, which has it as its
@@ -31,24 +31,24 @@ impl WorkerStudy {
         Self { study, models }
     }
 
-    /// Answers the requests to one worker until there are no more. Its programs live as long.
+    /// Replies to the requests to one worker until there are no more. Its programs live as long.
     pub fn serve(&self, context: &RunContext<'_>, requests: &mut dyn Requests) {
-        let mut workers: BTreeMap<usize, Box<dyn Worker + '_>> = BTreeMap::new();
-        let mut next = requests.next();
-        while let Some(bytes) = next {
-            let subject = Request::read(&bytes).and_then(|request| usize::try_from(request.subject).ok());
-            let Some((number, model)) = subject.and_then(|number| Some((number, self.model(number)?))) else {
-                next = refuse(requests, "a model that the study has not");
-                continue;
+        let mut servers: BTreeMap<u64, RemoteServer<'_>> = BTreeMap::new();
+        while let Some(bytes) = requests.next() {
+            let reply = match Request::read(&bytes).and_then(|request| Some((self.model(request.subject)?, request))) {
+                None => refusal("a model that the study has not"),
+                Some((model, request)) => {
+                    let new = || RemoteServer::new(&self.study.space, model, context);
+                    servers.entry(request.subject).or_insert_with(new).reply(&self.study.design, &request)
+                }
             };
-            let worker = workers.entry(number).or_insert_with(|| model.worker(context));
-            let job = Job { design: &self.study.design, space: &self.study.space, model };
-            next = serve(job, bytes, &mut **worker, context, requests);
+            requests.reply(reply.write());
         }
         context.messages().finish();
     }
 
-    fn model(&self, number: usize) -> Option<&dyn Model> {
+    fn model(&self, number: u64) -> Option<&dyn Model> {
+        let number = usize::try_from(number).ok()?;
         let made = self.models.get(number)?;
         let make = || match number.checked_sub(1).and_then(|low| self.study.lows.get(low)) {
             None => self.study.model(),

@@ -1,7 +1,6 @@
 //! Interrupted is not lost: journals, resuming, doubling, shards, through the program.
 
 mod parts;
-mod sums;
 
 use std::io::Read;
 use std::path::Path;
@@ -131,9 +130,10 @@ fn wait_for_bytes(path: &Path, bytes: u64) {
     panic!("{} does not grow to {bytes} bytes", path.display());
 }
 
+/// A quick run, which keeps a journal only if it is asked to.
 fn ishigami(out: &Path, more: &[&str]) -> Output {
     let study = study_path("ishigami");
-    apportion(&[&["run", text(&study), "--out", text(out)], more].concat())
+    apportion(&[&["run", text(&study), "--out", text(out), "--journal"], more].concat())
 }
 
 #[track_caller]
@@ -153,8 +153,7 @@ fn refused(output: &Output, code: i32, expected: &str) {
 fn a_journal_that_was_cut_short_or_damaged_is_used_as_far_as_it_goes() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, cut) = (folder.path().join("whole"), folder.path().join("cut"));
-    let saved = folder.path().join("outputs.csv");
-    ishigami_runs(&whole, &["--base-samples", "4096", "--save-outputs", text(&saved)]);
+    ishigami_runs(&whole, &["--base-samples", "4096"]);
     let (expected, journal) = (numbers(&whole, "ishigami"), cut.join("ishigami.journal"));
     let bytes = std::fs::read(whole.join("ishigami.journal")).unwrap();
     std::fs::create_dir(&cut).unwrap();
@@ -181,7 +180,7 @@ fn a_journal_of_another_study_is_refused_with_the_reason_or_moved_aside() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path();
     let small = ["--base-samples", "1024"];
-    refused(&ishigami(out, &["--resume"]), 2, "there is no journal here: nothing is on record to go on with");
+    refused(&ishigami(out, &["--resume"]), 2, "no journal found: there is nothing to resume");
     ishigami_runs(out, &small);
     let other = |more: &[&str]| ishigami(out, &[&small[..], more].concat());
     refused(&other(&["--resume", "--seed", "9"]), 2, "of another study (ishigami): design.seed was 0 and is now 9");
@@ -256,26 +255,18 @@ fn failures_that_come_back_leave_the_result_as_it_was() {
         "model = \"ishigami-holes\"\n[design]\nbase_samples = 512\n[analysis]\nsurrogate = \"off\"\n",
     )
     .unwrap();
-    let saved = folder.path().join("outputs.csv");
     let with = |more: &[&str]| {
         let output = apportion(&[&["run", text(&study), "--out", text(folder.path())], more].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         (numbers(folder.path(), "holes"), stderr(&output))
     };
-    let (first, _) = with(&["--save-outputs", text(&saved)]);
+    let (first, _) = with(&["--journal"]);
     let failed = first["outputs"][0]["runs_failed"].as_u64().unwrap();
     assert!(failed > 10);
     let (again, messages) = with(&["--retry-failed"]);
     assert!(messages.contains(&format!("the {failed} runs that failed are evaluated again")), "{messages}");
     assert_eq!(on_record(&messages.replace("note: the", "")), 2560 - failed, "{messages}");
     assert!(again == first);
-    // Sums say nothing of single runs.
-    let bits = |json: &serde_json::Value| json["outputs"].clone();
-    with(&["--base-samples", "1024", "--restart"]);
-    let (again, messages) = with(&["--base-samples", "1024", "--retry-failed"]);
-    assert!(messages.contains("the journal holds sums: all runs are evaluated anew"), "{messages}");
-    assert_eq!(on_record(&messages), 0);
-    assert!(bits(&again) == bits(&with(&["--base-samples", "1024", "--no-journal"]).0));
 }
 
 #[test]
@@ -286,9 +277,8 @@ fn what_is_counted_is_counted_once_however_often_failures_are_tried_again() {
                  values = [0, 100, 200]\nunit = \"nm/s\"\n[[factor]]\nname = \"length\"\nmin = 50\nmax = 700\nunit = \"um\"\n";
     let file = folder.path().join("still.toml");
     std::fs::write(&file, study).unwrap();
-    let saved = folder.path().join("outputs.csv");
     let with = |more: &[&str]| {
-        let command = ["run", text(&file), "--out", text(folder.path()), "--save-outputs", text(&saved)];
+        let command = ["run", text(&file), "--out", text(folder.path()), "--journal"];
         let output = apportion(&[&command[..], more].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         numbers(folder.path(), "still")
@@ -336,4 +326,28 @@ fn two_runs_do_not_write_one_journal() {
     refused(&second, 1, "lugre-environmental.journal: another run is writing this journal");
     first.kill().unwrap();
     first.wait().unwrap();
+}
+
+#[test]
+fn a_quick_run_keeps_no_journal_and_is_doubled_to_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let (grown, long) = (folder.path().join("grown"), folder.path().join("long"));
+    let study = study_path("ishigami");
+    let run = |out: &Path, more: &[&str]| apportion(&[&["run", text(&study), "--out", text(out)], more].concat());
+    assert_eq!(run(&grown, &["--base-samples", "512"]).status.code(), Some(0));
+    assert!(!grown.join("ishigami.journal").exists());
+    assert_eq!(run(&grown, &["--base-samples", "512", "--resume"]).status.code(), Some(2));
+    assert_eq!(run(&grown, &["--double"]).status.code(), Some(0));
+    assert_eq!(run(&long, &["--base-samples", "1024"]).status.code(), Some(0));
+    assert!(numbers(&grown, "ishigami") == numbers(&long, "ishigami"));
+}
+
+#[test]
+fn a_journal_of_sums_of_an_earlier_version_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let journal = folder.path().join("ishigami.journal");
+    std::fs::write(&journal, b"apportion journal\x02\0\0\0\x02\0\0\0\x43\xbf\xa6\xa3{}").unwrap();
+    refused(&ishigami(folder.path(), &["--base-samples", "64", "--resume"]), 2, "the journal is of format 2");
+    assert_eq!(ishigami_runs(folder.path(), &["--base-samples", "64"]), 0);
+    assert!(folder.path().join("ishigami.journal.old").is_file());
 }

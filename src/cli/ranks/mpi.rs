@@ -281,9 +281,9 @@ impl Requests for Queue {
         self.requests.recv().ok()
     }
 
-    fn answer(&mut self, answer: Vec<u8>) {
-        // After the end nobody waits for it.
-        let _ = self.answers.send((self.worker, answer));
+    fn reply(&mut self, reply: Vec<u8>) {
+        // After the end no worker waits for it.
+        let _ = self.answers.send((self.worker, reply));
     }
 }
 

@@ -44,7 +44,7 @@ pub enum JournalError {
         found: String,
     },
     /// It is of a format that is not known.
-    #[error("{}: the journal is of format {version}; this program reads formats 1 and 2", .path.display())]
+    #[error("{}: the journal is of format {version}, and this program reads format 1 (format 2 holds sums of runs, which are no longer kept)", .path.display())]
     OtherVersion {
         /// The file.
         path: PathBuf,

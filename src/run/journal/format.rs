@@ -1,8 +1,7 @@
 //! The bytes of a journal. All numbers are little-endian.
 //!
-//! Header: `apportion journal` (17 bytes), version (u32), length of the JSON text (u32), its CRC-32 (u32), the text.
-//! Format 1, outputs, goes on with records: length of the body (u32), CRC-32 of those four bytes and the body (u32), the
-//! body. Format 2, sums, goes on with one body: its length (u64), CRC-32 of those eight bytes and the body (u32), the body.
+//! Header: `apportion journal` (17 bytes), version (u32), length of the JSON text (u32), its CRC-32 (u32), the text. Records
+//! follow: length of the body (u32), CRC-32 of those four bytes and the body (u32), the body.
 
 use std::path::Path;
 
@@ -10,14 +9,13 @@ use serde_json::Value;
 
 use super::error::JournalError;
 use crate::binary::{Binary, Reader};
-use crate::model::{CounterKind, Counts, RowFailure};
-use crate::run::{Piece, Sums};
+use crate::model::{Counts, RowFailure};
+use crate::run::Piece;
 
 const MAGIC: &[u8] = b"apportion journal";
-/// Version of journals of outputs.
-const OUTPUTS: u32 = 1;
-/// Version of journals of sums.
-const SUMS: u32 = 2;
+const VERSION: u32 = 1;
+/// Stands in every record where the effort of a model stood before models had counters.
+const LEGACY_EFFORT: [u8; 20] = [0; 20];
 
 /// What a journal holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,8 +24,6 @@ pub struct Contents {
     pub header: Value,
     /// Its pieces, in the order in which they were written: later ones stand in place of earlier ones.
     pub pieces: Vec<Piece>,
-    /// The sums of a journal of sums, which has no pieces.
-    pub sums: Option<Sums>,
     /// Bytes up to the end of the last whole record.
     pub length: u64,
     /// Bytes after it: of a record that was cut short or damaged, and all that follows.
@@ -35,25 +31,9 @@ pub struct Contents {
 }
 
 pub(super) fn write_header(out: &mut Vec<u8>, header: &Value) {
-    write_header_of(out, header, OUTPUTS);
-}
-
-/// Begins a journal of sums: [`write_sums`] follows.
-pub(super) fn write_sums_header(out: &mut Vec<u8>, header: &Value) {
-    write_header_of(out, header, SUMS);
-}
-
-pub(super) fn write_sums(out: &mut Vec<u8>, sums: &[u8]) {
-    let length = (sums.len() as u64).to_le_bytes();
-    out.extend_from_slice(&length);
-    out.extend_from_slice(&checksum(&length, sums).to_le_bytes());
-    out.extend_from_slice(sums);
-}
-
-fn write_header_of(out: &mut Vec<u8>, header: &Value, version: u32) {
     let text = header.to_string();
     out.extend_from_slice(MAGIC);
-    for number in [version, text.len() as u32, crc32fast::hash(text.as_bytes())] {
+    for number in [VERSION, text.len() as u32, crc32fast::hash(text.as_bytes())] {
         out.extend_from_slice(&number.to_le_bytes());
     }
     out.extend_from_slice(text.as_bytes());
@@ -77,8 +57,7 @@ pub(in crate::run) fn write_record(out: &mut Vec<u8>, piece: &Piece) {
     }
     out.extend_from_slice(&(piece.flags.len() as u32).to_le_bytes());
     piece.flags.iter().for_each(|raised| raised.write(out));
-    // Where effort stood before models had counters.
-    out.extend_from_slice(&[0; 20]);
+    out.extend_from_slice(&LEGACY_EFFORT);
     piece.counts.write(out);
     let length = ((out.len() - begin - 8) as u32).to_le_bytes();
     out[begin..begin + 4].copy_from_slice(&length);
@@ -106,7 +85,7 @@ pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError>
     }
     let short = || wrong("its header is cut short");
     let version = reader.u32().ok_or_else(short)?;
-    if ![OUTPUTS, SUMS].contains(&version) {
+    if version != VERSION {
         return Err(JournalError::OtherVersion { path: path.to_owned(), version });
     }
     let (length, checksum) = (reader.u32().ok_or_else(short)?, reader.u32().ok_or_else(short)?);
@@ -115,29 +94,13 @@ pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError>
         return Err(wrong("its header is damaged"));
     }
     let header: Value = serde_json::from_slice(text).map_err(|error| wrong(&error.to_string()))?;
-    if version == SUMS {
-        let sums = sums(&mut reader).ok_or_else(|| wrong("its sums are damaged"))?;
-        let length = bytes.len() as u64;
-        return Ok(Contents { header, pieces: Vec::new(), sums: Some(sums), length, cut_off: 0 });
-    }
     let mut pieces = Vec::new();
     let mut whole = reader.bytes.len();
     while let Some(piece) = record(&mut reader) {
         pieces.push(piece);
         whole = reader.bytes.len();
     }
-    Ok(Contents { header, pieces, sums: None, length: (bytes.len() - whole) as u64, cut_off: whole as u64 })
-}
-
-fn sums(reader: &mut Reader<'_>) -> Option<Sums> {
-    let (length, expected) = (u64::read(reader)?, reader.u32()?);
-    let body = reader.take(usize::try_from(length).ok()?)?;
-    if checksum(&length.to_le_bytes(), body) != expected {
-        return None;
-    }
-    let mut reader = Reader { bytes: body };
-    let sums = Sums::read(&mut reader)?;
-    reader.bytes.is_empty().then_some(sums)
+    Ok(Contents { header, pieces, length: (bytes.len() - whole) as u64, cut_off: whole as u64 })
 }
 
 /// The next record, if it is whole.
@@ -168,21 +131,11 @@ fn piece(reader: &mut Reader<'_>) -> Option<Piece> {
         let why = std::str::from_utf8(reader.take(length as usize)?).ok()?;
         failures.push((row, output, RowFailure::new(why)));
     }
-    let (flags, rungs) = (list(reader)?, list(reader)?);
-    let (evaluations, largest_error) = (u64::read(reader)?, f64::read(reader)?);
-    let counts =
-        if reader.bytes.is_empty() { effort(&rungs, evaluations, largest_error) } else { Counts::read(reader)? };
+    let flags = list(reader)?;
+    reader.take(LEGACY_EFFORT.len()).filter(|effort| *effort == LEGACY_EFFORT)?;
+    // Records of that time end here.
+    let counts = if reader.bytes.is_empty() { Counts::default() } else { Counts::read(reader)? };
     Some(Piece { replicate, first, values, failures, flags, counts })
-}
-
-/// What stood in a record before models had counters: the rows of every rung, evaluations and the largest error estimate
-/// are the counters of the model that had them.
-fn effort(rungs: &[u64], evaluations: u64, largest_error: f64) -> Counts {
-    if rungs.is_empty() {
-        return Counts::default();
-    }
-    let sums = rungs.iter().chain([&evaluations]).map(|sum| (CounterKind::Sum, *sum as f64));
-    Counts::from_values(sums.chain([(CounterKind::Maximum, largest_error)]))
 }
 
 fn list(reader: &mut Reader<'_>) -> Option<Vec<u64>> {

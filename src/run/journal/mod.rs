@@ -4,13 +4,9 @@
 //! record that was cut short or damaged ends what is read: it and all after it are evaluated again. The format is
 //! described in `docs/journal-format.md`.
 //!
-//! A journal of quick runs holds their sums instead of their outputs, in constant size: a [`Checkpoint`] takes the place
-//! of the one before.
-//!
 //! [`Runner::journal`](crate::Runner::journal) keeps a journal, and goes on with one; `examples/interrupted.rs` is a program
 //! that does so.
 
-mod checkpoint;
 mod error;
 mod format;
 mod identity;
@@ -24,7 +20,6 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-pub use checkpoint::Checkpoint;
 pub use error::JournalError;
 pub use format::{Contents, read_journal};
 pub(super) use format::{record, write_record};
@@ -92,12 +87,6 @@ impl Journal {
     fn writing(path: &Path, file: File, length: u64) -> Self {
         let writer = Writer { file, length, synced: Instant::now(), buffer: Vec::new() };
         Self { path: path.to_owned(), writer: Mutex::new(writer) }
-    }
-
-    /// The same file as a journal of sums, which take the place of all that is there at the next checkpoint.
-    pub(crate) fn into_checkpoint(self, header: &Value) -> Checkpoint {
-        let writer = self.writer.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Checkpoint::new(&self.path, writer.file, header)
     }
 
     /// Where it is.
@@ -179,32 +168,13 @@ pub fn read_journal_file(path: &Path) -> Result<Contents, JournalError> {
     read_journal(path, &bytes)
 }
 
-/// Opens the journal at `path` and locks it, made anew if it is not there and `creates`.
+/// Opens the journal at `path` and locks it; a new one if it is not there and `creates`.
 fn open_locked(path: &Path, creates: bool) -> Result<File, JournalError> {
-    loop {
-        let file = OpenOptions::new().create(creates).truncate(false).read(true).write(true).open(path);
-        let wrong = if creates { JournalError::unwritable } else { JournalError::unreadable };
-        let file = file.map_err(|source| wrong(path, source))?;
-        lock(path, &file)?;
-        // A checkpoint may have taken the place of the file that was opened.
-        if is_at(&file, path) {
-            return Ok(file);
-        }
-    }
-}
-
-#[cfg(unix)]
-fn is_at(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    match (file.metadata(), std::fs::metadata(path)) {
-        (Ok(opened), Ok(there)) => (opened.dev(), opened.ino()) == (there.dev(), there.ino()),
-        _ => false,
-    }
-}
-
-#[cfg(not(unix))]
-fn is_at(_: &File, _: &Path) -> bool {
-    true
+    let file = OpenOptions::new().create(creates).truncate(false).read(true).write(true).open(path);
+    let wrong = if creates { JournalError::unwritable } else { JournalError::unreadable };
+    let file = file.map_err(|source| wrong(path, source))?;
+    lock(path, &file)?;
+    Ok(file)
 }
 
 fn lock(path: &Path, file: &File) -> Result<(), JournalError> {

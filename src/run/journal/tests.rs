@@ -3,7 +3,6 @@ use serde_json::json;
 
 use super::*;
 use crate::model::{CounterKind, Counts, RowFailure};
-use crate::run::Sums;
 
 fn piece(first: u64, rows: usize) -> Piece {
     let values = (0..rows).map(|row| if row == 2 { f64::NAN } else { (first as f64 + row as f64).sqrt() }).collect();
@@ -160,20 +159,4 @@ fn what_is_beside_a_journal_is_told_from_what_is_beside_another() {
         (of("jr/j_0.1", ".old"), of("jr/j_0.2", ".old")),
         ("jr/j_0.1.old".to_owned(), "jr/j_0.2.old".to_owned())
     );
-}
-
-#[test]
-fn a_checkpoint_leaves_what_another_run_is_writing() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("j_0.1");
-    let checkpoint = Checkpoint::create(&path, &json!({}), &Sums::new(1)).unwrap();
-    let next = folder.path().join("j_0.1.new");
-    std::fs::write(&next, "of another run").unwrap();
-    let other = File::open(&next).unwrap();
-    other.lock().unwrap();
-    assert!(checkpoint.write(b"sums").is_err());
-    assert_eq!(std::fs::read_to_string(&next).unwrap(), "of another run");
-    drop(other);
-    checkpoint.write(b"sums").unwrap();
-    assert!(!next.exists());
 }

@@ -3,7 +3,7 @@ use std::time::Duration;
 
 use super::*;
 use crate::design::{Design, DesignSettings, Rows};
-use crate::model::{Batch, FunctionModel, Model, Output, RunContext, Worker};
+use crate::model::{Batch, FunctionModel, Model, Output, RowFailure, RunContext, Worker};
 use crate::quantity::Unit;
 use crate::run::{BLOCK, GrowingRun, Progress, Shard, Totals, run};
 use crate::space::{Distribution, Factor, Space};
@@ -34,7 +34,7 @@ fn counted(rows: &AtomicU64) -> impl Model + '_ {
 fn with_store(design: &Design, model: &dyn Model, store: &Store, points: u64) -> Result<Vec<Totals>, RunError> {
     let space = space();
     let context = RunContext::default();
-    let mut run = GrowingRun::new(Job { design, space: &space, model }, &context, 2)?.with_store(store, None);
+    let mut run = GrowingRun::new(Job { design, space: &space, model }, &context, 2)?.with_store(store);
     run.grow_to(points, &|_| ())?;
     Ok(run.totals().to_vec())
 }
@@ -68,7 +68,7 @@ fn the_physics_gives_the_same_bits_row_by_row() {
         let plain = run(job, 1, &|_| ()).unwrap();
         let store = Store::new(&study.design, model.as_ref());
         let context = RunContext::default();
-        let mut run = GrowingRun::new(job, &context, 2).unwrap().with_store(&store, None);
+        let mut run = GrowingRun::new(job, &context, 2).unwrap().with_store(&store);
         run.grow_to(u64::MAX, &|_| ()).unwrap();
         assert!(run.totals() == plain, "{fidelity}");
     }
@@ -104,7 +104,7 @@ fn shards_make_up_the_whole_run() {
         let space = space();
         let job = Job { design: &design, space: &space, model: &model };
         let context = RunContext::default();
-        let run = GrowingRun::new(job, &context, 2).unwrap().with_store(&part, Some(&sink));
+        let run = GrowingRun::new(job, &context, 2).unwrap().with_sink(&sink);
         run.run_missing(&shard.rows(&design), &part, &|_| ()).unwrap();
         kept.lock().unwrap().iter().for_each(|piece| {
             whole.insert(piece);
@@ -127,7 +127,7 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
         stop.fetch_or(progress.done > 1000, Ordering::Relaxed);
     };
     let context = RunContext::new(Some(&stop), |_| ());
-    let mut stopped = GrowingRun::new(job, &context, 2).unwrap().with_store(&store, None);
+    let mut stopped = GrowingRun::new(job, &context, 2).unwrap().with_store(&store);
     let slow = |progress| {
         on_progress(progress);
         std::thread::sleep(Duration::from_millis(5));
@@ -212,7 +212,7 @@ fn outputs_that_cannot_be_kept_end_the_run() {
     let space = space();
     let job = Job { design: &design, space: &space, model: &model };
     let context = RunContext::default();
-    let mut run = GrowingRun::new(job, &context, 2).unwrap().with_store(&store, Some(&full));
+    let mut run = GrowingRun::new(job, &context, 2).unwrap().with_store(&store).with_sink(&full);
     let error = run.grow_to(u64::MAX, &|_| ()).unwrap_err();
     assert!(matches!(error, RunError::NotKept { .. }), "{error}");
     assert_eq!(store.count(0, 0..design.rows()).0, 0);
@@ -228,7 +228,7 @@ fn a_failed_row_ends_a_run_that_says_so() {
     let job = Job { design: &design, space: &space, model: &model };
     let context = RunContext::default();
     let run = GrowingRun::new(job, &context, 1).unwrap().with_failures(FailurePolicy::Fail);
-    let error = run.with_store(&store, None).grow_to(u64::MAX, &|_| ()).unwrap_err();
+    let error = run.with_store(&store).grow_to(u64::MAX, &|_| ()).unwrap_err();
     let RunError::RowFailed { row, reason } = error else { panic!("{error}") };
     assert_eq!(reason.to_string(), "too large");
     let mut u = [0.0; 2];

@@ -1,0 +1,56 @@
+use proptest::prelude::*;
+
+use super::*;
+
+fn tally(point: u64) -> Tally {
+    Tally { count: 1, first: Place { replicate: 0, point, run: 0 } }
+}
+
+fn counted(reasons: &[(u64, String)]) -> Failures {
+    let mut failures = Failures::default();
+    reasons.iter().for_each(|(point, reason)| failures.count(&RowFailure::new(reason), tally(*point)));
+    failures
+}
+
+#[test]
+fn reasons_with_numbers_in_them_are_one() {
+    let reasons = |count: u64| -> Vec<(u64, String)> {
+        (0..count).map(|k| (k, format!("no root at t = {}.5, x = -{k}e-3", k * k))).collect()
+    };
+    let few = counted(&reasons(MOST_REASONS as u64));
+    assert_eq!(few.iter().count(), MOST_REASONS);
+    let many = counted(&reasons(100_000));
+    let found: Vec<_> = many.iter().map(|(reason, tally)| (reason.to_string(), tally.count)).collect();
+    assert_eq!(found, [("no root at t = #, x = #".to_owned(), 100_000)]);
+    assert_eq!(many.first().unwrap().1.first.point, 0);
+}
+
+#[test]
+fn of_more_words_than_that_the_first_are_told_apart() {
+    let word = |k: u32| [k / 26 % 26, k % 26].map(|place| char::from(b'a' + place as u8)).iter().collect::<String>();
+    let all = counted(&(0..300).rev().map(|k| (u64::from(k), word(k))).collect::<Vec<_>>());
+    let found: Vec<_> = all.iter().collect();
+    assert_eq!(found.len(), MOST_REASONS + 1);
+    assert!(found[..MOST_REASONS].iter().enumerate().all(|(k, (reason, _))| reason.to_string() == word(k as u32)));
+    assert_eq!((found[100].0.to_string().as_str(), found[100].1.count, found[100].1.first.point), (OTHERS, 200, 100));
+}
+
+proptest! {
+    /// Whatever is counted where, and in which order it is merged, the same is left.
+    #[test]
+    fn the_order_does_not_count(
+        reasons in prop::collection::vec("[ab\u{1}#-]{0,2}[0-9]{1,2}[cd]{0,3}", 0..400),
+        parts in prop::collection::vec(0_usize..5, 400),
+    ) {
+        let reasons: Vec<(u64, String)> = (0..).zip(reasons).collect();
+        let whole = counted(&reasons);
+        let of_part = |part: usize| {
+            counted(&reasons.iter().filter(|(k, _)| parts[*k as usize] == part).cloned().collect::<Vec<_>>())
+        };
+        for order in [[0, 1, 2, 3, 4], [4, 2, 0, 1, 3]] {
+            let mut merged = Failures::default();
+            order.iter().for_each(|part| merged.merge(&of_part(*part)));
+            prop_assert_eq!(&merged, &whole);
+        }
+    }
+}

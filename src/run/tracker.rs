@@ -1,0 +1,93 @@
+//! How far a run has come, and why it ends before its time.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use super::{Progress, RunError};
+use crate::clock::Instant;
+use crate::model::{GiveUp, RunContext};
+
+/// The rows of a run that are finished, counted by its threads.
+pub(super) struct Tracker<'r> {
+    context: &'r RunContext<'r>,
+    before: Progress,
+    start: Instant,
+    on_progress: &'r (dyn Fn(Progress) + Sync),
+    done: AtomicU64,
+    failed: AtomicU64,
+    error: Mutex<Option<RunError>>,
+}
+
+impl<'r> Tracker<'r> {
+    /// A run that had come as far as `before`, whose total is that of the whole run.
+    pub fn new(
+        context: &'r RunContext<'r>,
+        before: Progress,
+        start: Instant,
+        on_progress: &'r (dyn Fn(Progress) + Sync),
+    ) -> Self {
+        let [done, failed] = [before.done, before.failed].map(AtomicU64::new);
+        Self { context, before, start, on_progress, done, failed, error: Mutex::new(None) }
+    }
+
+    /// Whether the run goes on.
+    pub fn goes_on(&self) -> bool {
+        if self.context.is_interrupted() {
+            self.end(RunError::Interrupted { done: 0, total: self.before.total });
+        }
+        !self.context.is_stopped()
+    }
+
+    /// Counts finished rows, some of which may have failed.
+    pub fn add(&self, rows: u64, failed: u64) {
+        let done = self.done.fetch_add(rows, Ordering::Relaxed) + rows;
+        let failed = self.failed.fetch_add(failed, Ordering::Relaxed) + failed;
+        (self.on_progress)(Progress { done, failed, elapsed: self.start.elapsed(), ..self.before });
+    }
+
+    /// A worker cannot go on.
+    pub fn give_up(&self, give_up: GiveUp) {
+        self.end(if self.context.is_interrupted() {
+            RunError::Interrupted { done: 0, total: self.before.total }
+        } else {
+            RunError::GaveUp(give_up)
+        });
+    }
+
+    /// Ends the run. The first error counts; of rows that failed, the first in the design.
+    pub fn end(&self, error: RunError) {
+        let mut first = self.error.lock().unwrap_or_else(PoisonError::into_inner);
+        let replaces = match (&*first, &error) {
+            (Some(RunError::RowFailed { row: first, .. }), RunError::RowFailed { row, .. }) => row < first,
+            (Some(_), RunError::RowFailed { .. }) | (None, _) => true,
+            (Some(_), _) => false,
+        };
+        if replaces {
+            *first = Some(error);
+        }
+        self.context.end();
+    }
+
+    /// Ends the other threads if this one panics: they may wait for it.
+    pub fn end_if_panicking(&self) -> impl Drop + 'r {
+        struct Guard<'r>(&'r RunContext<'r>);
+        impl Drop for Guard<'_> {
+            fn drop(&mut self) {
+                if std::thread::panicking() {
+                    self.0.end();
+                }
+            }
+        }
+        Guard(self.context)
+    }
+
+    /// Why the run has ended before its time, if it has.
+    pub fn finish(self) -> Result<(), RunError> {
+        let done = self.done.into_inner();
+        match self.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            None => Ok(()),
+            Some(RunError::Interrupted { total, .. }) => Err(RunError::Interrupted { done, total }),
+            Some(error) => Err(error),
+        }
+    }
+}
