@@ -77,11 +77,6 @@ pub enum Resume {
 }
 
 impl Resume {
-    /// The option that asks for it.
-    fn option(self) -> &'static str {
-        if self == Self::RetryFailed { "--retry-failed" } else { "--resume" }
-    }
-
     fn is_required(self) -> bool {
         matches!(self, Self::Require | Self::RetryFailed)
     }
