@@ -36,7 +36,7 @@ fn go_on(
     study: &Study,
     path: &Path,
     stop: &AtomicBool,
-    on_progress: impl Fn(Progress) + Sync,
+    on_progress: impl Fn(Progress) + Send + Sync,
 ) -> Result<Analysis, RunError> {
     study.runner().threads(2).on_progress(on_progress).stop(stop).journal(path).run()
 }

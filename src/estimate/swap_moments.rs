@@ -40,7 +40,6 @@ pub struct BaMoments {
     pub de: f64,
 }
 
-
 /// Outputs of the rows of one swap, and of A and B.
 #[derive(Clone, Copy)]
 pub(super) struct Columns<'a> {
