@@ -110,7 +110,7 @@ fn skewed_case((name, formula, d, normal, second_order): (&str, &str, usize, boo
     };
     let factors: String = (1..=d).map(|i| format!("[[factor]]\nname = \"x{i}\"\n{distribution}\n")).collect();
     let text = format!(
-        "model = \"expression\"\n[expression]\noutputs.y = \"{formula}\"\n[analysis]\nsecond_order = {second_order}\n{factors}"
+        "model = \"expression\"\n[outputs]\ny = \"{formula}\"\n[analysis]\nsecond_order = {second_order}\n{factors}"
     );
     // Relative variance of the part of one factor: of x^12 13^2/25 - 1, of e^x e - 1, of 3 (2 x - 1)^2 4/5.
     let part = |i: usize| match name {

@@ -56,8 +56,8 @@ fn closed_form(criterion: &mut Criterion) {
 
 fn ishigami(criterion: &mut Criterion) {
     let built_in = include_str!("../studies/ishigami.toml");
-    let formula = "model = \"expression\"\n[expression]\nconstants = { a = 7, b = 0.1 }\n\
-                   outputs.y = \"sin(x1) + a*sin(x2)^2 + b*x3^4*sin(x1)\"\n";
+    let formula = "model = \"expression\"\noutputs.y = \"sin(x1) + a*sin(x2)^2 + b*x3^4*sin(x1)\"\n\
+                   expression.constants = { a = 7, b = 0.1 }\n";
     let formula = built_in.replace("model = \"ishigami\"\n", formula);
     group(criterion, "ishigami", &[("built-in", built_in), ("formula", &formula)]);
 }

@@ -39,7 +39,7 @@ fn ishigami(name: &'static str, low: &str, cost: f64) -> Pair {
     let high = "sin(x1) + 5*sin(x2)^2 + 0.1*x3^4*sin(x1)";
     Pair {
         name,
-        study: format!("model = \"expression\"\n[expression]\noutputs.y = \"{high}\"\n{factors}"),
+        study: format!("model = \"expression\"\n[outputs]\ny = \"{high}\"\n{factors}"),
         low: format!("{{ name = \"low\", expression = {{ outputs = {{ y = \"{low}\" }} }} }}"),
         cost,
         first: vec![v1 / v, v2 / v, 0.0],
@@ -86,7 +86,7 @@ fn steps() -> Pair {
     let variance: f64 = parts.iter().map(|v| 1.0 + v).product::<f64>() - 1.0;
     Pair {
         name: "steps",
-        study: format!("model = \"expression\"\n[expression]\noutputs.y = \"{high}\"\n{factors}"),
+        study: format!("model = \"expression\"\n[outputs]\ny = \"{high}\"\n{factors}"),
         low: format!("{{ name = \"low\", expression = {{ outputs = {{ y = \"{low}\" }} }} }}"),
         cost: 0.01,
         first: parts.iter().map(|v| v / variance).collect(),

@@ -43,8 +43,9 @@ impl Worker for SlowWorker<'_> {
 /// How a study is run.
 enum Way {
     Accurate(f64),
-    Until { half_width: f64 },
-    Fixed { base_samples: u64, plain_rows: u32, surrogate: bool },
+    Plain { half_width: f64 },
+    Runs(u64),
+    BaseSamples(u64),
 }
 
 fn study(name: &str, seed: u64, way: &Way) -> Study {
@@ -58,13 +59,11 @@ fn study(name: &str, seed: u64, way: &Way) -> Study {
     let analysis = |surrogate| AnalysisOptions { surrogate, ..AnalysisOptions::for_sampler(Sampler::Sobol) };
     builder = match *way {
         Way::Accurate(accuracy) => builder.until(Target::accuracy(accuracy)),
-        Way::Until { half_width } => {
-            builder.base_samples(16).until(Target::half_width(half_width)).analysis(analysis(SurrogateChoice::Off))
+        Way::Plain { half_width } => {
+            builder.until(Target::accuracy(half_width)).analysis(analysis(SurrogateChoice::Off))
         }
-        Way::Fixed { base_samples, plain_rows, surrogate } => builder
-            .base_samples(base_samples)
-            .plain_rows(plain_rows)
-            .analysis(analysis(if surrogate { SurrogateChoice::On } else { SurrogateChoice::Off })),
+        Way::Runs(runs) => builder.runs(runs).analysis(analysis(SurrogateChoice::On)),
+        Way::BaseSamples(base_samples) => builder.base_samples(base_samples).analysis(analysis(SurrogateChoice::Off)),
     };
     builder.seed(seed).build().expect("a study")
 }
@@ -92,25 +91,19 @@ fn median(mut list: Vec<f64>) -> f64 {
     list[list.len() / 2]
 }
 
-/// The fewest runs of a fixed design whose intervals reach `accuracy`.
+/// The fewest runs of a fixed design whose intervals reach `accuracy`, among powers of two.
 fn cheapest(name: &str, seed: u64, accuracy: f64) -> u64 {
-    let rows =
-        study(name, seed, &Way::Fixed { base_samples: 16, plain_rows: 0, surrogate: false }).design().rows_per_point();
+    let rows = study(name, seed, &Way::BaseSamples(16)).design().rows_per_point();
     let mut best = u64::MAX;
-    for plain_rows in [0, 1, 3, 6].map(|share| (share * rows) as u32) {
-        for surrogate in [false, true] {
-            if plain_rows > 0 && !surrogate {
-                continue;
+    for surrogate in [false, true] {
+        let mut base_samples = 16;
+        while base_samples <= 1 << 15 && base_samples * rows < best {
+            let way = if surrogate { Way::Runs(base_samples * rows) } else { Way::BaseSamples(base_samples) };
+            let analysis = study(name, seed, &way).run().expect("a result");
+            if half_width(&analysis) <= accuracy {
+                best = analysis.design.rows();
             }
-            let mut base_samples = if plain_rows > 0 { 8 } else { 16 };
-            while base_samples <= 1 << 15 && base_samples * (rows + u64::from(plain_rows)) < best {
-                let way = Way::Fixed { base_samples, plain_rows, surrogate };
-                let analysis = study(name, seed, &way).run().expect("a result");
-                if half_width(&analysis) <= accuracy {
-                    best = analysis.design.rows();
-                }
-                base_samples *= 2;
-            }
+            base_samples *= 2;
         }
     }
     best
@@ -133,7 +126,7 @@ fn functions(seeds: u64) -> String {
         let most = spent.iter().copied().fold(0.0, f64::max);
         let few = seeds.min(10);
         let best = median((0..few).map(|seed| cheapest(name, seed, accuracy) as f64).collect());
-        let until = Way::Until { half_width: accuracy };
+        let until = Way::Plain { half_width: accuracy };
         let plain =
             median((0..few).map(|seed| runs(&study(name, seed, &until).run().expect("a result")) as f64).collect());
         let spent = median(spent);
@@ -174,10 +167,7 @@ fn motion(seeds: u64) -> String {
         let seed = |seed: u64| format!("design.seed={seed}");
         let all: Vec<(f64, Analysis)> = (0..seeds).map(|k| timed(&[format!("accuracy={accuracy}"), seed(k)])).collect();
         let plain: Vec<(f64, Analysis)> = (0..seeds.min(5))
-            .map(|k| {
-                let target = format!("design.target.half_width={accuracy}");
-                timed(&["design.base_samples=16".to_owned(), target, "analysis.surrogate=\"off\"".to_owned(), seed(k)])
-            })
+            .map(|k| timed(&[format!("accuracy={accuracy}"), "analysis.surrogate=\"off\"".to_owned(), seed(k)]))
             .collect();
         let kept = all.iter().filter(|(_, analysis)| error(analysis, &truth) <= accuracy).count();
         let seconds = |list: &[(f64, Analysis)]| median(list.iter().map(|(seconds, _)| *seconds).collect());

@@ -160,7 +160,7 @@ const METHODS: [&str; 6] = [
     "`screen`",
     "pick-freeze, `surrogate = \"off\"`",
     "pick-freeze with surrogates (the default)",
-    "split design, `budget_runs`",
+    "split design, `runs`",
 ];
 
 fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors) {
@@ -214,7 +214,7 @@ fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors
             let points = if points < 2 { None } else { Some(1 << points.ilog2()) };
             errors.add(points.and_then(|points: u64| of_run(study.base_samples(4 * points).build())), truth);
         }
-        _ => errors.add(of_run(builder(name, seed, SurrogateChoice::On).budget_runs(budget).build()), truth),
+        _ => errors.add(of_run(builder(name, seed, SurrogateChoice::On).runs(budget).build()), truth),
     }
 }
 

@@ -51,7 +51,7 @@ fn case(name: &str) -> Case {
     };
     let formula = |text: &str, d: usize, law: &str, (first, total): (Vec<f64>, Vec<f64>)| {
         let factors: String = (1..=d).map(|i| format!("[[factor]]\nname = \"x{i}\"\n{law}\n")).collect();
-        let text = format!("model = \"expression\"\n[expression]\noutputs.y = \"{text}\"\n{factors}");
+        let text = format!("model = \"expression\"\n[outputs]\ny = \"{text}\"\n{factors}");
         Case { text, first, total }
     };
     let (uniform, normal) = ("min = 0\nmax = 1", "distribution = \"normal\"\nmean = 0\nsd = 1");
@@ -68,7 +68,7 @@ fn case(name: &str) -> Case {
             };
             let factors: String = ranges.iter().enumerate().map(factor).collect();
             let text = "x1*x2^3/x3^2 + 0*x4";
-            let text = format!("model = \"expression\"\n[expression]\noutputs.y = \"{text}\"\n{factors}");
+            let text = format!("model = \"expression\"\n[outputs]\ny = \"{text}\"\n{factors}");
             Case { text, first, total }
         }
         "sobol-g, a = 0" => {
@@ -156,7 +156,7 @@ fn measured(case: &Case, size: u64, seeds: u64) -> (Row, f64, f64) {
         result.outputs[0].indices.clone().ok()
     };
     let base_samples = format!("design.base_samples={size}");
-    let budget = format!("design.budget_runs={}", size * (2 + case.first.len() as u64));
+    let budget = format!("design.runs={}", size * (2 + case.first.len() as u64));
     let (off, others) = ("analysis.surrogate=\"off\"", "analysis.estimators=[\"saltelli-2010\", \"jansen\"]");
     let of_seed = |seed: u64| {
         let mut row = Row::default();
@@ -296,7 +296,7 @@ fn summary(cells: &[Cell]) -> String {
                     runs, N base samples in all: how many times smaller with surrogates than those of the default of before \
                     (four nets, formulas of Saltelli 2010 and Jansen 1999), and than those of a single Saltelli net by the \
                     same formulas, as other programs do it; and how many times smaller again with a split design \
-                    (`budget_runs`) of as many runs. Every function with its errors, and the coverage and relative width of \
+                    (`runs`) of as many runs. Every function with its errors, and the coverage and relative width of \
                     its 95 % intervals, is in [surrogate.csv](surrogate.csv) (`plain`: today's default without surrogates). Written by \
                     `cargo bench --bench surrogate`.\n\n\
                     | functions | N | seeds | gain over the default of before: geometric mean, least | over one net | of a split design |\n\

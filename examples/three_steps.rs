@@ -15,8 +15,8 @@ use apportion::report::{ResultFile, run_document, stream_atomically, write_atomi
 const STUDY: &str = r#"
 title = "The force of a spring"
 model = "external"
-[external]
-outputs.force = "nN"
+[outputs]
+force = "nN"
 [design]
 base_samples = 1024
 [[factor]]

@@ -169,7 +169,7 @@ fn without_target(text: &str) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     document.remove("accuracy");
     if let Some(design) = document.get_mut("design").and_then(|design| design.as_table_like_mut()) {
-        for key in ["target", "max_runs", "budget", "budget_runs"] {
+        for key in ["runs", "max_runs", "max_time"] {
             design.remove(key);
         }
     }

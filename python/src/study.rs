@@ -111,13 +111,14 @@ impl Study {
         self.study.subject().is_external()
     }
 
-    /// Rows `first` to `last` of the design: an array of (rows, factors) in the units of the factors. `MemoryError` if there is no
-    /// room for them.
-    fn sample<'py>(&self, py: Python<'py>, first: u64, last: u64) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    /// Every `step`-th of the rows `first` to `last` of the design: an array of (rows, factors) in the units of the factors.
+    /// `MemoryError` if there is no room for them.
+    fn sample<'py>(&self, py: Python<'py>, first: u64, last: u64, step: u64) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let (space, design) = (self.study.space(), self.study.design());
         let factors = space.factors().len();
         let last = last.min(design.rows());
-        let count = last.saturating_sub(first);
+        let step = step.max(1);
+        let count = last.saturating_sub(first).div_ceil(step);
         let mut rows: Vec<f64> = Vec::new();
         let numbers = usize::try_from(count).unwrap_or(usize::MAX).saturating_mul(factors);
         rows.try_reserve_exact(numbers).map_err(|_| {
@@ -128,7 +129,7 @@ impl Study {
         })?;
         let rows = py.detach(|| {
             let mut u = vec![0.0; factors];
-            for row in first..last {
+            for row in (first..last).step_by(step as usize) {
                 design.point(row, &mut u);
                 rows.extend(space.values_at(&u));
             }
@@ -224,7 +225,7 @@ impl Study {
         }
         if study.target().grows() {
             return Err(input(
-                "a study with an accuracy or a target chooses its rows as it goes on: give it base_samples",
+                "a study with an accuracy or limits chooses its rows as it goes on: give it base_samples",
             ));
         }
         let store = Store::new(design, model.as_ref());

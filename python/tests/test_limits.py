@@ -48,6 +48,37 @@ def test_numbers_that_make_no_sense_are_refused():
             wrong()
 
 
+def test_unknown_keywords_are_errors_whatever_their_value():
+    for keywords, words in [
+        ({"sed": 0}, "unknown keyword sed: did you mean seed"),
+        ({"n_jobs": 0}, "unknown keyword n_jobs: did you mean threads, which run"),
+        ({"second_ordr": False}, "did you mean second_order"),
+        ({"budget_runs": None}, "did you mean runs"),
+        ({"target": 0.01}, "did you mean accuracy"),
+        ({"nonsense_of_mine": None}, "expected one of outputs"),
+    ]:
+        with pytest.raises(ap.StudyError, match=words):
+            ap.Study(add, UNIT, **keywords)
+        if "n_jobs" not in keywords:
+            with pytest.raises(ap.StudyError, match=words):
+                ap.analyse(add, UNIT, **keywords)
+
+
+def test_both_spellings_of_vectorised_are_honoured():
+    seen = []
+    for spelling in ("vectorised", "vectorized"):
+        ap.analyse(lambda x1, x2: seen.append(np.ndim(x1)) or x1 + x2, UNIT, base_samples=16, **{spelling: False})
+    assert set(seen) == {0}
+
+
+def test_the_length_of_a_run_is_said_in_one_way():
+    assert ap.Study(add, UNIT, runs=100).runs <= 100
+    with pytest.raises(ap.StudyError, match="`base_samples` must be alone"):
+        ap.Study(add, UNIT, runs=100, base_samples=16)
+    with pytest.raises(ap.StudyError, match="`max_time` must be a time above 0"):
+        ap.Study(add, UNIT, accuracy=0.01, max_time=0)
+
+
 def test_factors_that_are_none_say_what_would_be_one():
     for factors, words in [
         ({1: (0, 1)}, "the name 1 is no text: expected one such as '1'"),

@@ -39,7 +39,7 @@ def test_repetitions_give_mean_and_variance_as_in_the_engine():
     factors = {"x1": (0, 1), "x2": (0, 1)}
     noise = {"repetitions": 5}
     options = {"noise": noise, "base_samples": 64, "seed": 3}
-    formula = ap.analyse("expression", factors, expression={"outputs": {"y": "(x1 + 2 * x2) * seed / 2147483648"}}, **options)
+    formula = ap.analyse("expression", factors, outputs={"y": "(x1 + 2 * x2) * seed / 2147483648"}, **options)
     calls = []
 
     def one(x1, x2, seed):

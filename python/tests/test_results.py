@@ -60,5 +60,13 @@ def test_an_output_without_indices_is_nan_in_arrays(result):
     assert data.total.shape == (2, 2, 3)
     assert data.total.sel(output="a", factor="x1", bound="estimate") == result["a"].total["x1"].estimate
     assert np.isnan(data.total.sel(output="b")).all()
-    none = ap.analyse(lambda x1, x2: x1 * np.nan, UNIT, base_samples=16, max_failed=1.0)
-    assert none.to_xarray().total.shape == (1, 0, 3)
+    with pytest.raises(ap.RunError, match="there are no indices: y: ") as raised:
+        ap.analyse(lambda x1, x2: x1 * np.nan, UNIT, base_samples=16, max_failed=1.0)
+    assert raised.value.result.to_xarray().total.shape == (1, 0, 3)
+    with pytest.raises(ap.RunError, match="there are no indices"):
+        ap.analyse(lambda x1, x2: 0 * x1 + 3, UNIT, base_samples=16)
+
+
+def test_warnings_of_a_result_are_warned_of():
+    with pytest.warns(UserWarning, match="not a power of two"):
+        ap.analyse(polynomial, {f"x{k}": (0, 1) for k in (1, 2, 3)}, base_samples=24)

@@ -291,16 +291,7 @@ pub(super) fn of_runs(run: &FinishedRun<'_>, failed: u64, base_points_used: u64)
         let left_out = base_samples - base_points_used;
         warnings.push(Warning::RunsFailed { failed, runs, left_out, base_samples });
     }
-    if !design.balanced() {
-        let points = design.points_per_replicate();
-        let more = points.next_power_of_two() * settings.replicates;
-        warnings.push(Warning::Unbalanced { points, fewer: more / 2, more });
-    }
-    match run.study.analysis.intervals {
-        IntervalMethod::Replicates if settings.replicates == 1 => warnings.push(Warning::SingleReplicate),
-        IntervalMethod::Nets if settings.replicates == 1 => warnings.push(Warning::SingleNet),
-        _ => (),
-    }
+    warnings.extend(run.study.analysis.design_warnings(design));
     warnings
 }
 

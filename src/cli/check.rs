@@ -10,7 +10,7 @@ use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, Factor};
 use apportion::study::Study;
 
-use super::check_plan::{plan, runs};
+use super::check_plan::{counted, plan};
 use super::output::default_folder;
 use super::past_runs::past_runs;
 use super::stop::on_signal;
@@ -45,7 +45,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     match pilot.filter(|pilot| pilot.failed == pilot.runs) {
         None => Ok(()),
         Some(Pilot { runs: number, reason, .. }) => {
-            let (number, reason) = (runs(number), reason.unwrap_or_default());
+            let (number, reason) = (counted(number, "run"), reason.unwrap_or_default());
             Err(Failure::Run(anyhow!("every one of the first runs failed ({number}): {reason}")))
         }
     }

@@ -8,7 +8,6 @@ mod completions;
 mod evaluate;
 mod given_data;
 mod live;
-mod man;
 mod merge;
 mod models;
 mod new;
@@ -92,8 +91,6 @@ enum Command {
     Schema(schema::Arguments),
     /// Print the script with which a shell completes commands and options
     Completions(completions::Arguments),
-    /// Print a page of the manual, or write all of them
-    Man(man::Arguments),
 }
 
 /// A study file and the changes to it that the command line makes.
@@ -114,11 +111,11 @@ struct DesignChanges {
     base_samples: Option<u64>,
     /// Half width that the 95 % interval of every index must reach; the run chooses what gets there at the least cost (the same
     /// as --set accuracy=A)
-    #[arg(long, value_name = "A", conflicts_with_all = ["base_samples", "budget_runs"])]
+    #[arg(long, value_name = "A", conflicts_with_all = ["base_samples", "runs"])]
     accuracy: Option<f64>,
-    /// Model runs in all, split between base samples and plain rows for surrogates (the same as --set design.budget_runs=N)
+    /// Model runs in all: the best design for at most so many (the same as --set design.runs=N)
     #[arg(long, value_name = "N", value_parser = whole_number, conflicts_with = "base_samples")]
-    budget_runs: Option<u64>,
+    runs: Option<u64>,
     /// Seed of the design (the same as --set design.seed=S)
     #[arg(long, value_name = "S", value_parser = whole_number, allow_negative_numbers = true)]
     seed: Option<u64>,
@@ -135,8 +132,8 @@ impl DesignChanges {
         let base_samples = self.base_samples.map(|n| format!("design.base_samples={n}"));
         let seed = self.seed.map(|s| format!("design.seed={s}"));
         let accuracy = self.accuracy.map(|a| format!("accuracy={a:?}"));
-        let budget_runs = self.budget_runs.map(|n| format!("design.budget_runs={n}"));
-        base_samples.into_iter().chain(accuracy).chain(budget_runs).chain(seed).collect()
+        let runs = self.runs.map(|n| format!("design.runs={n}"));
+        base_samples.into_iter().chain(accuracy).chain(runs).chain(seed).collect()
     }
 }
 
@@ -286,7 +283,6 @@ fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
         Command::Models(arguments) => models::models(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
-        Command::Man(arguments) => man::man(&arguments),
     })
 }
 

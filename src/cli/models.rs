@@ -211,11 +211,9 @@ fn example(function: &KnownFunction) -> String {
             text.push_str(&format!("  {name} = {value}\n"));
         }
     }
-    text.push_str("\n  [design]\n  base_samples = 16384\n");
     if let Some(input) = known_inputs(function).first() {
         text.push_str(&format!(
-            "\n  [[factor]]            # without any [[factor]], all inputs vary\n  name = \"{}\"           # by its own \
-             distribution, unless another is given\n",
+            "\n  [factors]            # without this table all inputs vary\n  {} = {{}}\n",
             input.name
         ));
     }

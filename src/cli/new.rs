@@ -21,7 +21,7 @@ pub struct Arguments {
     /// Inputs that become factors, separated by commas [default: the main ones; of a function all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     factors: Vec<String>,
-    /// Outputs, separated by commas [default: the main one]; of a model of your own infected[0..60] is a series of 60 values
+    /// Outputs, separated by commas [default: the main one]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     outputs: Vec<String>,
     /// Title of the study
@@ -56,7 +56,7 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
     let (factors, runs) = (study.space().factors().len(), study.design().rows());
     let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
     say(&format!("wrote {}: {factors}, {runs} runs", path.display()));
-    if let Some(program) = new_program(&request).map_err(|problem| wrong(&problem, model))? {
+    if let Some(program) = new_program(&request) {
         write_program(&path.with_file_name(NEW_PROGRAM), &program)?;
     }
     let step = if model == ModelKind::EXTERNAL { "sample" } else { "run" };

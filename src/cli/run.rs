@@ -61,7 +61,7 @@ struct RecordArguments {
     #[arg(long)]
     no_journal: bool,
     /// Twice the base samples of the result in the folder, whose runs are kept
-    #[arg(long, conflicts_with_all = ["base_samples", "accuracy", "shard"])]
+    #[arg(long, conflicts_with_all = ["base_samples", "accuracy", "runs", "shard"])]
     double: bool,
     /// Evaluate one of N parts of the runs into a journal of its own, for `apportion merge`
     #[arg(long, value_name = "I/N", conflicts_with_all = ["no_journal", "retry_failed"])]
@@ -95,7 +95,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     }
     let saved = match &arguments.save_outputs {
         None => None,
-        Some(_) if study.target().is_free => {
+        Some(_) if study.target().accuracy.is_some() => {
             let why = "with `accuracy` the run chooses its rows: run once more with the lines that the result shows";
             return Err(Failure::Input(anyhow!("--save-outputs: {why}")));
         }
@@ -197,7 +197,7 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
         return Ok(study);
     }
     match &result.spending {
-        Some(_) if !double && study.target().is_free => return Ok(study),
+        Some(_) if !double && study.target().accuracy.is_some() => return Ok(study),
         Some(spending) => {
             let (option, accuracy) =
                 if double { ("--double", spending.accuracy / 2.0) } else { ("--retry-failed", spending.accuracy) };
@@ -214,19 +214,13 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
         }
         None => (),
     }
-    // The design of the result, whatever the study says now: `budget_runs` would make another one.
-    let size = vec![format!("design.base_samples={wanted}"), format!("design.plain_rows={plain_rows}")];
-    let study = arguments.study.load_with(&[changes, size].concat())?;
-    let settings = study.design().settings();
-    if double && settings.base_samples < wanted {
-        let runs = u128::from(wanted) * u128::from(study.design().rows_per_point());
-        let most = study.target().max_runs.unwrap_or_default();
+    if plain_rows != study.design().plain_rows() {
         return Err(Failure::Input(anyhow!(
-            "--double: twice the {base_samples} base samples of the result take {runs} runs, and the study allows max_runs = \
-             {most}: add --set design.max_runs={runs}"
+            "{}: the result is of another design than the study: run it again",
+            json.display()
         )));
     }
-    Ok(study)
+    study.with_base_samples(wanted).map_err(|error| Failure::Input(error.into()))
 }
 
 fn folder_of(arguments: &Arguments, study: &Study) -> PathBuf {

@@ -24,7 +24,7 @@ pub struct Arguments {
     #[command(flatten)]
     design: DesignChanges,
     /// Random points instead of those of the design, so many: for few runs, whose table `apportion given-data` reads
-    #[arg(long, value_name = "N", conflicts_with_all = ["base_samples", "accuracy", "budget_runs"], value_parser = clap::value_parser!(u64).range(1..=MAX_RANDOM))]
+    #[arg(long, value_name = "N", conflicts_with_all = ["base_samples", "accuracy", "runs"], value_parser = clap::value_parser!(u64).range(1..=MAX_RANDOM))]
     random: Option<u64>,
     /// Overwrite a file that exists and is no design of this study
     #[arg(long)]

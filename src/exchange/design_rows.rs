@@ -134,7 +134,7 @@ mod tests {
 
     const STUDY: &str = r#"
         model = "expression"
-        expression.outputs.y = "a + b"
+        outputs.y = "a + b"
         design = { base_samples = 2400, replicates = 3, seed = 5 }
         analysis = { second_order = true }
         factor = [

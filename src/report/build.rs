@@ -63,8 +63,8 @@ fn stopping_record(study: &Study, analysis: &Analysis) -> Option<StoppingRecord>
     analysis.stopped.as_ref().map(|stopped| StoppingRecord {
         reason: stopped.reason.to_string(),
         target_met: stopped.target_met,
-        target_half_width: target.half_width,
-        budget_seconds: target.budget,
+        target_half_width: target.accuracy,
+        budget_seconds: target.max_time,
         max_runs: target.max_runs,
     })
 }
@@ -72,10 +72,10 @@ fn stopping_record(study: &Study, analysis: &Analysis) -> Option<StoppingRecord>
 fn spending_record(study: &Study, analysis: &Analysis) -> Option<SpendingRecord> {
     let Spending { accuracy, runs, surrogate, plain_runs, reasons } = analysis.spending.as_ref()?;
     let design = &analysis.design;
-    let mut lines = format!("[design]\nbase_samples = {}\n", design.settings().base_samples);
-    if design.plain_rows() > 0 {
-        lines.push_str(&format!("plain_rows = {}\n", design.plain_rows()));
-    }
+    let mut lines = match design.plain_rows() {
+        0 => format!("[design]\nbase_samples = {}\n", design.settings().base_samples),
+        _ => format!("[design]\nruns = {}\n", design.rows()),
+    };
     lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", surrogate.name()));
     if let [low] = &analysis.lows[..] {
         lines.push_str("[fidelity]\n");

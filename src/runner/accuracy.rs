@@ -10,12 +10,11 @@ use super::low_fidelity::sibling_path;
 use super::{Resume, Runner};
 use crate::analysis::{Analysis, OutputAnalysis, Spending, StopReason};
 use crate::clock::Instant;
-use crate::design::{Design, DesignSettings, Rows, Sampler};
+use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Batch, RunContext};
 use crate::run::{Job, RowValues, RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
-use crate::surrogate::FEWEST_NETS;
-use crate::uncertainty::{Estimate, IntervalMethod, OutputIndices};
+use crate::uncertainty::{Estimate, OutputIndices};
 
 /// Base points of each replicate in a trial without plain rows, the fewest that surrogates are fitted to.
 const TRIAL_POINTS: u64 = 4;
@@ -44,9 +43,10 @@ const FIRST_PLAIN: u64 = 1 << 10;
 pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> Result<Analysis, RunError> {
     let mut attempt = Attempt { runner, context, runs: 0, reasons: Vec::new() };
     let study = runner.study;
-    if !takes_surrogates(study) {
+    let DesignSettings { sampler, replicates, .. } = *study.design.settings();
+    if !study.analysis.takes_surrogates(sampler, replicates, &study.space) {
         attempt.say(
-            "surrogates and cheaper models need the intervals of three or more replicates of Sobol' or random points",
+            "surrogates and cheaper models need independent factors, and three or more replicates of Sobol' or random points",
         );
         return attempt.plain(None);
     }
@@ -69,15 +69,6 @@ pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> R
     }
     let lows = if study.lows.is_empty() { study.subject.cheaper() } else { study.lows.clone() };
     if lows.is_empty() { attempt.split(&store) } else { attempt.fitted(lows, None, &store) }
-}
-
-/// Whether corrections by surrogates can be had.
-fn takes_surrogates(study: &Study) -> bool {
-    let settings = study.design.settings();
-    study.analysis.intervals == IntervalMethod::Nets
-        && study.analysis.surrogate != SurrogateChoice::Off
-        && settings.sampler != Sampler::LatinHypercube
-        && settings.replicates >= FEWEST_NETS as u64
 }
 
 fn is_met(analysis: &Analysis) -> bool {
@@ -140,11 +131,10 @@ impl Attempt<'_> {
     }
 
     /// Without surrogates, for so many seconds.
-    fn plain(&mut self, budget: Option<f64>) -> Result<Analysis, RunError> {
+    fn plain(&mut self, max_time: Option<f64>) -> Result<Analysis, RunError> {
         let replicates = self.runner.study.design.settings().replicates;
         let mut study = self.variant((FIRST_PLAIN / replicates.max(1)).max(2), 0, SurrogateChoice::Off)?;
-        let least = study.target.budget.into_iter().chain(budget).reduce(f64::min);
-        study.target = Target { budget: least, ..study.target };
+        study.target.max_time = study.target.max_time.into_iter().chain(max_time).reduce(f64::min);
         self.run(&study, None, None)
     }
 
@@ -207,7 +197,7 @@ impl Attempt<'_> {
         let journal = part.open(None, self.context.messages())?;
         let mut analysis = part.analyse(self.context, journal)?;
         self.runs += analysis.design.rows();
-        let accuracy = study.target.half_width.unwrap_or_default();
+        let accuracy = study.target.accuracy.unwrap_or_default();
         analysis.spending = Some(Spending {
             accuracy,
             runs: self.runs,

@@ -30,7 +30,7 @@ impl Runner<'_> {
         for low in lows.iter_mut() {
             low.follow(run.points_per_replicate())?;
         }
-        if self.study.target.is_free {
+        if self.study.target.accuracy.is_some() {
             lows.retain(|low| low.is_cheaper(seconds));
         }
         lows.iter_mut().try_for_each(|low| low.begin(seconds))
@@ -47,7 +47,7 @@ impl Runner<'_> {
         let longest = run.design();
         let is_met = |stopped: &Stopped| matches!(stopped.reason, StopReason::TargetMet { .. });
         let mut seconds = run.elapsed().as_secs_f64() - lows.iter().flat_map(LowRun::seconds).sum::<f64>();
-        if self.study.target.is_free && !lows.is_empty() {
+        if self.study.target.accuracy.is_some() && !lows.is_empty() {
             // Where the first runs are enough, cheaper models need not run.
             let Stage { widest, surrogates, .. } = run.install(|| stage(self.study, run, &[]));
             if let Some(stopped) = reason_to_stop(self.study, run, longest, widest).filter(is_met) {
@@ -140,7 +140,7 @@ fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
 
 /// Why the run should not be doubled once more; `None` if it should.
 fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, widest: Option<f64>) -> Option<Stopped> {
-    let Target { half_width, budget, max_runs, .. } = study.target;
+    let Target { accuracy, max_time, max_runs } = study.target;
     let next = run.points_per_replicate() * 2;
     let replicates = longest.settings().replicates;
     let runs = u128::from(next) * u128::from(replicates) * u128::from(longest.rows_per_point());
@@ -150,19 +150,19 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, widest:
     let has_none =
         replicates < 2 && matches!(study.analysis.intervals, IntervalMethod::Nets | IntervalMethod::Replicates);
     let has_too_few = base_samples >= FEW_BASE_SAMPLES_OF_FAILURES && fails_too_often(study, run);
-    let reason = match (half_width, widest) {
+    let reason = match (accuracy, widest) {
         (Some(_), _) if has_too_few => StopReason::NoIntervals { base_samples },
         (Some(target), Some(widest)) if widest <= target => StopReason::TargetMet { widest, target },
         (Some(_), None) if has_none || base_samples >= FEW_BASE_SAMPLES => StopReason::NoIntervals { base_samples },
         _ if next > longest.points_per_replicate() => StopReason::EndOfSequence,
         _ if run.room_for(next).is_err() => StopReason::Memory,
-        _ => match (max_runs, budget) {
+        _ => match (max_runs, max_time) {
             (Some(most), _) if runs > u128::from(most) => StopReason::MaxRuns { runs, most },
             (_, Some(budget)) if seconds > budget => StopReason::Budget { seconds, budget },
             _ => return None,
         },
     };
-    let target_met = half_width.map(|_| matches!(reason, StopReason::TargetMet { .. }));
+    let target_met = accuracy.map(|_| matches!(reason, StopReason::TargetMet { .. }));
     Some(Stopped { reason, target_met })
 }
 

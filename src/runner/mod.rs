@@ -179,7 +179,7 @@ impl<'a> Runner<'a> {
     /// Otherwise rows that fail are part of the result.
     pub fn run(self) -> Result<Analysis, RunError> {
         let context = self.context();
-        let result = if self.study.target.is_free {
+        let result = if self.study.target.accuracy.is_some() {
             accuracy::run_accurately(&self, &context)
         } else {
             self.open(None, context.messages()).and_then(|journal| self.analyse(&context, journal))

@@ -5,53 +5,45 @@ use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
-use super::build_checks::{check_factor, checked, checked_target, refuse_overlap, refuse_repeated};
-use super::options::{MOST_OUTPUTS_OF_MEASURES, rows, split_design};
-use super::subject::{CustomSubject, LowFidelity};
+use super::options::{DEFAULT_RESAMPLES, rows};
+use super::rules::{self, Length, wrong};
+use super::subject::{CustomSubject, LowFidelity, Subject};
 use super::{AnalysisOptions, BuildError, Study, SurrogateChoice, Target};
-
 use crate::design::{Design, DesignSettings, Sampler};
 use crate::model::Model;
-use crate::names::{names_files, refused_output_name, refused_title, shown};
 use crate::quantity::Unit;
 use crate::space::{Dependence, Distribution, Factor, Space};
+use crate::surrogate::FEWEST_NETS;
+use crate::uncertainty::IntervalMethod;
 
 /// A study in the making; [`Study::builder`] begins one.
 pub struct StudyBuilder {
     name: String,
-    title: Option<String>,
-    model: Arc<dyn Model>,
-    version: Option<String>,
-    factors: Vec<Result<Factor, BuildError>>,
-    sampler: Sampler,
-    base_samples: Option<u64>,
-    replicates: Option<u64>,
-    plain_rows: u32,
-    budget_runs: Option<u64>,
-    seed: u64,
-    analysis: Option<AnalysisOptions>,
-    target: Target,
-    lows: Vec<LowFidelity>,
-    dependences: Vec<Dependence>,
+    pub(super) title: Option<String>,
+    subject: Arc<dyn Subject>,
+    pub(super) factors: Vec<Result<Factor, BuildError>>,
+    pub(super) sampler: Sampler,
+    pub(super) length: Length,
+    pub(super) replicates: Option<u64>,
+    pub(super) seed: u64,
+    pub(super) analysis: Option<AnalysisOptions>,
+    pub(super) lows: Vec<LowFidelity>,
+    pub(super) dependences: Vec<Dependence>,
 }
 
 impl StudyBuilder {
-    pub(super) fn new(name: &str, model: Arc<dyn Model>) -> Self {
+    pub(super) fn new(name: &str, subject: Arc<dyn Subject>) -> Self {
         let DesignSettings { sampler, seed, .. } = DesignSettings::default();
         Self {
             name: name.to_owned(),
             title: None,
-            model,
-            version: None,
+            subject,
             factors: Vec::new(),
             sampler,
-            base_samples: None,
+            length: Length { base_samples: None, runs: None, target: Target::default() },
             replicates: None,
-            plain_rows: 0,
-            budget_runs: None,
             seed,
             analysis: None,
-            target: Target::default(),
             lows: Vec::new(),
             dependences: Vec::new(),
         }
@@ -68,7 +60,10 @@ impl StudyBuilder {
     /// tell that the function has changed, and answers with the runs of the one before.
     #[must_use]
     pub fn version(mut self, version: &str) -> Self {
-        self.version = Some(version.to_owned());
+        if let Some(custom) = self.subject.downcast_ref::<CustomSubject>() {
+            let (model, version) = (Arc::clone(&custom.model), Some(version.to_owned()));
+            self.subject = Arc::new(CustomSubject { model, version });
+        }
         self
     }
 
@@ -122,11 +117,32 @@ impl StudyBuilder {
         self
     }
 
-    /// Base samples in all, best a power of two for each replicate; 2^14 by default, less at the start of a run that goes on
-    /// [until](Self::until) a target. The cost is base samples x (2 + factors) runs.
+    /// Base samples in all, best a power of two for each replicate; 2^14 by default. The cost is base samples x (2 + factors)
+    /// runs.
     #[must_use]
     pub fn base_samples(mut self, base_samples: u64) -> Self {
-        self.base_samples = Some(base_samples);
+        self.length.base_samples = Some(base_samples);
+        self
+    }
+
+    /// Model runs in all, in the place of [`base_samples`](Self::base_samples): the best design for at most so many. Where
+    /// surrogates serve, a third of the runs or less are at base samples, and the others at points from which surrogates learn.
+    ///
+    /// ```
+    /// use apportion::{Distribution, Study, function_model};
+    ///
+    /// let model = function_model("y", |x| x[0] + x[1] * x[1]);
+    /// let study = Study::builder("expensive", model)
+    ///     .factor("a", Distribution::uniform(0.0, 1.0)?)
+    ///     .factor("b", Distribution::uniform(0.0, 1.0)?)
+    ///     .runs(100)
+    ///     .build()?;
+    /// assert!(study.design().rows() <= 100);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn runs(mut self, runs: u64) -> Self {
+        self.length.runs = Some(runs);
         self
     }
 
@@ -134,35 +150,6 @@ impl StudyBuilder {
     #[must_use]
     pub fn replicates(mut self, replicates: u64) -> Self {
         self.replicates = Some(replicates);
-        self
-    }
-
-    /// Runs of every base sample at points of their own, which only surrogates learn from: for models so dear that a few
-    /// hundred runs are all. Three quarters of the runs are a good share.
-    #[must_use]
-    pub fn plain_rows(mut self, rows: u32) -> Self {
-        self.plain_rows = rows;
-        self
-    }
-
-    /// The best split design of at most so many runs, in the place of [`base_samples`](Self::base_samples) and
-    /// [`plain_rows`](Self::plain_rows): an eighth to a third of the runs at base samples, the others at plain rows.
-    ///
-    /// ```
-    /// use apportion::{Distribution, Study, function_model};
-    ///
-    /// let model = function_model("y", |x| x[0] + x[1] * x[1]);
-    /// let study = Study::builder("dear", model)
-    ///     .factor("a", Distribution::uniform(0.0, 1.0)?)
-    ///     .factor("b", Distribution::uniform(0.0, 1.0)?)
-    ///     .budget_runs(100)
-    ///     .build()?;
-    /// assert!(study.design().rows() <= 100);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[must_use]
-    pub fn budget_runs(mut self, runs: u64) -> Self {
-        self.budget_runs = Some(runs);
         self
     }
 
@@ -180,10 +167,10 @@ impl StudyBuilder {
         self
     }
 
-    /// How well the indices must be known: the run goes on by doubling until they are.
+    /// How well the indices must be known, and the limits of a run that goes on until they are.
     #[must_use]
     pub fn until(mut self, target: Target) -> Self {
-        self.target = target;
+        self.length.target = target;
         self
     }
 
@@ -201,92 +188,77 @@ impl StudyBuilder {
     /// # Errors
     /// [`BuildError`] with what is wrong and what would be right.
     pub fn build(self) -> Result<Study, BuildError> {
-        if !names_files(&self.name) {
-            return Err(BuildError::Name(self.name));
-        }
-        if self.model.outputs().is_empty() {
-            return Err(BuildError::NoOutputs);
-        }
-        let words = |what, name: &str, expected| Err(BuildError::Words { what, name: shown(name), expected });
-        if let Some((title, expected)) = self.title.as_ref().and_then(|title| Some((title, refused_title(title)?))) {
-            return words("title", title, expected);
-        }
-        for output in self.model.outputs() {
-            if let Some(expected) = refused_output_name(&output.name) {
-                return words("output", &output.name, expected);
-            }
-        }
-        for factor in self.factors.iter().flatten() {
-            check_factor(factor)?;
-        }
-        refuse_repeated("output", self.model.outputs().iter().map(|output| &*output.name))?;
-        refuse_overlap(&*self.model)?;
-        let space = Space::new(self.factors.into_iter().collect::<Result<_, _>>()?);
-        refuse_repeated("factor", space.factors().iter().map(|factor| factor.name.as_str()))?;
-        let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(self.sampler));
-        let analysis = checked(analysis, self.sampler, &space)?;
+        let mut study = self.checked()?;
+        study.source = in_words(&study.name, &study.design, &study.space);
+        study.sha256 = Sha256::digest(study.source.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(study)
+    }
+
+    /// The study, which obeys every rule, without the text that it is made from.
+    pub(super) fn checked(self) -> Result<Study, BuildError> {
+        rules::check_title(&self.name, self.title.as_deref())?;
+        let factors = self.factors.into_iter().collect::<Result<Vec<Factor>, _>>()?;
+        let space = Space::new(factors);
+        let model = self.subject.model(&space);
+        rules::check_outputs(&*model)?;
+        rules::check_factors(space.factors(), &*model)?;
+        let outputs = model.outputs().len();
+        let (sampler, length) = (self.sampler, self.length);
+        let analysis = self.analysis.unwrap_or_else(|| AnalysisOptions::for_sampler(sampler));
+        let analysis = rules::checked_options(analysis, sampler, &space, outputs)?;
         let space = space.with_dependences(self.dependences)?;
-        if space.noise().is_some() && analysis.asks_for_shapley() {
-            return Err(BuildError::Dependent { what: "Shapley effects beside the noise of a stochastic model" });
-        }
-        if space.copula().is_some() {
-            let refused = [
-                ("the noise of a stochastic model", space.noise().is_some()),
-                ("surrogate = \"on\"", analysis.surrogate == SurrogateChoice::On),
-                ("a target of accuracy, which chooses by surrogates (a half width does not)", self.target.is_free),
-                ("cheaper models", !self.lows.is_empty()),
-            ];
-            if let Some((what, _)) = refused.into_iter().find(|(_, asked)| *asked) {
-                return Err(BuildError::Dependent { what });
-            }
-        }
-        let outputs = self.model.outputs().len();
-        if !analysis.measures.is_empty() && outputs > MOST_OUTPUTS_OF_MEASURES {
-            return Err(BuildError::Measures { outputs });
-        }
-        let target = checked_target(self.target, self.sampler)?;
-        let is_split = self.plain_rows > 0 || self.budget_runs.is_some();
+        rules::check_dependent(&analysis, &space, &self.lows)?;
+        length.check(sampler)?;
         let replicates = self.replicates.unwrap_or(analysis.intervals.default_replicates());
-        if let Some(why) = analysis.refuses_plain_rows(self.sampler, replicates).filter(|_| is_split) {
-            return Err(BuildError::PlainRows { why });
-        }
-        let mut sizes = (self.base_samples.unwrap_or_else(|| target.base_samples(replicates)), self.plain_rows);
-        if let Some(runs) = self.budget_runs {
-            let others = [
-                ("base_samples", self.base_samples.is_some()),
-                ("plain_rows", self.plain_rows > 0),
-                ("a target", self.target != Target::default()),
-            ];
-            if let Some((other, _)) = others.into_iter().find(|(_, is_there)| *is_there) {
-                return Err(BuildError::BudgetRunsBeside { other });
-            }
-            let split = split_design(runs, &analysis, &space, self.sampler, replicates).transpose();
-            sizes = split.map_err(|least| BuildError::BudgetRuns { least })?.unwrap_or(sizes);
-        }
-        let (base_samples, plain_rows) = sizes;
-        let settings =
-            target.first_stage(DesignSettings { sampler: self.sampler, base_samples, replicates, seed: self.seed });
+        let (base_samples, plain_rows) = length.sizes(&analysis, &space, sampler, replicates)?;
+        let settings = DesignSettings { sampler, base_samples, replicates, seed: self.seed };
         let design = Design::new(settings, space.factors().len(), rows(&analysis, &space, plain_rows))?;
-        let design = target.within_max_runs(design).map_err(|least| BuildError::MaxRuns { least })?;
-        for low in &self.lows {
-            if let Some(problem) = low.refused(&*self.model, &space) {
+        let design = length.target.within_max_runs(design).or_else(|least| {
+            let expected = format!("{least} or more, which 2 base samples in each of {replicates} replicates take");
+            wrong("max_runs", expected, length.target.max_runs.unwrap_or_default())
+        })?;
+        for (number, low) in self.lows.iter().enumerate() {
+            if self.lows[..number].iter().any(|other| other.name == low.name) {
+                return Err(BuildError::Repeated { what: "cheaper model", name: low.name.clone() });
+            }
+            if let Some(problem) = low.refused(&*model, &space) {
                 return Err(BuildError::LowFidelity { name: low.name.clone(), problem });
             }
+            if low.base_samples.is_some() && length.target.accuracy.is_some() {
+                return wrong("base_samples", "left out beside `accuracy`, with which the run chooses it", "there");
+            }
         }
-        let source = in_words(&self.name, &design, &space);
+        let mut notes = Vec::new();
+        if length.base_samples.is_some_and(|asked| asked != design.settings().base_samples) {
+            let used = design.settings().base_samples;
+            notes.push(format!(
+                "base_samples = {base_samples} is not a multiple of {replicates} replicates: {used} are used"
+            ));
+        }
+        if analysis.surrogate == SurrogateChoice::On && replicates < FEWEST_NETS as u64 {
+            notes.push(format!("`surrogate` has no effect with fewer than {FEWEST_NETS} replicates"));
+        }
+        let is_bootstrap = matches!(analysis.intervals, IntervalMethod::Percentile | IntervalMethod::Bca);
+        if analysis.resamples != DEFAULT_RESAMPLES && !is_bootstrap {
+            notes.push("`resamples` has no effect but with intervals = \"percentile\" or \"bca\"".to_owned());
+        }
+        if analysis.aggregate && outputs < 2 {
+            notes.push("`aggregate` has no effect with a single output".to_owned());
+        }
+        let (overrides, source, sha256) = Default::default();
         Ok(Study {
-            sha256: Sha256::digest(source.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect(),
             name: self.name,
             title: self.title,
-            subject: Arc::new(CustomSubject { model: self.model, version: self.version }),
+            subject: self.subject,
             space,
             design,
             analysis,
-            target,
+            target: length.target,
             lows: self.lows,
-            overrides: Vec::new(),
+            overrides,
             source,
-            notes: Vec::new(),
+            sha256,
+            notes,
         })
     }
 }
@@ -294,17 +266,17 @@ impl StudyBuilder {
 /// What stands in the result in the place of a study file.
 fn in_words(name: &str, design: &Design, space: &Space) -> String {
     let settings = design.settings();
+    let size = match design.plain_rows() {
+        0 => format!("base_samples = {}", settings.base_samples),
+        _ => format!("runs = {}", design.rows()),
+    };
     let mut text = format!(
         "# A study built in code: its model is part of a program.\nname = \"{name}\"\n\n[design]\nsampler = \"{}\"\n\
-         base_samples = {}\nreplicates = {}\nseed = {}\n",
+         {size}\nreplicates = {}\nseed = {}\n",
         settings.sampler.name(),
-        settings.base_samples,
         settings.replicates,
         settings.seed
     );
-    if design.plain_rows() > 0 {
-        let _ = writeln!(text, "plain_rows = {}", design.plain_rows());
-    }
     for factor in space.factors() {
         let law = serde_json::to_string(factor.distribution()).unwrap_or_default();
         // Escapes of JSON are escapes of TOML.

@@ -3,13 +3,13 @@
 //! A [`Study`] comes from a file (`Study::load`) or is built in code ([`Study::builder`]); after that nothing
 //! re-validates.
 
-mod build_checks;
 mod build_error;
 mod builder;
 #[cfg(feature = "study")]
 mod file;
 mod identity;
 mod options;
+mod rules;
 mod subject;
 
 use std::sync::Arc;
@@ -28,7 +28,7 @@ pub use subject::{LowFidelity, Rung, Subject};
 
 pub use crate::names::nearest;
 
-use crate::design::Design;
+use crate::design::{Design, DesignError};
 use crate::model::Model;
 use crate::space::Space;
 use crate::surrogate::{FEWEST_NETS, fewest_points};
@@ -89,7 +89,7 @@ impl Study {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn builder(name: &str, model: impl Model + 'static) -> StudyBuilder {
-        StudyBuilder::new(name, Arc::new(model))
+        StudyBuilder::new(name, Arc::new(CustomSubject { model: Arc::new(model), version: None }))
     }
 
     /// The study with `model` in the place of its own: a model that is part of a program, with a study file for the rest.
@@ -108,6 +108,16 @@ impl Study {
         }
         let subject = CustomSubject { model: Arc::new(model), version: Some(version.to_owned()) };
         Ok(Self { subject: Arc::new(subject), ..self })
+    }
+
+    /// The study with so many base samples, as a run of that size: the first of them are those of this study, but for Latin
+    /// hypercubes.
+    ///
+    /// # Errors
+    /// [`DesignError`] if that is too many or too few.
+    pub fn with_base_samples(self, base_samples: u64) -> Result<Self, DesignError> {
+        let design = self.design.with_points(base_samples / self.design.settings().replicates)?;
+        Ok(Self { design, target: Target::default(), ..self })
     }
 
     /// Its name, by default that of the file without its ending. Result files are named after it.

@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use crate::analysis::Warning;
 use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets};
 use crate::given::Measure;
@@ -104,18 +105,30 @@ impl AnalysisOptions {
         shapley_players(self.shapley_players.unwrap_or_default(), space)
     }
 
-    /// Why plain rows, which only surrogates learn from, would be of no use; `None` if they are.
-    pub(super) fn refuses_plain_rows(&self, sampler: Sampler, replicates: u64) -> Option<String> {
-        let fewest = FEWEST_NETS as u64;
-        if self.surrogate == SurrogateChoice::Off {
-            Some("surrogate = \"off\"".to_owned())
-        } else if self.intervals != IntervalMethod::Nets || sampler == Sampler::LatinHypercube {
-            Some(format!("intervals = \"{}\"", self.intervals.name()))
-        } else if replicates < fewest {
-            Some(format!("replicates = {replicates}, fewer than {fewest}"))
-        } else {
-            None
+    /// Warnings about a design and the intervals that rest on it.
+    pub fn design_warnings(&self, design: &Design) -> Vec<Warning> {
+        let (points, replicates) = (design.points_per_replicate(), design.settings().replicates);
+        let mut warnings = Vec::new();
+        if !design.balanced() {
+            let more = points.next_power_of_two() * replicates;
+            warnings.push(Warning::Unbalanced { points, fewer: more / 2, more });
         }
+        match self.intervals {
+            IntervalMethod::Replicates if replicates == 1 => warnings.push(Warning::SingleReplicate),
+            IntervalMethod::Nets if replicates == 1 => warnings.push(Warning::SingleNet),
+            _ => (),
+        }
+        warnings
+    }
+
+    /// Whether surrogates may correct the indices, at points of `sampler` in so many replicates.
+    pub(crate) fn takes_surrogates(&self, sampler: Sampler, replicates: u64, space: &Space) -> bool {
+        self.surrogate != SurrogateChoice::Off
+            && self.intervals == IntervalMethod::Nets
+            && sampler != Sampler::LatinHypercube
+            && replicates >= FEWEST_NETS as u64
+            && space.copula().is_none()
+            && !self.has_shapley(space)
     }
 }
 
@@ -152,43 +165,36 @@ pub(super) const MOST_AUTOMATIC_VALUES: u64 = 1 << 16;
 /// The same for programs, whose runs take longer than any fit: all outputs must fit into memory.
 pub(super) const MOST_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;
 
-/// How well the indices must be known, and what that may cost: a run goes on by doubling until one of these is reached. A
-/// run without any has the size that its design says.
+/// How well the indices must be known, and the limits of a run that goes on until they are. With limits alone the run is doubled
+/// as far as they allow; without any of these it has the size that its design says.
 ///
 /// ```
 /// use apportion::Target;
 ///
-/// let target = Target::half_width(0.01).budget(60.0);
-/// assert_eq!(target, Target { half_width: Some(0.01), budget: Some(60.0), ..Target::default() });
+/// let target = Target::accuracy(0.01).max_time(60.0);
+/// assert_eq!(target, Target { accuracy: Some(0.01), max_time: Some(60.0), max_runs: None });
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Target {
-    /// Half width that the interval of every first-order and total index must reach.
-    pub half_width: Option<f64>,
+    /// Half width that the interval of every first-order and total index must reach: the run chooses by itself what gets there
+    /// at the least cost, with or without surrogates and cheaper models.
+    pub accuracy: Option<f64>,
     /// Seconds that the run may take.
-    pub budget: Option<f64>,
+    pub max_time: Option<f64>,
     /// Model runs that it may take.
     pub max_runs: Option<u64>,
-    /// Whether the run chooses its design, surrogates and cheaper models by itself.
-    pub is_free: bool,
 }
 
 impl Target {
     /// Every first-order and total index to this half width of its interval.
-    pub const fn half_width(half_width: f64) -> Self {
-        Self { half_width: Some(half_width), budget: None, max_runs: None, is_free: false }
-    }
-
-    /// The same, and the run chooses by itself what gets there at the least cost: how many base samples and plain rows, with or
-    /// without surrogates and cheaper models.
     pub const fn accuracy(half_width: f64) -> Self {
-        Self { is_free: true, ..Self::half_width(half_width) }
+        Self { accuracy: Some(half_width), max_time: None, max_runs: None }
     }
 
     /// But no doubling that would take longer than so many seconds.
     #[must_use]
-    pub const fn budget(self, seconds: f64) -> Self {
-        Self { budget: Some(seconds), ..self }
+    pub const fn max_time(self, seconds: f64) -> Self {
+        Self { max_time: Some(seconds), ..self }
     }
 
     /// But no doubling that would take more model runs.
@@ -206,23 +212,12 @@ impl Target {
     pub(super) fn base_samples(&self, replicates: u64) -> u64 {
         match self {
             // Trials decide what is run.
-            Self { is_free: true, .. } => FIRST_FREE_POINTS.saturating_mul(replicates),
-            // A budget of time may not suffice for more of a slow model.
-            Self { budget: Some(_), .. } => FIRST_POINTS.saturating_mul(replicates),
+            Self { accuracy: Some(_), .. } => FIRST_TRIAL_POINTS.saturating_mul(replicates),
+            // The time may not suffice for more of a slow model.
+            Self { max_time: Some(_), .. } => FIRST_POINTS.saturating_mul(replicates),
             target if target.grows() => FIRST_STAGE,
             _ => DesignSettings::default().base_samples,
         }
-    }
-
-    /// The settings of its first stage: a growing run goes from one power of two in each replicate to the next.
-    pub(super) fn first_stage(&self, settings: DesignSettings) -> DesignSettings {
-        let DesignSettings { base_samples, replicates, .. } = settings;
-        if !self.grows() || base_samples < 2 * replicates {
-            return settings;
-        }
-        let points = base_samples.div_ceil(replicates.max(1)).checked_next_power_of_two();
-        let rounded = points.and_then(|points| points.checked_mul(replicates));
-        DesignSettings { base_samples: rounded.unwrap_or(base_samples), ..settings }
     }
 
     /// `design` halved until it takes no more than the runs that it may; an error with the runs of the smallest one if
@@ -241,11 +236,11 @@ impl Target {
 /// Base samples with which a growing run starts.
 const FIRST_STAGE: u64 = 1 << 10;
 
-/// Base points of each replicate with which one starts that has a budget of time.
+/// Base points of each replicate with which one starts whose time is limited.
 const FIRST_POINTS: u64 = 64;
 
-/// The same of one that chooses its design by itself.
-const FIRST_FREE_POINTS: u64 = 4;
+/// The same of one that is asked for an accuracy.
+const FIRST_TRIAL_POINTS: u64 = 4;
 
 /// Dependent factors up to which Shapley effects are not asked for one by one.
 const FREE_SHAPLEY_FACTORS: usize = 4;
@@ -260,39 +255,43 @@ pub(super) const RESAMPLES: RangeInclusive<usize> = 100..=1_000_000;
 pub(super) const DEFAULT_THRESHOLD: f64 = 0.05;
 pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
 
-/// Share of the runs of a split design above which its base samples are not doubled once more.
-const SPLIT: u64 = 3;
-
-/// Base samples and plain rows of each for a split design of at most `runs` runs in `replicates` of points of `sampler`; an
-/// error with the runs of the smallest such design if that takes more. `None` where there is no design of any size.
-pub(super) fn split_design(
+/// Base samples and plain rows of each for the best design of at most `runs` runs in `replicates` of points of `sampler`; an
+/// error with the runs of the smallest such design if that takes more.
+pub(super) fn sizes_within(
     runs: u64,
     analysis: &AnalysisOptions,
     space: &Space,
     sampler: Sampler,
     replicates: u64,
-) -> Option<Result<(u64, u32), u64>> {
+) -> Result<(u64, u32), u64> {
     let one = DesignSettings { sampler, base_samples: 2, replicates: 1, ..DesignSettings::default() };
-    let one = Design::new(one, space.factors().len(), rows(analysis, space, 0)).ok()?;
-    Some(split(runs, one.rows_per_point(), replicates))
+    match Design::new(one, space.factors().len(), rows(analysis, space, 0)) {
+        Ok(one) => split(runs, one.rows_per_point(), replicates, analysis.takes_surrogates(sampler, replicates, space)),
+        // What is wrong with the rows is said when the design is made.
+        Err(_) => Ok((2 * replicates, 0)),
+    }
 }
 
-/// Base samples and plain rows of each for a split design of at most `runs` runs: an eighth to a third of them, rather more
-/// than less, for base samples of `runs_per_point` runs without plain rows, a power of two in each of `replicates`. An error
-/// with the runs of the smallest such design if that takes more.
-fn split(runs: u64, runs_per_point: u64, replicates: u64) -> Result<(u64, u32), u64> {
+/// Base samples and plain rows of each for at most `runs` runs: a power of two in each of `replicates`, whose runs are
+/// `runs_per_point` without plain rows. For surrogates an eighth to a third of the runs, rather more than less, are at base
+/// samples, and the others at plain rows, from which these alone learn. An error with the runs of the smallest design if that
+/// takes more.
+fn split(runs: u64, runs_per_point: u64, replicates: u64, for_surrogates: bool) -> Result<(u64, u32), u64> {
+    const SHARE: u64 = 3;
     let runs_of = |points: u64| points.saturating_mul(replicates).saturating_mul(runs_per_point);
     let least = runs_of(2);
     if least > runs {
         return Err(least);
     }
+    let most = if for_surrogates { runs / SHARE } else { runs };
     let mut points = 2;
-    while runs_of(2 * points) <= runs / SPLIT {
+    while runs_of(2 * points) <= most {
         points *= 2;
     }
     let base_samples = points * replicates;
     let plain = (runs - runs_of(points)) / base_samples;
-    Ok((base_samples, plain.min(u64::from(MAX_PLAIN_ROWS)) as u32))
+    let plain = if for_surrogates { plain.min(u64::from(MAX_PLAIN_ROWS)) as u32 } else { 0 };
+    Ok((base_samples, plain))
 }
 
 /// The rows for what is asked: the factors, the groups, the subsets; of dependent factors these once more, redrawn; the dummy; and
@@ -346,12 +345,13 @@ mod tests {
 
     #[test]
     fn a_split_design_stays_within_its_runs_and_has_a_power_of_two_in_each_replicate() {
-        assert_eq!(split(300, 10, 4), Ok((8, 27)));
-        assert_eq!(split(80, 10, 4), Ok((8, 0)));
-        assert_eq!(split(79, 10, 4), Err(80));
-        assert_eq!(split(1 << 60, u64::MAX, 4), Err(u64::MAX));
+        assert_eq!(split(300, 10, 4, true), Ok((8, 27)));
+        assert_eq!(split(300, 10, 4, false), Ok((16, 0)));
+        assert_eq!(split(80, 10, 4, true), Ok((8, 0)));
+        assert_eq!(split(79, 10, 4, true), Err(80));
+        assert_eq!(split(1 << 60, u64::MAX, 4, true), Err(u64::MAX));
         for (runs, per_point) in [(97, 5), (480, 10), (1000, 3), (5000, 22), (1 << 40, 10)] {
-            let (base, plain) = split(runs, per_point, 4).unwrap();
+            let (base, plain) = split(runs, per_point, 4, true).unwrap();
             assert!(base * (per_point + u64::from(plain)) <= runs && (base / 4).is_power_of_two());
             assert!(base == 8 || 8 * base * per_point >= runs && 3 * base * per_point <= runs, "{runs}: {base}");
         }

@@ -308,8 +308,8 @@ def log_uniform_from_nothing(page):
 KINDS = """title = "Factors of all kinds"
 model = "expression"
 
-[expression]
-outputs.y = "narrow + spread + strength + ln(wide) + level + wait"
+[outputs]
+y = "narrow + spread + strength + ln(wide) + level + wait"
 
 [design]
 base_samples = 256

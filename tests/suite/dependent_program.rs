@@ -37,9 +37,7 @@ fn what_dependent_factors_do_not_have_is_refused_with_what_they_do() {
     let set = |change: &'static str| ["check", study.as_str(), "--set", change].map(str::to_owned).to_vec();
     for (change, expected) in [
         ("analysis.second_order=true", "Shapley effects"),
-        ("analysis.surrogate=\"on\"", "need independent ones"),
-        ("accuracy=0.01", "half_width"),
-        ("design.plain_rows=3", "depend on each other"),
+        ("analysis.surrogate=\"on\"", "it needs independent ones"),
         ("analysis.shapley=1", "boolean"),
         ("dependence=[{factors=[\"x1\",\"x2\"]}]", "`correlation`"),
         ("dependence=[{factors=[\"x1\",\"x9\"], correlation=0.5}]", "unknown factor `x9`"),
@@ -66,7 +64,7 @@ fn joint_measurements_and_matrices_state_the_same() {
         factors.replace('\n', "\nmin = 0\nmax = 1\n").replace("[[factor]]\nmin = 0\nmax = 1\n", "[[factor]]\n");
     let study = folder.with(
         "study.toml",
-        format!("{model}{factors}[dependence]\nfactors = [\"x1\", \"x2\"]\nfile = \"joint.csv\"\n"),
+        format!("{model}{factors}[[dependence]]\nfactors = [\"x1\", \"x2\"]\nfile = \"joint.csv\"\n"),
     );
     let told = succeed(&["run", text(&study), "--out", text(&folder.path("out"))]);
     assert!(told.contains("Shapley effect"), "{told}");
@@ -91,8 +89,8 @@ fn whatever_else_is_asked_of_dependent_factors_has_its_lines() {
     let factors = [factor("a", "group = \"g\""), factor("b", "group = \"g\""), factor("c", "")].concat();
     let asked = "subsets = [[\"a\", \"c\"]]\ndummy = true\naggregate = true\nestimators = [\"jansen\", \"azzini\"]\n";
     let study = format!(
-        "model = \"expression\"\n[expression.outputs]\ny = \"a + b*c\"\nz = \"c\"\n[design]\nbase_samples = 256\n\
-         [analysis]\n{asked}{factors}[dependence]\nfactors = [\"a\", \"b\"]\ncorrelation = 0.5\n"
+        "model = \"expression\"\n[outputs]\ny = \"a + b*c\"\nz = \"c\"\n[design]\nbase_samples = 256\n\
+         [analysis]\n{asked}{factors}[[dependence]]\nfactors = [\"a\", \"b\"]\ncorrelation = 0.5\n"
     );
     for shapley in ["true", "false"] {
         let out = folder.path(shapley);

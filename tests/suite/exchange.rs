@@ -59,7 +59,7 @@ impl Sampled {
 /// A model outside of two factors: 2 base points in each of 4 replicates, 4 rows each.
 const OUTSIDE: &str = r#"
     model = "external"
-    external.outputs.force = "nN"
+    outputs.force = "nN"
     design = { base_samples = 64, seed = 3 }
     factor = [
         { name = "a", min = 1, max = 3, unit = "um" },
@@ -142,8 +142,8 @@ fn a_model_outside_is_sampled_and_analyzed_but_not_run() {
     let result = sampled.result("s");
     assert_eq!(result.outputs[0].name, "force");
     // The same model inside.
-    let formula = "expression.outputs.force = { formula = \"1e-9*(1e6*a + 2*b + probe)\", unit = \"nN\" }";
-    let inside = OUTSIDE.replace("external.outputs.force = \"nN\"", formula).replace("external", "expression");
+    let formula = "outputs.force = { formula = \"1e-9*(1e6*a + 2*b + probe)\", unit = \"nN\" }";
+    let inside = OUTSIDE.replace("outputs.force = \"nN\"", formula).replace("external", "expression");
     std::fs::write(sampled.path("inside.toml"), inside).unwrap();
     succeed(&["run", &sampled.name("inside.toml"), "--out", &sampled.name("out")]);
     let (found, expected) = (numbers(&result.outputs[0]), numbers(&sampled.result("inside").outputs[0]));

@@ -9,8 +9,9 @@ use crate::common::{analysed, apportion, gap, numbers, stderr, stdout, study_pat
 
 /// The Ishigami function, as a user would write it.
 const ISHIGAMI: &str = r#"model = "expression"
+[outputs]
+y = "sin(x1) + a*sin(x2)^2 + b*x3^4*sin(x1)"
 [expression]
-outputs.y = "sin(x1) + a*sin(x2)^2 + b*x3^4*sin(x1)"
 constants.a = 7
 constants.b = 0.1
 [design]
@@ -93,22 +94,21 @@ fn faults_are_named_with_line_and_column() {
     refused(formula, "{ formula = \"x1\", unit = \"parsec\" }", &["study.toml:3:13:", "parsec"]);
     refused(formula, "{ formula = \"x1\", units = \"N\" }", &["study.toml:3:13:", "`y` must be a formula", "`units`"]);
     refused(formula, "3", &["study.toml:3:13:", "`y` must be a formula", "not integer"]);
-    refused("constants.a = 7\n", "", &["study.toml:3:24:", "there is no `a`"]);
-    refused("constants.a = 7", "constants.a = \"7 parsecs\"", &["study.toml:4:15:", "parsecs"]);
-    refused("constants.a = 7", "constants.a = [7]", &["study.toml:4:15:", "a finite number or a quantity"]);
-    refused("constants.a", "constants.x1", &["study.toml:4:11:", "`x1` stands here twice"]);
-    refused("constants.a", "constants.sin", &["study.toml:4:11:", "no function or number of the formula language"]);
-    refused("name = \"x3\"", "name = \"x 3\"", &["study.toml:17:8:", "it stands in formulas"]);
-    refused("name = \"x3\"", "name = \"x1\"", &["study.toml:17:8:", "factor `x1` stands here twice"]);
-    refused("[expression]", "outputs = [\"z\"]\n[expression]", &["study.toml:2:12:", "unknown output `z`", "known: y"]);
-    refused("[expression]", "[afm]\n[expression]", &["study.toml:2:1:", "unknown key `afm`"]);
+    refused("constants.a = 7\n", "", &["study.toml:3:16:", "there is no `a`"]);
+    refused("constants.a = 7", "constants.a = \"7 parsecs\"", &["study.toml:5:15:", "parsecs"]);
+    refused("constants.a = 7", "constants.a = [7]", &["study.toml:5:15:", "a finite number or a quantity"]);
+    refused("constants.a", "constants.x1", &["study.toml:5:11:", "`x1` stands here twice"]);
+    refused("constants.a", "constants.sin", &["study.toml:5:11:", "no function or number of the formula language"]);
+    refused("name = \"x3\"", "name = \"x 3\"", &["study.toml:18:8:", "it stands in formulas"]);
+    refused("name = \"x3\"", "name = \"x1\"", &["study.toml:18:8:", "`x1` is there twice"]);
+    refused("[outputs]", "[afm]\n[outputs]", &["study.toml:2:1:", "unknown key `afm`"]);
     refused("model = \"expression\"", "model = \"ishigami\"", &["unknown key `expression`"]);
     refused(
         "constants.a = 7",
         "constant.a = 7",
-        &["study.toml:4:1:", "unknown key `constant`: did you mean `constants`?"],
+        &["study.toml:5:1:", "unknown key `constant`: did you mean `constants`?"],
     );
-    refused("outputs.y = \"sin(x1) + a*sin(x2)^2 + b*x3^4*sin(x1)\"\n", "", &["study.toml:2:1:", "has no formula"]);
+    refused("y = \"sin(x1) + a*sin(x2)^2 + b*x3^4*sin(x1)\"\n", "", &["study.toml:2:1:", "has no formula"]);
     let empty = "model = \"expression\"\n[[factor]]\nname = \"x\"\nmin = 0\nmax = 1\n";
     refused(ISHIGAMI, empty, &["study.toml:1:1:", "has no formula", "outputs.y = "]);
 }

@@ -8,8 +8,8 @@ use crate::common::{Folder, apportion, stderr, succeed, text};
 
 /// A study with a factor of every kind; its model gives what it gets.
 const STUDY: &str = r#"model = "expression"
-[expression]
-outputs.y = "d + n + wet + 10*material + r"
+[outputs]
+y = "d + n + wet + 10*material + r"
 [design]
 base_samples = 256
 replicates = 4
@@ -231,51 +231,51 @@ fn points_and_sweeps_of_no_category_are_refused() {
 
 /// A study with a factor of every family that people asked for, among them truncated ones; its model is their sum.
 pub const FAMILIES: &str = r#"model = "expression"
-[expression]
-outputs.y = "g + e + p + t + l + a + i + h + q + m + n"
+[outputs]
+y = "g + e + p + t + l + a + i + h + q + m + n"
 [design]
 base_samples = 4096
-[factor.g]
+[factors.g]
 distribution = "gamma"
 mean = 2
 sd = 1
-[factor.e]
+[factors.e]
 distribution = "exponential"
 mean = 1
 truncate = [0.5, inf]
-[factor.p]
+[factors.p]
 distribution = "poisson"
 mean = 4
-[factor.t]
+[factors.t]
 distribution = "student-t"
 df = 5
 location = 0
 scale = 1
-[factor.l]
+[factors.l]
 distribution = "logistic"
 mean = 2
 sd = 1
-[factor.a]
+[factors.a]
 distribution = "pareto"
 shape = 1
 min = 1
 truncate = [-inf, 4]
-[factor.i]
+[factors.i]
 distribution = "inverse-gaussian"
 mean = 2
 sd = 1
-[factor.h]
+[factors.h]
 distribution = "histogram"
 quantiles = { "0" = 1, "0.5" = 2, "1" = 5 }
-[factor.q]
+[factors.q]
 distribution = "histogram"
 edges = [0, 1, 3]
 weights = [1, 3]
-[factor.m]
+[factors.m]
 distribution = "mixture"
 weights = [3, 1]
 components = [{ distribution = "constant", value = 0 }, { distribution = "exponential", mean = 4 }]
-[factor.n]
+[factors.n]
 distribution = "normal"
 mean = 0
 sd = 1

@@ -8,11 +8,11 @@ use apportion::{Distribution, Study, Target, function_model};
 use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
 
 /// Ishigami's function with a = 5 and the cheaper one of Qian et al. (2018), section 4.1.
-const PAIR: &str = "model = \"expression\"\n[expression]\noutputs.y = \"sin(x1) + 5*sin(x2)^2 + 0.1*x3^4*sin(x1)\"\n\
+const PAIR: &str = "model = \"expression\"\n[outputs]\ny = \"sin(x1) + 5*sin(x2)^2 + 0.1*x3^4*sin(x1)\"\n\
     [[factor]]\nname = \"x1\"\nmin = -3.141592653589793\nmax = 3.141592653589793\n\
     [[factor]]\nname = \"x2\"\nmin = -3.141592653589793\nmax = 3.141592653589793\n\
     [[factor]]\nname = \"x3\"\nmin = -3.141592653589793\nmax = 3.141592653589793\n\
-    [fidelity]\nlow = [{ name = \"coarse\", expression = { outputs = { y = \"sin(x1) + 3*sin(x2)^2 + 0.9*x3^2*sin(x1)\" } } }]\n\
+    [fidelity]\nlow = [{ name = \"coarse\", outputs = { y = \"sin(x1) + 3*sin(x2)^2 + 0.9*x3^2*sin(x1)\" } }]\n\
     base_samples = 1024\n[design]\nbase_samples = 64\n";
 
 fn study(text: &str, more: &[&str]) -> Study {
@@ -34,7 +34,7 @@ fn a_cheaper_model_of_steps_takes_most_of_the_error_away_without_bias() {
     let product =
         |c: [f64; 3]| (0..3).map(|i| format!("(1 + {}*floor(3*x{}))", c[i], i + 1)).collect::<Vec<_>>().join("*");
     let factors: String = (1..=3).map(|i| format!("[[factor]]\nname = \"x{i}\"\nmin = 0\nmax = 1\n")).collect();
-    let base = format!("model = \"expression\"\n[expression]\noutputs.y = \"{}\"\n{factors}", product(c));
+    let base = format!("model = \"expression\"\n[outputs]\ny = \"{}\"\n{factors}", product(c));
     let low = format!(
         "[fidelity]\nlow = [{{ name = \"low\", expression = {{ outputs = {{ y = \"{}\" }} }} }}]\nbase_samples = 4096\n",
         product([0.75, 0.55, 0.3])
@@ -213,7 +213,7 @@ fn what_cannot_be_is_refused_with_its_reason() {
         "closed-form",
     );
     refused(&PAIR.replace("{ y = \"sin(x1) + 3", "{ z = \"sin(x1) + 3"), &[], "must be those of the model");
-    let nameless = "a table with a name, as in { name = \"coarse\", expression = ... }";
+    let nameless = "a table with a name, as in { name = \"coarse\", .. }";
     refused(&PAIR.replace("name = \"coarse\", ", ""), &[], nameless);
     refused(&PAIR.replace("name = \"coarse\"", "name = \"\""), &[], "name of a cheaper model");
     refused(&PAIR.replace("3*sin(x2)^2 +", "3*sin(x2^2 +"), &[], "cheaper model `coarse`");
@@ -226,8 +226,8 @@ fn one_way_to_size_a_run_takes_the_place_of_another() {
         let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
         Study::load(&path, &overrides).unwrap()
     };
-    assert!(loaded(&["accuracy=0.01"]).target().is_free);
+    assert!(loaded(&["accuracy=0.01"]).target().accuracy.is_some());
     assert_eq!(loaded(&["accuracy=0.01", "design.base_samples=64"]).target(), Target::default());
-    let split = loaded(&["design.budget_runs=200"]);
+    let split = loaded(&["design.runs=200"]);
     assert!(split.design().plain_rows() > 0 && split.design().rows() <= 200);
 }

@@ -191,7 +191,7 @@ fn a_surrogate_adds_total_indices() {
 fn a_study_tells_the_distributions() {
     let study = |max: f64| {
         let factors: String = (1..=3).map(|j| format!("[[factor]]\nname = \"x{j}\"\nmin = 0\nmax = {max}\n")).collect();
-        format!("model = \"expression\"\n[expression]\noutputs.y = \"3*x1 + 2*x2 + x3\"\n{factors}")
+        format!("model = \"expression\"\n[outputs]\ny = \"3*x1 + 2*x2 + x3\"\n{factors}")
     };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("study.toml");

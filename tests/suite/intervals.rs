@@ -12,8 +12,7 @@ const NORMAL: &str = "distribution = \"normal\"\nmean = 0\nsd = 1";
 fn analysed(formula: &str, distribution: &str, design: &str) -> ResultFile {
     let factors: String =
         ["a", "b", "c"].map(|name| format!("[[factor]]\nname = \"{name}\"\n{distribution}\n")).concat();
-    let text =
-        format!("model = \"expression\"\n[expression]\noutputs.y = \"{formula}\"\n[design]\n{design}\n{factors}");
+    let text = format!("model = \"expression\"\n[outputs]\ny = \"{formula}\"\n[design]\n{design}\n{factors}");
     let study = Study::parse(&text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
     ResultFile::new(&study, &study.run().unwrap())
 }

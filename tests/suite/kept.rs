@@ -6,15 +6,15 @@ use apportion::report::read_result;
 
 use crate::common::{Folder, apportion, files, stderr, succeed, text};
 
-const SLOW: &str = "model = \"command\"\noutputs = [\"y\"]\ncommand = [\"python3\", \"model.py\"]\n[factor.a]\nmin = 0\nmax = 1\n\
-                    [factor.b]\nmin = 0\nmax = 2\n";
+const SLOW: &str = "model = \"command\"\noutputs = [\"y\"]\ncommand = [\"python3\", \"model.py\"]\n[factors.a]\nmin = 0\nmax = 1\n\
+                    [factors.b]\nmin = 0\nmax = 2\n";
 
 const MODEL: &str = "import sys\nfor line in sys.stdin:\n    cells = line.split(',')\n    try:\n        \
                      print(cells[0], float(cells[-2]) + float(cells[-1]) ** 2, sep=',', flush=True)\n    except ValueError:\n        pass\n";
 
-const SUM: &str = "model = \"expression\"\n[expression.outputs]\ny = { formula = \"a + b^2\", unit = \"mm\" }\n\
-                   [design]\nbase_samples = 8\n[factor.a]\nmin = 0\nmax = 1\nunit = \"mm\"\nnominal = 0.25\n\
-                   [factor.b]\nmin = 0\nmax = 2\n";
+const SUM: &str = "model = \"expression\"\n[outputs]\ny = { formula = \"a + b^2\", unit = \"mm\" }\n\
+                   [design]\nbase_samples = 8\n[factors.a]\nmin = 0\nmax = 1\nunit = \"mm\"\nnominal = 0.25\n\
+                   [factors.b]\nmin = 0\nmax = 2\n";
 
 /// The command is refused with exit code 2, which says `expected`.
 #[track_caller]
@@ -31,12 +31,13 @@ fn a_split_design_is_doubled_as_it_is() {
     let (study, out) = (folder.with("s.toml", SLOW), folder.path("out"));
     let [study, out] = [text(&study), text(&out)];
     let design = || read_result(&Path::new(out).join("s.json")).map(|result| result.provenance).unwrap();
-    succeed(&["run", study, "--budget-runs", "100", "--out", out, "--charts", "none"]);
+    succeed(&["run", study, "--runs", "100", "--out", out, "--charts", "none"]);
     let first = design();
     assert!(first.plain_rows > 0);
-    for more in [&[][..], &["--budget-runs", "100"]] {
+    for _ in 0..2 {
         let before = design();
-        let doubled = apportion(&[&["run", study, "--double", "--out", out, "--charts", "none"], more].concat());
+        let doubled =
+            apportion(&["run", study, "--set", "design.runs=100", "--double", "--out", out, "--charts", "none"]);
         assert_eq!(doubled.status.code(), Some(0), "{}", stderr(&doubled));
         let (now, recorded) =
             (design(), format!("note: {} of {} runs are on record", before.model_runs, 2 * before.model_runs));
@@ -46,7 +47,10 @@ fn a_split_design_is_doubled_as_it_is() {
     assert!(!files(Path::new(out)).contains("s.journal.old"));
     // Another design cannot go on, and nothing is touched.
     let before = std::fs::read(Path::new(out).join("s.journal")).unwrap();
-    refused(&["run", study, "--double", "--seed", "7", "--out", out], "s.journal: the journal is of another study");
+    refused(
+        &["run", study, "--set", "design.runs=100", "--double", "--seed", "7", "--out", out],
+        "s.journal: the journal is of another study",
+    );
     assert_eq!(std::fs::read(Path::new(out).join("s.journal")).unwrap(), before);
 }
 
@@ -200,8 +204,6 @@ fn numbers_and_places_that_serve_no_option_are_told_as_such() {
     let study = folder.with("s.toml", SUM);
     refused(&["run", text(&study), "--seed", "-1"], "expected a whole number from 0 to");
     refused(&["screen", text(&study), "--trajectories", "0"], "expected a whole number, at least 4");
-    let page = succeed(&["man", "run"]);
-    assert!(page.contains(concat!("\"apportion ", env!("CARGO_PKG_VERSION"), "\"")), "{page}");
     if Path::new("/dev/full").exists() {
         let program = assert_cmd::cargo::cargo_bin("apportion");
         let full = std::fs::File::create("/dev/full").unwrap();

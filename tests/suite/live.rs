@@ -116,7 +116,8 @@ fn a_run_that_decides_its_own_length_gets_that_of_the_page() {
 #[test]
 fn a_title_does_not_break_out_of_the_page() {
     let folder = Folder::new();
-    let study = "title = \"</script><script>alert(1)</script>\"\nmodel = \"ishigami\"\n[factor.x1]\nmin = 0\nmax = 1\n";
+    let study =
+        "title = \"</script><script>alert(1)</script>\"\nmodel = \"ishigami\"\n[factors.x1]\nmin = 0\nmax = 1\n";
     let study = folder.with("s.toml", study);
     let page = folder.path("live.html");
     succeed(&["live", text(&study), "--base-samples", "64", "-o", text(&page)]);

@@ -14,7 +14,7 @@ fn study(outputs: usize, more: &str) -> String {
     let outputs: String = (0..outputs).map(output).collect();
     let factor = |name: &str| format!("[[factor]]\nname = \"{name}\"\nmin = 0\nmax = 1\n");
     let factors: String = ["a", "b", "c", "d"].map(factor).concat();
-    format!("model = \"expression\"\n{more}[expression.outputs]\n{outputs}{factors}")
+    format!("model = \"expression\"\n{more}[outputs]\n{outputs}{factors}")
 }
 
 /// Runs the study `content` and gives the folder of its files.
@@ -136,8 +136,7 @@ fn outputs_that_are_told_apart_by_names_alone_have_rows() {
     let outputs: String = names.iter().enumerate().map(output).collect();
     let factors: String =
         ["a", "b", "c"].map(|name| format!("[[factor]]\nname = \"{name}\"\nmin = 0\nmax = 1\n")).concat();
-    let content =
-        format!("model = \"expression\"\n[design]\nbase_samples = 64\n[expression.outputs]\n{outputs}{factors}");
+    let content = format!("model = \"expression\"\n[design]\nbase_samples = 64\n[outputs]\n{outputs}{factors}");
     let (out, printed) = run(&folder, &content, &[]);
     let map = std::fs::read_to_string(out.join("charts/s-map.svg")).unwrap();
     assert!(names.iter().all(|name| map.contains(&format!(">{name}</text>"))), "{map}");
@@ -150,8 +149,7 @@ fn failures_of_many_outputs_are_told_once() {
     let folder = Folder::new();
     let outputs: String = (0..20).map(|k| format!("y{k} = \"sqrt(a - 0.01) + {k} * b\"\n")).collect();
     let factors: String = ["a", "b"].map(|name| format!("[[factor]]\nname = \"{name}\"\nmin = 0\nmax = 1\n")).concat();
-    let content =
-        format!("model = \"expression\"\n[design]\nbase_samples = 128\n[expression.outputs]\n{outputs}{factors}");
+    let content = format!("model = \"expression\"\n[design]\nbase_samples = 128\n[outputs]\n{outputs}{factors}");
     let study = folder.with("s.toml", content);
     let out = folder.path("out");
     let output = apportion(&["run", text(&study), "--out", text(&out), "--no-journal"]);

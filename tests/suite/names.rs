@@ -6,10 +6,9 @@ use crate::common::{Folder, all_files, apportion, files, stderr, text};
 
 /// A study of formulas with these outputs, all the sum of its two factors.
 fn study(names: &[&str]) -> String {
-    let outputs: String =
-        names.iter().map(|name| format!("outputs.{} = \"a + b\"\n", toml::Value::from(*name))).collect();
+    let outputs: String = names.iter().map(|name| format!("{} = \"a + b\"\n", toml::Value::from(*name))).collect();
     format!(
-        "model = \"expression\"\n[design]\nbase_samples = 64\n[expression]\n{outputs}[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n\
+        "model = \"expression\"\n[design]\nbase_samples = 64\n[outputs]\n{outputs}[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n\
          [[factor]]\nname = \"b\"\nmin = 0\nmax = 2\n"
     )
 }
@@ -39,7 +38,7 @@ fn no_name_of_an_output_leads_out_of_the_folder() {
         }
     }
     // Outputs from a file.
-    let outside = "model = \"external\"\n[external]\noutputs.y = \"1\"\n[design]\nbase_samples = 8\n[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n";
+    let outside = "model = \"external\"\n[outputs]\ny = \"1\"\n[design]\nbase_samples = 8\n[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n";
     let (path, design) = (folder.with("e.toml", outside), folder.path("design.csv"));
     assert_eq!(apportion(&["sample", text(&path), "-o", text(&design)]).status.code(), Some(0));
     let points = std::fs::read_to_string(&design).unwrap();
@@ -126,7 +125,7 @@ fn names_with_marks_that_are_not_seen_and_long_ones_are_refused_before_the_work(
 fn a_hundred_thousand_factors_are_refused_at_once() {
     let folder = Folder::new();
     let factors: String = (0..100_000).map(|k| format!("[[factor]]\nname = \"x{k}\"\nmin = 0\nmax = 1\n")).collect();
-    let path = folder.with("many.toml", format!("model = \"external\"\n[external]\noutputs.y = \"1\"\n{factors}"));
+    let path = folder.with("many.toml", format!("model = \"external\"\n[outputs]\ny = \"1\"\n{factors}"));
     refused(&folder, &["check", text(&path)], "100000 factors are too many: at most 10000 are possible");
 }
 
@@ -163,8 +162,9 @@ fn no_path_leads_out_of_the_studys_folder_unless_it_says_so() {
         std::os::unix::fs::symlink(target, inner.join(link)).unwrap();
     }
     let load = |keys: &str, more: &str| {
+        let (outputs, keys) = if keys.starts_with("outputs.") { (keys, "") } else { ("", keys) };
         let study = format!(
-            "model = \"command\"\n[command]\nprogram = [\"true\"]\n{keys}\n{more}outputs.y = {{ regex = \"(.*)\" }}\n\
+            "model = \"command\"\noutputs.y = {{ regex = \"(.*)\" }}\n{outputs}\n[command]\nprogram = [\"true\"]\n{keys}\n{more}\
              [[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n"
         );
         apportion::study::Study::load(&folder.with("inner/s.toml", study), &[]).map_err(|error| error.to_string())
@@ -179,7 +179,7 @@ fn no_path_leads_out_of_the_studys_folder_unless_it_says_so() {
         }
     }
     folder.with("table.csv", "1\n2\n4\n7\n");
-    let measured = "model = \"expression\"\n[expression]\noutputs.y = \"a\"\n[[factor]]\nname = \"a\"\n\
+    let measured = "model = \"expression\"\noutputs.y = \"a\"\n[[factor]]\nname = \"a\"\n\
                     distribution = \"empirical\"\nfile = \"../table.csv\"\n";
     apportion::study::Study::load(&folder.with("inner/s.toml", measured), &[]).unwrap();
 }

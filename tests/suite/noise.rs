@@ -166,7 +166,7 @@ fn parsed(text: &str) -> Result<Study, apportion::StudyError> {
 
 #[test]
 fn a_file_says_it_in_two_ways() {
-    let short = parsed(&format!("{FORMULA}[factor.x]\nmin = 0\nmax = 1")).unwrap();
+    let short = parsed(&format!("{FORMULA}[factors.x]\nmin = 0\nmax = 1")).unwrap();
     let long = FORMULA.replace("noise = \"seed\"\n", "")
         + "[noise]\nname = \"seed\"\n[[factor]]\nname = \"x\"\nmin = 0\nmax = 1";
     let long = parsed(&long).unwrap();
@@ -185,22 +185,20 @@ fn a_file_says_it_in_two_ways() {
 
 #[test]
 fn what_makes_no_sense_is_refused() {
-    let x = "[factor.x]\nmin = 0\nmax = 1\n";
+    let x = "[factors.x]\nmin = 0\nmax = 1\n";
     let refused = |text: &str| parsed(text).map(|_| ()).unwrap_err().to_string();
     for (text, expected) in [
-        (format!("{FORMULA}{x}[factor.other]\ndistribution = \"seed\""), "a study has one noise"),
-        (format!("{FORMULA}{x}[factor.seed]\nmin = 0\nmax = 1"), "seed"),
+        (format!("{FORMULA}{x}[factors.other]\ndistribution = \"seed\""), "`noise` must be one seed"),
+        (format!("{FORMULA}{x}[factors.seed]\nmin = 0\nmax = 1"), "seed"),
         (FORMULA.to_owned(), "factor"),
         (format!("{}{x}[noise]\nrepetitions = 0", FORMULA.replace("noise = \"seed\"\n", "")), "from 1 to 1000"),
         (format!("{}{x}[noise]\nrepeats = 2", FORMULA.replace("noise = \"seed\"\n", "")), "repeats"),
         (format!("{}{x}", FORMULA.replace("\"seed\"", "3")), "the name under which the model gets its seed"),
-        (format!("{FORMULA}{x}[factor.s]\ndistribution = \"seed\"\ntruncate = [0, 5]"), "no order"),
-        (format!("{FORMULA}{x}[factor.s]\ndistribution = \"seed\"\nunit = \"um\""), "a seed is a pure number"),
-        (format!("{FORMULA}{x}[factor.s]\ndistribution = \"seed\"\nmin = 0"), "nothing"),
+        (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\ntruncate = [0, 5]"), "no order"),
+        (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\nunit = \"um\""), "a seed is a pure number"),
+        (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\nmin = 0"), "nothing"),
         (
-            "model = \"external\"\noutputs = [\"y\"]\n[noise]\nrepetitions = 4\n[external]\noutputs.y = \"1\"\n"
-                .to_owned()
-                + x,
+            "model = \"external\"\noutputs = [\"y\"]\n[noise]\nrepetitions = 4\n".to_owned() + x,
             "outside of this program",
         ),
         ("model = \"ishigami\"\nnoise = \"seed\"\n".to_owned() + &x.replace(".x]", ".x1]"), "seed"),
@@ -218,7 +216,7 @@ fn program(folder: &Folder, draws: &str) -> std::path::PathBuf {
     );
     folder.with("model.py", source);
     let study = "model = \"command\"\noutputs = [\"y\"]\nnoise = \"seed\"\n[command]\nprogram = [\"python3\", \"model.py\"]\n\
-                 [design]\nbase_samples = 64\n[factor.x]\nmin = 0\nmax = 1\n";
+                 [design]\nbase_samples = 64\n[factors.x]\nmin = 0\nmax = 1\n";
     folder.with("study.toml", study)
 }
 
@@ -306,7 +304,7 @@ fn the_example_says_which_question_each_number_answers() {
 #[test]
 fn indices_over_all_outputs_have_a_line_of_the_noise() {
     let folder = Folder::new();
-    let study = "model = \"expression\"\nnoise = \"seed\"\n[expression.outputs]\ny = \"x + sin(seed)\"\nz = \"2*x\"\n[design]\n\
+    let study = "model = \"expression\"\nnoise = \"seed\"\n[outputs]\ny = \"x + sin(seed)\"\nz = \"2*x\"\n[design]\n\
                  base_samples = 1024\n[analysis]\naggregate = true\n[[factor]]\nname = \"x\"\nmin = 0\nmax = 1\n";
     let file = folder.with("noisy.toml", study);
     let out = folder.path("out");

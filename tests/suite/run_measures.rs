@@ -86,7 +86,7 @@ fn nothing_is_made_up_where_nothing_can_be_told() {
     assert!(of(|_| 1.0, 64).is_none() && of(|x| x[0], 8).is_none() && of(|x| x[0], 64).is_some());
 }
 
-const STUDY: &str = "model = \"expression\"\n[expression.outputs]\ny = \"3*a + 2*b*b\"\nz = \"b\"\n[design]\nbase_samples = 512\n\
+const STUDY: &str = "model = \"expression\"\n[outputs]\ny = \"3*a + 2*b*b\"\nz = \"b\"\n[design]\nbase_samples = 512\n\
                      [analysis]\nmeasures = [\"pawn_median\", \"delta\"]\n";
 
 fn study() -> String {

@@ -50,7 +50,7 @@ fn a_study_of_all_families_fits_the_schema() {
     for wrong in
         ["truncate = [1]", "quantiles = [1, 2]", "components = []", "components = [{ name = \"x\" }]", "df = \"x\""]
     {
-        let value = study(&format!("[factor.x]\n{wrong}"));
+        let value = study(&format!("[factors.x]\n{wrong}"));
         assert_ne!(complaints(&validator, &value), Vec::<String>::new(), "{wrong}");
     }
 }
@@ -78,8 +78,8 @@ fn wrong_keys_names_and_types_are_refused() {
         "[design]\nsampler = \"halton\"",
         "[design]\nbase_samples = -1",
         "[design]\nbase_samples = \"many\"",
-        "[design]\ntarget = { half_width = 0 }",
-        "[design]\ntarget = {}",
+        "accuracy = 0",
+        "[design]\ntarget = 0.1",
         "[analysis]\nthreshold = 2",
         "[analysis]\nestimators = [\"jansn\"]",
         "[analysis]\nsubsets = [\"x1\"]",
@@ -89,7 +89,9 @@ fn wrong_keys_names_and_types_are_refused() {
         "[afm]\nlenght = \"225 um\"",
         "[function]\na = \"1\"",
         "[factor]\nmin = 1\nmax = 2",
-        "[factor.length]\nmim = 1",
+        "[factor.length]\nmin = 1",
+        "factors = [\"length\"]",
+        "[factors.length]\nmim = 1",
         "[[factor]]\nmin = 1",
         "[[factor]]\nname = \"length\"\ndistribution = \"gauss\"",
         "[[factor]]\nname = \"length\"\nminimum = 1",

@@ -190,7 +190,7 @@ fn the_push_against_time() {
     let text = "model = \"afm\"\noutputs = [\"position_history\", \"critical_force\", \"force_history\"]\n\
                 afm = { fidelity = \"quasi-static\", history = { duration = \"2 s\", points = 100 } }\n\
                 design = { base_samples = 1024 }\nanalysis = { surrogate = \"off\" }\n\
-                [factor.velocity]\nmin = 80\nmax = 120\nunit = \"nm/s\"\n[factor.thickness]\nmin = 0.9\nmax = 1.1\nunit = \"um\"\n";
+                [factors.velocity]\nmin = 80\nmax = 120\nunit = \"nm/s\"\n[factors.thickness]\nmin = 0.9\nmax = 1.1\nunit = \"um\"\n";
     let study = Study::parse(text, "push.toml".as_ref(), &[]).unwrap();
     let analysis = study.run().unwrap();
     let position = analysis.series("position_history").unwrap();

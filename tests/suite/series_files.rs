@@ -39,11 +39,11 @@ fn a_program_gives_a_series_by_cells_or_as_a_list() {
     let outputs = "outputs.sum = \"nN\"\noutputs.y = { length = 4, axis = \"time\", axis_unit = \"ms\", positions = [1, 0.5], unit = \"nN\" }\n";
     let folder = Folder::new();
     let cells = python("print(i, a + b, *[a * k + b for k in range(4)], sep=',', flush=True)");
-    let (by_cells, printed) = run(&folder, &format!("{COMMAND}{outputs}"), &cells);
+    let (by_cells, printed) = run(&folder, &format!("{outputs}{COMMAND}"), &cells);
     let list = "import json, sys\nfor line in sys.stdin:\n    x = json.loads(line)\n    a, b = x['a'], x['b']\n    \
                 print(json.dumps({'id': x['id'], 'y': [a * k + b for k in range(4)], 'sum': a + b}), flush=True)\n";
     let folder = Folder::new();
-    let (by_list, _) = run(&folder, &format!("{COMMAND}protocol = \"json-lines\"\n{outputs}"), list);
+    let (by_list, _) = run(&folder, &format!("{outputs}{COMMAND}protocol = \"json-lines\"\n"), list);
     assert_eq!((&by_cells.outputs, &by_cells.series), (&by_list.outputs, &by_list.series));
     let series = &by_cells.series[0];
     assert_eq!((series.name.as_str(), series.unit.as_str(), series.axis.as_str()), ("y", "nN", "time"));
@@ -67,7 +67,7 @@ fn a_list_of_another_length_is_no_answer() {
     let folder = Folder::new();
     folder.with("model.py", "import json, sys\nfor line in sys.stdin:\n    print(json.dumps({'id': json.loads(line)['id'], 'y': [1, 2, 3]}), flush=True)\n");
     let study = format!(
-        "model = \"command\"\n{COMMAND}protocol = \"json-lines\"\noutputs.y = {{ length = 4 }}\n[design]\nbase_samples = 64\n{FACTORS}"
+        "model = \"command\"\noutputs.y = {{ length = 4 }}\n{COMMAND}protocol = \"json-lines\"\n[design]\nbase_samples = 64\n{FACTORS}"
     );
     let (path, out) = (folder.with("s.toml", study), folder.path("out"));
     let output = apportion(&["run", text(&path), "--no-journal", "--out", text(&out)]);
@@ -88,10 +88,10 @@ fn a_program_that_runs_once_leaves_a_series_in_a_table() {
                    open('out.csv', 'w').write('t,y\\n' + ''.join(f'{k},{a * k + b}\\n' for k in range(4)))\n\
                    open('out.json', 'w').write(str({'y': [a * k + b for k in range(4)]}).replace(\"'\", '\"'))\n\
                    for k in range(4): print('z =', a * k + b)\n";
-    let study = "[command]\nprogram = [\"python3\", \"model.py\"]\ntemplate = \"in.txt\"\nfiles = [\"model.py\"]\n\
-                 outputs.table = { length = 4, file = \"out.csv\", column = \"y\" }\n\
+    let study = "outputs.table = { length = 4, file = \"out.csv\", column = \"y\" }\n\
                  outputs.json = { length = 4, file = \"out.json\", pointer = \"/y\" }\n\
-                 outputs.printed = { length = 4, regex = 'z = (\\S+)' }";
+                 outputs.printed = { length = 4, regex = 'z = (\\S+)' }\n\
+                 [command]\nprogram = [\"python3\", \"model.py\"]\ntemplate = \"in.txt\"\nfiles = [\"model.py\"]\n";
     let study = format!("{study}\n[design]\nbase_samples = 8\n{FACTORS}").replace("[design]\nbase_samples = 8\n", "");
     let out = folder.path("out");
     folder.with("model.py", program);
@@ -114,7 +114,7 @@ fn a_program_that_runs_once_leaves_a_series_in_a_table() {
 fn tables_have_a_column_for_each_value_or_one_header_for_all() {
     let folder = Folder::new();
     let study = format!(
-        "model = \"external\"\n[external]\noutputs.peak = \"1\"\noutputs.y = {{ length = 3, axis = \"day\" }}\n[design]\nbase_samples = 64\n{FACTORS}"
+        "model = \"external\"\n[outputs]\npeak = \"1\"\ny = {{ length = 3, axis = \"day\" }}\n[design]\nbase_samples = 64\n{FACTORS}"
     );
     let (study, design) = (folder.with("s.toml", study), folder.path("design.csv"));
     succeed(&["sample", text(&study), "-o", text(&design)]);
@@ -149,7 +149,7 @@ fn a_thousand_values_are_a_few_files_and_a_page_of_a_few_megabytes() {
         "print(i, *[a * k * k / 1e6 + (1 - k / 1e3) * b + a * b * (k % 100) / 100 for k in range(1000)], sep=',', flush=True)",
     );
     let outputs = "outputs.y = { length = 1000, axis = \"time\", axis_unit = \"s\" }\n";
-    let (result, printed) = run(&folder, &format!("{COMMAND}{outputs}"), &program);
+    let (result, printed) = run(&folder, &format!("{outputs}{COMMAND}"), &program);
     let (out, names) = (folder.path("out"), all_files(&folder.path("out")));
     assert!(names.len() < 40, "{names:?}");
     for chart in ["along", "together"] {

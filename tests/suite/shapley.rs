@@ -202,9 +202,9 @@ fn what_cannot_be_is_refused() {
     let folder = Folder::new();
     let file = folder.with("twelve.toml", twelve());
     for (change, expected) in [
-        ("analysis.shapley_method=\"subsets\"", "at most 8 factors"),
+        ("analysis.shapley_method=\"subsets\"", "at most 8 players"),
         ("analysis.shapley_method=\"orders\"", "permutations"),
-        ("analysis={shapley=false, shapley_method=\"permutations\"}", "nothing beside shapley = false"),
+        ("analysis={shapley=false, shapley_method=\"permutations\"}", "true beside what says how"),
     ] {
         let output = apportion(&["check", text(&file), "--set", change]);
         assert_eq!(output.status.code(), Some(2), "{change}");
@@ -219,9 +219,9 @@ fn what_cannot_be_is_refused() {
     };
     let plain = || AnalysisOptions::for_sampler(Sampler::Sobol);
     let asked = |shapley, shapley_method| AnalysisOptions { shapley: Some(shapley), shapley_method, ..plain() };
-    assert!(matches!(build(101, asked(true, None)), Err(BuildError::Shapley { factors: 101, most: 100 })));
+    assert!(matches!(build(101, asked(true, None)), Err(BuildError::Wrong { key: "shapley", .. })));
     let subsets = Some(ShapleyMethod::Subsets);
-    assert!(matches!(build(9, asked(true, subsets)), Err(BuildError::Shapley { factors: 9, most: 8 })));
-    assert!(matches!(build(3, asked(false, subsets)), Err(BuildError::ShapleyMethod { method: "subsets" })));
+    assert!(matches!(build(9, asked(true, subsets)), Err(BuildError::Wrong { key: "shapley_method", .. })));
+    assert!(matches!(build(3, asked(false, subsets)), Err(BuildError::Wrong { key: "shapley", .. })));
     assert!(build(9, asked(true, None)).is_ok() && build(101, plain()).is_ok());
 }

@@ -1,11 +1,11 @@
-//! Few runs: random points as a table for `given-data`, and what `check` advises.
+//! Few runs: random points as a table for `given-data`.
 
 use apportion::report::given::GivenFile;
 
 use crate::common::{Folder, apportion, stderr, succeed, text};
 
-const STUDY: &str = "model = \"expression\"\nexpression.outputs.y = \"a + 2 * b + a * b\"\n[factor.a]\nmin = -1\nmax = 1\n\
-                     [factor.b]\nmin = -100\nmax = 100\nunit = \"cm\"\n";
+const STUDY: &str = "model = \"expression\"\noutputs.y = \"a + 2 * b + a * b\"\n[factors.a]\nmin = -1\nmax = 1\n\
+                     [factors.b]\nmin = -100\nmax = 100\nunit = \"cm\"\n";
 
 /// Formulas are in SI, so b is between -1 and 1: the parts of y have the variances 1/3, 4/3 and 1/9.
 #[test]
@@ -55,7 +55,7 @@ fn random_points_follow_from_the_seed_and_are_no_design() {
     for wrong in [&["--random", "0"][..], &["--random", "5", "--base-samples", "64"], &["--random", "-1"]] {
         assert_eq!(apportion(&[&["sample", text(&study)], wrong].concat()).status.code(), Some(2));
     }
-    let refused = apportion(&["run", text(&study), "--budget-runs", "20"]);
+    let refused = apportion(&["run", text(&study), "--runs", "20"]);
     assert!(stderr(&refused).contains("`apportion sample STUDY --random 20`"), "{}", stderr(&refused));
 }
 
@@ -73,26 +73,4 @@ fn random_points_of_dependent_factors_depend() {
     // Of uniform factors on (-1, 1), whose variance is 1/3; the standard error is .005.
     let product: f64 = pairs.iter().map(|(a, b)| 3.0 * a * b).sum::<f64>() / 2000.0;
     assert!((product - 0.9).abs() < 0.03, "{product}");
-}
-
-#[test]
-fn check_says_which_method_serves_for_slow_models() {
-    let folder = Folder::new();
-    let program = folder.with("slow.sh", "read -r header; while read -r row; do sleep 0.01; echo \"$row\"; done\n");
-    let factors: String = ["a", "b"].iter().map(|name| format!("[factor.{name}]\nmin = 0\nmax = 1\n")).collect();
-    let slow = format!(
-        "model = \"command\"\noutputs = [\"y\", \"z\"]\n[command]\nprogram = [\"sh\", {:?}]\n[design]\nbase_samples = 64\n{factors}",
-        text(&program)
-    );
-    let slow = folder.with("slow.toml", slow);
-    let said = succeed(&["check", text(&slow)]);
-    for part in ["fewer than 10", "from 10:", "from 64:", "--outputs y,z --study", "--budget-runs N", "--accuracy 0.02"]
-    {
-        assert!(said.contains(part), "no {part:?} in {said}");
-    }
-    let outside = folder.with("out.toml", format!("model = \"external\"\noutputs = [\"y\"]\n{factors}"));
-    let said = succeed(&["check", text(&outside)]);
-    assert!(said.contains("apportion analyze OUTPUTS") && !said.contains("apportion run "), "{said}");
-    let quick = folder.with("quick.toml", STUDY);
-    assert!(!succeed(&["check", text(&quick)]).contains("which method"));
 }

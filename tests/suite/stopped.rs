@@ -10,9 +10,9 @@ use crate::common::{Folder, all_files, apportion, stderr, text};
 
 /// A study whose charts take a while: six of each of 11 outputs, twice.
 fn many_charts() -> String {
-    let outputs: String = (0..11).map(|k| format!("outputs.y{k} = \"a + {k} * b\"\n")).collect();
+    let outputs: String = (0..11).map(|k| format!("y{k} = \"a + {k} * b\"\n")).collect();
     format!(
-        "model = \"expression\"\n[design]\nbase_samples = 256\n[expression]\n{outputs}[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n\
+        "model = \"expression\"\n[design]\nbase_samples = 256\n[outputs]\n{outputs}[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n\
          [[factor]]\nname = \"b\"\nmin = 0\nmax = 2\n"
     )
 }

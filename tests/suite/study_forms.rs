@@ -23,33 +23,27 @@ fn refused(study: &str, expected: &[&str]) {
     }
 }
 
-const LISTED: &str = "model = \"expression\"\nexpression.outputs.z = \"b + 2*a\"\nexpression.outputs.y = \"a\"\n\
+const LISTED: &str = "model = \"expression\"\noutputs.z = \"b + 2*a\"\noutputs.y = \"a\"\n\
                       [[factor]]\nname = \"b\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"a\"\nmin = -1\nmax = 2\nunit = \"mm\"\n";
 
 /// Their order decides which dimension of the sequence each gets, and so the numbers.
 #[test]
-fn factors_are_the_same_study_in_every_form_in_the_order_of_the_file() {
+fn factors_are_the_same_study_in_both_forms_in_the_order_of_the_file() {
     let listed = parsed(LISTED);
-    let head = "model = \"expression\"\nexpression.outputs.z = \"b + 2*a\"\nexpression.outputs.y = \"a\"\n";
+    let head = "model = \"expression\"\noutputs.z = \"b + 2*a\"\noutputs.y = \"a\"\n";
     for form in [
-        "[factor.b]\nmin = 0\nmax = 1\n[factor.a]\nmin = -1\nmax = 2\nunit = \"mm\"\n",
-        "[factor.b]\nmin = 0\nmax = 1\n[factor.a]\nname = \"a\"\nmin = -1\nmax = 2\nunit = \"mm\"\n",
-        "[factors.b]\nmin = 0\nmax = 1\n[factors.a]\nmin = -1\nmax = 2\nunit = \"mm\"\n",
         "[factors]\nb = { min = 0, max = 1 }\na = { min = -1, max = 2, unit = \"mm\" }\n",
-        "[factor]\nb.min = 0\na.min = -1\na.unit = \"mm\"\nb.max = 1\na.max = 2\n",
-        "[[factors]]\nname = \"b\"\nmin = 0\nmax = 1\n[[factors]]\nname = \"a\"\nmin = -1\nmax = 2\nunit = \"mm\"\n",
+        "[factors.b]\nmin = 0\nmax = 1\n[factors.a]\nmin = -1\nmax = 2\nunit = \"mm\"\n",
     ] {
         let study = parsed(&format!("{head}{form}"));
         assert_eq!(study.space(), listed.space(), "{form}");
         assert_eq!(study.identity(), listed.identity(), "{form}");
     }
-    let single = parsed("model = \"expression\"\noutputs.y = \"a\"\n[factor]\nname = \"a\"\nmin = 0\nmax = 1\n");
-    assert_eq!(single.space().factors().len(), 1);
     // The same numbers, through the binary, and a change of a factor by its name.
     let folder = Folder::new();
     let table = folder.with(
         "table.toml",
-        format!("{head}[factor.b]\nmin = 0\nmax = 1\n[factor.a]\nmin = -1\nmax = 2\nunit = \"mm\"\n"),
+        format!("{head}[factors.b]\nmin = 0\nmax = 1\n[factors.a]\nmin = -1\nmax = 2\nunit = \"mm\"\n"),
     );
     let list = folder.with("list.toml", LISTED);
     let csv = |study: &Path, name: &str| {
@@ -62,27 +56,32 @@ fn factors_are_the_same_study_in_every_form_in_the_order_of_the_file() {
 }
 
 #[test]
-fn two_forms_of_factors_at_once_are_refused() {
+fn other_forms_are_refused_with_todays_lines() {
     let head = "model = \"expression\"\noutputs.y = \"a\"\n";
     let list = "[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n";
+    refused(&format!("{head}{list}[factors.b]\nmin = 0\nmax = 1\n"), &["s.toml:7:2:", "keep one of the two"]);
+    let line = "[factors]\na = { min = 0, max = 1 }";
+    for old in [
+        "[factor]\nname = \"a\"\nmin = 0\nmax = 1\n",
+        "[factor.a]\nmin = 0\nmax = 1\n",
+        "factors = [{ name = \"a\", min = 0, max = 1 }]\n",
+    ] {
+        refused(&format!("{head}{old}"), &[line]);
+    }
+    let two = "[factor.b]\nmin = 0\nmax = 1\n[factor.a]\nmax = 2\n";
+    refused(&format!("{head}{two}"), &["[factors]\nb = { min = 0, max = 1 }\na = { max = 2 }"]);
+    let outputs = "[expression]\noutputs.z = \"a\"\noutputs.y = { formula = \"2*a\", unit = \"m\" }\n";
     refused(
-        &format!("{head}{list}[factors.b]\nmin = 0\nmax = 1\n"),
-        &["s.toml:7:2:", "both in `factor` and in `factors`"],
+        &format!("model = \"expression\"\n{outputs}{list}"),
+        &["s.toml:3:1:", "outputs.z = \"a\"\noutputs.y = { formula = \"2*a\", unit = \"m\" }"],
     );
-    refused(
-        &format!("{head}[factor]\nname = \"a\"\nmin = 0\n[factor.b]\nmin = 0\n"),
-        &["unknown key", "[factor.NAME]"],
-    );
-    let twice = "[factor]\nname = \"a\"\nmin = 0\nmax = 1\n";
-    refused(&format!("{head}{twice}{twice}"), &["stands here twice", "[[factor]], with two brackets"]);
-    refused(&format!("{head}[factor.a]\nname = \"b\"\nmin = 0\nmax = 1\n"), &["s.toml:4:8:", "as its table is called"]);
-    refused(&format!("{head}[factor.a]\nmin = 0\n"), &["s.toml:3:9:", "factor `a`", "needs `max`"]);
-    refused(&format!("{head}factors = [\"a\"]\n"), &["s.toml:3:12:", "expected a table [[factor]]"]);
+    refused(&format!("{head}[factors.a]\nname = \"b\"\nmin = 0\n"), &["stands before its table"]);
+    refused(&format!("{head}[factors.a]\nmin = 0\n"), &["s.toml:3:10:", "factor `a`", "needs `max`"]);
 }
 
 #[test]
-fn outputs_stand_on_top_or_in_the_table_of_the_model() {
-    let factor = "[factor.x1]\nmin = 0\nmax = 1\n";
+fn outputs_stand_above_the_tables_of_models() {
+    let factor = "[factors.x1]\nmin = 0\nmax = 1\n";
     let outputs = |study: &str| -> Vec<String> {
         parsed(study).model().outputs().iter().map(|output| format!("{} [{}]", output.name, output.unit)).collect()
     };
@@ -103,8 +102,6 @@ fn outputs_stand_on_top_or_in_the_table_of_the_model() {
     assert_eq!(outputs(&program), ["y [nN]"]);
     let table = format!("model = \"command\"\noutputs.y = \"nN\"\ncommand.program = [\"python3\", \"m.py\"]\n{factor}");
     assert_eq!(outputs(&table), ["y [nN]"]);
-    let both = format!("model = \"expression\"\noutputs.y = \"x1\"\n[expression]\noutputs.z = \"x1\"\n{factor}");
-    refused(&both, &["s.toml:2:1:", "both in `[outputs]` and in `[expression] outputs`"]);
     refused(&format!("outputs.y = \"x1\"\n{factor}"), &["s.toml:1:1:", "a list of names", "model = \"expression\""]);
     refused(&format!("model = \"command\"\noutputs.y = \"nN\"\n{factor}"), &["the study has no program"]);
     // A place in a formula is that in the file.
@@ -115,21 +112,10 @@ fn outputs_stand_on_top_or_in_the_table_of_the_model() {
 fn what_stands_in_the_wrong_table_is_told_where_it_belongs() {
     let factor = "[[factor]]\nname = \"x1\"\nmin = 0\nmax = 1\n";
     refused(
-        &format!("model = \"command\"\n[command]\nprogram = [\"x\"]\noutputs = [\"y\"]\n{factor}"),
-        &["s.toml:4:1:", "above the first table", "outputs.y = "],
+        &format!("model = \"expression\"\noutputs.y = \"x1\"\n[expression]\na = 7\n{factor}"),
+        &["s.toml:4:1:", "unknown key `a`", "constants"],
     );
-    refused(
-        &format!("model = \"expression\"\n[expression]\ny = \"x1\"\n{factor}"),
-        &["s.toml:3:1:", "unknown key `y` here", "outputs.y = ...", "[expression.outputs]"],
-    );
-    refused(
-        &format!("model = \"expression\"\n[expression]\noutputs.y = \"x1\"\na = 7\n{factor}"),
-        &["s.toml:4:1:", "unknown key `a` here", "constants.a = ..."],
-    );
-    refused(
-        &format!("[expression]\noutputs.y = \"x1\"\n{factor}"),
-        &["belongs to model = \"expression\"", "by default"],
-    );
+    refused(&format!("[expression]\nconstants.a = 1\n{factor}"), &["belongs to model = \"expression\"", "by default"]);
     refused(
         &format!("seed = 3\n{factor}"),
         &["s.toml:1:1:", "unknown key `seed` here: it stands in the table [design]"],
@@ -173,7 +159,7 @@ fn words_of_other_programs_are_answered_by_ours() {
 #[test]
 fn formulas_of_python_are_understood() {
     let study =
-        |formula: &str| format!("model = \"expression\"\noutputs.y = \"{formula}\"\n[factor.x1]\nmin = 1\nmax = 2\n");
+        |formula: &str| format!("model = \"expression\"\noutputs.y = \"{formula}\"\n[factors.x1]\nmin = 1\nmax = 2\n");
     for (python, ours) in [("np.sin(x1)", "sin(x1)"), ("math.log(x1) + np.pi", "ln(x1) + pi")] {
         let value = |formula: &str| {
             let study = parsed(&study(formula));
@@ -186,39 +172,14 @@ fn formulas_of_python_are_understood() {
 
 #[test]
 fn a_key_mistyped_is_not_mistaken_for_a_fault_of_another() {
-    let rest = "outputs.y = \"x1\"\n[factor.x1]\nmin = 0\nmax = 1\n";
+    let rest = "outputs.y = \"x1\"\n[factors.x1]\nmin = 0\nmax = 1\n";
     for typed in ["modle", "Model", "models"] {
         let study = format!("{typed} = \"expression\"\n{rest}");
         refused(&study, &["s.toml:1:1:", &format!("unknown key `{typed}`: did you mean `model`?")]);
     }
     let factors = |line: &str| format!("model = \"expression\"\noutputs.y = \"a\"\n[factors]\n{line}\n");
-    refused(
-        &factors("a = [0, 1.5]"),
-        &["s.toml:4:5:", "`a` must be a table, as a factor is written: { min = 0, max = 1.5 }"],
-    );
-    refused(&factors("a = 3\nb = { min = 0, max = 1 }"), &["s.toml:4:5:", "{ min = .., max = .. }"]);
+    refused(&factors("a = [0, 1.5]"), &["s.toml:4:5:", "`a` must be a table, as in { min = 0, max = 1 }"]);
     refused(&factors("größe = { min = 0, max = 1 }"), &["s.toml:4:", "stands in quotes, as in \"größe\" = 2"]);
-}
-
-/// The scaffold of `new --model command` has such a table as a comment.
-#[test]
-fn a_table_of_a_programs_outputs_takes_the_place_of_their_list() {
-    let study = "model = \"command\"\noutputs = [\"force\", \"z\"]\n[command]\nprogram = [\"x\"]\noutputs.force = \"nN\"\n\
-                 [factor.a]\nmin = 0\nmax = 1\n";
-    refused(
-        study,
-        &[
-            "s.toml:2:21: unknown output `z`: the table of outputs in [command] takes the place of this list, and has force alone",
-            "outputs.z = \"1\", or its unit",
-        ],
-    );
-    let listed = study.replace("outputs.force = \"nN\"\n", "");
-    let set = ["command.outputs.force=nN".to_owned()];
-    let error = Study::parse(&listed, Path::new("s.toml"), &set).unwrap_err().to_string();
-    assert!(
-        error.contains("takes the place of this list") && error.contains("--set command.outputs.force=nN"),
-        "{error}"
-    );
 }
 
 /// Editors are told of every form that is read.
@@ -234,16 +195,14 @@ fn the_schema_knows_the_forms() {
     let valid =
         |study: &str| validator.is_valid(&serde_json::to_value(toml::from_str::<toml::Value>(study).unwrap()).unwrap());
     for study in [
-        "factor.a = { min = 0, max = 1 }",
         "[factors]\na = { min = 0, max = 1 }",
-        "[factor]\nname = \"a\"\nmin = 0\nmax = 1",
-        "[[factors]]\nname = \"a\"\nmin = 0\nmax = 1",
+        "[[factor]]\nname = \"a\"\nmin = 0\nmax = 1",
         "outputs.y = \"x1\"",
         "outputs = [\"y\"]",
     ] {
         assert!(valid(study), "{study}");
     }
-    for study in ["factor.a = { mim = 0 }", "factor.a = 3", "[factor]\nmin = 1", "outputs = \"y\""] {
+    for study in ["factors.a = { mim = 0 }", "factors.a = 3", "[factor]\nmin = 1", "outputs = \"y\""] {
         assert!(!valid(study), "{study}");
     }
 }

@@ -26,7 +26,7 @@ const OFF: &str = "analysis.surrogate=\"off\"";
 #[test]
 fn a_polynomial_has_its_indices_to_rounding() {
     // Var(x1) = 1/12, Var(2 x2) = 4/12, x1 x2 centred 3: 9/144.
-    let text = "model = \"expression\"\n[expression]\noutputs.y = \"x1 + 2*x2 + 3*(x1-0.5)*(x2-0.5)\"\n\
+    let text = "model = \"expression\"\n[outputs]\ny = \"x1 + 2*x2 + 3*(x1-0.5)*(x2-0.5)\"\n\
                 [[factor]]\nname = \"x1\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"x2\"\nmin = 0\nmax = 1\n\
                 [[factor]]\nname = \"x3\"\nmin = 0\nmax = 1\n[analysis]\nsecond_order = true\nsubsets = [[\"x1\", \"x2\"]]\n";
     let result = study(text, &[ON, "design.base_samples=64"]).run().unwrap();
@@ -64,7 +64,7 @@ fn a_polynomial_has_its_indices_to_rounding() {
 fn mean_and_variance_keep_their_intervals_at_any_scale() {
     let relative = |factor: &str| {
         let text = format!(
-            "model = \"expression\"\n[expression]\noutputs.y = \"{factor}*(exp(2*x1)*abs(x2-0.3)+x1)\"\n\
+            "model = \"expression\"\n[outputs]\ny = \"{factor}*(exp(2*x1)*abs(x2-0.3)+x1)\"\n\
              [[factor]]\nname = \"x1\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"x2\"\nmin = 0\nmax = 1\n"
         );
         let result = study(&text, &[ON, "design.base_samples=64"]).run().unwrap();
@@ -109,7 +109,7 @@ fn smooth_functions_are_known_a_hundred_times_better_and_rough_ones_no_worse() {
 
 #[test]
 fn few_levels_and_normal_factors_are_fitted_in_their_own_polynomials() {
-    let text = "model = \"expression\"\n[expression]\noutputs.y = \"z^2 + k*z + t\"\n\
+    let text = "model = \"expression\"\n[outputs]\ny = \"z^2 + k*z + t\"\n\
                 [[factor]]\nname = \"z\"\ndistribution = \"normal\"\nmean = 0\nsd = 1\n\
                 [[factor]]\nname = \"k\"\ndistribution = \"discrete\"\nvalues = [1, 2, 5]\nweights = [0.5, 0.3, 0.2]\n\
                 [[factor]]\nname = \"t\"\ndistribution = \"triangular\"\nmin = 0\nmode = 1\nmax = 3\n";
@@ -175,7 +175,7 @@ fn a_few_hundred_runs_are_split_into_base_samples_and_plain_rows() {
         let study = study(text, more);
         (study.design().clone(), study.run().unwrap())
     };
-    let (design, result) = run("model = \"borehole\"", &["design.budget_runs=300"]);
+    let (design, result) = run("model = \"borehole\"", &["design.runs=300"]);
     // 8 base samples of 10 runs, 27 plain rows each.
     assert_eq!((design.settings().base_samples, design.plain_rows(), design.rows()), (8, 27, 296));
     let exact = KnownAnswer::from_name("borehole").unwrap().default_function().exact().indices.unwrap();
@@ -187,9 +187,9 @@ fn a_few_hundred_runs_are_split_into_base_samples_and_plain_rows() {
     let (_, plain) = run("model = \"borehole\"", &["design.base_samples=28", OFF]);
     assert!(error(&result) < 1e-3 && error(&plain) > 1e-2, "{:e} {:e}", error(&result), error(&plain));
     // A polynomial of two factors is exact.
-    let text = "model = \"expression\"\n[expression]\noutputs.y = \"x1 + 2*x2\"\n\
+    let text = "model = \"expression\"\n[outputs]\ny = \"x1 + 2*x2\"\n\
                 [[factor]]\nname = \"x1\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"x2\"\nmin = 0\nmax = 1\n";
-    let (_, result) = run(text, &["design.base_samples=8", "design.plain_rows=5"]);
+    let (_, result) = run(text, &["design.runs=72"]);
     let output = &result.outputs[0];
     let totals: Vec<f64> =
         output.indices.as_ref().unwrap().factors.iter().map(|effect| effect.total.estimate).collect();
@@ -198,23 +198,13 @@ fn a_few_hundred_runs_are_split_into_base_samples_and_plain_rows() {
 }
 
 #[test]
-fn a_design_without_surrogates_has_no_use_for_plain_rows() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("mine.toml");
-    std::fs::write(&file, "model = \"borehole\"\n").unwrap();
-    let check = |sets: &[&str]| {
-        let sets = sets.iter().flat_map(|set| ["--set", set]);
-        apportion(&["check", text(&file)].into_iter().chain(sets).collect::<Vec<_>>())
-    };
-    let budget = "design.budget_runs=300";
-    refused(&check(&[budget, OFF]), "surrogate = \"off\"");
-    refused(&check(&["design.plain_rows=3", "analysis.intervals=replicates"]), "intervals = \"replicates\"");
-    refused(&check(&["design.plain_rows=3", "design.sampler=latin-hypercube"]), "beside surrogates");
-    refused(&check(&["design.plain_rows=3", "design.replicates=2"]), "replicates = 2");
-    refused(&check(&["design.plain_rows=1001"]), "at most 1000");
-    refused(&check(&["design.budget_runs=79"]), "80 or more");
-    std::fs::write(&file, "model = \"borehole\"\n[design]\nbudget_runs = 300\nbase_samples = 64\n").unwrap();
-    refused(&check(&[]), "beside `base_samples`");
+fn without_surrogates_runs_are_all_at_base_samples() {
+    for without in [OFF, "analysis.intervals=replicates", "design.sampler=latin-hypercube", "design.replicates=2"] {
+        let study = study("model = \"borehole\"", &["design.runs=900", without]);
+        let design = study.design();
+        assert_eq!(design.plain_rows(), 0, "{without}");
+        assert!(design.rows() <= 900 && 2 * design.rows() > 900, "{without}: {}", design.rows());
+    }
 }
 
 #[test]
@@ -222,7 +212,7 @@ fn shards_and_files_of_outputs_give_the_bits_of_one_run() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     let file = path("mine.toml");
-    std::fs::write(&file, "model = \"ishigami\"\n[design]\nbase_samples = 64\nplain_rows = 3\n").unwrap();
+    std::fs::write(&file, "model = \"ishigami\"\n[design]\nruns = 600\n").unwrap();
     let numbers = |name: &str| -> serde_json::Value {
         let json = std::fs::read_to_string(path(name)).unwrap();
         serde_json::from_str::<serde_json::Value>(&json).unwrap()["outputs"][0].take()
@@ -305,7 +295,7 @@ fn intervals_hold_where_polynomials_blow_up_in_the_tails() {
             let indices = result.outputs[0].indices.as_ref().unwrap();
             assert!(indices.surrogate.is_some());
             for (factor, exact) in indices.factors.iter().zip(exact) {
-                for estimate in [factor.first_order, factor.total] {
+                for estimate in [factors.first_order, factor.total] {
                     let interval = estimate.interval.unwrap();
                     held += usize::from(interval.low <= exact && exact <= interval.high);
                     all += 1;

@@ -139,24 +139,6 @@ fn outputs_that_may_have_been_cut_short_are_doubted() {
     }
 }
 
-#[test]
-fn doubling_beyond_the_runs_allowed_is_refused() {
-    let folder = Folder::new();
-    let study = folder.with("s.toml", "model = \"ishigami\"\n[design]\nbase_samples = 64\nmax_runs = 400\n");
-    let out = folder.path("out");
-    let run = |more: &[&str]| apportion(&[&["run", text(&study), "--out", text(&out)], more].concat());
-    assert_eq!(run(&[]).status.code(), Some(0));
-    let output = run(&["--double"]);
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    let expected = "twice the 64 base samples of the result take 640 runs, and the study allows max_runs = 400";
-    assert!(
-        stderr(&output).contains(expected) && stderr(&output).contains("--set design.max_runs=640"),
-        "{}",
-        stderr(&output)
-    );
-    assert_eq!(run(&["--double", "--set", "design.max_runs=640"]).status.code(), Some(0));
-}
-
 /// The result of `given-data` on a table with an output `y`.
 fn given(folder: &Folder, table: &str, more: &[&str]) -> GivenFile {
     let (path, out) = (folder.path(table), folder.path("out"));
@@ -168,7 +150,7 @@ fn given(folder: &Folder, table: &str, more: &[&str]) -> GivenFile {
 #[test]
 fn labels_that_evaluate_wrote_are_read_by_the_study() {
     let folder = Folder::new();
-    let study = "model = \"expression\"\nexpression.outputs.y = \"a + wet + 2*probe\"\n[factors]\na = { min = 0, max = 1 }\n\
+    let study = "model = \"expression\"\noutputs.y = \"a + wet + 2*probe\"\n[factors]\na = { min = 0, max = 1 }\n\
                  wet = { distribution = \"boolean\" }\nprobe = { distribution = \"categorical\", labels = [\"steel\", \"#2, brass\"] }\n";
     let study = folder.with("s.toml", study);
     let (rows, table) = (folder.path("rows.csv"), folder.path("table.csv"));

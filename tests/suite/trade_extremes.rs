@@ -99,9 +99,9 @@ fn the_map_is_the_same_in_every_bit_on_any_threads() {
 fn cancellation_and_underflow_are_flagged() {
     let source = r#"
         model = "expression"
-        expression.outputs.difference = "(x + 1e9) - 1e9"
-        expression.outputs.ratio = "x^2*1e-300/(x*1e-300)"
-        expression.outputs.plain = "x*y + 1"
+        outputs.difference = "(x + 1e9) - 1e9"
+        outputs.ratio = "x^2*1e-300/(x*1e-300)"
+        outputs.plain = "x*y + 1"
         [[factor]]
         name = "x"
         min = 1e-3

@@ -19,11 +19,11 @@ base_samples = 64
 heat = "degC"
 cost = "EUR/kWh"
 time = "h"
-[factor.temperature]
+[factors.temperature]
 min = 20.1
 max = 30
 unit = "degC"
-[factor.duration]
+[factors.duration]
 distribution = "normal"
 mean = 2
 sd = 0.25
@@ -70,8 +70,8 @@ fn sweeps_and_screenings_are_in_the_declared_units() {
     let folder = Folder::new();
     let study = folder.with(
         "s.toml",
-        "model = \"expression\"\noutputs.t = { formula = \"T + 0*k\", unit = \"degC\" }\n[factor.T]\nmin = 20.1\n\
-         max = 68\nunit = \"degF\"\n[factor.k]\nmin = 1\nmax = 2\n",
+        "model = \"expression\"\noutputs.t = { formula = \"T + 0*k\", unit = \"degC\" }\n[factors.T]\nmin = 20.1\n\
+         max = 68\nunit = \"degF\"\n[factors.k]\nmin = 1\nmax = 2\n",
     );
     let out = folder.path("sweep");
     let values = "T=50,59,68 degF";
@@ -103,7 +103,7 @@ fn sweeps_and_screenings_are_in_the_declared_units() {
 #[test]
 fn spans_have_no_zero_and_ratios_are_refused_in_degrees() {
     let study = |keys: &str| {
-        let text = format!("model = \"expression\"\noutputs.y = \"T\"\n[factor.T]\nunit = \"degC\"\n{keys}\n");
+        let text = format!("model = \"expression\"\noutputs.y = \"T\"\n[factors.T]\nunit = \"degC\"\n{keys}\n");
         apportion::study::Study::parse(&text, Path::new("s.toml"), &[])
     };
     for keys in [
@@ -137,7 +137,7 @@ fn spans_have_no_zero_and_ratios_are_refused_in_degrees() {
 fn labels_of_outputs_are_any_short_text() {
     let folder = Folder::new();
     let study = |unit: &str| {
-        let text = format!("model = \"external\"\noutputs.y = {unit}\n[factor.x]\nmin = 0\nmax = 1\n");
+        let text = format!("model = \"external\"\noutputs.y = {unit}\n[factors.x]\nmin = 0\nmax = 1\n");
         let path = folder.with("s.toml", text);
         apportion(&["check", text_of(&path)])
     };
@@ -162,7 +162,7 @@ fn labels_of_outputs_are_any_short_text() {
     // Other units of one kind convert when results are compared; labels do not.
     let result = |unit: &str, folder: &Folder| {
         let study = format!(
-            "model = \"command\"\ncommand = [\"python3\", \"m.py\"]\noutputs.y = \"{unit}\"\n[factor.x]\nmin = 20\nmax = 30\n[design]\nbase_samples = 64\n"
+            "model = \"command\"\ncommand = [\"python3\", \"m.py\"]\noutputs.y = \"{unit}\"\n[factors.x]\nmin = 20\nmax = 30\n[design]\nbase_samples = 64\n"
         );
         folder.with(
             "m.py",

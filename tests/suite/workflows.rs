@@ -294,16 +294,16 @@ fn runs_that_grow_say_why_they_ended() {
         assert!(printed.contains(&format!(": {}.", stopping.reason)), "{printed}");
         (stopping, result.provenance.model_runs, result.outputs[0].convergence.last().cloned())
     };
-    let (met, _, stage) = stopping(&["design.target.half_width=0.02"]);
+    let (met, _, stage) = stopping(&["accuracy=0.02"]);
     assert_eq!((met.target_met, met.target_half_width), (Some(true), Some(0.02)));
     assert!(stage.unwrap().largest_half_width.unwrap() <= 0.02);
-    let (unmet, runs, _) = stopping(&["design.target.half_width=1e-6", "design.max_runs=50000"]);
+    let (unmet, runs, _) = stopping(&["accuracy=1e-6", "design.max_runs=50000"]);
     assert_eq!((unmet.target_met, unmet.max_runs), (Some(false), Some(50_000)));
     assert!(unmet.reason.contains("more than max_runs = 50000") && (25_000..=50_000).contains(&runs), "{unmet:?}");
     // Ten runs a base sample: the first stage of 1024 has to give way.
     let (few, runs, _) = stopping(&["design.max_runs=100"]);
     assert_eq!((few.target_met, runs), (None, 80));
-    let (spent, _, _) = stopping(&["design.budget=0.05 s"]);
+    let (spent, _, _) = stopping(&["design.max_time=0.05 s"]);
     assert!(spent.reason.contains("more than the budget of 0.05 s"), "{spent:?}");
     assert_eq!(spent.budget_seconds, Some(0.05));
 }
@@ -312,8 +312,8 @@ fn runs_that_grow_say_why_they_ended() {
 fn a_run_does_not_end_where_more_runs_bring_intervals() {
     // The output is 1 in a tenth of the square: of nets of four points some do not vary.
     let folder = Folder::new();
-    let study = "model = \"expression\"\noutputs.y = \"(a > 0.6837722339831621)*(b > 0.6837722339831621)\"\n[design]\n\
-                 base_samples = 16\nseed = 1\ntarget = { half_width = 0.1 }\n[analysis]\nsurrogate = \"off\"\n[factors]\n\
+    let study = "model = \"expression\"\noutputs.y = \"(a > 0.6837722339831621)*(b > 0.6837722339831621)\"\naccuracy = 0.1\n[design]\nseed = 1\n\
+                 [analysis]\nsurrogate = \"off\"\n[factors]\n\
                  a = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
     let out = folder.path("out");
     let told = succeed(&["run", text(&folder.with("rare.toml", study)), "--out", text(&out)]);
@@ -323,12 +323,12 @@ fn a_run_does_not_end_where_more_runs_bring_intervals() {
 #[test]
 fn a_run_ends_soon_where_most_runs_fail() {
     let folder = Folder::new();
-    let study = "model = \"expression\"\noutputs.y = \"if(a < 0.5, ln(-1), a)\"\n[design]\nbase_samples = 16\n\
-                 target = { half_width = 0.001 }\n[factors]\na = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
+    let study = "model = \"expression\"\noutputs.y = \"if(a < 0.5, ln(-1), a)\"\naccuracy = 0.001\n\
+                 [factors]\na = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
     let out = folder.path("out");
     apportion(&["run", text(&folder.with("half.toml", study)), "--out", text(&out)]);
     let file: ResultFile = serde_json::from_slice(&std::fs::read(out.join("half.json")).unwrap()).unwrap();
-    assert_eq!(file.provenance.base_samples, 256);
+    assert!(file.provenance.base_samples <= 1024, "{}", file.provenance.base_samples);
 }
 
 #[test]
@@ -341,8 +341,7 @@ fn check_says_what_is_asked_and_what_it_takes() {
     let told = check("ishigami-second-order", &[]);
     for expected in [
         "second order of 3 pairs",
-        "A and B + 4 rows AB",
-        "4 rows BA (second order)",
+        "A and B + 4 rows AB + 4 rows BA",
         "other estimators janon-monod, jansen, martinez",
         "4 independently scrambled nets",
     ] {
@@ -353,7 +352,7 @@ fn check_says_what_is_asked_and_what_it_takes() {
     assert!(told.contains("or twice the runs would be more than 10000000"), "{told}");
     assert!(check("ishigami", &["design.replicates=1"]).contains("4 replicates are safer"));
     let alone = check("ishigami", &["design.replicates=1", "analysis.intervals=replicates"]);
-    assert!(alone.contains("there will be no intervals"), "{alone}");
+    assert!(alone.contains("no intervals"), "{alone}");
     let correlated = "dimensions of Sobol' points are still correlated";
     assert!(!check("sobol-g-hundred", &[]).contains(correlated), "a hundred factors, 2^13 points");
     assert!(check("sobol-g-hundred", &["design.base_samples=4096"]).contains(correlated));

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import difflib
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from ._engine import StudyError
 from ._toml import value_of
 
 # Keys of `Study` by the table of the study file that they belong to.
-DESIGN = ("sampler", "base_samples", "replicates", "plain_rows", "budget_runs", "seed", "max_runs")
+DESIGN = ("sampler", "base_samples", "runs", "replicates", "seed", "max_runs", "max_time")
 ANALYSIS = (
     "estimators",
     "second_order",
@@ -31,6 +32,39 @@ ANALYSIS = (
     "failures",
     "max_failed",
 )
+
+
+# Tables of the study file that are keywords themselves.
+TABLES = ("afm", "function", "expression", "fidelity", "dependence")
+# Keywords of a run, which `analyse` takes too.
+RUN = ("threads", "executor", "in_flight", "journal", "resume", "progress")
+# What other packages, and former versions of this one, call them.
+_OTHERS = {
+    "N": "base_samples",
+    "n": "base_samples",
+    "n_samples": "base_samples",
+    "budget_runs": "runs",
+    "budget": "max_time",
+    "target": "accuracy",
+    "calc_second_order": "second_order",
+    "n_jobs": "threads",
+    "workers": "threads",
+    "random_state": "seed",
+}
+
+
+def refuse_unknown(keywords: Iterable[str], known: Iterable[str]) -> None:
+    """A `StudyError` for the first keyword that is not known, with what was probably meant."""
+    known = list(known)
+    for keyword in keywords:
+        if keyword in known:
+            continue
+        near = difflib.get_close_matches(keyword, known, 1)
+        meant = _OTHERS.get(keyword, near[0] if near else None)
+        hint = f"did you mean {meant}?" if meant in known else f"expected one of {', '.join(known)}"
+        if meant in RUN and meant not in known:
+            hint = f"did you mean {meant}, which run() and analyse() take?"
+        raise StudyError(f"unknown keyword {keyword}: {hint}")
 
 
 def factors_of(factors: Any) -> dict[str, Factor]:

@@ -13,10 +13,22 @@ from . import _engine, _toml
 from ._answers import AnswerError, NoAnswer, expanded
 from ._checks import MOST_SEED, MOST_THREADS, whole
 from ._distributions import Seed
-from ._engine import StudyError
+from ._engine import RunError, StudyError
 from ._executors import called_elsewhere, workers_of
 from ._functions import Call, reason_of, with_hint
-from ._keys import ANALYSIS, DESIGN, dependence_tables, factors_of, lengths_of, overridden, said, stated_outputs
+from ._keys import (
+    ANALYSIS,
+    DESIGN,
+    RUN,
+    TABLES,
+    dependence_tables,
+    factors_of,
+    lengths_of,
+    overridden,
+    refuse_unknown,
+    said,
+    stated_outputs,
+)
 from ._progress import Progress, say
 from ._repeated import RepeatedCall, outputs_of, taken_out
 from ._result import Document, Result
@@ -24,6 +36,8 @@ from ._tables import named, numbers, placed
 
 # Base points at which a function is tried, until it answers.
 _TRIED = 8
+# Keywords of `Study` that are named in its signature.
+_NAMED = ("outputs", "name", "title", "vectorised", "call", "accuracy", "max_time", "noise")
 _MOST_TRAJECTORIES, _MOST_LEVELS, _MOST_POINTS = 2**32, 2**16, 10**6
 
 
@@ -42,11 +56,11 @@ class Study:
     `noise={"mean_totals": True}` adds the total indices of the mean over it, one more run of each base sample for each factor,
     and `noise={"repetitions": 8}` calls the function so often for each row: its outputs are then `y_mean` and `y_variance`.
 
-    Keywords are the keys of a study file: `base_samples`, `sampler`, `replicates`, `seed`, `budget_runs`, `max_runs`,
-    `target`, `budget` (seconds), `accuracy`; `second_order`, `subsets`, `shapley`, `shapley_method`, `shapley_players`,
+    How long a run is: `base_samples`, or `runs` in all, or the `accuracy` that every index must reach, within `max_runs` and
+    `max_time` (seconds). Other keywords are the keys of a study file: `sampler`, `replicates`, `seed`; `second_order`, `subsets`, `shapley`, `shapley_method`, `shapley_players`,
     `measures`, `estimators`, `intervals`, `surrogate`,
     `threshold`, `dummy`, `convergence`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
-    `expression={...}`, `fidelity={...}`. Factors that depend on each other, by a Gaussian copula:
+    `expression={...}` (constants), `fidelity={...}`. A keyword that is not known is an error. Factors that depend on each other, by a Gaussian copula:
     `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of tables as in a study file, as in
     `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`; as an array of joint measurements has them, a row
     each: `[{"factors": ["a", "b"], "measurements": array}]`.
@@ -61,13 +75,15 @@ class Study:
         name: str = "study",
         title: str | None = None,
         vectorised: bool = True,
+        vectorized: bool | None = None,
         call: str | None = None,
         accuracy: float | None = None,
-        target: float | None = None,
-        budget: float | None = None,
+        max_time: float | None = None,
         noise: str | Mapping[str, Any] | None = None,
         **options: Any,
     ):
+        refuse_unknown(options, (*_NAMED, *DESIGN, *ANALYSIS, *TABLES))
+        vectorised = vectorised if vectorized is None else vectorized
         if isinstance(outputs, str):
             outputs = [outputs]
         made = factors_of(factors)
@@ -83,8 +99,7 @@ class Study:
             stated = made
         table: dict[str, Any] = {"name": name, "title": title, "accuracy": accuracy}
         design = {key: options.pop(key, None) for key in DESIGN}
-        design |= {"target": None if target is None else {"half_width": target}}
-        design |= {"budget": None if budget is None else f"{budget} s"}
+        design["max_time"] = None if max_time is None else f"{max_time} s"
         analysis = {key: options.pop(key, None) for key in ANALYSIS}
         options["dependence"] = dependence_tables(options.get("dependence"), made)
         self._call: Call | RepeatedCall | None = None
@@ -102,13 +117,13 @@ class Study:
             raise StudyError("factors by their quantile functions serve functions of Python alone")
         table["model"] = "external" if callable(model) or model is None else model
         if isinstance(outputs, Mapping):
-            options["external"] = {"outputs": stated_outputs(outputs, {})}
+            table["outputs"] = stated_outputs(outputs, {})
         elif outputs is not None:
             table["outputs"] = list(outputs)
         elif table["model"] == "external":
             table["outputs"] = ["y"]
         tables = {"design": said(design), "analysis": said(analysis), **options}
-        tables = {key: value for key, value in tables.items() if value}
+        tables = {key: value for key, value in tables.items() if value is not None and value != {} and value != []}
         tables["factor"] = [{"name": key, **factor.keys} for key, factor in stated.items()]
         self._table = {**said(table), **tables}
         self._parse()
@@ -177,7 +192,7 @@ class Study:
 
     def sample(self) -> np.ndarray:
         """The points of all runs, (rows, factors) in the units of the factors."""
-        points = self._study.sample(0, self._study.runs)
+        points = self._study.sample(0, self._study.runs, 1)
         return self._call.rows(points) if self._call is not None else points
 
     def analyse(self, outputs: Any) -> Result:
@@ -185,7 +200,7 @@ class Study:
         (rows,) by the names of the outputs, in any order, in a mapping also of (rows, values) of a series. NaN, and what is masked or
         missing, says that a run failed."""
         if self._study.grows:
-            raise StudyError("a study with an accuracy or a target chooses its runs as they go on: give it base_samples")
+            raise StudyError("a study with an accuracy or limits chooses its runs as they go on: give it base_samples")
         # Nobody has said what the outputs are.
         is_unnamed = self._study.is_external and self._table.get("outputs") == ["y"]
         columns = named(outputs, "the outputs have")
@@ -203,7 +218,7 @@ class Study:
         if is_unnamed and set(columns) != set(self.outputs):
             self._table["outputs"] = list(columns)
             self._parse()
-        return Result(self._study.analyse(np.column_stack(placed(columns, self.outputs, "the outputs come"))))
+        return _told(Result(self._study.analyse(np.column_stack(placed(columns, self.outputs, "the outputs come")))))
 
     def _split(self, columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         """The columns of the engine: those of series one by one."""
@@ -251,7 +266,8 @@ class Study:
         resume: str = "if-there",
         progress: bool | Callable[[int, int], None] | None = None,
     ) -> Result:
-        """Runs the study and estimates its indices.
+        """Runs the study and estimates its indices. Warnings of the result are warned of; where no output has an index, because all
+        runs failed or it does not vary, a `RunError` says why, and its `result` has the rest.
 
         `threads`: of the engine; 0 for one per core. `executor`: any executor of `concurrent.futures` or of its kind, which
         gets blocks of rows, `in_flight` at a time. `journal`: a file that keeps what is evaluated; the same call goes on
@@ -266,7 +282,7 @@ class Study:
             result = self._study.run(
                 function, stop, threads=threads, journal=path, resume=resume, progress=bar.callback, message=say
             )
-        return Result(result)
+        return _told(Result(result))
 
     def screen(
         self,
@@ -358,7 +374,7 @@ class Study:
         count = (2 if len(call.names) != 2 else 3) if call.vectorised else 1
         rows_per_point = self._study.rows_per_point
         for row in range(0, min(_TRIED * rows_per_point, self.runs), rows_per_point):
-            x = self._study.sample(row, row + count)
+            x = self._study.sample(row, row + count, 1)
             try:
                 answer = call.probe(call.rows(x))[0]
                 has_answered = True
@@ -377,17 +393,29 @@ class Study:
         if call.columns == self.outputs:
             return
         if call.lengths:
-            stated = self._table.pop("external", {"outputs": {}})["outputs"]
-            stated = {name: stated.get(name, "1") for name in call.outputs or []}
-            self._table.pop("outputs", None)
-            self._table["external"] = {"outputs": stated_outputs(stated, call.lengths)}
+            before = self._table.get("outputs")
+            units = before if isinstance(before, Mapping) else {}
+            stated = {name: units.get(name, "1") for name in call.outputs or []}
+            self._table["outputs"] = stated_outputs(stated, call.lengths)
         else:
             self._table["outputs"] = call.outputs
         self._parse()
 
 
+def _told(result: Result) -> Result:
+    """The result, with every warning of it warned of; a `RunError` if no output has an index."""
+    records = result.to_dict()["outputs"]
+    if all(record.get("indices") is None for record in records):
+        reasons = "; ".join(f"{record['name']}: {record.get('reason') or 'it does not vary'}" for record in records[:3])
+        error = RunError(f"there are no indices: {reasons}")
+        error.result = result
+        raise error
+    for warning in dict.fromkeys(result.warnings):
+        warnings.warn(warning, stacklevel=3)
+    return result
+
+
 def analyse(model: Callable[..., Any] | str | None, factors: Mapping[str, Any] | None = None, **options: Any) -> Result:
     """Runs a study and estimates its indices: `Study(model, factors, ...)` and its `run(...)` in one call."""
-    running = ("threads", "executor", "in_flight", "journal", "resume", "progress")
-    of_run = {key: options.pop(key) for key in running if key in options}
+    of_run = {key: options.pop(key) for key in RUN if key in options}
     return Study(model, factors, **options).run(**of_run)

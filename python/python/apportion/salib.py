@@ -82,9 +82,8 @@ def sample(problem: Mapping[str, Any], N: int, *, calc_second_order: bool = True
     base = {f"{half}{k}": f for half in "ab" for k, f in enumerate(factors.values())}
     plain = {name: Factor({key: value for key, value in f.keys.items() if key != "group"}) for name, f in base.items()}
     study = Study(None, plain, base_samples=N, replicates=1, seed=seed)
-    rows = study._study.rows_per_point
     # The first row of a base point has its coordinates in all 2d columns.
-    both = study.sample()[::rows]
+    both = study._study.sample(0, study.runs, study._study.rows_per_point)
     a, b = both[:, :d], both[:, d:]
     members = _members(problem)
 

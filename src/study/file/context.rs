@@ -34,26 +34,6 @@ pub(super) fn unknown_name<'a>(
     }
 }
 
-/// Places of the outputs asked for among those that are `known`, in the order asked for.
-pub(super) fn chosen(context: &Context<'_>, known: &[&str], asked: &At<Vec<At<String>>>) -> Result<Vec<usize>, Fault> {
-    if asked.get_ref().is_empty() {
-        return Err(context.fault(asked.span(), Problem::NoOutputs));
-    }
-    let mut places = Vec::new();
-    for output in asked.get_ref() {
-        let name = output.get_ref();
-        let Some(place) = known.iter().position(|known| known == name) else {
-            return Err(context.fault(output.span(), unknown_name("output", name, known.iter().copied())));
-        };
-        if places.contains(&place) {
-            let problem = Problem::Repeated { what: "output", name: name.clone() };
-            return Err(context.fault(output.span(), problem));
-        }
-        places.push(place);
-    }
-    Ok(places)
-}
-
 pub(super) fn choice<T: Copy>(
     context: &Context<'_>,
     typed: &At<String>,

@@ -1,42 +1,13 @@
 //! The tables `[[dependence]]`: factors that depend on each other.
 
 use super::context::{Context, Fault, choice, unknown_name, wrong};
-use super::error::Problem;
 use super::measured;
 use super::sections::{At, Correlation, DependenceSection, NameList, StudyFile};
 use crate::space::{CorrelationMeasure, Dependence, Space};
-use crate::study::SurrogateChoice;
 
-/// `space` with the dependences of `file`, if it has any.
-pub(super) fn dependent(context: &Context<'_>, file: &StudyFile, space: Space) -> Result<Space, Fault> {
-    let Some(first) = file.dependence.first() else { return Ok(space) };
-    let mut dependences = Vec::new();
-    for section in &file.dependence {
-        dependences.push(dependence(context, section, &space)?);
-        // One by one, so that a fault is told at its table.
-        if let Err(source) = space.clone().with_dependences(dependences.clone()) {
-            return Err(context.fault(section.get_ref().factors.span(), Problem::Dependence(source)));
-        }
-    }
-    let accuracy =
-        file.accuracy.as_ref().map(|key| ("accuracy", key.span(), "target = { half_width = ... } in [design]"));
-    let low = file.fidelity.as_ref().map(|key| ("fidelity", key.span(), "the model alone"));
-    if let Some((key, span, instead)) = accuracy.or(low) {
-        let expected = format!(
-            "{instead} where factors depend on each other: surrogates and cheaper models serve independent ones"
-        );
-        return Err(context.fault(span, wrong(key, &expected, format!("`{key}`"))));
-    }
-    if space.noise().is_some() {
-        let expected = "nothing beside the noise of a stochastic model: what is known of the mean over it holds for independent factors";
-        return Err(context.fault(first.span(), wrong("dependence", expected, "a dependence".to_owned())));
-    }
-    let surrogate = file.analysis.surrogate.as_ref();
-    if let Some(asked) = surrogate.filter(|asked| asked.get_ref() == SurrogateChoice::On.name()) {
-        let expected = "\"off\" where factors depend on each other: the polynomials need independent ones";
-        return Err(context.fault(asked.span(), wrong("surrogate", expected, "\"on\"".to_owned())));
-    }
-    space.with_dependences(dependences).map_err(|source| context.fault(first.span(), Problem::Dependence(source)))
+/// The dependences of `file`.
+pub(super) fn dependences(context: &Context<'_>, file: &StudyFile, space: &Space) -> Result<Vec<Dependence>, Fault> {
+    file.dependence.iter().map(|section| dependence(context, section, space)).collect()
 }
 
 fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Space) -> Result<Dependence, Fault> {

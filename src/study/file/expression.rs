@@ -1,12 +1,13 @@
-//! The `[expression]` table: formulas of the factors, one for each output, and constants.
+//! `model = "expression"`: formulas of the factors, one for each output, and constants.
 
 use std::ops::Range;
 
 use toml::Value;
 
-use super::context::{Context, Fault, chosen};
+use super::at::{At, Choices, ListOrTable, in_order};
+use super::context::{Context, Fault};
 use super::error::Problem;
-use super::sections::{At, Choices, ExpressionSection, FactorSection};
+use super::sections::{ExpressionSection, FactorSection, Outputs};
 use super::subjects::{ExpressionConstant, ExpressionSubject, Formula};
 use super::units::own_inputs;
 use crate::model::{Expression, ExpressionProblem, Input, Symbol};
@@ -35,37 +36,28 @@ fn refuse_name(context: &Context<'_>, what: &'static str, name: &At<String>) -> 
 /// The formulas with their constants, and notes on what stands in none of them.
 pub(super) fn subject(
     context: &Context<'_>,
-    table: Option<&At<ExpressionSection>>,
-    asked: Option<&At<Vec<At<String>>>>,
+    outputs: Option<&At<Outputs>>,
+    section: Option<&At<ExpressionSection>>,
     space: &Space,
 ) -> Result<(ExpressionSubject, Vec<String>), Fault> {
-    let Some(table) = table else { return Err(context.fault(0..0, Problem::NoFormulas)) };
-    let section = table.get_ref();
-    let mut entries: Vec<(&At<String>, &At<Value>)> = section.outputs.iter().collect();
-    if entries.is_empty() {
-        return Err(context.fault(table.span(), Problem::NoFormulas));
-    }
-    // In the order of the file.
-    entries.sort_by_key(|(name, _)| name.span().start);
-    let constants = constants(context, &section.constants, space)?;
-    let mut formulas = Vec::with_capacity(entries.len());
-    for (name, value) in entries {
-        formulas.push(formula(context, name, value, space, &constants)?);
-    }
-    let notes = notes(&formulas, section, space);
-    if let Some(asked) = asked {
-        let names: Vec<&str> = formulas.iter().map(|formula| formula.name.as_str()).collect();
-        let places = chosen(context, &names, asked)?;
-        formulas = places.into_iter().map(|place| formulas[place].clone()).collect();
-    }
+    let missing = Problem::Missing { what: "formula", example: "outputs.y = \"x1 + 2*x2\", above the first table" };
+    let Some(outputs) = outputs else { return Err(context.fault(0..0, missing)) };
+    let entries = match outputs.get_ref() {
+        ListOrTable::Table(table) if !table.is_empty() => in_order(table),
+        _ => return Err(context.fault(outputs.span(), missing)),
+    };
+    let none = Choices::new();
+    let table = section.map_or(&none, |section| &section.get_ref().constants);
+    let constants = constants(context, table, space)?;
+    let formula = |(name, value)| formula(context, name, value, space, &constants);
+    let formulas = entries.into_iter().map(formula).collect::<Result<Vec<Formula>, Fault>>()?;
+    let notes = notes(&formulas, table, space);
     Ok((ExpressionSubject { formulas, constants }, notes))
 }
 
 fn constants(context: &Context<'_>, table: &Choices, space: &Space) -> Result<Vec<ExpressionConstant>, Fault> {
-    let mut entries: Vec<(&At<String>, &At<Value>)> = table.iter().collect();
-    entries.sort_by_key(|(name, _)| name.span().start);
-    let mut constants = Vec::with_capacity(entries.len());
-    for (name, value) in entries {
+    let mut constants = Vec::with_capacity(table.len());
+    for (name, value) in in_order(table) {
         refuse_name(context, "constant", name)?;
         if space.factors().iter().any(|factor| factor.name == *name.get_ref()) {
             let problem =
@@ -156,14 +148,14 @@ fn place(context: &Context<'_>, value: &At<Value>, formula: &str, part: Range<us
 }
 
 /// Factors and constants that stand in no formula.
-fn notes(formulas: &[Formula], section: &ExpressionSection, space: &Space) -> Vec<String> {
+fn notes(formulas: &[Formula], constants: &Choices, space: &Space) -> Vec<String> {
     let unused = |number: &usize| formulas.iter().all(|formula| !formula.expression.uses(*number));
     let factors = (0..space.factors().len()).filter(unused).map(|number| &space.factors()[number].name);
     let stands = |name: &str| {
         let words = |text: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
         formulas.iter().any(|formula| words(formula.expression.text()))
     };
-    let constants = section.constants.keys().map(At::get_ref).filter(|name| !stands(name));
+    let constants = constants.keys().map(At::get_ref).filter(|name| !stands(name));
     let note = |(what, name): (&str, &String)| format!("{what} `{name}` stands in no formula");
     factors.map(|name| note(("factor", name))).chain(constants.map(|name| note(("constant", name)))).collect()
 }

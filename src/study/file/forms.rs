@@ -1,5 +1,5 @@
-//! What a study file may say in several ways, brought to one before it is read: factors as a list or as tables by name,
-//! outputs with their formulas or units above the table of the model. Every value keeps its place in the file.
+//! What a study file may say in two ways, brought to one before it is read: `[factors]` becomes a list of `[[factor]]`, and
+//! `noise` one more factor. Every value keeps its place in the file. Forms of former versions are refused with today's lines.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -7,281 +7,167 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use super::context::wrong;
-use super::context::{Context, Fault};
-use super::error::{Problem, meant};
-use crate::names::nearest;
+use super::context::{Context, Fault, wrong};
+use super::error::Problem;
 
 /// Brings `root`, a study file, to the form that `StudyFile` has.
 pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
-    if let Some(value) = root.get_mut("dependence").filter(|value| value.get_ref().is_table()) {
-        let one = std::mem::replace(value.get_mut(), DeValue::Boolean(false));
-        *value.get_mut() = DeValue::Array(DeArray::from_iter([Spanned::new(value.span(), one)]));
-    }
+    refuse_old_forms(context, root)?;
     factors(context, root)?;
     noise(context, root)?;
-    distributions(context, root)?;
-    outputs_above(context, root)?;
-    outputs_below(context, root)?;
-    formulas(context, root)
+    name_components(root);
+    Ok(())
+}
+
+/// Factors and outputs as they were written in former versions.
+fn refuse_old_forms(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Fault> {
+    let old =
+        |place: Range<usize>, form: String, lines: String| Err(context.fault(place, Problem::OldForm { form, lines }));
+    let written = |range: Range<usize>| context.text.get(range).unwrap_or_default().to_owned();
+    let entry = |(key, value): Entry<'_, '_>| format!("{} = {}", written(key.span()), written(value.span()));
+    let fields = |table: &DeTable<'_>| {
+        let others = in_order(table).into_iter().filter(|(key, _)| **key.get_ref() != *"name");
+        others.map(entry).collect::<Vec<_>>().join(", ")
+    };
+    let name_of = |table: &DeTable<'_>| {
+        let name = table.get("name").map_or_else(|| "NAME".to_owned(), |name| written(name.span()));
+        let bare = name.trim_matches(['"', '\'']);
+        if is_bare(bare) { bare.to_owned() } else { name }
+    };
+    let line = |name: &str, table: &DeTable<'_>| format!("{name} = {{ {} }}", fields(table));
+    let joined = |lines: Vec<String>| format!("[factors]\n{}", lines.join("\n"));
+    if let Some((key, value)) = root.get_key_value("factor")
+        && let Some(table) = value.get_ref().as_table()
+    {
+        let of = |(key, value): Entry<'_, '_>| Some(line(&written(key.span()), value.get_ref().as_table()?));
+        let lines: Vec<String> = in_order(table).into_iter().filter_map(of).collect();
+        return match lines.is_empty() {
+            true => old(key.span(), "[factor]".to_owned(), joined(vec![line(&name_of(table), table)])),
+            false => old(key.span(), "[factor.NAME]".to_owned(), joined(lines)),
+        };
+    }
+    if let Some((key, value)) = root.get_key_value("factors")
+        && let Some(list) = value.get_ref().as_array()
+    {
+        let tables = list.iter().filter_map(|value| value.get_ref().as_table());
+        let lines = tables.map(|table| line(&name_of(table), table)).collect();
+        return old(key.span(), "a list of `factors`".to_owned(), joined(lines));
+    }
+    for section in ["expression", "command", "external"] {
+        let table = root.get(section).and_then(|value| value.get_ref().as_table());
+        let Some((key, outputs)) = table.and_then(|table| table.get_key_value("outputs")) else { continue };
+        let lines = match outputs.get_ref().as_table() {
+            Some(outputs) => {
+                let line = |output| format!("outputs.{}", entry(output));
+                in_order(outputs).into_iter().map(line).collect::<Vec<_>>().join("\n")
+            }
+            None => format!("outputs = {}", written(outputs.span())),
+        };
+        let lines = format!("{lines}\n(above the first table of the file)");
+        return old(key.span(), format!("outputs in [{section}]"), lines);
+    }
+    Ok(())
+}
+
+type Entry<'a, 'i> = (&'a Spanned<Cow<'i, str>>, &'a Spanned<DeValue<'i>>);
+
+/// The entries of a table in the order of the file.
+fn in_order<'a, 'i>(table: &'a DeTable<'i>) -> Vec<Entry<'a, 'i>> {
+    let mut entries: Vec<Entry<'a, 'i>> = table.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    entries
+}
+
+pub(super) fn is_bare(key: &str) -> bool {
+    !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c))
 }
 
 fn key(name: &'static str, span: Range<usize>) -> Spanned<Cow<'static, str>> {
     Spanned::new(span, Cow::Borrowed(name))
 }
 
-fn type_of(value: &DeValue<'_>) -> String {
-    match value.type_str() {
-        "array" => "a list".to_owned(),
-        "string" => "a text".to_owned(),
-        other => format!("a value of type {other}"),
-    }
-}
-
-/// `[[factor]]`, `[factor]` of a single one, or `[factor.NAME]`; each also with `factors`. Their order is that of the file.
+/// The tables of `[factors]` become a list in the order of the file, each with its name inside.
 fn factors(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
-    if let Some((plural, value)) = root.remove_entry("factors") {
-        if root.contains_key("factor") {
-            let problem = Problem::TwoForms { what: "factors", one: "factor", other: "factors" };
-            return Err(context.fault(plural.span(), problem));
-        }
-        root.insert(key("factor", plural.span()), value);
+    let Some((plural, value)) = root.remove_entry("factors") else { return Ok(()) };
+    if root.contains_key("factor") {
+        return Err(context.fault(plural.span(), Problem::TwoForms));
     }
-    let Some(value) = root.get_mut("factor") else { return Ok(()) };
     let span = value.span();
-    let DeValue::Table(table) = value.get_mut() else { return Ok(()) };
-    let table = std::mem::take(table);
-    let is_list = |value: &Spanned<DeValue<'_>>| value.get_ref().is_array();
-    let lists_alone = !table.is_empty() && table.values().all(is_list);
-    let by_name = lists_alone || table.values().any(|value| value.get_ref().is_table());
-    let factors = if by_name { by_order(context, table)? } else { vec![Spanned::new(span, DeValue::Table(table))] };
-    *value.get_mut() = DeValue::Array(DeArray::from_iter(factors));
-    Ok(())
-}
-
-/// The tables `[factor.NAME]` in the order of the file, each with its name inside.
-fn by_order<'a>(context: &Context<'_>, table: DeTable<'a>) -> Result<Vec<Spanned<DeValue<'a>>>, Fault> {
+    let DeValue::Table(table) = value.into_inner() else {
+        let expected = "a table with a line for each factor, as in x1 = { min = 0, max = 1 }";
+        return Err(context.fault(span, wrong("factors", expected, "a single value".to_owned())));
+    };
     let mut entries: Vec<_> = table.into_iter().collect();
     entries.sort_by_key(|(name, _)| name.span().start);
     let mut factors = Vec::with_capacity(entries.len());
     for (name, mut value) in entries {
-        let place = value.span();
         let DeValue::Table(fields) = value.get_mut() else {
-            if let found @ (DeValue::Array(_) | DeValue::Integer(_) | DeValue::Float(_)) = value.get_ref() {
-                let expected = format!("a table, as a factor is written: {{ {} }}", range_of(context, found));
-                return Err(context.fault(place, wrong(name.get_ref(), &expected, type_of(found))));
-            }
-            let right = "beside [factor.NAME] every factor is such a table, with its own keys";
-            let problem = Problem::Misplaced { name: name.get_ref().to_string(), right: right.to_owned() };
-            return Err(context.fault(name.span(), problem));
+            let expected = "a table, as in { min = 0, max = 1 }";
+            let problem = wrong(name.get_ref(), expected, value.get_ref().type_str().to_owned());
+            return Err(context.fault(value.span(), problem));
         };
-        match fields.get("name") {
-            Some(inside) if inside.get_ref().as_str() != Some(name.get_ref()) => {
-                let expected = format!("\"{}\", as its table is called, or left out", name.get_ref());
-                return Err(context.fault(inside.span(), wrong("name", &expected, "another one".to_owned())));
-            }
-            Some(_) => (),
-            None => {
-                let inside = Spanned::new(name.span(), DeValue::String(name.get_ref().clone()));
-                fields.insert(key("name", name.span()), inside);
-            }
+        let inside = Spanned::new(name.span(), DeValue::String(name.get_ref().clone()));
+        if let Some(twice) = fields.insert(key("name", name.span()), inside) {
+            let right = "the name of this factor stands before its table";
+            let problem = Problem::Misplaced { name: "name".to_owned(), right: right.to_owned() };
+            return Err(context.fault(twice.span(), problem));
         }
         factors.push(value);
     }
-    Ok(factors)
-}
-
-/// The keys of a range, with the numbers of a list of two.
-fn range_of(context: &Context<'_>, list: &DeValue<'_>) -> String {
-    let text = |end: &Spanned<DeValue<'_>>| context.text.get(end.span()).unwrap_or_default().to_owned();
-    let [min, max] = match list.as_array().map(|ends| ends.iter().map(text).collect::<Vec<_>>()).as_deref() {
-        Some([min, max]) => [min.clone(), max.clone()],
-        _ => ["..".to_owned(), "..".to_owned()],
-    };
-    format!("min = {min}, max = {max}")
+    root.insert(key("factor", plural.span()), Spanned::new(span, DeValue::Array(DeArray::from_iter(factors))));
+    Ok(())
 }
 
 /// `noise = "seed"`, or a table: one more factor, the last one, of the distribution `seed`.
 fn noise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
-    const NAME: &str = "seed";
     let Some(value) = root.get_mut("noise") else { return Ok(()) };
-    let span = value.span();
-    let name = match value.get_mut() {
-        DeValue::String(_) => {
-            let name = std::mem::replace(value.get_mut(), DeValue::Table(DeTable::new()));
-            Spanned::new(span, name)
+    let place = value.span();
+    let text = |text: String| Spanned::new(place.clone(), DeValue::String(Cow::Owned(text)));
+    let name = match value.get_ref() {
+        DeValue::String(name) => name.to_string(),
+        DeValue::Table(table) => {
+            table.get("name").and_then(|name| name.get_ref().as_str()).unwrap_or("seed").to_owned()
         }
-        DeValue::Table(table) => match table.get("name") {
-            Some(name) if name.get_ref().is_str() => Spanned::new(
-                name.span(),
-                DeValue::String(Cow::Owned(name.get_ref().as_str().unwrap_or(NAME).to_owned())),
-            ),
-            // What is no text is told of by the reader.
-            Some(_) => return Ok(()),
-            None => Spanned::new(span, DeValue::String(Cow::Borrowed(NAME))),
-        },
         other => {
             let expected = "the name under which the model gets its seed, as in noise = \"seed\", or a table [noise]";
-            return Err(context.fault(span, wrong("noise", expected, type_of(other))));
+            return Err(context.fault(place, wrong("noise", expected, other.type_str().to_owned())));
         }
     };
-    let place = name.span();
-    let law = Spanned::new(place.clone(), DeValue::String(Cow::Borrowed("seed")));
-    let table = DeTable::from_iter([(key("name", place.clone()), name), (key("distribution", place.clone()), law)]);
-    let factor = Spanned::new(place.clone(), DeValue::Table(table));
+    if value.get_ref().is_str() {
+        *value.get_mut() = DeValue::Table(DeTable::new());
+    }
+    let fields = [("name", text(name)), ("distribution", text("seed".to_owned()))];
+    let fields = fields.map(|(name, value)| (key(name, place.clone()), value));
+    let factor = Spanned::new(place.clone(), DeValue::Table(DeTable::from_iter(fields)));
     match root.get_mut("factor").map(Spanned::get_mut) {
         Some(DeValue::Array(factors)) => factors.push(factor),
         Some(_) => (),
         None => {
-            root.insert(
-                key("factor", place.clone()),
-                Spanned::new(place, DeValue::Array(DeArray::from_iter([factor]))),
-            );
+            let list = DeValue::Array(DeArray::from_iter([factor]));
+            root.insert(key("factor", place.clone()), Spanned::new(place, list));
         }
     }
     Ok(())
 }
 
-/// Components of mixtures get the name of their factor, after which messages are told; what is another factor where a number
-/// stands is refused with the reason.
-fn distributions(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
-    let Some(DeValue::Array(factors)) = root.get_mut("factor").map(Spanned::get_mut) else { return Ok(()) };
-    let name_of = |factor: &Spanned<DeValue<'_>>| {
-        let name = factor.get_ref().as_table().and_then(|fields| fields.get("name"));
-        name.and_then(|name| name.get_ref().as_str()).map(str::to_owned)
-    };
-    let names: Vec<String> = factors.iter().filter_map(name_of).collect();
+/// Components of mixtures get the name of their factor, which messages tell.
+fn name_components(root: &mut DeTable<'_>) {
+    fn name_inside(fields: &mut DeTable<'_>, name: &str) {
+        let Some(DeValue::Array(components)) = fields.get_mut("components").map(Spanned::get_mut) else { return };
+        for component in components.iter_mut() {
+            let span = component.span();
+            if let DeValue::Table(fields) = component.get_mut() {
+                let text = Spanned::new(span.clone(), DeValue::String(Cow::Owned(name.to_owned())));
+                fields.insert(key("name", span), text);
+                name_inside(fields, name);
+            }
+        }
+    }
+    let Some(DeValue::Array(factors)) = root.get_mut("factor").map(Spanned::get_mut) else { return };
     for factor in factors.iter_mut() {
-        let name = name_of(factor).unwrap_or_default();
         if let DeValue::Table(fields) = factor.get_mut() {
-            distribution(context, fields, &name, &names)?;
+            let name = fields.get("name").and_then(|name| name.get_ref().as_str()).unwrap_or_default().to_owned();
+            name_inside(fields, &name);
         }
     }
-    Ok(())
-}
-
-fn distribution(context: &Context<'_>, fields: &mut DeTable<'_>, name: &str, names: &[String]) -> Result<(), Fault> {
-    const WORDS: [&str; 5] = ["name", "distribution", "unit", "group", "nominal"];
-    for (key, value) in fields.iter().filter(|(key, _)| !WORDS.contains(&&**key.get_ref())) {
-        let list = std::slice::from_ref(value);
-        let numbers =
-            if **key.get_ref() == *"truncate" { value.get_ref().as_array().map_or(list, |list| list) } else { list };
-        let text = |value: &Spanned<DeValue<'_>>| Some((value.get_ref().as_str()?.to_owned(), value.span()));
-        let other = numbers.iter().filter_map(text).find(|(text, _)| names.contains(text));
-        if let Some((other, span)) = other.filter(|_| !matches!(&**key.get_ref(), "file" | "column")) {
-            let (factor, key) = (name.to_owned(), key.get_ref().to_string());
-            return Err(context.fault(span, Problem::DependsOnFactor { factor, key, other }));
-        }
-    }
-    if let Some(quantiles) = fields.get("quantiles").and_then(|value| value.get_ref().as_table())
-        && let Some((key, _)) = quantiles.iter().find(|(_, value)| value.get_ref().is_table())
-    {
-        let expected = "probabilities in quotes, as in { \"0\" = 1, \"0.5\" = 2, \"1\" = 5 }";
-        return Err(context
-            .fault(key.span(), wrong("quantiles", expected, "a key with a dot, which begins a table".to_owned())));
-    }
-    let Some(DeValue::Array(components)) = fields.get_mut("components").map(Spanned::get_mut) else { return Ok(()) };
-    for component in components.iter_mut() {
-        let span = component.span();
-        let DeValue::Table(fields) = component.get_mut() else { continue };
-        if let Some((name, _)) = fields.get_key_value("name") {
-            let right = "a component is a distribution of the factor, which alone has a name";
-            let problem = Problem::Misplaced { name: "name".to_owned(), right: right.to_owned() };
-            return Err(context.fault(name.span(), problem));
-        }
-        distribution(context, fields, name, names)?;
-        let inside = Spanned::new(span.clone(), DeValue::String(Cow::Owned(name.to_owned())));
-        fields.insert(key("name", span), inside);
-    }
-    Ok(())
-}
-
-/// `[outputs]` above the table of the model, or `outputs.y = "..."` there: the same as in that table.
-fn outputs_above(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
-    let Some(value) = root.get("outputs").filter(|value| value.get_ref().is_table()) else { return Ok(()) };
-    let place = value.span();
-    let is_model = |key: &str| meant(key, ["model"]).is_some();
-    if !root.contains_key("model") && root.keys().any(|key| is_model(key.get_ref())) {
-        // The reader tells of a `modle`, without which the outputs have no meaning.
-        root.remove("outputs");
-        return Ok(());
-    }
-    let model = root.get("model").and_then(|model| model.get_ref().as_str()).unwrap_or_default();
-    let Some(section) = ["expression", "command", "external"].into_iter().find(|section| *section == model) else {
-        let expected =
-            "a list of names, as in outputs = [\"y\"] (a table of formulas stands beside model = \"expression\")";
-        return Err(context.fault(place, wrong("outputs", expected, "a table".to_owned())));
-    };
-    let Some((name, outputs)) = root.remove_entry("outputs") else { return Ok(()) };
-    let Some(model) = root.get_mut(section) else {
-        if section == "command" {
-            return Err(context.fault(0..0, Problem::NoProgram));
-        }
-        let table = DeTable::from_iter([(name, outputs)]);
-        root.insert(key(section, place.clone()), Spanned::new(place, DeValue::Table(table)));
-        return Ok(());
-    };
-    let span = model.span();
-    match model.get_mut() {
-        DeValue::Table(table) if table.contains_key("outputs") => {
-            let (one, other) = match section {
-                "expression" => ("[outputs]", "[expression] outputs"),
-                "command" => ("[outputs]", "[command] outputs"),
-                _ => ("[outputs]", "[external] outputs"),
-            };
-            return Err(context.fault(name.span(), Problem::TwoForms { what: "outputs", one, other }));
-        }
-        DeValue::Table(table) => {
-            table.insert(name, outputs);
-        }
-        // `command = ["python3", "my_model.py"]`.
-        program @ DeValue::Array(_) if section == "command" => {
-            let list = std::mem::replace(program, DeValue::Boolean(false));
-            let program_key = key("program", span.clone());
-            *program = DeValue::Table(DeTable::from_iter([(program_key, Spanned::new(span, list)), (name, outputs)]));
-        }
-        other => {
-            let found = type_of(other);
-            return Err(context.fault(span, wrong(section, "a table", found)));
-        }
-    }
-    Ok(())
-}
-
-/// `outputs = ["y"]` below a table: it has become part of that table.
-fn outputs_below(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Fault> {
-    for section in ["expression", "command", "external"] {
-        let table = root.get(section).and_then(|value| value.get_ref().as_table());
-        let Some((name, _)) =
-            table.and_then(|table| table.get_key_value("outputs").filter(|(_, outputs)| outputs.get_ref().is_array()))
-        else {
-            continue;
-        };
-        let example = if section == "expression" { "outputs.y = \"x1 + x2\"" } else { "outputs.y = \"nN\"" };
-        let expected = format!(
-            "a table in [{section}], as in {example}: a list of names stands at the top of the file, above the first \
-             table"
-        );
-        return Err(context.fault(name.span(), wrong("outputs", &expected, "a list".to_owned())));
-    }
-    Ok(())
-}
-
-/// `y = "x1 + x2"` in `[expression]`, which wants to be an output, and `a = 7`, which wants to be a constant.
-fn formulas(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Fault> {
-    const KEYS: [&str; 2] = ["outputs", "constants"];
-    let Some(table) = root.get("expression").and_then(|value| value.get_ref().as_table()) else { return Ok(()) };
-    let misplaced = table.iter().filter_map(|(name, value)| match value.get_ref() {
-        _ if KEYS.contains(&&**name.get_ref()) || nearest(name.get_ref(), KEYS).is_some() => None,
-        DeValue::String(_) => Some((name, "outputs")),
-        DeValue::Integer(_) | DeValue::Float(_) => Some((name, "constants")),
-        _ => None,
-    });
-    let first = misplaced.min_by_key(|(name, _)| name.span().start);
-    first.map_or(Ok(()), |(name, table)| {
-        let what = if table == "outputs" { "an output with its formula" } else { "a constant" };
-        let written = context.text.get(name.span()).unwrap_or_default();
-        let right = format!("{what} is written {table}.{written} = ..., or stands below [expression.{table}]");
-        Err(context.fault(name.span(), Problem::Misplaced { name: name.get_ref().to_string(), right }))
-    })
 }

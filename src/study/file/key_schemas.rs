@@ -136,23 +136,6 @@ pub(super) fn function(_: &mut SchemaGenerator) -> Schema {
     object(properties)
 }
 
-/// `outputs`: names, or the table that stands in that of the model.
-pub(super) fn outputs(_: &mut SchemaGenerator) -> Schema {
-    let names = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
-    schemars::json_schema!({ "anyOf": [names, { "type": "object" }] })
-}
-
-/// `[expression] outputs`: formulas by the names of their outputs.
-pub(super) fn formulas(_: &mut SchemaGenerator) -> Schema {
-    let table = json!({
-        "type": "object",
-        "properties": { "formula": { "type": "string" }, "unit": { "type": "string" } },
-        "required": ["formula"],
-        "additionalProperties": false
-    });
-    schemars::json_schema!({ "type": "object", "additionalProperties": { "anyOf": [{ "type": "string" }, table] } })
-}
-
 /// `[expression] constants`: numbers, or quantities with their units.
 pub(super) fn expression_constants(_: &mut SchemaGenerator) -> Schema {
     schemars::json_schema!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } })
@@ -172,24 +155,17 @@ fn series_properties() -> Map<String, Value> {
     properties.as_object().cloned().unwrap_or_default()
 }
 
-/// `[external] outputs`: units by the names of the outputs, or tables of series.
-pub(super) fn external_outputs(_: &mut SchemaGenerator) -> Schema {
-    let mut properties = series_properties();
-    properties.insert("unit".to_owned(), json!({ "type": "string" }));
-    let table = json!({ "type": "object", "properties": properties, "additionalProperties": false });
-    schemars::json_schema!({ "type": "object", "additionalProperties": { "anyOf": [{ "type": "string" }, table] } })
-}
-
 /// `quantiles`: values by the probabilities below them.
 pub(super) fn quantiles(_: &mut SchemaGenerator) -> Schema {
     schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "number" } })
 }
 
-/// `[command] outputs`: units, or tables that say where a number stands.
-pub(super) fn program_outputs(_: &mut SchemaGenerator) -> Schema {
+/// `outputs`: names, or for each a formula or its unit, or a table of more.
+pub(super) fn outputs(_: &mut SchemaGenerator) -> Schema {
     let text = |description: &str| json!({ "type": "string", "description": description });
     let own = json!({
-            "unit": text("Unit of the program's numbers."),
+            "formula": text("Formula of the factors."),
+            "unit": text("Unit of the output's numbers."),
             "file": text("File that a run leaves in its directory; its standard output if not said."),
             "regex": text("Regular expression, whose first group is the number."),
             "column": text("Column of a CSV table with a header."),
@@ -203,7 +179,9 @@ pub(super) fn program_outputs(_: &mut SchemaGenerator) -> Schema {
     let mut properties = series_properties();
     properties.extend(own.as_object().cloned().unwrap_or_default());
     let table = json!({ "type": "object", "properties": properties, "additionalProperties": false });
-    schemars::json_schema!({ "type": "object", "additionalProperties": { "anyOf": [{ "type": "string" }, table] } })
+    let list = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
+    let entries = json!({ "type": "object", "additionalProperties": { "anyOf": [{ "type": "string" }, table] } });
+    schemars::json_schema!({ "anyOf": [list, entries] })
 }
 
 fn object(properties: Map<String, Value>) -> Schema {

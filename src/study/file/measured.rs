@@ -20,7 +20,8 @@ pub(super) fn read(
     let path = resolve(context, file, Reach::Anywhere)?;
     let wrong = |line: Option<usize>, reason: String| {
         let place = line.map_or_else(|| path.display().to_string(), |line| format!("{}:{line}", path.display()));
-        context.fault(file.span(), Problem::Measured { place, reason })
+        let help = "the file is a table in CSV, or one number a line; its path is relative to the study".to_owned();
+        context.fault(file.span(), Problem::File { place, reason, help })
     };
     let bytes = read_whole(&path).map_err(|error| wrong(None, format!("cannot read the measured values: {error}")))?;
     let text = std::str::from_utf8(&bytes).map_err(|_| wrong(None, "the file is not text in UTF-8".to_owned()))?;

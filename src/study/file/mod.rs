@@ -8,7 +8,6 @@ mod command;
 mod constants;
 mod context;
 mod dependence;
-mod design;
 mod distribution;
 mod distribution_forms;
 mod error;
@@ -17,13 +16,12 @@ mod external;
 mod fidelity;
 mod forms;
 mod function;
-mod guides;
 mod key_schemas;
 mod measured;
 mod models;
-mod names;
 mod noise;
 mod nominal;
+mod outputs;
 mod overrides;
 mod paths;
 mod read;
@@ -40,12 +38,12 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 pub use error::{Diagnostic, OverrideProblem, Problem, StudyError};
-pub use models::{model_guide, template};
+pub use models::model_guide;
 pub use schema::study_schema;
 pub use subjects::{
     AfmSubject, CommandSubject, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula, KnownSubject,
 };
-pub use template::{NEW_PROGRAM, TemplateRequest, new_program};
+pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
 
 use super::Study;
 use crate::files::read_text;

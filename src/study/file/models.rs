@@ -4,15 +4,13 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::context::{Context, Fault, chosen};
+use super::at::ListOrTable;
+use super::context::{Context, Fault, unknown_name};
 use super::error::Problem;
 use super::sections::{At, StudyFile};
 use super::subjects::{AfmSubject, KnownSubject};
-use super::template::{
-    TemplateRequest, afm_table, external_template, formula_template, function_table, model_template, program_template,
-};
-use super::{command, constants, expression, external, function, guides};
-use crate::model::{AfmHistory, AfmOutput, Input, KnownFunction, ModelKind, known_inputs};
+use super::{command, constants, expression, external, function};
+use crate::model::{AfmHistory, AfmOutput, Expression, Input, KnownFunction, ModelKind, known_inputs};
 use crate::space::Space;
 use crate::study::Subject;
 
@@ -36,8 +34,7 @@ pub(super) struct ModelTable {
     pub inputs: fn(&Reading<'_>) -> Result<Vec<Input>, Fault>,
     /// The model with its choices made.
     pub subject: fn(&Reading<'_>, &Space) -> Subjects,
-    template: fn(&TemplateRequest) -> Result<String, Problem>,
-    guide: Option<fn() -> String>,
+    guide: Option<&'static str>,
 }
 
 /// Every table.
@@ -47,7 +44,6 @@ pub(super) const TABLES: [ModelTable; 5] = [
         span: |file| file.afm.as_ref().map(At::span),
         inputs: |reading| Ok(reading.kind.inputs()),
         subject: afm,
-        template: |request| model_template(request, afm_table),
         guide: None,
     },
     ModelTable {
@@ -56,10 +52,10 @@ pub(super) const TABLES: [ModelTable; 5] = [
         inputs: |reading| Ok(known(reading)?.as_ref().map_or_else(Vec::new, known_inputs)),
         subject: |reading, _| {
             outputs(reading)?;
-            let function = known(reading)?.ok_or_else(|| reading.context.fault(0..0, Problem::NoOutputs))?;
+            // A test goes through all kinds of this table.
+            let function = known(reading)?.ok_or_else(|| reading.context.fault(0..0, Problem::NoFactors))?;
             Ok((Arc::new(KnownSubject { function }), Vec::new()))
         },
-        template: |request| model_template(request, function_table),
         guide: None,
     },
     ModelTable {
@@ -68,30 +64,26 @@ pub(super) const TABLES: [ModelTable; 5] = [
         inputs: |reading| expression::inputs(reading.context, &reading.file.factor),
         subject: |Reading { context, file, .. }, space| {
             let (subject, notes) =
-                expression::subject(context, file.expression.as_ref(), file.outputs.as_ref(), space)?;
+                expression::subject(context, file.outputs.as_ref(), file.expression.as_ref(), space)?;
             Ok((Arc::new(subject), notes))
         },
-        template: formula_template,
-        guide: Some(guides::expression),
+        guide: Some(include_str!("../../../templates/guides/expression.txt")),
     },
     ModelTable {
         name: "external",
-        span: |file| file.external.as_ref().map(At::span),
+        span: |_| None,
         inputs: |reading| external::inputs(reading.context, &reading.file.factor),
         subject: |Reading { context, file, .. }, _| {
-            let subject = external::subject(context, file.external.as_ref(), file.outputs.as_ref())?;
-            Ok((Arc::new(subject), Vec::new()))
+            Ok((Arc::new(external::subject(context, file.outputs.as_ref())?), Vec::new()))
         },
-        template: external_template,
-        guide: Some(guides::external),
+        guide: Some(include_str!("../../../templates/guides/external.txt")),
     },
     ModelTable {
         name: "command",
         span: |file| file.command.as_ref().map(At::span),
         inputs: |reading| command::inputs(reading.context, &reading.file.factor),
         subject: program,
-        template: program_template,
-        guide: Some(guides::command),
+        guide: Some(include_str!("../../../templates/guides/command.txt")),
     },
 ];
 
@@ -104,7 +96,7 @@ fn program(Reading { context, file, .. }: &Reading<'_>, space: &Space) -> Subjec
 /// A page starts no programs, and does not carry what would speak with them.
 #[cfg(target_family = "wasm")]
 fn program(Reading { context, .. }: &Reading<'_>, _: &Space) -> Subjects {
-    Err(context.fault(0..0, Problem::NoProgram))
+    Err(context.fault(0..0, command::NO_PROGRAM))
 }
 
 /// The table of a kind of model.
@@ -115,29 +107,8 @@ pub(super) fn table_of(kind: ModelKind) -> &'static ModelTable {
 
 /// What stands in a study of this kind of model, for people; `None` of one whose inputs and outputs tell it.
 pub fn model_guide(kind: ModelKind) -> Option<String> {
-    let text = table_of(kind).guide?();
+    let text = table_of(kind).guide?.replace("FUNCTIONS", &Expression::vocabulary().join(", "));
     Some(format!("{}: {}\n\n{text}", kind.name, kind.description))
-}
-
-/// The text of a study file on `request`: it can be run as it is. A factor of a model that does not say how its inputs vary
-/// is uniform within 10 % of its nominal value (from 0 to 1 in its unit where that is 0).
-///
-/// ```
-/// use std::path::Path;
-/// use apportion::model::ModelKind;
-/// use apportion::study::{Study, TemplateRequest, template};
-///
-/// let factors = vec!["thickness".to_owned(), "velocity".to_owned()];
-/// let request = TemplateRequest { model: ModelKind::AFM, title: None, factors, outputs: Vec::new() };
-/// let study = Study::parse(&template(&request)?, Path::new("mine.toml"), &[])?;
-/// assert_eq!(study.space().factors()[1].name, "velocity");
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// [`Problem::UnknownName`] for a factor or output that the model does not have, [`Problem::Repeated`] for one named twice.
-pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
-    (table_of(request.model).template)(request)
 }
 
 /// The function with the parameters of its table.
@@ -164,8 +135,24 @@ fn afm(reading: &Reading<'_>, space: &Space) -> Subjects {
 
 /// Numbers of the outputs in the catalogue, in the order asked for; the first one if nothing is asked.
 fn outputs(reading: &Reading<'_>) -> Result<Vec<usize>, Fault> {
-    let Some(asked) = &reading.file.outputs else { return Ok(vec![0]) };
+    let Some(key) = &reading.file.outputs else { return Ok(vec![0]) };
+    let fault = |span, problem| reading.context.fault(span, problem);
+    let example = "outputs = [\"y\"], a list of names (a table of formulas needs model = \"expression\")";
+    let asked = match key.get_ref() {
+        ListOrTable::List(names) if !names.is_empty() => names,
+        _ => return Err(fault(key.span(), Problem::Missing { what: "names of outputs", example })),
+    };
     let known = reading.kind.outputs();
-    let names: Vec<&str> = known.iter().map(|info| &*info.name).collect();
-    chosen(reading.context, &names, asked)
+    let mut places = Vec::new();
+    for name in asked {
+        let Some(place) = known.iter().position(|output| *output.name == **name.get_ref()) else {
+            let names: Vec<&str> = known.iter().map(|output| &*output.name).collect();
+            return Err(fault(name.span(), unknown_name("output", name.get_ref(), names.into_iter())));
+        };
+        if places.contains(&place) {
+            return Err(fault(name.span(), Problem::Repeated { what: "output", name: name.get_ref().clone() }));
+        }
+        places.push(place);
+    }
+    Ok(places)
 }

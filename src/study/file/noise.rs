@@ -5,32 +5,13 @@
 use std::sync::Arc;
 
 use super::context::{Context, Fault, wrong};
-use super::error::Problem;
-use super::sections::{At, FactorSection, StudyFile};
-use crate::space::{Factor, Space};
+use super::sections::StudyFile;
+use crate::space::Space;
 use crate::study::Subject;
 use crate::study::subject::RepeatedSubject;
 
 /// Most repetitions of a row.
 const MOST: u64 = 1000;
-
-/// Refuses a second noise, and a noise alone.
-pub(super) fn refuse(context: &Context<'_>, factors: &[Factor], sections: &[At<FactorSection>]) -> Result<(), Fault> {
-    let mut noises = factors.iter().enumerate().filter(|(_, factor)| factor.distribution().is_noise());
-    let Some((first, _)) = noises.next() else { return Ok(()) };
-    let place = |number: usize| sections[number].get_ref().name.span();
-    if let Some((second, factor)) = noises.next() {
-        let right = format!(
-            "`{}` is a seed already: a study has one noise, from which the model draws all that is random in it",
-            factors[first].name
-        );
-        return Err(context.fault(place(second), Problem::Misplaced { name: factor.name.clone(), right }));
-    }
-    if factors.len() == 1 {
-        return Err(context.fault(place(first), Problem::NoFactors));
-    }
-    Ok(())
-}
 
 /// The subject with as many repetitions of each row as the study asks for.
 pub(super) fn repeated(

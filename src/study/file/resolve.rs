@@ -1,18 +1,23 @@
 //! From what was typed to what is meant: every check a study file needs, once.
 
+use std::ops::Range;
+use std::sync::Arc;
+
+use toml::de::DeTable;
+
 use super::context::{Context, Fault, unknown_name};
-use super::design::{Plan, plan};
 use super::error::Problem;
 use super::models::{ModelTable, Reading, TABLES, table_of};
 use super::sections::{At, FactorSection, StudyFile};
 use super::units::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_unit};
-use super::{distribution, names, noise, nominal, read};
+use super::{analysis, distribution, noise, nominal, read};
 use crate::design::{DesignError, MAX_FACTORS};
 use crate::model::{Input, ModelKind};
-use crate::names::{NAME_RULE, file_part, names_files, shown};
+use crate::names::file_part;
 use crate::quantity::Unit;
 use crate::space::{Distribution, Factor, Space};
-use crate::study::{Study, Subject};
+use crate::study::builder::StudyBuilder;
+use crate::study::{BuildError, Study};
 
 /// The study that the text of `context` means.
 pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
@@ -20,43 +25,61 @@ pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     // Before anything that takes time for each of them, or for pairs.
     if file.factor.len() > MAX_FACTORS {
         let problem = DesignError::FarTooManyFactors { factors: file.factor.len() };
-        return Err(context.fault(file.factor[MAX_FACTORS].span(), problem.into()));
+        return Err(context.fault(file.factor[MAX_FACTORS].span(), BuildError::Design(problem).into()));
     }
-    names::refuse_names(context, &file)?;
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
     let (table, reading) = (table_of(kind), Reading { context, file: &file, kind });
     let space = space(context, &(table.inputs)(&reading)?, &file.factor)?;
-    let space = super::dependence::dependent(context, &file, space)?;
     let (subject, unused) = (table.subject)(&reading, &space)?;
     let subject = noise::repeated(context, &file, subject, &space)?;
-    names::refuse_output_names(context, &*subject, &space)?;
-    refuse_outputs_of_factors(context, &*subject, &space, &file.factor)?;
-    let Plan { design, analysis, target, mut notes } =
-        plan(context, &file, &space, subject.model(&space).outputs().len())?;
-    notes.extend(unused);
-    let name = name(context, file.name.as_ref())?;
-    let (overrides, source, sha256) = Default::default();
-    let title = file.title.as_ref().map(|title| title.get_ref().clone());
-    let lows = super::fidelity::lows(context, &file, &*subject, &space, &target, study)?;
-    Ok(Study { name, title, subject, space, design, analysis, target, lows, overrides, source, sha256, notes })
+    let name = file.name.as_ref().map(|name| name.get_ref().clone()).unwrap_or_else(|| file_stem(context));
+    let mut builder = analysis::settled(context, &file, &space, StudyBuilder::new(&name, Arc::clone(&subject)))?;
+    builder.title = file.title.as_ref().map(|title| title.get_ref().clone());
+    builder.factors = space.factors().iter().cloned().map(Ok).collect();
+    builder.dependences = super::dependence::dependences(context, &file, &space)?;
+    builder.lows = super::fidelity::lows(context, &file, &*subject, study)?;
+    let mut study =
+        builder.checked().map_err(|error| context.fault(place(context, &file, &error), Problem::Build(error)))?;
+    study.notes.extend(unused);
+    Ok(study)
 }
 
-/// Factors and outputs are columns of one table, and need names of their own.
-fn refuse_outputs_of_factors(
-    context: &Context<'_>,
-    subject: &dyn Subject,
-    space: &Space,
-    sections: &[At<FactorSection>],
-) -> Result<(), Fault> {
-    let model = subject.model(space);
-    let outputs = model.outputs();
-    let mut names = sections.iter().map(|section| &section.get_ref().name);
-    let taken = names.find(|name| outputs.iter().any(|output| output.name == **name.get_ref()));
-    taken.map_or(Ok(()), |name| {
-        let problem = Problem::Repeated { what: "factor or output", name: name.get_ref().clone() };
-        Err(context.fault(name.span(), problem))
-    })
+fn file_stem(context: &Context<'_>) -> String {
+    context.path.file_stem().map_or_else(|| "study".to_owned(), |stem| file_part(&stem.to_string_lossy()))
+}
+
+/// Where the file says what `error` is about.
+fn place(context: &Context<'_>, file: &StudyFile, error: &BuildError) -> Range<usize> {
+    let keys: &[&str] = match error {
+        BuildError::Wrong { key, .. } => &[key],
+        BuildError::Design(DesignError::NoReplicates) => &["replicates"],
+        BuildError::Design(DesignError::TooManyPairs { .. }) => &["second_order"],
+        BuildError::Design(_) => &["base_samples", "runs", "replicates"],
+        BuildError::Dependence(_) => &["dependence"],
+        BuildError::LowFidelity { .. } | BuildError::Repeated { what: "cheaper model", .. } => &["low"],
+        BuildError::Name { name, .. } | BuildError::Repeated { name, .. } => return place_of_name(context, file, name),
+        _ => &[],
+    };
+    let Ok(root) = DeTable::parse(context.text) else { return 0..0 };
+    let root = root.get_ref();
+    let inner =
+        ["design", "analysis", "fidelity"].into_iter().filter_map(|table| root.get(table)?.get_ref().as_table());
+    let tables: Vec<_> = std::iter::once(root).chain(inner).collect();
+    let found = keys.iter().find_map(|key| tables.iter().find_map(|table| table.get(*key)));
+    found.map_or(0..0, toml::Spanned::span)
+}
+
+/// Where a name stands that is refused: the last one of a factor, or else where it stands first.
+fn place_of_name(context: &Context<'_>, file: &StudyFile, name: &str) -> Range<usize> {
+    let names = |section: &At<FactorSection>| {
+        let FactorSection { name, group, .. } = section.get_ref();
+        [Some(name.clone()), group.clone()].into_iter().flatten().collect::<Vec<_>>()
+    };
+    let of_factor = file.factor.iter().flat_map(names).rfind(|found| found.get_ref() == name);
+    // Escaped ones are not found.
+    let first = || context.text.find(name).map(|start| start..start + name.len());
+    of_factor.map(|found| found.span()).or_else(first).unwrap_or(0..0)
 }
 
 fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<ModelKind, Fault> {
@@ -71,18 +94,7 @@ fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<Model
     })
 }
 
-fn name(context: &Context<'_>, name: Option<&At<String>>) -> Result<String, Fault> {
-    let stem = || context.path.file_stem().map_or_else(|| "study".to_owned(), |s| file_part(&s.to_string_lossy()));
-    let Some(name) = name else { return Ok(stem()) };
-    if !names_files(name.get_ref()) {
-        let problem =
-            Problem::WrongType { key: "name".to_owned(), expected: NAME_RULE.to_owned(), found: shown(name.get_ref()) };
-        return Err(context.fault(name.span(), problem));
-    }
-    Ok(name.get_ref().clone())
-}
-
-/// `[afm]`, `[function]`, `[expression]`, `[external]` and `command` belong to one kind of model each.
+/// `[afm]`, `[function]`, `[expression]` and `command` belong to one kind of model each.
 fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyFile) -> Result<(), Fault> {
     let foreign = |table: &&ModelTable| table.name != kind.table && (table.span)(file).is_some();
     let Some(ModelTable { name, span, .. }) = TABLES.iter().find(foreign) else { return Ok(()) };
@@ -112,13 +124,8 @@ fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]
             let problem = unknown_name("factor", name.get_ref(), inputs.iter().map(|input| &*input.name));
             return Err(context.fault(name.span(), problem));
         };
-        if factors.iter().any(|factor| factor.name == *name.get_ref()) {
-            let problem = Problem::Repeated { what: "factor", name: name.get_ref().clone() };
-            return Err(context.fault(name.span(), problem));
-        }
         factors.push(factor(context, section, input)?);
     }
-    noise::refuse(context, &factors, sections)?;
     Ok(Space::new(factors))
 }
 

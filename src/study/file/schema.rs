@@ -17,11 +17,14 @@ use super::sections::StudyFile;
 pub fn study_schema() -> Value {
     let settings = SchemaSettings::draft07().with_transform(RecursiveTransform(without_null));
     let mut schema = settings.into_generator().into_root_schema_for::<StudyFile>().to_value();
-    if let Some(properties) = schema["properties"].as_object_mut() {
-        let mut plural = properties.get("factor").cloned().unwrap_or_default();
-        plural["description"] = json!("The same as `factor`.");
-        properties.insert("factors".to_owned(), plural);
-    }
+    let mut line = schema["definitions"]["FactorSection"].clone();
+    line["properties"].as_object_mut().and_then(|keys| keys.remove("name"));
+    line.as_object_mut().and_then(|line| line.remove("required"));
+    schema["properties"]["factors"] = json!({
+        "type": "object",
+        "additionalProperties": line,
+        "description": "The factors, a line for each: its name, and how it varies."
+    });
     schema
 }
 

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
+use super::at::ListOrTable;
 pub(super) use super::at::{At, Choices};
 use super::command::file::CommandKey;
 use super::key_schemas;
@@ -23,11 +24,10 @@ pub(super) struct StudyFile {
     /// What is studied; `apportion models` lists what there is.
     #[schemars(extend("enum" = key_schemas::models(), "default" = "afm"))]
     pub model: Option<At<String>>,
-    /// Outputs that are asked for; the model's first by default. Of formulas, programs and models outside it can also be
-    /// the table that stands in theirs: outputs.y = "x1 + x2", or outputs.y = "nN".
-    #[serde(default)]
+    /// Outputs: a list of names, by default the model's first. Of formulas a table of these, outputs.y = "x1 + x2"; of programs
+    /// and models outside also a table of their units, outputs.y = "nN".
     #[schemars(schema_with = "key_schemas::outputs")]
-    pub outputs: Option<At<Vec<At<String>>>>,
+    pub outputs: Option<At<Outputs>>,
     /// The physics of the nanoparticle model: choices by name, and inputs that are fixed, with their units.
     #[serde(default)]
     #[schemars(schema_with = "key_schemas::afm")]
@@ -36,12 +36,9 @@ pub(super) struct StudyFile {
     #[serde(default)]
     #[schemars(schema_with = "key_schemas::function")]
     pub function: Option<At<Choices>>,
-    /// Formulas in the factors.
+    /// What formulas may name beside the factors.
     #[serde(default)]
     pub expression: Option<At<ExpressionSection>>,
-    /// The outputs of a model outside of this program.
-    #[serde(default)]
-    pub external: Option<At<ExternalSection>>,
     /// The program that is the model: itself with its arguments, or a table of these and more.
     #[serde(default)]
     pub command: Option<At<CommandKey>>,
@@ -65,40 +62,27 @@ pub(super) struct StudyFile {
     /// What is asked of the runs beside first-order and total indices.
     #[serde(default)]
     pub analysis: AnalysisSection,
-    /// The inputs whose influence is asked for: tables [[factor]] or [factor.NAME], whose order in the file assigns the
-    /// dimensions of the sequence.
+    /// The inputs whose influence is asked for: tables [[factor]], whose order in the file assigns the dimensions of the sequence.
     #[serde(default)]
-    #[schemars(schema_with = "factors")]
     pub factor: Vec<At<FactorSection>>,
 }
 
-/// Formulas in the factors.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+/// Names of outputs, or a table of what each is.
+pub(super) type Outputs = ListOrTable<Choices>;
+
+/// What formulas may name beside the factors.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table [expression]")]
 pub(super) struct ExpressionSection {
-    /// A formula for each output, or a table of `formula` and `unit`.
-    #[serde(default)]
-    #[schemars(schema_with = "key_schemas::formulas")]
-    pub outputs: Choices,
     /// Numbers, or quantities with their units, that formulas may name.
     #[serde(default)]
     #[schemars(schema_with = "key_schemas::expression_constants")]
     pub constants: Choices,
 }
 
-/// The outputs of a model outside of this program.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ExternalSection {
-    /// The unit of each output, as in "nN"; "1" for none.
-    #[serde(default)]
-    #[schemars(schema_with = "key_schemas::external_outputs")]
-    pub outputs: Choices,
-}
-
 /// Cheaper models of the same outputs.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table [fidelity]")]
 pub(super) struct FidelitySection {
     /// The cheaper models: by name those that come with the model, as in "closed-form"; or tables with what they have in the
     /// place of the model's own, as in { name = "coarse", command = ["./coarse"] }.
@@ -111,7 +95,7 @@ pub(super) struct FidelitySection {
 
 /// Factors that depend on each other, by a Gaussian copula.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table [[dependence]]")]
 pub(super) struct DependenceSection {
     /// The factors: two or more.
     pub factors: NameList,
@@ -130,7 +114,7 @@ pub(super) struct DependenceSection {
 
 /// Correlations of factors.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a number, or a matrix as in [[1, 0.5], [0.5, 1]]")]
 pub(super) enum Correlation {
     /// Of every pair.
     Pairs(f64),
@@ -140,7 +124,7 @@ pub(super) enum Correlation {
 
 /// The noise of a stochastic model.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table [noise]")]
 pub(super) struct NoiseSection {
     /// The name under which the model gets its seed, a whole number from 0 to 2^31 - 1; "seed" by default.
     #[serde(rename = "name")]
@@ -155,39 +139,24 @@ pub(super) struct NoiseSection {
 
 /// The points at which the model runs.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table [design]")]
 pub(super) struct DesignSection {
     /// How points are chosen.
     #[schemars(extend("enum" = key_schemas::samplers(), "default" = "sobol"))]
     pub sampler: Option<At<String>>,
     /// Base samples in all, best a power of two for each replicate; a run costs base_samples x (2 + factors).
     pub base_samples: Option<At<u64>>,
+    /// Model runs in all, in the place of `base_samples`: the best design for at most so many.
+    #[schemars(range(min = 1))]
+    pub runs: Option<At<u64>>,
     /// Independent randomisations that share the base samples.
     pub replicates: Option<At<u64>>,
-    /// Runs of every base sample at points of their own, which only surrogates learn from: for models so dear that a few
-    /// hundred runs are all.
-    #[schemars(range(max = 1000))]
-    pub plain_rows: Option<At<u32>>,
-    /// Model runs in all, of which about a quarter is for base samples and the rest for plain rows.
-    #[schemars(range(min = 1))]
-    pub budget_runs: Option<At<u64>>,
     /// Seed of the design; 0 is one like any other.
     pub seed: Option<At<u64>>,
-    /// Double the run until every index is known to this.
-    pub target: Option<At<TargetSection>>,
-    /// Time after which the run is not doubled once more, as in "30 s".
-    pub budget: Option<At<String>>,
-    /// Model runs that are not exceeded.
+    /// Model runs that a run with `accuracy` does not exceed; alone, the run is doubled up to here.
     pub max_runs: Option<At<u64>>,
-}
-
-/// When every index is known well enough.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct TargetSection {
-    /// Half width that the 95 % interval of every first-order and total index must reach.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub half_width: At<f64>,
+    /// Time that a run with `accuracy` does not exceed, as in "30 s"; alone, the run is doubled up to here.
+    pub max_time: Option<At<String>>,
 }
 
 /// Names, each with its place.
@@ -195,7 +164,7 @@ pub(super) type NameList = At<Vec<At<String>>>;
 
 /// What is asked of the runs beside first-order and total indices.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table [analysis]")]
 pub(super) struct AnalysisSection {
     /// Estimators whose indices stand beside those of the default ones.
     #[schemars(extend("items" = key_schemas::estimators()))]
@@ -249,7 +218,7 @@ pub(super) struct AnalysisSection {
 
 /// An input whose influence is asked for, and how it varies.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table, as in { min = 0, max = 1 }")]
 pub(super) struct FactorSection {
     /// The input of the model.
     pub name: At<String>,
@@ -372,17 +341,4 @@ pub(super) const OF_FACTORS: [&str; 4] = ["name", "unit", "group", "nominal"];
 fn components(generator: &mut SchemaGenerator) -> Schema {
     let component = generator.subschema_for::<ComponentSection>();
     schemars::json_schema!({ "type": "array", "items": component, "minItems": 1 })
-}
-
-/// `factor`: tables in a list, tables by the names of the factors, or the only one.
-fn factors(generator: &mut SchemaGenerator) -> Schema {
-    let with_name = generator.subschema_for::<FactorSection>();
-    let mut named = FactorSection::json_schema(generator);
-    named.remove("required");
-    named.remove("description");
-    schemars::json_schema!({ "anyOf": [
-        { "type": "array", "items": with_name },
-        { "type": "object", "additionalProperties": named },
-        with_name
-    ] })
 }

@@ -2,10 +2,9 @@
 
 use toml::Value;
 
-use super::at::At;
-use super::context::{Context, Fault, chosen, wrong};
+use super::context::wrong;
 use super::error::Problem;
-use crate::model::{OutputSeries, SeriesAxis, SeriesError};
+use crate::model::{SeriesAxis, SeriesError};
 
 /// The keys of a table that make an output a series.
 pub(super) const SERIES_KEYS: [&str; 4] = ["length", "axis", "axis_unit", "positions"];
@@ -70,33 +69,6 @@ fn positions(key: &str, table: &toml::Table) -> Result<Option<Vec<f64>>, Problem
         let expected = "a list of numbers: the first position and the step, or every position";
         wrong(&format!("{key}.positions"), expected, typed.type_str().to_owned())
     })
-}
-
-/// Places of the outputs asked for among those called `names`, in the order asked for: the name of a series stands for all of
-/// its values.
-pub(super) fn places(
-    context: &Context<'_>,
-    names: &[&str],
-    series: &[OutputSeries],
-    asked: &At<Vec<At<String>>>,
-) -> Result<Vec<usize>, Fault> {
-    let single = |place: &usize| !series.iter().any(|series| series.places().contains(place));
-    let singles: Vec<usize> = (0..names.len()).filter(single).collect();
-    let known: Vec<&str> =
-        singles.iter().map(|&place| names[place]).chain(series.iter().map(|series| series.name.as_str())).collect();
-    let places = chosen(context, &known, asked)?.into_iter().flat_map(|place| match singles.get(place) {
-        Some(&single) => single..single + 1,
-        None => series[place - singles.len()].places(),
-    });
-    Ok(places.collect())
-}
-
-/// Outputs of one name, be it that of a value of a series, or a series and an output.
-pub(super) fn refuse_repeated(names: &[&str], series: &[OutputSeries]) -> Result<(), Problem> {
-    let mut seen = std::collections::BTreeSet::new();
-    let all = names.iter().copied().chain(series.iter().map(|series| series.name.as_str()));
-    let repeated = all.into_iter().find(|name| !seen.insert(*name));
-    repeated.map_or(Ok(()), |name| Err(Problem::Repeated { what: "output", name: name.to_owned() }))
 }
 
 #[cfg(test)]

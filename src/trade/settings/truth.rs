@@ -34,8 +34,8 @@ impl Truth {
         if let Some(rung) = rung {
             finest.subject = rung.subject;
         }
-        let budget = study.target.budget.map_or(seconds, |budget| budget.min(seconds));
-        finest.target = Target::accuracy(FINEST).budget(budget);
+        let max_time = study.target.max_time.map_or(seconds, |limit| limit.min(seconds));
+        finest.target = Target::accuracy(FINEST).max_time(max_time);
         finest.analysis.second_order = false;
         finest.analysis.estimators = Vec::new();
         let start = Instant::now();

@@ -53,8 +53,12 @@ impl Case {
     /// A study with the keys `command` of `[command]` and the program `model.py`.
     pub fn new(command: &str, program: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
+        // Those of outputs stand above the table.
+        let (outputs, keys): (Vec<&str>, Vec<&str>) = command.lines().partition(|line| line.starts_with("outputs."));
+        let outputs = if outputs.is_empty() { "outputs = [\"y\"]".to_owned() } else { outputs.join("\n") };
         let study = format!(
-            "model = \"command\"\noutputs = [\"y\"]\n[command]\nprogram = [\"python3\", \"model.py\"]\nworkers = 2\n{command}\n{FACTORS}"
+            "model = \"command\"\n{outputs}\n[command]\nprogram = [\"python3\", \"model.py\"]\nworkers = 2\n{}\n{FACTORS}",
+            keys.join("\n")
         );
         std::fs::write(folder.path().join("study.toml"), study).unwrap();
         std::fs::write(folder.path().join("model.py"), program).unwrap();
@@ -138,8 +142,9 @@ pub fn failures(output: &OutputRecord) -> Vec<(&str, u64)> {
 pub fn by_formula(case: &Case, formula: &str) -> ResultFile {
     let text = std::fs::read_to_string(case.path("study.toml")).unwrap();
     let (start, end) = (text.find("[command]").unwrap(), text.find("[design]").unwrap());
-    let text = format!("{}[expression]\noutputs.y = \"{formula}\"\n{}", &text[..start], &text[end..]);
+    let text = format!("{}{}", &text[..start], &text[end..]);
     let text = text.replace("model = \"command\"", "model = \"expression\"");
+    let text = text.replace("outputs = [\"y\"]", &format!("outputs.y = \"{formula}\""));
     let study = apportion::study::Study::parse(&text, Path::new("formula.toml"), &[]).unwrap();
     ResultFile::new(&study, &study.run().unwrap())
 }

@@ -11,7 +11,7 @@ use apportion::study::Study;
 /// A study with a factor of every kind.
 static STUDY: LazyLock<Study> = LazyLock::new(|| {
     let text = r#"model = "expression"
-        expression.outputs = { y = "a + b + c + d", z = "ln(a)" }
+        outputs = { y = "a + b + c + d", z = "ln(a)" }
         factor = [
             { name = "a", min = 0, max = 1, unit = "um" },
             { name = "b", distribution = "integer", min = 1, max = 6 },

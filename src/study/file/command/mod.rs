@@ -1,9 +1,9 @@
 //! `model = "command"`: the user's own program, its outputs, and how it is asked.
 
 pub(super) mod file;
-mod outputs;
 mod runs;
 
+use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -12,14 +12,16 @@ use serde_json::{Value, json};
 pub(super) use file::{CommandKey, CommandSection};
 
 use super::analysis::seconds;
+use super::at::ListOrTable;
 use super::context::{Context, Fault};
 use super::context::{choice, wrong};
 use super::error::Problem;
-use super::paths::{Reach, folder, resolve};
-use super::sections::{At, FactorSection};
+use super::outputs::{outputs_as_settings, own_outputs};
+use super::paths::{Reach, folder, refuse_outside_of_run, resolve};
+use super::sections::{At, FactorSection, Outputs};
 use super::subjects::CommandSubject;
 use super::units::own_inputs;
-use crate::model::{CommandOutput, CommandSettings, Form, Input, Program, Protocol};
+use crate::model::{CommandOutput, CommandSettings, Form, Input, Pick, Program, Protocol, Source};
 use crate::space::Space;
 
 /// The inputs of a program: the factors of the study, each in its own unit.
@@ -37,6 +39,9 @@ pub(super) fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Re
     own_inputs(context, factors)
 }
 
+pub(super) const NO_PROGRAM: Problem =
+    Problem::Missing { what: "program", example: "command = [\"python3\", \"my_model.py\"]" };
+
 fn fits_a_line(name: &str) -> bool {
     !name.trim().is_empty() && !name.contains(char::is_control)
 }
@@ -45,14 +50,14 @@ fn fits_a_line(name: &str) -> bool {
 pub(super) fn subject(
     context: &Context<'_>,
     key: Option<&At<CommandKey>>,
-    asked: Option<&At<Vec<At<String>>>>,
+    outputs: Option<&At<Outputs>>,
     space: &Space,
 ) -> Result<(CommandSubject, Vec<String>), Fault> {
-    let Some(key) = key else { return Err(context.fault(0..0, Problem::NoProgram)) };
+    let Some(key) = key else { return Err(context.fault(0..0, NO_PROGRAM)) };
     let unsaid = CommandSection::default();
     let (section, program) = match key.get_ref() {
-        CommandKey::Program(program) => (&unsaid, program.as_slice()),
-        CommandKey::Table(section) => {
+        ListOrTable::List(program) => (&unsaid, program.as_slice()),
+        ListOrTable::Table(section) => {
             (section.as_ref(), section.program.as_ref().map_or(&[][..], |program| program.get_ref().as_slice()))
         }
     };
@@ -68,19 +73,23 @@ pub(super) fn subject(
         let problem = wrong("env", "variables whose names are without \"=\"", format!("{name:?}"));
         return Err(context.fault(key.span(), problem));
     }
-    let all = outputs::outputs(context, key, section, asked)?;
-    let asked = outputs::places(context, section, &all, asked)?;
+    let all = own_outputs(context, outputs)?;
+    for Pick { source, .. } in all.outputs.iter().filter_map(|output| output.pick.as_ref()) {
+        if let Source::File(file) = source {
+            let place = outputs.map_or(0..0, At::span);
+            refuse_outside_of_run(context, place, file, reach(section))?;
+        }
+    }
     refuse_without_numbers(context, section)?;
-    let outputs = &all.outputs;
     let (form, notes) = match &section.template {
         None => {
-            let protocol = protocol(context, section, &all.picks)?;
-            refuse_number(context, key, protocol, space, outputs)?;
+            let protocol = protocol(context, section, all.first_pick.as_ref())?;
+            refuse_number(context, key, protocol, space, &all.outputs)?;
             (Form::KeptAlive(protocol), Vec::new())
         }
         Some(template) => {
             let (form, notes) = runs::form(context, section, template, space)?;
-            outputs::refuse_without_pick(context, key, outputs)?;
+            runs::refuse_without_pick(context, key, &all.outputs)?;
             (Form::PerRun(form), notes)
         }
     };
@@ -107,13 +116,13 @@ pub(super) fn subject(
     }
     let depends_on =
         section.depends_on.iter().map(|typed| existing_file(context, section, typed)).collect::<Result<_, _>>()?;
-    stated.push(("outputs", outputs::stated(&all)));
+    stated.push(("outputs", outputs_as_settings(&all)));
     let settings = CommandSettings {
         program: Program { arguments, directory, environment },
         form,
+        asked: (0..all.outputs.len()).collect(),
         outputs: all.outputs,
         series: all.series,
-        asked,
         workers: workers(context, section)?,
         timeout: timeout(context, section)?,
         retries: retries(context, section)?,
@@ -124,7 +133,7 @@ pub(super) fn subject(
 fn arguments(context: &Context<'_>, key: &At<CommandKey>, program: &[At<String>]) -> Result<Vec<String>, Fault> {
     if program.first().is_none_or(|name| name.get_ref().trim().is_empty()) {
         let span = program.first().map_or_else(|| key.span(), At::span);
-        return Err(context.fault(span, Problem::NoProgram));
+        return Err(context.fault(span, NO_PROGRAM));
     }
     if let Some(typed) = program.iter().find(|argument| argument.get_ref().contains('\0')) {
         return Err(context.fault(typed.span(), wrong("program", "without NUL characters", "one with them".to_owned())));
@@ -145,7 +154,7 @@ fn existing_file(context: &Context<'_>, section: &CommandSection, typed: &At<Str
     }
     let (place, reason) = (path.display().to_string(), "there is no such file".to_owned());
     let help = "the path is relative to the study, and that of a file".to_owned();
-    Err(context.fault(typed.span(), Problem::ProgramFile { place, reason, help }))
+    Err(context.fault(typed.span(), Problem::File { place, reason, help }))
 }
 
 fn existing_directory(context: &Context<'_>, section: &CommandSection, typed: &At<String>) -> Result<PathBuf, Fault> {
@@ -153,7 +162,7 @@ fn existing_directory(context: &Context<'_>, section: &CommandSection, typed: &A
     if directory.is_dir() {
         return Ok(directory);
     }
-    let problem = Problem::ProgramFile {
+    let problem = Problem::File {
         place: directory.display().to_string(),
         reason: "there is no such directory".to_owned(),
         help: "the path is relative to the study".to_owned(),
@@ -162,13 +171,17 @@ fn existing_directory(context: &Context<'_>, section: &CommandSection, typed: &A
 }
 
 /// The protocol of a program that is kept alive; what belongs to the other form has no place here.
-fn protocol(context: &Context<'_>, section: &CommandSection, picks: &[&At<toml::Value>]) -> Result<Protocol, Fault> {
+fn protocol(
+    context: &Context<'_>,
+    section: &CommandSection,
+    first_pick: Option<&Range<usize>>,
+) -> Result<Protocol, Fault> {
     const RUNS: &str = "only beside `template`, of a program that runs once for each row";
     let spans = [
         ("input", section.input.as_ref().map(At::span)),
         ("files", section.files.first().map(At::span)),
         ("keep", section.keep.as_ref().map(At::span)),
-        ("regex, column, pointer, file, match", picks.first().map(|value| value.span())),
+        ("regex, column, pointer, file, match", first_pick.cloned()),
     ];
     if let Some((key, span)) = spans.into_iter().find_map(|(key, span)| Some((key, span?))) {
         return Err(context.fault(span, wrong(key, RUNS, "without one".to_owned())));
@@ -233,7 +246,7 @@ fn whole(
 
 fn timeout(context: &Context<'_>, section: &CommandSection) -> Result<Option<Duration>, Fault> {
     let Some(typed) = &section.timeout else { return Ok(None) };
-    let seconds = seconds("timeout", typed.get_ref()).map_err(|problem| context.fault(typed.span(), problem))?;
+    let seconds = seconds(context, "timeout", typed)?;
     let duration = Duration::try_from_secs_f64(seconds).ok().filter(|time| *time > Duration::ZERO);
     let problem = || wrong("timeout", "a time above 0, as in \"30 s\"", format!("{:?}", typed.get_ref()));
     duration.map(Some).ok_or_else(|| context.fault(typed.span(), problem()))

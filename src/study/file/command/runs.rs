@@ -2,10 +2,10 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::file::CommandSection;
+use super::file::{CommandKey, CommandSection};
 use super::{Context, Fault, existing_file, reach};
 use crate::files::read_text;
-use crate::model::{InputTemplate, PerRun, TemplateProblem};
+use crate::model::{CommandOutput, InputTemplate, PerRun, TemplateProblem};
 use crate::names::nearest;
 use crate::space::Space;
 use crate::study::file::at::At;
@@ -47,8 +47,21 @@ pub(super) fn form(
     Ok((PerRun { template_file, template: read, input, files, keep }, notes))
 }
 
+/// Every output says where it stands after a run.
+pub(super) fn refuse_without_pick(
+    context: &Context<'_>,
+    key: &At<CommandKey>,
+    outputs: &[CommandOutput],
+) -> Result<(), Fault> {
+    let Some(output) = outputs.iter().find(|output| output.pick.is_none()) else { return Ok(()) };
+    let expected = "a table that says where the number stands, as in { file = \"out.txt\", regex = \"force = (\\\\S+)\" }, \
+                    { file = \"out.csv\", column = \"y\" } or { file = \"out.json\", pointer = \"/result/y\" }";
+    let problem = wrong(&format!("outputs.{}", output.name), expected, "without that beside `template`".to_owned());
+    Err(context.fault(key.span(), problem))
+}
+
 fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
-    let problem = |place: String, reason: String, help: String| Problem::ProgramFile { place, reason, help };
+    let problem = |place: String, reason: String, help: String| Problem::File { place, reason, help };
     let text = read_text(path).map_err(|error| {
         let reason = format!("cannot read the template: {error}");
         problem(

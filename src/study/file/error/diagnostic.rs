@@ -1,5 +1,6 @@
 //! A problem shown at its place in the file.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -64,6 +65,18 @@ fn excerpt(line: &str, before: usize, width: usize) -> (String, (usize, usize)) 
     (format!("{lead}{part}{rest}"), (place + lead.len(), width.min(MOST.saturating_sub(place)).max(1)))
 }
 
+/// A message that quotes a megabyte by its beginning and its end.
+fn shortened(message: &str) -> Cow<'_, str> {
+    const MAX_BYTES: usize = 2000;
+    const KEPT_BYTES: usize = 300;
+    if message.len() <= MAX_BYTES {
+        return message.into();
+    }
+    let start = floor_char_boundary(message, KEPT_BYTES);
+    let end = floor_char_boundary(message, message.len() - KEPT_BYTES);
+    format!("{} ... {}", &message[..start], &message[end..]).into()
+}
+
 /// The line without characters that would change the terminal.
 fn printable(line: &str) -> String {
     line.chars().map(|c| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c }).collect()
@@ -79,14 +92,14 @@ impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { path, line, column, problem, .. } = self;
         let margin = " ".repeat(line.to_string().len());
-        writeln!(f, "{}:{line}:{column}: {problem}", path.display())?;
+        writeln!(f, "{}:{line}:{column}: {}", path.display(), shortened(&problem.to_string()))?;
         writeln!(f, "{margin} |")?;
         writeln!(f, "{line} | {}", self.source_line)?;
         let pad: String =
             self.source_line.chars().take(self.mark.0).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
         write!(f, "{margin} | {pad}{}", "^".repeat(self.mark.1))?;
         if let Some(help) = problem.help() {
-            write!(f, "\n{margin} = {help}")?;
+            write!(f, "\n{margin} = {}", shortened(&help))?;
         }
         for text in &self.overrides {
             write!(f, "\n{margin} = the file was read with --set {text}")?;
@@ -121,6 +134,13 @@ mod tests {
         );
         let all = Diagnostic::new(Path::new("s"), &text, 0..text.len(), Problem::NoFactors).to_string();
         assert!(all.len() < 600, "{all}");
+    }
+
+    #[test]
+    fn a_long_name_in_a_message_is_shortened() {
+        let problem = Problem::FixedFactor("é".repeat(500_000));
+        let shown = Diagnostic::new(Path::new("s"), "x", 0..1, problem).to_string();
+        assert!(shown.len() < 2000 && shown.contains("so it cannot be fixed"), "{shown}");
     }
 
     #[test]

@@ -13,8 +13,6 @@ pub use problem::Problem;
 pub(super) use synonyms::meant;
 use synonyms::suggestion;
 
-use crate::text::listed;
-
 /// A study that cannot be read or makes no sense.
 #[derive(Debug, Error)]
 pub enum StudyError {
@@ -66,17 +64,6 @@ pub enum OverrideProblem {
         name: String,
         /// The model of the study.
         model: String,
-    },
-    /// `factor.NAME=VALUE` would fix a factor that others depend on.
-    #[error(
-        "factor `{name}`: it depends on {}, so it cannot be fixed: the others would no longer vary as the study says; take it out of [[dependence]] first",
-        listed(.others)
-    )]
-    Dependent {
-        /// The name of the factor.
-        name: String,
-        /// The factors of the same dependence.
-        others: Vec<String>,
     },
     /// The key leads through something that is not a table.
     #[error("`{0}` is not a table of the study, so nothing can be set inside it")]

@@ -3,10 +3,10 @@
 use thiserror::Error;
 
 use super::synonyms::suggestion;
-use crate::design::DesignError;
 use crate::model::{ExpressionError, ParameterError};
 use crate::quantity::UnitError;
-use crate::space::{DependenceError, DistributionError};
+use crate::space::DistributionError;
+use crate::study::BuildError;
 
 /// What is wrong at a place of a study file.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -32,15 +32,16 @@ pub enum Problem {
         /// Where it belongs, or what to write.
         right: String,
     },
-    /// The same thing written in two ways at once.
-    #[error("the {what} stand both in `{one}` and in `{other}`: keep one of the two")]
-    TwoForms {
-        /// What is written twice.
-        what: &'static str,
-        /// One form.
-        one: &'static str,
-        /// The other one.
-        other: &'static str,
+    /// Factors in both forms.
+    #[error("factors stand both in `[factors]` and in `[[factor]]`: keep one of the two")]
+    TwoForms,
+    /// A form of former versions.
+    #[error("{form}: factors and outputs are written in another way today")]
+    OldForm {
+        /// What was written.
+        form: String,
+        /// The lines that say the same.
+        lines: String,
     },
     /// A file that is called a model.
     #[error("unknown model `{0}`: a program of your own is a `command`")]
@@ -68,37 +69,20 @@ pub enum Problem {
     /// A constant that is also a factor.
     #[error("`{0}` is a factor of this study, so it cannot be fixed in [afm]")]
     FixedFactor(String),
-    /// A kind of interval that would be dishonest for the sampler.
-    #[error("intervals = \"{method}\" do not hold for points of the sampler `{sampler}`")]
-    UnfitInterval {
-        /// The kind asked for.
-        method: &'static str,
-        /// The sampler.
-        sampler: &'static str,
-        /// The kinds that hold.
-        serving: String,
-    },
-    /// A growing run of points that cannot be added to.
-    #[error("a Latin hypercube cannot grow: more points make another hypercube")]
-    CannotGrow,
     /// The study has no factor.
     #[error("the study has no factor: there is nothing to vary")]
     NoFactors,
-    /// Formulas are the model, and there are none.
-    #[error("the study has no formula: model = \"expression\" needs a table [expression] with an output")]
-    NoFormulas,
-    /// The model runs outside, and nobody says what it computes.
-    #[error("the study has no output: model = \"external\" needs a table [external] with the outputs and their units")]
-    NoExternalOutputs,
-    /// A program is the model, and is not named.
-    #[error("the study has no program: model = \"command\" needs one")]
-    NoProgram,
-    /// A program is the model, and nobody says what its outputs are.
-    #[error("the study does not say what the program's outputs are")]
-    NoProgramOutputs,
-    /// A file that a program's runs need, and that cannot be used.
+    /// Something that a model needs, and that is not there.
+    #[error("the study has no {what}")]
+    Missing {
+        /// What is missing.
+        what: &'static str,
+        /// What to write.
+        example: &'static str,
+    },
+    /// A file or folder that cannot be used.
     #[error("{place}: {reason}")]
-    ProgramFile {
+    File {
         /// The file, with line and column where there are some.
         place: String,
         /// What is wrong.
@@ -116,19 +100,6 @@ pub enum Problem {
         /// All names that could stand here; empty where no name is wrong.
         expected: String,
     },
-    /// An output in the list that the table of a program's outputs lacks.
-    #[error(
-        "unknown output `{name}`: the table of outputs in [command] takes the place of this list, and has {known} alone"
-    )]
-    NotInTable {
-        /// The output.
-        name: String,
-        /// The outputs of the table.
-        known: String,
-    },
-    /// The list of outputs is empty.
-    #[error("`outputs` is empty: there is nothing to study")]
-    NoOutputs,
     /// A parameter that the distribution needs is missing.
     #[error("factor `{factor}`: the {distribution} distribution needs `{parameter}`")]
     MissingParameter {
@@ -161,22 +132,6 @@ pub enum Problem {
         /// What is wrong.
         source: DistributionError,
     },
-    /// A parameter that is another factor.
-    #[error(
-        "factor `{factor}`: `{key}` is the factor `{other}`, and the two would depend on each other: first-order and total \
-         indices share out the variance among independent factors"
-    )]
-    DependsOnFactor {
-        /// The factor's name.
-        factor: String,
-        /// The key.
-        key: String,
-        /// The other factor.
-        other: String,
-    },
-    /// Factors that cannot depend on each other as stated.
-    #[error(transparent)]
-    Dependence(DependenceError),
     /// A nominal value that the distribution does not have.
     #[error("factor `{factor}`: its nominal value is {found}, which is not one of its values")]
     NotAValue {
@@ -186,14 +141,6 @@ pub enum Problem {
         found: String,
         /// The values.
         values: String,
-    },
-    /// A file of measured values that cannot be read.
-    #[error("{place}: {reason}")]
-    Measured {
-        /// The file, with the line where there is one.
-        place: String,
-        /// What is wrong.
-        reason: String,
     },
     /// A text that is no unit or quantity.
     #[error(transparent)]
@@ -253,50 +200,34 @@ pub enum Problem {
     /// A parameter of a function that makes no sense.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// The design cannot be made.
+    /// A rule that every study obeys.
     #[error(transparent)]
-    Design(#[from] DesignError),
+    Build(#[from] BuildError),
 }
 
 impl Problem {
     /// What would be right, where the message does not say it yet.
     pub fn help(&self) -> Option<String> {
-        match self {
-            Self::UnknownKey { expected, .. } => Some(format!("keys that can stand here: {}", expected.join(", "))),
-            Self::ModelFile(file) => Some(format!("write model = \"command\" and command = [{}]", program(file))),
-            Self::UnknownName { expected, .. } => Some(format!("known: {}", expected.join(", "))),
-            Self::FixedFactor(name) => Some(format!("remove `{name}` here, or remove its [[factor]]")),
-            Self::UnfitInterval { serving, .. } => Some(format!("these do: {serving}")),
-            Self::CannotGrow => Some("sampler = \"sobol\" and \"random\" can grow".to_owned()),
-            Self::NoFactors => Some("add one or more [[factor]] tables with name, min, max and unit".to_owned()),
-            Self::NoExternalOutputs => Some("write, for instance: [external], then outputs.force = \"nN\"".to_owned()),
-            Self::NoFormulas => Some("write, for instance: [expression], then outputs.y = \"x1 + 2*x2\"".to_owned()),
-            Self::Expression { expected, .. } => Some(expected.clone()).filter(|known| !known.is_empty()),
-            Self::NoProgram => Some("write, for instance: command = [\"python3\", \"my_model.py\"]".to_owned()),
-            Self::NoProgramOutputs => Some(
-                "write, for instance: outputs = [\"y\"]; or in the table [command], with a unit: outputs.y = \"nN\""
-                    .to_owned(),
-            ),
-            Self::ProgramFile { help, .. } => Some(help.clone()),
-            Self::NotInTable { name, .. } => Some(format!(
-                "give every output that the program prints a line in that table, in its order: outputs.{name} = \"1\", or its unit"
-            )),
-            Self::NoOutputs => Some("name at least one output, or leave `outputs` out".to_owned()),
-            Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => {
-                Some(format!("it takes {takes}"))
+        Some(match self {
+            Self::UnknownKey { expected, .. } => format!("keys that can stand here: {}", expected.join(", ")),
+            Self::OldForm { lines, .. } => format!("write\n{lines}"),
+            Self::ModelFile(file) => format!("write model = \"command\" and command = [{}]", program(file)),
+            Self::UnknownName { expected, .. } => format!("known: {}", expected.join(", ")),
+            Self::FixedFactor(name) => format!("remove `{name}` here, or from the factors"),
+            Self::NoFactors => "add a table [factors] with a line for each, as in x1 = { min = 0, max = 1 }".to_owned(),
+            Self::Missing { example, .. } => format!("write, for instance: {example}"),
+            Self::Expression { expected, .. } if expected.is_empty() => return None,
+            Self::Expression { expected, .. } => expected.clone(),
+            Self::File { help, .. } => help.clone(),
+            Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => format!("it takes {takes}"),
+            Self::Distribution { source: DistributionError::Bounds { min, max }, .. } if min == max => {
+                format!("for a fixed value: distribution = \"constant\", value = {min}")
             }
-            Self::DependsOnFactor { factor, other, .. } => Some(format!(
-                "let a ratio or a difference vary instead, as a factor of its own: `{factor}_part` from 0 to 1, and in the \
-                 model {factor} = {factor}_part*{other}"
-            )),
-            Self::NotAValue { values, .. } => Some(format!("it takes {values}")),
-            Self::Measured { .. } => {
-                Some("the file is a table in CSV, or one number a line; its path is relative to the study".to_owned())
-            }
-            Self::UnitOfOwn { .. } => Some("remove the unit, or give the distribution too".to_owned()),
-            Self::MissingUnit { example, .. } | Self::WrongUnit { example, .. } => Some(format!("write {example}")),
-            _ => None,
-        }
+            Self::NotAValue { values, .. } => format!("it takes {values}"),
+            Self::UnitOfOwn { .. } => "remove the unit, or give the distribution too".to_owned(),
+            Self::MissingUnit { example, .. } | Self::WrongUnit { example, .. } => format!("write {example}"),
+            _ => return None,
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::names::nearest;
 
 /// Our word, or two of them, and what SciPy, SALib, UQLab and everyday language call it.
-const SYNONYMS: [(&[&str], &[&str]); 45] = [
+const SYNONYMS: [(&[&str], &[&str]); 48] = [
     // Keys of a factor.
     (&["distribution"], &["dist", "distr", "law", "type", "pdf"]),
     (&["min", "max"], &["bounds", "bound", "range", "limits", "interval"]),
@@ -30,7 +30,10 @@ const SYNONYMS: [(&[&str], &[&str]); 45] = [
     // Keys of the design and of the analysis.
     (&["base_samples"], &["n", "samples", "n_samples", "nsamples", "num_samples", "sample_size"]),
     (&["sampler"], &["method", "sampling", "sequence"]),
+    (&["runs"], &["budget_runs", "plain_rows", "n_runs", "evaluations"]),
     (&["max_runs"], &["max_evaluations", "max_evals"]),
+    (&["max_time"], &["budget", "time_limit"]),
+    (&["accuracy"], &["target", "half_width"]),
     (&["second_order"], &["calc_second_order", "interactions"]),
     // Samplers.
     (&["sobol"], &["saltelli", "qmc", "quasi-random"]),

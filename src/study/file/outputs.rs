@@ -1,35 +1,35 @@
-//! The outputs of a program: their names and units, and where each stands after a run.
+//! The key `outputs` of programs and of models outside: names, or a table of units, of series, and of where the numbers of a
+//! program stand after a run.
+
+use std::ops::Range;
 
 use regex::Regex;
 use serde_json::{Value as Json, json};
 use toml::Value;
 
-use super::file::{CommandKey, CommandSection};
+use super::at::{At, ListOrTable, in_order};
+use super::context::{Context, Fault, wrong};
+use super::error::{Problem, meant};
+use super::sections::Outputs;
+use super::series::{self, SERIES_KEYS};
+use super::units::output_unit;
 use crate::model::{CommandOutput, Match, OutputSeries, Pick, SeriesAxis, Source, Way};
-use crate::names::nearest;
 use crate::quantity::Unit;
-use crate::study::file::at::At;
-use crate::study::file::context::wrong;
-use crate::study::file::context::{Context, Fault};
-use crate::study::file::error::Problem;
-use crate::study::file::paths::refuse_outside_of_run;
-use crate::study::file::series::{self, SERIES_KEYS, refuse_repeated};
-use crate::study::file::units::output_unit;
 
 const KEYS: [&str; 6] = ["unit", "file", "regex", "column", "pointer", "match"];
 
-/// What a program gives.
+/// What a model of the user's own gives.
 #[derive(Default)]
-pub(super) struct Outputs<'a> {
-    /// In the order of the program.
+pub(super) struct OwnOutputs {
+    /// In the order of the file.
     pub outputs: Vec<CommandOutput>,
     /// Those of them that are series.
     pub series: Vec<OutputSeries>,
-    /// The values of those that say where they stand.
-    pub picks: Vec<&'a At<Value>>,
+    /// The place of the first one that says where its number stands.
+    pub first_pick: Option<Range<usize>>,
 }
 
-impl Outputs<'_> {
+impl OwnOutputs {
     /// Adds the values of `output` along `axis`.
     fn add_series(&mut self, output: CommandOutput, axis: SeriesAxis) {
         let names = OutputSeries::value_names(&output.name, axis.positions().len()).enumerate();
@@ -40,93 +40,58 @@ impl Outputs<'_> {
         }));
         self.series.push(OutputSeries { name: output.name, first, axis });
     }
+
+    /// Refuses two outputs of one name, be it that of a value of a series, or a series and an output.
+    fn refuse_repeated(&self) -> Result<(), Problem> {
+        let mut seen = std::collections::BTreeSet::new();
+        let outputs = self.outputs.iter().map(|output| &output.name);
+        let mut all = outputs.chain(self.series.iter().map(|series| &series.name));
+        let repeated = all.find(|name| !seen.insert(*name));
+        repeated.map_or(Ok(()), |name| Err(Problem::Repeated { what: "output", name: name.clone() }))
+    }
 }
 
-/// The outputs by `[command] outputs`, else by the names asked for.
-pub(super) fn outputs<'a>(
-    context: &Context<'_>,
-    key: &At<CommandKey>,
-    section: &'a CommandSection,
-    asked: Option<&At<Vec<At<String>>>>,
-) -> Result<Outputs<'a>, Fault> {
-    let mut entries: Vec<(&At<String>, &At<Value>)> = section.outputs.iter().collect();
-    if entries.is_empty() {
-        let Some(asked) = asked else { return Err(context.fault(key.span(), Problem::NoProgramOutputs)) };
-        let output = |name: &At<String>| {
-            refuse_name(context, name)?;
-            Ok(CommandOutput { name: name.get_ref().clone(), unit: Unit::dimensionless(), pick: None })
-        };
-        let outputs = asked.get_ref().iter().map(output).collect::<Result<_, Fault>>()?;
-        return Ok(Outputs { outputs, ..Outputs::default() });
-    }
-    // In the order of the file.
-    entries.sort_by_key(|(name, _)| name.span().start);
-    let mut all = Outputs::default();
-    for (name, value) in entries {
-        refuse_name(context, name)?;
-        let (output, axis) = output(context, name, value)?;
-        if let Some(pick) = &output.pick {
-            all.picks.push(value);
-            if let Source::File(file) = &pick.source {
-                refuse_outside_of_run(context, value.span(), file, super::reach(section))?;
+/// The outputs that the study states.
+pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> Result<OwnOutputs, Fault> {
+    let missing =
+        Problem::Missing { what: "outputs", example: "outputs = [\"y\"]; or with its unit: outputs.y = \"nN\"" };
+    let Some(key) = key else { return Err(context.fault(0..0, missing)) };
+    let mut all = OwnOutputs::default();
+    match key.get_ref() {
+        ListOrTable::List(names) => {
+            for name in names {
+                refuse_name(context, name)?;
+                let output = CommandOutput { name: name.get_ref().clone(), unit: Unit::dimensionless(), pick: None };
+                all.outputs.push(output);
             }
         }
-        match axis {
-            None => all.outputs.push(output),
-            Some(axis) => all.add_series(output, axis),
+        ListOrTable::Table(table) => {
+            for (name, value) in in_order(table) {
+                refuse_name(context, name)?;
+                let (output, axis) = output(context, name, value)?;
+                if output.pick.is_some() && all.first_pick.is_none() {
+                    all.first_pick = Some(value.span());
+                }
+                match axis {
+                    None => all.outputs.push(output),
+                    Some(axis) => all.add_series(output, axis),
+                }
+            }
         }
-        if all.series.is_empty() {
-            continue;
-        }
-        let names: Vec<&str> = all.outputs.iter().map(|output| output.name.as_str()).collect();
-        refuse_repeated(&names, &all.series).map_err(|problem| context.fault(name.span(), problem))?;
     }
+    if all.outputs.is_empty() {
+        return Err(context.fault(key.span(), missing));
+    }
+    all.refuse_repeated().map_err(|problem| context.fault(key.span(), problem))?;
     Ok(all)
 }
 
 fn refuse_name(context: &Context<'_>, name: &At<String>) -> Result<(), Fault> {
-    if super::fits_a_line(name.get_ref()) {
+    if !name.get_ref().trim().is_empty() && !name.get_ref().contains(char::is_control) {
         return Ok(());
     }
     let expected = "not empty, and without line breaks and control characters";
     Err(context.fault(name.span(), wrong("name of an output", expected, format!("{:?}", name.get_ref()))))
-}
-
-/// Places of the outputs asked for; all if nothing is asked.
-pub(super) fn places(
-    context: &Context<'_>,
-    section: &CommandSection,
-    Outputs { outputs, series, .. }: &Outputs<'_>,
-    asked: Option<&At<Vec<At<String>>>>,
-) -> Result<Vec<usize>, Fault> {
-    let Some(asked) = asked else { return Ok((0..outputs.len()).collect()) };
-    let mut names: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).collect();
-    if section.outputs.is_empty() {
-        // They are what was asked for, apart from repetitions.
-        names.dedup();
-    }
-    series::places(context, &names, series, asked).map_err(|mut fault| {
-        // The nearest name is what was meant, if there is one.
-        if let Problem::UnknownName { what: "output", name, nearest: None, .. } = &fault.problem
-            && !section.outputs.is_empty()
-        {
-            fault.problem = Problem::NotInTable { name: name.clone(), known: names.join(", ") };
-        }
-        fault
-    })
-}
-
-/// Of a program that runs once for each row, every output says where it stands.
-pub(super) fn refuse_without_pick(
-    context: &Context<'_>,
-    key: &At<CommandKey>,
-    outputs: &[CommandOutput],
-) -> Result<(), Fault> {
-    let Some(output) = outputs.iter().find(|output| output.pick.is_none()) else { return Ok(()) };
-    let expected = "a table that says where the number stands, as in { file = \"out.txt\", regex = \"force = (\\\\S+)\" }, \
-                    { file = \"out.csv\", column = \"y\" } or { file = \"out.json\", pointer = \"/result/y\" }";
-    let problem = wrong(&format!("outputs.{}", output.name), expected, "without that beside `template`".to_owned());
-    Err(context.fault(key.span(), problem))
 }
 
 /// An output, and the axis of one that is a series.
@@ -136,36 +101,32 @@ fn output(
     value: &At<Value>,
 ) -> Result<(CommandOutput, Option<SeriesAxis>), Fault> {
     let key = format!("outputs.{}", name.get_ref());
+    let fault = |problem| context.fault(value.span(), problem);
     let (unit, pick, axis) = match value.get_ref() {
         Value::String(unit) => (unit.as_str(), None, None),
         Value::Table(table) => {
             let known = || KEYS.into_iter().chain(SERIES_KEYS);
             if let Some(unknown) = table.keys().find(|key| !known().any(|known| known == key.as_str())) {
-                let problem = Problem::UnknownKey {
-                    name: unknown.clone(),
-                    nearest: nearest(unknown, known()),
-                    expected: known().map(str::to_owned).collect(),
-                };
-                return Err(context.fault(value.span(), problem));
+                let expected = known().map(str::to_owned).collect();
+                let nearest = meant(unknown, known());
+                return Err(fault(Problem::UnknownKey { name: unknown.clone(), nearest, expected }));
             }
-            let axis = series::axis(&key, table).map_err(|problem| context.fault(value.span(), problem))?;
+            let axis = series::axis(&key, table).map_err(fault)?;
             let texts = || table.iter().filter(|(name, _)| KEYS.contains(&name.as_str()));
             if let Some((name, other)) = texts().find(|(_, value)| !value.is_str()) {
-                let problem = wrong(&format!("{key}.{name}"), "a text", other.type_str().to_owned());
-                return Err(context.fault(value.span(), problem));
+                return Err(fault(wrong(&format!("{key}.{name}"), "a text", other.type_str().to_owned())));
             }
             let text = |key: &str| table.get(key).and_then(Value::as_str);
-            let pick = pick(&key, &text).map_err(|problem| context.fault(value.span(), problem))?;
+            let pick = pick(&key, &text).map_err(fault)?;
             if axis.is_some() && table.contains_key("match") {
                 let expected = "only of a single number: a series takes every match or row, from the first on";
-                let problem = wrong(&format!("{key}.match"), expected, "beside `length`".to_owned());
-                return Err(context.fault(value.span(), problem));
+                return Err(fault(wrong(&format!("{key}.match"), expected, "beside `length`".to_owned())));
             }
             (text("unit").unwrap_or_default(), pick, axis)
         }
         other => {
-            let expected = "a unit, or a table such as { unit = \"nN\" }";
-            return Err(context.fault(value.span(), wrong(&key, expected, other.type_str().to_owned())));
+            let expected = "a unit, as in \"nN\" or \"1\", or a table such as { unit = \"nN\" }";
+            return Err(fault(wrong(&key, expected, other.type_str().to_owned())));
         }
     };
     let unit = output_unit(context, value, unit)?;
@@ -216,7 +177,7 @@ fn pick<'a>(key: &str, text: &dyn Fn(&str) -> Option<&'a str>) -> Result<Option<
 }
 
 /// The outputs as settings in results: what their numbers depend on, so of a series its length and not its axis.
-pub(super) fn stated(Outputs { outputs, series, .. }: &Outputs<'_>) -> Json {
+pub(super) fn outputs_as_settings(OwnOutputs { outputs, series, .. }: &OwnOutputs) -> Json {
     let entry = |(place, output): (usize, &CommandOutput)| {
         let series = series.iter().find(|series| series.places().contains(&place));
         // The first value stands for all.

@@ -1,0 +1,245 @@
+//! The rules that every study obeys, whether it is made in code or read from a file.
+
+use std::collections::BTreeSet;
+
+use super::options::{MOST_OUTPUTS_OF_MEASURES, RESAMPLES, sizes_within};
+use super::{AnalysisOptions, BuildError, LowFidelity, SurrogateChoice, Target};
+use crate::design::{MAX_ORDERED_FACTORS, Sampler, has_room_for_orders};
+use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers};
+use crate::model::{Model, OutputSeries};
+use crate::names::{NAME_RULE, names_files, refused_name, refused_output_name, refused_title, shown};
+use crate::space::{Factor, Space};
+use crate::uncertainty::IntervalMethod;
+
+/// A value that `key` cannot have.
+pub(super) fn wrong<T>(key: &'static str, expected: impl Into<String>, found: impl ToString) -> Result<T, BuildError> {
+    Err(BuildError::Wrong { key, expected: expected.into(), found: found.to_string() })
+}
+
+/// The name of the study names files, and its title stands on pages.
+pub(super) fn check_title(name: &str, title: Option<&str>) -> Result<(), BuildError> {
+    if !names_files(name) {
+        return wrong("name", NAME_RULE, shown(name));
+    }
+    match title.and_then(refused_title) {
+        Some(expected) => wrong("title", expected, shown(title.unwrap_or_default())),
+        None => Ok(()),
+    }
+}
+
+/// Outputs have names of their own, and every series has outputs of its own.
+pub(super) fn check_outputs(model: &dyn Model) -> Result<(), BuildError> {
+    let outputs = model.outputs();
+    if outputs.is_empty() {
+        return Err(BuildError::NoOutputs);
+    }
+    for output in outputs {
+        if let Some(expected) = refused_output_name(&output.name) {
+            return Err(BuildError::Name { what: "output", name: output.name.to_string(), expected });
+        }
+    }
+    let mut taken = BTreeSet::new();
+    let is_wrong = |series: &&OutputSeries| series.places().any(|place| place >= outputs.len() || !taken.insert(place));
+    if let Some(series) = model.series().iter().find(is_wrong) {
+        let (name, places) = (series.name.clone(), series.places());
+        return Err(BuildError::Series { name, first: places.start, last: places.end - 1, outputs: outputs.len() });
+    }
+    Ok(())
+}
+
+/// Factors, their groups and labels have names that can be shown, and somewhere to stand when they do not vary.
+pub(super) fn check_factors(factors: &[Factor], model: &dyn Model) -> Result<(), BuildError> {
+    let mut seen: BTreeSet<&str> = BTreeSet::new();
+    if let Some(output) = model.outputs().iter().find(|output| !seen.insert(&output.name)) {
+        return Err(BuildError::Repeated { what: "output", name: output.name.to_string() });
+    }
+    for factor in factors {
+        let labels = factor.distribution().labels().unwrap_or_default();
+        let names = [("factor", Some(&factor.name)), ("group", factor.group.as_ref())].into_iter();
+        let names = names.filter_map(|(what, name)| Some((what, name?)));
+        for (what, name) in names.chain(labels.iter().map(|label| ("label", label))) {
+            if let Some(expected) = refused_name(name) {
+                return Err(BuildError::Name { what, name: name.clone(), expected });
+            }
+        }
+        if !seen.insert(&factor.name) {
+            return Err(BuildError::Repeated { what: "factor or output", name: factor.name.clone() });
+        }
+        if !factor.nominal.is_finite() {
+            return wrong("nominal", format!("a finite number, of factor `{}`", factor.name), factor.nominal);
+        }
+    }
+    let noises = factors.iter().filter(|factor| factor.distribution().is_noise()).count();
+    match noises {
+        0 => Ok(()),
+        1 if factors.len() > 1 => Ok(()),
+        1 => wrong("noise", "beside factors", "alone"),
+        _ => {
+            wrong("noise", "one seed, from which the model draws all that is random in it", format!("{noises} of them"))
+        }
+    }
+}
+
+/// The options, each of them possible for points of `sampler` and the factors of `space`.
+pub(super) fn checked_options(
+    mut options: AnalysisOptions,
+    sampler: Sampler,
+    space: &Space,
+    outputs: usize,
+) -> Result<AnalysisOptions, BuildError> {
+    let (factors, intervals) = (space.factors().len(), options.intervals);
+    if !intervals.serves(sampler) {
+        let serving = IntervalMethod::ALL.into_iter().filter(|method| method.serves(sampler)).map(IntervalMethod::name);
+        let expected = format!(
+            "one of {} for points of the sampler \"{}\"",
+            serving.collect::<Vec<_>>().join(", "),
+            sampler.name()
+        );
+        return wrong("intervals", expected, format!("\"{}\"", intervals.name()));
+    }
+    for (key, value) in [("threshold", options.threshold), ("max_failed", options.max_failed)] {
+        if !(0.0..=1.0).contains(&value) {
+            return wrong(key, "a number from 0 to 1", value);
+        }
+    }
+    if !RESAMPLES.contains(&options.resamples) {
+        let expected = format!("a whole number from {} to {}", RESAMPLES.start(), RESAMPLES.end());
+        return wrong("resamples", expected, options.resamples);
+    }
+    if options.surrogate == SurrogateChoice::On && intervals != IntervalMethod::Nets {
+        return wrong(
+            "surrogate",
+            "\"on\" only beside intervals = \"nets\"",
+            format!("beside \"{}\"", intervals.name()),
+        );
+    }
+    if !options.measures.is_empty() && outputs > MOST_OUTPUTS_OF_MEASURES {
+        let expected = format!("those of at most {MOST_OUTPUTS_OF_MEASURES} outputs");
+        return wrong("measures", expected, format!("of {outputs}"));
+    }
+    for subset in &mut options.subsets {
+        subset.sort_unstable();
+        subset.dedup();
+        if subset.is_empty() || subset.iter().any(|factor| *factor >= factors) {
+            return wrong("subsets", "lists of factors, as in [[\"x1\", \"x3\"]]", format!("{subset:?}"));
+        }
+    }
+    let mut seen = BTreeSet::new();
+    options.subsets.retain(|subset| seen.insert(subset.clone()));
+    check_shapley(&options, space)?;
+    options.measures.sort_unstable();
+    options.measures.dedup();
+    // The default ones are in every result.
+    options.estimators.retain(|estimator| *estimator != Estimator::Default);
+    let mut seen = Vec::new();
+    options.estimators.retain(|estimator| {
+        !seen.contains(estimator) && {
+            seen.push(*estimator);
+            true
+        }
+    });
+    Ok(options)
+}
+
+fn check_shapley(options: &AnalysisOptions, space: &Space) -> Result<(), BuildError> {
+    let (players, factors) = (options.players(space).len(), space.factors().len());
+    let of_groups = options.shapley_players == Some(ShapleyPlayers::Groups);
+    if options.shapley == Some(false) && (options.shapley_method.is_some() || options.shapley_players.is_some()) {
+        return wrong("shapley", "true beside what says how Shapley effects are found", "false");
+    }
+    if of_groups && space.groups().is_empty() {
+        return wrong("shapley_players", "\"groups\" only where factors have a group", "it in a study without groups");
+    }
+    if options.shapley_method == Some(ShapleyMethod::Subsets) && players > MAX_SHAPLEY_FACTORS {
+        let expected = format!("\"permutations\": all subsets are those of at most {MAX_SHAPLEY_FACTORS} players");
+        return wrong("shapley_method", expected, format!("\"subsets\" with {players}"));
+    }
+    if options.asks_for_shapley() && players > MAX_SHAPLEY_FACTORS && !has_room_for_orders(players, factors) {
+        let expected = format!(
+            "false of more than {MAX_ORDERED_FACTORS} players; fewer are groups, with shapley_players = \"groups\""
+        );
+        return wrong("shapley", expected, format!("true with {players}"));
+    }
+    if options.asks_for_shapley() && space.noise().is_some() {
+        return wrong("shapley", "false beside the noise of a stochastic model, which can have no share", "true");
+    }
+    Ok(())
+}
+
+/// What needs independent factors is not asked of others.
+pub(super) fn check_dependent(
+    options: &AnalysisOptions,
+    space: &Space,
+    lows: &[LowFidelity],
+) -> Result<(), BuildError> {
+    let refused = [
+        ("noise", space.noise().is_some()),
+        ("surrogate", options.surrogate == SurrogateChoice::On),
+        ("low", !lows.is_empty()),
+    ];
+    match refused.into_iter().find(|(_, asked)| *asked) {
+        Some((key, _)) if space.copula().is_some() => {
+            wrong(key, "left out where factors depend on each other: it needs independent ones", "there")
+        }
+        _ => Ok(()),
+    }
+}
+
+/// How long a run is, said in one way: by base samples, by runs, or by an accuracy; and limits where it grows.
+pub(super) struct Length {
+    pub base_samples: Option<u64>,
+    pub runs: Option<u64>,
+    pub target: Target,
+}
+
+impl Length {
+    pub(super) fn check(&self, sampler: Sampler) -> Result<(), BuildError> {
+        let Target { accuracy, max_time, max_runs } = self.target;
+        let sizes = [
+            ("accuracy", accuracy.is_some()),
+            ("runs", self.runs.is_some()),
+            ("base_samples", self.base_samples.is_some()),
+        ];
+        let mut said = sizes.into_iter().filter(|(_, said)| *said).map(|(key, _)| key);
+        let (size, second) = (said.next(), said.next());
+        if let Some((size, second)) = size.zip(second) {
+            return wrong(second, "alone: the length of a run is said in one way", format!("beside `{size}`"));
+        }
+        let limits = [("max_runs", max_runs.is_some()), ("max_time", max_time.is_some())];
+        if let Some((limit, _)) = limits.into_iter().find(|(_, said)| *said)
+            && let Some(size) = size.filter(|size| *size != "accuracy")
+        {
+            return wrong(limit, "beside `accuracy`, or alone", format!("beside `{size}`"));
+        }
+        for (key, value) in [("accuracy", accuracy), ("max_time", max_time)] {
+            if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
+                return wrong(key, "a finite number above 0", value);
+            }
+        }
+        if self.target.grows() && sampler == Sampler::LatinHypercube {
+            return wrong("sampler", "\"sobol\" or \"random\" for a run that grows", "a Latin hypercube, which cannot");
+        }
+        Ok(())
+    }
+
+    /// Base samples, and plain rows of each.
+    pub(super) fn sizes(
+        &self,
+        options: &AnalysisOptions,
+        space: &Space,
+        sampler: Sampler,
+        replicates: u64,
+    ) -> Result<(u64, u32), BuildError> {
+        let Some(runs) = self.runs else {
+            return Ok((self.base_samples.unwrap_or_else(|| self.target.base_samples(replicates)), 0));
+        };
+        sizes_within(runs, options, space, sampler, replicates).or_else(|least| {
+            let expected = format!(
+                "{least} or more, the runs of 2 base samples in each of {replicates} replicates (fewer runs tell most as \
+                 random points: `apportion sample STUDY --random {}`, then `apportion given-data`)",
+                runs.max(10)
+            );
+            wrong("runs", expected, runs)
+        })
+    }
+}
