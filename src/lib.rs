@@ -79,8 +79,6 @@ pub mod estimate;
 #[cfg(feature = "study")]
 pub mod exchange;
 #[doc(hidden)]
-pub mod extended;
-#[doc(hidden)]
 pub mod files;
 pub mod given;
 #[doc(hidden)]

@@ -14,8 +14,6 @@ pub(crate) use finished_run::{FinishedRun, LowTotals, outputs_kept};
 #[cfg(feature = "charts")]
 pub(crate) use finished_run::{names_of_swaps, row_inputs};
 pub use measures::{MOST_ROWS_OF_MEASURES, RunMeasures};
-#[cfg(feature = "charts")]
-pub(crate) use output::LOST;
 pub use output::{FailureCount, LookupError, NoIndices, OutputAnalysis};
 pub use result::{Aggregate, Analysis, LowRuns, Spending, StopReason, Stopped};
 pub use series::SeriesAnalysis;

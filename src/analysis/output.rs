@@ -120,13 +120,6 @@ impl OutputAnalysis {
         self.effect("group", name, &self.names[1], |indices| &indices.groups)
     }
 
-    /// How far indices may be off because the outputs are rounded: by some four times the step between neighbouring doubles
-    /// of their size, in standard deviations. Beyond [`LOST`] the result warns of it.
-    #[cfg(feature = "charts")]
-    pub(crate) fn error_of_rounding(&self) -> f64 {
-        error_of_rounding(&self.values)
-    }
-
     fn effect(
         &self,
         what: &'static str,
@@ -145,7 +138,7 @@ impl OutputAnalysis {
 /// Error of indices by rounding of the outputs beyond which a result warns of it.
 pub(crate) const LOST: f64 = 1e-3;
 
-/// See [`OutputAnalysis::error_of_rounding`]; infinite of outputs that do not vary.
+/// Largest error of an index by the rounding of outputs with these moments; infinite of outputs that do not vary.
 pub(super) fn error_of_rounding(values: &CentralMoments) -> f64 {
     let Some(((low, high), variance)) = values.range().zip(values.variance()) else { return f64::INFINITY };
     let largest = low.abs().max(high.abs());

@@ -14,7 +14,7 @@ use super::{Failure, say, whole_number};
 
 #[derive(clap::Args)]
 pub struct ExtremesArguments {
-    /// About how many points the model is evaluated at, beside the steps past its bounds [default: 600; of a program, 160]
+    /// About how many points the model is evaluated at, besides the steps past its bounds [default: 600; of a program, 160]
     #[arg(long, value_name = "N", requires = "extremes", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     cells: Option<u64>,
     /// Seed of the points that are chosen at random [default: the study's]
@@ -28,9 +28,9 @@ pub fn trade_extremes(
     artefacts: &Artefacts,
     threads: usize,
 ) -> Result<(), Failure> {
-    let own = ExtremesSettings::of(study);
+    let own = ExtremesSettings::for_study(study);
     let &ExtremesArguments { cells, seed } = arguments;
-    let settings = ExtremesSettings { points: cells.unwrap_or(own.points), seed: seed.unwrap_or(own.seed), ..own };
+    let settings = ExtremesSettings { points: cells.unwrap_or(own.points), seed: seed.unwrap_or(own.seed) };
     artefacts.prepare()?;
     let meter = Meter::new(study.name(), settings.points);
     let start = Instant::now();
@@ -44,9 +44,9 @@ pub fn trade_extremes(
     };
     let map = extremes(&job)?;
     meter.finish(map.points, start.elapsed().as_secs_f64());
-    deliver(artefacts, &extremes_document(&map, &build_extremes(study, settings, &map)))?;
-    match map.counts().wrong {
+    deliver(artefacts, &extremes_document(&build_extremes(study, settings.seed, &map)))?;
+    match map.counts.wrong {
         0 => Ok(()),
-        wrong => Err(Failure::Run(anyhow!("{wrong} numbers are wrong without a word: see the reasons"))),
+        wrong => Err(Failure::Run(anyhow!("{wrong} numbers are silently wrong: see the reasons"))),
     }
 }

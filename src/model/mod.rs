@@ -33,6 +33,8 @@ pub use command::{
 };
 pub use context::{Messages, RunContext};
 pub use counter::{Counter, CounterKind, Counts};
+#[cfg(feature = "study")]
+pub(crate) use expression::PreciseFormulas;
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
 pub use external::ExternalModel;
 pub use function::{FunctionModel, function_model};
@@ -42,8 +44,6 @@ pub use known::{
 };
 
 pub use repeated::RepeatedModel;
-#[cfg(feature = "study")]
-pub(crate) use second::InMoreDigits;
 pub use second::{Answered, Reference, SecondCalculation, Unchecked};
 #[cfg(feature = "study")]
 pub(crate) use series::MOST_VALUES;

@@ -1,9 +1,9 @@
-//! The critical force once more: by another rung of the ladder of fidelities, and the closed form by its formula in more
-//! digits.
+//! The critical force once more: by another rung of the ladder of fidelities, and the closed form by its formula in 320
+//! bits.
 
 use super::AfmOutput;
 use crate::afm::{ContactTheory, Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
-use crate::model::second::reference;
+use crate::model::expression::reference;
 use crate::model::{Answered, Expression, Reference, SecondCalculation, Symbol, Unchecked};
 
 /// Relative deviation below which two rungs agree.
@@ -14,6 +14,8 @@ const TOLERANCE: f64 = 1e-3;
 const STEPS: u64 = 2000;
 /// The error estimates are of first order; what is of higher order may add so much of them.
 const HIGHER_ORDER: f64 = 1.5;
+/// Why two rungs may differ.
+const COVERED: &str = "the error estimate exceeds 0.1 %, and holds: another rung differs by less than it";
 
 /// Other ways to the outputs of an [`AfmModel`](super::AfmModel).
 pub(crate) struct AfmSecond {
@@ -44,97 +46,57 @@ impl SecondCalculation for AfmSecond {
     fn name(&self) -> String {
         let rungs: Vec<&str> = self.rungs().iter().map(|rung| rung.name()).collect();
         let least = if rungs.len() > 1 { ", whichever states the smaller error" } else { "" };
-        let formula = if self.formulas.iter().any(Option::is_some) { "; and by its formula in 106 bits" } else { "" };
+        let formula = if self.formulas.iter().any(Option::is_some) { "; and by its formula in 320 bits" } else { "" };
         format!("the rung {}{least}{formula}", rungs.join(" or "))
     }
 
     fn calculate(&self, x: &[f64], answer: &Answered) -> Vec<Result<Reference, Unchecked>> {
         let mut scene = self.scene;
         self.factors.iter().zip(x).for_each(|(parameter, &value)| (parameter.set)(&mut scene, value));
-        let step_budget = self.options.step_budget.min(STEPS);
-        let by = |fidelity: Fidelity| critical_force(&scene, &Options { fidelity, step_budget, ..self.options });
-        // That which claims least of an error.
-        let other = self.rungs().iter().map(|&rung| by(rung)).reduce(|one, other| match (&one, &other) {
+        // The outputs of a rung share one error estimate: that of the time counts too.
+        let shared = Options { step_budget: self.options.step_budget.min(STEPS), accurate_time: true, ..self.options };
+        let rungs = self.rungs().iter().map(|&fidelity| critical_force(&scene, &Options { fidelity, ..shared }));
+        let smaller = |one: Result<Critical, Failure>, other: Result<Critical, Failure>| match (&one, &other) {
             (Ok(first), Ok(second)) if first.error_estimate <= second.error_estimate => one,
             (Ok(_), Err(_)) => one,
             _ => other,
-        });
-        let other = other.unwrap_or(Err(Failure::StepBudget));
+        };
+        let other = rungs.reduce(smaller).unwrap_or(Err(Failure::StepBudget));
         let inputs: Vec<f64> = Parameter::ALL.iter().map(|parameter| (parameter.get)(&scene)).collect();
         let own_error = answer.error_estimate.unwrap_or(1.0);
         let outputs = self.which.iter().zip(&self.formulas).zip(&answer.values);
         let checked = outputs.map(|((output, formula), value)| {
             let value = value.ok_or_else(|| Unchecked::NotAvailable("the model has no value".to_owned()))?;
-            let formula = formula.as_ref().map(|formula| reference(formula, &inputs)).transpose()?;
-            match formula.filter(|formula| is_contradicted(value, formula)) {
-                Some(formula) => Ok(formula),
-                None => against(*output, value, own_error, &other),
+            match formula.as_ref().map(|formula| reference(formula, &inputs)).transpose()? {
+                Some(formula) if formula.agrees(value) != Some(true) => Ok(formula),
+                _ => by_rung(*output, own_error, &other),
             }
         });
         checked.collect()
     }
 }
 
-/// Whether `value` is wrong by its formula in more digits.
-fn is_contradicted(value: f64, formula: &Reference) -> bool {
-    let apart = (value - formula.value).abs();
-    apart > formula.floor * formula.value.abs() && apart > f64::MIN_POSITIVE
-}
-
-/// An output of the model, with the error that it estimates, by another rung.
-fn against(
-    output: AfmOutput,
-    value: f64,
-    own_error: f64,
-    other: &Result<Critical, Failure>,
-) -> Result<Reference, Unchecked> {
+/// An output by another rung, for a model that states the relative error `own_error`.
+fn by_rung(output: AfmOutput, own_error: f64, other: &Result<Critical, Failure>) -> Result<Reference, Unchecked> {
     let other = match other {
         Ok(other) => other,
         // Nothing slips: whatever another rung says of it is no force, unless it claims nothing.
         Err(failure @ (Failure::ProbeTips | Failure::BeyondPullOff)) if own_error < 1.0 => {
             return Err(Unchecked::NoValue(failure.to_string()));
         }
-        Err(failure @ (Failure::ProbeTips | Failure::BeyondPullOff)) => {
-            let why = format!("the error estimate is 100 %, and another rung says why: {failure}");
-            return Err(Unchecked::NotAvailable(why));
-        }
         Err(failure) => return Err(Unchecked::NotAvailable(failure.to_string())),
     };
-    let expected = output.of(other).map_err(|failure| Unchecked::NotAvailable(failure.to_string()))?;
-    let stated = stated(output, value, own_error, other);
-    let covered = match stated {
-        None => "another rung differs by more than 0.1 %, and no error of this output is stated",
-        Some(f64::INFINITY) => "the error estimate is 100 %, which claims nothing",
-        Some(_) => "the error estimate exceeds 0.1 %, and holds: another rung differs by less than it",
-    };
-    Ok(Reference { value: expected, stated, floor: FLOOR, tolerance: TOLERANCE, covered })
-}
-
-/// How far an output of the two may differ by their estimates of the relative error of F_cr, e = (F_Z dF_Z + F_Y dF_Y)/F_cr^2:
-/// dF_Z is at most e F_cr^2/F_Z, and dF_Y at most e F_cr^2/F_Y. `None` of the time, of which no error is estimated.
-fn stated(output: AfmOutput, value: f64, own_error: f64, other: &Critical) -> Option<f64> {
-    if output == AfmOutput::CriticalTime {
-        return None;
-    }
-    if own_error >= 1.0 || other.error_estimate >= 1.0 {
-        return Some(f64::INFINITY);
-    }
+    let value = output.of(other).map_err(|failure| Unchecked::NotAvailable(failure.to_string()))?;
     let error = HIGHER_ORDER * (own_error + other.error_estimate);
-    let Critical { critical_force, normal_force, lateral_force, contact_radius, indentation, .. } = *other;
-    let normal = error * critical_force * (critical_force / normal_force.abs());
-    let relative = normal / normal_force.abs();
-    Some(match output {
-        AfmOutput::CriticalForce => HIGHER_ORDER * (own_error * value + other.error_estimate * critical_force),
-        AfmOutput::LogCriticalForce => error,
-        AfmOutput::NormalForce => normal,
-        AfmOutput::LateralForce => error * critical_force * (critical_force / lateral_force),
-        AfmOutput::ForceAngle => error * (normal_force / lateral_force + lateral_force / normal_force).abs(),
-        // a grows less than in proportion to the load.
-        AfmOutput::ContactRadius => relative * contact_radius,
-        // d = a^2/R less the stretch by adhesion, which at a load above zero takes at most two thirds of it.
-        AfmOutput::Indentation => 6.0 * relative * indentation.abs(),
-        AfmOutput::CriticalTime => return None,
-    })
+    let (stated, covered) = match output {
+        _ if own_error >= 1.0 || other.error_estimate >= 1.0 => {
+            (Some(f64::INFINITY), "the error estimate is 100 %, which claims nothing")
+        }
+        AfmOutput::CriticalForce | AfmOutput::CriticalTime => (Some(error * value.abs()), COVERED),
+        AfmOutput::LogCriticalForce => (Some(error), COVERED),
+        _ => (None, "another rung differs by more than 0.1 %, and no error of this output is stated"),
+    };
+    Ok(Reference { value, stated, tolerance: TOLERANCE, floor: FLOOR, covered })
 }
 
 /// The formula of an output by the closed form, of the parameters by their names; `None` where there is none.
@@ -210,9 +172,9 @@ mod tests {
                     let inputs: Vec<f64> = Parameter::ALL.iter().map(|p| (p.get)(&Scene::default())).collect();
                     for (output, formula) in AfmOutput::ALL.into_iter().zip(&second.formulas) {
                         let Some(formula) = formula else { continue };
-                        let bounded = formula.bounded(&inputs).unwrap();
+                        let precise = formula.precise(&inputs).unwrap();
                         let value = output.of(&critical).unwrap();
-                        assert!((value / bounded.value.value() - 1.0).abs() < 1e-13, "{output:?} {options:?}");
+                        assert!((value / precise - 1.0).abs() < 1e-13, "{output:?} {options:?}");
                         read += 1;
                     }
                 }

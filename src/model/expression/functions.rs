@@ -1,23 +1,17 @@
 //! The functions of the formula language. None hides an argument that has no value: NaN in, NaN out.
 
-use crate::extended::{Bounded, Extended};
-
 /// A function of one argument.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfOne {
-    /// In doubles.
-    pub plain: fn(f64) -> f64,
-    /// In twice the precision, with a bound of rounding; `None` of the two that are not to be had there.
-    pub bounded: Option<fn(Bounded) -> Bounded>,
+    pub name: &'static str,
+    pub value: fn(f64) -> f64,
 }
 
 /// A function of two arguments.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfTwo {
-    /// In doubles.
-    pub plain: fn(f64, f64) -> f64,
-    /// In twice the precision, with a bound of rounding.
-    pub bounded: fn(Bounded, Bounded) -> Bounded,
+    pub name: &'static str,
+    pub value: fn(f64, f64) -> f64,
 }
 
 /// What a function computes.
@@ -63,50 +57,48 @@ impl Function {
     }
 }
 
-const fn one(plain: fn(f64) -> f64, bounded: fn(Bounded) -> Bounded) -> Function {
-    Function::One(OfOne { plain, bounded: Some(bounded) })
+type Named = (&'static str, Function);
+
+const fn one(name: &'static str, value: fn(f64) -> f64) -> Named {
+    (name, Function::One(OfOne { name, value }))
 }
 
-const fn none(plain: fn(f64) -> f64) -> Function {
-    Function::One(OfOne { plain, bounded: None })
+const fn two(name: &'static str, value: fn(f64, f64) -> f64) -> Named {
+    (name, Function::Two(OfTwo { name, value }))
 }
 
-const fn two(plain: fn(f64, f64) -> f64, bounded: fn(Bounded, Bounded) -> Bounded) -> Function {
-    Function::Two(OfTwo { plain, bounded })
+const fn several(name: &'static str, value: fn(f64, f64) -> f64) -> Named {
+    (name, Function::Several(OfTwo { name, value }))
 }
 
-const fn several(plain: fn(f64, f64) -> f64, bounded: fn(Bounded, Bounded) -> Bounded) -> Function {
-    Function::Several(OfTwo { plain, bounded })
-}
-
-const FUNCTIONS: [(&str, Function); 28] = [
-    ("sin", one(libm::sin, |x| x.map_wave(Extended::sin))),
-    ("cos", one(libm::cos, |x| x.map_wave(Extended::cos))),
-    ("tan", one(libm::tan, Bounded::tan)),
-    ("asin", one(libm::asin, |x| x.map(Extended::asin))),
-    ("acos", one(libm::acos, |x| x.map(Extended::acos))),
-    ("atan", one(libm::atan, |x| x.map(Extended::atan))),
-    ("sinh", one(libm::sinh, |x| x.map(Extended::sinh))),
-    ("cosh", one(libm::cosh, |x| x.map(Extended::cosh))),
-    ("tanh", one(libm::tanh, |x| x.map(Extended::tanh))),
-    ("exp", one(libm::exp, |x| x.map(Extended::exp))),
-    ("expm1", one(libm::expm1, |x| x.map(Extended::exp_m1))),
-    ("ln", one(libm::log, |x| x.map(Extended::ln))),
-    ("log1p", one(libm::log1p, |x| x.map(Extended::ln_1p))),
-    ("log2", one(libm::log2, |x| x.map(Extended::log2))),
-    ("log10", one(libm::log10, |x| x.map(Extended::log10))),
-    ("sqrt", one(f64::sqrt, |x| x.map(Extended::sqrt))),
-    ("cbrt", one(libm::cbrt, |x| x.map(Extended::cbrt))),
-    ("abs", one(f64::abs, |x| x.map_exactly(Extended::abs))),
-    ("floor", one(f64::floor, |x| x.map_exactly(Extended::floor))),
-    ("ceil", one(f64::ceil, |x| x.map_exactly(Extended::ceil))),
-    ("round", one(f64::round, |x| x.map_exactly(Extended::round))),
-    ("erf", none(libm::erf)),
-    ("gamma", none(libm::tgamma)),
-    ("atan2", two(libm::atan2, Bounded::atan2)),
-    ("hypot", two(libm::hypot, Bounded::hypot)),
-    ("min", several(least, Bounded::min)),
-    ("max", several(largest, Bounded::max)),
+const FUNCTIONS: [Named; 28] = [
+    one("sin", libm::sin),
+    one("cos", libm::cos),
+    one("tan", libm::tan),
+    one("asin", libm::asin),
+    one("acos", libm::acos),
+    one("atan", libm::atan),
+    one("sinh", libm::sinh),
+    one("cosh", libm::cosh),
+    one("tanh", libm::tanh),
+    one("exp", libm::exp),
+    one("expm1", libm::expm1),
+    one("ln", libm::log),
+    one("log1p", libm::log1p),
+    one("log2", libm::log2),
+    one("log10", libm::log10),
+    one("sqrt", f64::sqrt),
+    one("cbrt", libm::cbrt),
+    one("abs", f64::abs),
+    one("floor", f64::floor),
+    one("ceil", f64::ceil),
+    one("round", f64::round),
+    one("erf", libm::erf),
+    one("gamma", libm::tgamma),
+    two("atan2", libm::atan2),
+    two("hypot", libm::hypot),
+    several("min", least),
+    several("max", largest),
     ("if", Function::Select),
 ];
 
@@ -126,27 +118,27 @@ pub(super) enum Member {
     Number(f64),
 }
 
-/// Functions of NumPy and of Python's `math` that are called otherwise here, or not at all.
-const PYTHON: [(&str, Function); 17] = [
-    // There without doubt the natural one.
-    ("log", one(libm::log, |x| x.map(Extended::ln))),
-    ("arcsin", one(libm::asin, |x| x.map(Extended::asin))),
-    ("arccos", one(libm::acos, |x| x.map(Extended::acos))),
-    ("arctan", one(libm::atan, |x| x.map(Extended::atan))),
-    ("arctan2", two(libm::atan2, Bounded::atan2)),
-    ("absolute", one(f64::abs, |x| x.map_exactly(Extended::abs))),
-    ("fabs", one(f64::abs, |x| x.map_exactly(Extended::abs))),
-    ("square", one(square, |x| x * x)),
-    ("power", two(libm::pow, Bounded::powf)),
-    ("pow", two(libm::pow, Bounded::powf)),
-    ("maximum", several(largest, Bounded::max)),
-    ("minimum", several(least, Bounded::min)),
+/// Functions of NumPy and of Python's `math` that have another name here, or none.
+const PYTHON: [Named; 17] = [
+    // In Python always the natural one.
+    ("log", one("ln", libm::log).1),
+    ("arcsin", one("asin", libm::asin).1),
+    ("arccos", one("acos", libm::acos).1),
+    ("arctan", one("atan", libm::atan).1),
+    ("arctan2", two("atan2", libm::atan2).1),
+    ("absolute", one("abs", f64::abs).1),
+    ("fabs", one("abs", f64::abs).1),
+    one("square", square),
+    two("power", libm::pow),
+    ("pow", two("power", libm::pow).1),
+    ("maximum", several("max", largest).1),
+    ("minimum", several("min", least).1),
     ("where", Function::Select),
     // Python rounds halves to even numbers.
-    ("round", one(f64::round_ties_even, |x| x.map_exactly(Extended::round_ties_even))),
-    ("rint", one(f64::round_ties_even, |x| x.map_exactly(Extended::round_ties_even))),
-    ("radians", one(f64::to_radians, |x| x.map(|x| x * Extended::PI / 180.0.into()))),
-    ("degrees", one(f64::to_degrees, |x| x.map(|x| x * 180.0.into() / Extended::PI))),
+    ("round", one("rint", f64::round_ties_even).1),
+    one("rint", f64::round_ties_even),
+    one("radians", f64::to_radians),
+    one("degrees", f64::to_degrees),
 ];
 
 /// What `name`, such as `np.sin` or `math.pi`, stands for.

@@ -7,13 +7,16 @@
 mod error;
 mod functions;
 mod parse;
+#[cfg(feature = "study")]
+mod precise;
 mod program;
 mod token;
 
 pub use error::{ExpressionError, ExpressionProblem};
+#[cfg(feature = "study")]
+pub(crate) use precise::{PreciseFormulas, reference};
 
 use super::{Batch, Model, Output, RowFailure, RunContext, Worker};
-use crate::extended::Bounded;
 use program::{Program, Stack, TILE};
 
 /// What a name in a formula stands for.
@@ -84,16 +87,6 @@ impl Expression {
         let mut value = [f64::NAN];
         self.program.run(&columns, 0, &mut value, &mut Stack::default());
         value[0]
-    }
-
-    /// The value at one point in twice the precision of doubles, with a bound of what rounding may make of
-    /// [`value`](Self::value); `None` if the formula has a function that is not to be had in that precision (`erf`,
-    /// `gamma`).
-    ///
-    /// # Panics
-    /// If an input of the formula is missing.
-    pub fn bounded(&self, x: &[f64]) -> Option<Bounded> {
-        self.program.bounded(x)
     }
 
     /// Whether `name` is a function or a number of the formula language, which no input can be called.

@@ -1,7 +1,6 @@
 //! A formula as steps on a stack of columns.
 
 use super::functions::{OfOne, OfTwo};
-use crate::extended::{Bounded, Extended};
 
 /// Rows computed at a time: a few columns of them stay in the nearest cache.
 pub(super) const TILE: usize = 256;
@@ -22,7 +21,7 @@ impl Comparison {
         if a.is_nan() || b.is_nan() { f64::NAN } else { f64::from(self.is_true_of(a, b)) }
     }
 
-    fn is_true_of<T: PartialOrd>(self, a: T, b: T) -> bool {
+    pub fn is_true_of<T: PartialOrd>(self, a: T, b: T) -> bool {
         match self {
             Self::Less => a < b,
             Self::LessOrEqual => a <= b,
@@ -92,6 +91,11 @@ impl Program {
         self.steps.pop();
     }
 
+    #[cfg(feature = "study")]
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
     pub fn uses(&self, input: usize) -> bool {
         self.steps.iter().any(|step| matches!(step, Step::Input(number) if *number == input))
     }
@@ -109,6 +113,19 @@ impl Program {
 
     /// The values of up to [`TILE`] rows, those of `inputs` from row `first` on.
     pub fn run(&self, inputs: &[&[f64]], first: usize, values: &mut [f64], stack: &mut Stack) {
+        self.run_with(inputs, first, values, stack, |_, _| ());
+    }
+
+    /// The same, where `after` may change the results of every step.
+    #[inline(always)]
+    pub fn run_with(
+        &self,
+        inputs: &[&[f64]],
+        first: usize,
+        values: &mut [f64],
+        stack: &mut Stack,
+        mut after: impl FnMut(&Step, &mut [f64]),
+    ) {
         let (columns, rows) = (&mut stack.columns, values.len());
         let mut depth = 0;
         for step in &self.steps {
@@ -126,14 +143,14 @@ impl Program {
                 Step::Negate => top.iter_mut().for_each(|x| *x = -*x),
                 Step::Power(2) => top.iter_mut().for_each(|x| *x *= *x),
                 Step::Power(power) => top.iter_mut().for_each(|x| *x = x.powi(*power)),
-                Step::One(OfOne { plain, .. }) => top.iter_mut().for_each(|x| *x = plain(*x)),
+                Step::One(OfOne { value, .. }) => top.iter_mut().for_each(|x| *x = value(*x)),
                 Step::Add => with(top, &above[0], |a, b| a + b),
                 Step::Subtract => with(top, &above[0], |a, b| a - b),
                 Step::Multiply => with(top, &above[0], |a, b| a * b),
                 Step::Divide => with(top, &above[0], |a, b| a / b),
                 Step::Raise => with(top, &above[0], libm::pow),
                 Step::Compare(comparison) => with(top, &above[0], |a, b| comparison.holds(a, b)),
-                Step::Two(OfTwo { plain, .. }) => with(top, &above[0], plain),
+                Step::Two(OfTwo { value, .. }) => with(top, &above[0], value),
                 Step::Select => {
                     for ((condition, then), other) in top.iter_mut().zip(&above[0]).zip(&above[1]) {
                         *condition = match *condition {
@@ -144,45 +161,11 @@ impl Program {
                     }
                 }
             }
+            after(step, top);
         }
         if depth == 1 {
             values.copy_from_slice(&columns[0][..rows]);
         }
-    }
-}
-
-impl Program {
-    /// The value at one point in twice the precision of doubles, with a bound of what rounding may make of the value in
-    /// doubles; `None` if a function is not to be had in that precision.
-    pub fn bounded(&self, x: &[f64]) -> Option<Bounded> {
-        let mut stack: Vec<Bounded> = Vec::new();
-        for step in &self.steps {
-            let operands = stack.split_off(stack.len() - step.operands());
-            stack.push(match (step, &operands[..]) {
-                (Step::Input(number), _) => x[*number].into(),
-                (Step::Number(number), _) => (*number).into(),
-                (Step::Negate, &[x]) => -x,
-                (Step::Power(power), &[x]) => x.powi(*power),
-                (Step::One(OfOne { bounded, .. }), &[x]) => (*bounded)?(x),
-                (Step::Add, &[a, b]) => a + b,
-                (Step::Subtract, &[a, b]) => a - b,
-                (Step::Multiply, &[a, b]) => a * b,
-                (Step::Divide, &[a, b]) => a / b,
-                (Step::Raise, &[a, b]) => a.powf(b),
-                (Step::Compare(comparison), &[a, b]) => {
-                    let apart = Bounded { value: a.value - b.value, error: a.error + b.error };
-                    apart.decides(comparison.is_true_of(a.value, b.value))
-                }
-                (Step::Two(OfTwo { bounded, .. }), &[a, b]) => bounded(a, b),
-                (Step::Select, &[condition, then, other]) => {
-                    let chosen = if condition.value.is_zero() { other } else { then };
-                    let certain = condition.decides(true).error.is_zero();
-                    if certain { chosen } else { Bounded { error: Extended::INFINITY, ..chosen } }
-                }
-                _ => return None,
-            });
-        }
-        stack.pop()
     }
 }
 
@@ -193,7 +176,7 @@ fn with(top: &mut [f64], other: &[f64; TILE], function: impl Fn(f64, f64) -> f64
 }
 
 impl Step {
-    fn operands(self) -> usize {
+    pub fn operands(self) -> usize {
         match self {
             Self::Input(_) | Self::Number(_) => 0,
             Self::Negate | Self::Power(_) | Self::One(_) => 1,

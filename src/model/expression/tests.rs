@@ -190,13 +190,11 @@ proptest! {
         ];
         for text in formulas {
             let formula = Expression::parse(text, &symbol).unwrap();
-            let bounded = formula.bounded(&[x, y, a]).unwrap();
-            let value = formula.value(&[x, y, a]);
-            let off = (value - bounded.value.value()).abs();
+            let (value, precise) = (formula.value(&[x, y, a]), formula.precise(&[x, y, a]).unwrap());
+            let (off, rounding) = ((value - precise).abs(), formula.rounding(&[x, y, a]));
             // The truth itself is rounded to a double here.
-            let half_unit = value.abs() * f64::EPSILON / 2.0;
-            prop_assert!(off <= bounded.error.value() + half_unit, "{text}: {value} is off by {off:e}, beyond {:?}", bounded);
-            prop_assert!(bounded.error.value() < 1e-9 * (1.0 + bounded.value.abs().value() + libm::pow(y, x.abs())), "{text}");
+            prop_assert!(off <= rounding + value.abs() * f64::EPSILON, "{text}: {value} is off by {off:e}, beyond {rounding:e}");
+            prop_assert!(rounding < 1e-9 * (1.0 + precise.abs() + libm::pow(y, x.abs())), "{text}");
         }
     }
 }
@@ -205,6 +203,33 @@ proptest! {
 fn functions_that_have_no_more_digits_say_so() {
     for (text, is_there) in [("erf(x)", false), ("gamma(y) + x", false), ("exp(x)", true)] {
         let formula = Expression::parse(text, &symbol).unwrap();
-        assert_eq!(formula.bounded(&[0.5, 2.0, 1.0]).is_some(), is_there, "{text}");
+        assert_eq!(formula.precise(&[0.5, 2.0, 1.0]).is_some(), is_there, "{text}");
+    }
+}
+
+/// Whatever the size of the argument, to a unit in the last place.
+#[test]
+fn precise_values_are_those_of_mathematics() {
+    let cases = [
+        ("sin(x)", 1e22, -0.852_200_849_767_188_8),
+        ("cos(x)", 1e300, libm::cos(1e300)),
+        ("expm1(x)", 1e-300, 1e-300),
+        ("log1p(x)", 1e-20, 1e-20),
+        ("(exp(x) - 1)/x", 1e-60, 1.0),
+        ("sqrt(x^2)", 1e-300, 1e-300),
+        ("sqrt(x^2)", 1e300, 1e300),
+        ("x^2", 1e300, f64::INFINITY),
+        ("atan2(x, -1)", 1e-300, std::f64::consts::PI),
+        ("atan2(x, 0)", -2.0, -std::f64::consts::FRAC_PI_2),
+        ("atan2(x, -1)", -1.0, -0.75 * std::f64::consts::PI),
+        ("round(x) + np.rint(x)", -2.5, -5.0),
+        ("floor(x) + ceil(x)", -0.5, -1.0),
+        ("x^-3 + (-8)^(x + 1)", 2.0, 0.125 - 512.0),
+        ("exp(x)", -1e300, 0.0),
+    ];
+    for (text, x, expected) in cases {
+        let formula = Expression::parse(text, &|name| (name == "x").then_some(Symbol::Input(0))).unwrap();
+        let found = formula.precise(&[x]).unwrap();
+        assert!(found == expected || (found / expected - 1.0).abs() < 3e-16, "{text} at {x}: {found:e}");
     }
 }

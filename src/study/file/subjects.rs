@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use crate::afm::{Fidelity, Options, Parameter, Scene};
 use crate::model::{
     AfmHistory, AfmModel, AfmMoments, AfmOutput, AfmSecond, CommandModel, CommandSettings, Expression, ExpressionModel,
-    ExternalModel, Form, InMoreDigits, Input, KnownFunction, KnownModel, Model, ModelKind, Output, OutputSeries,
-    ParameterValue, SecondCalculation, edge_unit, known_inputs, program_files,
+    ExternalModel, Form, Input, KnownFunction, KnownModel, Model, ModelKind, Output, OutputSeries, ParameterValue,
+    PreciseFormulas, SecondCalculation, edge_unit, known_inputs, program_files,
 };
 use crate::quantity::{Quantity, Unit};
 use crate::space::{Distribution, Factor, Space};
@@ -234,7 +234,8 @@ impl Subject for ExpressionSubject {
 
     fn second_calculation(&self, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
         let formulas = self.formulas.iter().map(|formula| formula.expression.clone()).collect();
-        Ok(Box::new(InMoreDigits::of_factors(formulas, space.factors().len())))
+        let factors = space.factors().len();
+        Ok(Box::new(PreciseFormulas::new(formulas, vec![0.0; factors], (0..factors).collect())))
     }
 
     fn constants(&self, _space: &Space) -> Vec<(String, f64, String)> {
@@ -315,7 +316,7 @@ impl Subject for KnownSubject {
 
     fn second_calculation(&self, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
         let (base, factors) = self.inputs(space);
-        Ok(Box::new(InMoreDigits::of_inputs(self.function.expression(), base, factors)))
+        Ok(Box::new(PreciseFormulas::new(vec![self.function.expression()], base, factors)))
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {

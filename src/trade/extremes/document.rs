@@ -1,136 +1,134 @@
-//! A map of extremes as a document.
+//! A map of extremes as a file and as a document.
+//!
+//! Format `apportion-extremes`, version 2, described key by key in `docs/extremes.md`. Later versions only add keys.
 
-use super::charts::charts;
-use super::map::{Extremes, Outcome};
-use super::record::{ExtremesFile, KindRecord, ReasonRecord, TallyRecord};
+use serde::{Deserialize, Serialize};
+
+use super::map::{Extremes, Grid, Kind, Outcome, Reason, Tally};
+use crate::report::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, OnPhone, Part, Section, Table, Value};
 use crate::report::format::{grouped, short};
-use crate::report::{capitalised, inputs, json, study_section};
-use crate::text::csv_field;
+use crate::report::{StudySetup, inputs, json, study_section, study_setup};
+use crate::study::Study;
+
+/// Largest number of rows of a chart; the worst ones are shown.
+const MAX_ROWS: usize = 30;
+
+/// The file of a map.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExtremesFile {
+    /// Always `apportion-extremes`.
+    pub format: String,
+    /// Version of the format.
+    pub version: u32,
+    /// What was asked.
+    pub study: StudySetup,
+    /// Version of the program.
+    pub apportion_version: String,
+    /// Seed of the points chosen at random.
+    pub seed: u64,
+    /// The map.
+    #[serde(flatten)]
+    pub map: Extremes,
+}
+
+/// The file of the map of `study` with points chosen by `seed`.
+pub fn build_extremes(study: &Study, seed: u64, map: &Extremes) -> ExtremesFile {
+    ExtremesFile {
+        format: "apportion-extremes".to_owned(),
+        version: 2,
+        study: study_setup(study),
+        apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
+        seed,
+        map: map.clone(),
+    }
+}
 
 /// The document of a map.
-pub fn extremes_document(map: &Extremes, file: &ExtremesFile) -> Document {
-    let study = &file.study.name;
-    let headline = file.study.headline();
-    let figures = charts(headline, map).into_iter().zip(&map.grids).enumerate().map(|(place, (chart, grid))| {
-        let stem = format!("{study}-extremes{}", grid.suffix);
-        Figure::new(place + 1, chart, stem, format!("{study}-extremes.csv")).below(headline)
+pub fn extremes_document(file: &ExtremesFile) -> Document {
+    let (study, map, headline) = (&file.study.name, &file.map, file.study.headline());
+    let data = format!("{study}-extremes.csv");
+    let by = match (&map.second_calculation, &map.unchecked) {
+        (Some(second), _) => format!("Checked by {second}."),
+        (None, why) => {
+            format!("Checked by nothing: {}. Finite numbers count as flagged.", why.as_deref().unwrap_or("-"))
+        }
+    };
+    let meanings = Outcome::ALL.map(|outcome| {
+        let (letter, name, meaning) = outcome.words();
+        format!("{letter} – {name}: {meaning}.")
     });
-    let wrong = wrong(file);
-    let mut parts: Vec<Part> = wrong.into_iter().collect();
-    parts.push(counts(file).into());
-    parts.push(Part::Text(how(file)));
-    parts.push(Part::List(Outcome::ALL.into_iter().map(explained).collect()));
-    parts.extend(figures.map(Part::from));
+    let mut parts: Vec<Part> = vec![counts(map).into(), Part::Text(by), Part::List(meanings.to_vec())];
+    parts.extend(map.grids.iter().enumerate().map(|(place, grid)| {
+        let stem = format!("{study}-extremes-{}", grid.side);
+        Figure::new(place + 1, chart(headline, grid), stem, data.clone()).below(headline).into()
+    }));
     let mut sections = vec![Section::new("map", "The map", parts)];
-    if !file.reasons.is_empty() {
-        sections.push(Section::new("reasons", "Reasons", vec![reasons(file).into()]));
+    if !map.reasons.is_empty() {
+        sections.push(Section::new("reasons", "Reasons", vec![reasons(file, data).into()]));
     }
     sections.push(study_section(&file.study));
-    let provenance = Part::OnPage(vec![provenance(file)]);
+    let rows = vec![
+        ("program", format!("apportion {}", file.apportion_version)),
+        ("points", grouped(map.points)),
+        ("seed", file.seed.to_string()),
+        ("study file, SHA-256", format!("`{}`", file.study.sha256)),
+    ];
+    let provenance = Part::OnPage(vec![Table::pairs("How the answer came about.", rows).into()]);
     sections.push(Section::new("provenance", "Provenance", vec![provenance]));
     Document {
         name: format!("{study}-extremes"),
         kicker: "A study at its extremes".to_owned(),
         title: headline.to_owned(),
-        lead: vec![lead(&file.counts)],
+        lead: vec![format!("Of {} numbers at the extremes: {}.", grouped(map.counts.total()), counted(&map.counts))],
         sections,
-        footer: format!("Made by apportion {}.", file.provenance.apportion_version),
-        files: vec![
-            DataFile::new(format!("{study}-extremes.json"), json(file)),
-            DataFile::new(format!("{study}-extremes-points.csv"), points(file)),
-        ],
+        footer: format!("Made by apportion {}.", file.apportion_version),
+        files: vec![DataFile::new(format!("{study}-extremes.json"), json(file))],
         ..Document::default()
     }
 }
 
-fn lead(counts: &TallyRecord) -> String {
-    let total: u64 = Outcome::ALL.iter().map(|outcome| counts.of(*outcome)).sum();
-    let flagged = counts.flagged + counts.flagged_confirmed;
-    let wrong = match counts.wrong {
-        0 => "none is wrong without a word".to_owned(),
-        wrong => format!("{} WRONG without a word", grouped(wrong)),
-    };
-    format!(
-        "Of {} numbers at the extremes, {} are finite and right, {} finite and flagged ({} of which a second calculation \
-         confirms), {} refused with a reason; {wrong}.",
-        grouped(total),
-        grouped(counts.right),
-        grouped(flagged),
-        grouped(counts.flagged_confirmed),
-        grouped(counts.refused)
-    )
+/// Numbers by outcome: `3 right, 0 silently wrong`.
+fn counted(tally: &Tally) -> String {
+    let shown = Outcome::ALL.into_iter().filter(|&outcome| outcome == Outcome::Wrong || tally.count(outcome) > 0);
+    let parts: Vec<String> =
+        shown.map(|outcome| format!("{} {}", grouped(tally.count(outcome)), outcome.words().1)).collect();
+    parts.join(", ")
 }
 
-fn wrong(file: &ExtremesFile) -> Option<Part> {
-    let wrong = file.counts.wrong;
-    let texts = vec![format!(
-        "{} numbers are wrong without a word. The first reasons of the table below tell which: please report them with the study.",
-        grouped(wrong)
-    )];
-    (wrong > 0).then(|| Part::Notice { mark: Mark::Bad, kind: "Wrong".to_owned(), texts })
+fn mark(outcome: Outcome, count: u64) -> Mark {
+    if outcome == Outcome::Wrong && count > 0 { Mark::Bad } else { Mark::Plain }
 }
 
-fn how(file: &ExtremesFile) -> String {
-    let by = match (&file.provenance.second_calculation, &file.provenance.unchecked) {
-        (Some(second), _) => format!("The model was checked by {second}."),
-        (None, Some(why)) => format!("The model was checked by nothing: {why}. Its finite numbers count as flagged."),
-        (None, None) => String::new(),
-    };
-    format!("{by} The indices were checked by the same estimators in 106 bits.")
-}
-
-fn explained(outcome: Outcome) -> String {
-    let meaning = match outcome {
-        Outcome::Right => "a second calculation agrees",
-        Outcome::FlaggedConfirmed => {
-            "an assumption is strained, and a second calculation agrees with the number all the same"
-        }
-        Outcome::Flagged => {
-            "something is strained, or the error that is stated is large, or there is nothing to check it by"
-        }
-        Outcome::Refused => "there is no number, and it is said why",
-        Outcome::Wrong => "a second calculation disagrees by more than is stated: this must not occur",
-    };
-    format!("{} – {}: {meaning}.", outcome.letter(), outcome.words())
-}
-
-/// The numbers by kind and outcome.
-fn counts(file: &ExtremesFile) -> Table {
-    let outcomes = Outcome::ALL.map(|outcome| {
-        let heading = match outcome {
-            Outcome::Right => "right",
-            Outcome::FlaggedConfirmed => "flagged, confirmed",
-            Outcome::Flagged => "flagged",
-            Outcome::Refused => "refused",
-            Outcome::Wrong => "wrong",
-        };
-        Column::number(heading)
-    });
-    let cells = |tally: &TallyRecord| {
-        Outcome::ALL.map(|outcome| {
-            let mark = if outcome == Outcome::Wrong && tally.wrong > 0 { Mark::Bad } else { Mark::Plain };
-            Cell::marked(grouped(tally.of(outcome)), mark)
-        })
-    };
-    let row = |kind: &KindRecord| {
-        let words = Cell::from(capitalised(&kind.description));
-        std::iter::once(words).chain(cells(&kind.counts)).collect()
-    };
-    let columns = std::iter::once(Column::text("where")).chain(outcomes);
-    let caption = "Numbers at the extremes, by where they were looked at and what became of them.";
-    Table {
-        sums: std::iter::once(Cell::from("All")).chain(cells(&file.counts)).collect(),
-        ..Table::new(caption, columns).with_rows(file.kinds.iter().map(row))
+fn place(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Corners => "every factor at a bound",
+        Kind::Beyond => "one factor at or past its bounds, to 0 and to 10^300",
+        Kind::Together => "several factors past their bounds",
     }
 }
 
-/// Why numbers are flagged, refused or wrong, each with its first example.
-fn reasons(file: &ExtremesFile) -> Table {
+/// The numbers by kind and outcome.
+fn counts(map: &Extremes) -> Table {
+    let cells = |tally: &Tally| {
+        let cell = |outcome| Cell::marked(grouped(tally.count(outcome)), mark(outcome, tally.count(outcome)));
+        Outcome::ALL.map(cell)
+    };
+    let row = |(kind, tally): &(Kind, Tally)| std::iter::once(place(*kind).into()).chain(cells(tally)).collect();
+    let columns = Outcome::ALL.map(|outcome| Column::number(outcome.words().1));
+    let columns = std::iter::once(Column::text("where")).chain(columns);
+    Table {
+        sums: std::iter::once(Cell::from("all")).chain(cells(&map.counts)).collect(),
+        ..Table::new("Numbers at the extremes by outcome.", columns).with_rows(map.kinds.iter().map(row))
+    }
+}
+
+/// Why numbers are not right, each reason with its first number.
+fn reasons(file: &ExtremesFile, data: String) -> Table {
     let columns = [
         Column::text("what").named(Field::new("outcome")),
-        Column::text("where").named(Field::new("kind")),
+        Column::text("where").named(Field::new("where")),
         Column::text("why").named(Field::new("reason")),
         Column::number("numbers").named(Field::new("numbers")),
         Column::text("first").named(Field::new("place")),
@@ -138,58 +136,58 @@ fn reasons(file: &ExtremesFile) -> Table {
         Column::in_file(Field::new("value")),
         Column::in_file(Field::new("reference")),
     ];
-    let row = |reason: &ReasonRecord| {
-        let mark = if reason.outcome == "wrong" { Mark::Bad } else { Mark::Plain };
-        let said = [("", reason.value), ("second calculation ", reason.reference)];
-        let said = said.into_iter().filter_map(|(what, value)| Some(format!("{what}{}", short(value?))));
-        let numbers: Vec<String> = said.collect();
-        let note = match (&*reason.output, inputs(&reason.inputs)) {
-            ("", inputs) => inputs,
-            (output, inputs) => format!("{output} {}; {inputs}", numbers.join(", ")),
-        };
+    let row = |reason: &Reason| {
+        let numbers = [("", reason.value), (", second calculation ", reason.reference)];
+        let numbers: String = numbers.iter().filter_map(|(what, x)| Some(format!("{what}{}", short((*x)?)))).collect();
+        let note = format!("{} {numbers}; {}", reason.output, inputs(&reason.inputs));
         vec![
-            Cell { mark, value: (&reason.outcome).into(), ..Cell::from(reason.outcome.replace('-', ", ")) },
-            Cell::from(&reason.kind),
+            Cell::marked(reason.outcome.words().1.to_owned(), mark(reason.outcome, reason.count)),
+            Cell::from(place(reason.kind)),
             Cell::from(&reason.reason),
             Cell::valued(grouped(reason.count), reason.count.into()),
-            Cell { note: note.trim_end_matches("; ").to_owned(), ..Cell::from(&reason.place) },
+            Cell { note, ..Cell::from(&reason.place) },
             Cell::from(&reason.output),
-            Cell::valued("", reason.value.map_or(Value::Empty, Value::from)),
-            Cell::valued("", reason.reference.map_or(Value::Empty, Value::from)),
+            Cell::valued(String::new(), reason.value.map_or(Value::Empty, Value::Number)),
+            Cell::valued(String::new(), reason.reference.map_or(Value::Empty, Value::Number)),
         ]
     };
-    let caption = format!(
-        "Why numbers are flagged, refused or wrong, with the first of each; `apportion evaluate` reads the inputs of these from \
-         {}-extremes-points.csv.",
-        file.study.name
-    );
+    let caption = "Why numbers are silently wrong, flagged or refused, and the first of each.";
     Table {
-        file: format!("{}-extremes.csv", file.study.name),
+        file: data,
         on_phone: OnPhone::StackLabelled,
-        ..Table::new(caption, columns).with_rows(file.reasons.iter().map(row))
+        ..Table::new(caption, columns).with_rows(file.map.reasons.iter().map(row))
     }
 }
 
-/// The inputs of the examples, for `apportion evaluate`: a column for each factor.
-fn points(file: &ExtremesFile) -> String {
-    let names: Vec<&str> = file.study.factors.iter().map(|factor| factor.name.as_str()).collect();
-    let mut text = names.iter().map(|name| csv_field(name)).collect::<Vec<_>>().join(",") + "\n";
-    for reason in file.reasons.iter().filter(|reason| !reason.inputs.is_empty()) {
-        let number = |name: &&str| reason.inputs.get(*name).map(ToString::to_string).unwrap_or_default();
-        text.push_str(&(names.iter().map(number).collect::<Vec<_>>().join(",") + "\n"));
-    }
-    text
-}
-
-/// How the answer came about.
-fn provenance(file: &ExtremesFile) -> Part {
-    let provenance = &file.provenance;
-    let rows = vec![
-        ("program", format!("apportion {}", provenance.apportion_version)),
-        ("points", grouped(provenance.points)),
-        ("most runs of one design", grouped(provenance.max_runs)),
-        ("seed", provenance.seed.to_string()),
-        ("study file, SHA-256", format!("`{}`", file.study.sha256)),
-    ];
-    Table::pairs("How the answer came about.", rows).into()
+/// The worst outcome of every cell.
+fn chart(headline: &str, grid: &Grid) -> Chart {
+    let cells = grid.cells.iter().enumerate();
+    let cells =
+        cells.flat_map(|(row, cells)| cells.iter().enumerate().map(move |(column, tally)| (row, column, tally)));
+    let mut tiles: Vec<(Outcome, Tile)> = cells
+        .filter_map(|(row, column, tally)| {
+            let worst = tally.worst()?;
+            Some((worst, Tile { row, column, letter: worst.words().0.to_owned(), tip: counted(tally) }))
+        })
+        .collect();
+    // The legend is in the order of the marks.
+    tiles.sort_by_key(|(outcome, tile)| (*outcome, tile.row, tile.column));
+    let series = |outcome: Outcome| {
+        let colour = match outcome {
+            Outcome::Right => Colour::Series(2),
+            Outcome::Flagged | Outcome::FlaggedConfirmed => Colour::Series(9),
+            Outcome::Refused => Colour::Series(10),
+            Outcome::Wrong => Colour::Reference,
+        };
+        let (letter, name, _) = outcome.words();
+        Series::new(format!("{letter} {name}"), colour)
+    };
+    let side = if grid.side == "below" { "below the lower bound" } else { "above the upper bound" };
+    let axis = Axis::from_names(format!("powers of ten {side}"), grid.columns.clone());
+    let panel = Panel::new(axis, Axis::from_names("", grid.rows.clone()))
+        .with(tiles.into_iter().map(|(outcome, tile)| series(outcome).mark(Shape::Tile(tile))));
+    let wrong: Vec<f64> = grid.cells.iter().map(|cells| cells.iter().map(|tally| tally.wrong as f64).sum()).collect();
+    let panel = if wrong.len() > MAX_ROWS { panel.ranked(&wrong, MAX_ROWS) } else { panel };
+    let caption = "Each cell shows the worst of its numbers; the JSON file has all rows.";
+    Chart::new(format!("{headline}: {side}"), caption).panels([panel])
 }

@@ -1,91 +1,81 @@
-//! The map: outcomes, counts, and the reasons behind them.
+//! The map: outcomes, counts, and the reasons behind them. Serialised as it is, see `docs/extremes.md`.
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// What has become of a number at an extreme.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+/// What became of a number at an extreme, from good to bad.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Outcome {
-    /// It is finite and right: a second calculation has confirmed it.
+    /// Finite, and a second calculation agrees.
     Right,
-    /// There is none, and a reason is given.
-    Refused,
-    /// It is finite, and flagged, but a second calculation has confirmed it.
+    /// Finite and flagged, but a second calculation agrees.
     FlaggedConfirmed,
-    /// It is finite, and flagged: it is not to be relied on without a look at the reason.
+    /// Finite and flagged: look at the reason before you rely on it.
     Flagged,
-    /// It is finite and wrong, by more than anything says. This must not occur.
+    /// There is no number, and a reason is given.
+    Refused,
+    /// Finite and silently wrong: a second calculation disagrees by more than the model states.
     Wrong,
 }
 
 impl Outcome {
-    /// All, the best first.
+    /// All, in the order of their declaration.
     pub const ALL: [Self; 5] = [Self::Right, Self::FlaggedConfirmed, Self::Flagged, Self::Refused, Self::Wrong];
 
-    /// In a few words.
-    pub fn words(self) -> &'static str {
+    /// The letter in charts, a column heading, and what it means.
+    pub(super) fn words(self) -> (&'static str, &'static str, &'static str) {
         match self {
-            Self::Right => "finite and right",
-            Self::FlaggedConfirmed => "finite and flagged, the number confirmed",
-            Self::Flagged => "finite and flagged",
-            Self::Refused => "refused with a reason",
-            Self::Wrong => "wrong without a word",
-        }
-    }
-
-    /// The letter in charts.
-    pub fn letter(self) -> &'static str {
-        match self {
-            Self::Right => "R",
-            Self::FlaggedConfirmed => "f",
-            Self::Flagged => "F",
-            Self::Refused => "N",
-            Self::Wrong => "W",
-        }
-    }
-
-    /// The name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Right => "right",
-            Self::FlaggedConfirmed => "flagged-confirmed",
-            Self::Flagged => "flagged",
-            Self::Refused => "refused",
-            Self::Wrong => "wrong",
+            Self::Right => ("R", "right", "a second calculation agrees"),
+            Self::FlaggedConfirmed => {
+                ("f", "flagged, confirmed", "the model raises a flag, and a second calculation agrees all the same")
+            }
+            Self::Flagged => (
+                "F",
+                "flagged",
+                "the model raises a flag, or its stated error is large, or nothing can check the number",
+            ),
+            Self::Refused => ("N", "refused", "there is no number, and the model says why"),
+            Self::Wrong => ("W", "silently wrong", "a second calculation disagrees by more than the model states"),
         }
     }
 }
 
 /// Numbers by outcome.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Tally {
-    /// Finite and right.
+    /// [`Outcome::Right`].
     pub right: u64,
-    /// Finite and flagged, the number confirmed by a second calculation.
-    pub confirmed: u64,
-    /// Finite and flagged otherwise.
+    /// [`Outcome::FlaggedConfirmed`].
+    pub flagged_confirmed: u64,
+    /// [`Outcome::Flagged`].
     pub flagged: u64,
-    /// Refused with a reason.
+    /// [`Outcome::Refused`].
     pub refused: u64,
-    /// Wrong without a word.
+    /// [`Outcome::Wrong`].
     pub wrong: u64,
 }
 
 impl Tally {
-    fn count(&mut self, outcome: Outcome) {
-        *match outcome {
-            Outcome::Right => &mut self.right,
-            Outcome::FlaggedConfirmed => &mut self.confirmed,
-            Outcome::Flagged => &mut self.flagged,
-            Outcome::Refused => &mut self.refused,
-            Outcome::Wrong => &mut self.wrong,
-        } += 1;
+    /// Counts a number.
+    fn add(&mut self, outcome: Outcome) {
+        match outcome {
+            Outcome::Right => self.right += 1,
+            Outcome::FlaggedConfirmed => self.flagged_confirmed += 1,
+            Outcome::Flagged => self.flagged += 1,
+            Outcome::Refused => self.refused += 1,
+            Outcome::Wrong => self.wrong += 1,
+        }
     }
 
-    /// The number of that outcome.
-    pub fn of(&self, outcome: Outcome) -> u64 {
+    /// Numbers of that outcome.
+    pub fn count(&self, outcome: Outcome) -> u64 {
         match outcome {
             Outcome::Right => self.right,
-            Outcome::FlaggedConfirmed => self.confirmed,
+            Outcome::FlaggedConfirmed => self.flagged_confirmed,
             Outcome::Flagged => self.flagged,
             Outcome::Refused => self.refused,
             Outcome::Wrong => self.wrong,
@@ -94,131 +84,47 @@ impl Tally {
 
     /// All numbers.
     pub fn total(&self) -> u64 {
-        Outcome::ALL.iter().map(|outcome| self.of(*outcome)).sum()
+        Outcome::ALL.iter().map(|outcome| self.count(*outcome)).sum()
     }
 
-    /// The outcome that must be known of: the worst.
-    pub fn worst(&self) -> Outcome {
-        let met = Outcome::ALL.into_iter().filter(|outcome| self.of(*outcome) > 0);
-        met.max().unwrap_or(Outcome::Right)
-    }
-
-    /// This and another.
-    #[must_use]
-    pub fn plus(mut self, other: &Self) -> Self {
-        self.right += other.right;
-        self.confirmed += other.confirmed;
-        self.flagged += other.flagged;
-        self.refused += other.refused;
-        self.wrong += other.wrong;
-        self
+    /// The worst outcome that occurred; none without numbers.
+    pub fn worst(&self) -> Option<Outcome> {
+        Outcome::ALL.into_iter().rev().find(|outcome| self.count(*outcome) > 0)
     }
 }
 
-/// Where a number was looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+/// Where the model was evaluated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// Every factor at one of its bounds.
     Corners,
-    /// All but one factor at one of their bounds.
-    Edges,
-    /// One factor at its bound, the others nominal.
-    Sides,
-    /// One factor past its bounds.
+    /// One factor at its bound or past it.
     Beyond,
     /// Several factors past their bounds together.
     Together,
-    /// Indices of scaled outputs.
-    Scale,
-    /// Indices of shifted outputs.
-    Offset,
-    /// Indices by number of base samples.
-    Length,
-    /// Points at the end of a long design.
-    Points,
-    /// The memory that a long design takes.
-    Memory,
 }
 
 impl Kind {
-    /// All of them, in order.
-    pub const ALL: [Self; 10] = [
-        Self::Corners,
-        Self::Edges,
-        Self::Sides,
-        Self::Beyond,
-        Self::Together,
-        Self::Scale,
-        Self::Offset,
-        Self::Length,
-        Self::Points,
-        Self::Memory,
-    ];
-
-    /// The name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Corners => "corners",
-            Self::Edges => "edges",
-            Self::Sides => "sides",
-            Self::Beyond => "beyond",
-            Self::Together => "together",
-            Self::Scale => "scale",
-            Self::Offset => "offset",
-            Self::Length => "length",
-            Self::Points => "points",
-            Self::Memory => "memory",
-        }
-    }
-
-    /// What it is, for people.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Corners => "corners: every factor at a bound",
-            Self::Edges => "edges: all factors but one at a bound",
-            Self::Sides => "sides: one factor at a bound",
-            Self::Beyond => "one factor past its bounds, to 0 and to 10^300",
-            Self::Together => "several factors past their bounds together",
-            Self::Scale => "indices of outputs times 1e-300 to 1e300",
-            Self::Offset => "indices of outputs plus 1 to 1e15 standard deviations",
-            Self::Length => "indices from 2 to 2^30 base samples",
-            Self::Points => "points at the end of these designs",
-            Self::Memory => "memory of these designs",
-        }
-    }
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Corners, Self::Beyond, Self::Together];
 }
 
-/// A part of the map that can be drawn.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// Numbers with one factor at or past its bound: what a chart shows.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Grid {
-    /// What its files end in: `-below`.
-    pub suffix: &'static str,
-    /// Headline.
-    pub title: String,
-    /// What the columns are.
-    pub axis: String,
-    /// Names of the rows.
+    /// Which bounds: `below` or `above`.
+    pub side: String,
+    /// The factors.
     pub rows: Vec<String>,
-    /// Names of the columns.
+    /// How far past the bound: powers of ten, or a special number.
     pub columns: Vec<String>,
-    /// Row by row; nothing was looked at where there is no number.
-    pub cells: Vec<Tally>,
+    /// `rows` by `columns` cells; all zero where the model was not evaluated.
+    pub cells: Vec<Vec<Tally>>,
 }
 
-impl Grid {
-    pub(super) fn new(suffix: &'static str, title: &str, axis: &str, rows: Vec<String>, columns: Vec<String>) -> Self {
-        let cells = vec![Tally::default(); rows.len() * columns.len()];
-        Self { suffix, title: title.to_owned(), axis: axis.to_owned(), rows, columns, cells }
-    }
-
-    /// The cell in that row and column.
-    pub fn cell(&self, row: usize, column: usize) -> &Tally {
-        &self.cells[row * self.columns.len() + column]
-    }
-}
-
-/// Why numbers came out as they did.
-#[derive(Debug, Clone, PartialEq)]
+/// Why numbers are not right, and the first of them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reason {
     /// Where.
     pub kind: Kind,
@@ -226,105 +132,70 @@ pub struct Reason {
     pub outcome: Outcome,
     /// Why, a sentence without a full stop.
     pub reason: String,
-    /// How many.
+    /// Numbers with this reason.
     pub count: u64,
-    /// The first of them.
-    pub example: Example,
-}
-
-/// A number with what it was made of.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Example {
-    /// Where it is on the map, in words.
+    /// Where the first of them is, in words.
     pub place: String,
-    /// The inputs in the units of the factors, where there are such.
-    pub inputs: Vec<(String, f64)>,
-    /// The output.
+    /// Its inputs, in the units of the factors.
+    pub inputs: Map<String, Value>,
+    /// Its output.
     pub output: String,
-    /// The number in the unit of the output.
+    /// The number in the unit of the output; none if refused.
     pub value: Option<f64>,
-    /// The same by the second calculation.
+    /// The same by the second calculation, if there is one.
     pub reference: Option<f64>,
 }
 
 /// The map of the extremes of a study.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
-    /// What the model was checked by; or why there was nothing to check it by.
-    pub second: Result<String, String>,
-    /// Points that the model was evaluated at.
+    /// What the model was checked by; none if by nothing.
+    pub second_calculation: Option<String>,
+    /// Why by nothing.
+    pub unchecked: Option<String>,
+    /// Points at which the model was evaluated.
     pub points: u64,
-    /// Numbers by where they were looked at.
+    /// All numbers.
+    pub counts: Tally,
+    /// The same by where the model was evaluated.
     pub kinds: Vec<(Kind, Tally)>,
-    /// The parts that can be drawn.
+    /// The parts of the map that are drawn.
     pub grids: Vec<Grid>,
-    /// Why numbers are flagged, refused or wrong, in the order of the kinds, the most frequent reason first.
+    /// Why numbers are not right: silently wrong ones first, then by kind, the most frequent reason first.
     pub reasons: Vec<Reason>,
 }
 
-impl Extremes {
-    /// All numbers.
-    pub fn counts(&self) -> Tally {
-        self.kinds.iter().fold(Tally::default(), |sum, (_, tally)| sum.plus(tally))
-    }
-}
-
-/// One number of the map.
-pub(super) struct Finding {
-    pub outcome: Outcome,
-    /// Empty for a number that is right.
-    pub reason: String,
-    /// The number, and by the second calculation.
-    pub value: Option<f64>,
-    pub reference: Option<f64>,
-}
-
-impl Finding {
-    pub fn new(outcome: Outcome, reason: impl Into<String>) -> Self {
-        Self { outcome, reason: reason.into(), value: None, reference: None }
-    }
-}
-
 /// A map in the making.
-#[derive(Default)]
 pub(super) struct Collector {
-    kinds: BTreeMap<Kind, Tally>,
-    reasons: BTreeMap<(Kind, Outcome, String), (u64, Example)>,
-    grids: Vec<Grid>,
+    pub map: Extremes,
+    reasons: BTreeMap<(Kind, Outcome, String), Reason>,
 }
 
 impl Collector {
-    /// Adds a grid; its number is for [`note`](Self::note).
-    pub fn grid(&mut self, grid: Grid) -> usize {
-        self.grids.push(grid);
-        self.grids.len() - 1
+    pub fn new(second: Result<String, String>, points: u64, grids: Vec<Grid>) -> Self {
+        let kinds = Kind::ALL.map(|kind| (kind, Tally::default())).to_vec();
+        let (second_calculation, unchecked) = (second.as_ref().ok().cloned(), second.err());
+        let counts = Tally::default();
+        let map = Extremes { second_calculation, unchecked, points, counts, kinds, grids, reasons: Vec::new() };
+        Self { map, reasons: BTreeMap::new() }
     }
 
-    /// Takes note of a number, in the cell (grid, row, column) if it is of one.
-    pub fn note(
-        &mut self,
-        kind: Kind,
-        cell: Option<(usize, usize, usize)>,
-        finding: Finding,
-        example: impl FnOnce() -> Example,
-    ) {
-        self.kinds.entry(kind).or_default().count(finding.outcome);
+    /// Adds a number, in the cell (grid, row, column) if it belongs to one.
+    pub fn add(&mut self, cell: Option<(usize, usize, usize)>, found: Reason) {
+        self.map.counts.add(found.outcome);
+        self.map.kinds[found.kind as usize].1.add(found.outcome);
         if let Some((grid, row, column)) = cell {
-            let grid = &mut self.grids[grid];
-            let place = row * grid.columns.len() + column;
-            grid.cells[place].count(finding.outcome);
+            self.map.grids[grid].cells[row][column].add(found.outcome);
         }
-        if finding.outcome != Outcome::Right {
-            let Finding { outcome, reason, value, reference } = finding;
-            let first = || (0, Example { value, reference, ..example() });
-            self.reasons.entry((kind, outcome, reason)).or_insert_with(first).0 += 1;
+        if found.outcome != Outcome::Right {
+            let key = (found.kind, found.outcome, found.reason.clone());
+            self.reasons.entry(key).or_insert(Reason { count: 0, ..found }).count += 1;
         }
     }
 
-    pub fn into_map(self, second: Result<String, String>, points: u64) -> Extremes {
-        let reason = |((kind, outcome, reason), (count, example))| Reason { kind, outcome, reason, count, example };
-        let mut reasons: Vec<Reason> = self.reasons.into_iter().map(reason).collect();
-        reasons.sort_by_key(|reason| (reason.outcome != Outcome::Wrong, reason.kind, std::cmp::Reverse(reason.count)));
-        Extremes { second, points, kinds: self.kinds.into_iter().collect(), grids: self.grids, reasons }
+    pub fn into_map(self) -> Extremes {
+        let mut reasons: Vec<Reason> = self.reasons.into_values().collect();
+        reasons.sort_by_key(|reason| (reason.outcome != Outcome::Wrong, reason.kind, Reverse(reason.count)));
+        Extremes { reasons, ..self.map }
     }
 }
