@@ -1,13 +1,15 @@
 //! One scene in time: sticking until the critical force, slipping after.
 //!
-//! While it sticks the particle rides on the substrate and drags the tip through its equilibria, exact geometry, no
-//! inertia: the swing of the tip, 1e-7 of the force, would not be seen. When it slips the tip holds it still and the
-//! substrate slides on under it, all forces as they were at the slip (Tafazzoli & Sitti 2004). So the drop from static to
+//! While it sticks the particle rides on the substrate, less what it creeps on its bristles, and drags the tip through its
+//! equilibria, exact geometry, no inertia: the swing of the tip, 1e-7 of the force, would not be seen. When it slips the tip
+//! holds it still and the substrate slides on under it, all forces as they were at the slip (Tafazzoli & Sitti 2004); on
+//! bristles they rise by the last 0.1 % from then on. So the drop from static to
 //! sliding friction is not followed: at V it is (V/v_s)^2 of the force by the Stribeck curves, but not small by
 //! Lemaitre-Carlson, whose layer sticks and slips.
 
 use super::contact::{Contact, Pair};
-use super::force::Statics;
+use super::force::{Presliding, Statics, Substrate};
+use super::friction::LuGreForm;
 use super::{Critical, Failure, Fidelity, Options, Scene, critical_force};
 use crate::afm::probe::Probe;
 use crate::afm::root::{self, Point};
@@ -83,13 +85,12 @@ pub fn history(scene: &Scene, options: &Options, duration: f64) -> Result<Histor
     if !domain.contains(duration) {
         return Err(Failure::OutOfDomain { parameter: "duration", domain });
     }
-    let options = Options { fidelity: Fidelity::QuasiStatic, ..*options };
+    let options = Options { fidelity: Fidelity::QuasiStatic, accurate_time: true, ..*options };
     let critical = critical_force(scene, &options)?;
     let slip_time = critical.critical_time?;
-    let probe = Probe::new(scene, options.torsion);
-    let stage = Stage { scene, options: &options, statics: Statics::new(scene, &probe)? };
-    let last_twist =
-        if duration < slip_time { stage.twist_at(scene.velocity * duration, &critical)? } else { critical.twist };
+    let stage = Stage::new(scene, &options, &critical)?;
+    let at_peak = duration >= slip_time && stage.presliding.is_none();
+    let last_twist = if at_peak { critical.twist } else { stage.twist_at(scene.velocity * duration.min(slip_time))? };
     let mut samples = vec![stage.sticking(0.0)?];
     // Quarters at first, so that no symmetric bend hides in the middle of the whole.
     for quarter in 1..=4 {
@@ -99,10 +100,12 @@ pub fn history(scene: &Scene, options: &Options, duration: f64) -> Result<Histor
         samples.push(end);
     }
     if duration >= slip_time {
-        let held = samples[samples.len() - 1];
-        samples.push(stage.slipping(&held, held.time));
-        if duration > held.time {
-            samples.push(stage.slipping(&held, duration));
+        let last = samples.len() - 1;
+        // To the bit, which the way back from the twist is not.
+        samples[last].time = slip_time;
+        samples.push(Sample { sticking: false, ..samples[last] });
+        if duration > slip_time {
+            samples.push(Sample { sticking: false, ..stage.at(duration)? });
         }
     }
     Ok(History { samples, critical })
@@ -119,29 +122,16 @@ pub fn at_times(
     times: &[f64],
     mut take: impl FnMut(usize, &Sample),
 ) -> Result<(), Failure> {
-    let options = Options { fidelity: Fidelity::QuasiStatic, ..*options };
+    let options = Options { fidelity: Fidelity::QuasiStatic, accurate_time: true, ..*options };
     let critical = critical_force(scene, &options)?;
     let slip_time = match critical.critical_time {
         Ok(time) => time,
         Err(Failure::VelocityZero) => f64::INFINITY,
         Err(failure) => return Err(failure),
     };
-    let probe = Probe::new(scene, options.torsion);
-    let stage = Stage { scene, options: &options, statics: Statics::new(scene, &probe)? };
-    let mut held = None;
+    let stage = Stage::new(scene, &options, &critical)?;
     for (place, &time) in times.iter().enumerate() {
-        let travel = scene.velocity * time;
-        let sample = if time >= slip_time {
-            let at_slip = match held {
-                Some(sample) => sample,
-                None => *held.insert(Sample { time: slip_time, ..stage.sticking(critical.twist)? }),
-            };
-            stage.slipping(&at_slip, time)
-        } else {
-            let twist = if travel == 0.0 { 0.0 } else { stage.twist_at(travel, &critical)? };
-            Sample { time, ..stage.sticking(twist)? }
-        };
-        take(place, &sample);
+        take(place, &Sample { sticking: time < slip_time, ..stage.at(time)? });
     }
     Ok(())
 }
@@ -150,19 +140,62 @@ struct Stage<'a> {
     scene: &'a Scene,
     options: &'a Options,
     statics: Statics<'a>,
+    /// The creep before the slip, on bristles.
+    presliding: Option<Presliding>,
+    /// F_Y at its peak (N).
+    peak: f64,
+    /// The twist from which on the tip holds the particle still: at the peak, or as near to it as makes no difference.
+    last_twist: f64,
+    /// Travel of the substrate at that twist (m).
+    last_travel: f64,
 }
 
-impl Stage<'_> {
-    /// Travel of the apex (m) in equilibrium at a twist.
-    fn travel(&self, twist: f64) -> f64 {
-        self.statics.travel(twist, self.statics.lateral_moment(twist) / libm::cos(twist))
+/// Share of the peak force that is never seen to be missing.
+const UNSEEN: f64 = 1e-12;
+
+impl<'a> Stage<'a> {
+    fn new(scene: &'a Scene, options: &'a Options, critical: &Critical) -> Result<Self, Failure> {
+        let probe = Probe::new(scene, options.torsion);
+        let substrate = Substrate::new(scene, options, &probe, LuGreForm::Ramp);
+        let statics = Statics::new(scene, &probe)?;
+        let spring = statics.spring(critical.twist);
+        let presliding = Presliding::new(&substrate, &critical.slip(), &probe, spring)?;
+        let twist = critical.twist;
+        let last_twist = if presliding.is_some() { twist * (1.0 - UNSEEN) } else { twist };
+        let peak = critical.lateral_force;
+        let stage = Self { scene, options, statics, presliding, peak, last_twist, last_travel: 0.0 };
+        Ok(Self { last_travel: stage.travel(last_twist), ..stage })
     }
 
-    /// The twist at the travel `travel`, before the slip.
-    fn twist_at(&self, travel: f64, critical: &Critical) -> Result<f64, Failure> {
-        let rest = Point { x: 0.0, y: -travel };
-        let slip = Point { x: critical.twist, y: self.travel(critical.twist) - travel };
+    /// What the particle has crept on its bristles (m) at a lateral force (N).
+    fn creep(&self, lateral_force: f64) -> f64 {
+        let missing = (1.0 - lateral_force / self.peak).max(0.1 * UNSEEN);
+        self.presliding.map_or(0.0, |presliding| presliding.creep(missing))
+    }
+
+    /// Travel of the substrate (m) in equilibrium at a twist.
+    fn travel(&self, twist: f64) -> f64 {
+        let lateral_force = self.statics.lateral_moment(twist) / libm::cos(twist);
+        self.statics.travel(twist, lateral_force) + self.creep(lateral_force)
+    }
+
+    /// The twist at the travel `travel` of the substrate, the last one at the most.
+    fn twist_at(&self, travel: f64) -> Result<f64, Failure> {
+        if travel <= 0.0 || travel >= self.last_travel {
+            return Ok(if travel <= 0.0 { 0.0 } else { self.last_twist });
+        }
+        let rest = Point { x: 0.0, y: self.travel(0.0) - travel };
+        let slip = Point { x: self.last_twist, y: self.last_travel - travel };
         root::between(rest, slip, |twist| Ok(self.travel(twist) - travel))
+    }
+
+    /// The scene at a time, all but whether the particle sticks.
+    fn at(&self, time: f64) -> Result<Sample, Failure> {
+        let travel = self.scene.velocity * time;
+        let sample = self.sticking(self.twist_at(travel)?)?;
+        let slid = (travel - sample.substrate).max(0.0);
+        let slid = if travel > self.last_travel { slid } else { 0.0 };
+        Ok(Sample { time, substrate: sample.substrate + slid, relative: sample.relative - slid, ..sample })
     }
 
     fn sticking(&self, twist: f64) -> Result<Sample, Failure> {
@@ -171,7 +204,9 @@ impl Stage<'_> {
         let theory = self.options.contact;
         let normal_force = self.statics.normal_force(twist);
         let lateral_force = self.statics.lateral_moment(twist) / libm::cos(twist);
-        let substrate = self.travel(twist);
+        let particle = self.statics.travel(twist, lateral_force);
+        let crept = self.creep(lateral_force);
+        let substrate = particle + crept;
         let tip_force = libm::hypot(normal_force, lateral_force);
         let force_angle = libm::atan2(lateral_force, normal_force);
         let on_substrate = Pair { radius: particle_radius, modulus, adhesion, separation };
@@ -192,18 +227,12 @@ impl Stage<'_> {
             lateral_deflection: lateral_force / self.statics.probe.lateral,
             normal_deflection: normal_force / self.statics.probe.normal,
             substrate,
-            particle: substrate,
-            relative: 0.0,
+            particle,
+            relative: -crept,
             substrate_contact: theory.contact(&on_substrate, normal_force)?,
             tip_contact,
             sticking: true,
         })
-    }
-
-    /// The scene held at the slip, at a later time.
-    fn slipping(&self, held: &Sample, time: f64) -> Sample {
-        let slid = self.scene.velocity * (time - held.time);
-        Sample { time, substrate: held.substrate + slid, relative: -slid, sticking: false, ..*held }
     }
 
     /// Puts what lies strictly between two sticking samples, until all is straight.
@@ -295,9 +324,8 @@ mod tests {
     fn samples_are_where_things_bend() {
         let scene = Scene { static_friction: 100.0, ..Scene::default() };
         let options = Options::default();
-        let History { samples, .. } = history(&scene, &options, 1e3).unwrap();
-        let probe = Probe::new(&scene, options.torsion);
-        let stage = Stage { scene: &scene, options: &options, statics: Statics::new(&scene, &probe).unwrap() };
+        let History { samples, critical } = history(&scene, &options, 1e3).unwrap();
+        let stage = Stage::new(&scene, &options, &critical).unwrap();
         for pair in samples.windows(2).filter(|pair| pair[1].sticking) {
             let between = stage.sticking(pair[0].twist + (pair[1].twist - pair[0].twist) / 3.0).unwrap();
             let share = (between.time - pair[0].time) / (pair[1].time - pair[0].time);

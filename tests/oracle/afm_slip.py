@@ -4,7 +4,7 @@
 the force d on the dashpots; sigma0 z = F_Y(theta) - d. The substrate moves at V, the apex at V - v, so
 theta' = (V - v)/(ds/dtheta), d' = F_Y'(theta) theta' - sigma0 z', with v from d = sigma1 z' + sigma2 v. Radau, rtol 1e-11
 for the twist, until V - v, to which dF/dt is proportional, has fallen below 1e-9 of V or changed its sign:
-the largest force.
+the largest force. Then once more until 99.9 % of it: the critical time.
 `swings`: the equations of motion of the tip with its inertia, the apex at V t (four unknowns, as printed by Tafazzoli &
 Sitti 2004 with the signs of the library's documentation), DOP853, rtol 1e-12, until F_Y first reaches F_Y*(F_Z): Coulomb
 and Hurtado-Kim friction on a JKR contact.
@@ -77,7 +77,7 @@ class Scene:
 
 
 def ramp(scene):
-    """F_Y, F_Z and travel at the largest force; None where the load is gone before."""
+    """F_Y, F_Z and travel of the apex at the largest force, and the time at 99.9 % of it; None where the load is gone before."""
     c, V = scene, scene.V
 
     def stribeck(v, load):
@@ -120,15 +120,26 @@ def ramp(scene):
 
     still.terminal = lifted.terminal = True
     horizon = 60 * (2 + c.sigma2 * V / unit + unit / (c.sigma0 * V * time))
-    out = solve_ivp(rate, (0, horizon), [0.0, shift], method="Radau", rtol=1e-11, atol=1e-13, events=[still, lifted],
-                    first_step=1e-12)
+
+    def march(events):
+        return solve_ivp(rate, (0, horizon), [0.0, shift], method="Radau", rtol=1e-11, atol=1e-13, events=events,
+                         first_step=1e-12)
+
+    out = march([still, lifted])
     if len(out.t_events[1]) > 0:
         return None
     assert len(out.t_events[0]) > 0, (out.status, out.message, scene.__dict__)
     th = out.y[0, -1] * turn
     # The rise may have been passed between two steps: the largest of them.
     th = max(th, max(out.y[0]) * turn)
-    return dict(lateral_force=c.FY(th), normal_force=c.FZ(th), travel=c.travel(th), steps=len(out.t))
+
+    def slips(_, y):
+        return c.FY(y[0] * turn) / (0.999 * c.FY(th)) - 1
+
+    slips.terminal = True
+    slipped = march([slips]).t_events[0][0] * time
+    return dict(lateral_force=c.FY(th), normal_force=c.FZ(th), travel=c.travel(th), critical_time=slipped,
+                steps=len(out.t))
 
 
 def swing(scene, law):

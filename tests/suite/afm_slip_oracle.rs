@@ -20,8 +20,9 @@ struct Ramp {
     lateral_force: f64,
     #[serde(default)]
     normal_force: f64,
+    /// When the force is at 99.9 % of it.
     #[serde(default)]
-    travel: f64,
+    critical_time: f64,
 }
 
 /// The tip that swings: the first time at which F_Y reaches F_Y*.
@@ -97,17 +98,13 @@ fn every_rung_finds_the_largest_force_of_lugre_friction() {
                     worst[number] = worst[number].max(error);
                 }
                 if fidelity == Fidelity::QuasiStatic {
-                    assert!(
-                        error < OF_ORACLE && off(critical.travel, ramp.travel) < OF_ORACLE,
-                        "{error:e} {critical:?}"
-                    );
+                    assert!(error < OF_ORACLE, "{error:e} {critical:?}");
                     // Below, a ramp may have to be integrated.
                     assert!(tolerance < 1e-6 || critical.cost.evaluations <= 10, "{critical:?}");
                 }
                 if fidelity == Fidelity::Dynamic {
                     // The swing, which it does not follow and states, is not in the oracle.
                     assert!(error < tolerance.max(1e-7), "{tolerance:e} {error:e} {critical:?}");
-                    assert!(off(critical.travel, ramp.travel) < tolerance.max(1e-6), "{critical:?}");
                     assert!(tolerance < 1e-6 || critical.cost.evaluations < 8_000, "{critical:?}");
                 }
                 if fidelity == Fidelity::Auto {
@@ -117,6 +114,29 @@ fn every_rung_finds_the_largest_force_of_lugre_friction() {
         }
     }
     println!("worst errors at 1e-6, {RUNGS:?}: {worst:.1?}", worst = worst.map(|error| format!("{error:.1e}")));
+}
+
+/// The time at which the force is at 99.9 % of its peak, on every rung within the error that it states; and that error is
+/// small on the integrated ones.
+#[test]
+fn every_rung_finds_the_time_of_slip_on_bristles() {
+    let mut worst = [0.0_f64; 4];
+    for ramp in oracle().ramps.iter().filter(|ramp| ramp.lifted == 0) {
+        let scene = Scene { viscous_friction: ramp.sigma2, ..scene(ramp.factors) };
+        for (number, &fidelity) in RUNGS.iter().enumerate() {
+            let options = Options { friction: FrictionLaw::LuGre, fidelity, accurate_time: true, ..Options::default() };
+            let critical = critical_force(&scene, &options).unwrap();
+            let error = off(critical.critical_time.unwrap(), ramp.critical_time);
+            // The oracle's peak is missed by OF_ORACLE, which the slow rise there makes more of in the time.
+            let allowed = critical.error_estimate + 100.0 * OF_ORACLE;
+            assert!(error < allowed, "{fidelity:?} {error:e} {critical:?}\n{scene:?}");
+            // Where viscosity is large the last 0.1 % take so long that the twist goes on meanwhile.
+            let is_exact = fidelity == Fidelity::QuasiStatic && ramp.sigma2 < 0.1;
+            assert!(!is_exact || error < 1e-6, "{error:e} {critical:?}\n{scene:?}");
+            worst[number] = worst[number].max(error);
+        }
+    }
+    println!("worst errors of the time, {RUNGS:?}: {worst:.1?}", worst = worst.map(|error| format!("{error:.1e}")));
 }
 
 /// Fast enough to swing a few times to a few thousand: force and time of the dynamic rung within its tolerance, the

@@ -1,6 +1,7 @@
 //! The tip pushing a particle with mass on LuGre bristles.
 
 use super::motion::{Motion, local_tolerance};
+use super::presliding::REACHED;
 use super::slip::Slip;
 use super::substrate::Substrate;
 use crate::afm::Failure;
@@ -15,6 +16,7 @@ use crate::afm::ode::{Control, End, March, Outcome, Problem, Rodas};
 pub(super) struct Bristles<'a> {
     motion: &'a Motion<'a>,
     substrate: &'a Substrate<'a>,
+    limit: &'a Slip,
     law: LuGre,
     velocity: f64,
     /// Acceleration of the particle per unit of force, in units of V per unit of time.
@@ -26,14 +28,15 @@ pub(super) struct Bristles<'a> {
 }
 
 impl<'a> Bristles<'a> {
-    /// Bristles of a contact of `radius` (m).
-    pub fn new(motion: &'a Motion<'a>, substrate: &'a Substrate<'a>, radius: f64) -> Self {
+    /// Bristles of the contact whose quasi-static slip is `limit`.
+    pub fn new(motion: &'a Motion<'a>, substrate: &'a Substrate<'a>, limit: &'a Slip) -> Self {
         let scene = substrate.scene;
-        let law = LuGre::with(scene, substrate.options.lugre, radius);
+        let law = LuGre::with(scene, substrate.options.lugre, limit.contact.radius);
         let velocity = scene.velocity;
         Self {
             motion,
             substrate,
+            limit,
             law,
             velocity,
             agility: motion.time() * motion.force / (particle_mass(scene) * velocity),
@@ -43,7 +46,8 @@ impl<'a> Bristles<'a> {
         }
     }
 
-    /// Marches to the largest force, or so near that what is left to rise is below the tolerance.
+    /// Marches to the largest force, or so near that what is left to rise is below the tolerance; then again from a step
+    /// before the force reaches the slip.
     ///
     /// dF/dt vanishes with 1 - x'. That is no sign of it by itself: the swing of the tip takes x' past V for moments from
     /// the start. But at the maximum F is the force of steady sliding at V, or has passed it: before, either the
@@ -68,8 +72,13 @@ impl<'a> Bristles<'a> {
         let near = (10.0 * tolerance * self.stiffness).clamp(1e-3, 0.5);
         let start = [0.0, if followed { 1.0 } else { self.slow_turning() }, 0.0, 0.0, 0.0];
         let mut largest = End { t: 0.0, y: start };
+        // The last step well before the slip, whose force is 1 by the quasi-static rung.
+        let mut before = End { t: 0.0, y: start };
         let event = |t: f64, y: &[f64; 5]| {
             let &[q, _, x, u, _] = y;
+            if q < REACHED - 1e-3 && t > before.t {
+                before = End { t, y: *y };
+            }
             if q > largest.y[0] {
                 largest = End { t, y: *y };
             }
@@ -92,6 +101,15 @@ impl<'a> Bristles<'a> {
             // It passed below the force of steady sliding: the largest it had.
             Outcome::Horizon(_) => largest,
         };
+        let level = REACHED * end.y[0];
+        let from = if before.y[0] > 0.0 && before.y[0] < level { before } else { half };
+        let mut again = March::<Rodas, _, 5>::new(self, (from.t, from.y), control);
+        let reached = if from.y[0] < level {
+            let (Outcome::Event(end) | Outcome::Horizon(end)) = again.until(horizon, |_, y| Ok(y[0] / level - 1.0))?;
+            end.t
+        } else {
+            from.t
+        };
         let [q, w, creep, _, _] = end.y;
         let tip = self.motion.tip(end.t - creep, &[q, w]);
         let slip = Slip {
@@ -101,8 +119,10 @@ impl<'a> Bristles<'a> {
             travel: (end.t - creep) * self.motion.length,
             twist: tip.twist,
             contact: self.substrate.contact(tip.normal_force)?,
+            advance: (reached - (end.t - creep)) * self.motion.length,
+            slowdown: self.limit.slowdown,
         };
-        Ok((slip, stretching.evaluations() + march.evaluations()))
+        Ok((slip, stretching.evaluations() + march.evaluations() + again.evaluations()))
     }
 
     /// theta' of the tip in equilibrium at the start, the apex moving at V less what the bristles yield: a start without

@@ -1,6 +1,7 @@
 //! Small twist, no inertia: the normal force stays that of the preload, and the tip is a linear
 //! spring.
 
+use super::presliding::Presliding;
 use super::slip::{Error, Slip};
 use super::substrate::Substrate;
 use super::swing::Swing;
@@ -17,10 +18,12 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let substrate = Substrate::new(scene, options, &probe, LuGreForm::Fast);
     let hold = substrate.hold(probe.preload_force)?;
     let slip = slip(&probe, scene.height, hold.capacity, hold.contact);
+    let presliding = Presliding::new(&substrate, &slip, &probe, probe.apex)?;
+    let slip = presliding.map_or(slip, |presliding| presliding.timed(&slip, probe.apex));
     let of_law = of_law(&substrate, probe.preload_force, hold.capacity);
     Ok(Critical {
         flags: flags(&slip, scene, options),
-        error_estimate: error(&substrate, &probe, &slip, of_law),
+        error_estimate: error(&substrate, &probe, (&slip, presliding.as_ref()), of_law),
         cost: Cost { evaluations: hold.evaluations },
         ..slip.critical(&substrate, Fidelity::ClosedForm)
     })
@@ -35,6 +38,8 @@ pub(super) fn slip(probe: &Probe, height: f64, lateral_force: f64, contact: Cont
         travel: lateral_force / probe.apex,
         twist: lateral_force * height / probe.torsional,
         contact,
+        advance: 0.0,
+        slowdown: 1.0,
     }
 }
 
@@ -60,22 +65,38 @@ pub(super) fn flags(slip: &Slip, scene: &Scene, options: &Options) -> Flags {
 
 /// The relative error of F_cr by what is left out, the twist and the swing of the tip, and by the [law](of_law).
 #[inline(always)]
-pub(super) fn error(substrate: &Substrate, probe: &Probe, slip: &Slip, of_law: f64) -> f64 {
+pub(super) fn error(
+    substrate: &Substrate,
+    probe: &Probe,
+    (slip, presliding): (&Slip, Option<&Presliding>),
+    of_law: f64,
+) -> f64 {
     let mut error = twisting(substrate, probe, slip) + Swing::new(substrate.scene, probe).left_out(slip, substrate);
     error.lateral += of_law;
     let of_forces = error.of(slip);
-    if substrate.options.accurate_time { of_forces.max(time_error(substrate, probe, slip, of_law)) } else { of_forces }
+    if substrate.options.accurate_time {
+        of_forces.max(time_error(substrate, probe, (slip, presliding), of_law))
+    } else {
+        of_forces
+    }
 }
 
 /// The relative error of the critical time by the same: the moment of the normal force turns the tip further, so that the substrate
 /// travels further until the slip.
 #[cold]
-fn time_error(substrate: &Substrate, probe: &Probe, slip: &Slip, of_law: f64) -> f64 {
+fn time_error(
+    substrate: &Substrate,
+    probe: &Probe,
+    (slip, presliding): (&Slip, Option<&Presliding>),
+    of_law: f64,
+) -> f64 {
     let height = substrate.scene.height;
     let twist = slip.lateral_force * height / (probe.torsional - slip.normal_force * height);
     let further = height * (twist - slip.twist + twist.powi(3)) / slip.travel;
-    let of_forces = (twisting(substrate, probe, slip).lateral + of_law) / slip.lateral_force;
-    let all = further.abs() + of_forces + Swing::new(substrate.scene, probe).of_time(slip, substrate);
+    // Three times: bristles whose load falls on the way creep less, by up to twice that.
+    let of_forces = 3.0 * (twisting(substrate, probe, slip).lateral + of_law) / slip.lateral_force;
+    let of_creep = presliding.map_or(0.0, |presliding| presliding.error(slip)) + substrate.viscous_rise(slip);
+    let all = further.abs() + of_forces + of_creep + Swing::new(substrate.scene, probe).of_time(slip, substrate);
     if twist > 0.0 && all < 1.0 { all } else { 1.0 }
 }
 

@@ -8,6 +8,7 @@ use std::ops::RangeInclusive;
 use multiversion::multiversion;
 
 use super::closed_form;
+use super::presliding::Presliding;
 use super::slip::{ORDINARY_SQUARES, Slip, critical_time};
 use super::substrate::{Substrate, adhesion};
 use super::{Fidelity, Options};
@@ -62,6 +63,7 @@ struct Probes {
     adhesive_load: Column,
     support: Column,
     of_law: Column,
+    presliding: [Option<Presliding>; AT_ONCE],
 }
 
 macro_rules! columns {
@@ -145,6 +147,10 @@ impl ClosedForms {
                 *capacity = held.map_or(f64::NAN, |held| held.force);
                 let substrate = probes.substrate(i, &scene, options, drive);
                 probes.of_law[i] = closed_form::of_law(&substrate, probes.preload_force[i], *capacity);
+                let (probe, contact) = (probes.probe(i), Contact { radius: slips.contact_radius[i], indentation: 0.0 });
+                let slip = closed_form::slip(&probe, scene.height, *capacity, contact);
+                // Only a march fails, and laws that are marched are not computed here.
+                probes.presliding[i] = Presliding::new(&substrate, &slip, &probe, probe.apex).unwrap_or_default();
             }
         }
         finish(scene, options, drive, columns, probes, slips);
@@ -204,6 +210,7 @@ impl Probes {
             adhesive_load: none,
             support: none,
             of_law: none,
+            presliding: [None; AT_ONCE],
         }
     }
 
@@ -303,12 +310,14 @@ fn finish(rest: &Scene, options: &Options, drive: &Drive, columns: &Columns, pro
         let (probe, substrate) = (probes.probe(i), probes.substrate(i, &scene, options, *drive));
         let contact = Contact { radius: slips.contact_radius[i], indentation: 0.0 };
         let slip: Slip = closed_form::slip(&probe, scene.height, slips.lateral_force[i], contact);
+        let presliding = probes.presliding[i].as_ref();
+        let slip = presliding.map_or(slip, |presliding| presliding.timed(&slip, probe.apex));
         let squared = slip.squared();
         slips.normal_force[i] = slip.normal_force;
         slips.critical_force[i] = squared.sqrt();
-        slips.travel[i] = slip.travel;
+        slips.travel[i] = slip.travel + slip.advance;
         slips.twist[i] = slip.twist;
-        slips.error_estimate[i] = closed_form::error(&substrate, &probe, &slip, probes.of_law[i]);
+        slips.error_estimate[i] = closed_form::error(&substrate, &probe, (&slip, presliding), probes.of_law[i]);
     }
 }
 
@@ -331,6 +340,8 @@ fn look(rest: &Scene, options: &Options, columns: &Columns, slips: &Slips, flags
             travel: slips.travel[i],
             twist: slips.twist[i],
             contact,
+            advance: 0.0,
+            slowdown: 1.0,
         };
         *flags = closed_form::flags(&slip, &scene, options);
     }

@@ -29,11 +29,13 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let substrate = Substrate::new(scene, options, &probe, LuGreForm::Ramp);
     let statics = Statics::new(scene, &probe)?;
     let (limit, mut evaluations) = statics.slip(&substrate)?;
+    let (limit, mut of_time, spent) = statics.timed(&limit, &substrate)?;
+    evaluations += spent;
     let mut slip = limit;
     if scene.velocity > 0.0 && limit.travel > 0.0 && limit.lateral_force > 0.0 {
         let motion = Motion::new(scene, &statics, &limit);
         let (found, spent) = if options.friction == FrictionLaw::LuGre {
-            Bristles::new(&motion, &substrate, limit.contact.radius).slip()?
+            Bristles::new(&motion, &substrate, &limit).slip()?
         } else {
             stuck(&motion, &substrate, &limit)?
         };
@@ -50,14 +52,20 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     {
         error.lateral += missed.lateral;
     }
-    let mut of_time = error.lateral / slip.lateral_force;
-    if options.friction == FrictionLaw::LuGre {
-        let swing = Swing::new(scene, &probe);
+    let swing = Swing::new(scene, &probe);
+    if slip.slowdown > 1.0 && options.friction != FrictionLaw::LuGre {
+        // The tip is stuck here, and does not swing as on bristles: its time is the quasi-static one.
+        slip.advance = limit.travel + limit.advance - slip.travel;
         of_time += swing.of_time(&slip, &substrate);
+    } else if options.friction == FrictionLaw::LuGre {
+        // On these bristles its own time, in the place of the quasi-static one.
+        of_time = swing.of_time(&slip, &substrate) + options.tolerance * slip.sensitivity();
         error = error + swing.left_out(&slip, &substrate);
         if !swing.is_followed(limit.travel, scene.velocity) {
             error.lateral += quasi_static::overshoot(&slip, &substrate);
         }
+    } else {
+        of_time += error.lateral / slip.lateral_force;
     }
     let critical = slip.critical(&substrate, Fidelity::Dynamic);
     let of_time = if options.accurate_time { of_time.min(1.0) } else { 0.0 };
@@ -88,6 +96,7 @@ fn stuck(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, 
         travel: end.t * motion.length,
         twist: tip.twist,
         contact: hold.contact,
+        ..*limit
     };
     Ok((slip, spent))
 }

@@ -18,6 +18,8 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let substrate = Substrate::new(scene, options, &probe, LuGreForm::Ramp);
     let statics = Statics::new(scene, &probe)?;
     let (limit, mut evaluations) = statics.slip(&substrate)?;
+    let (limit, of_creep, spent) = statics.timed(&limit, &substrate)?;
+    evaluations += spent;
     let mut slip = limit;
     if scene.velocity > 0.0 && slip.travel > 0.0 && slip.lateral_force > 0.0 {
         let (found, spent) = march(&Motion::new(scene, &statics, &slip), &substrate, &slip)?;
@@ -31,7 +33,10 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         error = error + missed;
     }
     let critical = slip.critical(&substrate, Fidelity::FixedStep);
-    Ok(Critical { error_estimate: error.of(&slip), cost: Cost { evaluations }, ..critical })
+    // The particle creeps as on the quasi-static rung, and the slip is met at the end of a step.
+    let of_step = options.step * scene.velocity / (slip.travel + slip.advance);
+    let of_time = if options.accurate_time { (of_creep + of_step).min(1.0) } else { 0.0 };
+    Ok(Critical { error_estimate: error.of(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
 }
 
 fn march(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, u64), Failure> {
@@ -66,6 +71,7 @@ fn march(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, 
                 travel: travel * motion.length,
                 twist: tip.twist,
                 contact: hold.contact,
+                ..*limit
             };
             return Ok((slip, evaluations));
         }

@@ -9,6 +9,7 @@ mod closed_forms;
 mod dynamic;
 mod fixed_step;
 mod motion;
+mod presliding;
 mod quasi_static;
 mod slip;
 mod substrate;
@@ -17,7 +18,9 @@ mod swing;
 mod tests;
 
 pub use closed_forms::{AT_ONCE, ClosedForms, Column, Slips};
+pub(super) use presliding::Presliding;
 pub(super) use quasi_static::Statics;
+pub(super) use substrate::Substrate;
 
 use super::friction::LuGreParameters;
 use super::named::named;
@@ -122,11 +125,13 @@ pub struct Critical {
     pub lateral_force: f64,
     /// Critical force F_cr = hypot(F_Y, F_Z) (N).
     pub critical_force: f64,
-    /// Travel of the substrate until then, s (m), less what the particle crept on its bristles.
+    /// Travel of the substrate until the critical time, V t_cr (m).
     pub travel: f64,
-    /// Time until then, t_cr = s/V (s); or why there is none, [`Failure::VelocityZero`] where V =
-    /// 0. Rungs without inertia leave out by how much the swing of the tip brings the slip forward: some 1/(omega t_cr)
-    /// of t_cr, more for a tip on a cantilever that is stiff in torsion.
+    /// Critical time t_cr (s), at which the particle slips; or why there is none, [`Failure::VelocityZero`] where V = 0. On
+    /// bristles (LuGre, Dahl, Armstrong, Lemaitre-Carlson) the force only approaches its peak, and t_cr is when it first
+    /// reaches 99.9 % of it. Rungs without inertia leave out by how much the swing of the tip brings the slip forward: some
+    /// 1/(omega t_cr) of t_cr, more for a tip on a cantilever that is stiff in torsion; `auto` finds it by the linear
+    /// response of the tip where it matters to the tolerance.
     pub critical_time: Result<f64, Failure>,
     /// Radius a of the contact between particle and substrate (m).
     pub contact_radius: f64,

@@ -12,6 +12,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::motion::Motion;
+use super::presliding::Presliding;
 use super::slip::{Error, Slip};
 use super::substrate::{Hold, Substrate};
 use super::swing::Swing;
@@ -23,14 +25,49 @@ use crate::afm::{Failure, Fidelity, FrictionLaw, Scene};
 
 /// The critical force, LuGre friction by the peak of its ramp.
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
+    Ok(solve(scene, options, false)?.0)
+}
+
+/// The same, with the time at which the swing of a stuck tip slips where that matters; and the error that the dynamic rung
+/// has in common: on bristles neither follows the swing, unless it is slow, nor what it shakes loose, and the bristles of
+/// other laws than LuGre's are the same on both.
+pub(super) fn with_swing(scene: &Scene, options: &Options) -> Result<(Critical, f64), Failure> {
+    solve(scene, options, options.accurate_time)
+}
+
+fn solve(scene: &Scene, options: &Options, swings: bool) -> Result<(Critical, f64), Failure> {
     let probe = Probe::new(scene, options.torsion);
     let substrate = Substrate::new(scene, options, &probe, LuGreForm::Ramp);
     let statics = Statics::new(scene, &probe)?;
-    let (slip, evaluations) = statics.slip(&substrate)?;
-    let error = left_out(&slip, scene, &substrate, &probe);
-    let of_time = if options.accurate_time { Swing::new(scene, &probe).of_time(&slip, &substrate) } else { 0.0 };
+    let (slip, mut evaluations) = statics.slip(&substrate)?;
+    let of_forces = left_out(&slip, scene, &substrate, &probe).of(&slip);
+    let (mut slip, of_creep, spent) = statics.timed(&slip, &substrate)?;
+    evaluations += spent;
+    let swing = Swing::new(scene, &probe);
+    let mut of_swing = swing.of_time(&slip, &substrate);
+    let moves = slip.slowdown == 1.0 && scene.velocity > 0.0 && slip.travel > 0.0;
+    if swings && moves && of_swing > options.tolerance {
+        let first = Motion::new(scene, &statics, &slip).first_slip(&slip, &substrate)?;
+        if first.error < of_swing {
+            (slip.advance, of_swing) = (first.advance, first.error);
+        }
+        evaluations += first.evaluations;
+    }
+    let of_time = if options.accurate_time { (of_creep + of_swing).min(1.0) } else { 0.0 };
+    let shared = match options.friction {
+        FrictionLaw::LuGre => {
+            let mut error = swing.left_out(&slip, &substrate);
+            if !swing.is_followed(slip.travel, scene.velocity) {
+                error.lateral += overshoot(&slip, &substrate);
+            }
+            error.of(&slip).max(if options.accurate_time { of_swing } else { 0.0 })
+        }
+        _ if slip.slowdown > 1.0 => of_time,
+        _ => 0.0,
+    };
     let critical = slip.critical(&substrate, Fidelity::QuasiStatic);
-    Ok(Critical { error_estimate: error.of(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
+    // NaN where nothing holds the particle, which `max` passes over.
+    Ok((Critical { error_estimate: of_forces.max(of_time), cost: Cost { evaluations }, ..critical }, shared))
 }
 
 /// What inertia may do to the forces of the quasi-static `slip`.
@@ -106,6 +143,34 @@ impl<'a> Statics<'a> {
         self.height * libm::sin(theta) + lateral_force / self.probe.lateral
     }
 
+    /// Stiffness of the apex dF_Y/ds (N/m) at the twist `theta`.
+    pub(in crate::afm) fn spring(&self, theta: f64) -> f64 {
+        let rise = self.lateral_force_slope(theta);
+        rise / (self.height * libm::cos(theta) + rise / self.probe.lateral)
+    }
+
+    /// `slip` with its time; the relative error of that but for the swing, and the evaluations it took.
+    ///
+    /// # Errors
+    /// Those of [`Presliding::new`].
+    pub(super) fn timed(&self, slip: &Slip, substrate: &Substrate) -> Result<(Slip, f64, u64), Failure> {
+        let spring = self.spring(slip.twist);
+        let Some(presliding) = Presliding::new(substrate, slip, &self.probe, spring)? else {
+            return Ok((*slip, substrate.viscous_rise(slip), 0));
+        };
+        let timed = presliding.timed(slip, spring);
+        let error = presliding.error(&timed);
+        let options = substrate.options;
+        let matters = options.accurate_time && error > 0.1 * options.tolerance && self.scene.velocity > 0.0;
+        if matters && options.friction == FrictionLaw::LuGre {
+            // A march that does not come through leaves the estimate as it is.
+            if let Ok((late, left, evaluations)) = presliding.followed(substrate, &timed, spring) {
+                return Ok((Slip { advance: timed.advance + late, ..timed }, left, evaluations));
+            }
+        }
+        Ok((timed, error, 0))
+    }
+
     /// The twist at which F_Z has fallen to `least`, or pi/2.
     fn last_twist(&self, least: f64) -> f64 {
         let drop = (self.probe.preload_force - least) / self.probe.normal / self.height;
@@ -166,6 +231,8 @@ impl<'a> Statics<'a> {
         let agree = (hold.capacity - of_geometry).abs() < 1e-6 * of_geometry;
         let lateral_force = if agree || libm::cos(theta) < 1e-6 { hold.capacity } else { of_geometry };
         let travel = self.travel(theta, lateral_force);
-        Ok((Slip { normal_force, lateral_force, travel, twist: theta, contact: hold.contact }, evaluations))
+        let contact = hold.contact;
+        let slip = Slip { normal_force, lateral_force, travel, twist: theta, contact, advance: 0.0, slowdown: 1.0 };
+        Ok((slip, evaluations))
     }
 }

@@ -10,11 +10,16 @@ use crate::afm::{Failure, Flag, Flags, Scene};
 
 /// State at the slip.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Slip {
+pub(in crate::afm) struct Slip {
     pub normal_force: f64,
     pub lateral_force: f64,
-    /// Of the substrate, less what the particle crept on its bristles.
+    /// Travel of the apex (m).
     pub travel: f64,
+    /// How much further the substrate has travelled when the slip counts (m): by what the particle crept on its bristles, less
+    /// what the apex still travels from then on.
+    pub advance: f64,
+    /// How many times longer than the force of a particle at rest its force takes to rise then; 1 without bristles.
+    pub slowdown: f64,
     pub twist: f64,
     pub contact: Contact,
 }
@@ -68,7 +73,7 @@ impl Error {
 
 impl Slip {
     /// How far this slip lies from `other`, beyond what is `allowed`.
-    pub fn beyond(&self, other: &Self, allowed: Error) -> Error {
+    pub(super) fn beyond(&self, other: &Self, allowed: Error) -> Error {
         let excess = |here: f64, there: f64, allowed: f64| {
             let apart = (here - there).abs();
             // An allowance that is not a number allows nothing.
@@ -89,6 +94,11 @@ impl Slip {
         if self.lateral_force < 0.0 || self.twist < 0.0 { Err(Failure::StepTooSmall) } else { Ok(self) }
     }
 
+    /// Relative change of the critical time for a relative change of the force alone.
+    pub fn sensitivity(&self) -> f64 {
+        self.slowdown * self.travel / (self.travel + self.advance)
+    }
+
     /// F_cr^2 (N^2).
     #[inline(always)]
     pub fn squared(&self) -> f64 {
@@ -104,7 +114,8 @@ impl Slip {
     /// The result of a rung, with error and cost left to fill in.
     #[inline]
     pub fn critical(&self, substrate: &Substrate, rung: Fidelity) -> Critical {
-        let &Slip { normal_force, lateral_force, travel, twist, contact } = self;
+        let &Slip { normal_force, lateral_force, twist, contact, .. } = self;
+        let travel = self.travel + self.advance;
         Critical {
             normal_force,
             lateral_force,
@@ -130,6 +141,15 @@ impl Slip {
             .with(Flag::AboveHardness, self.normal_force > scene.hardness * (PI * radius * radius))
             .with(Flag::LargeTwist, self.twist > 0.1)
             .with(Flag::TaborOutOfRange, !options.contact.suits_pair(&pair))
+    }
+}
+
+impl Critical {
+    /// The state at the slip, without its time.
+    pub(in crate::afm) fn slip(&self) -> Slip {
+        let contact = Contact { radius: self.contact_radius, indentation: self.indentation };
+        let &Self { normal_force, lateral_force, travel, twist, .. } = self;
+        Slip { normal_force, lateral_force, travel, twist, contact, advance: 0.0, slowdown: 1.0 }
     }
 }
 

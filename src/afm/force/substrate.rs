@@ -1,13 +1,15 @@
 //! What holds the particle down: contact and friction on the substrate under a normal force.
 
+use super::presliding::REACHED;
+use super::slip::Slip;
 use crate::afm::contact::{Contact, Pair};
-use crate::afm::friction::{Drive, LuGreForm, Pressed, particle_mass};
+use crate::afm::friction::{Drive, LemaitreCarlson, LuGreForm, Pressed, Stribeck, particle_mass};
 use crate::afm::probe::Probe;
 use crate::afm::{Failure, FrictionLaw, Options, Scene};
 
 /// The substrate contact of a scene under any normal force.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Substrate<'a> {
+pub(in crate::afm) struct Substrate<'a> {
     pub scene: &'a Scene,
     pub options: &'a Options,
     pub pair: Pair,
@@ -56,7 +58,7 @@ impl<'a> Substrate<'a> {
 
     /// Contact and friction under `normal_force` (N).
     #[inline]
-    pub fn hold(&self, normal_force: f64) -> Result<Hold, Failure> {
+    pub(super) fn hold(&self, normal_force: f64) -> Result<Hold, Failure> {
         let contact = self.contact(normal_force)?;
         let pressed = Pressed { load: normal_force + self.adhesive_load, radius: contact.radius };
         let held = self.options.friction.capacity(self.scene, pressed, &self.drive)?;
@@ -71,6 +73,27 @@ impl<'a> Substrate<'a> {
             FrictionLaw::LemaitreCarlson => 2.0 * self.drive.tolerance,
             _ => 0.0,
         }
+    }
+
+    /// The stiffness (N/m) of a spring that is stretched as far as a Lemaitre-Carlson layer is sheared when its force has
+    /// [`REACHED`] that of `slip`.
+    ///
+    /// # Errors
+    /// Those of the march.
+    pub fn layer_stiffness(&self, slip: &Slip) -> Result<f64, Failure> {
+        let force = REACHED * slip.lateral_force;
+        let travel = LemaitreCarlson::of(self.scene).travel(slip.contact.radius, force, &self.drive)?;
+        Ok(force / (travel - force / self.drive.stiffness))
+    }
+
+    /// Bound of the relative error of the time of slip under Stribeck friction where viscosity lifts it above its value at
+    /// rest: from there on the particle moves, and the force only approaches its peak.
+    pub fn viscous_rise(&self, slip: &Slip) -> f64 {
+        if self.options.friction != FrictionLaw::Stribeck {
+            return 0.0;
+        }
+        let at_rest = Stribeck::of(self.scene).force(slip.normal_force + self.adhesive_load, 0.0);
+        10.0 * (1.0 - at_rest / slip.lateral_force).max(0.0)
     }
 
     /// A bound of dF_Y*/dF_Z at a `normal_force` (N) where friction holds `capacity` (N), for estimates: in proportion

@@ -68,9 +68,11 @@ impl Swing {
 
     /// The relative error of the critical time where the swing is left out, which brings the slip forward; at most 1.
     pub fn of_time(&self, slip: &Slip, substrate: &Substrate) -> f64 {
-        let amplitude = self.lateral + self.normal(slip.twist) * slip.slope(substrate);
-        let earliest = slip.lateral_force - amplitude;
-        if earliest > 0.0 { (amplitude / earliest).min(1.0) } else { 1.0 }
+        // Bristles feel the spring alone.
+        let lateral = if slip.slowdown > 1.0 { self.spring } else { self.lateral };
+        let amplitude = lateral + self.normal(slip.twist) * slip.slope(substrate);
+        let earliest = slip.lateral_force - amplitude * slip.slowdown;
+        if earliest > 0.0 { (amplitude / earliest * slip.sensitivity()).min(1.0) } else { 1.0 }
     }
 
     /// What is left out where the swing is: F_Z swings, and friction with it. The lateral force at the slip is the

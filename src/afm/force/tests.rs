@@ -4,6 +4,7 @@ mod closed_forms;
 mod dynamic;
 mod extended;
 mod extremes;
+mod presliding;
 mod properties;
 mod quasi_static;
 

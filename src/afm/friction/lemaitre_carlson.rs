@@ -83,6 +83,23 @@ impl LemaitreCarlson {
         Ok(Held { force: area * self.stress * end.y[0], evaluations: march.evaluations() })
     }
 
+    /// Travel (m) of the far end of the spring when the force on a contact of `radius` (m) first reaches `force` (N), which
+    /// lies below the first peak.
+    ///
+    /// # Errors
+    /// As [`capacity`](Self::capacity).
+    pub(in crate::afm) fn travel(&self, radius: f64, force: f64, drive: &Drive) -> Result<f64, Failure> {
+        if drive.velocity == 0.0 {
+            return Err(Failure::VelocityZero);
+        }
+        let area = PI * radius * radius;
+        let layer = self.sheared(area, drive.velocity, drive.stiffness);
+        let mut march = March::<Rodas, _, 2>::new(&layer, (0.0, [0.0, self.initial_disorder]), layer.control(drive));
+        let stress = force / (area * self.stress);
+        let (Outcome::Event(end) | Outcome::Horizon(end)) = march.until(f64::MAX, |_, y| Ok(y[0] - stress))?;
+        Ok(2.0 * self.half_thickness * end.t)
+    }
+
     /// The stress of steady sliding at `velocity` (m/s), > 0 (Pa): the disorder at which ageing balances plastic work,
     /// chi = kappa/ln(E1/(alpha sig gam')), put into gam' = V/(2h). Where work outruns ageing, chi grows without bound and
     /// exp(-1/chi) is one.

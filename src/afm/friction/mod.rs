@@ -21,6 +21,7 @@ pub use hurtado_kim::HurtadoKim;
 pub use lemaitre_carlson::LemaitreCarlson;
 pub(crate) use lugre::particle_mass;
 pub use lugre::{LuGre, LuGreParameters};
+pub(super) use ramp::travel as ramp_travel;
 pub use stribeck::Stribeck;
 
 use super::named::named;

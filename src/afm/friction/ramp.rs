@@ -2,7 +2,7 @@
 
 use super::{Drive, Held, LuGre};
 use crate::afm::Failure;
-use crate::afm::ode::{Control, March, Outcome, Problem, Rodas};
+use crate::afm::ode::{Control, End, March, Outcome, Problem, Rodas};
 
 /// dF/dt = k_lat (V - v), with v from the balance F = sigma0 z + sigma1 z' + sigma2 v of a massless particle, or from
 /// m v' = F - friction of one with mass.
@@ -22,8 +22,9 @@ pub(super) struct Ramp {
     damping: f64,
     viscosity: f64,
     dashpots: f64,
-    /// m k_lat V^2/F0^2 over `dashpots`.
+    /// m k_lat V^2/F0^2 over `dashpots`; 0 for a particle whose mass does not matter.
     mass: f64,
+    inertia: f64,
 }
 
 /// The largest force of the ramp (N). Its peak, where v reaches V; the force of steady sliding where v tends to V from
@@ -38,33 +39,28 @@ pub(super) fn peak(law: &LuGre, load: f64, drive: &Drive) -> Result<Held, Failur
     if stays_near_steady(law, load, drive) || largest <= 0.0 {
         return Ok(Held { force: steady, evaluations: 0 });
     }
-    let unit = largest + law.viscous_friction * velocity;
-    let forces = [law.damping * velocity / unit, law.viscous_friction * velocity / unit];
-    let damped = forces[0] + forces[1] > 0.0;
-    let dashpots = if damped { forces[0] + forces[1] } else { 1.0 };
-    let inertia = drive.mass * (drive.stiffness * velocity / unit) * (velocity / unit) / dashpots;
-    let ramp = Ramp {
-        law: *law,
-        load,
-        velocity,
-        unit,
-        stiffness: law.stiffness / drive.stiffness,
-        damping: forces[0] / dashpots,
-        viscosity: forces[1] / dashpots,
-        dashpots,
-        // Without dashpots only its mass gives the particle a velocity.
-        mass: if damped { 0.0 } else { inertia },
-    };
+    let ramp = Ramp::new(law, load, drive);
     // Bristles hold no more than the largest friction, the dashpots up to V no more than at V, and a mass that is brought to
     // V takes V sqrt(k_lat m): more comes of steps too long to see the bristles give way, far outside any laboratory.
     let inertial = velocity * (drive.stiffness * drive.mass).sqrt();
     let most = largest + (law.damping + law.viscous_friction) * velocity + inertial;
-    let climbed = match ramp.climb(drive) {
-        // Where friction weakens faster than the dashpots hold, a massless particle has no velocity to go on with.
-        Err(Failure::StepTooSmall) if damped => Ramp { mass: inertia, ..ramp }.climb(drive),
-        climbed => climbed,
-    };
-    climbed?.within(UNDERSHOOT * steady..=OVERSHOOT * most)
+    // The rise left when v is this near V is below the tolerance, whether v passes V or only tends to it. The start, where
+    // inertia may let v swing past V, is left out.
+    let near = drive.tolerance * ramp.stiffness.min(1.0);
+    let (end, evaluations) =
+        ramp.climb(drive, |ramp, y| if ramp.force(y) > 0.1 * ramp.unit { y[2] - 1.0 + near } else { -1.0 })?;
+    let climbed = Held { force: ramp.force(&end.y), evaluations };
+    climbed.within(UNDERSHOOT * steady..=OVERSHOOT * most)
+}
+
+/// Travel V t (m) of the far end of the spring when the force first reaches `force` (N), below its peak; and the evaluations.
+///
+/// # Errors
+/// Those of [`March`].
+pub(in crate::afm) fn travel(law: &LuGre, load: f64, drive: &Drive, force: f64) -> Result<(f64, u64), Failure> {
+    let ramp = Ramp::new(law, load, drive);
+    let (end, evaluations) = ramp.climb(drive, |ramp, y| ramp.force(y) / force - 1.0)?;
+    Ok((end.t * ramp.unit / drive.stiffness, evaluations))
 }
 
 /// What a peak may exceed its bound by.
@@ -92,7 +88,36 @@ fn stays_near_steady(law: &LuGre, load: f64, drive: &Drive) -> bool {
 }
 
 impl Ramp {
-    fn climb(&self, drive: &Drive) -> Result<Held, Failure> {
+    fn new(law: &LuGre, load: f64, drive: &Drive) -> Self {
+        let velocity = drive.velocity;
+        let largest = law.stribeck(load, 0.0).max(law.stribeck(load, velocity));
+        let unit = largest + law.viscous_friction * velocity;
+        let forces = [law.damping * velocity / unit, law.viscous_friction * velocity / unit];
+        let damped = forces[0] + forces[1] > 0.0;
+        let dashpots = if damped { forces[0] + forces[1] } else { 1.0 };
+        let inertia = drive.mass * (drive.stiffness * velocity / unit) * (velocity / unit) / dashpots;
+        Self {
+            law: *law,
+            load,
+            velocity,
+            unit,
+            stiffness: law.stiffness / drive.stiffness,
+            damping: forces[0] / dashpots,
+            viscosity: forces[1] / dashpots,
+            dashpots,
+            // Without dashpots only its mass gives the particle a velocity.
+            mass: if damped { 0.0 } else { inertia },
+            inertia,
+        }
+    }
+
+    /// The transmitted force (N).
+    fn force(&self, y: &[f64; 3]) -> f64 {
+        self.unit * (y[0] + self.dashpots * y[1])
+    }
+
+    /// Marches until `event` rises through zero.
+    fn climb(&self, drive: &Drive, event: impl Fn(&Self, &[f64; 3]) -> f64) -> Result<(End<3>, u64), Failure> {
         // The velocity of a particle that swings on its bristles counts by what it moves them: u over the frequency.
         let inertia = self.mass * self.dashpots;
         let swing = if inertia > 0.0 { ((1.0 + self.stiffness) / inertia).sqrt().max(1.0) } else { 1.0 };
@@ -104,14 +129,14 @@ impl Ramp {
             step_budget: drive.step_budget,
         };
         let mut march = March::<Rodas, _, 3>::new(self, (0.0, [0.0; 3]), control);
-        // The rise left when v is this near V is below the tolerance, whether v passes V or only tends to it. The
-        // start, where inertia may let v swing past V, is left out.
-        let near = drive.tolerance * self.stiffness.min(1.0);
-        let started = |y: &[f64; 3]| y[0] + self.dashpots * y[1] > 0.1;
-        let event = |_: f64, y: &[f64; 3]| Ok(if started(y) { y[2] - 1.0 + near } else { -1.0 });
-        let outcome = march.until(f64::MAX, event)?;
-        let (Outcome::Event(end) | Outcome::Horizon(end)) = outcome;
-        Ok(Held { force: self.unit * (end.y[0] + self.dashpots * end.y[1]), evaluations: march.evaluations() })
+        match march.until(f64::MAX, |_, y| Ok(event(self, y))) {
+            Ok(Outcome::Event(end) | Outcome::Horizon(end)) => Ok((end, march.evaluations())),
+            // Where friction weakens faster than the dashpots hold, a massless particle has no velocity to go on with.
+            Err(Failure::StepTooSmall) if self.mass == 0.0 && self.inertia > 0.0 => {
+                Self { mass: self.inertia, ..*self }.climb(drive, event)
+            }
+            Err(failure) => Err(failure),
+        }
     }
 
     fn strength(&self, u: f64) -> f64 {
@@ -259,6 +284,7 @@ mod tests {
             viscosity: 0.4,
             dashpots: 1e-3,
             mass: 0.0,
+            inertia: 0.0,
         };
         let y = [0.4, 0.3, 0.7];
         let jacobian = ramp.jacobian(0.0, &y);
