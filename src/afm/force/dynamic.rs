@@ -32,7 +32,8 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let (limit, mut of_time, spent) = statics.timed(&limit, &substrate)?;
     evaluations += spent;
     let mut slip = limit;
-    if scene.velocity > 0.0 && limit.travel > 0.0 && limit.lateral_force > 0.0 {
+    // A subnormal velocity has too few digits for a march.
+    if scene.velocity >= f64::MIN_POSITIVE && limit.travel > 0.0 && limit.lateral_force > 0.0 {
         let motion = Motion::new(scene, &statics, &limit);
         let (found, spent) = if options.friction == FrictionLaw::LuGre {
             Bristles::new(&motion, &substrate, &limit).slip()?
@@ -55,7 +56,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let swing = Swing::new(scene, &probe);
     if slip.slowdown > 1.0 && options.friction != FrictionLaw::LuGre {
         // The tip is stuck here, and does not swing as on bristles: its time is the quasi-static one.
-        slip.advance = limit.travel + limit.advance - slip.travel;
+        (slip.travel, slip.advance) = (limit.travel, limit.advance);
         of_time += swing.of_time(&slip, &substrate);
     } else if options.friction == FrictionLaw::LuGre {
         // On these bristles its own time, in the place of the quasi-static one.

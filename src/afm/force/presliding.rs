@@ -108,18 +108,22 @@ impl Presliding {
         } else {
             self.exponent * self.drop * (2.0 * whole - 3.0 * power(1.0) + power(2.0))
         };
-        self.length * (whole - dropped)
+        // Not below zero, whatever the load drops by.
+        if dropped > 0.0 { self.length * whole * (whole / (whole + dropped)) } else { self.length * (whole - dropped) }
     }
 
     /// V/(V - v) when the slip counts: how much longer the force takes to rise than on a spring whose end stands still.
     fn slowdown(&self) -> f64 {
-        1.0 + 1.0 / (self.stiffness * libm::pow(self.reserve(1.0 - REACHED), self.exponent))
+        let slowdown = 1.0 + 1.0 / (self.stiffness * libm::pow(self.reserve(1.0 - REACHED), self.exponent));
+        // Above 1 on bristles however stiff, by which they are told from a rigid contact.
+        slowdown.max(1.0_f64.next_up())
     }
 
     /// `slip` with its time, on an apex of `spring` stiffness (N/m).
     pub fn timed(&self, slip: &Slip, spring: f64) -> Slip {
         let missing = 1.0 - REACHED;
-        let advance = self.creep(missing) - missing * slip.lateral_force / spring;
+        // Far outside any laboratory the slope at the slip drowns in rounding; the apex has no further to go than it went.
+        let advance = self.creep(missing) - (missing * slip.lateral_force / spring).min(slip.travel);
         // Dahl's law with a large exponent takes longer than any number.
         Slip { advance: advance.min(f64::MAX), slowdown: self.slowdown(), ..*slip }
     }

@@ -83,7 +83,9 @@ impl<'a> Substrate<'a> {
     pub fn layer_stiffness(&self, slip: &Slip) -> Result<f64, Failure> {
         let force = REACHED * slip.lateral_force;
         let travel = LemaitreCarlson::of(self.scene).travel(slip.contact.radius, force, &self.drive)?;
-        Ok(force / (travel - force / self.drive.stiffness))
+        // At least what rounding leaves of a layer far stiffer than the spring.
+        let sheared = (travel - force / self.drive.stiffness).max(f64::EPSILON * travel);
+        Ok(force / sheared)
     }
 
     /// Bound of the relative error of the time of slip under Stribeck friction where viscosity lifts it above its value at

@@ -69,15 +69,19 @@ impl SecondCalculation for AfmSecond {
             let value = value.ok_or_else(|| Unchecked::NotAvailable("the model has no value".to_owned()))?;
             match formula.as_ref().map(|formula| reference(formula, &inputs)).transpose()? {
                 Some(formula) if formula.agrees(value) != Some(true) => Ok(formula),
-                _ => by_rung(*output, own_error, &other),
+                _ => by_rung(*output, (value, own_error), &other),
             }
         });
         checked.collect()
     }
 }
 
-/// An output by another rung, for a model that states the relative error `own_error`.
-fn by_rung(output: AfmOutput, own_error: f64, other: &Result<Critical, Failure>) -> Result<Reference, Unchecked> {
+/// An output by another rung, for a model with the value `own` that states the relative error `own_error`.
+fn by_rung(
+    output: AfmOutput,
+    (own, own_error): (f64, f64),
+    other: &Result<Critical, Failure>,
+) -> Result<Reference, Unchecked> {
     let other = match other {
         Ok(other) => other,
         // Nothing slips: whatever another rung says of it is no force, unless it claims nothing.
@@ -87,13 +91,14 @@ fn by_rung(output: AfmOutput, own_error: f64, other: &Result<Critical, Failure>)
         Err(failure) => return Err(Unchecked::NotAvailable(failure.to_string())),
     };
     let value = output.of(other).map_err(|failure| Unchecked::NotAvailable(failure.to_string()))?;
-    let error = HIGHER_ORDER * (own_error + other.error_estimate);
+    let relative = HIGHER_ORDER * (own_error + other.error_estimate);
+    let absolute = HIGHER_ORDER * (own_error * own.abs() + other.error_estimate * value.abs());
     let (stated, covered) = match output {
         _ if own_error >= 1.0 || other.error_estimate >= 1.0 => {
             (Some(f64::INFINITY), "the error estimate is 100 %, which claims nothing")
         }
-        AfmOutput::CriticalForce | AfmOutput::CriticalTime => (Some(error * value.abs()), COVERED),
-        AfmOutput::LogCriticalForce => (Some(error), COVERED),
+        AfmOutput::CriticalForce | AfmOutput::CriticalTime => (Some(absolute), COVERED),
+        AfmOutput::LogCriticalForce => (Some(relative), COVERED),
         _ => (None, "another rung differs by more than 0.1 %, and no error of this output is stated"),
     };
     Ok(Reference { value, stated, tolerance: TOLERANCE, floor: FLOOR, covered })

@@ -12,7 +12,8 @@ use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
 
 use crate::model::{
-    Answered, Batch, LARGEST_ERROR, Model, Reference, RowFailure, RunContext, SecondCalculation, Unchecked, Worker,
+    Answered, Batch, GiveUp, LARGEST_ERROR, Model, Reference, RowFailure, RunContext, SecondCalculation, Unchecked,
+    Worker,
 };
 use crate::run::{Progress, RunError, run_each_in};
 use crate::space::Space;
@@ -105,7 +106,7 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
         job.on_progress,
     )?;
     if let Some(reason) = gave_up.into_inner() {
-        return Err(RunError::GaveUp { reason });
+        return Err(RunError::GaveUp(reason));
     }
     let name = second.map(|second| second.name()).map_err(str::to_owned);
     let mut map = Collector::new(name, points.len() as u64, grids(&space));
@@ -157,7 +158,7 @@ fn evaluate(
     worker: &mut dyn Worker,
     x: &[f64],
     second: &Result<Box<dyn SecondCalculation>, &'static str>,
-) -> (Vec<Finding>, Option<RowFailure>) {
+) -> (Vec<Finding>, Option<GiveUp>) {
     let mut batch = Batch::new(model);
     batch.reset(1);
     let inputs: Vec<&[f64]> = x.iter().map(std::slice::from_ref).collect();

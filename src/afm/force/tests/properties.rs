@@ -64,7 +64,9 @@ proptest! {
     /// t_cr V = s = F_Y/k_lat = F_Y/K_y + H theta: bending and twist share the travel.
     #[test]
     fn travel_is_bending_and_twist(scene in within_ranges(), options in rigid_options()) {
-        prop_assume!(!matches!(options.friction, FrictionLaw::LuGre | FrictionLaw::Dahl));
+        if matches!(options.friction, FrictionLaw::LuGre | FrictionLaw::Dahl) {
+            return Ok(());
+        }
         let critical = critical_force(&scene, &options).unwrap();
         let lateral = scene.elastic_modulus * scene.thickness * (scene.width / scene.length).powi(3) / 4.0;
         let travel = critical.lateral_force / lateral + scene.height * critical.twist;
