@@ -34,13 +34,9 @@ impl View {
 
     /// The factors as a sentence.
     pub fn sentence(self) -> String {
-        format!("Bodies are drawn to scale in each picture; {}.", self.clause())
-    }
-
-    /// The factors as a part of a sentence.
-    pub fn clause(self) -> String {
         format!(
-            "twist and displacements of the probe are {}, the travel of particle and substrate is {}",
+            "Bodies are drawn to scale in each picture; twist and displacements of the probe are {}, the travel of particle \
+             and substrate is {}.",
             factor(self.probe),
             factor(self.travel)
         )
